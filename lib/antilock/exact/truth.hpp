@@ -1,0 +1,49 @@
+#pragma once
+#include <Eigen/Dense>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace antilock {
+
+/// One term of the load f(x, y) = sum f_k(y) sin(k pi x) on the body: f_k is a polynomial in y.
+struct SineMode {
+  int k;                         ///< wave number, k >= 1
+  std::vector<double> profile;   ///< f_k(y) = profile[0] + profile[1] y + ...
+};
+struct SineLoad {
+  std::vector<SineMode> modes;
+  double operator()(double x, double y) const;
+};
+/// f = 10 sin(2 pi x), the load of every figure here (the paper gives none).
+SineLoad paper_sine_load();
+
+/// The exact solution of (23), of (24) at epsilon = 0, and with it of (25), by sine series (derivation in truth.cpp).
+/// Construction solves the one-dimensional complementarity problem on Gamma_C; throws Error for a bad argument,
+/// NotConverged if the active set does not settle. Values are dimensionless.
+class Truth {
+ public:
+  /// contact = false: Gamma_C free (a linear problem, closed form). log2_points: N = 2^log2_points collocation points.
+  Truth(SineLoad load, double epsilon, bool contact = true, int log2_points = 17);
+  ~Truth();
+  Truth(Truth&&) noexcept;
+  Truth& operator=(Truth&&) noexcept;
+
+  double epsilon() const;
+  // At any point of the closed domain [0,1] x [-1,1]; 8 digits for value. Each call sums the series.
+  double value(double x, double y) const;
+  Eigen::Vector2d gradient(double x, double y) const;  ///< on Sigma: the body's side
+  double layer_stress(double x, double y) const;       ///< epsilon^-2 d/dy u for y <= 0; its limit at epsilon = 0
+  double pressure(double x) const;                     ///< lambda >= 0 on Gamma_C, a density
+  std::vector<std::pair<double, double>> contact_zones() const;  ///< intervals of x where u = 0 on Gamma_C
+  double max_on_contact() const;                       ///< max of u on Gamma_C
+  double energy() const;                               ///< J(u) = a(u,u)/2 - L(u)
+
+  struct Data;
+  const Data& data() const { return *data_; }
+
+ private:
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace antilock

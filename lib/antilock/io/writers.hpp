@@ -1,0 +1,24 @@
+#pragma once
+#include <Eigen/Dense>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// MSH 2.2 ASCII with the physical groups of Figure 2.
+void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// FreeFEM's native .msh: nv nt nbe; x y label; i j k region; i j label. The same numbering, labels as in EdgeTag/Region.
+void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// A table: one header line, then rows, comma separated, 17 significant digits.
+void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header, const Eigen::MatrixXd& rows);
+/// `x,y,u`: one row an unknown.
+void write_solution_csv(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u);
+/// VTU (ASCII XML) for ParaView and the figures: point data `u`, cell data `region` (1 body, 2 layer). A vertex a triangle
+/// corner, so that Crouzeix-Raviart fields keep their jumps; P1 fields share their vertices.
+void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u);
+
+}  // namespace antilock

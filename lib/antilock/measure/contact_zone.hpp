@@ -1,0 +1,26 @@
+#pragma once
+#include <Eigen/Dense>
+#include <optional>
+#include <vector>
+
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/solution.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+struct ContactZone {
+  int points = 0;                  ///< contact unknowns
+  int active = 0;                  ///< of these in contact
+  std::optional<double> from, to;  ///< x-range of the active ones; empty where none
+};
+ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution);
+
+/// Length of Gamma_C that each contact unknown stands for: its edge (CR), half its two edges (P1). lambda divided by it
+/// is the contact pressure as a density (force a unit length).
+Eigen::VectorXd contact_lengths(const Space& space);
+
+/// One row a contact unknown: x, gap u - lower >= 0, pressure (density) >= 0. C x 3.
+Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& problem, const Solution& solution);
+
+}  // namespace antilock

@@ -1,0 +1,38 @@
+#pragma once
+#include <Eigen/Dense>
+#include <functional>
+#include <vector>
+
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/solution.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// What errors are measured against: exact values at a point (dimensionless).
+struct Reference {
+  std::function<double(double x, double y)> value;
+  std::function<Eigen::Vector2d(double x, double y)> gradient;
+  std::function<double(double x, double y)> layer_stress;  ///< epsilon^-2 d/dy u in the layer, its limit at epsilon = 0
+};
+
+/// Absolute errors u_h - u; the names say the norm.
+struct Errors {
+  double max_at_unknowns = 0;  ///< at the unknowns: vertices (P1) or edge midpoints (CR)
+  double max = 0;              ///< L-infinity, sampled in every triangle (its corners, midpoints and 12 inner points)
+  double l2 = 0;
+  double h1 = 0;               ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
+  double energy = 0;           ///< |.|_a^epsilon of Remark 4; the stiff part through p, so it holds at epsilon = 0
+};
+
+Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference);
+
+/// Observed orders log(e_i / e_{i+1}) / log(h_i / h_{i+1}); one fewer than the errors.
+std::vector<double> rates(const std::vector<double>& h, const std::vector<double>& errors);
+/// Least-squares slope of log(error) against log(h).
+double slope(const std::vector<double>& h, const std::vector<double>& errors);
+
+/// J(u) = a(u, u)/2 - L(u), the stiff part as compliance p' M p.
+double energy(const VariationalInequality& problem, const Solution& solution);
+
+}  // namespace antilock

@@ -1,0 +1,22 @@
+#pragma once
+#include "antilock/mesh/triangle_mesh.hpp"
+
+namespace antilock {
+
+enum class Diagonal { right, left };  ///< right: / ; left: \ (Figure 3 shows right)
+
+/// The domain of Figure 2: the unit square, with a layer (0,1) x (-layer_depth, 0) below it where layer_depth > 0.
+struct Domain {
+  double layer_depth = 1;  ///< 0: the body alone; 1: after the change of variable (Figure 2); epsilon: before (Figure 1)
+};
+
+/// The structured mesh of Figure 3: `cells` squares a unit side, each cut by a diagonal. A layer of another depth than 1
+/// has as many rows as keep its cells no flatter than needed: max(2, round(depth * cells)).
+/// Throws Error unless 2 <= cells <= 2048.
+TriangleMesh structured_mesh(int cells, const Domain& domain = {}, Diagonal diagonal = Diagonal::right);
+
+/// The unstructured mesh of Figure 6, by gmsh (Frontal-Delaunay, one thread, fixed seed): the same mesh at every call.
+/// In a thin layer the cells shrink to half its depth. Throws Error unless 2 <= cells <= 512.
+TriangleMesh unstructured_mesh(int cells, const Domain& domain = {});
+
+}  // namespace antilock

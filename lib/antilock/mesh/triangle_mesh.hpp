@@ -1,0 +1,52 @@
+#pragma once
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+namespace antilock {
+
+/// Physical groups of Figure 2; the numbers are those of the MSH and FreeFEM files.
+enum class Region { body = 1, layer = 2 };
+enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5 };
+
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;      ///< n x 2, coordinates x, y
+using Triples = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;        ///< n x 3, indices from 0
+using Pairs = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;          ///< n x 2, indices from 0
+
+/// A conforming mesh of Omega (Figure 2): positively oriented triangles, numbered edges, tagged boundary.
+/// Lengths are dimensionless (the body's side is 1).
+struct TriangleMesh {
+  Points vertices;             ///< V x 2
+  Triples triangles;           ///< T x 3 vertices, counterclockwise
+  std::vector<Region> region;  ///< T
+  Pairs edges;                 ///< E x 2 vertices, the smaller index first
+  Triples triangle_edges;      ///< T x 3 edges; edge i lies opposite vertex i
+  Pairs edge_triangles;        ///< E x 2 triangles; the second is -1 on the boundary
+  std::vector<EdgeTag> edge_tag;  ///< E; sigma where body meets layer, clamped or contact on the whole boundary
+
+  int vertex_count() const { return static_cast<int>(vertices.rows()); }
+  int triangle_count() const { return static_cast<int>(triangles.rows()); }
+  int edge_count() const { return static_cast<int>(edges.rows()); }
+  /// Twice the signed area; positive for every triangle of a checked mesh.
+  double twice_area(int triangle) const;
+  double area(int triangle) const { return 0.5 * twice_area(triangle); }
+  double edge_length(int edge) const;
+  /// The longest edge: the paper's h (1/cells times sqrt(2) on a structured mesh).
+  double diameter() const;
+};
+
+/// An edge of the input that carries a physical group.
+struct TaggedEdge {
+  int from, to;  ///< vertices
+  EdgeTag tag;
+};
+
+/// Numbers the edges and checks everything a finite element relies on; inverted triangles are turned round.
+/// `where` opens every message (a file name, or what made the mesh). Throws Error for: indices out of range, values
+/// not finite, degenerate triangles (twice the area below 1e-14 of the longest edge squared), duplicate or unused
+/// vertices, hanging nodes, edges of three triangles or of overlapping ones, boundary edges without the tag clamped
+/// or contact, tagged edges that are no edge of the mesh, no body, no clamped edge.
+TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
+                                const std::vector<TaggedEdge>& tagged_edges, const std::string& where);
+
+}  // namespace antilock

@@ -1,0 +1,19 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+
+namespace antilock {
+
+/// What every failure that a user can cause is reported by: one line that says what, where and what is accepted.
+struct Error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A solver that ended without an answer; `what()` says how far it came. It never comes with a solution.
+struct NotConverged : Error {
+  NotConverged(const std::string& message, double reached, int steps) : Error(message), reached(reached), steps(steps) {}
+  double reached;  ///< the relative error measure at which the solver stopped (dimensionless)
+  int steps;       ///< the iterations done
+};
+
+}  // namespace antilock

@@ -1,0 +1,64 @@
+#include "antilock/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace antilock {
+namespace {
+
+template <class... Ts>
+struct Overloaded : Ts... {
+  using Ts::operator()...;
+};
+
+void check_epsilon(const std::string& model, double epsilon, double smallest, const std::string& why) {
+  if (!(epsilon >= smallest && epsilon <= 1))
+    throw Error(fmt::format("{} layer: epsilon = {} is out of range; accepted {}", model, epsilon, why));
+}
+
+}  // namespace
+
+Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact)
+    : body_(std::move(body)), layer_(layer), contact_(std::move(contact)) {
+  if (!body_.load) throw Error("body: no load given; accepted: a function f(x, y)");
+  if (const auto* stiff = std::get_if<StiffLayer>(&layer_))
+    check_epsilon("scaled", stiff->epsilon, 0, "0 < epsilon <= 1, or exactly 0 (the rigid limit)");
+  if (const auto* thin = std::get_if<ThinLayer>(&layer_))
+    check_epsilon("thin", thin->epsilon, 1e-3, "1e-3 <= epsilon <= 1 (below, use the scaled layer)");
+  if (!contact_) return;
+  if (!contact_->gap) throw Error("contact: no gap given; accepted: a function gap(x)");
+  for (const double x : {0.0, 1.0}) {
+    const double gap = contact_->gap(x);
+    if (!(gap >= 0))
+      throw Error(fmt::format("contact: gap({}) = {}, but u = 0 is prescribed there, so no u >= -gap exists; "
+                              "accepted: gap >= 0 at x = 0 and x = 1", x, gap));
+  }
+}
+
+double Scene::layer_depth() const {
+  return std::visit(Overloaded{[](const NoLayer&) { return 0.0; }, [](const VentcelLayer&) { return 0.0; },
+                               [](const StiffLayer&) { return 1.0; },
+                               [](const ThinLayer& thin) { return thin.epsilon; }},
+                    layer_);
+}
+
+std::optional<double> Scene::epsilon() const {
+  using Epsilon = std::optional<double>;
+  return std::visit(Overloaded{[](const NoLayer&) -> Epsilon { return std::nullopt; },
+                               [](const VentcelLayer&) -> Epsilon { return 0.0; },
+                               [](const auto& layer) -> Epsilon { return layer.epsilon; }},
+                    layer_);
+}
+
+std::vector<std::string> Scene::effects() const {
+  std::vector<std::string> names;
+  if (!std::holds_alternative<NoLayer>(layer_)) names.emplace_back("layer");
+  if (contact_) names.emplace_back("contact");
+  return names;
+}
+
+double paper_load(double x, double) { return 10 * std::sin(2 * std::numbers::pi * x); }
+
+}  // namespace antilock

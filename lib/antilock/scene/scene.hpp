@@ -1,0 +1,64 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+
+using Field = std::function<double(double x, double y)>;  ///< a scalar field (dimensionless)
+using Profile = std::function<double(double x)>;          ///< a function on the line y = const (dimensionless)
+
+/// The elastic body Omega+ = (0,1) x (0,1), clamped on its sides and its top, under the body force f of (21).
+struct Body {
+  Field load;
+};
+
+/// An effect of a scene is a type; an effect that is absent brings no mesh, no unknown and no iteration.
+struct NoLayer {};  ///< the body alone; contact, if any, on Sigma (y = 0)
+/// The stiff layer after the change of variable, (23), on (0,1) x (-1,0).
+struct StiffLayer {
+  double epsilon;  ///< 0 <= epsilon <= 1; exactly 0 is the limit problem (24) on the same mesh
+};
+/// The layer replaced by its limit (25): a second-derivative term on Sigma, no layer mesh.
+struct VentcelLayer {};
+/// The layer before the change of variable, (22), on (0,1) x (-epsilon,0).
+struct ThinLayer {
+  double epsilon;  ///< 1e-3 <= epsilon <= 1: below, the mesh of the true layer outgrows any use
+};
+using Layer = std::variant<NoLayer, StiffLayer, VentcelLayer, ThinLayer>;
+
+/// Signorini contact on Gamma_C, the last line of (21): u >= -gap, pressure >= 0, complementary.
+struct UnilateralContact {
+  Profile gap = [](double) { return 0.0; };  ///< distance of the obstacle at x (negative: it presses in)
+};
+
+/// A question to answer: which body, which layer, contact or not.
+/// Construction throws Error where the combination is meaningless, with the reason.
+class Scene {
+ public:
+  explicit Scene(Body body, Layer layer = NoLayer{}, std::optional<UnilateralContact> contact = std::nullopt);
+
+  const Body& body() const { return body_; }
+  const Layer& layer() const { return layer_; }
+  const std::optional<UnilateralContact>& contact() const { return contact_; }
+  /// Depth of the layer's mesh below Sigma: 0 (no mesh), 1 (scaled) or epsilon (thin).
+  double layer_depth() const;
+  /// The paper's epsilon; empty without a layer (0 for Ventcel).
+  std::optional<double> epsilon() const;
+  /// Names of the effects present, of "layer" and "contact".
+  std::vector<std::string> effects() const;
+
+ private:
+  Body body_;
+  Layer layer_;
+  std::optional<UnilateralContact> contact_;
+};
+
+/// The load of every figure here, f = 10 sin(2 pi x); the paper gives none.
+double paper_load(double x, double y);
+
+}  // namespace antilock

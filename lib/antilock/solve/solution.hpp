@@ -1,0 +1,44 @@
+#pragma once
+#include <Eigen/Dense>
+#include <string>
+#include <vector>
+
+namespace antilock {
+
+/// How well the conditions of the inequality hold, each relative and scale-free (see kkt.hpp for the scales).
+struct Kkt {
+  double min_gap = 0;          ///< smallest u - lower over the contact unknowns / scale of u; >= 0 up to round-off
+  double min_pressure = 0;     ///< smallest lambda / scale of the forces; >= 0 up to round-off
+  double complementarity = 0;  ///< largest |lambda (u - lower)| / (the two scales)
+  double residual = 0;         ///< split form: A1 u + B' M p - L - lambda = 0 and compliance p = B u, the larger of the two
+};
+
+/// What the solve did: counted, so that a test can assert that an absent effect costs nothing.
+struct Counters {
+  int unknowns = 0;        ///< solved for: neither fixed nor condensed away by hand
+  int factorisations = 0;  ///< numeric sparse Cholesky factorisations (or ILUT)
+  int solves = 0;          ///< sparse triangular solves (or CG runs)
+  int contact = 0;         ///< steps of the contact iteration (active sets tried, Uzawa steps)
+  int corrections = 0;     ///< corrections of the iterated penalty after the first solve
+};
+
+struct SolveSeconds {
+  double analyse = 0, factor = 0, contact = 0, solve = 0;  ///< wall seconds by stage
+  double total() const { return analyse + factor + contact + solve; }
+};
+
+/// The answer of every solver.
+struct Solution {
+  std::string solver;
+  Eigen::VectorXd u;            ///< N, every unknown, the fixed ones too
+  Eigen::VectorXd p;            ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
+  Eigen::VectorXd lambda;       ///< C contact forces, one a contact unknown, >= 0 (a force; measure/ turns it to a density)
+  std::vector<bool> active;     ///< C: in contact
+  Kkt kkt;
+  Counters counters;
+  SolveSeconds seconds;
+  std::vector<double> history;  ///< relative change of every iteration (corrections, or Uzawa steps)
+  std::string warning;          ///< empty, or one line: how far above the trusted level the KKT report is
+};
+
+}  // namespace antilock

@@ -1,0 +1,13 @@
+#include "antilock/space/element.hpp"
+
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+
+const Element& element(const std::string& name) {
+  for (const Element* page : {&p1(), &crouzeix_raviart()})
+    if (page->name() == name) return *page;
+  throw Error("element: \"" + name + "\" is unknown; accepted \"P1\" and \"CR\"");
+}
+
+}  // namespace antilock

@@ -1,0 +1,34 @@
+#pragma once
+#include <Eigen/Dense>
+#include <string>
+
+namespace antilock {
+
+/// One page says what an element is: where its unknowns sit and its basis in barycentric coordinates lambda.
+/// Local order of the unknowns: vertices 0 1 2, then edges 0 1 2 (edge i opposite vertex i), then the interior.
+class Element {
+ public:
+  virtual ~Element() = default;
+  virtual std::string name() const = 0;
+  virtual int degree() const = 0;
+  virtual int per_vertex() const = 0;    ///< unknowns at a vertex
+  virtual int per_edge() const = 0;      ///< unknowns on an edge, ordered from its vertex i+1 to its vertex i+2
+  virtual int per_triangle() const = 0;  ///< unknowns inside a triangle
+  /// m x 3: barycentric coordinates of the m unknowns; basis function i is 1 at row i and 0 at the others.
+  virtual Eigen::MatrixX3d nodes() const = 0;
+  /// m values of the basis at lambda.
+  virtual Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const = 0;
+  /// m x 3 derivatives d phi_i / d lambda_j; the gradient is this times grad lambda (3 x 2).
+  virtual Eigen::MatrixX3d derivative(const Eigen::Vector3d& lambda) const = 0;
+
+  int unknowns() const { return 3 * per_vertex() + 3 * per_edge() + per_triangle(); }
+};
+
+/// The pages, one instance each, alive as long as the program: P1 (vertices, conforming) and
+/// CR (Crouzeix-Raviart, P1 nonconforming of Section 4.2: edge midpoints).
+const Element& p1();
+const Element& crouzeix_raviart();
+/// By name, "P1" or "CR"; throws Error for another.
+const Element& element(const std::string& name);
+
+}  // namespace antilock

@@ -1,0 +1,39 @@
+#pragma once
+#include <vector>
+
+#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/space/element.hpp"
+
+namespace antilock {
+
+/// V_h: an element on a mesh, with its global numbering (vertices, then edges, then triangles).
+/// The mesh must outlive the space.
+class Space {
+ public:
+  Space(const TriangleMesh& mesh, const Element& element);
+  Space(TriangleMesh&&, const Element&) = delete;
+
+  const TriangleMesh& mesh() const { return *mesh_; }
+  const Element& element() const { return *element_; }
+  int size() const { return static_cast<int>(points_.rows()); }  ///< unknowns N, the clamped ones too
+  const Points& points() const { return points_; }               ///< N x 2, where each unknown sits
+  /// T x m: the global unknown behind each local one.
+  const Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& unknowns() const { return unknowns_; }
+  const std::vector<int>& clamped() const { return clamped_; }   ///< unknowns on clamped edges (u = 0), ascending
+  const std::vector<int>& contact() const { return contact_; }   ///< unknowns on Gamma_C that are not clamped, by x
+  int free_count() const { return size() - static_cast<int>(clamped_.size()); }
+
+ private:
+  const TriangleMesh* mesh_;
+  const Element* element_;
+  Points points_;
+  Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> unknowns_;
+  std::vector<int> clamped_, contact_;
+};
+
+/// The gradients of the barycentric coordinates of a triangle, 3 x 2, constant on it.
+Eigen::Matrix<double, 3, 2> barycentric_gradients(const TriangleMesh& mesh, int triangle);
+/// The point of a triangle with barycentric coordinates lambda.
+Eigen::Vector2d point_in(const TriangleMesh& mesh, int triangle, const Eigen::Vector3d& lambda);
+
+}  // namespace antilock
