@@ -1,0 +1,43 @@
+#include "antilock/form/forms.hpp"
+#include "antilock/form/quadrature.hpp"
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+
+LayerStrain layer_strain(const Space& space) {
+  const TriangleMesh& mesh = space.mesh();
+  const Element& element = space.element();
+  // d/dy of degree k - 1 is squared: one point for degree 1, the three midpoints for degree 2
+  if (element.degree() > 2) throw Error("layer strain: element " + element.name() + " of degree above 2 is not accepted");
+  const Quadrature centroid{Eigen::RowVector3d::Constant(1.0 / 3), Eigen::VectorXd::Ones(1)};
+  const Quadrature& rule = element.degree() == 1 ? centroid : midpoint_rule();
+  const auto points = rule.weights.size(), m = static_cast<Eigen::Index>(element.unknowns());
+  std::vector<Eigen::MatrixX3d> derivative;
+  for (Eigen::Index q = 0; q < points; ++q) derivative.push_back(element.derivative(rule.points.row(q)));
+
+  LayerStrain strain;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer) strain.triangle.insert(strain.triangle.end(), points, t);
+  const auto rows = static_cast<Eigen::Index>(strain.triangle.size());
+  strain.m.resize(rows);
+  strain.b.resize(rows, space.size());
+  strain.b.resizeNonZeros(rows * m);
+  strain.b.outerIndexPtr()[0] = 0;
+  std::vector<std::pair<int, double>> row(m);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const int t = strain.triangle[r];
+    const Eigen::Index q = r % points;
+    strain.m(r) = rule.weights(q) * mesh.area(t);
+    const Eigen::VectorXd dy = derivative[q] * barycentric_gradients(mesh, t).col(1);
+    for (Eigen::Index i = 0; i < m; ++i) row[i] = {space.unknowns()(t, i), dy(i)};
+    std::sort(row.begin(), row.end());
+    for (Eigen::Index i = 0; i < m; ++i) {
+      strain.b.innerIndexPtr()[r * m + i] = row[i].first;
+      strain.b.valuePtr()[r * m + i] = row[i].second;
+    }
+    strain.b.outerIndexPtr()[r + 1] = static_cast<int>((r + 1) * m);
+  }
+  return strain;
+}
+
+}  // namespace antilock

@@ -1,0 +1,17 @@
+#pragma once
+#include <Eigen/Dense>
+
+namespace antilock {
+
+/// A quadrature rule on a triangle: weights sum to 1, to be multiplied by the area.
+struct Quadrature {
+  Eigen::MatrixX3d points;  ///< q x 3, barycentric
+  Eigen::VectorXd weights;  ///< q
+};
+
+/// Radon's 7-point rule, exact for polynomials of degree 5 (FreeFEM's qf5pT: loads agree to round-off).
+const Quadrature& radon_rule();
+/// Strang and Fix's 3-point rule (edge midpoints), exact for degree 2.
+const Quadrature& midpoint_rule();
+
+}  // namespace antilock

@@ -1,0 +1,184 @@
+#include "antilock/mesh/triangle_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "antilock/mesh/edges.hpp"
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+namespace {
+
+std::string at(const TriangleMesh& mesh, int vertex) {
+  return fmt::format("({:.6g}, {:.6g})", mesh.vertices(vertex, 0), mesh.vertices(vertex, 1));
+}
+
+std::string triangle_at(const TriangleMesh& mesh, int t) {
+  const auto& v = mesh.triangles;
+  return fmt::format("triangle {} {} {}", at(mesh, v(t, 0)), at(mesh, v(t, 1)), at(mesh, v(t, 2)));
+}
+
+void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
+  const int n = mesh.vertex_count();
+  if (mesh.triangle_count() == 0) throw Error(where + ": no triangles; accepted: a mesh of the body");
+  if (static_cast<int>(mesh.region.size()) != mesh.triangle_count())
+    throw Error(where + ": one region a triangle is needed");
+  if (!mesh.vertices.allFinite()) throw Error(where + ": a vertex coordinate is not finite");
+  const auto valid = [n](int v) { return v >= 0 && v < n; };
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i)
+      if (!valid(mesh.triangles(t, i)))
+        throw Error(fmt::format("{}: triangle {} has vertex {}; accepted 0 to {}", where, t, mesh.triangles(t, i), n - 1));
+  for (const TaggedEdge& e : tagged_edges)
+    if (!valid(e.from) || !valid(e.to))
+      throw Error(fmt::format("{}: a tagged edge has vertices {} and {}; accepted 0 to {}", where, e.from, e.to, n - 1));
+}
+
+void check_vertices(const TriangleMesh& mesh, const std::string& where) {
+  std::vector<char> used(mesh.vertex_count(), 0);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) used[mesh.triangles(t, i)] = 1;
+  const auto unused = std::find(used.begin(), used.end(), 0);
+  if (unused != used.end())
+    throw Error(fmt::format("{}: the vertex at {} is dangling: it belongs to no triangle", where,
+                            at(mesh, static_cast<int>(unused - used.begin()))));
+  // Duplicates are neighbours once sorted by x then y.
+  std::vector<int> order(mesh.vertex_count());
+  std::iota(order.begin(), order.end(), 0);
+  const auto& p = mesh.vertices;
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return p(a, 0) != p(b, 0) ? p(a, 0) < p(b, 0) : p(a, 1) < p(b, 1);
+  });
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (p.row(order[i]) == p.row(order[i - 1]))
+      throw Error(fmt::format("{}: two vertices share the place {}: a crack; accepted: one vertex a place", where,
+                              at(mesh, order[i])));
+}
+
+/// A surface that gmsh oriented downwards is turned round as a whole; a single inverted triangle is an error.
+void orient(TriangleMesh& mesh, const std::string& where) {
+  for (const Region region : {Region::body, Region::layer}) {
+    int clockwise = 0, members = 0, example = -1;
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.region[t] != region) continue;
+      ++members;
+      if (mesh.twice_area(t) < 0) {
+        ++clockwise;
+        example = t;
+      }
+    }
+    if (clockwise == 0) continue;
+    if (clockwise != members)
+      throw Error(fmt::format("{}: inverted {}; accepted: all triangles of a surface in one orientation", where,
+                              triangle_at(mesh, example)));
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      if (mesh.region[t] == region) std::swap(mesh.triangles(t, 1), mesh.triangles(t, 2));
+  }
+}
+
+void check_triangles(const TriangleMesh& mesh, const std::string& where) {
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) {
+      const int a = mesh.triangles(t, i), b = mesh.triangles(t, (i + 1) % 3);
+      longest = std::max(longest, (mesh.vertices.row(a) - mesh.vertices.row(b)).squaredNorm());
+    }
+    // below 1e-14 the sign of the area is round-off
+    if (!(std::abs(mesh.twice_area(t)) > 1e-14 * longest))
+      throw Error(fmt::format("{}: degenerate {}: its area is zero", where, triangle_at(mesh, t)));
+  }
+}
+
+/// Two triangles on the same side of their common edge run along it in the same direction.
+void check_overlap(const TriangleMesh& mesh, const std::string& where) {
+  std::vector<char> direction(mesh.edge_count(), 0);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const int e = mesh.triangle_edges(t, i);
+      const char forward = mesh.triangles(t, (i + 1) % 3) == mesh.edges(e, 0) ? 1 : 2;
+      if (direction[e] == forward)
+        throw Error(fmt::format("{}: inverted or overlapping {}", where, triangle_at(mesh, t)));
+      direction[e] = forward;
+    }
+}
+
+void check_boundary(const TriangleMesh& mesh, const std::string& where) {
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_triangles(e, 1) >= 0 || mesh.edge_tag[e] != EdgeTag::interior) continue;
+    const Eigen::Vector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+    const Eigen::Vector2d along = b - a;
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+      const Eigen::Vector2d to = mesh.vertices.row(v).transpose() - a;
+      const double t = to.dot(along) / along.squaredNorm();
+      if (t > 1e-9 && t < 1 - 1e-9 && (to - t * along).norm() < 1e-9 * along.norm())
+        throw Error(fmt::format("{}: the vertex at {} hangs on the edge from {} to {}", where, at(mesh, v),
+                                at(mesh, mesh.edges(e, 0)), at(mesh, mesh.edges(e, 1))));
+    }
+    throw Error(fmt::format("{}: the boundary edge from {} to {} is in no group; accepted: clamped or contact", where,
+                            at(mesh, mesh.edges(e, 0)), at(mesh, mesh.edges(e, 1))));
+  }
+}
+
+/// A piece that no clamped edge holds could move freely: the problem would be singular.
+void check_held(const TriangleMesh& mesh, const std::string& where) {
+  std::vector<char> reached(mesh.triangle_count(), 0);
+  std::vector<int> stack;
+  const auto reach = [&](int t) {
+    if (t < 0 || reached[t]) return;
+    reached[t] = 1;
+    stack.push_back(t);
+  };
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == EdgeTag::clamped) reach(mesh.edge_triangles(e, 0));
+  if (stack.empty()) throw Error(where + ": no edge is in the group clamped, which is needed");
+  while (!stack.empty()) {
+    const int t = stack.back();
+    stack.pop_back();
+    for (int i = 0; i < 3; ++i)
+      for (int side = 0; side < 2; ++side) reach(mesh.edge_triangles(mesh.triangle_edges(t, i), side));
+  }
+  const auto loose = std::find(reached.begin(), reached.end(), 0);
+  if (loose != reached.end())
+    throw Error(fmt::format("{}: dangling {}: no clamped edge holds its piece of the mesh", where,
+                            triangle_at(mesh, static_cast<int>(loose - reached.begin()))));
+}
+
+}  // namespace
+
+double TriangleMesh::twice_area(int t) const {
+  const auto a = vertices.row(triangles(t, 0)), b = vertices.row(triangles(t, 1)), c = vertices.row(triangles(t, 2));
+  return (b(0) - a(0)) * (c(1) - a(1)) - (c(0) - a(0)) * (b(1) - a(1));
+}
+
+double TriangleMesh::edge_length(int e) const { return (vertices.row(edges(e, 0)) - vertices.row(edges(e, 1))).norm(); }
+
+double TriangleMesh::diameter() const {
+  double longest = 0;
+  for (int e = 0; e < edge_count(); ++e) longest = std::max(longest, edge_length(e));
+  return longest;
+}
+
+TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
+                                const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
+  TriangleMesh mesh;
+  mesh.vertices = std::move(vertices);
+  mesh.triangles = std::move(triangles);
+  mesh.region = std::move(region);
+  check_indices(mesh, tagged_edges, where);
+  check_vertices(mesh, where);
+  check_triangles(mesh, where);
+  orient(mesh, where);
+  if (std::find(mesh.region.begin(), mesh.region.end(), Region::body) == mesh.region.end())
+    throw Error(where + ": no triangle is in the group body, which is needed");
+  number_edges(mesh, where);
+  tag_edges(mesh, tagged_edges, where);
+  check_overlap(mesh, where);
+  check_boundary(mesh, where);
+  check_held(mesh, where);
+  return mesh;
+}
+
+}  // namespace antilock

@@ -1,0 +1,124 @@
+// Figure 6: an arbitrary triangulation, compatible with the decomposition into body and layer; gmsh makes it.
+#include <gmsh.h>
+
+#include <algorithm>
+#include <map>
+#include <unordered_map>
+
+#include "antilock/mesh/generate.hpp"
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+
+namespace {
+
+/// gmsh keeps one global model: a session opens and closes it, whatever is thrown in between.
+struct GmshSession {
+  GmshSession() {
+    gmsh::initialize(0, nullptr, /*readConfigFiles=*/false);
+    gmsh::option::setNumber("General.Terminal", 0);
+    gmsh::option::setNumber("General.NumThreads", 1);  // the mesh depends on the number of threads
+    gmsh::option::setNumber("Mesh.RandomSeed", 1);
+    gmsh::option::setNumber("Mesh.Algorithm", 6);  // Frontal-Delaunay
+    gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 1);
+    gmsh::model::add("antilock");
+  }
+  ~GmshSession() { gmsh::finalize(); }
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+};
+
+struct Curves {
+  std::vector<int> clamped, contact, sigma;
+  int body = 0, layer = 0;  ///< surfaces
+};
+
+/// The outline of Figure 2: corners from the bottom up, the layer (if any) below the body.
+Curves add_geometry(double depth, double h_body, double h_layer) {
+  namespace geo = gmsh::model::geo;
+  Curves c;
+  const int a = geo::addPoint(0, 0, 0, h_layer), b = geo::addPoint(1, 0, 0, h_layer);
+  const int top_left = geo::addPoint(0, 1, 0, h_body), top_right = geo::addPoint(1, 1, 0, h_body);
+  const int interface = geo::addLine(a, b), right = geo::addLine(b, top_right);
+  const int top = geo::addLine(top_right, top_left), left = geo::addLine(top_left, a);
+  c.body = geo::addPlaneSurface({geo::addCurveLoop({interface, right, top, left})});
+  c.clamped = {right, top, left};
+  if (depth > 0) {
+    const int d = geo::addPoint(0, -depth, 0, h_layer), e = geo::addPoint(1, -depth, 0, h_layer);
+    const int bottom = geo::addLine(d, e), up = geo::addLine(e, b), down = geo::addLine(a, d);
+    c.layer = geo::addPlaneSurface({geo::addCurveLoop({bottom, up, -interface, down})});
+    c.clamped.insert(c.clamped.end(), {up, down});
+    c.contact = {bottom};
+    c.sigma = {interface};
+  } else {
+    c.contact = {interface};
+  }
+  geo::synchronize();
+  return c;
+}
+
+struct Vertices {
+  Points points;
+  std::unordered_map<std::size_t, int> of_tag;
+};
+
+Vertices read_vertices(double depth) {
+  std::vector<std::size_t> tags;
+  std::vector<double> xyz, parameters;
+  gmsh::model::mesh::getNodes(tags, xyz, parameters);
+  Vertices v;
+  v.points.resize(static_cast<Eigen::Index>(tags.size()), 2);
+  // gmsh places points of the outline to about 1e-12: put them exactly on it
+  const auto snap = [](double value, std::initializer_list<double> lines) {
+    for (const double line : lines)
+      if (std::abs(value - line) < 1e-9) return line;
+    return value;
+  };
+  for (std::size_t i = 0; i < tags.size(); ++i) {
+    v.points.row(static_cast<Eigen::Index>(i)) << snap(xyz[3 * i], {0, 1}), snap(xyz[3 * i + 1], {-depth, 0, 1});
+    v.of_tag[tags[i]] = static_cast<int>(i);
+  }
+  return v;
+}
+
+/// The elements of one geometric entity: `size` vertices each.
+std::vector<int> elements_of(int dimension, int entity, const Vertices& vertices) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> tags, nodes;
+  gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+  std::vector<int> all;
+  for (const auto& some : nodes)
+    for (const std::size_t node : some) all.push_back(vertices.of_tag.at(node));
+  return all;
+}
+
+}  // namespace
+
+TriangleMesh unstructured_mesh(int cells, const Domain& domain) {
+  check_mesh_request(cells, 512, domain);
+  const double h = 1.0 / cells, depth = domain.layer_depth;
+  const GmshSession session;
+  const Curves curves = add_geometry(depth, h, depth > 0 ? std::min(h, depth / 2) : h);
+  gmsh::model::mesh::generate(2);
+
+  const Vertices vertices = read_vertices(depth);
+  std::vector<int> corners;
+  std::vector<Region> region;
+  for (const auto& [surface, name] : {std::pair{curves.body, Region::body}, std::pair{curves.layer, Region::layer}}) {
+    if (surface == 0) continue;
+    const auto some = elements_of(2, surface, vertices);
+    corners.insert(corners.end(), some.begin(), some.end());
+    region.resize(corners.size() / 3, name);
+  }
+  std::vector<TaggedEdge> tagged;
+  for (const auto& [lines, tag] : {std::pair{curves.clamped, EdgeTag::clamped}, std::pair{curves.contact, EdgeTag::contact},
+                                   std::pair{curves.sigma, EdgeTag::sigma}})
+    for (const int line : lines) {
+      const auto ends = elements_of(1, line, vertices);
+      for (std::size_t i = 0; i < ends.size(); i += 2) tagged.push_back({ends[i], ends[i + 1], tag});
+    }
+  Triples triangles = Eigen::Map<Triples>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
+  return make_triangle_mesh(vertices.points, std::move(triangles), std::move(region), tagged, "unstructured mesh");
+}
+
+}  // namespace antilock

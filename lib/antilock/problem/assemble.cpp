@@ -1,0 +1,61 @@
+#include "antilock/problem/assemble.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "antilock/form/forms.hpp"
+
+namespace antilock {
+namespace {
+
+void check_fit(const Scene& scene, const Space& space) {
+  const auto& region = space.mesh().region;
+  const bool mesh_has_layer = std::find(region.begin(), region.end(), Region::layer) != region.end();
+  if (mesh_has_layer && scene.layer_depth() == 0)
+    throw Error("scene and mesh: the scene has no layer to mesh, the mesh has a group layer; accepted: a mesh of the body");
+  if (!mesh_has_layer && scene.layer_depth() > 0)
+    throw Error("scene and mesh: the scene has a layer, the mesh has no group layer, which is needed");
+}
+
+/// h of the penalty: the side of the mean layer triangle (a square of side h is two triangles).
+double mesh_width(const LayerStrain& strain) { return std::sqrt(2 * strain.m.sum() / static_cast<double>(strain.m.size())); }
+
+}  // namespace
+
+VariationalInequality assemble(const Scene& scene, const Space& space) {
+  check_fit(scene, space);
+  VariationalInequality problem;
+  problem.b.resize(0, space.size());
+  problem.load = load_vector(space, scene.body().load);
+
+  if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
+    problem.a1 = gradient_form(space, {1, 1}, {1, 0});  // a+ + a_x^- of (23)
+    LayerStrain strain = layer_strain(space);            // a_y^-, factored
+    const double h = mesh_width(strain);
+    problem.b = std::move(strain.b);
+    problem.m = std::move(strain.m);
+    problem.compliance = stiff->epsilon * stiff->epsilon;  // the class parameter of (1) is the square of (23)'s epsilon
+    problem.penalty = h * h / 16;
+  } else if (const auto* thin = std::get_if<ThinLayer>(&scene.layer())) {
+    problem.a1 = gradient_form(space, {1, 1}, {1 / thin->epsilon, 1 / thin->epsilon});  // mu / epsilon of (22)
+  } else {
+    problem.a1 = gradient_form(space, {1, 1}, {0, 0});
+    if (std::holds_alternative<VentcelLayer>(scene.layer())) problem.a1 += ventcel_form(space);
+  }
+
+  problem.fixed = space.clamped();
+  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  if (scene.contact()) {
+    problem.contact = space.contact();
+    problem.lower.resize(static_cast<Eigen::Index>(problem.contact.size()));
+    for (Eigen::Index i = 0; i < problem.lower.size(); ++i) {
+      const double x = space.points()(problem.contact[i], 0), gap = scene.contact()->gap(x);
+      if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
+      problem.lower(i) = -gap;
+    }
+  }
+  return problem;
+}
+
+}  // namespace antilock
