@@ -13,7 +13,8 @@ namespace antilock {
 void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh);
 /// FreeFEM's native .msh: nv nt nbe; x y label; i j k region; i j label. The same numbering, labels as in EdgeTag/Region.
 void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
-/// A table: one header line, then rows, comma separated, 17 significant digits.
+/// A table: one header line, then rows, comma separated. Here and below a number is the shortest text that reads back
+/// as the same double (up to 17 digits). Every writer throws Error, `path` first, and leaves no partial file.
 void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header, const Eigen::MatrixXd& rows);
 /// `x,y,u`: one row an unknown.
 void write_solution_csv(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u);

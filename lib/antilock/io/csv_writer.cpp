@@ -1,0 +1,33 @@
+#include "antilock/io/atomic_file.hpp"
+#include "antilock/io/text.hpp"
+#include "antilock/io/writers.hpp"
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+
+void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header, const Eigen::MatrixXd& rows) {
+  if (header.empty() || static_cast<Eigen::Index>(header.size()) != rows.cols())
+    throw Error(fmt::format("{}: {} names for {} columns; accepted: one name a column, at least one", path.string(),
+                            header.size(), rows.cols()));
+  for (const std::string& name : header)
+    if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)
+      throw Error(fmt::format("{}: column name {:?} is empty or holds a comma, a quote or a line end", path.string(),
+                              std::string_view(name)));
+  write_file(path, [&](std::ostream& out) {
+    Text text(out);
+    text.print("{}\n", fmt::join(header, ","));
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+      for (Eigen::Index j = 0; j < rows.cols(); ++j) text.print("{}{}", rows(i, j), j + 1 < rows.cols() ? ',' : '\n');
+  });
+}
+
+void write_solution_csv(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u) {
+  if (u.size() != space.size() || !u.allFinite())
+    throw Error(fmt::format("{}: u must be {} finite values, one an unknown; it has {}, {} of them finite",
+                            path.string(), space.size(), u.size(), u.array().isFinite().count()));
+  Eigen::MatrixXd rows(u.size(), 3);
+  rows << space.points(), u;
+  write_csv(path, {"x", "y", "u"}, rows);
+}
+
+}  // namespace antilock
