@@ -1,0 +1,83 @@
+#include "common/tutorial.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "antilock/io/atomic_file.hpp"
+#include "antilock/scene/error.hpp"
+
+namespace antilock::tutorial {
+namespace {
+
+int fail(const std::string& stem, const std::string& message, int status) {
+  std::fflush(stdout);
+  fmt::print(stderr, "{}: {}\n", stem, message);
+  return status;
+}
+
+/// Better now than after minutes of work.
+void check_writable(const std::filesystem::path& folder) {
+  const auto probe = folder / ".writable";
+  write_file(probe, [](std::ostream&) {});
+  std::filesystem::remove(probe);
+}
+
+}  // namespace
+
+void Report::stage(const std::string& what) {
+  finish();
+  fmt::print("  {:<60}", what + " ...");
+  std::fflush(stdout);
+  watch_.lap();
+  in_stage_ = true;
+}
+
+void Report::finish() {
+  if (in_stage_) fmt::print(" {:8.3f} s\n", watch_.lap());
+  in_stage_ = false;
+  std::fflush(stdout);
+}
+
+void Report::claim(bool holds, const std::string& what) {
+  finish();
+  fmt::print("VERDICT {}: {}\n", holds ? "holds" : "FAILS", what);
+  all_hold_ = all_hold_ && holds;
+}
+
+int run(int argc, char** argv, const std::string& stem, const std::string& what, Options options,
+        const std::function<void(const Options&, Report&)>& body) {
+  CLI::App app(what, stem);
+  if (options.out.empty()) options.out = std::filesystem::path("results") / stem;
+  app.add_option("--epsilon", options.epsilon, "the paper's epsilon: 0 (the rigid limit) to 1")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--cells", options.cells, "cells a unit side, h = 1/cells")->capture_default_str()->check(CLI::Range(1, 2048));
+  app.add_option("--out", options.out, "folder of the results")->capture_default_str();
+  options.add(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return fail(stem, std::string(error.what()) + " (see --help)", 2);
+  }
+  try {
+    check_writable(options.out);
+    fmt::print("{}: {}\n", stem, what);
+    const Stopwatch watch;
+    Report report;
+    body(options, report);
+    report.finish();
+    fmt::print("{} in {:.2f} s; results in {}\n", stem, watch.seconds(), options.out.string());
+    return report.all_hold() ? 0 : 1;
+  } catch (const NotConverged& failure) {
+    return fail(stem, failure.what(), 3);
+  } catch (const Error& error) {
+    return fail(stem, error.what(), 2);
+  } catch (const std::exception& error) {
+    return fail(stem, error.what(), 2);
+  }
+}
+
+}  // namespace antilock::tutorial
