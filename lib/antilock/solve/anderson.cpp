@@ -1,0 +1,26 @@
+#include "antilock/solve/anderson.hpp"
+
+namespace antilock {
+
+void Anderson::mix(Eigen::VectorXd& reached, const Eigen::VectorXd& g, Eigen::VectorXd& companion) {
+  past_.push_front({reached, g, companion});
+  if (static_cast<int>(past_.size()) > depth_) past_.pop_back();
+  const auto others = static_cast<Eigen::Index>(past_.size()) - 1;
+  if (others == 0) return;
+  // min | g_0 - sum gamma_i (g_0 - g_i) |: a handful of columns, by a QR that drops dependent ones
+  Eigen::MatrixXd difference(g.size(), others);
+  for (Eigen::Index i = 0; i < others; ++i) difference.col(i) = g - past_[i + 1].g;
+  const Eigen::VectorXd scale = difference.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+  for (Eigen::Index i = 0; i < others; ++i) difference.col(i) /= scale(i);
+  const Eigen::MatrixXd normal = difference.transpose() * difference;
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
+  solver.setThreshold(1e-10);
+  solver.compute(normal);
+  const Eigen::VectorXd gamma = solver.solve(difference.transpose() * g).cwiseQuotient(scale);
+  for (Eigen::Index i = 0; i < others; ++i) {
+    reached -= gamma(i) * (past_[0].reached - past_[i + 1].reached);
+    companion -= gamma(i) * (past_[0].companion - past_[i + 1].companion);
+  }
+}
+
+}  // namespace antilock

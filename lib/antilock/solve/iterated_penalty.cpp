@@ -1,0 +1,111 @@
+#include "antilock/solve/iterated_penalty.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/anderson.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "antilock/solve/stopwatch.hpp"
+
+namespace antilock {
+namespace {
+
+double largest(const Eigen::VectorXd& v) { return v.size() == 0 ? 0.0 : v.cwiseAbs().maxCoeff(); }
+
+/// One correction: du on all unknowns, and the contact forces, from the residual r on the free places.
+Eigen::VectorXd correct(const VariationalInequality& problem, PenaltyFactor& factor, const Eigen::VectorXd& u,
+                        double u_scale, const Eigen::VectorXd& r, const Eigen::MatrixXd& schur, const ContactSolver& contact,
+                        int correction, ContactAnswer& answer, SolveSeconds& seconds) {
+  const FreeNumbering& numbering = factor.numbering();
+  const auto c = static_cast<Eigen::Index>(problem.contact.size());
+  Stopwatch watch;
+  Eigen::VectorXd y = factor.forward(r);
+  seconds.solve += watch.lap();
+  if (c > 0) {
+    // g = L_C y_C is the residual condensed on Gamma_C; v = u_C + du_C
+    const auto l = factor.contact_block().triangularView<Eigen::Lower>();
+    const Eigen::VectorXd u_c = u(problem.contact);
+    const Eigen::VectorXd q = l * y.tail(c) + schur * u_c;
+    answer = contact({schur, q, problem.lower, u_scale}, answer, correction);
+    y.tail(c) = l.transpose() * (answer.v - u_c);
+    seconds.contact += watch.lap();
+  }
+  const Eigen::VectorXd x = factor.backward(y);
+  Eigen::VectorXd du = Eigen::VectorXd::Zero(problem.size());
+  du(numbering.unknown) = x;
+  seconds.solve += watch.lap();
+  return du;
+}
+
+}  // namespace
+
+Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
+                          const CorrectionOptions& options, const std::string& name) {
+  const auto rows = problem.b.rows();
+  const double delta = factor.delta();
+  Solution s;
+  s.solver = name;
+  s.u = Eigen::VectorXd::Zero(problem.size());
+  s.u(problem.fixed) = problem.fixed_values;
+  s.p = Eigen::VectorXd::Zero(rows);
+  s.lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+  const Eigen::VectorXd no_force;
+  const int solves_before = factor.solves;
+
+  Eigen::MatrixXd schur;
+  Stopwatch watch;
+  if (!problem.contact.empty()) {
+    const auto l = factor.contact_block().triangularView<Eigen::Lower>();
+    schur = l * factor.contact_block().transpose();
+    s.seconds.contact += watch.lap();
+  }
+
+  Anderson acceleration(6);
+  ContactAnswer answer;
+  double u_scale = 0, before = 0, error = 1;
+  for (int correction = 0;; ++correction) {
+    if (correction > options.max_corrections)
+      throw NotConverged(fmt::format("{}: not converged, or infeasible: estimated relative error {:.1e} after {} corrections, "
+                                     "accepted {:.0e}", name, error, correction - 1, options.tolerance), error, correction - 1);
+    SplitResidual residual = split_residual(problem, s.u, s.p, no_force);
+    if (rows > 0) residual.r1 += problem.b.transpose() * problem.m.cwiseProduct(residual.r2) / delta;
+    const Eigen::VectorXd r = residual.r1(factor.numbering().unknown);
+    const std::vector<bool> active_before = answer.active;
+    const Eigen::VectorXd du = correct(problem, factor, s.u, u_scale, r, schur, contact, correction, answer, s.seconds);
+    s.u += du;
+    Eigen::VectorXd dp;
+    if (rows > 0) {
+      dp = (problem.b * du - residual.r2) / delta;
+      s.p += dp;
+    }
+    // du contracts like the error; the error left behind is du rate / (1 - rate)
+    u_scale = std::max(u_scale, largest(s.u));
+    const double change = u_scale > 0 ? largest(du) / u_scale : 0;
+    s.history.push_back(change);
+    if (!std::isfinite(change)) throw NotConverged(name + ": the iterated penalty broke down (not a number)", change, correction);
+    s.counters.corrections = correction;
+    if (rows == 0 || u_scale == 0) break;  // K is the problem's own matrix: nothing was penalised
+    if (correction > 0) {
+      const double rate = std::clamp(change / before, 0.01, 0.99);
+      error = change * rate / (1 - rate);
+      if (error <= options.tolerance) break;
+    }
+    before = change;
+    if (answer.active != active_before) acceleration.restart();
+    acceleration.mix(s.p, dp, s.u);
+  }
+  s.counters.unknowns = problem.free_count();
+  s.counters.factorisations = factor.factorisations;
+  s.counters.solves = factor.solves - solves_before;
+  s.seconds.analyse = factor.analyse_seconds;
+  s.seconds.factor = factor.factor_seconds;
+  s.lambda = answer.lambda.size() > 0 ? answer.lambda : s.lambda;
+  s.active = answer.active;
+  certify(problem, s);
+  return s;
+}
+
+}  // namespace antilock

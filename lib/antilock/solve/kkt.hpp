@@ -1,0 +1,31 @@
+#pragma once
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/solution.hpp"
+
+namespace antilock {
+
+/// What the equations in split form leave over, on all N unknowns and R rows:
+///     r1 = L + lambda - A1 u - B' M p   (on fixed unknowns: minus the reaction)      r2 = compliance p - B u
+struct SplitResidual {
+  Eigen::VectorXd r1, r2;
+};
+SplitResidual split_residual(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
+                             const Eigen::VectorXd& lambda);
+
+/// The report, each number relative to what the terms of its condition are made of, so that scaling the load by any factor
+/// leaves it unchanged: r1 against max(|A1| |u| + |B'| M |p| + |L|), r2 against max|B| max|u| and compliance |p|, gaps against
+/// max(|u|, |lower|), pressures against max(|L|, |lambda|). All zero for the zero solution of a zero load.
+Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
+
+/// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above `refused`
+/// no solver of this library returns it.
+struct TrustLevels {
+  double trusted = 1e-9;
+  double refused = 1e-6;
+};
+double worst_violation(const Kkt& kkt);
+
+/// Fills solution.kkt and solution.warning; throws NotConverged where the report is above `refused` or not finite.
+void certify(const VariationalInequality& problem, Solution& solution, const TrustLevels& levels = {});
+
+}  // namespace antilock

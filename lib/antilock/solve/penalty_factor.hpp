@@ -1,0 +1,49 @@
+#pragma once
+#include <Eigen/Dense>
+#include <memory>
+
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/penalised_matrix.hpp"
+
+namespace antilock {
+
+/// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B (CHOLMOD, supernodal) with the
+/// contact unknowns ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur complement,
+/// so the whole contact problem is solved on it for next to nothing.
+/// It serves every load, every bound and, where delta is the same, every compliance of one matrix pair (A1, B).
+class PenaltyFactor {
+ public:
+  /// Throws Error if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of memory.
+  PenaltyFactor(const VariationalInequality& problem, double delta);
+  /// The usual penalty: delta = max(compliance, penalty); the compliance itself where nothing is gained by less.
+  explicit PenaltyFactor(const VariationalInequality& problem);
+  ~PenaltyFactor();
+  PenaltyFactor(PenaltyFactor&&) noexcept;
+  PenaltyFactor& operator=(PenaltyFactor&&) noexcept;
+
+  /// A new numeric factorisation for another delta; the symbolic analysis is kept.
+  void refactor(const VariationalInequality& problem, double delta);
+
+  double delta() const { return delta_; }
+  const FreeNumbering& numbering() const { return numbering_; }
+  /// y = L^-1 P r for r on the F free places; the last C entries of y belong to the contact unknowns, in their order.
+  Eigen::VectorXd forward(const Eigen::VectorXd& r);
+  /// x = P' L'^-1 y.
+  Eigen::VectorXd backward(const Eigen::VectorXd& y);
+  /// C x C lower triangular trailing block of L.
+  const Eigen::MatrixXd& contact_block() const { return contact_block_; }
+
+  int factorisations = 0;   ///< numeric factorisations so far
+  int solves = 0;           ///< forward + backward pairs so far
+  double analyse_seconds = 0, factor_seconds = 0;  ///< of the last analysis and factorisation
+  double factor_entries() const;                   ///< nonzeros of L
+
+ private:
+  struct Cholmod;
+  FreeNumbering numbering_;
+  double delta_;
+  std::unique_ptr<Cholmod> cholmod_;
+  Eigen::MatrixXd contact_block_;
+};
+
+}  // namespace antilock
