@@ -52,7 +52,9 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
   app.add_option("--epsilon", options.epsilon, "the paper's epsilon: 0 (the rigid limit) to 1")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
-  app.add_option("--cells", options.cells, "cells a unit side, h = 1/cells")->capture_default_str()->check(CLI::Range(1, 2048));
+  app.add_option("--cells", options.cells, "cells a unit side, h = 1/cells")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 2048));
   app.add_option("--out", options.out, "folder of the results")->capture_default_str();
   options.add(app);
   try {

@@ -17,8 +17,8 @@ struct Stiffness {
 /// The forms a+ and a_x^- of (23) are {1, 1} on the body and {1, 0} on the layer.
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer);
 
-/// The factored form of a_y^-(u, v) = (B u, M B v), (23): a row of B is d/dy at a quadrature point of a layer triangle, M its
-/// weight. For P1 and CR d/dy is constant on a triangle: one row each, M its area.
+/// The factored form of a_y^-(u, v) = (B u, M B v), (23): a row of B is d/dy at a quadrature point of a layer triangle,
+/// M its weight. For P1 and CR d/dy is constant on a triangle: one row each, M its area.
 struct LayerStrain {
   Eigen::SparseMatrix<double, Eigen::RowMajor> b;  ///< R x N
   Eigen::VectorXd m;                               ///< R, positive
@@ -29,8 +29,8 @@ LayerStrain layer_strain(const Space& space);
 /// N values of (f, phi_i) over the body, by a rule of degree 5.
 Eigen::VectorXd load_vector(const Space& space, const Field& f);
 
-/// N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25), on the contact edges of a mesh of the body alone. The
-/// trace is the continuous piecewise affine function through the unknowns on Sigma and the clamped ends: for P1 the
+/// N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25), on the contact edges of a mesh of the body alone.
+/// The trace is the continuous piecewise affine function through the unknowns on Sigma and the clamped ends: for P1 the
 /// trace itself, for CR the one through the edge midpoints (the broken trace has no derivative across vertices).
 Eigen::SparseMatrix<double> ventcel_form(const Space& space);
 

@@ -8,7 +8,8 @@ LayerStrain layer_strain(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   // d/dy of degree k - 1 is squared: one point for degree 1, the three midpoints for degree 2
-  if (element.degree() > 2) throw Error("layer strain: element " + element.name() + " of degree above 2 is not accepted");
+  if (element.degree() > 2)
+    throw Error("layer strain: element " + element.name() + " of degree above 2 is not accepted");
   const Quadrature centroid{Eigen::RowVector3d::Constant(1.0 / 3), Eigen::VectorXd::Ones(1)};
   const Quadrature& rule = element.degree() == 1 ? centroid : midpoint_rule();
   const auto points = rule.weights.size(), m = static_cast<Eigen::Index>(element.unknowns());

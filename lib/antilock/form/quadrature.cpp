@@ -10,9 +10,8 @@ const Quadrature& radon_rule() {
     const double s = std::sqrt(15.0), a = (6 - s) / 21, b = (6 + s) / 21;
     Quadrature q;
     q.points.resize(7, 3);
-    q.points << 1.0 / 3, 1.0 / 3, 1.0 / 3,
-        1 - 2 * a, a, a, a, 1 - 2 * a, a, a, a, 1 - 2 * a,
-        1 - 2 * b, b, b, b, 1 - 2 * b, b, b, b, 1 - 2 * b;
+    q.points << 1.0 / 3, 1.0 / 3, 1.0 / 3, 1 - 2 * a, a, a, a, 1 - 2 * a, a, a, a, 1 - 2 * a, 1 - 2 * b, b, b, b,
+        1 - 2 * b, b, b, b, 1 - 2 * b;
     q.weights.resize(7);
     q.weights << 9.0 / 40, Eigen::Vector3d::Constant((155 - s) / 1200), Eigen::Vector3d::Constant((155 + s) / 1200);
     return q;

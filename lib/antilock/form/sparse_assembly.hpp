@@ -8,8 +8,8 @@
 
 namespace antilock {
 
-/// Sums element matrices into a sparse matrix, in linear time: entries are dropped into their column, then merged there (a
-/// column receives a few dozen). `local(t)` returns the m x m matrix of triangle t.
+/// Sums element matrices into a sparse matrix, in linear time: entries are dropped into their column, then merged there
+/// (a column receives a few dozen). `local(t)` returns the m x m matrix of triangle t.
 template <class LocalMatrix>
 Eigen::SparseMatrix<double> sum_element_matrices(const Space& space, LocalMatrix&& local) {
   const auto& unknowns = space.unknowns();

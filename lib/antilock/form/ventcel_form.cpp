@@ -4,8 +4,10 @@
 namespace antilock {
 
 Eigen::SparseMatrix<double> ventcel_form(const Space& space) {
-  if (space.element().degree() != 1) throw Error("Ventcel term: element " + space.element().name() + " is not accepted; P1 or CR");
-  // Along Sigma: the clamped end, the unknowns by x, the clamped end. The ends carry u = 0, so they add to the diagonal only.
+  if (space.element().degree() != 1)
+    throw Error("Ventcel term: element " + space.element().name() + " is not accepted; P1 or CR");
+  // Along Sigma: the clamped end, the unknowns by x, the clamped end. The ends carry u = 0, so they add to the diagonal
+  // only.
   const std::vector<int>& line = space.contact();
   std::vector<Eigen::Triplet<double>> entries;
   double left = 0;

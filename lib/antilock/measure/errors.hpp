@@ -21,8 +21,8 @@ struct Errors {
   double max_at_unknowns = 0;  ///< at the unknowns: vertices (P1) or edge midpoints (CR)
   double max = 0;              ///< L-infinity, sampled in every triangle (its corners, midpoints and 12 inner points)
   double l2 = 0;
-  double h1 = 0;               ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
-  double energy = 0;           ///< |.|_a^epsilon of Remark 4; the stiff part through p, so it holds at epsilon = 0
+  double h1 = 0;      ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
+  double energy = 0;  ///< |.|_a^epsilon of Remark 4; the stiff part through p, so it holds at epsilon = 0
 };
 
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference);

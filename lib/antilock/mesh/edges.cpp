@@ -79,8 +79,10 @@ void tag_edges(TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, 
     const auto found = known.find(key(tagged.from, tagged.to));
     const bool on_sigma = found != known.end() && mesh.edge_triangles(found->second, 1) >= 0;
     if (found == known.end() || on_sigma != (tagged.tag == EdgeTag::sigma))
-      throw Error(fmt::format("{}: the tagged edge from {} to {} is dangling or misplaced; accepted: clamped and contact on the "
-                              "boundary, sigma between body and layer", where, at(mesh, tagged.from), at(mesh, tagged.to)));
+      throw Error(fmt::format(
+          "{}: the tagged edge from {} to {} is dangling or misplaced; accepted: clamped and contact on the "
+          "boundary, sigma between body and layer",
+          where, at(mesh, tagged.from), at(mesh, tagged.to)));
     EdgeTag& tag = mesh.edge_tag[found->second];
     if (tag != EdgeTag::interior && tag != tagged.tag)
       throw Error(fmt::format("{}: the edge from {} to {} is in two groups; accepted: one of clamped, contact", where,

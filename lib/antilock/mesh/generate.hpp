@@ -7,15 +7,16 @@ enum class Diagonal { right, left };  ///< right: / ; left: \ (Figure 3 shows ri
 
 /// The domain of Figure 2: the unit square, with a layer (0,1) x (-layer_depth, 0) below it where layer_depth > 0.
 struct Domain {
-  double layer_depth = 1;  ///< 0: the body alone; 1: after the change of variable (Figure 2); epsilon: before (Figure 1)
+  double layer_depth =
+      1;  ///< 0: the body alone; 1: after the change of variable (Figure 2); epsilon: before (Figure 1)
 };
 
 /// Throws Error unless 1 <= cells <= most and 0 <= layer_depth <= 1.
 void check_mesh_request(int cells, int most, const Domain& domain);
 
-/// The structured mesh of Figure 3: `cells` squares a unit side, each cut by a diagonal. A layer of another depth than 1
-/// has as many rows as keep its cells no flatter than needed: max(2, round(depth * cells)).
-/// Throws Error unless 1 <= cells <= 2048.
+/// The structured mesh of Figure 3: `cells` squares a unit side, each cut by a diagonal. A layer of another depth than
+/// 1 has as many rows as keep its cells no flatter than needed: max(2, round(depth * cells)). Throws Error unless 1 <=
+/// cells <= 2048.
 TriangleMesh structured_mesh(int cells, const Domain& domain = {}, Diagonal diagonal = Diagonal::right);
 
 /// The unstructured mesh of Figure 6, by gmsh (Frontal-Delaunay, one thread, fixed seed): the same mesh at every call.

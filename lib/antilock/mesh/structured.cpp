@@ -12,7 +12,8 @@
 namespace antilock {
 
 void check_mesh_request(int cells, int most, const Domain& domain) {
-  if (cells < 1 || cells > most) throw Error(fmt::format("mesh: cells = {} is out of range; accepted 1 to {}", cells, most));
+  if (cells < 1 || cells > most)
+    throw Error(fmt::format("mesh: cells = {} is out of range; accepted 1 to {}", cells, most));
   if (!(domain.layer_depth >= 0 && domain.layer_depth <= 1))
     throw Error(fmt::format("mesh: layer depth {} is out of range; accepted 0 to 1", domain.layer_depth));
 }
@@ -25,7 +26,8 @@ TriangleMesh structured_mesh(int cells, const Domain& domain, Diagonal diagonal)
   TriangleMesh mesh;
   mesh.vertices.resize(static_cast<Eigen::Index>(rows + 1) * (cells + 1), 2);
   for (int j = 0; j <= rows; ++j) {
-    const double y = j < layer_rows ? -depth * (layer_rows - j) / layer_rows : static_cast<double>(j - layer_rows) / cells;
+    const double y =
+        j < layer_rows ? -depth * (layer_rows - j) / layer_rows : static_cast<double>(j - layer_rows) / cells;
     for (int i = 0; i <= cells; ++i) mesh.vertices.row(j * (cells + 1) + i) << static_cast<double>(i) / cells, y;
   }
   mesh.triangles.resize(static_cast<Eigen::Index>(2) * rows * cells, 3);

@@ -31,10 +31,12 @@ void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagg
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i)
       if (!valid(mesh.triangles(t, i)))
-        throw Error(fmt::format("{}: triangle {} has vertex {}; accepted 0 to {}", where, t, mesh.triangles(t, i), n - 1));
+        throw Error(
+            fmt::format("{}: triangle {} has vertex {}; accepted 0 to {}", where, t, mesh.triangles(t, i), n - 1));
   for (const TaggedEdge& e : tagged_edges)
     if (!valid(e.from) || !valid(e.to))
-      throw Error(fmt::format("{}: a tagged edge has vertices {} and {}; accepted 0 to {}", where, e.from, e.to, n - 1));
+      throw Error(
+          fmt::format("{}: a tagged edge has vertices {} and {}; accepted 0 to {}", where, e.from, e.to, n - 1));
 }
 
 void check_vertices(const TriangleMesh& mesh, const std::string& where) {
@@ -49,9 +51,8 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
   std::vector<int> order(mesh.vertex_count());
   std::iota(order.begin(), order.end(), 0);
   const auto& p = mesh.vertices;
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return p(a, 0) != p(b, 0) ? p(a, 0) < p(b, 0) : p(a, 1) < p(b, 1);
-  });
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return p(a, 0) != p(b, 0) ? p(a, 0) < p(b, 0) : p(a, 1) < p(b, 1); });
   for (std::size_t i = 1; i < order.size(); ++i)
     if (p.row(order[i]) == p.row(order[i - 1]))
       throw Error(fmt::format("{}: two vertices share the place {}: a crack; accepted: one vertex a place", where,

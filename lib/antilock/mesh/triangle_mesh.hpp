@@ -9,19 +9,19 @@ namespace antilock {
 enum class Region { body = 1, layer = 2 };
 enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5 };
 
-using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;      ///< n x 2, coordinates x, y
-using Triples = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;        ///< n x 3, indices from 0
-using Pairs = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;          ///< n x 2, indices from 0
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< n x 2, coordinates x, y
+using Triples = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;    ///< n x 3, indices from 0
+using Pairs = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;      ///< n x 2, indices from 0
 
 /// A conforming mesh of Omega (Figure 2): positively oriented triangles, numbered edges, tagged boundary.
 /// Lengths are dimensionless (the body's side is 1).
 struct TriangleMesh {
-  Points vertices;             ///< V x 2
-  Triples triangles;           ///< T x 3 vertices, counterclockwise
-  std::vector<Region> region;  ///< T
-  Pairs edges;                 ///< E x 2 vertices, the smaller index first
-  Triples triangle_edges;      ///< T x 3 edges; edge i lies opposite vertex i
-  Pairs edge_triangles;        ///< E x 2 triangles; the second is -1 on the boundary
+  Points vertices;                ///< V x 2
+  Triples triangles;              ///< T x 3 vertices, counterclockwise
+  std::vector<Region> region;     ///< T
+  Pairs edges;                    ///< E x 2 vertices, the smaller index first
+  Triples triangle_edges;         ///< T x 3 edges; edge i lies opposite vertex i
+  Pairs edge_triangles;           ///< E x 2 triangles; the second is -1 on the boundary
   std::vector<EdgeTag> edge_tag;  ///< E; sigma where body meets layer, clamped or contact on the whole boundary
 
   int vertex_count() const { return static_cast<int>(vertices.rows()); }

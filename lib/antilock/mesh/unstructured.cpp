@@ -111,8 +111,9 @@ TriangleMesh unstructured_mesh(int cells, const Domain& domain) {
     region.resize(corners.size() / 3, name);
   }
   std::vector<TaggedEdge> tagged;
-  for (const auto& [lines, tag] : {std::pair{curves.clamped, EdgeTag::clamped}, std::pair{curves.contact, EdgeTag::contact},
-                                   std::pair{curves.sigma, EdgeTag::sigma}})
+  for (const auto& [lines, tag] :
+       {std::pair{curves.clamped, EdgeTag::clamped}, std::pair{curves.contact, EdgeTag::contact},
+        std::pair{curves.sigma, EdgeTag::sigma}})
     for (const int line : lines) {
       const auto ends = elements_of(1, line, vertices);
       for (std::size_t i = 0; i < ends.size(); i += 2) tagged.push_back({ends[i], ends[i + 1], tag});

@@ -13,13 +13,16 @@ void check_fit(const Scene& scene, const Space& space) {
   const auto& region = space.mesh().region;
   const bool mesh_has_layer = std::find(region.begin(), region.end(), Region::layer) != region.end();
   if (mesh_has_layer && scene.layer_depth() == 0)
-    throw Error("scene and mesh: the scene has no layer to mesh, the mesh has a group layer; accepted: a mesh of the body");
+    throw Error(
+        "scene and mesh: the scene has no layer to mesh, the mesh has a group layer; accepted: a mesh of the body");
   if (!mesh_has_layer && scene.layer_depth() > 0)
     throw Error("scene and mesh: the scene has a layer, the mesh has no group layer, which is needed");
 }
 
 /// h of the penalty: the side of the mean layer triangle (a square of side h is two triangles).
-double mesh_width(const LayerStrain& strain) { return std::sqrt(2 * strain.m.sum() / static_cast<double>(strain.m.size())); }
+double mesh_width(const LayerStrain& strain) {
+  return std::sqrt(2 * strain.m.sum() / static_cast<double>(strain.m.size()));
+}
 
 }  // namespace
 
@@ -31,7 +34,7 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
 
   if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
     problem.a1 = gradient_form(space, {1, 1}, {1, 0});  // a+ + a_x^- of (23)
-    LayerStrain strain = layer_strain(space);            // a_y^-, factored
+    LayerStrain strain = layer_strain(space);           // a_y^-, factored
     const double h = mesh_width(strain);
     problem.b = std::move(strain.b);
     problem.m = std::move(strain.m);

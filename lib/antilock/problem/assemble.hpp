@@ -5,8 +5,9 @@
 
 namespace antilock {
 
-/// Fills the class's problem for a scene on its space: (23)/(24) for a stiff layer, (22) for a thin one, (25) for Ventcel,
-/// the Laplacian alone without a layer; bounds on Gamma_C with contact. Throws Error where mesh and scene do not fit.
+/// Fills the class's problem for a scene on its space: (23)/(24) for a stiff layer, (22) for a thin one, (25) for
+/// Ventcel, the Laplacian alone without a layer; bounds on Gamma_C with contact. Throws Error where mesh and scene do
+/// not fit.
 VariationalInequality assemble(const Scene& scene, const Space& space);
 
 }  // namespace antilock

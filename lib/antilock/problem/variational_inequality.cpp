@@ -13,7 +13,9 @@ void require(bool holds, const std::string& what) {
   if (!holds) throw Error("variational inequality: " + what);
 }
 
-bool finite(const double* values, Eigen::Index count) { return Eigen::Map<const Eigen::VectorXd>(values, count).allFinite(); }
+bool finite(const double* values, Eigen::Index count) {
+  return Eigen::Map<const Eigen::VectorXd>(values, count).allFinite();
+}
 
 }  // namespace
 
@@ -23,7 +25,8 @@ void check(const VariationalInequality& problem) {
   require(problem.a1.rows() == n && problem.a1.cols() == n,
           fmt::format("a1 is {} x {}; accepted {} x {}, as the load says", problem.a1.rows(), problem.a1.cols(), n, n));
   require(problem.b.cols() == n && problem.m.size() == rows,
-          fmt::format("B is {} x {} and M has {} entries; accepted R x {} and R", rows, problem.b.cols(), problem.m.size(), n));
+          fmt::format("B is {} x {} and M has {} entries; accepted R x {} and R", rows, problem.b.cols(),
+                      problem.m.size(), n));
   require(problem.a1.isCompressed() && problem.b.isCompressed(), "a1 and B are accepted compressed only");
   require(finite(problem.a1.valuePtr(), problem.a1.nonZeros()) && finite(problem.b.valuePtr(), problem.b.nonZeros()) &&
               problem.load.allFinite() && problem.lower.allFinite() && problem.fixed_values.allFinite(),
@@ -31,9 +34,12 @@ void check(const VariationalInequality& problem) {
   require(rows == 0 || problem.m.minCoeff() > 0, "M is not positive");
   require(problem.compliance >= 0 && problem.compliance <= 1,
           fmt::format("compliance = {}; accepted 0 to 1", problem.compliance));
-  require(problem.penalty > 0 && problem.penalty <= 1, fmt::format("penalty = {}; accepted 0 < penalty <= 1", problem.penalty));
-  require(problem.fixed_values.size() == static_cast<Eigen::Index>(problem.fixed.size()), "one value a fixed unknown is needed");
-  require(problem.lower.size() == static_cast<Eigen::Index>(problem.contact.size()), "one bound a contact unknown is needed");
+  require(problem.penalty > 0 && problem.penalty <= 1,
+          fmt::format("penalty = {}; accepted 0 < penalty <= 1", problem.penalty));
+  require(problem.fixed_values.size() == static_cast<Eigen::Index>(problem.fixed.size()),
+          "one value a fixed unknown is needed");
+  require(problem.lower.size() == static_cast<Eigen::Index>(problem.contact.size()),
+          "one bound a contact unknown is needed");
   std::vector<char> taken(n, 0);
   for (const std::vector<int>* list : {&problem.fixed, &problem.contact})
     for (const int i : *list) {
@@ -44,7 +50,8 @@ void check(const VariationalInequality& problem) {
   require(problem.free_count() > 0, "every unknown is fixed");
   // Relative to the largest entry: what assembly leaves is round-off of the sums.
   const SparseMatrix transposed = problem.a1.transpose();
-  const double largest = Eigen::Map<const Eigen::VectorXd>(problem.a1.valuePtr(), problem.a1.nonZeros()).cwiseAbs().maxCoeff();
+  const double largest =
+      Eigen::Map<const Eigen::VectorXd>(problem.a1.valuePtr(), problem.a1.nonZeros()).cwiseAbs().maxCoeff();
   const SparseMatrix skew = problem.a1 - transposed;
   for (Eigen::Index k = 0; k < skew.nonZeros(); ++k)
     require(std::abs(skew.valuePtr()[k]) <= 1e-12 * largest, "a1 is not symmetric");

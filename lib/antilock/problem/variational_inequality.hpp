@@ -5,8 +5,8 @@
 
 namespace antilock {
 
-using SparseMatrix = Eigen::SparseMatrix<double>;                      ///< by columns
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;        ///< by rows
+using SparseMatrix = Eigen::SparseMatrix<double>;                ///< by columns
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< by rows
 
 /// The discrete problem of the paper's whole class, (6), and (7) where compliance = 0:
 ///
@@ -16,17 +16,17 @@ using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;        ///< by r
 /// a0(u, v) = (B u, M B v) stays in factored form: summed into a1 it destroys a1 by round-off. Everything is
 /// dimensionless. N unknowns, R rows of B, C contact unknowns.
 struct VariationalInequality {
-  SparseMatrix a1;           ///< N x N, symmetric; positive definite together with B' M B on the free unknowns
-  RowMatrix b;               ///< R x N; R = 0 where nothing is stiff
-  Eigen::VectorXd m;         ///< R, the diagonal of M, positive (areas of cells)
-  double compliance = 1;     ///< the class parameter, 0 <= compliance <= 1. In (23) it is epsilon^2: the one place that says so is
-                             ///< `assemble` (problem/assemble.hpp)
-  double penalty = 1e-6;     ///< delta of the iterated penalty where compliance is smaller; about h^2/16 (solve/)
-  Eigen::VectorXd load;      ///< N, L(phi_i)
-  std::vector<int> fixed;            ///< unknowns with a prescribed value, ascending
-  Eigen::VectorXd fixed_values;      ///< one a fixed unknown
-  std::vector<int> contact;          ///< unknowns bounded from below, in the order of the reports (by x)
-  Eigen::VectorXd lower;             ///< C bounds: u >= lower there (= -gap)
+  SparseMatrix a1;        ///< N x N, symmetric; positive definite together with B' M B on the free unknowns
+  RowMatrix b;            ///< R x N; R = 0 where nothing is stiff
+  Eigen::VectorXd m;      ///< R, the diagonal of M, positive (areas of cells)
+  double compliance = 1;  ///< the class parameter, 0 <= compliance <= 1. In (23) it is epsilon^2: the one place that
+                          ///< says so is `assemble` (problem/assemble.hpp)
+  double penalty = 1e-6;         ///< delta of the iterated penalty where compliance is smaller; about h^2/16 (solve/)
+  Eigen::VectorXd load;          ///< N, L(phi_i)
+  std::vector<int> fixed;        ///< unknowns with a prescribed value, ascending
+  Eigen::VectorXd fixed_values;  ///< one a fixed unknown
+  std::vector<int> contact;      ///< unknowns bounded from below, in the order of the reports (by x)
+  Eigen::VectorXd lower;         ///< C bounds: u >= lower there (= -gap)
 
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(fixed.size()); }

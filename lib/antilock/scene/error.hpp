@@ -11,7 +11,8 @@ struct Error : std::runtime_error {
 
 /// A solver that ended without an answer; `what()` says how far it came. It never comes with a solution.
 struct NotConverged : Error {
-  NotConverged(const std::string& message, double reached, int steps) : Error(message), reached(reached), steps(steps) {}
+  NotConverged(const std::string& message, double reached, int steps)
+      : Error(message), reached(reached), steps(steps) {}
   double reached;  ///< the relative error measure at which the solver stopped (dimensionless)
   int steps;       ///< the iterations done
 };

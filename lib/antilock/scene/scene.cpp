@@ -32,16 +32,18 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact)
   for (const double x : {0.0, 1.0}) {
     const double gap = contact_->gap(x);
     if (!(gap >= 0))
-      throw Error(fmt::format("contact: gap({}) = {}, but u = 0 is prescribed there, so no u >= -gap exists; "
-                              "accepted: gap >= 0 at x = 0 and x = 1", x, gap));
+      throw Error(
+          fmt::format("contact: gap({}) = {}, but u = 0 is prescribed there, so no u >= -gap exists; "
+                      "accepted: gap >= 0 at x = 0 and x = 1",
+                      x, gap));
   }
 }
 
 double Scene::layer_depth() const {
-  return std::visit(Overloaded{[](const NoLayer&) { return 0.0; }, [](const VentcelLayer&) { return 0.0; },
-                               [](const StiffLayer&) { return 1.0; },
-                               [](const ThinLayer& thin) { return thin.epsilon; }},
-                    layer_);
+  return std::visit(
+      Overloaded{[](const NoLayer&) { return 0.0; }, [](const VentcelLayer&) { return 0.0; },
+                 [](const StiffLayer&) { return 1.0; }, [](const ThinLayer& thin) { return thin.epsilon; }},
+      layer_);
 }
 
 std::optional<double> Scene::epsilon() const {

@@ -8,8 +8,8 @@ namespace antilock {
 
 Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
   if (options.start && options.start->size() != problem.contact.size())
-    throw Error("active set: the start has " + std::to_string(options.start->size()) + " entries; accepted one a contact unknown, " +
-                std::to_string(problem.contact.size()));
+    throw Error("active set: the start has " + std::to_string(options.start->size()) +
+                " entries; accepted one a contact unknown, " + std::to_string(problem.contact.size()));
   int steps = 0, most = 0;
   const ContactSolver contact = [&](const ContactProblem& p, const ContactAnswer& before, int correction) {
     std::vector<bool> start = before.active;

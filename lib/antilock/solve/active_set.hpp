@@ -15,10 +15,10 @@ struct ActiveSetOptions {
   std::optional<std::vector<bool>> start;  ///< contact set to start from; empty: the nested start
 };
 
-/// Primal-dual active set on the contact unknowns, everything else eliminated by one sparse Cholesky factor; the stiff part
-/// by iterated penalty. Without contact unknowns this is a linear solve. counters.contact are the steps on the finest level,
-/// the largest number over the corrections.
-/// Throws Error for a malformed problem, NotConverged instead of ever returning an unconverged answer.
+/// Primal-dual active set on the contact unknowns, everything else eliminated by one sparse Cholesky factor; the stiff
+/// part by iterated penalty. Without contact unknowns this is a linear solve. counters.contact are the steps on the
+/// finest level, the largest number over the corrections. Throws Error for a malformed problem, NotConverged instead of
+/// ever returning an unconverged answer.
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options = {});
 
 /// The same with a factor made before, for a sweep over loads, bounds or compliances of one pair (A1, B).

@@ -32,10 +32,12 @@ void solve_on(const ContactProblem& p, ContactAnswer& answer) {
 std::vector<int> violations(const ContactProblem& p, const ContactAnswer& answer) {
   constexpr double slack = 1e-13;
   const double v_scale = std::max({answer.v.cwiseAbs().maxCoeff(), p.lower.cwiseAbs().maxCoeff(), p.u_scale});
-  const double f_scale = std::max(p.q.cwiseAbs().maxCoeff(), (p.s.diagonal().cwiseAbs().array() * answer.v.array().abs()).maxCoeff());
+  const double f_scale =
+      std::max(p.q.cwiseAbs().maxCoeff(), (p.s.diagonal().cwiseAbs().array() * answer.v.array().abs()).maxCoeff());
   std::vector<int> wrong;
   for (int i = 0; i < p.q.size(); ++i)
-    if (answer.active[i] ? answer.lambda(i) < -slack * f_scale : answer.v(i) - p.lower(i) < -slack * v_scale) wrong.push_back(i);
+    if (answer.active[i] ? answer.lambda(i) < -slack * f_scale : answer.v(i) - p.lower(i) < -slack * v_scale)
+      wrong.push_back(i);
   return wrong;
 }
 

@@ -17,8 +17,8 @@ double largest(const Eigen::VectorXd& v) { return v.size() == 0 ? 0.0 : v.cwiseA
 
 /// One correction: du on all unknowns, and the contact forces, from the residual r on the free places.
 Eigen::VectorXd correct(const VariationalInequality& problem, PenaltyFactor& factor, const Eigen::VectorXd& u,
-                        double u_scale, const Eigen::VectorXd& r, const Eigen::MatrixXd& schur, const ContactSolver& contact,
-                        int correction, ContactAnswer& answer, SolveSeconds& seconds) {
+                        double u_scale, const Eigen::VectorXd& r, const Eigen::MatrixXd& schur,
+                        const ContactSolver& contact, int correction, ContactAnswer& answer, SolveSeconds& seconds) {
   const FreeNumbering& numbering = factor.numbering();
   const auto c = static_cast<Eigen::Index>(problem.contact.size());
   Stopwatch watch;
@@ -68,8 +68,11 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   double u_scale = 0, before = 0, error = 1;
   for (int correction = 0;; ++correction) {
     if (correction > options.max_corrections)
-      throw NotConverged(fmt::format("{}: not converged, or infeasible: estimated relative error {:.1e} after {} corrections, "
-                                     "accepted {:.0e}", name, error, correction - 1, options.tolerance), error, correction - 1);
+      throw NotConverged(
+          fmt::format("{}: not converged, or infeasible: estimated relative error {:.1e} after {} corrections, "
+                      "accepted {:.0e}",
+                      name, error, correction - 1, options.tolerance),
+          error, correction - 1);
     SplitResidual residual = split_residual(problem, s.u, s.p, no_force);
     if (rows > 0) residual.r1 += problem.b.transpose() * problem.m.cwiseProduct(residual.r2) / delta;
     const Eigen::VectorXd r = residual.r1(factor.numbering().unknown);
@@ -85,7 +88,8 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
     u_scale = std::max(u_scale, largest(s.u));
     const double change = u_scale > 0 ? largest(du) / u_scale : 0;
     s.history.push_back(change);
-    if (!std::isfinite(change)) throw NotConverged(name + ": the iterated penalty broke down (not a number)", change, correction);
+    if (!std::isfinite(change))
+      throw NotConverged(name + ": the iterated penalty broke down (not a number)", change, correction);
     s.counters.corrections = correction;
     if (rows == 0 || u_scale == 0) break;  // K is the problem's own matrix: nothing was penalised
     if (correction > 0) {

@@ -8,7 +8,8 @@
 
 namespace antilock {
 
-/// Solves the contact problem of one correction; `correction` counts from 0, `before` is the answer of the last (empty at 0).
+/// Solves the contact problem of one correction; `correction` counts from 0, `before` is the answer of the last (empty
+/// at 0).
 using ContactSolver = std::function<ContactAnswer(const ContactProblem&, const ContactAnswer& before, int correction)>;
 
 struct CorrectionOptions {
@@ -16,13 +17,14 @@ struct CorrectionOptions {
   int max_corrections = 100;  ///< reached: NotConverged
 };
 
-/// The iterated penalty method (an augmented Lagrangian in the layer stress p = compliance^-1 B u). One factorisation of the
-/// moderately penalised K = A1 + delta^-1 B' M B; the true problem enters through the residual in split form only:
+/// The iterated penalty method (an augmented Lagrangian in the layer stress p = compliance^-1 B u). One factorisation
+/// of the moderately penalised K = A1 + delta^-1 B' M B; the true problem enters through the residual in split form
+/// only:
 ///     r1 = L - A1 u - B' M p            r2 = compliance p - B u
 ///     K du = r1 + delta^-1 B' M r2 + lambda      dp = (B du - r2) / delta
-/// with the contact conditions solved on Gamma_C in every correction. No digit of A1 is ever added to a large one, so the
-/// answer is right at every compliance down to and including 0, where it solves (7) exactly.
-/// Throws NotConverged, with how far it came, after max_corrections or where B u = 0 cannot be met.
+/// with the contact conditions solved on Gamma_C in every correction. No digit of A1 is ever added to a large one, so
+/// the answer is right at every compliance down to and including 0, where it solves (7) exactly. Throws NotConverged,
+/// with how far it came, after max_corrections or where B u = 0 cannot be met.
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name);
 

@@ -12,7 +12,9 @@ namespace {
 
 double largest(const Eigen::VectorXd& v) { return v.size() == 0 ? 0.0 : v.cwiseAbs().maxCoeff(); }
 
-double ratio(double value, double scale) { return value == 0 ? 0.0 : value / scale; }  // 0 / 0 is a condition met exactly
+double ratio(double value, double scale) {
+  return value == 0 ? 0.0 : value / scale;
+}  // 0 / 0 is a condition met exactly
 
 }  // namespace
 
@@ -48,7 +50,8 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   kkt.complementarity = ratio(largest(lambda.cwiseProduct(gap)), u_scale * f_scale);
   // the prescribed values hold exactly or not at all
   for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i))) kkt.residual = std::max(kkt.residual, 1.0);
+    if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
+      kkt.residual = std::max(kkt.residual, 1.0);
   return kkt;
 }
 
@@ -62,15 +65,17 @@ void certify(const VariationalInequality& problem, Solution& solution, const Tru
   solution.kkt = kkt_report(problem, solution);
   const double worst = worst_violation(solution.kkt);
   const Kkt& k = solution.kkt;
-  const std::string report = fmt::format("smallest gap {:.1e}, smallest pressure {:.1e}, complementarity {:.1e}, residual {:.1e}",
-                                         k.min_gap, k.min_pressure, k.complementarity, k.residual);
+  const std::string report =
+      fmt::format("smallest gap {:.1e}, smallest pressure {:.1e}, complementarity {:.1e}, residual {:.1e}", k.min_gap,
+                  k.min_pressure, k.complementarity, k.residual);
   const int steps = static_cast<int>(solution.history.size());
   if (!(worst <= levels.refused))
-    throw NotConverged(fmt::format("{}: answer refused: the conditions hold only to {:.1e}, accepted {:.0e} ({})", solution.solver,
-                                   worst, levels.refused, report), worst, steps);
+    throw NotConverged(fmt::format("{}: answer refused: the conditions hold only to {:.1e}, accepted {:.0e} ({})",
+                                   solution.solver, worst, levels.refused, report),
+                       worst, steps);
   if (worst > levels.trusted)
-    solution.warning = fmt::format("{}: the conditions hold to {:.1e}, trusted {:.0e} ({})", solution.solver, worst, levels.trusted,
-                                   report);
+    solution.warning = fmt::format("{}: the conditions hold to {:.1e}, trusted {:.0e} ({})", solution.solver, worst,
+                                   levels.trusted, report);
 }
 
 }  // namespace antilock

@@ -12,13 +12,14 @@ struct SplitResidual {
 SplitResidual split_residual(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
                              const Eigen::VectorXd& lambda);
 
-/// The report, each number relative to what the terms of its condition are made of, so that scaling the load by any factor
-/// leaves it unchanged: r1 against max(|A1| |u| + |B'| M |p| + |L|), r2 against max|B| max|u| and compliance |p|, gaps against
-/// max(|u|, |lower|), pressures against max(|L|, |lambda|). All zero for the zero solution of a zero load.
+/// The report, each number relative to what the terms of its condition are made of, so that scaling the load by any
+/// factor leaves it unchanged: r1 against max(|A1| |u| + |B'| M |p| + |L|), r2 against max|B| max|u| and compliance
+/// |p|, gaps against max(|u|, |lower|), pressures against max(|L|, |lambda|). All zero for the zero solution of a zero
+/// load.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
-/// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above `refused`
-/// no solver of this library returns it.
+/// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above
+/// `refused` no solver of this library returns it.
 struct TrustLevels {
   double trusted = 1e-9;
   double refused = 1e-6;

@@ -8,9 +8,9 @@ namespace antilock {
 /// Where each unknown stands among the unknowns to solve for: the free ones in their own order, the contact ones last.
 struct FreeNumbering {
   explicit FreeNumbering(const VariationalInequality& problem);
-  std::vector<int> unknown;   ///< F: place -> unknown
-  std::vector<int> place;     ///< N: unknown -> place, -1 where fixed
-  int interior = 0;           ///< F - C: the contact unknowns stand at interior, interior + 1, ...
+  std::vector<int> unknown;  ///< F: place -> unknown
+  std::vector<int> place;    ///< N: unknown -> place, -1 where fixed
+  int interior = 0;          ///< F - C: the contact unknowns stand at interior, interior + 1, ...
 };
 
 /// Upper triangle (F x F, in the places of FreeNumbering) of K = A1 + delta^-1 B' M B on the free unknowns.

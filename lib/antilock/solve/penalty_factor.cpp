@@ -133,8 +133,10 @@ void PenaltyFactor::refactor(const VariationalInequality& problem, double delta)
   if (cholmod_->common.status == CHOLMOD_NOT_POSDEF) {
     const auto column = cholmod_->l->minor;
     const int unknown = numbering_.unknown[static_cast<int*>(cholmod_->l->Perm)[column]];
-    throw Error(fmt::format("solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
-                            "by nothing; accepted: enough fixed unknowns", delta, unknown));
+    throw Error(fmt::format(
+        "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
+        "by nothing; accepted: enough fixed unknowns",
+        delta, unknown));
   }
   if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
   contact_block_ = cholmod_->trailing_block(numbering_.interior);

@@ -7,13 +7,14 @@
 
 namespace antilock {
 
-/// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B (CHOLMOD, supernodal) with the
-/// contact unknowns ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur complement,
-/// so the whole contact problem is solved on it for next to nothing.
-/// It serves every load, every bound and, where delta is the same, every compliance of one matrix pair (A1, B).
+/// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B (CHOLMOD, supernodal) with
+/// the contact unknowns ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur
+/// complement, so the whole contact problem is solved on it for next to nothing. It serves every load, every bound and,
+/// where delta is the same, every compliance of one matrix pair (A1, B).
 class PenaltyFactor {
  public:
-  /// Throws Error if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of memory.
+  /// Throws Error if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of
+  /// memory.
   PenaltyFactor(const VariationalInequality& problem, double delta);
   /// The usual penalty: delta = max(compliance, penalty); the compliance itself where nothing is gained by less.
   explicit PenaltyFactor(const VariationalInequality& problem);
@@ -33,8 +34,8 @@ class PenaltyFactor {
   /// C x C lower triangular trailing block of L.
   const Eigen::MatrixXd& contact_block() const { return contact_block_; }
 
-  int factorisations = 0;   ///< numeric factorisations so far
-  int solves = 0;           ///< forward + backward pairs so far
+  int factorisations = 0;                          ///< numeric factorisations so far
+  int solves = 0;                                  ///< forward + backward pairs so far
   double analyse_seconds = 0, factor_seconds = 0;  ///< of the last analysis and factorisation
   double factor_entries() const;                   ///< nonzeros of L
 

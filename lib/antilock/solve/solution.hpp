@@ -10,7 +10,7 @@ struct Kkt {
   double min_gap = 0;          ///< smallest u - lower over the contact unknowns / scale of u; >= 0 up to round-off
   double min_pressure = 0;     ///< smallest lambda / scale of the forces; >= 0 up to round-off
   double complementarity = 0;  ///< largest |lambda (u - lower)| / (the two scales)
-  double residual = 0;         ///< split form: A1 u + B' M p - L - lambda = 0 and compliance p = B u, the larger of the two
+  double residual = 0;  ///< split form: A1 u + B' M p - L - lambda = 0 and compliance p = B u, the larger of the two
 };
 
 /// What the solve did: counted, so that a test can assert that an absent effect costs nothing.
@@ -30,10 +30,10 @@ struct SolveSeconds {
 /// The answer of every solver.
 struct Solution {
   std::string solver;
-  Eigen::VectorXd u;            ///< N, every unknown, the fixed ones too
-  Eigen::VectorXd p;            ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
-  Eigen::VectorXd lambda;       ///< C contact forces, one a contact unknown, >= 0 (a force; measure/ turns it to a density)
-  std::vector<bool> active;     ///< C: in contact
+  Eigen::VectorXd u;       ///< N, every unknown, the fixed ones too
+  Eigen::VectorXd p;       ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
+  Eigen::VectorXd lambda;  ///< C contact forces, one a contact unknown, >= 0 (a force; measure/ turns it to a density)
+  std::vector<bool> active;  ///< C: in contact
   Kkt kkt;
   Counters counters;
   SolveSeconds seconds;

@@ -1,4 +1,5 @@
-// Crouzeix-Raviart, Section 4.2: affine on each triangle, continuous at the edge midpoints only, where its unknowns sit.
+// Crouzeix-Raviart, Section 4.2: affine on each triangle, continuous at the edge midpoints only, where its unknowns
+// sit.
 #include "antilock/space/element.hpp"
 
 namespace antilock {

@@ -1,0 +1,90 @@
+#include "antilock/solve/uzawa.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/iterated_penalty.hpp"
+#include "antilock/solve/power_iteration.hpp"
+#include "antilock/solve/stopwatch.hpp"
+
+namespace antilock {
+namespace {
+
+/// Uzawa on Gamma_C alone. The compliance C = S^-1 maps contact forces to displacements.
+class CondensedUzawa {
+ public:
+  CondensedUzawa(const PenaltyFactor& factor, const UzawaOptions& options) : options_(options) {
+    const auto& l = factor.contact_block();
+    const Eigen::MatrixXd inverse =
+        l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(l.rows(), l.cols()));
+    compliance_ = inverse.transpose() * inverse;
+    if (options.step) {
+      rho_ = *options.step;
+    } else {
+      const Eigen::MatrixXd stiffness = l.triangularView<Eigen::Lower>() * l.transpose();
+      const double largest =
+          largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(compliance_ * x); }, l.rows());
+      const double smallest =
+          1 / largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(stiffness * x); }, l.rows());
+      rho_ = 2 / (largest + smallest);
+    }
+  }
+
+  ContactAnswer operator()(const ContactProblem& p, const ContactAnswer& before, int) {
+    ContactAnswer answer;
+    answer.lambda = before.lambda.size() > 0 ? before.lambda : Eigen::VectorXd::Zero(p.q.size());
+    const Eigen::VectorXd unloaded = compliance_ * p.q;
+    while (true) {
+      answer.v = unloaded + compliance_ * answer.lambda;
+      const Eigen::VectorXd next = (answer.lambda - rho_ * (answer.v - p.lower)).cwiseMax(0.0);
+      const double scale = std::max({answer.v.cwiseAbs().maxCoeff(), p.lower.cwiseAbs().maxCoeff(), p.u_scale});
+      const double change = scale > 0 ? (next - answer.lambda).cwiseAbs().maxCoeff() / rho_ / scale : 0;
+      answer.lambda = next;
+      ++answer.steps;
+      history.push_back(change);
+      if (change <= options_.tolerance) break;
+      const bool late = answer.steps % 256 == 0 && watch_.seconds() > options_.max_seconds;
+      if (!std::isfinite(change) || late || static_cast<int>(history.size()) >= options_.max_steps)
+        throw NotConverged(
+            fmt::format("uzawa: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}",
+                        change, history.size(), watch_.seconds(), options_.tolerance),
+            change, static_cast<int>(history.size()));
+    }
+    answer.active.resize(p.q.size());
+    for (Eigen::Index i = 0; i < p.q.size(); ++i) answer.active[i] = answer.lambda(i) > 0;
+    answer.v = unloaded + compliance_ * answer.lambda;
+    return answer;
+  }
+
+  std::vector<double> history;
+
+ private:
+  UzawaOptions options_;
+  Eigen::MatrixXd compliance_;
+  double rho_ = 0;
+  Stopwatch watch_;
+};
+
+}  // namespace
+
+Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options) {
+  CorrectionOptions corrections;
+  corrections.tolerance = std::max(options.tolerance, 1e-12);
+  if (problem.contact.empty()) return iterated_penalty(problem, factor, {}, corrections, "uzawa");
+  CondensedUzawa contact(factor, options);
+  Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");
+  solution.counters.contact = static_cast<int>(contact.history.size());
+  solution.history = std::move(contact.history);
+  return solution;
+}
+
+Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
+  check(problem);
+  PenaltyFactor factor(problem);
+  return uzawa(problem, factor, options);
+}
+
+}  // namespace antilock

@@ -1,0 +1,33 @@
+#pragma once
+#include <limits>
+#include <optional>
+
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/penalty_factor.hpp"
+#include "antilock/solve/solution.hpp"
+
+namespace antilock {
+
+struct UzawaOptions {
+  double tolerance = 1e-10;  ///< on the step in the gap, |lambda - max(0, lambda - rho gap)| / rho, relative to max |u|
+  int max_steps = 1'000'000;                                     ///< reached: NotConverged
+  double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock; reached: NotConverged
+  std::optional<double>
+      step;  ///< rho; empty: 2 / (largest + smallest eigenvalue of the compliance), estimated by power iteration
+};
+
+/// The paper's algorithm: projected gradient on the contact pressure,
+///     A u = L + lambda,   lambda <- max(0, lambda - rho (u - lower))   on Gamma_C,
+/// the linear solve by Cholesky. Condensed on Gamma_C (the compliance is dense there and small) a step costs a product
+/// with a C x C matrix; the stiff part is treated by iterated penalty, as in active_set. history holds one entry a
+/// step. Throws NotConverged, with how far it came, instead of ever returning an unconverged answer.
+Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options = {});
+Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options = {});
+
+/// The paper's algorithm with the paper's linear solver (Section 4.2): A1 + compliance^-1 B' M B summed into one
+/// matrix, one run of conjugate gradients preconditioned by ILUT a step. Kept to be compared against: the sum loses
+/// digits, and ILUT breaks down on stiff meshes that are not aligned with the layer, which is reported, never returned
+/// as an answer. Throws Error at compliance = 0, where the sum does not exist.
+Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options = {});
+
+}  // namespace antilock
