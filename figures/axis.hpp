@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace antilock::figures {
+
+struct Tick {
+  double value;
+  std::string label;  ///< markup; empty: a small tick without a number
+};
+
+/// A range of numbers with its ticks, on a straight or a logarithmic scale.
+class Axis {
+ public:
+  /// Widens [low, high] a little so that no point lies on the frame. Throws Error for a range that cannot be drawn.
+  static Axis logarithmic(double low, double high);
+  /// Exactly [low, high], with about as many ticks as asked for. Throws Error likewise.
+  static Axis linear(double low, double high, int about = 5);
+  /// Where a value lies between the ends, 0 to 1.
+  double place(double value) const;
+  const std::vector<Tick>& ticks() const { return ticks_; }
+  double low() const { return low_; }
+  double high() const { return high_; }
+
+ private:
+  Axis(double low, double high, bool logarithmic) : low_(low), high_(high), logarithmic_(logarithmic) {}
+  double low_, high_;
+  bool logarithmic_;
+  std::vector<Tick> ticks_;
+};
+
+/// A number as a reader writes it: `0.05`, `−0.2`, `$10^{−6}$`.
+std::string number_markup(double value);
+
+/// What a legend calls an entry of a table: `$ε = 10^{−6}$`, `$P_1$`, `structured mesh`.
+std::string entry_markup(const std::string& column, const std::string& value);
+
+}  // namespace antilock::figures

@@ -1,0 +1,176 @@
+// Curves on logarithmic scales, as in Figure 9.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "antilock/scene/error.hpp"
+#include "panel.hpp"
+#include "pictures.hpp"
+#include "table.hpp"
+
+namespace antilock::figures {
+namespace {
+
+struct Sample {
+  double x, y;
+};
+
+using Key = std::vector<std::string>;
+
+/// Panels and series by name, in the order in which the table brings them.
+struct Curves {
+  std::vector<std::string> panels, series;
+  std::map<std::pair<std::string, std::string>, std::vector<Sample>> samples;
+};
+
+std::string key_name(const Table& table, std::size_t row, const Key& columns) {
+  std::string name;
+  for (const std::string& column : columns)
+    name += (name.empty() ? "" : ", ") + entry_markup(column, table.text(row, column));
+  return name;
+}
+
+bool kept(const Table& table, std::size_t row, const std::vector<std::string>& filters) {
+  return std::all_of(filters.begin(), filters.end(), [&](const std::string& filter) {
+    const auto equals = filter.find('=');
+    if (equals == std::string::npos) throw Error(fmt::format("filter '{}': accepted: column=value", filter));
+    return table.text(row, filter.substr(0, equals)) == filter.substr(equals + 1);
+  });
+}
+
+Curves read_curves(const Table& table, const ChartStyle& style) {
+  Curves curves;
+  const auto remember = [](std::vector<std::string>& names, const std::string& name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (!kept(table, row, style.filters)) continue;
+    const std::string panel = key_name(table, row, style.panel_by), series = key_name(table, row, style.series_by);
+    remember(curves.panels, panel);
+    remember(curves.series, series);
+    curves.samples[{panel, series}].push_back({table.number(row, style.x), table.number(row, style.y)});
+  }
+  for (auto& [name, samples] : curves.samples)
+    std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.x < b.x; });
+  return curves;
+}
+
+bool drawable(const Sample& s) { return s.x > 0 && s.y > 0 && std::isfinite(s.x) && std::isfinite(s.y); }
+
+/// How the n-th series is drawn; earlier ones are larger, so that curves on top of each other all show.
+struct Look {
+  Colour colour;
+  Marker marker;
+  double size, width;
+};
+
+Look look(std::size_t n, std::size_t count) {
+  constexpr Marker shapes[] = {Marker::circle,   Marker::square, Marker::diamond,
+                               Marker::triangle, Marker::cross,  Marker::down_triangle};
+  const double shrink = count > 1 ? static_cast<double>(n) / (count - 1) : 0;
+  return {series_colour(n), shapes[n % 6], 46 - 34 * shrink, 10 - 7 * shrink};
+}
+
+/// A right triangle whose long side has the slope p, in the lower right corner of a panel; each next one stands lower.
+void draw_slopes(Page& page, const Panel& panel, const std::vector<double>& slopes) {
+  const double per_x = panel.box.width / std::log(panel.x.high() / panel.x.low());
+  const double per_y = panel.box.height / std::log(panel.y.high() / panel.y.low());
+  constexpr double base = 120, size = 36;
+  double right = panel.box.right() - 62;
+  for (const double slope : slopes) {
+    const double rise = slope * per_y * base / per_x;
+    const Point corner{right, panel.box.y + 62}, left{right - base, corner.y}, top{right, corner.y + rise};
+    page.line({left, corner, top, left, corner}, {2.5, palette::ink});
+    page.text(corner + Point{-0.5 * base, -12}, "1", {size, {0.5, Anchor::Height::top}});
+    page.text(corner + Point{12, 0.5 * rise}, fmt::format("{:g}", slope), {size, {0, Anchor::Height::middle}});
+    right -= base + 90;
+  }
+}
+
+void draw_curves(Page& page, const Panel& panel, const Curves& curves, const std::string& name) {
+  for (std::size_t n = 0; n < curves.series.size(); ++n) {
+    const auto found = curves.samples.find({name, curves.series[n]});
+    if (found == curves.samples.end()) continue;
+    const Look style = look(n, curves.series.size());
+    std::vector<Point> points;
+    for (const Sample& s : found->second)
+      if (drawable(s)) points.push_back(panel(s.x, s.y));
+    page.line(points, {style.width, style.colour});
+    for (const Point& point : points) page.marker(point, style.marker, style.size, style.colour);
+    for (const Sample& s : found->second)
+      if (!drawable(s) && s.x > 0 && std::isfinite(s.x))
+        page.text({panel(s.x, panel.y.high()).x, panel.box.top() - 30}, "failed",
+                  {30, {1, Anchor::Height::middle}, 90, style.colour});
+  }
+}
+
+/// One line of entries, or as many as they need, centred; returns the height taken.
+double draw_legend(Page& page, const std::vector<std::string>& names, double bottom, bool paint) {
+  constexpr double size = 46, swatch = 100, gap = 70, line = 74;
+  std::vector<std::vector<std::size_t>> lines(1);
+  std::vector<double> widths(1, 0);
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    const double width = swatch + 20 + page.text_width(names[n], size) + gap;
+    if (!lines.back().empty() && widths.back() + width > page.width() - 200) {
+      lines.emplace_back();
+      widths.push_back(0);
+    }
+    lines.back().push_back(n);
+    widths.back() += width;
+  }
+  if (!paint) return line * static_cast<double>(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const double y = bottom + line * static_cast<double>(lines.size() - i - 1) + 0.5 * line;
+    double x = 0.5 * (page.width() - widths[i] + gap);
+    for (const std::size_t n : lines[i]) {
+      const Look style = look(n, names.size());
+      page.line({{x, y}, {x + swatch, y}}, {style.width, style.colour});
+      page.marker({x + 0.5 * swatch, y}, style.marker, style.size, style.colour);
+      page.text({x + swatch + 20, y}, names[n], {size, {0, Anchor::Height::middle}});
+      x += swatch + 20 + page.text_width(names[n], size) + gap;
+    }
+  }
+  return line * static_cast<double>(lines.size());
+}
+
+}  // namespace
+
+Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
+  const Table table(file);
+  const Curves curves = read_curves(table, style);
+  Sample low{HUGE_VAL, HUGE_VAL}, high{0, 0};
+  for (const auto& [name, samples] : curves.samples)
+    for (const Sample& s : samples)
+      if (drawable(s)) {
+        low = {std::min(low.x, s.x), std::min(low.y, s.y)};
+        high = {std::max(high.x, s.x), std::max(high.y, s.y)};
+      }
+  if (high.x == 0) throw Error(fmt::format("{}: no row to draw: {} against {}", file.string(), style.y, style.x));
+
+  const std::size_t count = curves.panels.size(), columns = panel_columns(count),
+                    rows = (count + columns - 1) / columns;
+  const double panel_height = rows == 1 ? 1000 : 700, gap_y = 110, head = 100 + (style.title.empty() ? 0 : 90);
+  const int width = columns > 2 ? 2600 : columns > 1 ? 2100 : 1800;
+  Page page(width, 100);  // measures the legend; the real page follows
+  const double legend = curves.series.size() > 1 ? draw_legend(page, curves.series, 0, false) : 0, foot = legend + 190;
+  const int height = static_cast<int>(rows * panel_height + (rows - 1) * gap_y + head + foot);
+  page = Page(width, height);
+
+  const Axis x = Axis::logarithmic(low.x, high.x), y = Axis::logarithmic(low.y, high.y);
+  const Box area{220, foot, width - 270.0, height - foot - head};
+  const auto boxes = arrange_panels(count, area, 60, gap_y);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Panel panel{boxes[i], x, y};
+    draw_grid(page, panel);
+    draw_curves(page, panel, curves, curves.panels[i]);
+    draw_slopes(page, panel, style.slopes);
+    draw_frame(page, panel,
+               {curves.panels[i], i + columns >= count ? style.x_name : "", i % columns == 0 ? style.y_name : ""});
+  }
+  if (legend > 0) draw_legend(page, curves.series, 30, true);
+  if (!style.title.empty()) page.text({0.5 * width, height - 76.0}, style.title, {58, {0.5}});
+  return page;
+}
+
+}  // namespace antilock::figures

@@ -1,0 +1,116 @@
+// render: one picture from files that the tutorials wrote.
+//
+// Run: render surface results/05_p1_structured/solution.vtu --out figure5.png
+// Run: render chart results/07_convergence/results.csv --x h --y max --panel-by element,mesh --series-by epsilon --out
+// figure9.png
+#include <fmt/format.h>
+#include <vtkObject.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <functional>
+
+#include "antilock/scene/error.hpp"
+#include "pictures.hpp"
+
+namespace {
+
+using namespace antilock::figures;
+
+/// What the command line asks for; each subcommand fills its part.
+struct Request {
+  std::string out, title;
+  std::vector<std::string> inputs, titles;
+  std::vector<double> range{-0.25, 0.25}, own_range;
+  double height_factor = 2;
+  int grid = 0;
+  ChartStyle chart;
+  std::function<Page()> draw;
+};
+
+CLI::App* add_picture(CLI::App& app, Request& request, const std::string& name, const std::string& what,
+                      const std::string& input) {
+  CLI::App* picture = app.add_subcommand(name, what);
+  picture->add_option(input, request.inputs, "the file to read")->required();
+  picture->add_option("--out", request.out, "the PNG file to write")->required();
+  return picture;
+}
+
+void add_pictures(CLI::App& app, Request& request) {
+  auto* domain = add_picture(app, request, "domain", "a labelled domain (Figures 1, 2)", "OUTLINE.csv");
+  domain->add_option("--title", request.title);
+  domain->callback([&] { request.draw = [&] { return domain_picture(request.inputs.at(0), request.title); }; });
+
+  auto* mesh = add_picture(app, request, "mesh", "a mesh with its groups (Figures 3, 6)", "MESH.msh");
+  mesh->add_option("--title", request.title);
+  mesh->callback([&] { request.draw = [&] { return mesh_picture(request.inputs.at(0), request.title); }; });
+
+  auto* surface =
+      add_picture(app, request, "surface", "solutions as surfaces, side by side (Figures 4, 5, 7, 8)", "SOLUTION.vtu");
+  surface->add_option("--title", request.titles, "a title each");
+  surface->add_option("--range", request.range, "smallest and largest u of the scale")
+      ->expected(2)
+      ->capture_default_str();
+  surface->add_option("--last-range", request.own_range, "draw the last surface on this scale of its own")->expected(2);
+  surface->add_option("--height", request.height_factor, "length drawn for a unit of u")
+      ->check(CLI::Range(0.01, 100.0));
+  surface->add_option("--grid", request.grid, "draw lines x, y = k / GRID in place of the mesh's edges")
+      ->check(CLI::Range(1, 256));
+  surface->callback([&] {
+    request.draw = [&] {
+      std::vector<Surface> surfaces;
+      for (std::size_t i = 0; i < request.inputs.size(); ++i)
+        surfaces.push_back({request.inputs[i], i < request.titles.size() ? request.titles[i] : ""});
+      if (!request.own_range.empty()) surfaces.back().own_range = {request.own_range[0], request.own_range[1]};
+      const std::optional<int> grid = request.grid > 0 ? std::optional(request.grid) : std::nullopt;
+      return surface_picture(surfaces, {{request.range[0], request.range[1]}, request.height_factor, grid});
+    };
+  });
+
+  auto* chart = add_picture(app, request, "chart", "curves of a table on logarithmic scales (Figure 9)", "TABLE.csv");
+  chart->add_option("--x", request.chart.x, "column")->required();
+  chart->add_option("--y", request.chart.y, "column")->required();
+  chart->add_option("--x-name", request.chart.x_name, "name of the axis (default: the column)");
+  chart->add_option("--y-name", request.chart.y_name, "name of the axis (default: the column)");
+  chart->add_option("--panel-by", request.chart.panel_by, "columns whose values make panels")->delimiter(',');
+  chart->add_option("--series-by", request.chart.series_by, "columns whose values make curves")->delimiter(',');
+  chart->add_option("--only", request.chart.filters, "column=value: only these rows");
+  chart->add_option("--slope", request.chart.slopes, "triangles of these slopes")->delimiter(',');
+  chart->add_option("--title", request.chart.title);
+  chart->callback([&] {
+    request.draw = [&] {
+      if (request.chart.x_name.empty()) request.chart.x_name = request.chart.x;
+      if (request.chart.y_name.empty()) request.chart.y_name = request.chart.y;
+      return chart_picture(request.inputs.at(0), request.chart);
+    };
+  });
+
+  auto* convergence = add_picture(app, request, "convergence", "the convergence study (Figure 9)", "RESULTS.csv");
+  convergence->add_option("--title", request.title);
+  convergence->callback([&] {
+    request.draw = [&] {
+      return chart_picture(
+          request.inputs.at(0),
+          {"h", "max", "$h$", "$L^∞(Ω)$ error", {"element", "mesh"}, {"epsilon"}, {}, {1, 2}, request.title});
+    };
+  });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Renders one picture (PNG) from files that the tutorials wrote. Needs a display: see xvfb-run."};
+  app.require_subcommand(1);
+  Request request;
+  add_pictures(app, request);
+  CLI11_PARSE(app, argc, argv);
+  try {
+    require_display();
+    vtkObject::GlobalWarningDisplayOff();
+    request.draw().save(request.out);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "render: {}\n", error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,0 +1,14 @@
+#pragma once
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+
+namespace antilock::figures {
+
+/// Reads a VTU file of triangles with point data `u`: a surface in the plane z = 0 whose scalars are u.
+/// Throws Error, naming the file, for one that is missing, malformed, of other cells, or whose u is absent or not
+/// finite.
+vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path);
+
+}  // namespace antilock::figures

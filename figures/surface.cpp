@@ -1,0 +1,265 @@
+// Solutions as surfaces over the domain, as in Figures 4, 5, 7 and 8.
+#include <fmt/format.h>
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkCellArray.h>
+#include <vtkCutter.h>
+#include <vtkLight.h>
+#include <vtkLookupTable.h>
+#include <vtkNew.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "antilock/scene/error.hpp"
+#include "panel.hpp"
+#include "pictures.hpp"
+#include "solution_file.hpp"
+#include "view.hpp"
+
+namespace antilock::figures {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+constexpr double azimuth = 38, elevation = 32;  // of every surface, so that they compare
+constexpr double enlargement = 2;  // VTK's line widths are in pixels of the page rendered at twice its size
+
+/// The surface lifted to (x, y, height of u).
+vtkSmartPointer<vtkPolyData> lifted(const vtkSmartPointer<vtkPolyData>& flat, double factor) {
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->DeepCopy(flat);
+  vtkDataArray* u = surface->GetPointData()->GetScalars();
+  for (vtkIdType i = 0; i < surface->GetNumberOfPoints(); ++i) {
+    const double* p = flat->GetPoint(i);
+    surface->GetPoints()->SetPoint(i, p[0], p[1], factor * u->GetTuple1(i));
+  }
+  return surface;
+}
+
+vtkSmartPointer<vtkLookupTable> viridis_table(const Range& range) {
+  auto table = vtkSmartPointer<vtkLookupTable>::New();
+  table->SetNumberOfTableValues(256);
+  for (int i = 0; i < 256; ++i) {
+    const Colour c = viridis(i / 255.0);
+    table->SetTableValue(i, c[0], c[1], c[2], 1);
+  }
+  table->SetRange(range.low, range.high);
+  return table;
+}
+
+void add_lines(vtkRenderer& renderer, const std::vector<std::pair<Vector, Vector>>& lines, double width,
+               const Colour& colour) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> cells;
+  for (const auto& [from, to] : lines) {
+    const vtkIdType ends[2] = {points->InsertNextPoint(from.data()), points->InsertNextPoint(to.data())};
+    cells->InsertNextCell(2, ends);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetLines(cells);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(enlargement * width));
+  actor->GetProperty()->LightingOff();
+  renderer.AddActor(actor);
+}
+
+/// Lines x = k/n and y = k/n on the surface, for meshes whose own edges would be a black mass.
+void add_grid(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface, int n, const Vector& towards_eye) {
+  const double* bounds = surface->GetBounds();
+  for (const int axis : {0, 1}) {
+    vtkNew<vtkPlane> plane;
+    plane->SetNormal(axis == 0, axis == 1, 0);
+    vtkNew<vtkCutter> cutter;
+    cutter->SetCutFunction(plane);
+    cutter->SetInputData(surface);
+    cutter->GenerateCutScalarsOff();
+    int line = 0;
+    for (int k = static_cast<int>(std::ceil(bounds[2 * axis] * n)); k <= bounds[2 * axis + 1] * n; ++k)
+      cutter->SetValue(line++, static_cast<double>(k) / n);
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputConnection(cutter->GetOutputPort());
+    mapper->ScalarVisibilityOff();
+    vtkNew<vtkActor> actor;
+    actor->SetMapper(mapper);
+    const Vector forward = 0.004 * towards_eye;  // in front of the surface they lie on
+    actor->SetPosition(forward.x(), forward.y(), forward.z());
+    actor->GetProperty()->SetColor(0.1, 0.1, 0.1);
+    actor->GetProperty()->SetLineWidth(1.1f * enlargement);
+    actor->GetProperty()->LightingOff();
+    renderer.AddActor(actor);
+  }
+}
+
+void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface, const Range& range,
+                 const std::optional<int>& grid, const Vector& towards_eye) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(surface);
+  mapper->SetLookupTable(viridis_table(range));
+  mapper->SetScalarRange(range.low, range.high);
+  mapper->InterpolateScalarsBeforeMappingOn();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  vtkProperty* property = actor->GetProperty();
+  property->SetInterpolationToFlat();
+  property->SetAmbient(0.55);
+  property->SetDiffuse(0.5);
+  property->SetSpecular(0);
+  if (!grid) {
+    property->EdgeVisibilityOn();
+    property->SetEdgeColor(0.1, 0.1, 0.1);
+    property->SetLineWidth(1.1f * enlargement);
+  }
+  renderer.AddActor(actor);
+  if (grid) add_grid(renderer, surface, *grid, towards_eye);
+}
+
+/// The box around a surface: floor and the two walls behind, with grid lines at the ticks, below the surface.
+struct Room {
+  Eigen::AlignedBox3d space;
+  Axis x, y, u;
+  double factor;  // height drawn for a unit of u
+};
+
+Room make_room(const vtkSmartPointer<vtkPolyData>& flat, const Range& range, double height) {
+  const double* b = flat->GetBounds();
+  const double factor = height / (range.high - range.low);
+  const Eigen::AlignedBox3d space(Vector(b[0], b[2], factor * range.low), Vector(b[1], b[3], factor * range.high));
+  return {space, Axis::linear(b[0], b[1], 2), Axis::linear(b[2], b[3], 4), Axis::linear(range.low, range.high), factor};
+}
+
+void add_walls(vtkRenderer& renderer, const Room& room) {
+  const Vector &low = room.space.min(), &high = room.space.max();  // the eye looks from high x and low y
+  std::vector<std::pair<Vector, Vector>> grid;
+  for (const Tick& t : room.x.ticks()) {
+    grid.push_back({{t.value, low.y(), low.z()}, {t.value, high.y(), low.z()}});
+    grid.push_back({{t.value, high.y(), low.z()}, {t.value, high.y(), high.z()}});
+  }
+  for (const Tick& t : room.y.ticks()) {
+    grid.push_back({{low.x(), t.value, low.z()}, {high.x(), t.value, low.z()}});
+    grid.push_back({{low.x(), t.value, low.z()}, {low.x(), t.value, high.z()}});
+  }
+  for (const Tick& t : room.u.ticks()) {
+    const double z = room.factor * t.value;
+    grid.push_back({{low.x(), high.y(), z}, {high.x(), high.y(), z}});
+    grid.push_back({{low.x(), low.y(), z}, {low.x(), high.y(), z}});
+  }
+  add_lines(renderer, grid, 1.5, {0.8, 0.8, 0.8});
+  const auto corner = [&](bool x, bool y, bool z) {
+    return Vector(x ? high.x() : low.x(), y ? high.y() : low.y(), z ? high.z() : low.z());
+  };
+  add_lines(renderer,
+            {{corner(0, 0, 0), corner(1, 0, 0)},
+             {corner(1, 0, 0), corner(1, 1, 0)},
+             {corner(0, 0, 0), corner(0, 1, 0)},
+             {corner(0, 1, 0), corner(1, 1, 0)},
+             {corner(0, 0, 0), corner(0, 0, 1)},
+             {corner(0, 1, 0), corner(0, 1, 1)},
+             {corner(1, 1, 0), corner(1, 1, 1)},
+             {corner(0, 0, 1), corner(0, 1, 1)},
+             {corner(0, 1, 1), corner(1, 1, 1)}},
+            2, palette::ink);
+  add_lines(renderer, {{{low.x(), 0, low.z()}, {high.x(), 0, low.z()}}}, 4, palette::green);  // Sigma, on the floor
+}
+
+/// Numbers and a name along one edge of the room; `outward` points away from it.
+void label_edge(Page& page, const View& view, const Axis& axis, const std::function<Vector(double)>& place,
+                const Vector& outward, const std::string& name, double size, double name_distance) {
+  const Point full = view(place(axis.low()) + outward) - view(place(axis.low())), away = (1 / length(full)) * full;
+  for (const Tick& t : axis.ticks()) {
+    const Point at = view(place(t.value));
+    page.line({at, at + 14.0 * away}, {2.5});
+    page.text(at + (0.75 * size + 8) * away, t.label, {size, {0.5 - 0.5 * away.x, Anchor::Height::middle}});
+  }
+  const Point middle = view(place(0.5 * (axis.low() + axis.high())));
+  page.text(middle + (name_distance * size) * away, name, {1.2 * size, {0.5, Anchor::Height::middle}});
+}
+
+/// Numbers and names along the front edges of the floor and the front edge of the left wall, and the domain's parts.
+void label_room(Page& page, const View& view, const Room& room, double size) {
+  const Vector &low = room.space.min(), &high = room.space.max();
+  label_edge(
+      page, view, room.x, [&](double v) { return Vector(v, low.y(), low.z()); }, {0, -1, 0}, "$x$", size, 2.9);
+  label_edge(
+      page, view, room.y, [&](double v) { return Vector(high.x(), v, low.z()); }, {1, 0, 0}, "$y$", size, 3.2);
+  label_edge(
+      page, view, room.u, [&](double v) { return Vector(low.x(), low.y(), room.factor * v); }, {-1, 0, 0}, "$u$", size,
+      3.6);
+
+  const double inset = high.x() - 0.1 * (high.x() - low.x());
+  const Anchor centre{0.5, Anchor::Height::middle};
+  page.text(view({inset, 0.25 * high.y(), low.z()}), "$Ω^+$", {1.1 * size, centre, 0, {0.4, 0.4, 0.4}});
+  page.text(view({inset, 0.25 * low.y(), low.z()}), "$Ω^−$", {1.1 * size, centre, 0, {0.4, 0.4, 0.4}});
+  page.text(view({inset, 0, low.z()}) + Point{0, 0.7 * size}, "$Σ$", {1.1 * size, centre, 0, palette::green});
+}
+
+void draw_colour_bar(Page& page, const Box& box, const Range& range, double size) {
+  constexpr int steps = 256;
+  for (int i = 0; i < steps; ++i)
+    page.fill(Box{box.x, box.y + box.height * i / steps, box.width, box.height / steps + 1.0},
+              viridis((i + 0.5) / steps));
+  page.rectangle(box, {2.5});
+  const Axis axis = Axis::linear(range.low, range.high);
+  for (const Tick& tick : axis.ticks()) {
+    const double y = box.y + box.height * (tick.value - range.low) / (range.high - range.low);
+    page.line({{box.right(), y}, {box.right() + 12, y}}, {2.5});
+    page.text({box.right() + 24, y}, tick.label, {size, {0, Anchor::Height::middle}});
+  }
+  page.text({box.centre().x, box.top() + 30}, "$u$", {1.25 * size, {0.5}});
+}
+
+}  // namespace
+
+Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style) {
+  for (const Range& range : {style.range, surfaces.front().own_range.value_or(style.range)})
+    if (!(range.high > range.low) || !std::isfinite(range.high - range.low))
+      throw Error(fmt::format("range {} {}: accepted: two finite numbers, the smaller first", range.low, range.high));
+
+  constexpr double cell_width = 1500, cell_height = 1250, bar_room = 300, size = 46;
+  const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
+  const double head = titled ? 120 : 20;
+  const auto own_bars =
+      std::count_if(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.own_range.has_value(); });
+  const bool shared_bar = own_bars < static_cast<long>(surfaces.size());
+  const double width = surfaces.size() * cell_width + (own_bars + shared_bar) * bar_room;
+  Page page(static_cast<int>(width), static_cast<int>(cell_height + head));
+
+  double left = 0;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    const Surface& surface = surfaces[i];
+    const Range range = surface.own_range.value_or(style.range);
+    const auto flat = read_solution(surface.solution);
+    const Room room = make_room(flat, range, style.height_factor * (style.range.high - style.range.low));
+    const Box cell{left, 0, cell_width, cell_height}, inside{left + 190, 150, cell_width - 230, cell_height - 170};
+    const View view(room.space, inside, azimuth, elevation);
+
+    auto renderer = vtkSmartPointer<vtkRenderer>::New();
+    renderer->SetActiveCamera(View(room.space, inside, azimuth, elevation).camera());
+    add_walls(*renderer, room);
+    add_surface(*renderer, lifted(flat, room.factor), range, style.grid, view.towards_eye());
+    page.scene(renderer, inside);
+    label_room(page, view, room, size);
+    if (!surface.title.empty()) page.text({cell.centre().x, cell_height + 24}, surface.title, {60, {0.5}});
+    left += cell_width;
+    const bool last_shared =
+        shared_bar && !surface.own_range &&
+        (i + 1 == surfaces.size() || std::all_of(surfaces.begin() + i + 1, surfaces.end(),
+                                                 [](const Surface& s) { return s.own_range.has_value(); }));
+    if (surface.own_range || last_shared) {
+      draw_colour_bar(page, {left + 30, 300, 60, cell_height - 500}, range, size);
+      left += bar_room;
+    }
+  }
+  return page;
+}
+
+}  // namespace antilock::figures
