@@ -1,0 +1,294 @@
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <csignal>
+#include <functional>
+#include <limits>
+#include <sstream>
+
+#include "antilock/io/atomic_file.hpp"
+#include "antilock/io/writers.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/msh_file.hpp"
+#include "antilock/scene/error.hpp"
+#include "antilock/space/element.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace antilock {
+namespace {
+
+using test::contents;
+using test::TemporaryFolder;
+namespace fs = std::filesystem;
+
+std::string refusal(const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::vector<double> numbers(const std::string& text) {
+  std::vector<double> found;
+  std::istringstream in(text);
+  for (std::string word; in >> word;) {
+    double number = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+    EXPECT_TRUE(error == std::errc{} && end == word.data() + word.size()) << word;
+    found.push_back(number);
+  }
+  return found;
+}
+
+/// Data of the VTU array that follows `opening`.
+std::vector<double> vtu_array(const std::string& text, const std::string& opening) {
+  const std::size_t from = text.find('>', text.find(opening));
+  return numbers(text.substr(from + 1, text.find('<', from) - from - 1));
+}
+
+// ---- whole files or none
+
+TEST(WriteFile, MakesFoldersAndReplacesTheOldFile) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "a/b/c.txt";
+  for (const char* text : {"first, the longer one", "second"}) {
+    write_file(path, [&](std::ostream& out) { out << text; });
+    EXPECT_EQ(contents(path), text);
+  }
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(WriteFile, AFailureHalfWayLeavesTheOldFileAndNothingElse) {
+  const TemporaryFolder folder;
+  write_file(folder / "kept.txt", [](std::ostream& out) { out << "old"; });
+  const auto fails = [](std::ostream& out) {
+    out << std::string(1 << 20, 'x');
+    throw Error("half way");
+  };
+  EXPECT_EQ(refusal([&] { write_file(folder / "kept.txt", fails); }), "half way");
+  EXPECT_EQ(refusal([&] { write_file(folder / "new.txt", fails); }), "half way");
+  EXPECT_EQ(contents(folder / "kept.txt"), "old");
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(WriteFile, AFullDiskIsReportedAndLeavesNothing) {
+  const TemporaryFolder folder;
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit small{1 << 16, before.rlim_max};  // writes beyond it fail like those on a full disk
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string message = refusal([&] { write_msh(folder / "mesh.msh", structured_mesh(64)); });
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(message.find("mesh.msh: cannot be written"), message.npos) << message;
+  EXPECT_EQ(folder.file_count(), 0);
+}
+
+TEST(WriteFile, PathsThatCannotBeWrittenAreRefusedInOneLine) {
+  const TemporaryFolder folder;
+  write_file(folder / "file", [](std::ostream& out) { out << "a file, no folder"; });
+  fs::create_directory(folder / "folder");
+  for (const char* bad : {"file/below.csv", "file/deep/below.csv", "folder", "folder/"}) {
+    const fs::path path = folder / bad;
+    const std::string message = refusal([&] { write_file(path, [](std::ostream& out) { out << 1; }); });
+    EXPECT_EQ(message.rfind(path.string() + ": cannot be written: ", 0), 0U) << message;
+    EXPECT_EQ(message.find('\n'), message.npos);
+  }
+  EXPECT_NE(refusal([] { write_file("", [](std::ostream&) {}); }), "");
+  EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(WriteFile, NumbersOnTheStreamReadBackAsTheSameDouble) {
+  const TemporaryFolder folder;
+  const double third = 1.0 / 3;
+  write_file(folder / "x", [&](std::ostream& out) { out << third; });
+  EXPECT_EQ(numbers(contents(folder / "x")).at(0), third);
+}
+
+// ---- meshes
+
+TEST(WriteMsh, AMeshComesBackAsItWas) {
+  const TemporaryFolder folder;
+  const std::array meshes = {structured_mesh(5), structured_mesh(4, Domain{0}), structured_mesh(3, {}, Diagonal::left),
+                             structured_mesh(4, Domain{0.125}), unstructured_mesh(6)};
+  for (const TriangleMesh& mesh : meshes) {
+    write_msh(folder / "mesh.msh", mesh);
+    const TriangleMesh back = read_msh((folder / "mesh.msh").string());
+    EXPECT_EQ(back.vertices, mesh.vertices);  // bit by bit
+    EXPECT_EQ(back.triangles, mesh.triangles);
+    EXPECT_EQ(back.region, mesh.region);
+    EXPECT_EQ(back.edges, mesh.edges);
+    EXPECT_EQ(back.edge_tag, mesh.edge_tag);
+  }
+}
+
+TEST(WriteMsh, NamesTheGroupsThatAreThereAndNoOthers) {
+  const TemporaryFolder folder;
+  write_msh(folder / "two.msh", structured_mesh(2));
+  EXPECT_NE(contents(folder / "two.msh")
+                .find("5\n1 3 \"sigma\"\n1 4 \"clamped\"\n1 5 \"contact\"\n2 1 \"body\"\n2 2 \"layer\"\n"),
+            std::string::npos);
+  write_msh(folder / "one.msh", structured_mesh(2, Domain{0}));
+  EXPECT_NE(contents(folder / "one.msh").find("3\n1 4 \"clamped\"\n1 5 \"contact\"\n2 1 \"body\"\n$End"),
+            std::string::npos);
+}
+
+TEST(WriteFreefemMesh, HoldsTheCountsTheLabelsAndTheSameNumbering) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = structured_mesh(4);
+  write_freefem_mesh(folder / "mesh.freefem.msh", mesh);
+  const std::vector<double> n = numbers(contents(folder / "mesh.freefem.msh"));
+  const int labelled = 4 + 4 + 4 + 16;  // sigma, contact, the top, the four sides
+  ASSERT_EQ(n.size(), 3U + 3U * mesh.vertex_count() + 4U * mesh.triangle_count() + 3U * labelled);
+  EXPECT_EQ(n[0], mesh.vertex_count());
+  EXPECT_EQ(n[1], mesh.triangle_count());
+  EXPECT_EQ(n[2], labelled);
+  for (int v = 0; v < mesh.vertex_count(); ++v) EXPECT_EQ(n[3 + 3 * v + 1], mesh.vertices(v, 1));
+  const std::size_t triangles = 3 + 3 * mesh.vertex_count(), edges = triangles + 4 * mesh.triangle_count();
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    EXPECT_EQ(n[triangles + 4 * t + 2], mesh.triangles(t, 2) + 1);
+    EXPECT_EQ(n[triangles + 4 * t + 3], static_cast<int>(mesh.region[t]));
+  }
+  std::array<int, 6> labels{};
+  for (int e = 0; e < labelled; ++e) {
+    const int from = static_cast<int>(n[edges + 3 * e]) - 1, to = static_cast<int>(n[edges + 3 * e + 1]) - 1;
+    const int label = static_cast<int>(n[edges + 3 * e + 2]);
+    ++labels.at(label);
+    if (label == 5) {  // the domain lies on the left
+      EXPECT_LT(mesh.vertices(from, 0), mesh.vertices(to, 0));
+    }
+  }
+  EXPECT_EQ(labels[3], 4);
+  EXPECT_EQ(labels[4], 20);
+  EXPECT_EQ(labels[5], 4);
+}
+
+// ---- tables
+
+TEST(WriteCsv, EveryDoubleReadsBackBitEqual) {
+  const TemporaryFolder folder;
+  constexpr int rows = 2000;
+  Eigen::MatrixXd table = Eigen::MatrixXd::Random(rows, 3);
+  for (int i = 0; i < rows; ++i) table(i, 0) *= std::pow(10.0, i % 600 - 300);
+  table.row(0) << std::numeric_limits<double>::max(), std::numeric_limits<double>::denorm_min(), -0.0;
+  write_csv(folder / "t.csv", {"a", "b", "c"}, table);
+  std::string text = contents(folder / "t.csv");
+  EXPECT_EQ(text.substr(0, 6), "a,b,c\n");
+  std::replace(text.begin(), text.end(), ',', ' ');
+  const std::vector<double> back = numbers(text.substr(6));
+  ASSERT_EQ(back.size(), 3U * rows);
+  for (int i = 0; i < 3 * rows; ++i) {
+    EXPECT_EQ(back[i], table(i / 3, i % 3));
+    EXPECT_EQ(std::signbit(back[i]), std::signbit(table(i / 3, i % 3)));
+  }
+}
+
+TEST(WriteCsv, HeadersThatDoNotFitAreRefused) {
+  const TemporaryFolder folder;
+  const Eigen::MatrixXd table = Eigen::MatrixXd::Zero(2, 2);
+  const std::vector<std::vector<std::string>> bad = {{},           {"x"},         {"x", "y", "z"},
+                                                     {"x", "y,z"}, {"x", "a\nb"}, {"x", ""}};
+  for (const auto& header : bad) {
+    const std::string message = refusal([&] { write_csv(folder / "t.csv", header, table); });
+    EXPECT_NE(message.find("t.csv: "), message.npos);
+    EXPECT_EQ(message.find('\n'), message.npos);
+  }
+  EXPECT_EQ(folder.file_count(), 0);
+}
+
+TEST(WriteSolutionCsv, HoldsOneRowAnUnknownAtItsPlace) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = structured_mesh(3);
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const Space space(mesh, *element);
+    const Eigen::VectorXd u = Eigen::VectorXd::Random(space.size());
+    write_solution_csv(folder / "solution.csv", space, u);
+    std::string text = contents(folder / "solution.csv");
+    EXPECT_EQ(text.substr(0, 6), "x,y,u\n");
+    std::replace(text.begin(), text.end(), ',', ' ');
+    const std::vector<double> n = numbers(text.substr(6));
+    ASSERT_EQ(n.size(), 3U * space.size());
+    for (int i = 0; i < space.size(); ++i) {
+      EXPECT_EQ(n[3 * i], space.points()(i, 0));
+      EXPECT_EQ(n[3 * i + 1], space.points()(i, 1));
+      EXPECT_EQ(n[3 * i + 2], u(i));
+    }
+  }
+}
+
+TEST(Writers, ASolutionOfTheWrongSizeOrNotFiniteIsNeverWritten) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = structured_mesh(2);
+  const Space space(mesh, p1());
+  Eigen::VectorXd nan = Eigen::VectorXd::Zero(space.size());
+  nan(1) = std::nan("");
+  for (const Eigen::VectorXd& u : {nan, Eigen::VectorXd(Eigen::VectorXd::Zero(space.size() - 1))}) {
+    EXPECT_NE(refusal([&] { write_solution_csv(folder / "u.csv", space, u); }), "");
+    EXPECT_NE(refusal([&] { write_vtu(folder / "u.vtu", space, u); }), "");
+  }
+  EXPECT_EQ(folder.file_count(), 0);
+}
+
+// ---- VTU
+
+/// Every tag closed, in order.
+bool well_formed(const std::string& text) {
+  std::vector<std::string> open;
+  for (std::size_t at = text.find('<', 1); at != text.npos; at = text.find('<', at + 1)) {
+    const std::string tag = text.substr(at + 1, text.find_first_of(" >", at) - at - 1);
+    if (tag[0] != '/') {
+      open.push_back(tag);
+    } else {
+      if (open.empty() || open.back() != tag.substr(1)) return false;
+      open.pop_back();
+    }
+  }
+  return open.empty();
+}
+
+TEST(WriteVtu, P1SharesItsVerticesAndCrouzeixRaviartKeepsItsJumps) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = structured_mesh(3);
+  const int triangles = mesh.triangle_count();
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const bool shared = element == &p1();
+    const Space space(mesh, *element);
+    const Eigen::VectorXd u = Eigen::VectorXd::Random(space.size());
+    write_vtu(folder / "u.vtu", space, u);
+    const std::string text = contents(folder / "u.vtu");
+    EXPECT_TRUE(well_formed(text));
+    EXPECT_EQ(text.rfind("<?xml version=\"1.0\"?>\n<VTKFile", 0), 0U);
+
+    const auto value = vtu_array(text, "Name=\"u\""), region = vtu_array(text, "Name=\"region\""),
+               point = vtu_array(text, "NumberOfComponents=\"3\""), corner = vtu_array(text, "Name=\"connectivity\""),
+               offset = vtu_array(text, "Name=\"offsets\""), type = vtu_array(text, "Name=\"types\"");
+    EXPECT_EQ(value.size(), shared ? mesh.vertex_count() : 3U * triangles);
+    ASSERT_EQ(point.size(), 3 * value.size());
+    ASSERT_EQ(corner.size(), 3U * triangles);
+    EXPECT_EQ(region.size(), triangles);
+    EXPECT_EQ(type, std::vector<double>(triangles, 5));  // VTK_TRIANGLE
+    for (int t = 0; t < triangles; ++t) {
+      EXPECT_EQ(offset[t], 3 * (t + 1));
+      EXPECT_EQ(region[t], static_cast<int>(mesh.region[t]));
+      Eigen::Vector3d corners;
+      for (int i = 0; i < 3; ++i) {
+        const auto p = static_cast<std::size_t>(corner[3 * t + i]);
+        corners(i) = value.at(p);
+        EXPECT_EQ(point[3 * p], mesh.vertices(mesh.triangles(t, i), 0));
+        EXPECT_EQ(point[3 * p + 1], mesh.vertices(mesh.triangles(t, i), 1));
+      }
+      // the affine function of the file takes u's values at the unknowns; 1e-14: three terms of order 1
+      const Eigen::Vector3d at_unknowns = element->nodes() * corners;
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(at_unknowns(i), u(space.unknowns()(t, i)), 1e-14);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace antilock
