@@ -65,14 +65,16 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
 
   Anderson acceleration(6);
   ContactAnswer answer;
-  double u_scale = 0, before = 0, error = 1;
+  const double b_scale =
+      rows > 0 ? Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff() : 0;
+  double u_scale = 0, before = 0, error = 1, gap = 1;
   for (int correction = 0;; ++correction) {
     if (correction > options.max_corrections)
       throw NotConverged(
-          fmt::format("{}: not converged, or infeasible: estimated relative error {:.1e} after {} corrections, "
-                      "accepted {:.0e}",
-                      name, error, correction - 1, options.tolerance),
-          error, correction - 1);
+          fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative error of u is {:.1e} "
+                      "and compliance p = B u holds to {:.1e}, accepted {:.0e}",
+                      name, correction - 1, error, gap, options.tolerance),
+          std::max(error, gap), correction - 1);
     SplitResidual residual = split_residual(problem, s.u, s.p, no_force);
     if (rows > 0) residual.r1 += problem.b.transpose() * problem.m.cwiseProduct(residual.r2) / delta;
     const Eigen::VectorXd r = residual.r1(factor.numbering().unknown);
@@ -92,10 +94,12 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
       throw NotConverged(name + ": the iterated penalty broke down (not a number)", change, correction);
     s.counters.corrections = correction;
     if (rows == 0 || u_scale == 0) break;  // K is the problem's own matrix: nothing was penalised
+    // what compliance p - B u comes to now: where no u meets the bounds and B u = 0, u settles and this does not
+    gap = std::abs(problem.compliance - delta) * largest(dp) / (b_scale * u_scale);
     if (correction > 0) {
       const double rate = std::clamp(change / before, 0.01, 0.99);
       error = change * rate / (1 - rate);
-      if (error <= options.tolerance) break;
+      if (error <= options.tolerance && gap <= std::max(options.tolerance, change)) break;
     }
     before = change;
     if (answer.active != active_before) acceleration.restart();

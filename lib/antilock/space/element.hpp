@@ -24,11 +24,12 @@ class Element {
   int unknowns() const { return 3 * per_vertex() + 3 * per_edge() + per_triangle(); }
 };
 
-/// The pages, one instance each, alive as long as the program: P1 (vertices, conforming) and
+/// The pages, one instance each, alive as long as the program: P1 and P2 (conforming) and
 /// CR (Crouzeix-Raviart, P1 nonconforming of Section 4.2: edge midpoints).
 const Element& p1();
+const Element& p2();
 const Element& crouzeix_raviart();
-/// By name, "P1" or "CR"; throws Error for another.
+/// By name, "P1", "P2" or "CR"; throws Error for another.
 const Element& element(const std::string& name);
 
 }  // namespace antilock
