@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -31,7 +32,7 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact)
   if (!contact_->gap) throw Error("contact: no gap given; accepted: a function gap(x)");
   for (const double x : {0.0, 1.0}) {
     const double gap = contact_->gap(x);
-    if (!(gap >= 0))
+    if (!(gap >= -1e-12 * std::max(1.0, std::abs(contact_->gap(0.5)))))  // sin(pi) in double precision is 1.2e-16
       throw Error(
           fmt::format("contact: gap({}) = {}, but u = 0 is prescribed there, so no u >= -gap exists; "
                       "accepted: gap >= 0 at x = 0 and x = 1",
