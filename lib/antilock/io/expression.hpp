@@ -1,0 +1,34 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace antilock {
+
+/// A formula from a file, such as `10*sin(2*pi*x)`, parsed once (muParser): numbers, the named variables, pi,
+/// + - * / ^, comparisons, && ||, `condition ? a : b`, and the functions sin cos tan asin acos atan atan2 sinh cosh
+/// tanh exp ln log log2 log10 sqrt abs sign rint min max. Values are dimensionless; angles in radians.
+/// Copies share one parser, and calls from several threads take turns.
+class Expression {
+ public:
+  /// Throws Error, with what is wrong and what is accepted, for a text that is empty, longer than 4,000 characters,
+  /// that does not parse, that names anything unknown, assigns, or holds more than one value.
+  Expression(const std::string& text, const std::vector<std::string>& variables);
+
+  /// The value at one number a variable. Throws Error, with the place, where it is not finite or beyond 1e100.
+  double operator()(std::span<const double> values) const;
+  double operator()(double x) const { return (*this)(std::span(&x, 1)); }
+  double operator()(double x, double y) const;
+
+  const std::string& text() const;
+
+ private:
+  struct Parser;
+  std::shared_ptr<Parser> parser_;
+};
+
+/// Text from a file for use in a message of one line: control characters become '?', long text is cut.
+std::string printable(const std::string& text, std::size_t longest = 60);
+
+}  // namespace antilock

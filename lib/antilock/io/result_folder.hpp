@@ -1,0 +1,18 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace antilock {
+
+/// Throws Error where `folder` could not be made or written: better now than after minutes of work. Touches nothing.
+void check_folder(const std::filesystem::path& folder);
+
+/// Writes the files of one result, all or none: `write` fills a draft folder, whose files then take their places in
+/// `folder`, which is made if absent. Files of `stale` that an earlier result left there go. Throws Error, and leaves
+/// nothing behind, where anything fails before the first file is in place.
+void write_folder(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write,
+                  const std::vector<std::string>& stale = {});
+
+}  // namespace antilock

@@ -1,0 +1,23 @@
+#pragma once
+#include <filesystem>
+
+#include "antilock/io/scene_file.hpp"
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/solution.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// Wall seconds of a run up to the writing of its files.
+struct RunSeconds {
+  double mesh = 0, assemble = 0, factor = 0, solve = 0, total = 0;
+};
+
+/// The answer to a scene file, in `folder`: summary.json, solution.csv, contact.csv (with the effect only), mesh.msh
+/// (MSH 2.2), solution.vtu; all of them or none. Columns and keys are those of `run_scene --help`. Gaps and pressures
+/// that are negative by round-off are written as 0; the summary's `kkt` has them as they are. Throws Error where the
+/// folder cannot be written, NotConverged where a number is not finite.
+void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Space& space,
+                         const VariationalInequality& problem, const Solution& solution, const RunSeconds& seconds);
+
+}  // namespace antilock
