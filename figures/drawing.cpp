@@ -1,6 +1,7 @@
 // The labelled domains of Figures 1 and 2, from a table `kind,name,label,x,y`: a row a corner, in the order of
 // painting. Kinds: page (the two corners of the window), fill, line, arrow, dimension (an arrow both ways), obstacle (a
-// hatched edge), label (markup of typesetter.hpp at its place). The name chooses the colour.
+// hatched edge), label (markup of typesetter.hpp at its place). The first word of the name chooses
+// the colour.
 #include <fmt/format.h>
 
 #include <map>
@@ -23,7 +24,7 @@ Colour colour_of(const std::string& name) {
       {"clamped", palette::ink},   {"layer_clamped", palette::blue}, {"contact", palette::vermillion},
       {"obstacle", palette::grey}, {"axis", palette::grey},
   };
-  const auto found = colours.find(name);
+  const auto found = colours.find(name.substr(0, name.find(' ')));
   return found == colours.end() ? palette::ink : found->second;
 }
 
@@ -49,7 +50,7 @@ void draw_obstacle(Page& page, Point from, Point to) {
 
 void draw(Page& page, const Part& part) {
   const Colour colour = colour_of(part.name);
-  const Stroke stroke{part.name == "axis" ? 3.0 : part.name.empty() ? 5.0 : 9.0, colour};
+  const Stroke stroke{part.name.starts_with("axis") ? 3.0 : part.name.empty() ? 5.0 : 9.0, colour};
   const auto& corners = part.corners;
   if (part.kind == "fill") {
     page.fill(corners, colour);
@@ -63,7 +64,7 @@ void draw(Page& page, const Part& part) {
   } else if (part.kind == "obstacle") {
     draw_obstacle(page, corners.front(), corners.back());
   } else if (part.kind == "label") {
-    const bool small = part.name == "axis";
+    const bool small = part.name.starts_with("axis");
     page.text(corners.front(), part.label,
               {small ? 52.0 : 66.0, {0.5, Anchor::Height::middle}, 0, small ? palette::ink : colour});
   }

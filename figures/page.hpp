@@ -61,7 +61,4 @@ class Page {
   Typesetter typesetter_;
 };
 
-/// Throws Error, saying what to do, unless an X display answers (without one VTK would end the process).
-void require_display();
-
 }  // namespace antilock::figures

@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "antilock/scene/error.hpp"
+#include "display.hpp"
 #include "pictures.hpp"
 
 namespace {
@@ -96,6 +97,11 @@ void add_pictures(CLI::App& app, Request& request) {
   });
 }
 
+int fail(const std::string& message) {
+  fmt::print(stderr, "render: {}\n", message);
+  return 2;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -103,14 +109,19 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   Request request;
   add_pictures(app, request);
-  CLI11_PARSE(app, argc, argv);
   try {
-    require_display();
-    vtkObject::GlobalWarningDisplayOff();
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return fail(std::string(error.what()) + " (see --help)");
+  }
+  try {
+    const DisplayConnection display = connect_display();
+    vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said in one line, below
     request.draw().save(request.out);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "render: {}\n", error.what());
-    return 2;
+    return fail(error.what());
   }
   return 0;
 }

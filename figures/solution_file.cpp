@@ -45,7 +45,7 @@ vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path))
     throw Error(fmt::format("{}: no such file; run the tutorial that writes it first", path.string()));
   const auto grid = read_grid(path);
-  if (grid->GetNumberOfCells() == 0) refuse(path, "no cells");
+  if (grid->GetNumberOfCells() == 0) refuse(path, "no cells, or malformed");
   vtkDataArray* u = grid->GetPointData()->GetArray("u");
   if (u == nullptr || u->GetNumberOfComponents() != 1) refuse(path, "no point data u of one component");
   for (vtkIdType i = 0; i < u->GetNumberOfTuples(); ++i)
@@ -54,7 +54,14 @@ vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path) {
   vtkNew<vtkCellArray> triangles;
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
     if (grid->GetCellType(cell) != VTK_TRIANGLE) refuse(path, fmt::format("cell {} is not a triangle", cell));
-    triangles->InsertNextCell(grid->GetCell(cell));
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    grid->GetCellPoints(cell, size, corners);
+    for (int i = 0; i < 3; ++i)
+      if (corners[i] < 0 || corners[i] >= grid->GetNumberOfPoints())
+        refuse(path, fmt::format("cell {} has a corner {}, but there are {} points", cell, corners[i],
+                                 grid->GetNumberOfPoints()));
+    triangles->InsertNextCell(size, corners);
   }
   auto surface = vtkSmartPointer<vtkPolyData>::New();
   surface->SetPoints(grid->GetPoints());

@@ -217,12 +217,17 @@ void draw_colour_bar(Page& page, const Box& box, const Range& range, double size
   page.text({box.centre().x, box.top() + 30}, "$u$", {1.25 * size, {0.5}});
 }
 
+void check(const Range& range) {
+  if (!(range.high > range.low) || !std::isfinite(range.high - range.low))
+    throw Error(fmt::format("range {} {}: accepted: two finite numbers, the smaller first", range.low, range.high));
+}
+
 }  // namespace
 
 Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style) {
-  for (const Range& range : {style.range, surfaces.front().own_range.value_or(style.range)})
-    if (!(range.high > range.low) || !std::isfinite(range.high - range.low))
-      throw Error(fmt::format("range {} {}: accepted: two finite numbers, the smaller first", range.low, range.high));
+  check(style.range);
+  for (const Surface& surface : surfaces)
+    if (surface.own_range) check(*surface.own_range);
 
   constexpr double cell_width = 1500, cell_height = 1250, bar_room = 300, size = 46;
   const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
