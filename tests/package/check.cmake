@@ -1,0 +1,42 @@
+# What a user of the library does: install it, find_package it from a project of their own, build, run. The project is
+# the README's, word for word. The prefix is moved after the install: nothing in it may know where it was put.
+# Run: cmake -DSOURCE=... -DBUILD=... -DFLAGS=... -DGENERATOR=... -DCOMPILER=... -P check.cmake
+set(work ${BUILD}/tests/package)
+function(run what)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${what} failed (${status}):\n${output}")
+  endif()
+  message(STATUS "${what}: done")
+endfunction()
+
+# Brackets and semicolons would split the texts into lists: compared in hexadecimal.
+file(READ ${SOURCE}/README.md readme HEX)
+foreach(file CMakeLists.txt main.cpp)
+  file(READ ${SOURCE}/tests/package/${file} text HEX)
+  string(FIND "${readme}" "${text}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "README.md does not show tests/package/${file} as it is")
+  endif()
+endforeach()
+
+file(REMOVE_RECURSE ${work})
+run("install" ${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/installed)
+file(RENAME ${work}/installed ${work}/moved)
+file(GLOB_RECURSE headers RELATIVE ${SOURCE}/lib ${SOURCE}/lib/antilock/*.hpp)
+foreach(header ${headers})
+  if(NOT EXISTS ${work}/moved/include/${header})
+    message(FATAL_ERROR "${header} is not installed")
+  endif()
+endforeach()
+file(GLOB_RECURSE configs ${work}/moved/*.cmake)
+foreach(config ${configs})
+  file(STRINGS ${config} leaks REGEX "${SOURCE}/|${BUILD}/")
+  if(leaks)
+    message(FATAL_ERROR "${config} knows this machine: ${leaks}")
+  endif()
+endforeach()
+run("configure" ${CMAKE_COMMAND} -S ${SOURCE}/tests/package -B ${work}/build -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER}
+    -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${work}/moved)
+run("build" ${CMAKE_COMMAND} --build ${work}/build)
+run("run" ${work}/build/mine)

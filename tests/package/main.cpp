@@ -1,0 +1,12 @@
+#include <antilock/mesh/generate.hpp>
+#include <antilock/problem/assemble.hpp>
+#include <antilock/solve/active_set.hpp>
+using namespace antilock;
+
+int main() {
+  const Scene scene(Body{paper_load}, StiffLayer{1e-6}, UnilateralContact{});
+  const TriangleMesh mesh = unstructured_mesh(64);
+  const Space space(mesh, crouzeix_raviart());
+  const Solution solution = active_set(assemble(scene, space));  // or throws; never a quiet wrong answer
+  return solution.warning.empty() ? 0 : 1;
+}
