@@ -8,11 +8,11 @@ namespace antilock {
 
 /// One term of the load f(x, y) = sum f_k(y) sin(k pi x) on the body: f_k is a polynomial in y.
 struct SineMode {
-  int k;                         ///< wave number, k >= 1
-  std::vector<double> profile;   ///< f_k(y) = profile[0] + profile[1] y + ...
+  int k;                        ///< wave number, 1 <= k <= N / 16 (N: the points of Truth)
+  std::vector<double> profile;  ///< f_k(y) = profile[0] + profile[1] y + ..., degree at most 12
 };
 struct SineLoad {
-  std::vector<SineMode> modes;
+  std::vector<SineMode> modes;  ///< terms of equal k add up; none: no load
   double operator()(double x, double y) const;
 };
 /// f = 10 sin(2 pi x), the load of every figure here (the paper gives none).
@@ -23,23 +23,27 @@ SineLoad paper_sine_load();
 /// NotConverged if the active set does not settle. Values are dimensionless.
 class Truth {
  public:
-  /// contact = false: Gamma_C free (a linear problem, closed form). log2_points: N = 2^log2_points collocation points.
+  /// contact = false: Gamma_C free (a linear problem, closed form). N = 2^log2_points collocation points, 6 to 20.
   Truth(SineLoad load, double epsilon, bool contact = true, int log2_points = 17);
   ~Truth();
   Truth(Truth&&) noexcept;
   Truth& operator=(Truth&&) noexcept;
 
   double epsilon() const;
-  // At any point of the closed domain [0,1] x [-1,1]; 8 digits for value. Each call sums the series.
+  // At any point of the closed domain [0,1] x [-1,1], else Error; 8 digits for value. Each call sums the series: about
+  // a millisecond where all N modes are alive, so use TruthTable for many points.
   double value(double x, double y) const;
   Eigen::Vector2d gradient(double x, double y) const;  ///< on Sigma: the body's side
-  double layer_stress(double x, double y) const;       ///< epsilon^-2 d/dy u for y <= 0; its limit at epsilon = 0
-  double pressure(double x) const;                     ///< lambda >= 0 on Gamma_C, a density
-  std::vector<std::pair<double, double>> contact_zones() const;  ///< intervals of x where u = 0 on Gamma_C
-  double max_on_contact() const;                       ///< max of u on Gamma_C
-  double energy() const;                               ///< J(u) = a(u,u)/2 - L(u)
+  double layer_stress(double x,
+                      double y) const;    ///< epsilon^-2 d/dy u for y <= 0 (else Error); its limit at epsilon = 0
+  double d_xx(double x, double y) const;  ///< d2u/dx2; away from the ends of contact, where it jumps or blows up
+  double pressure(double x) const;        ///< lambda >= 0 on Gamma_C, a density
+  std::vector<std::pair<double, double>> contact_zones()
+      const;                      ///< intervals of x where u = 0 on Gamma_C; without contact none
+  double max_on_contact() const;  ///< max of u on Gamma_C
+  double energy() const;          ///< J(u) = a(u,u)/2 - L(u)
 
-  struct Data;
+  struct Data;  ///< the coefficients (truth_data.hpp), for TruthTable
   const Data& data() const { return *data_; }
 
  private:

@@ -1,0 +1,211 @@
+#include "antilock/exact/truth_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "antilock/exact/sine_transform.hpp"
+#include "antilock/exact/truth_data.hpp"
+#include "antilock/scene/error.hpp"
+
+// In the coordinates of the true layer (22), Y = y in the body and Y = epsilon y in the layer, the solution is as
+// smooth at a distance d = Y + epsilon from Gamma_C as its worst point there allows: like r^(3/2) around the ends of
+// contact, r the distance to them. So rows are graded by d, each row has the points in x that its d asks for, and cubic
+// Hermite interpolation within a fixed fraction of d errs by a fixed fraction of what the field itself does at the
+// scale d.
+
+namespace antilock {
+namespace {
+
+constexpr int finest_cells = 1 << 14;               // along Gamma_C
+constexpr double finest_step = 1.0 / finest_cells;  // between rows, next to Gamma_C
+constexpr double steps_per_distance = 12;           // rows within a distance d
+constexpr double smooth_step = 0.06;                // between rows and points, in units of 1 / (k pi) of the load
+constexpr int most_waves = 32;
+
+// What is known at one point: with slopes in x and y, all that Hermite interpolation wants.
+struct Node {
+  double u, u_x, p, p_y;
+};
+
+struct Row {
+  double y;
+  int cells;                // in x
+  std::vector<Node> nodes;  // cells + 3: one more beyond each side, by odd reflection
+};
+
+// Cubic Hermite on a cell of width h, at the fraction t.
+struct Hermite {
+  Hermite(double t, double h)
+      : value0((1 + 2 * t) * (1 - t) * (1 - t)),
+        slope0(h * t * (1 - t) * (1 - t)),
+        value1(1 - value0),
+        slope1(-h * t * t * (1 - t)) {}
+  double operator()(double v0, double s0, double v1, double s1) const {
+    return value0 * v0 + slope0 * s0 + value1 * v1 + slope1 * s1;
+  }
+  double value0, slope0, value1, slope1;
+};
+
+// Cubic Lagrange through four equidistant points, -1, 0, 1, 2, at the fraction t: weights and their derivatives.
+struct Lagrange {
+  explicit Lagrange(double t)
+      : value{-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+              (t + 1) * t * (t - 1) / 6},
+        slope{-(3 * t * t - 6 * t + 2) / 6, (3 * t * t - 4 * t - 1) / 2, -(3 * t * t - 2 * t - 2) / 2,
+              (3 * t * t - 1) / 6} {}
+  double value[4], slope[4];
+};
+
+// A row at x: u and its x-slope by Hermite; p, which may jump at the ends of contact, from its values alone.
+struct Sample {
+  double u, u_x, p, p_x, p_y;
+};
+
+Sample sample(const Row& row, double x) {
+  const int j = std::min(int(x * row.cells), row.cells - 1);
+  const double t = x * row.cells - j, h = 1.0 / row.cells;
+  const Node* node = &row.nodes[j];  // nodes[j] sits at (j - 1) h
+  const Node &left = node[1], &right = node[2];
+  Sample s{};
+  s.u = Hermite(t, h)(left.u, left.u_x, right.u, right.u_x);
+  s.u_x = 6 * t * (1 - t) * (right.u - left.u) / h + (1 - t) * (1 - 3 * t) * left.u_x + t * (3 * t - 2) * right.u_x;
+  const Lagrange weight(t);
+  for (int i = 0; i < 4; ++i) {
+    s.p += weight.value[i] * node[i].p;
+    s.p_x += weight.slope[i] / h * node[i].p;
+    s.p_y += weight.value[i] * node[i].p_y;
+  }
+  return s;
+}
+
+int largest_wave(const Truth::Data& truth) { return truth.load.empty() ? 1 : truth.load.back().k(); }
+
+int power_of_two_from(double x) {
+  int n = 64;
+  while (n < x) n *= 2;
+  return n;
+}
+
+// Values of the row's series at j / n: a wave k beyond n looks on the points like one below, k mod 2n folded at n.
+class RowSampler {
+ public:
+  Row operator()(const SineRow& series, double y, int cells) {
+    SineTransform& transform = transforms_.try_emplace(cells, cells).first->second;
+    Eigen::VectorXd u = fold(series.u, cells, -1), p = fold(series.p, cells, -1), p_y = fold(series.p_y, cells, -1);
+    Eigen::VectorXd slopes = series.u;
+    for (Eigen::Index k = 0; k < slopes.size(); ++k) slopes(k) *= series.a(k);
+    Eigen::VectorXd u_x = fold(slopes, cells, 1);
+    transform.points_from_modes(u);
+    transform.points_from_modes(p);
+    transform.points_from_modes(p_y);
+    transform.cosine_points(u_x);
+    Row row{y, cells, std::vector<Node>(cells + 3)};
+    for (int j = 0; j <= cells; ++j) row.nodes[j + 1] = {u(j), u_x(j), p(j), p_y(j)};
+    row.nodes.front() = {-u(1), u_x(1), -p(1), -p_y(1)};
+    row.nodes.back() = {-u(cells - 1), u_x(cells - 1), -p(cells - 1), -p_y(cells - 1)};
+    return row;
+  }
+
+ private:
+  static Eigen::VectorXd fold(const Eigen::VectorXd& modes, int n, double reflected) {
+    Eigen::VectorXd folded = Eigen::VectorXd::Zero(n + 1);
+    for (Eigen::Index k = 0; k < modes.size(); ++k) {
+      const Eigen::Index r = k % (2 * n);
+      if (r <= n)
+        folded(r) += modes(k);
+      else
+        folded(2 * n - r) += reflected * modes(k);
+    }
+    return folded;
+  }
+  std::map<int, SineTransform> transforms_;
+};
+
+// The y of rows from one end to the other, steps growing with the distance from Gamma_C; unit: physical length of y
+// = 1.
+std::vector<double> graded_rows(double from, double to, double gamma_c, double unit, double longest) {
+  std::vector<double> rows{from};
+  while (rows.back() < to) {
+    const double distance = (rows.back() - gamma_c) * unit;
+    const double step = std::min(std::max(distance / steps_per_distance, finest_step), longest);
+    rows.push_back(rows.back() + std::min(step / unit, 1.0));
+  }
+  rows.back() = to;
+  return rows;
+}
+
+}  // namespace
+
+struct TruthTable::Grid {
+  double epsilon;
+  std::vector<Row> layer, body;
+
+  // The rows below and above, and where between them.
+  struct Between {
+    Sample below, above;
+    double t, h;
+    Hermite in_y() const { return {t, h}; }
+  };
+  Between between(double x, double y) const {
+    const std::vector<Row>& rows = y >= 0 ? body : layer;
+    const auto after =
+        std::upper_bound(rows.begin() + 1, rows.end() - 1, y, [](double at, const Row& row) { return at < row.y; });
+    const Row &below = after[-1], &above = *after;
+    const double h = above.y - below.y;
+    return {sample(below, x), sample(above, x), (y - below.y) / h, h};
+  }
+  double slope_scale(double y) const { return y >= 0 ? 1 : epsilon * epsilon; }  // u_y = slope_scale p
+  static double p(const Between& at) { return at.in_y()(at.below.p, at.below.p_y, at.above.p, at.above.p_y); }
+};
+
+TruthTable::TruthTable(const Truth& truth) : grid_(std::make_unique<Grid>()) {
+  const Truth::Data& data = truth.data();
+  const int waves = largest_wave(data);
+  if (waves > most_waves)
+    throw Error(
+        fmt::format("truth table: load with wave number k = {}; accepted: up to {} (sum the series of Truth instead)",
+                    waves, most_waves));
+  const double epsilon = grid_->epsilon = data.epsilon, longest = smooth_step / (waves * std::numbers::pi);
+  const auto cells = [&](double distance) {
+    return power_of_two_from(std::max(64.0 * waves, std::min(16 / distance, double(finest_cells))));
+  };
+  RowSampler sampler;
+  const double unit = std::max(epsilon, finest_step);  // a thinner layer is one step
+  for (const double y : graded_rows(-1, 0, -1, unit, longest))
+    grid_->layer.push_back(sampler(layer_row(data, y), y, cells((1 + y) * epsilon)));
+  for (const double y : graded_rows(0, 1, -epsilon, 1, longest))
+    grid_->body.push_back(sampler(body_row(data, y), y, cells(y + epsilon)));
+}
+
+TruthTable::~TruthTable() = default;
+TruthTable::TruthTable(TruthTable&&) noexcept = default;
+TruthTable& TruthTable::operator=(TruthTable&&) noexcept = default;
+
+double TruthTable::value(double x, double y) const {
+  const Eigen::Vector2d at = inside_domain(x, y);
+  const auto rows = grid_->between(at.x(), at.y());
+  const double scale = grid_->slope_scale(at.y());
+  return rows.in_y()(rows.below.u, scale * rows.below.p, rows.above.u, scale * rows.above.p);
+}
+
+Eigen::Vector2d TruthTable::gradient(double x, double y) const {
+  const Eigen::Vector2d at = inside_domain(x, y);
+  const auto rows = grid_->between(at.x(), at.y());
+  const double scale = grid_->slope_scale(at.y());
+  return {rows.in_y()(rows.below.u_x, scale * rows.below.p_x, rows.above.u_x, scale * rows.above.p_x),
+          scale * Grid::p(rows)};
+}
+
+double TruthTable::layer_stress(double x, double y) const {
+  const Eigen::Vector2d at = inside_domain(x, y);
+  if (at.y() > 0)
+    throw Error(fmt::format("truth table: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
+  // Sigma belongs to the body's rows, where p is the same.
+  return Grid::p(grid_->between(at.x(), at.y()));
+}
+
+}  // namespace antilock
