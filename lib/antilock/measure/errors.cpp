@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/exact/truth_table.hpp"
 #include "antilock/form/quadrature.hpp"
 
 namespace antilock {
@@ -26,6 +27,12 @@ double layer_stress_at(const Eigen::VectorXd& p, Eigen::Index first_row, int deg
 }
 
 }  // namespace
+
+Reference reference(const TruthTable& table) {
+  return {[&table](double x, double y) { return table.value(x, y); },
+          [&table](double x, double y) { return table.gradient(x, y); },
+          [&table](double x, double y) { return table.layer_stress(x, y); }};
+}
 
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference) {
   const TriangleMesh& mesh = space.mesh();

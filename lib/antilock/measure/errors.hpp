@@ -16,6 +16,10 @@ struct Reference {
   std::function<double(double x, double y)> layer_stress;  ///< epsilon^-2 d/dy u in the layer, its limit at epsilon = 0
 };
 
+class TruthTable;
+/// The tabulated truth as a reference; the table must outlive it.
+Reference reference(const TruthTable& table);
+
 /// Absolute errors u_h - u; the names say the norm.
 struct Errors {
   double max_at_unknowns = 0;  ///< at the unknowns: vertices (P1) or edge midpoints (CR)
