@@ -79,7 +79,12 @@ TriangleMesh make_mesh(const SceneFile& file) {
     if (file.mesh.kind == MeshRequest::Kind::structured) return structured_mesh(file.mesh.cells, domain);
     return unstructured_mesh(file.mesh.cells, domain);
   } catch (const Error& error) {
-    throw Error(file.name + (from_file ? ": mesh.file: " : ": mesh.cells: ") + printable(error.what(), 2000));
+    std::string what = printable(error.what(), 2000);
+    if (what.find("accepted") == std::string::npos)
+      what +=
+          "; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), clamped and contact, its "
+          "triangles proper and connected";
+    throw Error(file.name + (from_file ? ": mesh.file: " : ": mesh.cells: ") + what);
   }
 }
 

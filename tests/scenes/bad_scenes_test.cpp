@@ -1,0 +1,266 @@
+// Every scene that cannot be asked: exit status 2, one line on standard error that names file and key, nothing written.
+#include <algorithm>
+#include <array>
+
+#include "scenes/runner.hpp"
+
+namespace antilock::test {
+namespace {
+
+struct BadScene {
+  std::string name;  ///< of the test
+  std::string key;   ///< that the message must name
+  std::string scene;
+};
+
+void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }
+
+const std::string load = "[load]\nf = \"1\"\n", mesh = "[mesh]\nkind = \"structured\"\ncells = 8\n";
+
+std::string with_load(const std::string& f) { return "[load]\nf = " + f + "\n" + mesh; }
+std::string with_layer(const std::string& lines) { return load + "[layer]\n" + lines + "\n" + mesh; }
+std::string with_contact(const std::string& lines) { return load + "[contact]\n" + lines + "\n" + mesh; }
+std::string with_mesh(const std::string& lines) { return load + "[mesh]\n" + lines + "\n"; }
+std::string with_method(const std::string& lines) { return load + mesh + "[method]\n" + lines + "\n"; }
+
+const std::vector<BadScene> bad_scenes = {
+    // the file
+    {"Empty", "load", ""},
+    {"OnlyAComment", "load", "# nothing\n"},
+    {"SyntaxNoValue", "syntax", "[load]\nf =\n"},
+    {"SyntaxUnclosedQuote", "syntax", "[load]\nf = \"1\n" + mesh},
+    {"SyntaxKeyTwice", "syntax", "[load]\nf = \"1\"\nf = \"2\"\n" + mesh},
+    {"SyntaxSectionTwice", "syntax", load + mesh + "[mesh]\n"},
+    {"SyntaxBinary", "syntax",
+     std::string("\x7f"
+                 "ELF\0\1\2",
+                 7)},
+    {"SyntaxInvalidUtf8", "syntax", "title = \"\xff\xfe\"\n" + load + mesh},
+    {"SyntaxJson", "syntax", "{\"load\": {\"f\": \"1\"}}"},
+    {"LargerThanAMegabyte", "file", "#" + std::string(1100000, 'x')},
+    // sections
+    {"NoLoad", "load", mesh},
+    {"NoMesh", "mesh", load},
+    {"UnknownSection", "solver", load + mesh + "[solver]\nname = \"x\"\n"},
+    {"UnknownTopKey", "epsilon", "epsilon = 1\n" + load + mesh},
+    {"SectionInCapitals", "Load", "[Load]\nf = \"1\"\n" + mesh},
+    {"SectionIsAValue", "load", "load = \"1\"\n" + mesh},
+    {"SectionIsAList", "load", "[[load]]\nf = \"1\"\n" + mesh},
+    {"TitleIsANumber", "title", "title = 3\n" + load + mesh},
+    {"UnknownLoadKey", "load.g", "[load]\nf = \"1\"\ng = \"2\"\n" + mesh},
+    {"UnknownKeyWithLineEnd", "load.a?b", "[load]\nf = \"1\"\n\"a\\nb\" = 1\n" + mesh},
+    // the load
+    {"LoadMissing", "load.f", "[load]\n" + mesh},
+    {"LoadIsANumber", "load.f", with_load("1")},
+    {"LoadIsAList", "load.f", with_load("[\"1\"]")},
+    {"LoadEmpty", "load.f", with_load("\"\"")},
+    {"LoadBlank", "load.f", with_load("\"  \"")},
+    {"LoadDoesNotParse", "load.f", with_load("\"10*sin(2*pi*x\"")},
+    {"LoadTwoOperators", "load.f", with_load("\"1 * / x\"")},
+    {"LoadImplicitProduct", "load.f", with_load("\"2x\"")},
+    {"LoadUnknownVariable", "load.f", with_load("\"x + z\"")},
+    {"LoadUnknownFunction", "load.f", with_load("\"foo(x)\"")},
+    {"LoadForeignConstant", "load.f", with_load("\"_pi * x\"")},
+    {"LoadAssignment", "load.f", with_load("\"x = 3\"")},
+    {"LoadTwoValues", "load.f", with_load("\"x, y\"")},
+    {"LoadText", "load.f", with_load("'\"abc\"'")},
+    {"LoadHalfACondition", "load.f", with_load("\"x < 0.5 ? 1\"")},
+    {"LoadOfTwoLines", "load.f", with_load("\"\"\"x +\n* y\"\"\"")},
+    {"LoadInfiniteInside", "load.f", with_load("\"1/(x - 0.3)\"")},
+    {"LoadInfiniteOnTheEdge", "load.f", with_load("\"1/x\"")},
+    {"LoadInfiniteInACorner", "load.f", with_load("\"1/((1-x)^2 + (1-y)^2)\"")},
+    {"LoadInfiniteOnALine", "load.f", with_load("\"1/(x - y)\"")},
+    {"LoadNotReal", "load.f", with_load("\"sqrt(x - 0.5)\"")},
+    {"LoadLogarithmOfZero", "load.f", with_load("\"log(y)\"")},
+    {"LoadOverflows", "load.f", with_load("\"exp(1000*x)\"")},
+    {"LoadHuge", "load.f", with_load("\"1e200\"")},
+    {"LoadDividesByZero", "load.f", with_load("\"1/0\"")},
+    // the layer
+    {"LayerEmpty", "layer.epsilon", with_layer("")},
+    {"EpsilonNegative", "layer.epsilon", with_layer("epsilon = -1e-6")},
+    {"EpsilonAboveOne", "layer.epsilon", with_layer("epsilon = 1.5")},
+    {"EpsilonText", "layer.epsilon", with_layer("epsilon = \"1e-6\"")},
+    {"EpsilonBoolean", "layer.epsilon", with_layer("epsilon = true")},
+    {"EpsilonNan", "layer.epsilon", with_layer("epsilon = nan")},
+    {"EpsilonInfinite", "layer.epsilon", with_layer("epsilon = inf")},
+    {"ModelUnknown", "layer.model", with_layer("epsilon = 1\nmodel = \"rigid\"")},
+    {"ModelInCapitals", "layer.model", with_layer("epsilon = 1\nmodel = \"Scaled\"")},
+    {"ModelANumber", "layer.model", with_layer("epsilon = 1\nmodel = 1")},
+    {"VentcelNotTheLimit", "layer.epsilon", with_layer("epsilon = 1e-6\nmodel = \"ventcel\"")},
+    {"ThinRigid", "layer.epsilon", with_layer("epsilon = 0\nmodel = \"thin\"")},
+    {"ThinTooThin", "layer.epsilon", with_layer("epsilon = 1e-4\nmodel = \"thin\"")},
+    {"LayerUnknownKey", "layer.thickness", with_layer("epsilon = 1\nthickness = 1")},
+    // contact
+    {"GapANumber", "contact.gap", with_contact("gap = 0")},
+    {"GapDependsOnY", "contact.gap", with_contact("gap = \"y\"")},
+    {"GapEmpty", "contact.gap", with_contact("gap = \"\"")},
+    {"GapNotFinite", "contact.gap", with_contact("gap = \"1/(x - 0.5)\"")},
+    {"GapNotRealAtTheEnd", "contact.gap", with_contact("gap = \"log(x)\"")},
+    {"GapAgainstTheClamp", "contact.gap", with_contact("gap = \"-0.1\"")},
+    {"GapUnknownKey", "contact.friction", with_contact("friction = 0.3")},
+    // the mesh
+    {"MeshEmpty", "mesh.kind", with_mesh("")},
+    {"KindUnknown", "mesh.kind", with_mesh("kind = \"hexagonal\"\ncells = 8")},
+    {"CellsMissing", "mesh.cells", with_mesh("kind = \"structured\"")},
+    {"CellsZero", "mesh.cells", with_mesh("kind = \"structured\"\ncells = 0")},
+    {"CellsNegative", "mesh.cells", with_mesh("kind = \"structured\"\ncells = -4")},
+    {"CellsReal", "mesh.cells", with_mesh("kind = \"structured\"\ncells = 8.0")},
+    {"CellsText", "mesh.cells", with_mesh("kind = \"structured\"\ncells = \"8\"")},
+    {"CellsTooManyStructured", "mesh.cells", with_mesh("kind = \"structured\"\ncells = 2049")},
+    {"CellsTooManyUnstructured", "mesh.cells", with_mesh("kind = \"unstructured\"\ncells = 513")},
+    {"CellsOverflow", "mesh.cells", with_mesh("kind = \"structured\"\ncells = 4294967304")},
+    {"CellsTooFewToMoveAnything", "mesh", with_mesh("kind = \"structured\"\ncells = 1")},
+    {"FileWithStructured", "mesh.file", with_mesh("kind = \"structured\"\ncells = 8\nfile = \"my.msh\"")},
+    {"CellsWithFile", "mesh.cells", with_mesh("kind = \"file\"\ncells = 8\nfile = \"my.msh\"")},
+    {"FileMissing", "mesh.file", with_mesh("kind = \"file\"")},
+    {"FileEmptyName", "mesh.file", with_mesh("kind = \"file\"\nfile = \"\"")},
+    {"FileNotThere", "mesh.file", with_mesh("kind = \"file\"\nfile = \"not_there.msh\"")},
+    {"FileIsAFolder", "mesh.file", with_mesh("kind = \"file\"\nfile = \".\"")},
+    {"FileIsNoMesh", "mesh.file", with_mesh("kind = \"file\"\nfile = \"scene.toml\"")},
+    {"MeshUnknownKey", "mesh.size", with_mesh("kind = \"structured\"\ncells = 8\nsize = 0.1")},
+    // the method
+    {"ElementUnknown", "method.element", with_method("element = \"P7\"")},
+    {"ElementInSmallLetters", "method.element", with_method("element = \"cr\"")},
+    {"SolverUnknown", "method.solver", with_method("solver = \"newton\"")},
+    {"ToleranceZero", "method.tolerance", with_method("tolerance = 0")},
+    {"ToleranceNegative", "method.tolerance", with_method("tolerance = -1e-10")},
+    {"ToleranceOne", "method.tolerance", with_method("tolerance = 1")},
+    {"ToleranceNan", "method.tolerance", with_method("tolerance = nan")},
+    {"ToleranceText", "method.tolerance", with_method("tolerance = \"1e-10\"")},
+    {"MethodUnknownKey", "method.order", with_method("order = 2")},
+};
+
+void expect_refused(const SceneRun& run, const std::string& key) {
+  EXPECT_EQ(run.outcome.status, 2);
+  const std::string& line = run.outcome.err;
+  EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+  EXPECT_TRUE(line.ends_with('\n')) << line;
+  EXPECT_TRUE(line.starts_with(run.scene_path + ": " + key + ": ")) << line;
+  EXPECT_NE(line.find("accepted"), line.npos) << line;
+  EXPECT_TRUE(std::filesystem::is_empty(run.output.path())) << "something was written";
+}
+
+class BadScenes : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadScenes, AreRefusedInOneLineAndNothingIsWritten) {
+  const SceneRun run(GetParam().scene);
+  expect_refused(run, GetParam().key);
+  EXPECT_EQ(run.input.file_count(), 1) << "something was written beside the scene";
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadScenes, testing::ValuesIn(bad_scenes),
+                         [](const auto& info) { return info.param.name; });
+
+// A body of two triangles for every part of the mesh that can be wrong; `gmsh_lines` replaces its elements.
+std::string msh(const std::string& nodes, const std::string& elements, bool layer_group = false) {
+  const auto count = [](const std::string& lines) {
+    return std::to_string(std::count(lines.begin(), lines.end(), '\n'));
+  };
+  return std::string("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n") + (layer_group ? "4" : "3") +
+         "\n1 4 \"clamped\"\n1 5 \"contact\"\n2 1 \"body\"\n" + (layer_group ? "2 2 \"layer\"\n" : "") +
+         "$EndPhysicalNames\n$Nodes\n" + count(nodes) + "\n" + nodes + "$EndNodes\n$Elements\n" + count(elements) +
+         "\n" + elements + "$EndElements\n";
+}
+// A unit square of four triangles around its centre, so that P1 has an unknown to solve for.
+const std::string square_nodes = "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0.5 0\n";
+const std::string contact_edge = "1 1 2 5 5 1 2\n";
+const std::string clamped_edges = "2 1 2 4 4 2 3\n3 1 2 4 4 3 4\n4 1 2 4 4 4 1\n";
+const std::string square_triangles = "5 2 2 1 1 1 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 5\n";
+const std::string square = msh(square_nodes, contact_edge + clamped_edges + square_triangles);
+
+struct BadMesh {
+  std::string name, mesh, layer;
+};
+void PrintTo(const BadMesh& bad, std::ostream* out) { *out << bad.name; }
+const std::string scaled_layer = "[layer]\nepsilon = 0.1\n", thin_layer = scaled_layer + "model = \"thin\"\n";
+
+const std::vector<BadMesh> bad_meshes = {
+    {"NoLayerGroup", square, scaled_layer},
+    {"NoContactGroup", msh(square_nodes, clamped_edges + square_triangles), ""},
+    {"NoClampedGroup", msh(square_nodes, contact_edge + square_triangles), ""},
+    {"NoBodyGroup", msh(square_nodes, contact_edge + clamped_edges), ""},
+    {"Inverted",
+     msh(square_nodes,
+         contact_edge + clamped_edges + "5 2 2 1 1 2 1 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 5\n"),
+     ""},
+    {"Degenerate",
+     msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0 0\n", contact_edge + clamped_edges + square_triangles), ""},
+    {"DanglingNode", msh(square_nodes + "6 0.2 0.7 0\n", contact_edge + clamped_edges + square_triangles), ""},
+    {"DanglingTriangle",
+     msh(square_nodes + "6 3 3 0\n7 4 3 0\n8 3 4 0\n",
+         contact_edge + clamped_edges + square_triangles +
+             "9 2 2 1 1 6 7 8\n10 1 2 5 5 6 7\n11 1 2 5 5 7 8\n12 1 2 5 5 8 6\n"),
+     ""},
+    {"MissingTriangle",
+     msh(square_nodes, contact_edge + clamped_edges + "5 2 2 1 1 1 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n"), ""},
+    {"Truncated", square.substr(0, square.size() / 2), ""},
+    {"BodyOfAnotherSize",
+     msh("1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 1 0\n", contact_edge + clamped_edges + square_triangles), ""},
+    {"ContactOnTheWrongSide",
+     msh(square_nodes, "1 1 2 5 5 3 4\n2 1 2 4 4 2 3\n3 1 2 4 4 1 2\n4 1 2 4 4 4 1\n" + square_triangles), ""},
+};
+
+class BadMeshes : public testing::TestWithParam<BadMesh> {};
+
+TEST_P(BadMeshes, AreRefusedInOneLineAndNothingIsWritten) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "my.msh") << GetParam().mesh;
+  const SceneRun run(load + GetParam().layer + "[mesh]\nkind = \"file\"\nfile = \"" + (folder / "my.msh").string() +
+                     "\"\n");
+  expect_refused(run, "mesh.file");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BadMeshes, testing::ValuesIn(bad_meshes),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(BadMeshes, TheMeshThatTheyAreMadeFromIsGood) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "my.msh") << square;
+  const SceneRun run(load + "[mesh]\nkind = \"file\"\nfile = \"" + (folder / "my.msh").string() + "\"\n");
+  EXPECT_EQ(run.outcome.status, 0) << run.outcome.err;
+}
+
+TEST(BadMeshes, AThinLayerNeedsAMeshOfItsDepth) {
+  const SceneRun run(load + thin_layer + "[mesh]\nkind = \"file\"\nfile = \"" EXAMPLE_SCENES "/own_mesh.msh\"\n");
+  expect_refused(run, "mesh.file");
+}
+
+TEST(BadMeshes, ASceneWithoutLayerRefusesAMeshWithOne) {
+  const SceneRun run(load + "[mesh]\nkind = \"file\"\nfile = \"" EXAMPLE_SCENES "/own_mesh.msh\"\n");
+  expect_refused(run, "mesh.file");
+}
+
+// The command line itself.
+void expect_one_line(const Outcome& outcome, const std::string& start) {
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_TRUE(outcome.err.starts_with(start)) << outcome.err;
+}
+
+TEST(BadCommandLine, IsRefusedInOneLine) {
+  const TemporaryFolder log;
+  for (const std::string arguments : {"", "--cells 3", "a.toml b.toml", "a.toml --out"})
+    expect_one_line(run_scene(arguments, log), "run_scene: ");
+}
+
+TEST(BadCommandLine, ASceneThatIsNotThere) {
+  const TemporaryFolder log;
+  expect_one_line(run_scene("not_there.toml --out " + in_shell(log / "r"), log), "not_there.toml: file: ");
+  expect_one_line(run_scene(in_shell(log.path().string()) + " --out " + in_shell(log / "r"), log),
+                  log.path().string() + ": file: ");
+  EXPECT_FALSE(std::filesystem::exists(log / "r"));
+}
+
+TEST(BadCommandLine, ResultsThatCannotBeWritten) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "scene.toml") << load << mesh;
+  std::ofstream(folder / "a_file") << "precious";
+  for (const std::string out : {"a_file", "a_file/results"})
+    expect_one_line(run_scene(in_shell(folder / "scene.toml") + " --out " + in_shell(folder / out), folder),
+                    (folder / out).string());
+  EXPECT_EQ(contents(folder / "a_file"), "precious");
+  expect_one_line(run_scene(in_shell(folder / "scene.toml") + " --out ''", folder), "");
+}
+
+}  // namespace
+}  // namespace antilock::test

@@ -1,0 +1,251 @@
+// What run_scene writes, held to its interface: files, keys, columns, rows, signs, and the numbers of the exact
+// solution.
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "antilock/exact/truth.hpp"
+#include "antilock/mesh/msh_file.hpp"
+#include "antilock/space/space.hpp"
+#include "scenes/runner.hpp"
+
+namespace antilock::test {
+namespace {
+
+using Keys = std::set<std::string>;
+
+Keys keys(const nlohmann::json& object) {
+  Keys names;
+  for (const auto& [key, value] : object.items()) names.insert(key);
+  return names;
+}
+
+Keys files(const std::filesystem::path& folder) {
+  Keys names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename().string());
+  return names;
+}
+
+std::string scene(const std::string& effects, const std::string& mesh, const std::string& method = "",
+                  const std::string& f = "10*sin(2*pi*x)") {
+  return "[load]\nf = \"" + f + "\"\n" + effects + "[mesh]\n" + mesh + "\n[method]\n" + method + "\n";
+}
+std::string layer(const std::string& epsilon, const std::string& model = "scaled") {
+  return "[layer]\nepsilon = " + epsilon + "\nmodel = \"" + model + "\"\n";
+}
+std::string structured(int cells) { return "kind = \"structured\"\ncells = " + std::to_string(cells); }
+std::string unstructured(int cells) { return "kind = \"unstructured\"\ncells = " + std::to_string(cells); }
+const std::string contact = "[contact]\n", cr = "element = \"CR\"\n";
+
+/// Everything that holds for every answer, whatever the scene.
+void expect_interface(const std::filesystem::path& results) {
+  const auto s = nlohmann::json::parse(contents(results / "summary.json"));
+  const auto effects = s["effects"].get<std::vector<std::string>>();
+  const bool has_layer = std::count(effects.begin(), effects.end(), "layer") == 1;
+  const bool has_contact = std::count(effects.begin(), effects.end(), "contact") == 1;
+  EXPECT_EQ(effects.size(), static_cast<std::size_t>(has_layer + has_contact));
+  Keys top = {"element", "solver", "epsilon", "h",   "dofs",       "effects",
+              "energy",  "u_max",  "u_min",   "kkt", "iterations", "seconds"};
+  Keys written = {"summary.json", "solution.csv", "mesh.msh", "solution.vtu"};
+  if (has_contact) {
+    top.insert("contact");
+    written.insert("contact.csv");
+  }
+  EXPECT_EQ(keys(s), top);
+  EXPECT_EQ(files(results), written);
+  EXPECT_EQ(s["epsilon"].is_null(), !has_layer);
+  EXPECT_EQ(keys(s["iterations"]), (Keys{"contact", "corrections"}));
+  EXPECT_EQ(keys(s["seconds"]), (Keys{"mesh", "assemble", "factor", "solve", "total"}));
+  double stages = 0;
+  for (const std::string stage : {"mesh", "assemble", "factor", "solve"}) stages += s["seconds"][stage].get<double>();
+  EXPECT_LE(stages, s["seconds"]["total"].get<double>());
+  EXPECT_EQ(keys(s["kkt"]),
+            has_contact ? (Keys{"min_gap", "min_pressure", "complementarity", "residual"}) : Keys{"residual"});
+  EXPECT_LE(s["kkt"]["residual"].get<double>(), 1e-9);
+
+  // one row an unknown, the clamped ones too; the mesh file is the mesh that was used
+  const TriangleMesh mesh = read_msh((results / "mesh.msh").string());
+  const Space space(mesh, element(s["element"]));
+  const Csv solution = read_csv(results / "solution.csv");
+  EXPECT_EQ(solution.header, "x,y,u");
+  ASSERT_EQ(solution.rows.rows(), space.size());
+  // positions and values survive the way through text bit by bit (gmsh's own coordinates may be halved once more)
+  EXPECT_LE((solution.rows.leftCols(2) - space.points()).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_EQ(solution.rows.col(2).maxCoeff(), s["u_max"].get<double>());
+  EXPECT_EQ(solution.rows.col(2).minCoeff(), s["u_min"].get<double>());
+  for (const int i : space.clamped()) EXPECT_EQ(solution.rows(i, 2), 0.0);
+  EXPECT_EQ(s["dofs"].get<int>(), space.free_count());
+
+  const std::string vtu = contents(results / "solution.vtu");
+  const int points = s["element"] == "CR" ? 3 * mesh.triangle_count() : mesh.vertex_count();
+  EXPECT_NE(vtu.find("NumberOfPoints=\"" + std::to_string(points) + "\""), vtu.npos);
+
+  if (!has_contact) {
+    EXPECT_EQ(s["iterations"]["contact"].get<int>(), 0);
+    return;
+  }
+  EXPECT_EQ(keys(s["contact"]), (Keys{"points", "active", "from", "to"}));
+  const Csv table = read_csv(results / "contact.csv");
+  EXPECT_EQ(table.header, "x,gap,pressure");
+  const auto points_on = static_cast<Eigen::Index>(space.contact().size());
+  ASSERT_EQ(table.rows.rows(), points_on);
+  EXPECT_EQ(s["contact"]["points"].get<Eigen::Index>(), points_on);
+  EXPECT_GE(table.rows.col(1).minCoeff(), 0.0);
+  EXPECT_GE(table.rows.col(2).minCoeff(), 0.0);
+  EXPECT_TRUE(std::is_sorted(table.rows.col(0).begin(), table.rows.col(0).end()));
+  const Eigen::Index pressed = (table.rows.col(2).array() > 0).count();
+  const auto active = s["contact"]["active"].get<Eigen::Index>();
+  EXPECT_LE(pressed, active);
+  EXPECT_EQ(s["contact"]["from"].is_null(), active == 0);
+  EXPECT_EQ(s["contact"]["to"].is_null(), active == 0);
+}
+
+class ExampleScenes : public testing::TestWithParam<std::string> {};
+
+TEST_P(ExampleScenes, RunAndKeepTheInterface) {
+  const TemporaryFolder folder;
+  const std::string path = std::string(EXAMPLE_SCENES) + "/" + GetParam() + ".toml";
+  EXPECT_TRUE(contents(path).starts_with("# ")) << "the first line says what the scene is for";
+  const Outcome outcome = run_scene(in_shell(path) + " --out " + in_shell(folder / "new/results"), folder);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  expect_interface(folder / "new/results");
+}
+
+std::vector<std::string> example_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(EXAMPLE_SCENES))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+INSTANTIATE_TEST_SUITE_P(All, ExampleScenes, testing::ValuesIn(example_names()),
+                         [](const auto& info) { return info.param; });
+
+TEST(ExampleScenes, AreADozenOrMore) { EXPECT_GE(example_names().size(), 12U); }
+
+// Every layer x contact x mesh x element of the family.
+class EveryCombination : public testing::TestWithParam<std::tuple<int, bool, bool, bool>> {};
+
+TEST_P(EveryCombination, RunsAndKeepsTheInterface) {
+  const auto [layer_kind, with_contact, regular, nonconforming] = GetParam();
+  const std::array<std::string, 5> layers = {"", layer("0.01"), layer("0"), layer("0", "ventcel"),
+                                             layer("0.125", "thin")};
+  const SceneRun run(scene(layers[layer_kind] + (with_contact ? contact : ""),
+                           regular ? structured(8) : unstructured(8), nonconforming ? cr : ""));
+  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+  expect_interface(run.results);
+}
+INSTANTIATE_TEST_SUITE_P(All, EveryCombination,
+                         testing::Combine(testing::Range(0, 5), testing::Bool(), testing::Bool(), testing::Bool()));
+
+TEST(Results, TheContactForceBalancesTheExactOne) {
+  // CR, 1/h = 64: the pressure is a density, so its sum over cells of length h is the whole force; the exact pressure
+  // integrates to it up to the O(h) of the two ends of the contact zone.
+  const SceneRun run(scene(layer("1e-2") + contact, structured(64), cr));
+  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+  const Csv table = read_csv(run.results / "contact.csv");
+  const Truth truth(paper_sine_load(), 1e-2);
+  double exact = 0;
+  constexpr int n = 4096;
+  for (int i = 0; i < n; ++i) exact += truth.pressure((i + 0.5) / n) / n;
+  EXPECT_NEAR(table.rows.col(2).sum() / 64, exact, 0.02 * exact);
+  EXPECT_NEAR(run.summary()["contact"]["from"].get<double>(), 0.69753, 1.5 / 64);
+  EXPECT_NEAR(run.summary()["energy"].get<double>(), -0.44157558, 3e-4);  // numerics: -1.8e-4 at 1/h = 64
+}
+
+TEST(Results, UzawaAndActiveSetGiveTheSameAnswer) {
+  const SceneRun first(scene(layer("0.1") + contact, structured(16))),
+      second(scene(layer("0.1") + contact, structured(16), "solver = \"uzawa\"\n"));
+  ASSERT_EQ(second.outcome.status, 0) << second.outcome.err;
+  EXPECT_EQ(second.summary()["solver"], "uzawa");
+  EXPECT_GT(second.summary()["iterations"]["contact"].get<int>(),
+            10 * first.summary()["iterations"]["contact"].get<int>());
+  // both are asked for 1e-10 of the largest displacement
+  EXPECT_NEAR(second.summary()["energy"].get<double>(), first.summary()["energy"].get<double>(), 1e-9);
+  EXPECT_EQ(second.summary()["contact"]["active"], first.summary()["contact"]["active"]);
+}
+
+TEST(Results, AnObstacleThatPressesInIsObeyed) {
+  const SceneRun run(scene(layer("0.05") + "[contact]\ngap = \"-0.05*sin(pi*x)\"\n", structured(32), "", "0"));
+  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+  EXPECT_NEAR(run.summary()["u_max"].get<double>(), 0.05, 1e-3);
+}
+
+TEST(Results, AZeroLoadHasAZeroAnswer) {
+  const SceneRun run(scene(layer("1e-3") + contact, unstructured(8), cr, "0"));
+  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+  EXPECT_EQ(run.summary()["u_max"].get<double>(), 0.0);
+  expect_interface(run.results);
+}
+
+TEST(Results, OfAnEarlierSceneAreReplacedAndTheTableOfAnAbsentContactGoes) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "with.toml") << scene(contact, structured(8));
+  std::ofstream(folder / "without.toml") << scene("", structured(8));
+  for (const std::string name : {"with", "without"})
+    ASSERT_EQ(run_scene(in_shell(folder / (name + ".toml")) + " --out " + in_shell(folder / "results"), folder).status,
+              0);
+  expect_interface(folder / "results");
+}
+
+TEST(Results, OfAFailedRunLeaveEarlierOnesAlone) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "good.toml") << scene(contact, structured(8));
+  std::ofstream(folder / "bad.toml") << scene(contact, structured(0));
+  const std::string out = " --out " + in_shell(folder / "results");
+  ASSERT_EQ(run_scene(in_shell(folder / "good.toml") + out, folder).status, 0);
+  const std::string before = contents(folder / "results/solution.csv");
+  ASSERT_EQ(run_scene(in_shell(folder / "bad.toml") + out, folder).status, 2);
+  EXPECT_EQ(contents(folder / "results/solution.csv"), before);
+  expect_interface(folder / "results");
+}
+
+TEST(Results, GoToAFolderNamedAfterTheSceneWhereNoneIsGiven) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "mine.toml") << scene("", structured(4));
+  const std::string command =
+      "cd " + in_shell(folder.path().string()) + " && " + in_shell(RUN_SCENE) + " mine.toml >/dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  expect_interface(folder / "results/mine");
+}
+
+TEST(Results, TheMeshOfARunServesAsAMeshFile) {
+  const SceneRun first(scene(layer("1e-3") + contact, unstructured(8), cr));
+  const SceneRun second(
+      scene(layer("1e-3") + contact, "kind = \"file\"\nfile = \"" + (first.results / "mesh.msh").string() + "\"", cr));
+  ASSERT_EQ(second.outcome.status, 0) << second.outcome.err;
+  // the same mesh, numbered the same way: the same numbers
+  EXPECT_EQ(second.summary()["energy"], first.summary()["energy"]);
+}
+
+class Unreachable : public testing::TestWithParam<std::string> {};
+
+TEST_P(Unreachable, ToleranceIsSaidInOneLineAndNothingIsWritten) {
+  const SceneRun run(scene(GetParam(), structured(8), "tolerance = 1e-30\n"));
+  EXPECT_EQ(run.outcome.status, 3);
+  const std::string& line = run.outcome.err;
+  EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+  EXPECT_TRUE(line.starts_with(run.scene_path + ": solve: ")) << line;
+  EXPECT_TRUE(std::filesystem::is_empty(run.output.path()));
+}
+INSTANTIATE_TEST_SUITE_P(All, Unreachable,
+                         testing::Values("", layer("1e-6"), layer("0") + contact, layer("0", "ventcel") + contact));
+
+TEST(Unreachable, ToleranceForUzawa) {
+  const SceneRun run(scene(layer("1e-3") + contact, structured(8), "solver = \"uzawa\"\ntolerance = 1e-16\n"));
+  EXPECT_EQ(run.outcome.status, 3);
+  EXPECT_TRUE(std::filesystem::is_empty(run.output.path()));
+}
+
+TEST(Help, TellsANewcomerEverySectionAndFile) {
+  const TemporaryFolder log;
+  const Outcome outcome = run_scene("--help", log);
+  EXPECT_EQ(outcome.status, 0);
+  for (const std::string word :
+       {"[load]", "[layer]", "[contact]", "[mesh]", "[method]", "summary.json", "solution.csv", "--out"})
+    EXPECT_NE(outcome.out.find(word), outcome.out.npos) << word;
+}
+
+}  // namespace
+}  // namespace antilock::test
