@@ -26,9 +26,22 @@ double mesh_width(const LayerStrain& strain) {
 
 }  // namespace
 
+double compliance(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
+
+Eigen::VectorXd contact_bounds(const UnilateralContact& contact, const Space& space) {
+  Eigen::VectorXd lower(static_cast<Eigen::Index>(space.contact().size()));
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    const double x = space.points()(space.contact()[i], 0), gap = contact.gap(x);
+    if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
+    lower(i) = -gap;
+  }
+  return lower;
+}
+
 VariationalInequality assemble(const Scene& scene, const Space& space) {
   check_fit(scene, space);
   VariationalInequality problem;
+  problem.triangles = space.mesh().triangle_count();
   problem.b.resize(0, space.size());
   problem.load = load_vector(space, scene.body().load);
 
@@ -38,7 +51,7 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
     const double h = mesh_width(strain);
     problem.b = std::move(strain.b);
     problem.m = std::move(strain.m);
-    problem.compliance = stiff->epsilon * stiff->epsilon;  // the class parameter of (1) is the square of (23)'s epsilon
+    problem.compliance = compliance(*stiff);
     problem.penalty = h * h / 16;
   } else if (const auto* thin = std::get_if<ThinLayer>(&scene.layer())) {
     problem.a1 = gradient_form(space, {1, 1}, {1 / thin->epsilon, 1 / thin->epsilon});  // mu / epsilon of (22)
@@ -51,12 +64,7 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
   if (scene.contact()) {
     problem.contact = space.contact();
-    problem.lower.resize(static_cast<Eigen::Index>(problem.contact.size()));
-    for (Eigen::Index i = 0; i < problem.lower.size(); ++i) {
-      const double x = space.points()(problem.contact[i], 0), gap = scene.contact()->gap(x);
-      if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
-      problem.lower(i) = -gap;
-    }
+    problem.lower = contact_bounds(*scene.contact(), space);
   }
   return problem;
 }

@@ -10,4 +10,9 @@ namespace antilock {
 /// not fit.
 VariationalInequality assemble(const Scene& scene, const Space& space);
 
+/// The class parameter of (1), which in (23) is the square of the paper's epsilon. The one place that says so.
+double compliance(const StiffLayer& layer);
+/// C bounds u >= -gap(x), one a contact unknown of the space. Throws Error where the gap is not finite.
+Eigen::VectorXd contact_bounds(const UnilateralContact& contact, const Space& space);
+
 }  // namespace antilock

@@ -28,6 +28,8 @@ struct VariationalInequality {
   std::vector<int> contact;      ///< unknowns bounded from below, in the order of the reports (by x)
   Eigen::VectorXd lower;         ///< C bounds: u >= lower there (= -gap)
 
+  int triangles = 0;  ///< of the mesh that it was assembled on; 0 where it came from elsewhere
+
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(fixed.size()); }
 };

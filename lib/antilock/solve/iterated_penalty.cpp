@@ -105,6 +105,7 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
     if (answer.active != active_before) acceleration.restart();
     acceleration.mix(s.p, dp, s.u);
   }
+  s.counters.triangles = problem.triangles;
   s.counters.unknowns = problem.free_count();
   s.counters.factorisations = factor.factorisations;
   s.counters.solves = factor.solves - solves_before;

@@ -105,6 +105,7 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   s.lambda = lambda;
   for (Eigen::Index i = 0; i < c; ++i) s.active.push_back(lambda(i) > 0);
   s.p = problem.b * s.u / problem.compliance;
+  s.counters.triangles = problem.triangles;
   s.counters.unknowns = problem.free_count();
   s.counters.factorisations = 1;
   s.counters.solves = solve.runs;
