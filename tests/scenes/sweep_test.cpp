@@ -1,0 +1,138 @@
+// Only what is needed: an absent effect costs nothing, and what a sweep can share it shares. Asserted by counting.
+#include "antilock/solve/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "antilock/mesh/generate.hpp"
+#include "antilock/problem/assemble.hpp"
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+namespace {
+
+double difference(const Solution& a, const Solution& b) {
+  return (a.u - b.u).cwiseAbs().maxCoeff() / b.u.cwiseAbs().maxCoeff();
+}
+// Both are solved to 1e-10; the way there differs.
+constexpr double same = 1e-8;
+
+Counters cost(const Scene& scene, const TriangleMesh& mesh, const Element& element) {
+  return active_set(assemble(scene, Space(mesh, element))).counters;
+}
+
+TEST(OnlyWhatIsNeeded, NoContactIsOneLinearSolve) {
+  const TriangleMesh body = structured_mesh(16, {0});
+  for (const Layer& layer : {Layer(NoLayer{}), Layer(VentcelLayer{})})
+    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+      const Counters c = cost(Scene({paper_load}, layer), body, *element);
+      EXPECT_EQ(c.factorisations, 1);
+      EXPECT_EQ(c.solves, 1);
+      EXPECT_EQ(c.contact, 0);
+      EXPECT_EQ(c.corrections, 0);
+    }
+}
+
+TEST(OnlyWhatIsNeeded, ContactThatIsNeverTouchedCostsOneSolveAndALookAtTheSigns) {
+  const TriangleMesh body = structured_mesh(16, {0});
+  const Counters c = cost(Scene({paper_load}, NoLayer{}, UnilateralContact{[](double) { return 1.0; }}), body, p1());
+  EXPECT_EQ(c.factorisations, 1);
+  EXPECT_EQ(c.solves, 1);
+  EXPECT_LE(c.contact, 1);
+}
+
+TEST(OnlyWhatIsNeeded, AVentcelLayerCostsWhatTheBodyAloneCosts) {
+  const TriangleMesh body = structured_mesh(16, {0}), both = structured_mesh(16);
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const Counters none = cost(Scene({paper_load}), body, *element);
+    const Counters ventcel = cost(Scene({paper_load}, VentcelLayer{}), body, *element);
+    const Counters limit = cost(Scene({paper_load}, StiffLayer{0}), both, *element);
+    EXPECT_EQ(ventcel.unknowns, none.unknowns);
+    EXPECT_EQ(ventcel.triangles, none.triangles);
+    EXPECT_EQ(ventcel.solves, none.solves);
+    EXPECT_EQ(limit.triangles, 2 * ventcel.triangles);
+    EXPECT_GT(limit.unknowns, 1.9 * ventcel.unknowns);
+    EXPECT_GT(limit.solves, ventcel.solves);
+  }
+}
+
+TEST(Sweep, GivesTheAnswersOfScenesSolvedOneByOne) {
+  const TriangleMesh mesh = unstructured_mesh(12);
+  const Space space(mesh, crouzeix_raviart());
+  Sweep sweep(Scene({paper_load}, StiffLayer{1}, UnilateralContact{}), space);
+  for (const double epsilon : {1.0, 0.1, 1e-3, 1e-6, 0.0, 0.3}) {
+    sweep.set_epsilon(epsilon);
+    const Scene alone({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+    EXPECT_LE(difference(sweep.solve(), active_set(assemble(alone, space))), same) << epsilon;
+  }
+}
+
+TEST(Sweep, SharesOneFactorisationBelowTheMeshWidth) {
+  const TriangleMesh mesh = structured_mesh(16);
+  const Space space(mesh, p1());
+  Sweep sweep(Scene({paper_load}, StiffLayer{0}, UnilateralContact{}), space);
+  // epsilon^2 <= h^2 / 16 for all of these: h / 4 = 0.0156
+  for (const double epsilon : {0.0, 1e-12, 1e-8, 1e-4, 1e-2, 0.015}) {
+    sweep.set_epsilon(epsilon);
+    EXPECT_EQ(sweep.solve().counters.factorisations, epsilon == 0 ? 1 : 0) << epsilon;
+  }
+  sweep.set_epsilon(0.1);
+  EXPECT_EQ(sweep.solve().counters.factorisations, 1);
+  EXPECT_EQ(sweep.total().factorisations, 2);
+  EXPECT_EQ(sweep.total().triangles, mesh.triangle_count());
+}
+
+TEST(Sweep, LoadsAndGapsShareOneFactorisationAndTheForms) {
+  const TriangleMesh mesh = structured_mesh(16);
+  const Space space(mesh, crouzeix_raviart());
+  const int body_triangles = mesh.triangle_count() / 2;
+  Sweep sweep(Scene({paper_load}, StiffLayer{1e-3}, UnilateralContact{}), space);
+  sweep.solve();
+  for (const double size : {0.5, 2.0, -1.0}) {
+    const Field load = [size](double x, double y) { return size * paper_load(x, y); };
+    const Profile gap = [size](double x) { return 0.01 * size * size * x * (1 - x); };
+    sweep.set_load(load);
+    sweep.set_gap(gap);
+    const Solution swept = sweep.solve();
+    EXPECT_EQ(swept.counters.factorisations, 0);
+    EXPECT_EQ(swept.counters.triangles, body_triangles);
+    const Scene alone({load}, StiffLayer{1e-3}, UnilateralContact{gap});
+    EXPECT_LE(difference(swept, active_set(assemble(alone, space))), same) << size;
+  }
+}
+
+TEST(Sweep, StartsFromTheContactSetBefore) {
+  const TriangleMesh mesh = structured_mesh(64);
+  const Space space(mesh, p1());
+  Sweep sweep(Scene({paper_load}, StiffLayer{1e-3}, UnilateralContact{}), space);
+  sweep.solve();
+  sweep.set_epsilon(0.9e-3);  // moves the contact zone by less than a cell
+  EXPECT_LE(sweep.solve().counters.contact, 2);
+}
+
+TEST(Sweep, ServesScenesWithoutEpsilonToo) {
+  const TriangleMesh body = structured_mesh(8, {0});
+  const Space space(body, p1());
+  Sweep sweep(Scene({paper_load}), space);
+  const Solution first = sweep.solve();
+  sweep.set_load([](double x, double y) { return -3 * paper_load(x, y); });
+  const Solution second = sweep.solve();
+  EXPECT_EQ(second.counters.factorisations, 0);
+  EXPECT_LE((second.u + 3 * first.u).cwiseAbs().maxCoeff(), 1e-14);  // linear
+}
+
+TEST(Sweep, RefusesWhatTheSceneDoesNotHave) {
+  const TriangleMesh body = structured_mesh(8, {0}), both = structured_mesh(8);
+  const Space space(body, p1()), space_with_layer(both, p1());
+  Sweep ventcel(Scene({paper_load}, VentcelLayer{}), space);
+  EXPECT_THROW(ventcel.set_epsilon(0.1), Error);
+  EXPECT_THROW(ventcel.set_gap([](double) { return 1.0; }), Error);
+  EXPECT_THROW(ventcel.set_load(Field{}), Error);
+  Sweep stiff(Scene({paper_load}, StiffLayer{0.1}), space_with_layer);
+  EXPECT_THROW(stiff.set_epsilon(-1), Error);
+  EXPECT_THROW(stiff.set_epsilon(std::nan("")), Error);
+}
+
+}  // namespace
+}  // namespace antilock
