@@ -18,7 +18,7 @@ struct Sample {
 
 using Key = std::vector<std::string>;
 
-/// Panels and series by name, in the order in which the table brings them.
+/// Panels and series by name, and the points of a curve, in the order in which the table brings them.
 struct Curves {
   std::vector<std::string> panels, series;
   std::map<std::pair<std::string, std::string>, std::vector<Sample>> samples;
@@ -51,8 +51,6 @@ Curves read_curves(const Table& table, const ChartStyle& style) {
     remember(curves.series, series);
     curves.samples[{panel, series}].push_back({table.number(row, style.x), table.number(row, style.y)});
   }
-  for (auto& [name, samples] : curves.samples)
-    std::sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.x < b.x; });
   return curves;
 }
 
@@ -69,7 +67,7 @@ Look look(std::size_t n, std::size_t count) {
   constexpr Marker shapes[] = {Marker::circle,   Marker::square, Marker::diamond,
                                Marker::triangle, Marker::cross,  Marker::down_triangle};
   const double shrink = count > 1 ? static_cast<double>(n) / (count - 1) : 0;
-  return {series_colour(n), shapes[n % 6], 46 - 34 * shrink, 10 - 7 * shrink};
+  return {series_colour(n), shapes[(n + n / 6) % 6], 46 - 34 * shrink, 10 - 7 * shrink};
 }
 
 /// A right triangle whose long side has the slope p, in the lower right corner of a panel; each next one stands lower.

@@ -24,7 +24,7 @@
 namespace antilock::figures {
 namespace {
 
-constexpr int oversampling = 2;
+constexpr int oversampling = Page::oversampling;
 
 unsigned char byte(double share) { return static_cast<unsigned char>(std::lround(255 * std::clamp(share, 0.0, 1.0))); }
 
@@ -186,7 +186,7 @@ void Page::scene(vtkSmartPointer<vtkRenderer> renderer, const Box& where) {
 void Page::save(const std::filesystem::path& path) const {
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
-  window->SetMultiSamples(4);
+  window->SetMultiSamples(0);
   window->SetSize(oversampling * width_, oversampling * height_);
   window->SetNumberOfLayers(2);
 

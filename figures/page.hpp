@@ -23,10 +23,12 @@ struct Stroke {
 
 enum class Marker { circle, square, diamond, triangle, down_triangle, cross };
 
-/// One picture: three-dimensional scenes below, drawing above, text on top. White, units of pixels, rendered at twice
-/// the size and averaged down.
+/// One picture: three-dimensional scenes below, drawing above, text on top. White, units of pixels, rendered larger and
+/// averaged down, which smooths every edge.
 class Page {
  public:
+  static constexpr int oversampling = 3;  ///< pixels rendered a pixel written, each way
+
   Page(int width, int height) : width_(width), height_(height) {}
   int width() const { return width_; }
   int height() const { return height_; }

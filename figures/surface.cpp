@@ -26,8 +26,8 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-constexpr double azimuth = 38, elevation = 32;  // of every surface, so that they compare
-constexpr double enlargement = 2;  // VTK's line widths are in pixels of the page rendered at twice its size
+constexpr double azimuth = 38, elevation = 32;      // of every surface, so that they compare
+constexpr double enlargement = Page::oversampling;  // VTK counts line widths in rendered pixels
 
 /// The surface lifted to (x, y, height of u).
 vtkSmartPointer<vtkPolyData> lifted(const vtkSmartPointer<vtkPolyData>& flat, double factor) {
@@ -94,7 +94,7 @@ void add_grid(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surface
     const Vector forward = 0.004 * towards_eye;  // in front of the surface they lie on
     actor->SetPosition(forward.x(), forward.y(), forward.z());
     actor->GetProperty()->SetColor(0.1, 0.1, 0.1);
-    actor->GetProperty()->SetLineWidth(1.1f * enlargement);
+    actor->GetProperty()->SetLineWidth(static_cast<float>(1.1 * enlargement));
     actor->GetProperty()->LightingOff();
     renderer.AddActor(actor);
   }
@@ -117,7 +117,8 @@ void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surf
   if (!grid) {
     property->EdgeVisibilityOn();
     property->SetEdgeColor(0.1, 0.1, 0.1);
-    property->SetLineWidth(1.1f * enlargement);
+    const double width = std::clamp(35 / std::sqrt(surface->GetNumberOfCells()), 0.4, 1.1);  // fine meshes, fine lines
+    property->SetLineWidth(static_cast<float>(width * enlargement));
   }
   renderer.AddActor(actor);
   if (grid) add_grid(renderer, surface, *grid, towards_eye);

@@ -32,7 +32,7 @@ Characters decode(const std::string& utf8) {
 
 /// Letters that mathematics sets in italic: Latin, and small Greek.
 bool slanted(char32_t c) {
-  return (c >= U'a' && c <= U'z') || (c >= U'A' && c <= U'Z') || (c >= U'α' && c <= U'ω') || c == U'ϵ' || c == U'∂' || c == U'ỹ';
+  return (c >= U'a' && c <= U'z') || (c >= U'A' && c <= U'Z') || (c >= U'α' && c <= U'ω') || c == U'ϵ' || c == U'∂';
 }
 
 struct Glyph {

@@ -103,7 +103,7 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
   // 1. The two drawings.
   report.stage("drawings");
   write_drawing(options.out / "figure1.csv", epsilon, {"$Ω_ε^−$", "$Γ_{D,ε}^−$", "$Γ_{C,ε}$", "$ε$", ""});
-  write_drawing(options.out / "figure2.csv", 1, {"$Ω^−$", "$Γ_D^−$", "$Γ_C$", "1", "$ỹ = y/ε$"});
+  write_drawing(options.out / "figure2.csv", 1, {"$Ω^−$", "$Γ_D^−$", "$Γ_C$", "1", "$y ↦ y/ε$"});
 
   // 2. Both problems on the same triangles: (22) on the thin layer, (23) on the unit layer.
   report.stage("assemble (22) and (23)");
