@@ -3,17 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "antilock/scene/error.hpp"
 
 namespace antilock {
 namespace {
 
+/// What round-off makes of the two sides of the conditions: a sign below it is noise, and following it would only make
+/// grazing or badly conditioned contact cycle.
+struct Noise {
+  Eigen::VectorXd v, lambda;  ///< C each
+};
+
 /// v on the inactive unknowns from the equation, lower on the active ones; lambda from both.
-void solve_on(const ContactProblem& p, ContactAnswer& answer) {
+Noise solve_on(const ContactProblem& p, ContactAnswer& answer) {
+  constexpr double unit = 64 * std::numeric_limits<double>::epsilon();
   std::vector<int> free, held;
   for (int i = 0; i < p.q.size(); ++i) (answer.active[i] ? held : free).push_back(i);
   answer.v = p.lower;
+  const double v_scale = std::max(p.u_scale, p.lower.size() > 0 ? p.lower.cwiseAbs().maxCoeff() : 0.0);
+  Noise noise{Eigen::VectorXd::Constant(p.q.size(), unit * v_scale), {}};
   if (!free.empty()) {
     Eigen::VectorXd rhs = p.q(free);
     if (!held.empty()) rhs.noalias() -= p.s(free, held) * p.lower(held);
@@ -21,24 +31,53 @@ void solve_on(const ContactProblem& p, ContactAnswer& answer) {
     if (factor.info() != Eigen::Success) throw Error("contact: the Schur complement is not positive definite");
     const Eigen::VectorXd inactive = factor.solve(rhs);
     answer.v(free) = inactive;
+    // a compliance is positive: forces of the size of their round-off, all of one sign, displace the most
+    const Eigen::VectorXd residual_noise =
+        unit * (p.s.diagonal().cwiseAbs().cwiseProduct(answer.v.cwiseAbs()) + p.q.cwiseAbs());
+    const Eigen::VectorXd moved = factor.solve(Eigen::VectorXd(residual_noise(free))).cwiseAbs();
+    noise.v(free) += moved;
   }
+  noise.lambda =
+      unit * (p.s.diagonal().cwiseAbs().maxCoeff() * answer.v.cwiseAbs().array() + p.q.cwiseAbs().array()).matrix();
   answer.lambda.setZero(p.q.size());
   if (!held.empty()) answer.lambda(held) = p.s(held, Eigen::all) * answer.v - p.q(held);
   ++answer.steps;
+  return noise;
 }
 
-/// Unknowns on the wrong side. Below `slack` (relative, a few thousand round-offs) a sign is noise, and following it
-/// would only make grazing contact cycle.
-std::vector<int> violations(const ContactProblem& p, const ContactAnswer& answer) {
-  constexpr double slack = 1e-13;
-  const double v_scale = std::max({answer.v.cwiseAbs().maxCoeff(), p.lower.cwiseAbs().maxCoeff(), p.u_scale});
-  const double f_scale =
-      std::max(p.q.cwiseAbs().maxCoeff(), (p.s.diagonal().cwiseAbs().array() * answer.v.array().abs()).maxCoeff());
+/// Unknowns on the wrong side by more than noise.
+std::vector<int> violations(const ContactProblem& p, const ContactAnswer& answer, const Noise& noise) {
   std::vector<int> wrong;
   for (int i = 0; i < p.q.size(); ++i)
-    if (answer.active[i] ? answer.lambda(i) < -slack * f_scale : answer.v(i) - p.lower(i) < -slack * v_scale)
+    if (answer.active[i] ? answer.lambda(i) < -noise.lambda(i) : answer.v(i) - p.lower(i) < -noise.v(i))
       wrong.push_back(i);
   return wrong;
+}
+
+/// One step of Bertsekas' projected Newton method from a feasible v: it lowers the energy v' S v / 2 - q' v, so it
+/// cannot cycle. Moves v and returns the contact set there.
+std::vector<bool> projected_newton_set(const ContactProblem& p, Eigen::VectorXd& v, int& steps) {
+  const Eigen::VectorXd gradient = p.s * v - p.q;
+  std::vector<int> free;
+  for (int i = 0; i < v.size(); ++i)
+    if (v(i) > p.lower(i) || gradient(i) <= 0) free.push_back(i);
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(v.size());
+  if (!free.empty()) {
+    const Eigen::VectorXd step = Eigen::LLT<Eigen::MatrixXd>(p.s(free, free)).solve(Eigen::VectorXd(-gradient(free)));
+    direction(free) = step;
+  }
+  ++steps;
+  // Armijo along the projected path; the change of energy from the change of v, so that no digits cancel
+  double t = 1;
+  Eigen::VectorXd change;
+  for (int halvings = 0; halvings < 60; ++halvings, t /= 2) {
+    change = (v + t * direction).cwiseMax(p.lower) - v;
+    if (change.dot(gradient + 0.5 * (p.s * change)) <= 1e-4 * change.dot(gradient)) break;
+  }
+  v += change;
+  std::vector<bool> active(v.size());
+  for (int i = 0; i < v.size(); ++i) active[i] = v(i) <= p.lower(i);
+  return active;
 }
 
 /// Every second unknown and the straight lines between them, falling to zero at both ends.
@@ -59,25 +98,23 @@ ContactAnswer solve_contact(const ContactProblem& problem, std::vector<bool> act
   ContactAnswer answer;
   answer.active = std::move(active);
   std::size_t fewest = problem.q.size() + 1;
-  int patience = 10;  // whole-set exchanges allowed without progress before single pivots take over
+  int patience = 5;  // exchanges of whole sets allowed without progress before the energy is asked
+  Eigen::VectorXd descent;
   while (true) {
-    solve_on(problem, answer);
-    const std::vector<int> wrong = violations(problem, answer);
+    const Noise noise = solve_on(problem, answer);
+    const std::vector<int> wrong = violations(problem, answer, noise);
     if (wrong.empty()) return answer;
     if (answer.steps >= max_steps)
       throw NotConverged(fmt::format("contact: {} of {} contact conditions still violated after {} steps", wrong.size(),
                                      problem.q.size(), answer.steps),
                          static_cast<double>(wrong.size()) / static_cast<double>(problem.q.size()), answer.steps);
-    if (wrong.size() < fewest) {
-      fewest = wrong.size();
-      patience = 10;
-    } else {
-      --patience;
-    }
+    patience = wrong.size() < fewest ? 5 : patience - 1;
+    fewest = std::min(fewest, wrong.size());
     if (patience > 0) {
       for (const int i : wrong) answer.active[i] = !answer.active[i];
     } else {
-      answer.active[wrong.back()] = !answer.active[wrong.back()];  // Murty's rule: one index, always the last
+      if (descent.size() == 0) descent = answer.v.cwiseMax(problem.lower);
+      answer.active = projected_newton_set(problem, descent, answer.steps);
     }
   }
 }

@@ -19,9 +19,9 @@ struct ContactAnswer {
   int steps = 0;              ///< linear systems solved
 };
 
-/// Primal-dual active set from a given start, safeguarded as block principal pivoting (Judice and Pires 1994): where
-/// the number of violated conditions stops falling, single pivots of least index take over, which cannot cycle. Throws
-/// NotConverged after max_steps.
+/// Primal-dual active set from a given start. Where the number of violated conditions stops falling, projected Newton steps
+/// (Bertsekas 1982) propose the sets: they lower the energy, so nothing can cycle.
+/// Throws NotConverged after max_steps linear systems.
 ContactAnswer solve_contact(const ContactProblem& problem, std::vector<bool> active, int max_steps);
 
 /// A start for solve_contact that makes its steps independent of h: the same problem on every second unknown

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "antilock/scene/error.hpp"
 
@@ -38,20 +39,21 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
     terms += problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(p.cwiseAbs());
     b_largest = Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff();
   }
+  // a locked u may tend to 0: then the bounds tell what is large
+  const double u_scale = std::max(largest(u), largest(problem.lower));
+  const double f_scale = std::max(largest(problem.load), largest(lambda));
   Kkt kkt;
   kkt.residual = std::max(ratio(largest(r.r1), largest(terms)),
-                          ratio(largest(r.r2), std::max(b_largest * largest(u), problem.compliance * largest(p))));
-  double u_scale = std::max(largest(u), largest(problem.lower));
-  double f_scale = std::max(largest(problem.load), largest(lambda));
+                          ratio(largest(r.r2), std::max(b_largest * u_scale, problem.compliance * largest(p))));
+  // the prescribed values hold exactly or not at all
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+    if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
+      kkt.residual = std::max(kkt.residual, 1.0);
   if (problem.contact.empty()) return kkt;
   const Eigen::VectorXd gap = u(problem.contact) - problem.lower;
   kkt.min_gap = ratio(gap.minCoeff(), u_scale);
   kkt.min_pressure = ratio(lambda.minCoeff(), f_scale);
   kkt.complementarity = ratio(largest(lambda.cwiseProduct(gap)), u_scale * f_scale);
-  // the prescribed values hold exactly or not at all
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
-      kkt.residual = std::max(kkt.residual, 1.0);
   return kkt;
 }
 

@@ -1,0 +1,66 @@
+#include "antilock/problem/timoshenko_beam.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+namespace {
+
+void require(bool holds, const char* name, double value, const char* accepted) {
+  if (!holds) throw Error(fmt::format("beam: {} = {}; accepted {}", name, value, accepted));
+}
+
+}  // namespace
+
+VariationalInequality assemble(const Beam& beam) {
+  require(beam.cells >= 2, "cells", beam.cells, "2 or more");
+  require(beam.epsilon >= 0 && beam.epsilon <= 1, "epsilon", beam.epsilon, "0 to 1");
+  require(beam.gap > 0 && std::isfinite(beam.gap), "gap", beam.gap, "a positive number");
+  require(std::isfinite(beam.load), "load", beam.load, "a finite number");
+  const int n = beam.cells;
+  const double h = 1.0 / n;
+  const auto w = [](int node) { return 2 * node; };
+  const auto theta = [](int node) { return 2 * node + 1; };
+
+  VariationalInequality problem;
+  std::vector<Eigen::Triplet<double>> a1, b;
+  std::vector<double> m;
+  problem.load = Eigen::VectorXd::Zero(2 * n + 2);
+  const double s = 0.5 / std::sqrt(3.0);
+  const std::vector<double> points =
+      beam.shear == ShearIntegration::full ? std::vector{0.5 - s, 0.5 + s} : std::vector{0.5};
+  for (int i = 0; i < n; ++i) {
+    // int theta' phi'
+    for (const int j : {i, i + 1})
+      for (const int k : {i, i + 1}) a1.emplace_back(theta(j), theta(k), (j == k ? 1 : -1) / h);
+    // a row of B is w' - theta at a point of the cell
+    for (const double x : points) {
+      const int row = static_cast<int>(m.size());
+      b.emplace_back(row, w(i), -1 / h);
+      b.emplace_back(row, w(i + 1), 1 / h);
+      b.emplace_back(row, theta(i), -(1 - x));
+      b.emplace_back(row, theta(i + 1), -x);
+      m.push_back(h / static_cast<double>(points.size()));
+    }
+    problem.load(w(i)) -= 0.5 * h * beam.load;
+    problem.load(w(i + 1)) -= 0.5 * h * beam.load;
+  }
+  problem.a1.resize(2 * n + 2, 2 * n + 2);
+  problem.a1.setFromTriplets(a1.begin(), a1.end());
+  problem.m = Eigen::Map<const Eigen::VectorXd>(m.data(), static_cast<Eigen::Index>(m.size()));
+  problem.b.resize(problem.m.size(), 2 * n + 2);
+  problem.b.setFromTriplets(b.begin(), b.end());
+  problem.compliance = beam.epsilon;  // here the class parameter is epsilon itself
+  // contact destroys the inf-sup constant (it falls like h^2 on the contact set): a small penalty, few corrections
+  problem.penalty = 1e-8;
+  problem.fixed = {w(0), theta(0), w(n), theta(n)};
+  problem.fixed_values = Eigen::VectorXd::Zero(4);
+  for (int i = 1; i < n; ++i) problem.contact.push_back(w(i));
+  problem.lower = Eigen::VectorXd::Constant(n - 1, -beam.gap);
+  return problem;
+}
+
+}  // namespace antilock
