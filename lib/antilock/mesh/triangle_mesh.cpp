@@ -106,21 +106,31 @@ void check_overlap(const TriangleMesh& mesh, const std::string& where) {
     }
 }
 
+/// Whether vertex v lies strictly inside edge e.
+bool hangs(const TriangleMesh& mesh, int v, int e) {
+  const Eigen::Vector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+  const Eigen::Vector2d along = b - a, to = mesh.vertices.row(v).transpose() - a;
+  const double t = to.dot(along) / along.squaredNorm();
+  return t > 1e-9 && t < 1 - 1e-9 && (to - t * along).norm() < 1e-9 * along.norm();
+}
+
 void check_boundary(const TriangleMesh& mesh, const std::string& where) {
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_triangles(e, 1) >= 0 || mesh.edge_tag[e] != EdgeTag::interior) continue;
-    const Eigen::Vector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
-    const Eigen::Vector2d along = b - a;
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-      const Eigen::Vector2d to = mesh.vertices.row(v).transpose() - a;
-      const double t = to.dot(along) / along.squaredNorm();
-      if (t > 1e-9 && t < 1 - 1e-9 && (to - t * along).norm() < 1e-9 * along.norm())
-        throw Error(fmt::format("{}: the vertex at {} hangs on the edge from {} to {}", where, at(mesh, v),
-                                at(mesh, mesh.edges(e, 0)), at(mesh, mesh.edges(e, 1))));
-    }
-    throw Error(fmt::format("{}: the boundary edge from {} to {} is in no group; accepted: clamped or contact", where,
-                            at(mesh, mesh.edges(e, 0)), at(mesh, mesh.edges(e, 1))));
-  }
+  std::vector<int> untagged;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_triangles(e, 1) < 0 && mesh.edge_tag[e] == EdgeTag::interior) untagged.push_back(e);
+  if (untagged.empty()) return;
+  const int first = untagged.front();
+  const auto refuse_hanging = [&](int v, int e) {
+    if (hangs(mesh, v, e))
+      throw Error(fmt::format("{}: the vertex at {} hangs on the edge from {} to {}", where, at(mesh, v),
+                              at(mesh, mesh.edges(e, 0)), at(mesh, mesh.edges(e, 1))));
+  };
+  // the likely reason: the first of them is the long side of a hanging vertex, or one of the short ones
+  for (int v = 0; v < mesh.vertex_count(); ++v) refuse_hanging(v, first);
+  for (const int e : untagged)
+    for (int end = 0; end < 2; ++end) refuse_hanging(mesh.edges(first, end), e);
+  throw Error(fmt::format("{}: the boundary edge from {} to {} is in no group; accepted: clamped or contact", where,
+                          at(mesh, mesh.edges(first, 0)), at(mesh, mesh.edges(first, 1))));
 }
 
 /// A piece that no clamped edge holds could move freely: the problem would be singular.

@@ -31,6 +31,11 @@ SplitResidual split_residual(const VariationalInequality& problem, const Eigen::
 
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   const Eigen::VectorXd &u = solution.u, &p = solution.p, &lambda = solution.lambda;
+  Kkt kkt;
+  if (!u.allFinite() || !p.allFinite() || !lambda.allFinite()) {  // a maximum may pass over what is not a number
+    kkt.residual = std::numeric_limits<double>::infinity();
+    return kkt;
+  }
   SplitResidual r = split_residual(problem, u, p, lambda);
   for (const int i : problem.fixed) r.r1(i) = 0;  // the reaction of the clamp, not an error
   Eigen::VectorXd terms = problem.a1.cwiseAbs() * u.cwiseAbs() + problem.load.cwiseAbs();
@@ -42,7 +47,6 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   // a locked u may tend to 0: then the bounds tell what is large
   const double u_scale = std::max(largest(u), largest(problem.lower));
   const double f_scale = std::max(largest(problem.load), largest(lambda));
-  Kkt kkt;
   kkt.residual = std::max(ratio(largest(r.r1), largest(terms)),
                           ratio(largest(r.r2), std::max(b_largest * u_scale, problem.compliance * largest(p))));
   // the prescribed values hold exactly or not at all
