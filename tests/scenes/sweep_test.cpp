@@ -72,8 +72,8 @@ TEST(Sweep, SharesOneFactorisationBelowTheMeshWidth) {
   const TriangleMesh mesh = structured_mesh(16);
   const Space space(mesh, p1());
   Sweep sweep(Scene({paper_load}, StiffLayer{0}, UnilateralContact{}), space);
-  // epsilon^2 <= h^2 / 16 for all of these: h / 4 = 0.0156
-  for (const double epsilon : {0.0, 1e-12, 1e-8, 1e-4, 1e-2, 0.015}) {
+  // epsilon^2 <= h^2 / 256 for all of these: h / 16 = 0.0039
+  for (const double epsilon : {0.0, 1e-12, 1e-8, 1e-4, 1e-3, 0.0039}) {
     sweep.set_epsilon(epsilon);
     EXPECT_EQ(sweep.solve().counters.factorisations, epsilon == 0 ? 1 : 0) << epsilon;
   }
