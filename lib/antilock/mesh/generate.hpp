@@ -3,7 +3,8 @@
 
 namespace antilock {
 
-enum class Diagonal { right, left };  ///< right: / ; left: \ (Figure 3 shows right)
+/// right: / (Figure 3); left: \; crossed: both, with a vertex at each cell's centre.
+enum class Diagonal { right, left, crossed };
 
 /// The domain of Figure 2: the unit square, with a layer (0,1) x (-layer_depth, 0) below it where layer_depth > 0.
 struct Domain {

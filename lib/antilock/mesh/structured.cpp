@@ -30,15 +30,25 @@ TriangleMesh structured_mesh(int cells, const Domain& domain, Diagonal diagonal)
         j < layer_rows ? -depth * (layer_rows - j) / layer_rows : static_cast<double>(j - layer_rows) / cells;
     for (int i = 0; i <= cells; ++i) mesh.vertices.row(j * (cells + 1) + i) << static_cast<double>(i) / cells, y;
   }
-  mesh.triangles.resize(static_cast<Eigen::Index>(2) * rows * cells, 3);
+  const bool crossed = diagonal == Diagonal::crossed;
+  const int corners = mesh.vertex_count();
+  if (crossed) mesh.vertices.conservativeResize(corners + static_cast<Eigen::Index>(rows) * cells, 2);
+  mesh.triangles.resize(static_cast<Eigen::Index>(crossed ? 4 : 2) * rows * cells, 3);
   mesh.region.resize(mesh.triangles.rows());
   int t = 0;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < cells; ++i) {
       const int low = j * (cells + 1) + i, up = low + cells + 1;  // lower left and upper left corner
       const Region region = j < layer_rows ? Region::layer : Region::body;
-      mesh.region[t] = mesh.region[t + 1] = region;
-      if (diagonal == Diagonal::right) {
+      std::fill_n(mesh.region.begin() + t, crossed ? 4 : 2, region);
+      if (crossed) {
+        const int centre = corners + j * cells + i;
+        mesh.vertices.row(centre) = 0.5 * (mesh.vertices.row(low) + mesh.vertices.row(up + 1));
+        mesh.triangles.row(t++) << low, low + 1, centre;
+        mesh.triangles.row(t++) << low + 1, up + 1, centre;
+        mesh.triangles.row(t++) << up + 1, up, centre;
+        mesh.triangles.row(t++) << up, low, centre;
+      } else if (diagonal == Diagonal::right) {
         mesh.triangles.row(t++) << low, low + 1, up + 1;
         mesh.triangles.row(t++) << low, up + 1, up;
       } else {

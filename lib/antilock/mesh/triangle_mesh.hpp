@@ -7,7 +7,7 @@ namespace antilock {
 
 /// Physical groups of Figure 2; the numbers are those of the MSH and FreeFEM files.
 enum class Region { body = 1, layer = 2 };
-enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5 };
+enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5, free = 6 };  // free: elasticity only
 
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< n x 2, coordinates x, y
 using Triples = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;    ///< n x 3, indices from 0

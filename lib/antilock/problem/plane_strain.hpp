@@ -1,0 +1,25 @@
+#pragma once
+#include "antilock/form/elasticity_forms.hpp"
+#include "antilock/problem/variational_inequality.hpp"
+
+namespace antilock {
+
+/// Nearly incompressible elasticity in plane strain, mu = 1 (the paper's introduction): a1 = 2 int eps(u):eps(v), a0 =
+/// int div u div v, the class parameter epsilon = 1/lambda. The clamped edges are moved down by `push`, the bottom is
+/// in frictionless unilateral contact: u_y >= -gap(x) on the contact edges.
+struct PlaneStrain {
+  double epsilon = 1e-8;  ///< 1/lambda, in [0, 1]; 0: incompressible
+  double push = 0.1;      ///< displacement of the clamped edges, downwards
+  bool sliding = false;   ///< clamped edges are free to slide in x, but for the vertices on x = 0 (patch test)
+  Profile gap = [](double) { return 0.0; };
+  double jump_weight = 1;  ///< of jump_form; 0: none (CR then has zero modes)
+};
+
+/// The problem (6) of plane strain on a vector space. Throws Error for values out of range.
+VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& space);
+
+/// The unit square with its sides x = 0 and x = 1 free: the clamped edges of a mesh of the body that lie on them lose
+/// their tag.
+TriangleMesh with_free_sides(TriangleMesh mesh);
+
+}  // namespace antilock
