@@ -10,12 +10,16 @@
 
 namespace antilock::figures {
 
+std::string power_markup(int power) {
+  return power == 0 ? "1" : fmt::format("$10^{{{}{}}}$", power < 0 ? "−" : "", std::abs(power));
+}
+
 std::string number_markup(double value) {
   if (value == 0) return "0";
   const std::string sign = value < 0 ? "−" : "";
   const double size = std::abs(value);
   const int exponent = static_cast<int>(std::floor(std::log10(size) + 1e-9));
-  if (exponent >= -2 && exponent < 4) return sign + fmt::format("{:.4g}", size);
+  if (exponent >= -3 && exponent < 4) return sign + fmt::format("{:.4g}", size);
   const std::string power = exponent < 0 ? fmt::format("−{}", -exponent) : fmt::format("{}", exponent);
   const double leading = size / std::pow(10, exponent);
   if (std::abs(leading - 1) < 1e-9) return fmt::format("${}10^{{{}}}$", sign, power);
@@ -34,25 +38,25 @@ std::string entry_markup(const std::string& column, const std::string& value) {
   if (error != std::errc{} || end != value.data() + value.size()) return value;
   const bool power_of_ten = number > 0 && std::abs(std::log10(number) - std::round(std::log10(number))) < 1e-9;
   std::string written = number_markup(number);
-  if (power_of_ten && number < 0.5) written = fmt::format("$10^{{−{}}}$", std::lround(-std::log10(number)));
+  if (power_of_ten && number < 0.5) written = power_markup(static_cast<int>(std::lround(std::log10(number))));
   return (column == "epsilon" ? "$ε =$ " : column == "h" ? "$h =$ " : column + " = ") + written;
 }
 
-Axis Axis::logarithmic(double low, double high) {
+Axis Axis::logarithmic(double low, double high, double room) {
   if (!(low > 0 && high >= low && std::isfinite(high)))
     throw Error(fmt::format("a logarithmic axis from {} to {} cannot be drawn; accepted: positive values", low, high));
-  const double room = 0.07 * std::max(std::log10(high / low), 0.3);
-  Axis axis(low * std::pow(10, -room), high * std::pow(10, room), true);
+  const double widened = room > 0 || high == low ? std::max(room, 0.07) * std::max(std::log10(high / low), 0.3) : 1e-9;
+  Axis axis(low * std::pow(10, -widened), high * std::pow(10, widened), true);
   const double decades = std::log10(axis.high_ / axis.low_);
   for (int power = static_cast<int>(std::floor(std::log10(axis.low_))); std::pow(10, power) <= axis.high_; ++power)
     for (int digit = 1; digit <= 9; ++digit) {
       const double value = digit * std::pow(10, power);
       if (value < axis.low_ || value > axis.high_) continue;
       std::string label;
-      if (decades < 2.2) {  // few decades: 1, 2 and 5 carry numbers
+      if (decades < 1.6) {  // few decades: 1, 2 and 5 carry numbers
         if (digit == 1 || digit == 2 || digit == 5) label = number_markup(value);
       } else if (digit == 1 && power % static_cast<int>(std::ceil(decades / 8)) == 0) {
-        label = power == 0 ? "1" : fmt::format("$10^{{{}{}}}$", power < 0 ? "−" : "", std::abs(power));
+        label = power_markup(power);
       }
       if (!label.empty() || decades < 10) axis.ticks_.push_back({value, label});
     }

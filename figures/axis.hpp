@@ -12,8 +12,9 @@ struct Tick {
 /// A range of numbers with its ticks, on a straight or a logarithmic scale.
 class Axis {
  public:
-  /// Widens [low, high] a little so that no point lies on the frame. Throws Error for a range that cannot be drawn.
-  static Axis logarithmic(double low, double high);
+  /// Widens [low, high] by a share `room` of its length, so that no point lies on the frame. Throws Error for a range
+  /// that cannot be drawn.
+  static Axis logarithmic(double low, double high, double room = 0.07);
   /// Exactly [low, high], with about as many ticks as asked for. Throws Error likewise.
   static Axis linear(double low, double high, int about = 5);
   /// Where a value lies between the ends, 0 to 1.
@@ -28,6 +29,9 @@ class Axis {
   bool logarithmic_;
   std::vector<Tick> ticks_;
 };
+
+/// `$10^{−6}$`, and 1 for 0.
+std::string power_markup(int power);
 
 /// A number as a reader writes it: `0.05`, `−0.2`, `$10^{−6}$`.
 std::string number_markup(double value);

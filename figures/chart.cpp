@@ -5,9 +5,10 @@
 #include <map>
 
 #include "antilock/scene/error.hpp"
+#include "legend.hpp"
 #include "panel.hpp"
 #include "pictures.hpp"
-#include "table.hpp"
+#include "selection.hpp"
 
 namespace antilock::figures {
 namespace {
@@ -16,28 +17,11 @@ struct Sample {
   double x, y;
 };
 
-using Key = std::vector<std::string>;
-
 /// Panels and series by name, and the points of a curve, in the order in which the table brings them.
 struct Curves {
   std::vector<std::string> panels, series;
   std::map<std::pair<std::string, std::string>, std::vector<Sample>> samples;
 };
-
-std::string key_name(const Table& table, std::size_t row, const Key& columns) {
-  std::string name;
-  for (const std::string& column : columns)
-    name += (name.empty() ? "" : ", ") + entry_markup(column, table.text(row, column));
-  return name;
-}
-
-bool kept(const Table& table, std::size_t row, const std::vector<std::string>& filters) {
-  return std::all_of(filters.begin(), filters.end(), [&](const std::string& filter) {
-    const auto equals = filter.find('=');
-    if (equals == std::string::npos) throw Error(fmt::format("filter '{}': accepted: column=value", filter));
-    return table.text(row, filter.substr(0, equals)) == filter.substr(equals + 1);
-  });
-}
 
 Curves read_curves(const Table& table, const ChartStyle& style) {
   Curves curves;
@@ -45,8 +29,8 @@ Curves read_curves(const Table& table, const ChartStyle& style) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    if (!kept(table, row, style.filters)) continue;
-    const std::string panel = key_name(table, row, style.panel_by), series = key_name(table, row, style.series_by);
+    if (!selected(table, row, style.filters)) continue;
+    const std::string panel = key_markup(table, row, style.panel_by), series = key_markup(table, row, style.series_by);
     remember(curves.panels, panel);
     remember(curves.series, series);
     curves.samples[{panel, series}].push_back({table.number(row, style.x), table.number(row, style.y)});
@@ -55,6 +39,9 @@ Curves read_curves(const Table& table, const ChartStyle& style) {
 }
 
 bool drawable(const Sample& s) { return s.x > 0 && s.y > 0 && std::isfinite(s.x) && std::isfinite(s.y); }
+
+/// A run that gave no answer, but has a place on the x axis.
+bool failed(const Sample& s) { return !drawable(s) && s.x > 0 && std::isfinite(s.x); }
 
 /// How the n-th series is drawn; earlier ones are larger, so that curves on top of each other all show.
 struct Look {
@@ -67,7 +54,7 @@ Look look(std::size_t n, std::size_t count) {
   constexpr Marker shapes[] = {Marker::circle,   Marker::square, Marker::diamond,
                                Marker::triangle, Marker::cross,  Marker::down_triangle};
   const double shrink = count > 1 ? static_cast<double>(n) / (count - 1) : 0;
-  return {series_colour(n), shapes[(n + n / 6) % 6], 46 - 34 * shrink, 10 - 7 * shrink};
+  return {series_colour(n), shapes[(n + n / 6) % 6], 44 - 26 * shrink, 8 - 4.5 * shrink};
 }
 
 /// A right triangle whose long side has the slope p, in the lower right corner of a panel; each next one stands lower.
@@ -96,40 +83,13 @@ void draw_curves(Page& page, const Panel& panel, const Curves& curves, const std
       if (drawable(s)) points.push_back(panel(s.x, s.y));
     page.line(points, {style.width, style.colour});
     for (const Point& point : points) page.marker(point, style.marker, style.size, style.colour);
-    for (const Sample& s : found->second)
-      if (!drawable(s) && s.x > 0 && std::isfinite(s.x))
-        page.text({panel(s.x, panel.y.high()).x, panel.box.top() - 30}, "failed",
-                  {30, {1, Anchor::Height::middle}, 90, style.colour});
-  }
-}
-
-/// One line of entries, or as many as they need, centred; returns the height taken.
-double draw_legend(Page& page, const std::vector<std::string>& names, double bottom, bool paint) {
-  constexpr double size = 46, swatch = 100, gap = 70, line = 74;
-  std::vector<std::vector<std::size_t>> lines(1);
-  std::vector<double> widths(1, 0);
-  for (std::size_t n = 0; n < names.size(); ++n) {
-    const double width = swatch + 20 + page.text_width(names[n], size) + gap;
-    if (!lines.back().empty() && widths.back() + width > page.width() - 200) {
-      lines.emplace_back();
-      widths.push_back(0);
-    }
-    lines.back().push_back(n);
-    widths.back() += width;
-  }
-  if (!paint) return line * static_cast<double>(lines.size());
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    const double y = bottom + line * static_cast<double>(lines.size() - i - 1) + 0.5 * line;
-    double x = 0.5 * (page.width() - widths[i] + gap);
-    for (const std::size_t n : lines[i]) {
-      const Look style = look(n, names.size());
-      page.line({{x, y}, {x + swatch, y}}, {style.width, style.colour});
-      page.marker({x + 0.5 * swatch, y}, style.marker, style.size, style.colour);
-      page.text({x + swatch + 20, y}, names[n], {size, {0, Anchor::Height::middle}});
-      x += swatch + 20 + page.text_width(names[n], size) + gap;
+    for (const Sample& s : found->second) {
+      if (!failed(s)) continue;
+      const Point at{panel(s.x, panel.y.high()).x, panel.box.top() - 34};
+      page.marker(at, Marker::cross, 34, style.colour);
+      page.text(at + Point{0, -30}, "failed", {32, {1, Anchor::Height::middle}, 90, style.colour});
     }
   }
-  return line * static_cast<double>(lines.size());
 }
 
 }  // namespace
@@ -139,24 +99,24 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
   const Curves curves = read_curves(table, style);
   Sample low{HUGE_VAL, HUGE_VAL}, high{0, 0};
   for (const auto& [name, samples] : curves.samples)
-    for (const Sample& s : samples)
-      if (drawable(s)) {
-        low = {std::min(low.x, s.x), std::min(low.y, s.y)};
-        high = {std::max(high.x, s.x), std::max(high.y, s.y)};
-      }
-  if (high.x == 0) throw Error(fmt::format("{}: no row to draw: {} against {}", file.string(), style.y, style.x));
+    for (const Sample& s : samples) {
+      if (drawable(s) || failed(s)) low.x = std::min(low.x, s.x), high.x = std::max(high.x, s.x);
+      if (drawable(s)) low.y = std::min(low.y, s.y), high.y = std::max(high.y, s.y);
+    }
+  if (high.y == 0) throw Error(fmt::format("{}: no row to draw: {} against {}", file.string(), style.y, style.x));
 
   const std::size_t count = curves.panels.size(), columns = panel_columns(count),
                     rows = (count + columns - 1) / columns;
   const double panel_height = rows == 1 ? 1000 : 700, gap_y = 110, head = 100 + (style.title.empty() ? 0 : 90);
   const int width = columns > 2 ? 2600 : columns > 1 ? 2100 : 1800;
   Page page(width, 100);  // measures the legend; the real page follows
-  const double legend = curves.series.size() > 1 ? draw_legend(page, curves.series, 0, false) : 0, foot = legend + 190;
+  const double legend = curves.series.size() > 1 ? legend_height(page, curves.series) : 0, foot = legend + 190;
   const int height = static_cast<int>(rows * panel_height + (rows - 1) * gap_y + head + foot);
   page = Page(width, height);
 
   const Axis x = Axis::logarithmic(low.x, high.x), y = Axis::logarithmic(low.y, high.y);
-  const Box area{220, foot, width - 270.0, height - foot - head};
+  const double left = left_margin(page, y);
+  const Box area{left, foot, width - left - 50, height - foot - head};
   const auto boxes = arrange_panels(count, area, 60, gap_y);
   for (std::size_t i = 0; i < count; ++i) {
     const Panel panel{boxes[i], x, y};
@@ -166,7 +126,12 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
     draw_frame(page, panel,
                {curves.panels[i], i + columns >= count ? style.x_name : "", i % columns == 0 ? style.y_name : ""});
   }
-  if (legend > 0) draw_legend(page, curves.series, 30, true);
+  if (legend > 0)
+    draw_legend(page, curves.series, 30, [&](std::size_t n, const Box& box) {
+      const Look sample = look(n, curves.series.size());
+      page.line({{box.x, box.centre().y}, {box.right(), box.centre().y}}, {sample.width, sample.colour});
+      page.marker(box.centre(), sample.marker, sample.size, sample.colour);
+    });
   if (!style.title.empty()) page.text({0.5 * width, height - 76.0}, style.title, {58, {0.5}});
   return page;
 }

@@ -1,5 +1,6 @@
 #include "panel.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace antilock::figures {
@@ -7,7 +8,15 @@ namespace {
 
 constexpr double number_size = 42, name_size = 50, title_size = 52;
 
+double widest_number(const Page& page, const Axis& axis) {
+  double widest = 0;
+  for (const Tick& tick : axis.ticks()) widest = std::max(widest, page.text_width(tick.label, number_size));
+  return widest;
+}
+
 }  // namespace
+
+double left_margin(const Page& page, const Axis& y) { return widest_number(page, y) + 50 + name_size + 30; }
 
 void draw_grid(Page& page, const Panel& panel) {
   const Box& box = panel.box;
@@ -31,17 +40,16 @@ void draw_frame(Page& page, const Panel& panel, const PanelNames& names) {
     if (!names.x.empty() && !tick.label.empty())
       page.text({x, box.y - 18}, tick.label, {number_size, {0.5, Anchor::Height::top}});
   }
-  double widest = 0;
   for (const Tick& tick : panel.y.ticks()) {
     const double y = box.y + box.height * panel.y.place(tick.value), size = tick.label.empty() ? 8 : 15;
     page.line({{box.x, y}, {box.x + size, y}}, {2});
     if (names.y.empty() || tick.label.empty()) continue;
     page.text({box.x - 16, y}, tick.label, {number_size, {1, Anchor::Height::middle}});
-    widest = std::max(widest, page.text_width(tick.label, number_size));
   }
   page.rectangle(box, {3});
   if (!names.x.empty()) page.text({box.centre().x, box.y - 74}, names.x, {name_size, {0.5, Anchor::Height::top}});
-  if (!names.y.empty()) page.text({box.x - 16 - widest - 34, box.centre().y}, names.y, {name_size, {0.5}, 90});
+  if (!names.y.empty())
+    page.text({box.x - 16 - widest_number(page, panel.y) - 34, box.centre().y}, names.y, {name_size, {0.5}, 90});
   page.text({box.centre().x, box.top() + 24}, names.title, {title_size, {0.5}});
 }
 

@@ -25,6 +25,9 @@ void draw_grid(Page& page, const Panel& panel);
 /// The frame with ticks, numbers and names, above them.
 void draw_frame(Page& page, const Panel& panel, const PanelNames& names);
 
+/// The room that the numbers and the name of a vertical axis take at the left of a frame, in pixels.
+double left_margin(const Page& page, const Axis& y);
+
 /// The boxes of `count` panels in an area, in rows of equal boxes with room for names and numbers, top left first.
 std::vector<Box> arrange_panels(std::size_t count, const Box& area, double gap_x, double gap_y);
 std::size_t panel_columns(std::size_t count);

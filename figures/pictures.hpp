@@ -22,17 +22,17 @@ struct Range {
 /// What the surface pictures have in common; equal settings give equal scales and cameras, so that pictures compare.
 struct SurfaceStyle {
   Range range{-0.25, 0.25};
-  double height_factor = 2;      ///< units of length drawn for a unit of u
-  std::optional<int> grid = {};  ///< draw lines x, y = k / grid instead of the mesh's edges (for fine meshes)
+  double height_factor = 2;              ///< units of length drawn for a unit of u
+  std::optional<int> grid = {};          ///< draw lines x, y = k / grid instead of the mesh's edges (for fine meshes)
+  std::optional<Range> last_range = {};  ///< the last surface (a difference, say) on a scale and colour bar of its own
 };
 
 struct Surface {
   std::filesystem::path solution;  ///< VTU with point data u
   std::string title;
-  std::optional<Range> own_range = {};  ///< drawn on its own scale with its own colour bar (a difference, say)
 };
 
-/// Figures 4, 5, 7, 8: one solution, or several side by side, as surfaces of the same scale.
+/// Figures 4, 5, 7, 8: one solution, or several side by side (three a row), as surfaces of the same scale.
 Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style);
 
 /// A chart on logarithmic scales from a table: a panel for each value of the columns `panel_by`, in it a curve for each
@@ -45,5 +45,22 @@ struct ChartStyle {
   std::string title;
 };
 Page chart_picture(const std::filesystem::path& table, const ChartStyle& style);
+
+/// Filled contours of log10 z over (x, y), both on logarithmic scales, half a decade a colour; panels as in a chart.
+/// Rows whose x, y or z is not positive and finite are left out and leave holes.
+struct MapStyle {
+  std::string x, y, z, x_name, y_name, z_name;
+  std::vector<std::string> panel_by, filters;
+  std::string title;
+};
+Page map_picture(const std::filesystem::path& table, const MapStyle& style);
+
+/// A stacked bar for each row: the shares of the columns `parts`, with the total above. Bars are named by the columns
+/// `bar_by`; where the axis has a name, by the bare entry of the first of them.
+struct BarStyle {
+  std::vector<std::string> parts, bar_by, filters;
+  std::string x_name, unit, title;
+};
+Page bar_picture(const std::filesystem::path& table, const BarStyle& style);
 
 }  // namespace antilock::figures

@@ -26,6 +26,8 @@ struct Request {
   double height_factor = 2;
   int grid = 0;
   ChartStyle chart;
+  MapStyle map;
+  BarStyle bars;
   std::function<Page()> draw;
 };
 
@@ -35,6 +37,10 @@ CLI::App* add_picture(CLI::App& app, Request& request, const std::string& name, 
   picture->add_option(input, request.inputs, "the file to read")->required();
   picture->add_option("--out", request.out, "the PNG file to write")->required();
   return picture;
+}
+
+void default_name(std::string& name, const std::string& column) {
+  if (name.empty()) name = column;
 }
 
 void add_pictures(CLI::App& app, Request& request) {
@@ -62,9 +68,10 @@ void add_pictures(CLI::App& app, Request& request) {
       std::vector<Surface> surfaces;
       for (std::size_t i = 0; i < request.inputs.size(); ++i)
         surfaces.push_back({request.inputs[i], i < request.titles.size() ? request.titles[i] : ""});
-      if (!request.own_range.empty()) surfaces.back().own_range = {request.own_range[0], request.own_range[1]};
-      const std::optional<int> grid = request.grid > 0 ? std::optional(request.grid) : std::nullopt;
-      return surface_picture(surfaces, {{request.range[0], request.range[1]}, request.height_factor, grid});
+      SurfaceStyle style{{request.range[0], request.range[1]}, request.height_factor};
+      if (request.grid > 0) style.grid = request.grid;
+      if (!request.own_range.empty()) style.last_range = {request.own_range[0], request.own_range[1]};
+      return surface_picture(surfaces, style);
     };
   });
 
@@ -80,11 +87,39 @@ void add_pictures(CLI::App& app, Request& request) {
   chart->add_option("--title", request.chart.title);
   chart->callback([&] {
     request.draw = [&] {
-      if (request.chart.x_name.empty()) request.chart.x_name = request.chart.x;
-      if (request.chart.y_name.empty()) request.chart.y_name = request.chart.y;
+      default_name(request.chart.x_name, request.chart.x);
+      default_name(request.chart.y_name, request.chart.y);
       return chart_picture(request.inputs.at(0), request.chart);
     };
   });
+
+  auto* map = add_picture(app, request, "map", "a quantity over two parameters, filled contours", "TABLE.csv");
+  map->add_option("--x", request.map.x, "column")->required();
+  map->add_option("--y", request.map.y, "column")->required();
+  map->add_option("--z", request.map.z, "column")->required();
+  map->add_option("--x-name", request.map.x_name, "name of the axis (default: the column)");
+  map->add_option("--y-name", request.map.y_name, "name of the axis (default: the column)");
+  map->add_option("--z-name", request.map.z_name, "name of the quantity (default: the column)");
+  map->add_option("--panel-by", request.map.panel_by, "columns whose values make panels")->delimiter(',');
+  map->add_option("--only", request.map.filters, "column=value: only these rows");
+  map->add_option("--title", request.map.title);
+  map->callback([&] {
+    request.draw = [&] {
+      default_name(request.map.x_name, request.map.x);
+      default_name(request.map.y_name, request.map.y);
+      default_name(request.map.z_name, request.map.z);
+      return map_picture(request.inputs.at(0), request.map);
+    };
+  });
+
+  auto* bars = add_picture(app, request, "bars", "stacked bars, one a row", "TABLE.csv");
+  bars->add_option("--parts", request.bars.parts, "columns to stack")->delimiter(',')->required();
+  bars->add_option("--bar-by", request.bars.bar_by, "columns that name a bar")->delimiter(',')->required();
+  bars->add_option("--x-name", request.bars.x_name, "name of the axis");
+  bars->add_option("--unit", request.bars.unit, "written behind the totals");
+  bars->add_option("--only", request.bars.filters, "column=value: only these rows");
+  bars->add_option("--title", request.bars.title);
+  bars->callback([&] { request.draw = [&] { return bar_picture(request.inputs.at(0), request.bars); }; });
 
   auto* convergence = add_picture(app, request, "convergence", "the convergence study (Figure 9)", "RESULTS.csv");
   convergence->add_option("--title", request.title);

@@ -1,6 +1,7 @@
 // Solutions as surfaces over the domain, as in Figures 4, 5, 7 and 8.
 #include <fmt/format.h>
 #include <vtkActor.h>
+#include <vtkBoundingBox.h>
 #include <vtkCamera.h>
 #include <vtkCellArray.h>
 #include <vtkCutter.h>
@@ -131,8 +132,9 @@ struct Room {
   double factor;  // height drawn for a unit of u
 };
 
-Room make_room(const vtkSmartPointer<vtkPolyData>& flat, const Range& range, double height) {
-  const double* b = flat->GetBounds();
+Room make_room(const vtkBoundingBox& domain, const Range& range, double height) {
+  double b[6];
+  domain.GetBounds(b);
   const double factor = height / (range.high - range.low);
   const Eigen::AlignedBox3d space(Vector(b[0], b[2], factor * range.low), Vector(b[1], b[3], factor * range.high));
   return {space, Axis::linear(b[0], b[1], 2), Axis::linear(b[2], b[3], 4), Axis::linear(range.low, range.high), factor};
@@ -169,7 +171,8 @@ void add_walls(vtkRenderer& renderer, const Room& room) {
              {corner(0, 0, 1), corner(0, 1, 1)},
              {corner(0, 1, 1), corner(1, 1, 1)}},
             2, palette::ink);
-  add_lines(renderer, {{{low.x(), 0, low.z()}, {high.x(), 0, low.z()}}}, 4, palette::green);  // Sigma, on the floor
+  if (low.y() < 0)
+    add_lines(renderer, {{{low.x(), 0, low.z()}, {high.x(), 0, low.z()}}}, 4, palette::green);  // Sigma, on the floor
 }
 
 /// Numbers and a name along one edge of the room; `outward` points away from it.
@@ -199,6 +202,7 @@ void label_room(Page& page, const View& view, const Room& room, double size) {
   const double inset = high.x() - 0.1 * (high.x() - low.x());
   const Anchor centre{0.5, Anchor::Height::middle};
   page.text(view({inset, 0.25 * high.y(), low.z()}), "$Ω^+$", {1.1 * size, centre, 0, {0.4, 0.4, 0.4}});
+  if (!(low.y() < 0)) return;
   page.text(view({inset, 0.25 * low.y(), low.z()}), "$Ω^−$", {1.1 * size, centre, 0, {0.4, 0.4, 0.4}});
   page.text(view({inset, 0, low.z()}) + Point{0, 0.7 * size}, "$Σ$", {1.1 * size, centre, 0, palette::green});
 }
@@ -227,43 +231,44 @@ void check(const Range& range) {
 
 Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style) {
   check(style.range);
-  for (const Surface& surface : surfaces)
-    if (surface.own_range) check(*surface.own_range);
+  if (style.last_range) check(*style.last_range);
+  std::vector<vtkSmartPointer<vtkPolyData>> solutions;
+  vtkBoundingBox domain;  // of all of them, so that they share a scale
+  for (const Surface& surface : surfaces) {
+    solutions.push_back(read_solution(surface.solution));
+    domain.AddBounds(solutions.back()->GetBounds());
+  }
 
   constexpr double cell_width = 1500, cell_height = 1250, bar_room = 300, size = 46;
+  const std::size_t count = surfaces.size(), columns = std::min<std::size_t>(count, 3);
+  const std::size_t rows = (count + columns - 1) / columns;
   const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
-  const double head = titled ? 120 : 20;
-  const auto own_bars =
-      std::count_if(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.own_range.has_value(); });
-  const bool shared_bar = own_bars < static_cast<long>(surfaces.size());
-  const double width = surfaces.size() * cell_width + (own_bars + shared_bar) * bar_room;
-  Page page(static_cast<int>(width), static_cast<int>(cell_height + head));
+  const double row_height = cell_height + (titled ? 120 : 20);
+  const bool shared_bar = count > 1 || !style.last_range;
+  const double width =
+      static_cast<double>(columns) * cell_width + (shared_bar + style.last_range.has_value()) * bar_room;
+  Page page(static_cast<int>(width), static_cast<int>(static_cast<double>(rows) * row_height));
 
-  double left = 0;
-  for (std::size_t i = 0; i < surfaces.size(); ++i) {
-    const Surface& surface = surfaces[i];
-    const Range range = surface.own_range.value_or(style.range);
-    const auto flat = read_solution(surface.solution);
-    const Room room = make_room(flat, range, style.height_factor * (style.range.high - style.range.low));
-    const Box cell{left, 0, cell_width, cell_height}, inside{left + 190, 150, cell_width - 230, cell_height - 170};
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool own = style.last_range && i + 1 == count, last_in_row = i % columns + 1 == columns;
+    const Range range = own ? *style.last_range : style.range;
+    const double left = static_cast<double>(i % columns) * cell_width + (own && shared_bar && rows == 1) * bar_room;
+    const Box cell{left, static_cast<double>(rows - 1 - i / columns) * row_height, cell_width, cell_height};
+    const Box inside{cell.x + 190, cell.y + 150, cell.width - 230, cell.height - 170};
+    const Room room = make_room(domain, range, style.height_factor * (style.range.high - style.range.low));
     const View view(room.space, inside, azimuth, elevation);
 
     auto renderer = vtkSmartPointer<vtkRenderer>::New();
-    renderer->SetActiveCamera(View(room.space, inside, azimuth, elevation).camera());
+    renderer->SetActiveCamera(view.camera());
     add_walls(*renderer, room);
-    add_surface(*renderer, lifted(flat, room.factor), range, style.grid, view.towards_eye());
+    add_surface(*renderer, lifted(solutions[i], room.factor), range, style.grid, view.towards_eye());
     page.scene(renderer, inside);
     label_room(page, view, room, size);
-    if (!surface.title.empty()) page.text({cell.centre().x, cell_height + 24}, surface.title, {60, {0.5}});
-    left += cell_width;
-    const bool last_shared =
-        shared_bar && !surface.own_range &&
-        (i + 1 == surfaces.size() || std::all_of(surfaces.begin() + i + 1, surfaces.end(),
-                                                 [](const Surface& s) { return s.own_range.has_value(); }));
-    if (surface.own_range || last_shared) {
-      draw_colour_bar(page, {left + 30, 300, 60, cell_height - 500}, range, size);
-      left += bar_room;
-    }
+    page.text({cell.centre().x, cell.top() + 24}, surfaces[i].title, {60, {0.5}});
+
+    const bool before_own = style.last_range && rows == 1 && i + 2 == count;
+    if (own || before_own || (last_in_row && i < columns))
+      draw_colour_bar(page, {cell.right() + 30, cell.y + 300, 60, cell.height - 500}, range, size);
   }
   return page;
 }
