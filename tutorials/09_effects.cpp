@@ -195,7 +195,7 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
 }
 
 // 4. Only what is needed holds for many questions, too: the forms of (23) do not contain epsilon, and every epsilon
-// below h / 4 is solved with one and the same factorisation.
+// below a fraction of h is solved with one and the same factorisation.
 void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
   const TriangleMesh mesh = unstructured_mesh(options.cells);

@@ -172,6 +172,20 @@ TEST(Results, AnObstacleThatPressesInIsObeyed) {
   EXPECT_NEAR(run.summary()["u_max"].get<double>(), 0.05, 1e-3);
 }
 
+TEST(Results, AnObstacleFarAwayInOnePlaceHidesNoContactInAnother) {
+  double near_energy = 0;
+  for (const std::string solver : {"active-set", "uzawa"})
+    for (const std::string far : {"1", "1e6", "1e14", "1e90"}) {
+      const SceneRun run(scene(layer("0.1") + "[contact]\ngap = \"x < 0.75 ? " + far + " : 0\"\n", structured(16),
+                               "solver = \"" + solver + "\"\n"));
+      ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+      EXPECT_EQ(run.summary()["contact"]["from"].get<double>(), 0.75) << solver << " " << far;
+      const double energy = run.summary()["energy"].get<double>();
+      if (near_energy == 0) near_energy = energy;
+      EXPECT_NEAR(energy, near_energy, 1e-9) << solver << " " << far;  // solved to 1e-10
+    }
+}
+
 TEST(Results, AZeroLoadHasAZeroAnswer) {
   const SceneRun run(scene(layer("1e-3") + contact, unstructured(8), cr, "0"));
   ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;

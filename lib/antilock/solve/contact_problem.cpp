@@ -22,8 +22,8 @@ Noise solve_on(const ContactProblem& p, ContactAnswer& answer) {
   std::vector<int> free, held;
   for (int i = 0; i < p.q.size(); ++i) (answer.active[i] ? held : free).push_back(i);
   answer.v = p.lower;
-  const double v_scale = std::max(p.u_scale, p.lower.size() > 0 ? p.lower.cwiseAbs().maxCoeff() : 0.0);
-  Noise noise{Eigen::VectorXd::Constant(p.q.size(), unit * v_scale), {}};
+  // each bound by itself: an obstacle far away in one place must not hide contact in another
+  Noise noise{unit * p.lower.cwiseAbs().cwiseMax(p.u_scale), {}};
   if (!free.empty()) {
     Eigen::VectorXd rhs = p.q(free);
     if (!held.empty()) rhs.noalias() -= p.s(free, held) * p.lower(held);

@@ -45,7 +45,7 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
     b_largest = Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff();
   }
   // a locked u may tend to 0: then the bounds tell what is large
-  const double u_scale = std::max(largest(u), largest(problem.lower));
+  const double u_largest = largest(u), u_scale = std::max(u_largest, largest(problem.lower));
   const double f_scale = std::max(largest(problem.load), largest(lambda));
   kkt.residual = std::max(ratio(largest(r.r1), largest(terms)),
                           ratio(largest(r.r2), std::max(b_largest * u_scale, problem.compliance * largest(p))));
@@ -54,10 +54,14 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
     if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
       kkt.residual = std::max(kkt.residual, 1.0);
   if (problem.contact.empty()) return kkt;
-  const Eigen::VectorXd gap = u(problem.contact) - problem.lower;
-  kkt.min_gap = ratio(gap.minCoeff(), u_scale);
   kkt.min_pressure = ratio(lambda.minCoeff(), f_scale);
-  kkt.complementarity = ratio(largest(lambda.cwiseProduct(gap)), u_scale * f_scale);
+  kkt.min_gap = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < lambda.size(); ++i) {  // each gap by its own bound: a far obstacle hides no near one
+    const double gap = u(problem.contact[i]) - problem.lower(i),
+                 scale = std::max(u_largest, std::abs(problem.lower(i)));
+    kkt.min_gap = std::min(kkt.min_gap, ratio(gap, scale));
+    kkt.complementarity = std::max(kkt.complementarity, ratio(std::abs(lambda(i) * gap), scale * f_scale));
+  }
   return kkt;
 }
 

@@ -14,8 +14,8 @@ SplitResidual split_residual(const VariationalInequality& problem, const Eigen::
 
 /// The report, each number relative to what the terms of its condition are made of, so that scaling the load by any
 /// factor leaves it unchanged: r1 against max(|A1| |u| + |B'| M |p| + |L|), r2 against max|B| max|u| and compliance
-/// |p|, gaps against max(|u|, |lower|), pressures against max(|L|, |lambda|). All zero for the zero solution of a zero
-/// load.
+/// |p|, each gap against max(|u|, its |lower|), pressures against max(|L|, |lambda|). All zero for the zero solution of
+/// a zero load.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
 /// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above

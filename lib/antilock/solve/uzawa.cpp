@@ -40,7 +40,7 @@ class CondensedUzawa {
     while (true) {
       answer.v = unloaded + compliance_ * answer.lambda;
       const Eigen::VectorXd next = (answer.lambda - rho_ * (answer.v - p.lower)).cwiseMax(0.0);
-      const double scale = std::max({answer.v.cwiseAbs().maxCoeff(), p.lower.cwiseAbs().maxCoeff(), p.u_scale});
+      const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), p.u_scale);  // bounds far from v do not count
       const double change = scale > 0 ? (next - answer.lambda).cwiseAbs().maxCoeff() / rho_ / scale : 0;
       answer.lambda = next;
       ++answer.steps;
