@@ -1,0 +1,122 @@
+// The naive way fails as the tutorial says, and no wrong answer of it gets past the checks.
+#include "antilock/solve/naive.hpp"
+
+#include <gtest/gtest.h>
+
+#include "antilock/mesh/generate.hpp"
+#include "antilock/problem/assemble.hpp"
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "antilock/solve/uzawa.hpp"
+
+namespace antilock {
+namespace {
+
+struct Setting {
+  TriangleMesh mesh;
+  const Element* element;
+};
+std::vector<Setting> settings() {
+  return {{structured_mesh(16), &p1()},
+          {structured_mesh(16), &crouzeix_raviart()},
+          {unstructured_mesh(16), &crouzeix_raviart()}};
+}
+VariationalInequality paper_problem(const Space& space, double epsilon) {
+  return assemble(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
+}
+double distance(const Eigen::VectorXd& u, const Eigen::VectorXd& right) {
+  return (u - right).lpNorm<Eigen::Infinity>() / right.lpNorm<Eigen::Infinity>();
+}
+
+TEST(Naive, IsRightWhereEpsilonIsModerate) {
+  for (const Setting& s : settings()) {
+    const Space space(s.mesh, *s.element);
+    for (const double epsilon : {1.0, 1e-1, 1e-2}) {
+      const VariationalInequality problem = paper_problem(space, epsilon);
+      for (const SummedFactor kind : {SummedFactor::cholesky, SummedFactor::lu}) {
+        const NaiveAnswer answer = naive_summed_solve(problem, kind);
+        EXPECT_EQ(answer.end, NaiveEnd::settled);
+        EXPECT_LT(distance(answer.solution.u, active_set(problem).u), 1e-9);  // round-off / epsilon^2 = 1e-12
+        EXPECT_LT(worst_violation(answer.solution.kkt), 1e-11);
+      }
+    }
+  }
+}
+
+TEST(Naive, FailsBelow1e8InEverySettingAndSaysSoOnlySometimes) {
+  int silent = 0;
+  for (const Setting& s : settings()) {
+    const Space space(s.mesh, *s.element);
+    for (const double epsilon : {1e-9, 1e-10, 1e-12, 1e-16}) {
+      const VariationalInequality problem = paper_problem(space, epsilon);
+      const Eigen::VectorXd right = active_set(problem).u;
+      for (const SummedFactor kind : {SummedFactor::cholesky, SummedFactor::lu}) {
+        const NaiveAnswer answer = naive_summed_solve(problem, kind);
+        EXPECT_GT(distance(answer.solution.u, right), 0.1) << answer.solution.solver << " at " << epsilon;
+        silent += answer.end == NaiveEnd::settled;
+      }
+    }
+  }
+  EXPECT_GE(silent, 1) << "garbage that looks like success is the point of the exhibit";
+}
+
+// The layers of trust: an answer off by more than 1e-6 carries at least a warning, one off by more than 1e-3 is
+// refused.
+TEST(Naive, NoWrongAnswerGetsPastTheChecks) {
+  int wrong = 0;
+  for (const Setting& s : settings()) {
+    const Space space(s.mesh, *s.element);
+    for (int exponent = 0; exponent <= 16; ++exponent) {
+      const VariationalInequality problem = paper_problem(space, std::pow(10.0, -exponent));
+      const Eigen::VectorXd right = active_set(problem).u;
+      for (const SummedFactor kind : {SummedFactor::cholesky, SummedFactor::lu}) {
+        NaiveAnswer answer = naive_summed_solve(problem, kind);
+        const double off = distance(answer.solution.u, right);
+        SCOPED_TRACE(answer.solution.solver + " at 1e-" + std::to_string(exponent) + ", off by " + std::to_string(off));
+        if (off > 1e-3) {
+          ++wrong;
+          EXPECT_THROW(certify(problem, answer.solution), NotConverged);
+        } else if (off > 1e-6) {
+          try {
+            certify(problem, answer.solution);
+            EXPECT_FALSE(answer.solution.warning.empty());
+          } catch (const NotConverged&) {  // refused: safer still
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GE(wrong, 30) << "the exhibit must contain wrong answers, else this test tests nothing";
+}
+
+TEST(Naive, CgWithIlutEitherAgreesOrThrows) {
+  UzawaOptions options;
+  options.max_steps = 300;
+  for (const Setting& s : settings()) {
+    const Space space(s.mesh, *s.element);
+    for (const double epsilon : {1e-4, 1e-8, 1e-12}) {
+      const VariationalInequality problem = paper_problem(space, epsilon);
+      try {
+        const Solution solution = uzawa_cg_ilut(problem, options);
+        EXPECT_LT(distance(solution.u, active_set(problem).u), 1e-3);
+      } catch (const NotConverged& failure) {
+        EXPECT_NE(std::string(failure.what()).find("uzawa, CG + ILUT: "), std::string::npos);
+      }
+    }
+  }
+}
+
+TEST(Naive, HasNoSumAtEpsilonZeroAndStopsAtItsCap) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  EXPECT_THROW(naive_summed_solve(paper_problem(space, 0), SummedFactor::lu), Error);
+  const NaiveAnswer answer = naive_summed_solve(paper_problem(space, 1), SummedFactor::cholesky, 1);
+  EXPECT_EQ(answer.end, NaiveEnd::step_cap);
+  EXPECT_EQ(to_string(answer.end), "step cap");
+  EXPECT_EQ(to_string(NaiveEnd::settled) + to_string(NaiveEnd::cycled) + to_string(NaiveEnd::refused),
+            "settledcycledrefused");
+}
+
+}  // namespace
+}  // namespace antilock

@@ -1,0 +1,136 @@
+// The checks that every solve passes, fed with wrong answers on purpose.
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "antilock/mesh/generate.hpp"
+#include "antilock/problem/assemble.hpp"
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
+
+namespace antilock {
+namespace {
+
+class Trust : public testing::TestWithParam<double> {
+ protected:
+  Trust()
+      : mesh_(structured_mesh(16)),
+        space_(mesh_, crouzeix_raviart()),
+        problem_(assemble(Scene({paper_load}, StiffLayer{GetParam()}, UnilateralContact{}), space_)),
+        solution_(active_set(problem_)) {}
+  int first(bool active) const {
+    for (std::size_t i = 0; i < solution_.active.size(); ++i)
+      if (solution_.active[i] == active) return static_cast<int>(i);
+    return -1;
+  }
+  TriangleMesh mesh_;
+  Space space_;
+  VariationalInequality problem_;
+  Solution solution_;
+};
+
+TEST_P(Trust, TheRightAnswerIsTrustedWithoutAWarning) {
+  EXPECT_TRUE(solution_.warning.empty());
+  EXPECT_LT(worst_violation(solution_.kkt), 1e-10);
+}
+
+// Each fault is one that a solver can commit; each must be seen by the number that stands for its condition.
+TEST_P(Trust, EveryKindOfWrongAnswerIsRefused) {
+  ASSERT_GE(first(true), 0);
+  ASSERT_GE(first(false), 0);
+  const double u_scale = solution_.u.lpNorm<Eigen::Infinity>(), f_scale = problem_.load.lpNorm<Eigen::Infinity>();
+  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<std::pair<std::string, std::function<void(Solution&)>>> faults{
+      {"one unknown in the body moved", [&](Solution& s) { s.u(space_.size() - 1) += 1e-2 * u_scale; }},
+      {"every unknown scaled", [](Solution& s) { s.u *= 1.001; }},
+      {"no answer at all", [](Solution& s) { s.u.setZero(), s.p.setZero(), s.lambda.setZero(); }},
+      {"a locked layer",
+       [&](Solution& s) {
+         for (int i = 0; i < space_.size(); ++i)
+           if (space_.points()(i, 1) <= 0) s.u(i) = 0;
+       }},
+      {"the layer stress forgotten", [](Solution& s) { s.p.setZero(); }},
+      {"the layer stress of one triangle", [](Solution& s) { s.p(s.p.size() / 2) *= 2; }},
+      {"contact forces forgotten", [](Solution& s) { s.lambda.setZero(); }},
+      {"a contact that pulls", [&](Solution& s) { s.lambda(first(true)) = -0.1 * f_scale; }},
+      {"a force across a gap", [&](Solution& s) { s.lambda(first(false)) = 0.1 * f_scale; }},
+      {"through the obstacle", [&](Solution& s) { s.u(problem_.contact[first(true)]) = -0.01 * u_scale; }},
+      {"a clamp that slips", [&](Solution& s) { s.u(problem_.fixed[3]) = 1e-12; }},
+      {"not a number in u", [&](Solution& s) { s.u(7) = nan; }},
+      {"not a number in p", [&](Solution& s) { s.p(7) = nan; }},
+      {"not a number in lambda", [&](Solution& s) { s.lambda(1) = nan; }},
+      {"infinite u", [&](Solution& s) { s.u(7) = inf; }},
+      {"infinite p", [&](Solution& s) { s.p(7) = -inf; }},
+      {"infinite lambda", [&](Solution& s) { s.lambda(1) = inf; }}};
+  for (const auto& [what, spoil] : faults) {
+    Solution wrong = solution_;
+    spoil(wrong);
+    EXPECT_THROW(certify(problem_, wrong), NotConverged) << what;
+  }
+}
+
+TEST_P(Trust, TheSignsAreReportedApart) {
+  Solution wrong = solution_;
+  wrong.u(problem_.contact[first(true)]) = -0.25 * wrong.u.lpNorm<Eigen::Infinity>();
+  EXPECT_NEAR(kkt_report(problem_, wrong).min_gap, -0.25, 1e-12);
+  wrong = solution_;
+  const double scale = std::max(problem_.load.lpNorm<Eigen::Infinity>(), wrong.lambda.lpNorm<Eigen::Infinity>());
+  wrong.lambda(first(true)) = -0.5 * scale;
+  EXPECT_NEAR(kkt_report(problem_, wrong).min_pressure, -0.5, 0.05);
+  wrong = solution_;
+  wrong.lambda(first(false)) = 0.5 * scale;
+  EXPECT_GT(kkt_report(problem_, wrong).complementarity, 1e-3 * wrong.u(problem_.contact[first(false)]));
+}
+
+TEST_P(Trust, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
+  Solution slightly = solution_;
+  slightly.u *= 1 + 1e-7;
+  certify(problem_, slightly);
+  EXPECT_NE(slightly.warning.find("trusted 1e-09"), std::string::npos) << slightly.warning;
+  EXPECT_EQ(slightly.warning.find('\n'), std::string::npos) << "one line";
+  Solution same = slightly;
+  EXPECT_THROW(certify(problem_, same, {1e-12, 1e-10}), NotConverged);
+  same = slightly;
+  same.warning.clear();
+  certify(problem_, same, {1e-3, 1e-2});
+  EXPECT_TRUE(same.warning.empty());
+  try {
+    slightly.u *= 1.1;
+    certify(problem_, slightly);
+    FAIL() << "not refused";
+  } catch (const NotConverged& refusal) {
+    EXPECT_NE(std::string(refusal.what()).find("active set: answer refused"), std::string::npos) << refusal.what();
+    EXPECT_GT(refusal.reached, 1e-6);
+  }
+}
+
+// Scale-free: load and answer multiplied by a power of two give the same report bit for bit, right or wrong.
+TEST_P(Trust, TheReportDoesNotSeeTheScaleOfTheLoad) {
+  Solution wrong = solution_;
+  wrong.u *= 1.0001;
+  wrong.lambda(first(true)) *= -1;
+  for (const Solution& answer : {solution_, wrong}) {
+    const Kkt kkt = kkt_report(problem_, answer);
+    for (const int exponent : {-300, -40, 40, 300}) {
+      const double factor = std::ldexp(1.0, exponent);
+      VariationalInequality problem = problem_;
+      problem.load *= factor;
+      problem.lower *= factor;
+      Solution scaled = answer;
+      scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor;
+      const Kkt other = kkt_report(problem, scaled);
+      EXPECT_EQ(kkt.residual, other.residual);
+      EXPECT_EQ(kkt.min_gap, other.min_gap);
+      EXPECT_EQ(kkt.min_pressure, other.min_pressure);
+      EXPECT_EQ(kkt.complementarity, other.complementarity);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Epsilon, Trust, testing::Values(1.0, 1e-2, 1e-8, 0.0),
+                         [](const auto& info) { return "Case" + std::to_string(info.index); });
+
+}  // namespace
+}  // namespace antilock
