@@ -60,6 +60,7 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) refuse("is empty");
   if (text.size() > longest_text) refuse(fmt::format("is longer than {} characters", longest_text));
   if (text.find('"') != std::string::npos) refuse("holds a quotation mark");
+  if (text.find('\0') != std::string::npos) refuse("holds a null character");  // muParser would stop there
   if (assigns(text)) refuse("assigns a value with =");
   parser_->text = text;
   parser_->names = variables;

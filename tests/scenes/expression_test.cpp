@@ -1,0 +1,118 @@
+// Formulas from files mean what they say, to the last digit.
+#include "antilock/io/expression.hpp"
+
+#include <gtest/gtest.h>
+
+#include <clocale>
+#include <cmath>
+#include <numbers>
+#include <thread>
+
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+namespace {
+
+double at(const std::string& text, double x, double y) { return Expression(text, {"x", "y"})(x, y); }
+
+TEST(Expression, IsWhatTheSameFormulaIsInCpp) {
+  constexpr double pi = std::numbers::pi, x = 0.37, y = 0.81;
+  EXPECT_EQ(at("pi", x, y), pi);  // every digit
+  EXPECT_DOUBLE_EQ(at("10*sin(2*pi*x)", x, y), 10 * std::sin(2 * pi * x));
+  EXPECT_DOUBLE_EQ(at("exp(-x)*cos(y) + sqrt(abs(x - y))", x, y),
+                   std::exp(-x) * std::cos(y) + std::sqrt(std::abs(x - y)));
+  EXPECT_DOUBLE_EQ(at("x/y/2 - 1e-3", x, y), x / y / 2 - 1e-3);
+}
+
+TEST(Expression, PowersBindToTheRightAndBeforeSigns) {
+  EXPECT_EQ(at("2^3^2", 0, 0), 512);
+  EXPECT_EQ(at("-x^2", 3, 0), -9);
+  EXPECT_EQ(at("2^-1", 0, 0), 0.5);
+}
+
+TEST(Expression, ConditionsChoose) {
+  const std::string steps = "x < 0.3 ? 1 : (x <= 0.6 ? 2 : 3)";
+  EXPECT_EQ(at(steps, 0.2, 0), 1);
+  EXPECT_EQ(at(steps, 0.6, 0), 2);
+  EXPECT_EQ(at(steps, 0.7, 0), 3);
+  EXPECT_EQ(at("x > 0.5 && y != 1 || x == 0", 0.6, 0), 1);
+  EXPECT_EQ(at("x >= 0.5 ? 1/x : 0", 0, 0), 0);  // the branch not taken may be infinite
+}
+
+TEST(Expression, DoesNotDependOnTheLocale) {
+  const char* const before = std::setlocale(LC_ALL, "de_DE.UTF-8");  // a comma for the decimal point, where installed
+  EXPECT_EQ(at("0.5*x", 3, 0), 1.5);
+  std::setlocale(LC_ALL, "C");
+  (void)before;
+}
+
+TEST(Expression, KeepsItsOwnVariables) {
+  const Expression f("x - y", {"x", "y"}), g("x", {"x"});
+  EXPECT_EQ(g(7), 7);
+  EXPECT_EQ(f(3, 1), 2);
+  const Expression copy = f;
+  EXPECT_EQ(copy(5, 1), 4);
+  EXPECT_EQ(f(3, 1), 2);
+}
+
+TEST(Expression, ServesSeveralThreads) {
+  const Expression f("x*x", {"x"});
+  std::vector<std::thread> threads;
+  std::vector<int> wrong(4, 0);
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&f, &wrong, t] {
+      for (int i = 0; i < 20000; ++i) wrong[t] += f(t + i) != static_cast<double>(t + i) * (t + i);
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(wrong, std::vector<int>(4, 0));
+}
+
+TEST(Expression, SaysWhereItIsNotFinite) {
+  const Expression f("1/(x - y)", {"x", "y"});
+  EXPECT_EQ(f(1, 0.5), 2);
+  try {
+    f(0.25, 0.25);
+    FAIL() << "accepted infinity";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("x = 0.25, y = 0.25"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Expression, RefusesInOneLineWhatItDoesNotUnderstand) {
+  const std::vector<std::string> texts = {"",
+                                          " ",
+                                          "x +",
+                                          "z",
+                                          "2x",
+                                          "x = 1",
+                                          "x, y",
+                                          "\"x\"",
+                                          "_pi",
+                                          "_e",
+                                          "e",
+                                          "sin x",
+                                          "(x",
+                                          "x)",
+                                          "x**2",
+                                          "x ? 1",
+                                          "f(x)",
+                                          "x;y",
+                                          "x\ny",
+                                          "1.2.3",
+                                          "0x1",
+                                          "x'",
+                                          "\xc3\xa9",
+                                          "sin(x,y)",
+                                          std::string("x\0y", 3),
+                                          std::string(5000, '(')};
+  for (const std::string& text : texts) try {
+      Expression(text, {"x", "y"});
+      ADD_FAILURE() << "accepted: " << text;
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    }
+  EXPECT_THROW(Expression("y", {"x"}), Error);
+}
+
+}  // namespace
+}  // namespace antilock
