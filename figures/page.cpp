@@ -16,7 +16,6 @@
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
-#include <numbers>
 #include <ostream>
 
 #include "antilock/io/atomic_file.hpp"
@@ -59,56 +58,6 @@ void paint_line(vtkContext2D& context, const std::vector<Point>& points, double 
       context.DrawEllipse(centre[0], centre[1], radius, radius);
     }
   }
-}
-
-/// Cuts a line into its dashes.
-std::vector<std::vector<Point>> dashed(const std::vector<Point>& points, const std::vector<double>& pattern) {
-  std::vector<std::vector<Point>> dashes;
-  std::size_t phase = 0;
-  double left = pattern[0];
-  std::vector<Point> dash{points.front()};
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    Point at = points[i];
-    while (length(points[i + 1] - at) > left) {
-      at = at + (left / length(points[i + 1] - at)) * (points[i + 1] - at);
-      dash.push_back(at);
-      if (phase % 2 == 0) dashes.push_back(dash);
-      dash = {at};
-      left = pattern[++phase % pattern.size()];
-    }
-    left -= length(points[i + 1] - at);
-    dash.push_back(points[i + 1]);
-  }
-  if (phase % 2 == 0) dashes.push_back(dash);
-  return dashes;
-}
-
-/// Corners of a marker of diameter 2 about the origin; the cross is drawn by strokes.
-std::vector<Point> outline(Marker shape) {
-  const auto regular = [](int corners, double first, double radius) {
-    std::vector<Point> points;
-    for (int i = 0; i < corners; ++i) {
-      const double angle = first + 2 * std::numbers::pi * i / corners;
-      points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
-    }
-    return points;
-  };
-  constexpr double up = std::numbers::pi / 2;
-  switch (shape) {
-    case Marker::circle:
-      return regular(40, 0, 1);
-    case Marker::square:
-      return regular(4, up / 2, 1.2);
-    case Marker::diamond:
-      return regular(4, 0, 1.25);
-    case Marker::triangle:
-      return regular(3, up, 1.25);
-    case Marker::down_triangle:
-      return regular(3, -up, 1.25);
-    case Marker::cross:
-      return regular(4, up / 2, 1.1);
-  }
-  return {};
 }
 
 /// The item that VTK asks to paint itself.

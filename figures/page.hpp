@@ -9,6 +9,7 @@
 
 #include "colours.hpp"
 #include "geometry.hpp"
+#include "shapes.hpp"
 #include "typesetter.hpp"
 
 class vtkContext2D;
@@ -20,8 +21,6 @@ struct Stroke {
   Colour colour = palette::ink;
   std::vector<double> dashes = {};  ///< drawn, skipped, drawn, ... in pixels; empty: solid
 };
-
-enum class Marker { circle, square, diamond, triangle, down_triangle, cross };
 
 /// One picture: three-dimensional scenes below, drawing above, text on top. White, units of pixels, rendered larger and
 /// averaged down, which smooths every edge.
