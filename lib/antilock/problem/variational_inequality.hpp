@@ -21,7 +21,7 @@ struct VariationalInequality {
   Eigen::VectorXd m;      ///< R, the diagonal of M, positive (areas of cells)
   double compliance = 1;  ///< the class parameter, 0 <= compliance <= 1. In (23) it is epsilon^2: the one place that
                           ///< says so is `assemble` (problem/assemble.hpp)
-  double penalty = 1e-6;         ///< delta of the iterated penalty where compliance is smaller; about h^2/16 (solve/)
+  double penalty = 1e-6;         ///< delta of the iterated penalty where compliance is smaller; about h^2/256
   Eigen::VectorXd load;          ///< N, L(phi_i)
   std::vector<int> fixed;        ///< unknowns with a prescribed value, ascending
   Eigen::VectorXd fixed_values;  ///< one a fixed unknown

@@ -1,0 +1,182 @@
+// What contact costs over one unconstrained sparse Cholesky solve of the same mesh: ratios within one run, medians,
+// since machines differ and their ratios hardly do. P1 structured at every size, CR at 1/h = 256; epsilon = 1e-6.
+//
+// Run: contact_cost --out results/benchmark      about a minute and a half on two cores
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
+
+#include "antilock/io/atomic_file.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/problem/assemble.hpp"
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/stopwatch.hpp"
+#include "benchmark/unconstrained_cholesky.hpp"
+
+namespace antilock {
+namespace {
+
+// Wall seconds of the stages of one complete contact solution, and of the measuring stick beside it.
+struct Run {
+  double mesh, space, assembly;  // what stands before the solver
+  double solution;           // the complete contact solution: sum to K, analyse, factor, contact, corrections, report
+  SolveSeconds stages;       // of the solution
+  CholeskySeconds cholesky;  // the measuring stick
+  int unknowns, corrections, contact;
+};
+
+Run run_once(const std::string& element_name, int cells, double epsilon, bool with_stick) {
+  Run run{};
+  Stopwatch watch;
+  const TriangleMesh mesh = structured_mesh(cells);
+  run.mesh = watch.lap();
+  const Space space(mesh, element(element_name));
+  run.space = watch.lap();
+  const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+  const VariationalInequality problem = assemble(scene, space);
+  run.assembly = watch.lap();
+  const Solution solution = active_set(problem);
+  run.solution = watch.lap();
+  run.stages = solution.seconds;
+  run.unknowns = solution.counters.unknowns;
+  run.corrections = solution.counters.corrections;
+  run.contact = solution.counters.contact;
+  if (with_stick) run.cholesky = unconstrained_cholesky(problem);
+  return run;
+}
+
+double median(const std::vector<Run>& runs, const std::function<double(const Run&)>& value) {
+  std::vector<double> values;
+  for (const Run& run : runs) values.push_back(value(run));
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+}
+
+double peak_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in kilobytes
+}
+
+struct Row {
+  std::string element;
+  int cells, unknowns, corrections, contact;
+  double mesh, space, assembly, sum, analyse, factor, contact_seconds, corrections_seconds, rest, solution, cholesky;
+  double cost, outside;
+  double total() const { return mesh + space + assembly + solution; }
+};
+
+Row summary(const std::string& element_name, int cells, const std::vector<Run>& runs) {
+  const auto of = [&](const std::function<double(const Run&)>& value) { return median(runs, value); };
+  Row row{};
+  row.element = element_name;
+  row.cells = cells;
+  row.unknowns = runs.front().unknowns;
+  row.corrections = runs.front().corrections;
+  row.contact = runs.front().contact;
+  row.mesh = of([](const Run& r) { return r.mesh; });
+  row.space = of([](const Run& r) { return r.space; });
+  row.assembly = of([](const Run& r) { return r.assembly; });
+  row.analyse = of([](const Run& r) { return r.stages.analyse; });
+  row.factor = of([](const Run& r) { return r.stages.factor; });
+  row.contact_seconds = of([](const Run& r) { return r.stages.contact; });
+  row.corrections_seconds = of([](const Run& r) { return r.stages.solve; });
+  row.rest = of([](const Run& r) { return r.solution - r.stages.total(); });
+  row.solution = of([](const Run& r) { return r.solution; });
+  row.cholesky = of([](const Run& r) { return r.cholesky.total(); });
+  // ratios within each pair of runs, then the median: a slow moment of the machine slows both
+  row.cost = of([](const Run& r) { return r.solution / r.cholesky.total(); });
+  row.outside = of([](const Run& r) {
+    const double factorisation = r.stages.analyse + r.stages.factor;
+    return (r.mesh + r.space + r.assembly + r.solution - factorisation) / factorisation;
+  });
+  return row;
+}
+
+void print(const Row& r) {
+  fmt::print(
+      "{:>2} 1/h={:<4} {:>7} unknowns: mesh {:.3f} space {:.3f} assembly {:.3f} | analyse {:.3f} factor {:.3f} contact "
+      "{:.3f} solves {:.3f} rest {:.3f} = {:.3f} s | Cholesky {:.3f} s | contact costs x{:.2f}, outside the "
+      "factorisation x{:.2f}; {} corrections, {} contact steps\n",
+      r.element, r.cells, r.unknowns, r.mesh, r.space, r.assembly, r.analyse, r.factor, r.contact_seconds,
+      r.corrections_seconds, r.rest, r.solution, r.cholesky, r.cost, r.outside, r.corrections, r.contact);
+  std::fflush(stdout);
+}
+
+void write(const std::filesystem::path& path, const std::vector<Row>& rows) {
+  write_file(path, [&](std::ostream& out) {
+    out << "element,cells,unknowns,mesh,space,assembly,analyse,factor,contact,solves,rest,solution,cholesky,cost,"
+           "outside,corrections,contact_steps\n";
+    for (const Row& r : rows)
+      out << fmt::format(
+          "{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},"
+          "{},{}\n",
+          r.element, r.cells, r.unknowns, r.mesh, r.space, r.assembly, r.analyse, r.factor, r.contact_seconds,
+          r.corrections_seconds, r.rest, r.solution, r.cholesky, r.cost, r.outside, r.corrections, r.contact);
+  });
+}
+
+void target(bool met, const std::string& what) { fmt::print("TARGET {}: {}\n", met ? "met   " : "MISSED", what); }
+
+void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
+  run_once("P1", finest, 1e-6, false);  // first, alone: what a process needs that solves this problem and ends
+  const double megabytes = peak_megabytes();
+
+  std::vector<Row> rows;
+  for (int n = 64; n <= finest; n *= 2)
+    for (const std::string name : {"P1", "CR"}) {
+      if (name == "CR" && n != 256) continue;
+      std::vector<Run> runs;
+      for (int i = 0; i < repeats; ++i) runs.push_back(run_once(name, n, 1e-6, true));
+      rows.push_back(summary(name, n, runs));
+      print(rows.back());
+    }
+  write(folder / "contact_cost.csv", rows);
+
+  int most_steps = 0;
+  for (int n = 32; n <= finest; n *= 2)
+    for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0})
+      most_steps = std::max(most_steps, run_once("P1", n, epsilon, false).contact);
+
+  double cost = 0, outside = 0;
+  std::vector<Row> p1;
+  for (const Row& r : rows) {
+    cost = std::max(cost, r.cost);
+    if (r.cells >= 256) outside = std::max(outside, r.outside);
+    if (r.element == "P1") p1.push_back(r);
+  }
+  const Row &small = p1.front(), &large = p1.back();
+  const double growth = std::log(large.total() / small.total()) / std::log(1.0 * large.unknowns / small.unknowns);
+  target(cost <= 1.5, fmt::format("contact at epsilon = 1e-6 costs at most {:.2f} Cholesky solves (<= 1.5)", cost));
+  target(most_steps <= 4, fmt::format("contact steps at the finest level {} at most, 1/h = 32 to {}, epsilon = 1 to 0 "
+                                      "(<= 4)",
+                                      most_steps, finest));
+  target(outside < 1, fmt::format("outside the factorisation {:.2f} of its time at 1/h >= 256 (< 1)", outside));
+  target(growth <= 1.3, fmt::format("seconds grow like unknowns^{:.2f} (<= 1.3)", growth));
+  target(megabytes < 1536, fmt::format("peak memory {:.0f} MB at {} unknowns (< 1536)", megabytes, large.unknowns));
+}
+
+}  // namespace
+}  // namespace antilock
+
+int main(int argc, char** argv) {
+  CLI::App app("The cost of contact over one unconstrained sparse Cholesky solve", "contact_cost");
+  int finest = 512, repeats = 5;
+  std::filesystem::path folder = "results/benchmark";
+  app.add_option("--cells", finest, "finest mesh, 1/h")->capture_default_str()->check(CLI::Range(64, 1024));
+  app.add_option("--repeats", repeats, "runs behind each median")->capture_default_str()->check(CLI::Range(1, 1000));
+  app.add_option("--out", folder, "folder of the results")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    antilock::benchmark(finest, repeats, folder);
+  } catch (const antilock::Error& error) {
+    fmt::print(stderr, "contact_cost: {}\n", error.what());
+    return 2;
+  }
+  return 0;
+}
