@@ -1,0 +1,131 @@
+#include "cross_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "antilock/io/writers.hpp"
+#include "antilock/measure/contact_zone.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/scene/error.hpp"
+#include "runner.hpp"
+
+namespace antilock::freefem {
+namespace {
+
+constexpr double same_place = 1e-8;
+
+std::filesystem::path mesh_in(const std::filesystem::path& folder, const Space& space) {
+  const auto file = folder / "mesh.freefem.msh";
+  write_freefem_mesh(file, space.mesh());
+  return file;
+}
+
+Points places(const Table& table) {
+  Points points(table.rows.rows(), 2);
+  points << table.column("x"), table.column("y");
+  return points;
+}
+
+SparseMatrix matrix(const std::filesystem::path& path, const std::vector<int>& ours) {
+  const Table table = read_table(path);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index k = 0; k < table.rows.rows(); ++k) {
+    const double row = table.rows(k, 0), column = table.rows(k, 1), n = static_cast<double>(ours.size());
+    if (!(row >= 0 && row < n && column >= 0 && column < n))
+      throw Error(fmt::format("{}: entry ({}, {}) of a matrix of {} rows", path.string(), row, column, n));
+    entries.emplace_back(ours[static_cast<int>(row)], ours[static_cast<int>(column)], table.rows(k, 2));
+  }
+  SparseMatrix a(static_cast<Eigen::Index>(ours.size()), static_cast<Eigen::Index>(ours.size()));
+  a.setFromTriplets(entries.begin(), entries.end());
+  return a;
+}
+
+}  // namespace
+
+std::vector<int> match(const Points& ours, const Points& theirs) {
+  if (ours.rows() != theirs.rows())
+    throw Error(fmt::format("match: {} unknowns here, {} there", ours.rows(), theirs.rows()));
+  const auto cell = [](double x) { return std::llround(x / same_place); };
+  std::map<std::pair<long long, long long>, int> row;
+  for (Eigen::Index i = 0; i < theirs.rows(); ++i) row[{cell(theirs(i, 0)), cell(theirs(i, 1))}] = static_cast<int>(i);
+  if (static_cast<Eigen::Index>(row.size()) != theirs.rows()) throw Error("match: two unknowns at one place");
+  std::vector<int> rows(ours.rows(), -1);
+  std::vector<char> taken(ours.rows(), 0);
+  for (Eigen::Index i = 0; i < ours.rows(); ++i) {
+    for (const int dx : {0, -1, 1})  // round-off may put the same point into the next cell
+      for (const int dy : {0, -1, 1})
+        if (const auto found = row.find({cell(ours(i, 0)) + dx, cell(ours(i, 1)) + dy});
+            found != row.end() && rows[i] < 0)
+          rows[i] = found->second;
+    if (rows[i] < 0 || taken[rows[i]]++)
+      throw Error(fmt::format("match: no unknown of its own at ({:.9g}, {:.9g})", ours(i, 0), ours(i, 1)));
+  }
+  return rows;
+}
+
+Discretisation assemble(const Space& space, const std::filesystem::path& folder) {
+  run("matrices",
+      {"-mesh", mesh_in(folder, space), "-element", space.element().name() == "CR" ? "P1nc" : "P1", "-out", folder});
+  const Table unknowns = read_table(folder / "unknowns.csv");
+  const std::vector<int> theirs = match(space.points(), places(unknowns));
+  std::vector<int> ours(theirs.size());
+  for (std::size_t i = 0; i < theirs.size(); ++i) ours[theirs[i]] = static_cast<int>(i);
+
+  Discretisation d{matrix(folder / "a1.csv", ours), matrix(folder / "a0.csv", ours), {}, {}, {}};
+  d.load = unknowns.column("load")(theirs);
+  const Eigen::VectorXd clamped = unknowns.column("clamped"), contact = unknowns.column("contact");
+  for (int i = 0; i < space.size(); ++i) {
+    if (clamped(theirs[i]) > 0.5) d.clamped.push_back(i);
+    if (contact(theirs[i]) > 0.5) d.contact.push_back(i);
+  }
+  std::sort(d.contact.begin(), d.contact.end(),
+            [&](int i, int j) { return space.points()(i, 0) < space.points()(j, 0); });
+  return d;
+}
+
+Answer solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
+             const std::vector<std::string>& options) {
+  std::vector<std::string> all{"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-out", folder};
+  all.insert(all.end(), options.begin(), options.end());
+  run(script, all);
+
+  const Table solution = read_table(folder / "solution.csv"), contact = read_table(folder / "contact.csv"),
+              summary = read_table(folder / "summary.csv");
+  Answer answer;
+  answer.u = solution.column("u")(match(space.points(), places(solution)));
+  answer.gap = contact.column("gap");
+  answer.pressure = contact.column("pressure");
+  const Eigen::VectorXd x = contact.column("x");
+  const std::vector<int>& here = space.contact();
+  const bool as_many = x.size() == static_cast<Eigen::Index>(here.size());
+  if (x.size() > 0 && !(as_many && (x - space.points().col(0)(here)).cwiseAbs().maxCoeff() < same_place))
+    throw Error(script + ": its contact unknowns are others than ours");
+  answer.energy = summary.column("energy")(0);
+  answer.residual = summary.column("residual")(0);
+  answer.seconds = summary.column("seconds")(0);
+  answer.steps = static_cast<int>(summary.column("steps")(0));
+  return answer;
+}
+
+Comparison compare(const Space& space, const VariationalInequality& problem, const Solution& ours,
+                   const Answer& theirs) {
+  Comparison c;
+  c.difference = (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff();
+  const double j = energy(problem, ours);
+  c.energy = std::abs(j - theirs.energy) / std::abs(j);
+  if (problem.contact.empty()) return c;
+  if (theirs.gap.size() != static_cast<Eigen::Index>(problem.contact.size()))
+    throw Error(fmt::format("compare: {} contact unknowns here, {} there", problem.contact.size(), theirs.gap.size()));
+  const Eigen::MatrixX3d table = contact_table(space, problem, ours);  // x, gap, pressure
+  for (Eigen::Index i = 0; i < table.rows(); ++i) {
+    const bool undecided = std::max({std::abs(table(i, 1)), std::abs(theirs.gap(i)), std::abs(table(i, 2)),
+                                     std::abs(theirs.pressure(i))}) < 1e-10;
+    if (!undecided && ours.active[i] != (theirs.pressure(i) != 0)) ++c.contact_disagree;  // exactly 0 where free
+  }
+  return c;
+}
+
+}  // namespace antilock::freefem

@@ -1,0 +1,50 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/solution.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock::freefem {
+
+/// For each point of `ours` the row of `theirs` at the same place (to 1e-8: meshes carry 17 digits). Numberings are
+/// never compared. Throws Error unless this is one to one.
+std::vector<int> match(const Points& ours, const Points& theirs);
+
+/// What matrices.edp assembles on a mesh, renumbered as `space` numbers its unknowns.
+struct Discretisation {
+  SparseMatrix a1, a0;
+  Eigen::VectorXd load;
+  std::vector<int> clamped, contact;  ///< ascending; by x
+};
+/// Writes the mesh of `space` into `folder`, runs matrices.edp on it and reads its files.
+Discretisation assemble(const Space& space, const std::filesystem::path& folder);
+
+/// The solution that a script computed, renumbered as `space` numbers its unknowns.
+struct Answer {
+  Eigen::VectorXd u;         ///< N
+  Eigen::VectorXd gap;       ///< C, by x
+  Eigen::VectorXd pressure;  ///< C, a density
+  double energy = 0;         ///< J(u)
+  double residual = 0;       ///< |A1 u + D' p - b - lambda| / |b|, maximum norms
+  double seconds = 0;        ///< of the solve alone
+  int steps = 0;             ///< of the contact loop
+};
+/// Writes the mesh of `space` into `folder`, runs `script` (of 03 to 06) on it and reads its files.
+Answer solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
+             const std::vector<std::string>& options = {});
+
+/// Our solution against theirs.
+struct Comparison {
+  double difference = 0;     ///< largest |u - their u| / largest |u|
+  double energy = 0;         ///< |J - their J| / |J|
+  int contact_disagree = 0;  ///< contact unknowns in contact on one side only, but for those whose gap and pressure are
+                             ///< both below 1e-10 on both sides
+};
+Comparison compare(const Space& space, const VariationalInequality& problem, const Solution& ours,
+                   const Answer& theirs);
+
+}  // namespace antilock::freefem

@@ -1,0 +1,84 @@
+#include "runner.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "antilock/scene/error.hpp"
+
+namespace antilock::freefem {
+namespace {
+
+/// For the shell: in single quotes, a single quote inside as '\''.
+std::string quoted(const std::string& word) {
+  std::string out{'\''};
+  for (const char c : word) {
+    if (c == '\'') out.append("'\\'");
+    out.push_back(c);
+  }
+  out.push_back('\'');
+  return out;
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> fields{""};
+  for (const char c : line)
+    if (c == ',')
+      fields.emplace_back();
+    else
+      fields.back() += c;
+  return fields;
+}
+
+}  // namespace
+
+void run(const std::string& script, const std::vector<std::string>& options) {
+  std::string command = quoted(ANTILOCK_FREEFEM_FOLDER "/run") + " " + quoted(script);
+  for (const std::string& option : options) command += " " + quoted(option);
+  std::FILE* pipe = popen((command + " 2>&1 >/dev/null").c_str(), "r");  // standard error alone
+  if (pipe == nullptr) throw Error("freefem/run cannot be started");
+  std::string words;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) words += c == '\n' ? ' ' : static_cast<char>(c);
+  const int status = pclose(pipe);
+  if (status == 0) return;
+  words.erase(words.find_last_not_of(' ') + 1);
+  if (words.empty()) words = fmt::format("freefem/run {} ended with status {}", script, WEXITSTATUS(status));
+  throw Error(words);
+}
+
+Eigen::VectorXd Table::column(const std::string& name) const {
+  const auto found = std::find(header.begin(), header.end(), name);
+  if (found == header.end()) throw Error("table: no column " + name);
+  return rows.col(found - header.begin());
+}
+
+Table read_table(const std::filesystem::path& path) {
+  std::ifstream in(path);
+  std::string line;
+  if (!std::getline(in, line)) throw Error(path.string() + ": cannot be read, or is empty");
+  Table table{split(line), {}};
+  std::vector<double> values;
+  for (int number = 2; std::getline(in, line); ++number) {
+    const auto fields = split(line);
+    const std::string where = fmt::format("{}, line {}: ", path.string(), number);
+    if (fields.size() != table.header.size())
+      throw Error(where + fmt::format("{} fields; accepted {}", fields.size(), table.header.size()));
+    for (const std::string& field : fields) {
+      char* end = nullptr;
+      const double value = std::strtod(field.c_str(), &end);
+      if (field.empty() || *end != '\0' || !std::isfinite(value))
+        throw Error(where + "'" + field + "' is no finite number");
+      values.push_back(value);
+    }
+  }
+  const auto columns = static_cast<Eigen::Index>(table.header.size());
+  using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  table.rows = Eigen::Map<const ByRows>(values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns);
+  return table;
+}
+
+}  // namespace antilock::freefem

@@ -1,0 +1,23 @@
+#pragma once
+#include <Eigen/Dense>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace antilock::freefem {
+
+/// Runs `freefem/run SCRIPT OPTIONS` and waits. Throws Error with the one line that it failed with.
+void run(const std::string& script, const std::vector<std::string>& options);
+
+/// A table of numbers that a script wrote: one header line, then rows, comma separated.
+struct Table {
+  std::vector<std::string> header;
+  Eigen::MatrixXd rows;
+  /// Throws Error where there is no such column.
+  Eigen::VectorXd column(const std::string& name) const;
+};
+/// Throws Error, naming file and line, for a file that is missing, without a header, ragged, or that holds anything but
+/// finite numbers.
+Table read_table(const std::filesystem::path& path);
+
+}  // namespace antilock::freefem

@@ -1,0 +1,270 @@
+// The C++ library and FreeFEM, run live on identical meshes, agree: forms, load, linear and contact solutions.
+// Unknowns are matched by coordinate. Where FreeFEM is missing every test here fails with the line that says so.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "antilock/measure/errors.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/problem/assemble.hpp"
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "cross_check.hpp"
+#include "runner.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace antilock {
+namespace {
+
+using test::TemporaryFolder;
+
+struct Setting {
+  const char* element;
+  bool structured;
+  std::string name() const { return std::string(element) + (structured ? "Structured" : "Unstructured"); }
+  TriangleMesh mesh(int cells) const { return structured ? structured_mesh(cells) : unstructured_mesh(cells); }
+  const char* script() const {
+    if (std::string(element) == "CR") return "06_crouzeix_raviart";
+    return structured ? "04_p1_structured" : "05_p1_unstructured";
+  }
+  bool locks() const { return std::string(element) == "P1" && !structured; }
+};
+std::ostream& operator<<(std::ostream& out, const Setting& s) { return out << s.name(); }
+const Setting settings[] = {{"P1", true}, {"P1", false}, {"CR", true}, {"CR", false}};
+
+Scene contact_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
+Scene free_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}); }
+
+double largest(const SparseMatrix& a) {
+  return Eigen::Map<const Eigen::VectorXd>(a.valuePtr(), a.nonZeros()).cwiseAbs().maxCoeff();
+}
+
+class Forms : public ::testing::TestWithParam<Setting> {};
+
+// Relative to the largest entry: entries are sums of a few products, each with a round-off or two (1e-16), and the
+// coordinates carry all digits; 1e-12 leaves room for nothing but that.
+TEST_P(Forms, MatricesAndLoadAgreeEntryByEntry) {
+  const TriangleMesh mesh = GetParam().mesh(16);
+  const Space space(mesh, element(GetParam().element));
+  const VariationalInequality ours = assemble(contact_scene(1), space);
+  const SparseMatrix a0 = ours.b.transpose() * ours.m.asDiagonal() * ours.b;
+  const TemporaryFolder folder;
+  const freefem::Discretisation theirs = freefem::assemble(space, folder.path());
+
+  EXPECT_LE(largest(SparseMatrix(ours.a1 - theirs.a1)), 1e-12 * largest(ours.a1));
+  EXPECT_LE(largest(SparseMatrix(a0 - theirs.a0)), 1e-12 * largest(a0));
+  EXPECT_LE((ours.load - theirs.load).cwiseAbs().maxCoeff(), 1e-12 * ours.load.cwiseAbs().maxCoeff());
+  EXPECT_EQ(ours.fixed, theirs.clamped);
+  EXPECT_EQ(ours.contact, theirs.contact);
+}
+INSTANTIATE_TEST_SUITE_P(FreeFem, Forms, ::testing::ValuesIn(settings),
+                         [](const auto& info) { return info.param.name(); });
+
+class Solutions : public ::testing::TestWithParam<std::tuple<Setting, double>> {};
+
+// Both sides stop their corrections at a relative change of 1e-10 or less.
+TEST_P(Solutions, WithoutContactAgree) {
+  const auto [setting, epsilon] = GetParam();
+  const TriangleMesh mesh = setting.mesh(16);
+  const Space space(mesh, element(setting.element));
+  const VariationalInequality problem = assemble(free_scene(epsilon), space);
+  const Solution ours = active_set(problem);
+  const TemporaryFolder folder;
+  const auto theirs = freefem::solve(setting.script(), space, epsilon, folder.path(), {"-contact", "off"});
+  const auto comparison = freefem::compare(space, problem, ours, theirs);
+  EXPECT_LE(comparison.difference, 1e-9);
+  EXPECT_LE(comparison.energy, 1e-10);
+}
+
+// The solutions agree to the solvers' tolerances times the amplification of the corrections; energy is quadratic around
+// the solution, hence its smaller bound.
+TEST_P(Solutions, WithContactAgreeInValuesContactSetAndEnergy) {
+  const auto [setting, epsilon] = GetParam();
+  const TriangleMesh mesh = setting.mesh(16);
+  const Space space(mesh, element(setting.element));
+  const VariationalInequality problem = assemble(contact_scene(epsilon), space);
+  const Solution ours = active_set(problem);
+  const TemporaryFolder folder;
+  const auto theirs = freefem::solve(setting.script(), space, epsilon, folder.path());
+  const auto comparison = freefem::compare(space, problem, ours, theirs);
+  EXPECT_LE(comparison.difference, 1e-8);
+  EXPECT_LE(comparison.energy, 1e-10);
+  if (setting.locks() && epsilon <= 1e-6) {
+    // The layer does not move: every gap is 0 to the tolerance of 1e-10 times the largest |u|, with or without a
+    // contact force (at epsilon = 0 exactly, and the forces are not unique), so there is no contact set to compare.
+    EXPECT_LE(ours.u(problem.contact).cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LE(theirs.gap.cwiseAbs().maxCoeff(), 1e-9);
+  } else {
+    EXPECT_EQ(comparison.contact_disagree, 0);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(FreeFem, Solutions,
+                         ::testing::Combine(::testing::ValuesIn(settings),
+                                            ::testing::Values(1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0)),
+                         [](const auto& info) {
+                           const double epsilon = std::get<1>(info.param);
+                           const std::string power =
+                               epsilon == 0 ? "0" : "1eMinus" + std::to_string(std::lround(-std::log10(epsilon)));
+                           return std::get<0>(info.param).name() + power;
+                         });
+
+// The plain sum A1 + epsilon^-2 A0, as FreeFEM users write it, against the split form here.
+struct PlainSum {
+  freefem::Comparison comparison;
+  double residual;
+};
+PlainSum plain_sum(const Setting& setting, double epsilon) {
+  const TriangleMesh mesh = setting.mesh(16);
+  const Space space(mesh, element(setting.element));
+  const VariationalInequality problem = assemble(contact_scene(epsilon), space);
+  const TemporaryFolder folder;
+  const auto theirs = freefem::solve(setting.script(), space, epsilon, folder.path(), {"-stiff", "sum"});
+  return {freefem::compare(space, problem, active_set(problem), theirs), theirs.residual};
+}
+
+// epsilon^-2 = 1e4 costs four of sixteen digits, the condition number of the rest three or so more.
+TEST(PlainSum, IsRightWhileEpsilonIsLarge) {
+  for (const Setting& setting : settings)
+    for (const double epsilon : {1.0, 1e-1, 1e-2}) {
+      const PlainSum sum = plain_sum(setting, epsilon);
+      EXPECT_LE(sum.comparison.difference, 1e-9) << setting << " " << epsilon;
+      EXPECT_EQ(sum.comparison.contact_disagree, 0) << setting << " " << epsilon;
+    }
+}
+
+// Measured: 6e-5 to 2e-4. Locked P1 is spared: its answer on the layer is 0, which no round-off can spoil.
+TEST(PlainSum, DriftsAtThePapersEpsilon) {
+  for (const Setting& setting : settings) {
+    if (setting.locks()) continue;
+    const PlainSum sum = plain_sum(setting, 1e-6);
+    EXPECT_GE(sum.comparison.difference, 1e-6) << setting;
+    EXPECT_GE(sum.residual, 1e-5) << setting;  // and its residual says so
+  }
+}
+
+TEST(PlainSum, HasNothingLeftAtEpsilon1eMinus8) {
+  for (const Setting& setting : settings) {
+    if (setting.locks()) continue;
+    try {
+      EXPECT_GE(plain_sum(setting, 1e-8).residual, 1e-2) << setting;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find("lost its digits"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(PlainSum, IsRefusedAtEpsilon0) {
+  const TemporaryFolder folder;
+  EXPECT_THROW(freefem::run("04_p1_structured", {"-stiff", "sum", "-epsilon", "0", "-out", folder.path()}), Error);
+}
+
+// The paper's algorithm on the other side: its own stop is a step in the gap of 1e-11.
+TEST(FreeFemUzawa, FindsTheActiveSetsSolution) {
+  for (const Setting& setting : {settings[0], settings[3]}) {
+    const TriangleMesh mesh = setting.mesh(16);
+    const Space space(mesh, element(setting.element));
+    const VariationalInequality problem = assemble(contact_scene(1e-6), space);
+    const TemporaryFolder folder;
+    const auto theirs = freefem::solve(setting.script(), space, 1e-6, folder.path(), {"-solver", "uzawa"});
+    const auto comparison = freefem::compare(space, problem, active_set(problem), theirs);
+    EXPECT_LE(comparison.difference, 1e-8) << setting;
+    EXPECT_EQ(comparison.contact_disagree, 0) << setting;
+    EXPECT_GE(theirs.steps, 100) << setting;  // it crawls
+  }
+}
+
+TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> scripts{
+      {"01_domain", {"mesh.freefem.msh", "before.freefem.msh"}},
+      {"02_meshes", {"structured.csv", "unstructured.csv", "structured.freefem.msh", "unstructured.freefem.msh"}},
+      {"03_reference_solution", {"solution.csv", "contact.csv", "summary.csv"}},
+      {"04_p1_structured", {"solution.csv", "contact.csv", "summary.csv"}},
+      {"05_p1_unstructured", {"solution.csv", "contact.csv", "summary.csv"}},
+      {"06_crouzeix_raviart", {"solution.csv", "contact.csv", "summary.csv"}},
+      {"07_convergence", {"results.csv"}},
+      {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
+  for (const auto& [script, files] : scripts) {
+    const TemporaryFolder folder;
+    ASSERT_NO_THROW(freefem::run(script, {"-cells", "8", "-out", folder.path()})) << script;
+    for (const std::string& file : files) EXPECT_TRUE(std::filesystem::exists(folder / file)) << script << " " << file;
+  }
+}
+
+// Locking, in FreeFEM's own words: on its own meshes, P1 stays at 0 on the layer, Crouzeix-Raviart does not (truth:
+// 0.0457).
+TEST(FreeFemScripts, ShowTheLockingOnTheirOwnMeshes) {
+  const auto largest_on_gamma_c = [](const std::string& script) {
+    const TemporaryFolder folder;
+    freefem::run(script, {"-cells", "16", "-epsilon", "1e-6", "-out", folder.path()});
+    return freefem::read_table(folder / "contact.csv").column("gap").maxCoeff();
+  };
+  EXPECT_LE(largest_on_gamma_c("05_p1_unstructured"), 1e-8);
+  EXPECT_NEAR(largest_on_gamma_c("06_crouzeix_raviart"), 0.0457, 0.005);
+  EXPECT_NEAR(largest_on_gamma_c("04_p1_structured"), 0.0457, 0.005);
+}
+
+/// A variable of the environment for the time of a test.
+class Environment {
+ public:
+  Environment(const char* name, const std::string& value) : name_(name) { ::setenv(name, value.c_str(), 1); }
+  ~Environment() { ::unsetenv(name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  const char* name_;
+};
+
+std::string message_of(const std::string& script, const std::vector<std::string>& options) {
+  try {
+    freefem::run(script, options);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(FreeFemRunner, SaysInOneLineThatFreeFemIsMissingOrTooOld) {
+  const TemporaryFolder folder;
+  {
+    const Environment missing("FREEFEM", "no-such-program");
+    EXPECT_EQ(message_of("01_domain", {}),
+              "freefem/run: no-such-program is not installed; FreeFEM 4.9 or later is needed (Debian: apt install "
+              "freefem++)");
+  }
+  std::ofstream(folder / "old") << "#!/bin/sh\necho '-- FreeFem++ v3.61 (date)'\n";
+  std::filesystem::permissions(folder / "old", std::filesystem::perms::owner_all);
+  const Environment old("FREEFEM", (folder / "old").string());
+  EXPECT_EQ(message_of("01_domain", {}), "freefem/run: FreeFEM 3.61 is too old; 4.9 or later is needed");
+}
+
+TEST(FreeFemRunner, RefusesBadInputInOneLine) {
+  EXPECT_EQ(message_of("04_p1_structured", {"-mesh", "/no/such.msh"}),
+            "04_p1_structured: mesh /no/such.msh cannot be read");
+  EXPECT_EQ(message_of("04_p1_structured", {"-epsilon", "2"}),
+            "04_p1_structured: option -epsilon 2; accepted: a number from 0 to 1");
+  EXPECT_EQ(message_of("04_p1_structured", {"-epsilon", "small"}),
+            "04_p1_structured: option -epsilon small; accepted: a number from 0 to 1");
+  EXPECT_NE(message_of("04_p1_structured", {"-epsilonn", "1"}).find("option -epsilonn is unknown"), std::string::npos);
+  EXPECT_EQ(message_of("04_p1_structured", {"-epsilon"}), "04_p1_structured: option -epsilon needs a value");
+  EXPECT_EQ(message_of("06_crouzeix_raviart", {"-element", "P1"}),
+            "06_crouzeix_raviart: option -element means nothing to this script");
+  EXPECT_NE(message_of("99_nothing", {}).find("no script 99_nothing"), std::string::npos);
+}
+
+TEST(Match, GoesByPlaceAndRefusesWhatIsNotOneToOne) {
+  Points a(3, 2), b(3, 2);
+  a << 0, 0, 1, 0, 0, 1;
+  b << 0, 1, 1e-16, 0, 1 - 1e-16, 0;
+  EXPECT_EQ(freefem::match(a, b), (std::vector<int>{1, 2, 0}));
+  b(0, 1) = 0.9;
+  EXPECT_THROW(freefem::match(a, b), Error);
+  b.row(0) = b.row(1);
+  EXPECT_THROW(freefem::match(a, b), Error);
+}
+
+}  // namespace
+}  // namespace antilock
