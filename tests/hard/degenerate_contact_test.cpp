@@ -1,0 +1,307 @@
+// Degenerate contact: all, none, one, grazing, many zones, every start, every scale; no endless loop.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "antilock/exact/truth.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/problem/assemble.hpp"
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/contact_problem.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "hard/quad_reference.hpp"
+
+namespace antilock::hard {
+namespace {
+
+using std::numbers::pi;
+
+int count(const std::vector<bool>& active) { return static_cast<int>(std::count(active.begin(), active.end(), true)); }
+
+/// Runs of neighbours in contact.
+int zones(const std::vector<bool>& active) {
+  int runs = 0;
+  for (std::size_t i = 0; i < active.size(); ++i) runs += active[i] && (i == 0 || !active[i - 1]);
+  return runs;
+}
+
+double largest_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  return (a - b).lpNorm<Eigen::Infinity>();
+}
+
+/// Element and epsilon: every property below holds for each pair on a structured mesh.
+class Degenerate : public testing::TestWithParam<std::tuple<const char*, double>> {
+ protected:
+  VariationalInequality problem(const Space& space, const Field& load, std::optional<UnilateralContact> contact) const {
+    return assemble(Scene({load}, StiffLayer{std::get<1>(GetParam())}, std::move(contact)), space);
+  }
+  VariationalInequality problem(
+      const Space& space, const Field& load, const Profile& gap = [](double) { return 0.0; }) const {
+    return problem(space, load, UnilateralContact{gap});
+  }
+  /// Solves, and has quadruple precision prove the answer right: 1e-9 is the solver's promise. The contact set may
+  /// differ from the exact one where gap and pressure vanish together; u may not.
+  static Solution proved(const VariationalInequality& problem, const ActiveSetOptions& options = {}) {
+    const Solution solution = active_set(problem, options);
+    EXPECT_TRUE(solution.warning.empty()) << solution.warning;
+    EXPECT_LE(solution.counters.contact, 40) << "contact steps in one correction";
+    const QuadSolution exact = settle(problem, solution.active, refined_reference);
+    EXPECT_LT(exact.residual, 1e-20);
+    EXPECT_GE(std::min(exact.min_gap, exact.min_pressure), -1e-18);
+    EXPECT_LT(distance(solution.u, exact.u), 1e-9);
+    return solution;
+  }
+  const Element& chosen() const { return element(std::get<0>(GetParam())); }
+  TriangleMesh mesh_ = structured_mesh(32);
+  Space space_{mesh_, chosen()};
+};
+
+TEST_P(Degenerate, EverythingInContactUpToTheClampedCorners) {
+  const Solution s = proved(problem(space_, [](double, double) { return -10.0; }));
+  EXPECT_EQ(count(s.active), static_cast<int>(s.active.size()));
+  EXPECT_GT(s.lambda.minCoeff(), 0);
+}
+
+TEST_P(Degenerate, NothingInContactIsTheProblemWithoutContact) {
+  const auto up = [](double, double) { return 10.0; };
+  const Solution s = proved(problem(space_, up));
+  EXPECT_EQ(count(s.active), 0);
+  EXPECT_EQ(s.lambda.lpNorm<Eigen::Infinity>(), 0);
+  const Solution free = active_set(problem(space_, up, std::nullopt));
+  EXPECT_LT(largest_difference(s.u, free.u), 2e-10 * free.u.lpNorm<Eigen::Infinity>());  // twice the tolerance
+}
+
+TEST_P(Degenerate, ContactUpToOneCornerOnly) {
+  const Solution s = proved(problem(space_, [](double x, double) { return x < 0.5 ? -10.0 : 10.0; }));
+  EXPECT_TRUE(s.active.front());
+  EXPECT_FALSE(s.active.back());
+  EXPECT_EQ(zones(s.active), 1);
+}
+
+TEST_P(Degenerate, ContactAtOneUnknownOfMany) {
+  const double x = space_.points()(space_.contact()[11], 0);
+  const Solution s = proved(problem(
+      space_, [](double, double) { return -10.0; }, [&](double at) { return at == x ? 0.0 : 10.0; }));
+  EXPECT_EQ(count(s.active), 1);
+  EXPECT_TRUE(s.active[11]);
+  EXPECT_GT(s.lambda(11), 0);
+}
+
+TEST_P(Degenerate, AProblemWithOneContactUnknown) {
+  const TriangleMesh mesh = structured_mesh(chosen().name() == "P1" ? 2 : 1);
+  const Space space(mesh, chosen());
+  ASSERT_EQ(space.contact().size(), 1u);
+  for (const double sign : {-1.0, 1.0}) {
+    const Solution s = proved(problem(space, [&](double, double) { return sign; }));
+    EXPECT_EQ(s.active[0], sign < 0);
+  }
+}
+
+// The obstacle has the shape of the free solution on an interval: gap and pressure are both zero there, and no sign of
+// either means anything. One round-off up or down, it is grazing or pressed by nothing.
+TEST_P(Degenerate, GrazingContactHasTheFreeSolutionAndNoForce) {
+  const Solution free = active_set(problem(space_, paper_load, std::nullopt));
+  for (const double nudge : {0.0, 1e-16, -1e-16, 1e-13, -1e-13}) {
+    VariationalInequality grazing = problem(space_, paper_load);
+    for (Eigen::Index i = 0; i < grazing.lower.size(); ++i) {
+      const double x = space_.points()(grazing.contact[i], 0), u = free.u(grazing.contact[i]);
+      grazing.lower(i) = x > 0.3 && x < 0.8 ? u + nudge : u - 1;
+    }
+    const Solution s = proved(grazing);
+    EXPECT_LT(largest_difference(s.u, free.u), 1e-9 * free.u.lpNorm<Eigen::Infinity>()) << nudge;
+    EXPECT_LT(s.lambda.lpNorm<Eigen::Infinity>(), 1e-8 * grazing.load.lpNorm<Eigen::Infinity>()) << nudge;
+  }
+}
+
+// At epsilon = 1 a wave of the load arrives at Gamma_C as exp(-2 k pi) of itself, far below the discretisation error:
+// the zones are then the mesh's own, and the algebra is right all the same.
+TEST_P(Degenerate, SeveralZonesAreThoseOfTheTruth) {
+  const double epsilon = std::get<1>(GetParam());
+  const Solution s = proved(problem(space_, [](double x, double) { return 10 * std::sin(6 * pi * x); }));
+  if (epsilon == 1) return;
+  EXPECT_EQ(zones(s.active), 3);
+  EXPECT_EQ(Truth(SineLoad{{{6, {10.0}}}}, epsilon, true, 12).contact_zones().size(), 3u);
+}
+
+TEST_P(Degenerate, ARapidLoadHasOneZoneAWave) {
+  const TriangleMesh mesh = structured_mesh(128);
+  const Space space(mesh, chosen());
+  const Solution s = active_set(problem(space, [](double x, double) { return 100 * std::sin(32 * pi * x); }));
+  EXPECT_TRUE(s.warning.empty());
+  EXPECT_LE(s.counters.contact, 40);
+  EXPECT_LE(s.counters.corrections, 10);
+  if (std::get<1>(GetParam()) < 1) {
+    EXPECT_EQ(zones(s.active), 16);
+  }
+}
+
+TEST_P(Degenerate, NoLoadMovesNothingAndNeedsNoCorrection) {
+  const Solution s = active_set(problem(space_, [](double, double) { return 0.0; }));
+  EXPECT_EQ(s.u.lpNorm<Eigen::Infinity>(), 0);
+  EXPECT_EQ(s.p.lpNorm<Eigen::Infinity>(), 0);
+  EXPECT_EQ(s.lambda.lpNorm<Eigen::Infinity>(), 0);
+  EXPECT_EQ(s.counters.corrections, 0);
+  EXPECT_EQ(worst_violation(s.kkt), 0);
+}
+
+// No absolute number anywhere in the solver: multiplying load and bounds by a power of two multiplies the answer by it,
+// bit for bit, over 600 binary orders of magnitude.
+TEST_P(Degenerate, TheAnswerScalesWithTheLoadBitForBit) {
+  for (const double gap : {0.0, 0.01}) {
+    const VariationalInequality one = problem(space_, paper_load, [&](double) { return gap; });
+    const Solution unit = active_set(one);
+    for (const int exponent : {-300, -40, -1, 1, 40, 300}) {
+      VariationalInequality scaled = one;
+      const double factor = std::ldexp(1.0, exponent);
+      scaled.load *= factor;
+      scaled.lower *= factor;
+      const Solution s = active_set(scaled);
+      EXPECT_EQ(s.u, factor * unit.u) << exponent;
+      EXPECT_EQ(s.lambda, factor * unit.lambda) << exponent;
+      EXPECT_EQ(s.p, factor * unit.p) << exponent;
+      EXPECT_EQ(s.active, unit.active);
+    }
+  }
+}
+
+TEST_P(Degenerate, LoadsOf1em12And1e12) {
+  const Solution unit = active_set(problem(space_, paper_load));
+  for (const double factor : {1e-12, 1e12}) {
+    const Solution s = proved(problem(space_, [&](double x, double y) { return factor * paper_load(x, y); }));
+    EXPECT_LT(largest_difference(s.u / factor, unit.u), 1e-12 * unit.u.lpNorm<Eigen::Infinity>());
+    EXPECT_EQ(s.active, unit.active);
+  }
+}
+
+TEST_P(Degenerate, ObstaclesAwayPressedInAndUneven) {
+  // the clamp holds u = 0 at both ends, so no obstacle may press in there
+  for (const Profile& gap : std::vector<Profile>{
+           [](double) { return 0.01; }, [](double x) { return -0.01 * std::sin(pi * x); },
+           [](double x) { return -10 * x * (1 - x); }, [](double) { return 1e6; },
+           [](double x) { return 0.02 * std::sin(9 * pi * x) * std::sin(pi * x); },
+           [](double x) { return x < 0.5 ? 1e9 : 0.0; }, [](double x) { return std::abs(x - 0.7) - 0.05; }}) {
+    const Solution s = proved(problem(space_, paper_load, gap));
+    for (std::size_t i = 0; i < s.active.size(); ++i)
+      if (s.active[i]) {
+        EXPECT_EQ(s.u(space_.contact()[i]), -gap(space_.points()(space_.contact()[i], 0)));
+      }
+  }
+}
+
+TEST_P(Degenerate, TheWorstStartsEndInTheSameAnswer) {
+  const VariationalInequality paper = problem(space_, paper_load);
+  const Solution best = proved(paper);
+  const std::size_t c = paper.contact.size();
+  std::vector<bool> alternating(c), opposite = best.active;
+  for (std::size_t i = 0; i < c; ++i) alternating[i] = i % 2 == 0;
+  opposite.flip();
+  for (const std::vector<bool>& start :
+       {std::vector<bool>(c, true), std::vector<bool>(c, false), alternating, opposite}) {
+    ActiveSetOptions options;
+    options.start = start;
+    const Solution s = proved(paper, options);
+    EXPECT_EQ(s.active, best.active);
+    EXPECT_LT(largest_difference(s.u, best.u), 1e-9 * best.u.lpNorm<Eigen::Infinity>());
+  }
+  ActiveSetOptions impatient;
+  impatient.start = opposite;
+  impatient.max_steps = 1;
+  EXPECT_THROW(active_set(paper, impatient), NotConverged) << "a cap that is reached is a failure, not an answer";
+}
+
+std::string case_name(const testing::TestParamInfo<Degenerate::ParamType>& info) {
+  const double epsilon = std::get<1>(info.param);
+  return std::get<0>(info.param) + std::string("Epsilon") +
+         (epsilon == 1     ? "1"
+          : epsilon > 1e-3 ? "1em2"
+          : epsilon > 0    ? "1em8"
+                           : "0");
+}
+INSTANTIATE_TEST_SUITE_P(Paper, Degenerate,
+                         testing::Combine(testing::Values("P1", "CR"), testing::Values(1.0, 1e-2, 1e-8, 0.0)),
+                         case_name);
+
+// Nothing but u = 0 lies in the kernel of a locked layer, and the obstacle forbids it: no solution, and no answer.
+TEST(Infeasible, ALockedLayerPressedInIsRefused) {
+  const TriangleMesh mesh = unstructured_mesh(16);
+  const Space space(mesh, p1());
+  const UnilateralContact pressed{[](double x) { return -0.01 * std::sin(pi * x); }};
+  EXPECT_THROW(active_set(assemble(Scene({paper_load}, StiffLayer{0}, pressed), space)), NotConverged);
+}
+
+/// The plain primal-dual active set: true where it settles, false where a set comes back.
+bool plain_settles(const Eigen::MatrixXd& s, const Eigen::VectorXd& q) {
+  std::vector<bool> active(q.size(), false);
+  std::set<std::vector<bool>> tried;
+  while (tried.insert(active).second) {
+    std::vector<int> free;
+    for (int i = 0; i < q.size(); ++i)
+      if (!active[i]) free.push_back(i);
+    Eigen::VectorXd v = Eigen::VectorXd::Zero(q.size());
+    if (!free.empty()) {
+      const Eigen::VectorXd x = s(free, free).eval().llt().solve(q(free));
+      v(free) = x;
+    }
+    const Eigen::VectorXd lambda = s * v - q;
+    bool settled = true;
+    for (int i = 0; i < q.size(); ++i)
+      if (active[i] ? lambda(i) < -1e-12 : v(i) < -1e-12) {
+        active[i] = !active[i];
+        settled = false;
+      }
+    if (settled) return true;
+  }
+  return false;
+}
+
+// Off Gamma_C of an elastic body nothing promises that the plain method ends: for a random symmetric positive definite
+// matrix it cycles now and then. The safeguarded one ends every time, with every condition met.
+TEST(Cycling, RandomComplementarityProblemsAllEnd) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  int cycles = 0, most = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const int n = 3 + trial % 28;
+    Eigen::MatrixXd g(n, n);
+    Eigen::VectorXd q(n);
+    for (double& value : g.reshaped()) value = normal(random);
+    for (double& value : q) value = normal(random);
+    const Eigen::MatrixXd s = g * g.transpose() + 1e-4 * Eigen::MatrixXd::Identity(n, n);
+    const Eigen::VectorXd lower = Eigen::VectorXd::Zero(n);
+    const ContactProblem problem{s, q, lower, 0};
+    cycles += !plain_settles(s, q);
+    for (const bool start : {false, true}) {
+      const ContactAnswer answer = solve_contact(problem, std::vector<bool>(n, start), 500);
+      most = std::max(most, answer.steps);
+      // relative to the condition number, 1e7 at most: 64 round-offs of S v moved by S^-1
+      const double v_scale = answer.v.lpNorm<Eigen::Infinity>(), f_scale = s.cwiseAbs().maxCoeff() * v_scale + 1;
+      EXPECT_GE(answer.v.minCoeff(), -1e-6 * v_scale) << trial;
+      EXPECT_GE((s * answer.v - q).minCoeff(), -1e-10 * f_scale) << trial;
+      EXPECT_LE(answer.v.cwiseProduct(answer.lambda).lpNorm<Eigen::Infinity>(), 1e-10 * v_scale * f_scale) << trial;
+    }
+  }
+  EXPECT_GE(cycles, 3) << "the plain method must cycle somewhere, else this test tests nothing";
+  RecordProperty("plain_cycles", cycles);
+  RecordProperty("most_steps", most);
+  EXPECT_LE(most, 200);
+}
+
+TEST(Cycling, TheCapIsAFailure) {
+  const Eigen::MatrixXd s = Eigen::MatrixXd::Identity(4, 4);
+  const Eigen::VectorXd q = Eigen::Vector4d(1, -1, 1, -1), lower = Eigen::Vector4d::Zero();
+  try {
+    solve_contact({s, q, lower, 0}, std::vector<bool>(4, false), 1);
+    FAIL() << "one step is not enough";
+  } catch (const NotConverged& failure) {
+    EXPECT_EQ(failure.steps, 1);
+    EXPECT_DOUBLE_EQ(failure.reached, 0.5);
+  }
+  EXPECT_EQ(solve_contact({s, q, lower, 0}, std::vector<bool>(4, false), 2).steps, 2);
+}
+
+}  // namespace
+}  // namespace antilock::hard
