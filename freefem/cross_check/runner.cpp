@@ -37,9 +37,10 @@ std::vector<std::string> split(const std::string& line) {
 }  // namespace
 
 void run(const std::string& script, const std::vector<std::string>& options) {
-  std::string command = quoted(ANTILOCK_FREEFEM_FOLDER "/run") + " " + quoted(script);
-  for (const std::string& option : options) command += " " + quoted(option);
-  std::FILE* pipe = popen((command + " 2>&1 >/dev/null").c_str(), "r");  // standard error alone
+  std::string command = fmt::format("{} {}", quoted(ANTILOCK_FREEFEM_FOLDER "/run"), quoted(script));
+  for (const std::string& option : options) command.append(" ").append(quoted(option));
+  command.append(" 2>&1 >/dev/null");  // standard error alone
+  std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw Error("freefem/run cannot be started");
   std::string words;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) words += c == '\n' ? ' ' : static_cast<char>(c);
