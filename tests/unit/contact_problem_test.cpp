@@ -1,0 +1,188 @@
+// The contact problem on Gamma_C: a linear complementarity problem, solved from any start.
+#include "antilock/solve/contact_problem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+struct Random {
+  Eigen::MatrixXd s;
+  Eigen::VectorXd q, lower;
+  ContactProblem problem() const { return {s, q, lower, 1}; }
+};
+
+/// S = A A' + I / 100, dense, not an M-matrix. With a `rank` of A below `size` plain active-set exchanges may cycle.
+Random random_problem(int size, unsigned seed, int rank = 0) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal;
+  Random r;
+  const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(size, rank > 0 ? rank : size, [&] { return normal(engine); });
+  r.s = a * a.transpose() + 1e-2 * Eigen::MatrixXd::Identity(size, size);
+  r.q = Eigen::VectorXd::NullaryExpr(size, [&] { return normal(engine); });
+  r.lower = Eigen::VectorXd::NullaryExpr(size, [&] { return 0.3 * normal(engine); });
+  return r;
+}
+
+/// The only set of 2^n that satisfies all conditions.
+ContactAnswer enumerate(const Random& r) {
+  const auto n = static_cast<int>(r.q.size());
+  ContactAnswer answer;
+  int found = 0;
+  for (unsigned set = 0; set < (1U << n); ++set) {
+    // unknowns of the equations: v where free, lambda where held
+    Eigen::MatrixXd system = r.s;
+    Eigen::VectorXd rhs = r.q - r.s * r.lower;
+    for (int i = 0; i < n; ++i)
+      if ((set >> i) & 1U) system.col(i) = -Eigen::VectorXd::Unit(n, i);
+    const Eigen::VectorXd x = system.fullPivLu().solve(rhs);  // v - lower, or lambda: both must be nonnegative
+    if (x.minCoeff() < -1e-12) continue;
+    ++found;
+    answer.active.assign(n, false);
+    answer.v = r.lower;
+    answer.lambda = Eigen::VectorXd::Zero(n);
+    for (int i = 0; i < n; ++i) {
+      answer.active[i] = (set >> i) & 1U;
+      (answer.active[i] ? answer.lambda(i) : answer.v(i)) += x(i);
+    }
+  }
+  EXPECT_EQ(found, 1);
+  return answer;
+}
+
+TEST(ContactProblem, FindsTheOneAnswerFromEveryStart) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const Random r = random_problem(2 + static_cast<int>(seed % 7), seed);
+    const ContactAnswer truth = enumerate(r);
+    const auto n = r.q.size();
+    std::vector<bool> alternating(n);
+    for (Eigen::Index i = 0; i < n; ++i) alternating[i] = i % 2 == 0;
+    for (const auto& start : {std::vector<bool>(n, false), std::vector<bool>(n, true), alternating}) {
+      const ContactAnswer answer = solve_contact(r.problem(), start, 1000);
+      EXPECT_EQ(answer.active, truth.active) << "seed " << seed;
+      // condition of S: up to about 1e4 for these
+      EXPECT_LT((answer.v - truth.v).cwiseAbs().maxCoeff(), 1e-9 * (1 + truth.v.norm())) << "seed " << seed;
+      EXPECT_LT((answer.lambda - truth.lambda).cwiseAbs().maxCoeff(), 1e-9 * (1 + truth.lambda.norm()));
+    }
+  }
+}
+
+TEST(ContactProblem, TheConditionsHoldOnLargeProblems) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    const Random r = random_problem(80, seed);
+    const ContactAnswer answer = solve_contact(r.problem(), std::vector<bool>(80, false), 100000);
+    const double scale = answer.lambda.maxCoeff();
+    EXPECT_GE(answer.lambda.minCoeff(), -1e-12 * scale);
+    EXPECT_GE((answer.v - r.lower).minCoeff(), -1e-12 * answer.v.cwiseAbs().maxCoeff());
+    EXPECT_EQ(answer.lambda.cwiseProduct(answer.v - r.lower).cwiseAbs().maxCoeff(), 0);  // one of them is exactly 0
+    EXPECT_LT((r.s * answer.v - r.q - answer.lambda).cwiseAbs().maxCoeff(), 1e-8 * scale);
+  }
+}
+
+/// The primal-dual active set without its safeguard: every violated condition exchanged at once.
+bool plain_exchanges_end(const Random& r) {
+  const auto n = static_cast<int>(r.q.size());
+  std::vector<bool> active(n, false);
+  for (int step = 0; step < 200; ++step) {
+    Eigen::MatrixXd system = r.s;
+    for (int i = 0; i < n; ++i)
+      if (active[i]) system.col(i) = -Eigen::VectorXd::Unit(n, i);
+    const Eigen::VectorXd x = system.partialPivLu().solve(r.q - r.s * r.lower);
+    if (x.minCoeff() >= -1e-10) return true;
+    for (int i = 0; i < n; ++i)
+      if (x(i) < 0) active[i] = !active[i];
+  }
+  return false;
+}
+
+TEST(ContactProblem, SinglePivotsEndWhatWholeSetExchangesRepeatForEver) {
+  int cycles = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const Random r = random_problem(10, seed, 6);
+    if (plain_exchanges_end(r)) continue;
+    ++cycles;
+    const ContactAnswer answer = solve_contact(r.problem(), std::vector<bool>(10, false), 1000);
+    EXPECT_GE(answer.lambda.minCoeff(), -1e-9) << seed;
+    EXPECT_GE((answer.v - r.lower).minCoeff(), -1e-9) << seed;
+  }
+  EXPECT_GT(cycles, 0) << "no problem here needs the safeguard: the test has lost its meaning";
+}
+
+TEST(ContactProblem, StartingAtTheAnswerTakesOneStep) {
+  const Random r = random_problem(8, 5);
+  const ContactAnswer first = solve_contact(r.problem(), std::vector<bool>(8, false), 1000);
+  const ContactAnswer again = solve_contact(r.problem(), first.active, 1000);
+  EXPECT_GT(first.steps, 1);
+  EXPECT_EQ(again.steps, 1);
+  EXPECT_EQ(again.v, first.v);
+}
+
+TEST(ContactProblem, AllFreeAndAllHeld) {
+  Random r = random_problem(6, 7);
+  r.lower.setConstant(-1e6);
+  EXPECT_EQ(solve_contact(r.problem(), std::vector<bool>(6, true), 1000).active, std::vector<bool>(6, false));
+  r.s = Eigen::MatrixXd::Identity(6, 6);
+  r.lower.setConstant(1e6);
+  const ContactAnswer held = solve_contact(r.problem(), std::vector<bool>(6, false), 1000);
+  EXPECT_EQ(held.active, std::vector<bool>(6, true));
+  EXPECT_EQ(held.v, r.lower);
+}
+
+TEST(ContactProblem, TooFewStepsIsAFailureThatSaysHowFarItCame) {
+  const Random r = random_problem(8, 5);
+  try {
+    solve_contact(r.problem(), std::vector<bool>(8, false), 1);
+    FAIL() << "an unconverged answer was returned";
+  } catch (const NotConverged& error) {
+    EXPECT_EQ(error.steps, 1);
+    EXPECT_GT(error.reached, 0);
+    EXPECT_LE(error.reached, 1);
+  }
+}
+
+/// A 1-D obstacle problem on n points, like the limit problem on Sigma: the case where a cold start takes O(n) steps.
+Random obstacle(int n) {
+  Random r;
+  r.s = Eigen::MatrixXd::Zero(n, n);
+  const double h = 1.0 / (n + 1);
+  for (int i = 0; i < n; ++i) {
+    r.s(i, i) = 2 / h;
+    if (i > 0) r.s(i, i - 1) = r.s(i - 1, i) = -1 / h;
+  }
+  r.q = Eigen::VectorXd::NullaryExpr(
+      n, [&](Eigen::Index i) { return h * 10 * std::sin(2 * std::numbers::pi * static_cast<double>(i + 1) * h); });
+  r.lower = Eigen::VectorXd::Zero(n);
+  return r;
+}
+
+TEST(ContactProblem, NestedStartMakesTheStepsIndependentOfH) {
+  for (const int n : {15, 31, 63, 64, 127, 255, 256}) {
+    const Random r = obstacle(n);
+    const ContactAnswer cold = solve_contact(r.problem(), std::vector<bool>(n, false), 1000);
+    const ContactAnswer nested = solve_contact(r.problem(), nested_start(r.problem(), 1000), 1000);
+    EXPECT_EQ(nested.active, cold.active) << n;
+    EXPECT_LE(nested.steps, 4) << n;
+    if (n > 100) {
+      EXPECT_GT(cold.steps, 3 * nested.steps) << n;
+    }
+  }
+}
+
+TEST(ContactProblem, NestedStartTakesEverySize) {
+  for (int n = 1; n < 40; ++n) {
+    const Random r = obstacle(n);
+    const std::vector<bool> start = nested_start(r.problem(), 1000);
+    ASSERT_EQ(static_cast<int>(start.size()), n);
+    EXPECT_EQ(solve_contact(r.problem(), start, 1000).active,
+              solve_contact(r.problem(), std::vector<bool>(n, false), 1000).active);
+  }
+}
+
+}  // namespace
+}  // namespace antilock

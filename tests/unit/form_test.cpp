@@ -1,0 +1,218 @@
+// The forms of (23): what they must vanish on, integrate exactly and be equal to.
+#include "antilock/form/forms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "antilock/form/quadrature.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::expect_refused;
+using test::two_square_meshes;
+
+std::vector<const Element*> elements() { return {&p1(), &p2(), &crouzeix_raviart()}; }
+
+double factorial(int n) { return n < 2 ? 1 : n * factorial(n - 1); }
+
+/// Mean over a triangle of lambda_0^a lambda_1^b lambda_2^c.
+double exact_mean(int a, int b, int c) {
+  return 2 * factorial(a) * factorial(b) * factorial(c) / factorial(a + b + c + 2);
+}
+
+double rule_mean(const Quadrature& rule, int a, int b, int c) {
+  double sum = 0;
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+    sum += rule.weights(q) * std::pow(rule.points(q, 0), a) * std::pow(rule.points(q, 1), b) *
+           std::pow(rule.points(q, 2), c);
+  return sum;
+}
+
+double worst_mean(const Quadrature& rule, int degree) {
+  double worst = 0;
+  for (int a = 0; a <= degree; ++a)
+    for (int b = 0; a + b <= degree; ++b)
+      worst = std::max(worst, std::abs(rule_mean(rule, a, b, degree - a - b) - exact_mean(a, b, degree - a - b)));
+  return worst;
+}
+
+TEST(Quadrature, RadonsRuleIsExactToDegreeFiveAndNoFurther) {
+  for (int degree = 0; degree <= 5; ++degree) EXPECT_LT(worst_mean(radon_rule(), degree), 1e-15) << degree;
+  EXPECT_GT(worst_mean(radon_rule(), 6), 1e-5);
+}
+
+TEST(Quadrature, MidpointRuleIsExactToDegreeTwoAndNoFurther) {
+  for (int degree = 0; degree <= 2; ++degree) EXPECT_LT(worst_mean(midpoint_rule(), degree), 1e-15) << degree;
+  EXPECT_GT(worst_mean(midpoint_rule(), 3), 1e-3);
+}
+
+/// The sum over triangles of int wx d/dx u d/dx v + wy d/dy u d/dy v, by a dense loop of its own: gradients from the
+/// 3 x 3 system of a linear function through the corners (degree 1), the products at the edge midpoints (degree 2).
+Eigen::MatrixXd dense_form(const Space& space, Region region, double wx, double wy) {
+  const TriangleMesh& mesh = space.mesh();
+  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(space.size(), space.size());
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != region) continue;
+    Eigen::Matrix3d corners;
+    for (int i = 0; i < 3; ++i) {
+      const auto v = mesh.vertices.row(mesh.triangles(t, i));
+      corners.row(i) << 1, v(0), v(1);
+    }
+    const double area = 0.5 * std::abs(corners.determinant());
+    const Eigen::Matrix3d coefficients = corners.inverse();  // column i: lambda_i = c0 + c1 x + c2 y
+    for (int mid = 0; mid < 3; ++mid) {
+      Eigen::Vector3d l = Eigen::Vector3d::Constant(0.5);
+      l(mid) = 0;
+      for (int i = 0; i < space.unknowns().cols(); ++i)
+        for (int j = 0; j < space.unknowns().cols(); ++j) {
+          const auto d = space.element().derivative(l);
+          double product = 0;
+          for (int p = 0; p < 3; ++p)
+            for (int q = 0; q < 3; ++q)
+              product += d(i, p) * d(j, q) *
+                         (wx * coefficients(1, p) * coefficients(1, q) + wy * coefficients(2, p) * coefficients(2, q));
+          form(space.unknowns()(t, i), space.unknowns()(t, j)) += area / 3 * product;
+        }
+    }
+  }
+  return form;
+}
+
+TEST(Forms, GradientFormIsTheDenseLoop) {
+  for (const auto& [name, mesh] : two_square_meshes(3))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      const Eigen::MatrixXd form = gradient_form(space, {2, 3}, {5, 7});
+      const Eigen::MatrixXd loop = dense_form(space, Region::body, 2, 3) + dense_form(space, Region::layer, 5, 7);
+      EXPECT_LT((form - loop).cwiseAbs().maxCoeff(), 1e-12 * loop.cwiseAbs().maxCoeff()) << name << element->name();
+    }
+}
+
+TEST(Forms, FactoredA0IsTheDenseLoop) {
+  for (const auto& [name, mesh] : two_square_meshes(3))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      const LayerStrain strain = layer_strain(space);
+      const Eigen::MatrixXd b = strain.b;
+      const Eigen::MatrixXd a0 = b.transpose() * strain.m.asDiagonal() * b;
+      const Eigen::MatrixXd loop = dense_form(space, Region::layer, 0, 1);
+      EXPECT_LT((a0 - loop).cwiseAbs().maxCoeff(), 1e-12 * loop.cwiseAbs().maxCoeff()) << name << element->name();
+    }
+}
+
+TEST(Forms, RowsOfBBelongToTheLayerTrianglesAndMMeasuresThem) {
+  for (const auto& [name, mesh] : two_square_meshes(4))
+    for (const Element* element : elements()) {
+      const LayerStrain strain = layer_strain(Space(mesh, *element));
+      ASSERT_EQ(strain.b.rows(), strain.m.size());
+      ASSERT_EQ(static_cast<Eigen::Index>(strain.triangle.size()), strain.m.size());
+      for (const int t : strain.triangle) ASSERT_EQ(mesh.region[t], Region::layer);
+      EXPECT_GT(strain.m.minCoeff(), 0);
+      EXPECT_NEAR(strain.m.sum(), 1, 1e-13) << name;
+      const auto layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
+      EXPECT_EQ(strain.m.size(), layer * (element->degree() == 1 ? 1 : 3));
+    }
+}
+
+TEST(Forms, BIsTheDerivativeInYOfAnAffineFunction) {
+  for (const auto& [name, mesh] : two_square_meshes(4))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      const Eigen::VectorXd u = 0.3 + 2 * space.points().col(0).array() - 5 * space.points().col(1).array();
+      const Eigen::VectorXd slopes = layer_strain(space).b * u;
+      EXPECT_LT((slopes.array() + 5).abs().maxCoeff(), 1e-12) << name << element->name();
+    }
+}
+
+TEST(Forms, ConstantsAreInTheKernelWithoutClamps) {
+  for (const auto& [name, mesh] : two_square_meshes(5))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      const Eigen::VectorXd one = Eigen::VectorXd::Ones(space.size());
+      EXPECT_LT((gradient_form(space, {1, 1}, {1, 0}) * one).cwiseAbs().maxCoeff(), 1e-12) << name << element->name();
+      EXPECT_LT((layer_strain(space).b * one).cwiseAbs().maxCoeff(), 1e-11) << name << element->name();
+    }
+}
+
+TEST(Forms, A1IsSymmetricAndNonnegative) {
+  for (const auto& [name, mesh] : two_square_meshes(3))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      const Eigen::MatrixXd a1 = gradient_form(space, {1, 1}, {1, 0});
+      EXPECT_LT((a1 - a1.transpose()).cwiseAbs().maxCoeff(), 1e-14) << name << element->name();
+      const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a1).eigenvalues()(0);
+      EXPECT_GT(smallest, -1e-12) << name << element->name();
+    }
+}
+
+TEST(Forms, EnergyOfAnAffineFunctionIsExact) {
+  for (const auto& [name, mesh] : two_square_meshes(4))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      const Eigen::VectorXd u = 3 * space.points().col(0) + 4 * space.points().col(1);
+      // body: (9 * 2 + 16 * 3) * area 1; layer: (9 * 5 + 16 * 7) * area 1
+      EXPECT_NEAR(u.dot(gradient_form(space, {2, 3}, {5, 7}) * u), 66 + 157, 1e-10) << name << element->name();
+    }
+}
+
+TEST(Forms, LoadOfAConstantSumsToTheAreaOfTheBody) {
+  for (const auto& [name, mesh] : two_square_meshes(5))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      EXPECT_NEAR(load_vector(space, [](double, double) { return 1.0; }).sum(), 1, 1e-13) << name << element->name();
+    }
+}
+
+TEST(Forms, LoadIntegratesPolynomialsExactly) {
+  for (const auto& [name, mesh] : two_square_meshes(3)) {
+    const Space space(mesh, p1());
+    const Eigen::VectorXd load = load_vector(space, [](double x, double y) { return x * x * y * y; });
+    EXPECT_NEAR(load.sum(), 1.0 / 9, 1e-14) << name;                        // degree 4
+    EXPECT_NEAR(load.dot(space.points().col(0)), 1.0 / 12, 1e-14) << name;  // degree 5: x^3 y^2
+  }
+}
+
+TEST(Forms, LoadDoesNotReachTheLayer) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  const Eigen::VectorXd load = load_vector(space, [](double, double) { return 1.0; });
+  for (int i = 0; i < space.size(); ++i) {
+    if (space.points()(i, 1) < 0) {
+      EXPECT_EQ(load(i), 0);
+    }
+  }
+}
+
+TEST(Forms, RefusesALoadThatIsNotFinite) {
+  const TriangleMesh mesh = structured_mesh(2);
+  expect_refused([&] { load_vector(Space(mesh, p1()), [](double x, double) { return std::log(x - 0.5); }); },
+                 "not finite");
+}
+
+TEST(Forms, VentcelTermIsTheEnergyOfTheTraceOnSigma) {
+  for (const TriangleMesh& mesh : {structured_mesh(8, {0}), unstructured_mesh(8, {0})})
+    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+      const Space space(mesh, *element);
+      const Eigen::MatrixXd form = ventcel_form(space);
+      EXPECT_LT((form - form.transpose()).cwiseAbs().maxCoeff(), 1e-14);
+      // the hat min(x, 1 - x) with its peak at an unknown or between two: slopes are 1 and -1 but near the peak
+      const Eigen::ArrayXd x = space.points().col(0).array();
+      const Eigen::VectorXd u = x.min(1 - x);
+      const double energy = u.dot(form * u);
+      EXPECT_NEAR(energy, element == &p1() ? 1 : 1 - 1.0 / 8, 1e-10) << element->name();  // gmsh's points: 1e-12 off
+      // nothing but Sigma is touched
+      for (int i = 0; i < space.size(); ++i) {
+        if (space.points()(i, 1) > 0) {
+          ASSERT_EQ(form.row(i).cwiseAbs().sum(), 0);
+        }
+      }
+    }
+  const TriangleMesh mesh = structured_mesh(2, {0});
+  expect_refused([&] { ventcel_form(Space(mesh, p2())); }, "Ventcel");
+}
+
+}  // namespace
+}  // namespace antilock

@@ -1,0 +1,133 @@
+// Locking is a property of the discretisation, not a bug: P1 on an unstructured mesh must lock, the others must not.
+#include <gtest/gtest.h>
+
+#include <Eigen/SPQRSupport>
+#include <cmath>
+#include <map>
+
+#include "antilock/exact/truth.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::relative_difference;
+using test::stiff_problem;
+
+/// The whole displacement of the layer in the truth at small epsilon (numerics: max of u on Gamma_C).
+constexpr double layer_displacement = 0.0457160;
+
+double largest_on_layer(const Space& space, const Solution& s) {
+  double largest = 0;
+  for (int i = 0; i < space.size(); ++i)
+    if (space.points()(i, 1) <= 0) largest = std::max(largest, std::abs(s.u(i)));
+  return largest;
+}
+
+TEST(Locking, P1UnstructuredLocksAtSmallEpsilon) {
+  for (const int cells : {16, 32, 64}) {
+    const TriangleMesh mesh = unstructured_mesh(cells);
+    const Space space(mesh, p1());
+    const double on_layer = largest_on_layer(space, active_set(stiff_problem(space, 1e-6)));
+    // u of the layer is lost: what is left falls like epsilon^2 / h^2
+    EXPECT_LT(on_layer, 1e-3 * layer_displacement) << cells;
+  }
+}
+
+TEST(Locking, TheOthersDoNotLock) {
+  const TriangleMesh structured = structured_mesh(32), unstructured = unstructured_mesh(32);
+  for (const double epsilon : {1e-6, 0.0})
+    for (const auto& [mesh, element] : {std::pair{&structured, &p1()}, std::pair{&structured, &crouzeix_raviart()},
+                                        std::pair{&unstructured, &crouzeix_raviart()}}) {
+      const Space space(*mesh, *element);
+      const double on_layer = largest_on_layer(space, active_set(stiff_problem(space, epsilon)));
+      EXPECT_NEAR(on_layer, layer_displacement, 0.03 * layer_displacement) << element->name() << epsilon;
+    }
+}
+
+TEST(Locking, P1UnstructuredDoesNotLockAtEpsilonOne) {
+  const TriangleMesh mesh = unstructured_mesh(32);
+  const Space space(mesh, p1());
+  const double truth = 0.12618750;  // u(.25, 0)
+  EXPECT_NEAR(largest_on_layer(space, active_set(stiff_problem(space, 1))), truth, 0.02 * truth);
+}
+
+TEST(Locking, TheLockedSolutionIsDirichletsOnTheBody) {
+  // as the paper says of Figure 7: u vanishes on the layer, and solves the Laplace problem on the body clamped all
+  // round
+  const TriangleMesh mesh = unstructured_mesh(16);
+  const Space space(mesh, p1());
+  const Solution locked = active_set(stiff_problem(space, 0));
+  EXPECT_LT(largest_on_layer(space, locked), 1e-9);
+  VariationalInequality dirichlet = assemble(Scene({paper_load}, StiffLayer{1}), space);
+  std::vector<int> fixed;
+  for (int i = 0; i < space.size(); ++i) {
+    const double x = space.points()(i, 0), y = space.points()(i, 1);
+    if (x == 0 || x == 1 || y == 1 || y <= 0) fixed.push_back(i);
+  }
+  dirichlet.fixed = fixed;
+  dirichlet.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fixed.size()));
+  EXPECT_LT(relative_difference(locked.u, active_set(dirichlet).u), 1e-8);
+}
+
+/// dim G_h = { v : B v = 0 }, over the unknowns of the layer that are not clamped: by rank-revealing sparse QR.
+Eigen::Index kernel_dimension(const Space& space) {
+  const VariationalInequality problem = stiff_problem(space, 0);
+  std::vector<bool> clamped(problem.size(), false);
+  for (const int i : problem.fixed) clamped[i] = true;
+  std::map<int, int> column;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index r = 0; r < problem.b.rows(); ++r)
+    for (RowMatrix::InnerIterator entry(problem.b, r); entry; ++entry)
+      if (const int i = static_cast<int>(entry.col()); !clamped[i])
+        entries.emplace_back(r, column.emplace(i, column.size()).first->second, entry.value());
+  Eigen::SparseMatrix<double> b(problem.b.rows(), static_cast<Eigen::Index>(column.size()));
+  b.setFromTriplets(entries.begin(), entries.end());
+  Eigen::SPQR<Eigen::SparseMatrix<double>> qr;
+  qr.setPivotThreshold(1e-8);  // entries of B are 1/h; what is dependent is so to round-off
+  qr.compute(b);
+  return b.cols() - qr.rank();
+}
+
+TEST(Locking, IsTheDimensionOfTheKernelOfA0) {
+  for (const int cells : {8, 16}) {
+    for (const Diagonal diagonal : {Diagonal::right, Diagonal::left}) {
+      const TriangleMesh mesh = structured_mesh(cells, {}, diagonal);
+      EXPECT_EQ(kernel_dimension(Space(mesh, p1())), cells - 1);                    // one function a column
+      EXPECT_EQ(kernel_dimension(Space(mesh, crouzeix_raviart())), cells * cells);  // N_T / 2
+    }
+    const TriangleMesh mesh = unstructured_mesh(cells);
+    const auto layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
+    EXPECT_EQ(kernel_dimension(Space(mesh, p1())), 0);  // G_h = {0}: complete locking
+    EXPECT_EQ(kernel_dimension(Space(mesh, crouzeix_raviart())), layer / 2);
+    EXPECT_EQ(layer % 2, 0);
+  }
+}
+
+TEST(Locking, TheEnergyBracketsTheTruthAndDoesNotCloseWhereItLocks) {
+  const double truth = Truth(paper_sine_load(), 0).energy();
+  EXPECT_NEAR(truth, -0.44154446, 1e-8);
+  const auto above = [&](const TriangleMesh& mesh, const Element& element) {
+    const Space space(mesh, element);
+    const VariationalInequality problem = stiff_problem(space, 0);
+    return energy(problem, active_set(problem)) - truth;
+  };
+  struct Row {
+    int cells;
+    double p1, cr, cr_unstructured, p1_unstructured;
+  };
+  // numerics: measured by a prototype to two digits
+  for (const Row& row : {Row{16, 1.0e-2, -2.8e-3, -2.1e-3, 1.5e-2}, Row{32, 2.6e-3, -7.2e-4, -5.2e-4, 1.1e-2},
+                         Row{64, 6.5e-4, -1.8e-4, -1.3e-4, 9.5e-3}}) {
+    EXPECT_NEAR(above(structured_mesh(row.cells), p1()) / row.p1, 1, 0.05) << row.cells;
+    EXPECT_NEAR(above(structured_mesh(row.cells), crouzeix_raviart()) / row.cr, 1, 0.05) << row.cells;
+    const TriangleMesh mesh = unstructured_mesh(row.cells);
+    EXPECT_NEAR(above(mesh, crouzeix_raviart()) / row.cr_unstructured, 1, 0.2) << row.cells;
+    EXPECT_NEAR(above(mesh, p1()) / row.p1_unstructured, 1, 0.2) << row.cells;
+  }
+}
+
+}  // namespace
+}  // namespace antilock

@@ -1,0 +1,184 @@
+// Norms against integrals done by hand; rates, contact zones and energy.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "antilock/form/forms.hpp"
+#include "antilock/measure/contact_zone.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::stiff_problem;
+using test::two_square_meshes;
+
+std::vector<const Element*> elements() { return {&p1(), &p2(), &crouzeix_raviart()}; }
+
+/// u = 0.2 + 3 x - 2 y, exactly in every space; layer stress -2 / epsilon^2.
+Reference affine(double epsilon) {
+  return {[](double x, double y) { return 0.2 + 3 * x - 2 * y; }, [](double, double) { return Eigen::Vector2d(3, -2); },
+          [epsilon](double, double) { return -2 / (epsilon * epsilon); }};
+}
+/// u = x y.
+Reference product(double epsilon) {
+  return {[](double x, double y) { return x * y; }, [](double x, double y) { return Eigen::Vector2d(y, x); },
+          [epsilon](double x, double) { return x / (epsilon * epsilon); }};
+}
+
+Solution interpolant(const Space& space, const Reference& reference, double epsilon) {
+  Solution s;
+  s.u.resize(space.size());
+  for (int i = 0; i < space.size(); ++i) s.u(i) = reference.value(space.points()(i, 0), space.points()(i, 1));
+  s.p = layer_strain(space).b * s.u / (epsilon * epsilon);
+  return s;
+}
+
+TEST(Errors, VanishForFunctionsOfTheSpace) {
+  constexpr double epsilon = 0.5;
+  for (const auto& [name, mesh] : two_square_meshes(4))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      for (const Reference& u : {affine(epsilon), product(epsilon)}) {
+        if (element->degree() == 1 && u.value(1, 1) == 1) continue;  // x y is quadratic
+        const Errors e = measure_errors(space, interpolant(space, u, epsilon), epsilon, u);
+        for (const double norm : {e.max, e.max_at_unknowns, e.l2, e.h1, e.energy})
+          EXPECT_LT(norm, 1e-11) << name << element->name();
+      }
+    }
+}
+
+TEST(Errors, AreTheNormsOfTheReferenceWhereTheSolutionIsZero) {
+  constexpr double epsilon = 0.5;
+  for (const auto& [name, mesh] : two_square_meshes(5))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      Solution zero;
+      zero.u = Eigen::VectorXd::Zero(space.size());
+      zero.p = Eigen::VectorXd::Zero(layer_strain(space).m.size());
+      const Errors e = measure_errors(space, zero, epsilon, product(epsilon));
+      EXPECT_NEAR(e.max, 1, 1e-11) << name << element->name();  // at (1, 1) and (1, -1)
+      EXPECT_NEAR(e.l2, std::sqrt(2.0 / 9), 1e-11) << name << element->name();
+      EXPECT_NEAR(e.h1, std::sqrt(2.0 / 9 + 4.0 / 3), 1e-11) << name << element->name();
+      // body x^2 + y^2, layer y^2 + epsilon^-2 x^2
+      EXPECT_NEAR(e.energy, std::sqrt(2.0 / 3 + 1.0 / 3 + 1 / (3 * epsilon * epsilon)), 1e-11)
+          << name << element->name();
+      EXPECT_LE(e.max_at_unknowns, e.max);
+      EXPECT_GT(e.max_at_unknowns, 0.8);
+    }
+}
+
+TEST(Errors, SeeTheJumpsOfCrouzeixRaviart) {
+  // one unknown of 1: at the vertex opposite its edge the function is -1, which no unknown shows
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, crouzeix_raviart());
+  Solution s;
+  s.u = Eigen::VectorXd::Zero(space.size());
+  s.p = Eigen::VectorXd::Zero(layer_strain(space).m.size());
+  s.u(space.size() / 2) = 1;
+  const Reference zero{[](double, double) { return 0.5; }, [](double, double) { return Eigen::Vector2d(0, 0); },
+                       [](double, double) { return 0.0; }};
+  const Errors e = measure_errors(space, s, 1, zero);
+  EXPECT_NEAR(e.max_at_unknowns, 0.5, 1e-14);
+  EXPECT_NEAR(e.max, 1.5, 1e-14);
+}
+
+TEST(Errors, WithoutLayerTheEnergyNormIsTheGradients) {
+  const TriangleMesh mesh = structured_mesh(4, {0});
+  const Space space(mesh, p1());
+  Solution zero;
+  zero.u = Eigen::VectorXd::Zero(space.size());
+  const Errors e = measure_errors(space, zero, 0, product(1));
+  EXPECT_NEAR(e.energy, std::sqrt(2.0 / 3), 1e-12);
+  EXPECT_NEAR(e.h1, std::sqrt(2.0 / 3 + 1.0 / 9), 1e-12);
+}
+
+TEST(Rates, AreExactForPowersOfH) {
+  const std::vector<double> h{0.5, 0.25, 0.1, 0.02};
+  std::vector<double> errors;
+  for (const double one : h) errors.push_back(7 * std::pow(one, 1.5));
+  const std::vector<double> r = rates(h, errors);
+  ASSERT_EQ(r.size(), 3U);
+  for (const double rate : r) EXPECT_NEAR(rate, 1.5, 1e-12);
+  EXPECT_NEAR(slope(h, errors), 1.5, 1e-12);
+}
+
+TEST(Energy, IsHalfTheWorkOfTheLoadWithoutContact) {
+  for (const double epsilon : {1.0, 1e-3, 0.0}) {
+    const TriangleMesh mesh = unstructured_mesh(6);
+    const Space space(mesh, crouzeix_raviart());
+    const VariationalInequality problem = assemble(Scene({paper_load}, StiffLayer{epsilon}), space);
+    const Solution s = active_set(problem);
+    EXPECT_NEAR(energy(problem, s), -0.5 * problem.load.dot(s.u), 1e-9) << epsilon;  // a(u, u) = L(u)
+    EXPECT_LT(energy(problem, s), -0.1);
+  }
+}
+
+TEST(Energy, OfAnAffineFunctionByHand) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  const VariationalInequality problem = assemble(Scene({[](double, double) { return 1.0; }}, StiffLayer{0.5}), space);
+  const Solution s = interpolant(space, affine(0.5), 0.5);
+  // a: body 9 + 4, layer 9 + 4 / 0.25; L: the mean of 0.2 + 3 x - 2 y over the body is 0.7
+  EXPECT_NEAR(energy(problem, s), 0.5 * (13 + 9 + 16) - 0.7, 1e-11);
+}
+
+TEST(ContactZone, LengthsFillGammaC) {
+  for (const auto& [name, mesh] : two_square_meshes(8)) {
+    const Eigen::VectorXd p1_lengths = contact_lengths(Space(mesh, p1()));
+    const Eigen::VectorXd cr_lengths = contact_lengths(Space(mesh, crouzeix_raviart()));
+    ASSERT_EQ(p1_lengths.size(), 7);
+    ASSERT_EQ(cr_lengths.size(), 8);
+    for (Eigen::Index i = 0; i < 7; ++i) EXPECT_NEAR(p1_lengths(i), 1.0 / 8, 1e-10) << name;
+    for (Eigen::Index i = 0; i < 8; ++i) EXPECT_NEAR(cr_lengths(i), 1.0 / 8, 1e-10) << name;
+    const Eigen::VectorXd p2_lengths = contact_lengths(Space(mesh, p2()));
+    EXPECT_NEAR(p2_lengths.sum(), 1 - 2.0 / 8 / 6, 1e-12) << name;  // the clamped ends have the rest
+  }
+}
+
+TEST(ContactZone, TableAndZoneReportTheContact) {
+  const TriangleMesh mesh = unstructured_mesh(16);
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const Space space(mesh, *element);
+    const auto problem = stiff_problem(space, 1, {[](double x) { return 1e-4 * x; }});
+    const Solution s = active_set(problem);
+    const ContactZone zone = contact_zone(space, problem, s);
+    const Eigen::MatrixX3d table = contact_table(space, problem, s);
+    ASSERT_EQ(table.rows(), zone.points);
+    int active = 0;
+    double from = 2, to = -1;
+    for (Eigen::Index i = 0; i < table.rows(); ++i) {
+      EXPECT_GE(table(i, 1), -1e-12);
+      EXPECT_GE(table(i, 2), -1e-12);
+      if (i > 0) {
+        EXPECT_GT(table(i, 0), table(i - 1, 0));
+      }
+      EXPECT_NEAR(table(i, 1), s.u(problem.contact[i]) + 1e-4 * table(i, 0), 1e-15);
+      EXPECT_NEAR(table(i, 2) / 16, s.lambda(i), 1e-9);
+      if (table(i, 2) > 0) {
+        ++active;
+        from = std::min(from, table(i, 0));
+        to = std::max(to, table(i, 0));
+      }
+    }
+    EXPECT_EQ(zone.active, active);
+    EXPECT_GT(active, 0);
+    EXPECT_EQ(zone.from, from);
+    EXPECT_EQ(zone.to, to);
+  }
+}
+
+TEST(ContactZone, IsEmptyWhereNothingTouches) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  const auto problem = stiff_problem(space, 1, {[](double) { return 10.0; }});
+  const ContactZone zone = contact_zone(space, problem, active_set(problem));
+  EXPECT_EQ(zone.points, 3);
+  EXPECT_EQ(zone.active, 0);
+  EXPECT_FALSE(zone.from || zone.to);
+}
+
+}  // namespace
+}  // namespace antilock

@@ -1,0 +1,260 @@
+// Invariants of the meshes of Figures 3 and 6, and of their variants.
+#include <fmt/format.h>
+#include <gmsh.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "antilock/mesh/generate.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::expect_refused;
+using test::NamedMesh;
+
+double area(const TriangleMesh& mesh, Region region) {
+  double sum = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == region) sum += mesh.area(t);
+  return sum;
+}
+
+double length(const TriangleMesh& mesh, EdgeTag tag) {
+  double sum = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == tag) sum += mesh.edge_length(e);
+  return sum;
+}
+
+std::vector<NamedMesh> all_meshes() {
+  std::vector<NamedMesh> meshes;
+  for (const int cells : {1, 2, 7, 16})
+    for (const double depth : {0.0, 0.03, 0.5, 1.0}) {
+      const std::string name = fmt::format("{} cells, depth {}, ", cells, depth);
+      meshes.push_back({name + "right", structured_mesh(cells, {depth})});
+      meshes.push_back({name + "left", structured_mesh(cells, {depth}, Diagonal::left)});
+      meshes.push_back({name + "unstructured", unstructured_mesh(cells, {depth})});
+    }
+  return meshes;
+}
+
+double depth_of(const TriangleMesh& mesh) { return -mesh.vertices.col(1).minCoeff(); }
+
+TEST(Mesh, EulersFormulaHolds) {
+  for (const auto& [name, mesh] : all_meshes()) {
+    EXPECT_EQ(mesh.vertex_count() - mesh.edge_count() + mesh.triangle_count(), 1) << name;
+    const auto boundary = (mesh.edge_triangles.col(1).array() < 0).count();
+    EXPECT_EQ(3 * mesh.triangle_count(), 2 * mesh.edge_count() - boundary) << name;
+  }
+}
+
+TEST(Mesh, TrianglesAreCounterclockwiseAndFillTheDomain) {
+  for (const auto& [name, mesh] : all_meshes()) {
+    for (int t = 0; t < mesh.triangle_count(); ++t) ASSERT_GT(mesh.area(t), 0) << name;
+    // a sum of some thousand areas, each with one round-off
+    EXPECT_NEAR(area(mesh, Region::body), 1, 1e-12) << name;
+    EXPECT_NEAR(area(mesh, Region::layer), std::max(0.0, depth_of(mesh)), 1e-12) << name;
+  }
+}
+
+TEST(Mesh, RegionSaysWhichSideOfSigmaATriangleIsOn) {
+  for (const auto& [name, mesh] : all_meshes())
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      double y = 0;
+      for (int i = 0; i < 3; ++i) y += mesh.vertices(mesh.triangles(t, i), 1);
+      ASSERT_EQ(mesh.region[t], y > 0 ? Region::body : Region::layer) << name;
+    }
+}
+
+TEST(Mesh, TagsSitWhereFigureTwoPutsThem) {
+  for (const auto& [name, mesh] : all_meshes()) {
+    const double depth = std::max(0.0, depth_of(mesh));
+    for (int e = 0; e < mesh.edge_count(); ++e) {
+      const auto a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+      const auto both_on = [&](int axis, double value) { return a(axis) == value && b(axis) == value; };
+      EdgeTag expected = EdgeTag::interior;
+      if (both_on(0, 0) || both_on(0, 1) || both_on(1, 1)) expected = EdgeTag::clamped;
+      if (depth > 0 && both_on(1, 0)) expected = EdgeTag::sigma;
+      if (both_on(1, -depth)) expected = EdgeTag::contact;
+      ASSERT_EQ(mesh.edge_tag[e], expected) << name << ": edge from " << a << " to " << b;
+    }
+    EXPECT_NEAR(length(mesh, EdgeTag::contact), 1, 1e-13) << name;
+    EXPECT_NEAR(length(mesh, EdgeTag::sigma), depth > 0 ? 1 : 0, 1e-13) << name;
+    EXPECT_NEAR(length(mesh, EdgeTag::clamped), 3 + 2 * depth, 1e-13) << name;
+  }
+}
+
+TEST(Mesh, EdgesMatchTheirTriangles) {
+  for (const auto& [name, mesh] : all_meshes()) {
+    std::set<std::pair<int, int>> seen;
+    for (int e = 0; e < mesh.edge_count(); ++e) {
+      ASSERT_LT(mesh.edges(e, 0), mesh.edges(e, 1)) << name;
+      ASSERT_TRUE(seen.insert({mesh.edges(e, 0), mesh.edges(e, 1)}).second) << name << ": an edge twice";
+    }
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      for (int i = 0; i < 3; ++i) {
+        const int e = mesh.triangle_edges(t, i);  // lies opposite vertex i
+        const auto [low, high] = std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
+        ASSERT_EQ(mesh.edges(e, 0), low) << name;
+        ASSERT_EQ(mesh.edges(e, 1), high) << name;
+        ASSERT_TRUE(mesh.edge_triangles(e, 0) == t || mesh.edge_triangles(e, 1) == t) << name;
+      }
+  }
+}
+
+TEST(Mesh, SigmaSeparatesABodyTriangleFromALayerTriangle) {
+  for (const auto& [name, mesh] : test::two_square_meshes(8)) {
+    int on_sigma = 0;
+    for (int e = 0; e < mesh.edge_count(); ++e) {
+      if (mesh.edge_tag[e] != EdgeTag::sigma) continue;
+      ++on_sigma;
+      EXPECT_NE(mesh.region[mesh.edge_triangles(e, 0)], mesh.region[mesh.edge_triangles(e, 1)]) << name;
+    }
+    EXPECT_EQ(on_sigma, 8) << name;  // conforming: both squares use the same edges
+  }
+}
+
+TEST(Mesh, HIsTheRequestedOne) {
+  for (const int cells : {1, 5, 16}) {
+    EXPECT_NEAR(structured_mesh(cells).diameter(), std::sqrt(2.0) / cells, 1e-15);
+    // gmsh keeps edges near the size asked for: never twice it, and about 2 to 2.6 cells^2 triangles a square
+    const TriangleMesh mesh = unstructured_mesh(cells);
+    EXPECT_LT(mesh.diameter(), 2.0 / cells);
+    EXPECT_GE(mesh.diameter(), 1.0 / cells);
+  }
+  const TriangleMesh mesh = unstructured_mesh(16);
+  EXPECT_GT(mesh.triangle_count(), 2 * 2 * 16 * 16);
+  EXPECT_LT(mesh.triangle_count(), 2 * 3 * 16 * 16);
+}
+
+TEST(Mesh, ABodyAloneHasNoTriangleNoEdgeAndNoVertexOfALayer) {
+  for (const TriangleMesh& mesh : {structured_mesh(6, {0}), unstructured_mesh(6, {0})}) {
+    EXPECT_EQ(std::count(mesh.region.begin(), mesh.region.end(), Region::layer), 0);
+    EXPECT_EQ(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), 0);
+    EXPECT_EQ(mesh.vertices.col(1).minCoeff(), 0);
+  }
+  EXPECT_EQ(structured_mesh(6, {0}).vertex_count(), 7 * 7);
+  EXPECT_EQ(structured_mesh(6).vertex_count(), 7 * 13);
+  EXPECT_EQ(structured_mesh(6).triangle_count(), 2 * 2 * 36);
+}
+
+TEST(Mesh, AThinLayerIsTwoCellsDeepAtLeast) {
+  for (const TriangleMesh& mesh : {structured_mesh(8, {0.01}), unstructured_mesh(8, {0.01})}) {
+    EXPECT_EQ(mesh.vertices.col(1).minCoeff(), -0.01);
+    bool inside = false;
+    for (int v = 0; v < mesh.vertex_count(); ++v) inside |= mesh.vertices(v, 1) < 0 && mesh.vertices(v, 1) > -0.01;
+    EXPECT_TRUE(inside) << "no vertex inside the layer";
+  }
+}
+
+TEST(Mesh, UnstructuredTrianglesAreWellShaped) {
+  const TriangleMesh mesh = unstructured_mesh(32);
+  double smallest = 10;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::RowVector2d corner = mesh.vertices.row(mesh.triangles(t, i));
+      const Eigen::RowVector2d a = mesh.vertices.row(mesh.triangles(t, (i + 1) % 3)) - corner;
+      const Eigen::RowVector2d b = mesh.vertices.row(mesh.triangles(t, (i + 2) % 3)) - corner;
+      smallest = std::min(smallest, std::acos(a.dot(b) / a.norm() / b.norm()));
+    }
+  EXPECT_GT(smallest, 30 * 3.14159 / 180);  // Frontal-Delaunay: 41 degrees measured at 1/64
+}
+
+TEST(Mesh, UnstructuredIsUnstructured) {
+  const TriangleMesh mesh = unstructured_mesh(16);
+  int axis_parallel = 0;  // every edge but the diagonals on a structured mesh
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const Eigen::RowVector2d d = mesh.vertices.row(mesh.edges(e, 0)) - mesh.vertices.row(mesh.edges(e, 1));
+    if (std::abs(d(0)) < 1e-9 || std::abs(d(1)) < 1e-9) ++axis_parallel;
+  }
+  EXPECT_LT(axis_parallel, 0.2 * mesh.edge_count());
+}
+
+TEST(Mesh, TwoCallsGiveTheSameMesh) {
+  for (const double depth : {0.0, 0.1, 1.0}) {
+    const TriangleMesh a = unstructured_mesh(12, {depth});
+    unstructured_mesh(5, {1 - depth});  // nothing of one call may reach the next
+    const TriangleMesh b = unstructured_mesh(12, {depth});
+    EXPECT_TRUE(a.vertices == b.vertices && a.triangles == b.triangles && a.edges == b.edges);
+    EXPECT_TRUE(a.region == b.region && a.edge_tag == b.edge_tag);
+  }
+}
+
+/// The triangles as sets of points, rounded to 1e-9 (transfinite points are off by about 1e-12), with their regions.
+using Shape = std::map<std::array<std::pair<long, long>, 3>, int>;
+std::pair<long, long> rounded(double x, double y) { return {std::lround(x * 1e9), std::lround(y * 1e9)}; }
+
+/// Figure 3 by gmsh's own transfinite mesher.
+Shape transfinite(int cells, const std::string& arrangement) {
+  gmsh::initialize(0, nullptr, false);
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::model::add("transfinite");
+  namespace geo = gmsh::model::geo;
+  const int p[] = {geo::addPoint(0, -1, 0), geo::addPoint(1, -1, 0), geo::addPoint(0, 0, 0),
+                   geo::addPoint(1, 0, 0),  geo::addPoint(0, 1, 0),  geo::addPoint(1, 1, 0)};
+  const int bottom = geo::addLine(p[0], p[1]), sigma = geo::addLine(p[2], p[3]), top = geo::addLine(p[4], p[5]);
+  const int left_low = geo::addLine(p[0], p[2]), right_low = geo::addLine(p[1], p[3]);
+  const int left_up = geo::addLine(p[2], p[4]), right_up = geo::addLine(p[3], p[5]);
+  const int body = geo::addPlaneSurface({geo::addCurveLoop({sigma, right_up, -top, -left_up})});
+  const int layer = geo::addPlaneSurface({geo::addCurveLoop({bottom, right_low, -sigma, -left_low})});
+  for (const int line : {bottom, sigma, top, left_low, right_low, left_up, right_up})
+    geo::mesh::setTransfiniteCurve(line, cells + 1);
+  for (const int surface : {body, layer}) geo::mesh::setTransfiniteSurface(surface, arrangement);
+  geo::synchronize();
+  gmsh::model::mesh::generate(2);
+  std::vector<std::size_t> tags;
+  std::vector<double> xyz, ignored;
+  gmsh::model::mesh::getNodes(tags, xyz, ignored);
+  std::map<std::size_t, std::pair<long, long>> place;
+  for (std::size_t i = 0; i < tags.size(); ++i) place[tags[i]] = rounded(xyz[3 * i], xyz[3 * i + 1]);
+  Shape shape;
+  for (const auto& [surface, region] : {std::pair{body, Region::body}, std::pair{layer, Region::layer}}) {
+    std::vector<int> types;
+    std::vector<std::vector<std::size_t>> elements, nodes;
+    gmsh::model::mesh::getElements(types, elements, nodes, 2, surface);
+    for (std::size_t i = 0; i + 2 < nodes.at(0).size(); i += 3) {
+      std::array corners{place[nodes[0][i]], place[nodes[0][i + 1]], place[nodes[0][i + 2]]};
+      std::sort(corners.begin(), corners.end());
+      shape[corners] = static_cast<int>(region);
+    }
+  }
+  gmsh::finalize();
+  return shape;
+}
+
+TEST(Mesh, StructuredIsTheTransfiniteMeshOfGmsh) {
+  for (const auto& [diagonal, arrangement] : {std::pair{Diagonal::right, "Right"}, std::pair{Diagonal::left, "Left"}}) {
+    const TriangleMesh mesh = structured_mesh(6, {}, diagonal);
+    Shape shape;
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      std::array<std::pair<long, long>, 3> corners;
+      for (int i = 0; i < 3; ++i) {
+        const auto x = mesh.vertices.row(mesh.triangles(t, i));
+        corners[i] = rounded(x(0), x(1));
+      }
+      std::sort(corners.begin(), corners.end());
+      shape[corners] = static_cast<int>(mesh.region[t]);
+    }
+    EXPECT_EQ(shape, transfinite(6, arrangement)) << arrangement;
+  }
+}
+
+TEST(Mesh, RefusesRequestsOutOfRange) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const int cells : {0, -3, 2049}) expect_refused([&] { structured_mesh(cells); }, "accepted 1 to 2048");
+  for (const int cells : {0, -3, 513}) expect_refused([&] { unstructured_mesh(cells); }, "accepted 1 to 512");
+  for (const double depth : {-0.1, 1.1, nan}) {
+    expect_refused([&] { structured_mesh(4, {depth}); }, "accepted 0 to 1");
+    expect_refused([&] { unstructured_mesh(4, {depth}); }, "accepted 0 to 1");
+  }
+}
+
+}  // namespace
+}  // namespace antilock

@@ -1,0 +1,198 @@
+// Scenes become discrete inequalities; malformed ones are refused before any solver sees them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "antilock/form/forms.hpp"
+#include "antilock/problem/assemble.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::expect_refused;
+using test::stiff_problem;
+
+TEST(Assemble, ClassParameterIsTheSquareOfEpsilon) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  EXPECT_EQ(stiff_problem(space, 0.25).compliance, 0.0625);
+  EXPECT_EQ(stiff_problem(space, 0).compliance, 0);
+}
+
+TEST(Assemble, StiffLayerIsEquation23) {
+  for (const auto& [name, mesh] : test::two_square_meshes(4))
+    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+      const Space space(mesh, *element);
+      const VariationalInequality problem = stiff_problem(space, 0.1);
+      // u = 2 x + 3 y: a1(u, u) = body 4 + 9, layer 4; a0(u, u) = layer 9
+      const Eigen::VectorXd u = 2 * space.points().col(0) + 3 * space.points().col(1);
+      const Eigen::VectorXd bu = problem.b * u;
+      EXPECT_NEAR(u.dot(problem.a1 * u), 17, 1e-11) << name;
+      EXPECT_NEAR(bu.dot(problem.m.cwiseProduct(bu)), 9, 1e-11) << name;
+      EXPECT_NO_THROW(check(problem));
+    }
+}
+
+TEST(Assemble, ThinLayerIsEquation22) {
+  constexpr double epsilon = 0.125;
+  for (const TriangleMesh& mesh : {structured_mesh(8, {epsilon}), unstructured_mesh(8, {epsilon})}) {
+    const Space space(mesh, p1());
+    const VariationalInequality problem = assemble(Scene({paper_load}, ThinLayer{epsilon}), space);
+    const Eigen::VectorXd u = 2 * space.points().col(0) + 3 * space.points().col(1);
+    EXPECT_NEAR(u.dot(problem.a1 * u), 13 + 13, 1e-10);  // layer: 1/epsilon times its area epsilon
+    EXPECT_EQ(problem.b.rows(), 0);
+    EXPECT_NO_THROW(check(problem));
+  }
+}
+
+TEST(Assemble, VentcelIsTheBodyAndTheTermOnSigma) {
+  const TriangleMesh mesh = structured_mesh(4, {0});
+  const Space space(mesh, p1());
+  const VariationalInequality with = assemble(Scene({paper_load}, VentcelLayer{}), space);
+  const VariationalInequality without = assemble(Scene({paper_load}), space);
+  EXPECT_LT((Eigen::MatrixXd(with.a1) - Eigen::MatrixXd(without.a1) - Eigen::MatrixXd(ventcel_form(space)))
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-14);
+  const Eigen::VectorXd y = space.points().col(1);
+  EXPECT_NEAR(y.dot(without.a1 * y), 1, 1e-13);
+}
+
+TEST(Assemble, AnAbsentEffectLeavesNothingBehind) {
+  const TriangleMesh body = structured_mesh(4, {0}), both = structured_mesh(4);
+  const VariationalInequality none = assemble(Scene({paper_load}), Space(body, p1()));
+  EXPECT_EQ(none.b.rows(), 0);
+  EXPECT_EQ(none.m.size(), 0);
+  EXPECT_TRUE(none.contact.empty());
+  EXPECT_EQ(none.lower.size(), 0);
+  const VariationalInequality layer = assemble(Scene({paper_load}, StiffLayer{0.1}), Space(both, p1()));
+  EXPECT_EQ(layer.b.rows(), 2 * 16);
+  EXPECT_TRUE(layer.contact.empty());
+  const VariationalInequality contact =
+      assemble(Scene({paper_load}, NoLayer{}, UnilateralContact{}), Space(body, p1()));
+  EXPECT_EQ(contact.b.rows(), 0);
+  EXPECT_EQ(contact.contact.size(), 3U);
+}
+
+TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
+  const TriangleMesh mesh = unstructured_mesh(5);
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const Space space(mesh, *element);
+    const auto problem = stiff_problem(space, 0.1, {[](double x) { return 0.5 * x; }});
+    ASSERT_EQ(problem.contact, space.contact());
+    for (Eigen::Index i = 0; i < problem.lower.size(); ++i)
+      EXPECT_EQ(problem.lower(i), -0.5 * space.points()(problem.contact[i], 0));
+  }
+  const Space space(mesh, p1());
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_refused([&] { stiff_problem(space, 0.1, {[nan](double x) { return x > 0 && x < 1 ? nan : 0; }}); },
+                 "is not finite");
+}
+
+TEST(Assemble, ClampsTheSidesAndTheTopAtZero) {
+  const TriangleMesh mesh = unstructured_mesh(4);
+  const Space space(mesh, crouzeix_raviart());
+  const VariationalInequality problem = stiff_problem(space, 0.1);
+  EXPECT_EQ(problem.fixed, space.clamped());
+  EXPECT_EQ(problem.fixed_values, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(space.clamped().size())));
+}
+
+TEST(Assemble, ThePenaltyFollowsTheMesh) {
+  for (const int cells : {4, 8}) {  // h^2 / 256, h the side of the mean layer triangle
+    const TriangleMesh mesh = structured_mesh(cells);
+    EXPECT_NEAR(stiff_problem(Space(mesh, p1()), 0).penalty * 256 * cells * cells, 1, 1e-12);
+  }
+}
+
+TEST(Assemble, RefusesASceneThatDoesNotFitItsMesh) {
+  const TriangleMesh body = structured_mesh(3, {0}), both = structured_mesh(3);
+  expect_refused([&] { assemble(Scene({paper_load}, StiffLayer{0.1}), Space(body, p1())); }, "no group layer");
+  expect_refused([&] { assemble(Scene({paper_load}, ThinLayer{0.1}), Space(body, p1())); }, "no group layer");
+  expect_refused([&] { assemble(Scene({paper_load}), Space(both, p1())); }, "no layer");
+  expect_refused([&] { assemble(Scene({paper_load}, VentcelLayer{}), Space(both, p1())); }, "no layer");
+}
+
+/// A good problem, spoilt in one place.
+void refused(const std::function<void(VariationalInequality&)>& spoil, const std::string& words) {
+  const TriangleMesh mesh = structured_mesh(3);
+  VariationalInequality problem = stiff_problem(Space(mesh, p1()), 0.1);
+  ASSERT_NO_THROW(check(problem));
+  spoil(problem);
+  expect_refused([&] { check(problem); }, words);
+}
+
+TEST(Check, RefusesSizesThatDoNotFit) {
+  using P = VariationalInequality;
+  refused([](P& p) { p = {}; }, "no unknowns");
+  refused([](P& p) { p.load.conservativeResize(p.load.size() - 1); }, "a1 is");
+  refused([](P& p) { p.b.conservativeResize(p.b.rows(), p.b.cols() - 1); }, "B is");
+  refused([](P& p) { p.m.conservativeResize(p.m.size() - 1); }, "M has");
+  refused([](P& p) { p.fixed.pop_back(); }, "one value a fixed unknown");
+  refused([](P& p) { p.contact.pop_back(); }, "one bound a contact unknown");
+}
+
+TEST(Check, RefusesEntriesThatAreNotFinite) {
+  using P = VariationalInequality;
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+  refused([=](P& p) { p.a1.valuePtr()[0] = nan; }, "not finite");
+  refused([=](P& p) { p.b.valuePtr()[3] = infinity; }, "not finite");
+  refused([=](P& p) { p.load(1) = nan; }, "not finite");
+  refused([=](P& p) { p.lower(0) = -infinity; }, "not finite");
+  refused([=](P& p) { p.fixed_values(0) = nan; }, "not finite");
+  refused([=](P& p) { p.m(3) = nan; }, "not finite");
+  refused([=](P& p) { p.m(p.m.size() - 1) = infinity; }, "not finite");
+}
+
+TEST(Check, RefusesWhatTheClassExcludes) {
+  using P = VariationalInequality;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused([](P& p) { p.m(2) = 0; }, "M is not positive");
+  refused([](P& p) { p.m(2) = -1; }, "M is not positive");
+  for (const double compliance : {-1e-300, 1.5, nan})
+    refused([=](P& p) { p.compliance = compliance; }, "accepted 0 to 1");
+  for (const double penalty : {0.0, -1.0, 2.0, nan})
+    refused([=](P& p) { p.penalty = penalty; }, "accepted 0 < penalty <= 1");
+  refused([](P& p) { p.a1.coeffRef(0, 1) *= 1 + 1e-9; }, "not symmetric");
+  refused([](P& p) { p.a1.coeffRef(1, 0) = 0; }, "not symmetric");
+}
+
+TEST(Check, RefusesIndicesOutOfRangeAndTwice) {
+  using P = VariationalInequality;
+  refused([](P& p) { p.fixed[0] = -1; }, "out of range");
+  refused([](P& p) { p.contact[0] = p.size(); }, "out of range");
+  refused([](P& p) { p.fixed[1] = p.fixed[0]; }, "fixed or bounded twice");
+  refused([](P& p) { p.contact[0] = p.fixed[0]; }, "fixed or bounded twice");
+  refused([](P& p) { p.contact[0] = p.contact[1]; }, "fixed or bounded twice");
+  refused(
+      [](P& p) {
+        p.contact.clear();
+        p.lower.resize(0);
+        p.fixed.clear();
+        for (int i = 0; i < p.size(); ++i) p.fixed.push_back(i);
+        p.fixed_values = Eigen::VectorXd::Zero(p.size());
+      },
+      "every unknown is fixed");
+}
+
+TEST(Check, RefusesUncompressedMatrices) {
+  using P = VariationalInequality;
+  refused([](P& p) { p.a1.uncompress(); }, "compressed");
+  refused([](P& p) { p.b.uncompress(); }, "compressed");
+}
+
+TEST(Check, TakesAnA1OfZerosWhereBHoldsEverything) {
+  // A1 alone may be singular: here it is empty, and B' M B = I
+  VariationalInequality problem;
+  problem.a1.resize(2, 2);
+  problem.b.resize(2, 2);
+  problem.b.setIdentity();
+  problem.m = Eigen::VectorXd::Ones(2);
+  problem.load = Eigen::VectorXd::Ones(2);
+  EXPECT_NO_THROW(check(problem));
+}
+
+}  // namespace
+}  // namespace antilock

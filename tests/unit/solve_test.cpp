@@ -1,0 +1,341 @@
+// The active set with its iterated penalty: one answer, the right one, whatever the scale, the numbering and epsilon.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "support/brute_force.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::expect_refused;
+using test::relative_difference;
+using test::stiff_problem;
+using test::two_square_meshes;
+
+/// Obstacles: touching, below, pressing in, and one that presses in on the left only.
+std::vector<UnilateralContact> obstacles() {
+  return {{[](double) { return 0.0; }},
+          {[](double) { return 0.02; }},
+          {[](double x) { return -0.05 * std::sin(std::numbers::pi * x); }},
+          {[](double x) { return x * (x - 0.4) * (1 - x); }}};
+}
+
+TEST(ActiveSet, IsTheBruteForceAnswer) {
+  for (const auto& [name, mesh] : two_square_meshes(4))
+    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+      const Space space(mesh, *element);
+      for (const double epsilon : {1.0, 0.1, 1e-2, 1e-4, 0.0}) {
+        if (epsilon == 0 && element == &p1() && name == "unstructured") continue;  // locked: lambda is not unique
+        for (std::size_t k = 0; k < obstacles().size(); ++k) {
+          SCOPED_TRACE(name + ", " + element->name() + ", epsilon " + std::to_string(epsilon) + ", obstacle " +
+                       std::to_string(k));
+          const VariationalInequality problem = stiff_problem(space, epsilon, obstacles()[k]);
+          const test::BruteForce truth = test::brute_force(problem);
+          const Solution solution = active_set(problem);
+          // corrections stop at an estimated 1e-10
+          EXPECT_LT(relative_difference(solution.u, truth.u), 1e-9);
+          EXPECT_LT((solution.lambda - truth.lambda).cwiseAbs().maxCoeff(),
+                    1e-8 * (problem.load.cwiseAbs().maxCoeff() + truth.lambda.cwiseAbs().maxCoeff()));
+          EXPECT_EQ(solution.active, truth.active);
+          if (epsilon > 0) {
+            const Eigen::VectorXd p = problem.b * truth.u / problem.compliance;
+            // digits of B u that epsilon^-2 leaves in double precision
+            EXPECT_LT(relative_difference(solution.p, p), 1e-8 + 1e-15 / problem.compliance);
+          }
+        }
+      }
+    }
+}
+
+TEST(ActiveSet, KeepsPrescribedValues) {
+  for (const auto& [name, mesh] : two_square_meshes(3))
+    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+      const Space space(mesh, *element);
+      VariationalInequality problem = stiff_problem(space, 0.05);
+      for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+        problem.fixed_values(static_cast<Eigen::Index>(i)) = 0.1 * space.points()(problem.fixed[i], 0) - 0.02;
+      const Solution solution = active_set(problem);
+      EXPECT_LT(relative_difference(solution.u, test::brute_force(problem).u), 1e-9) << name << element->name();
+      EXPECT_EQ(Eigen::VectorXd(solution.u(problem.fixed)), problem.fixed_values) << name << element->name();
+    }
+}
+
+TEST(ActiveSet, LimitProblemOnAStructuredMeshIsVentcels) {
+  // at epsilon = 0 the layer's u is constant along y, and its energy is the Ventcel term: (24) is (25), also discretely
+  const TriangleMesh both = structured_mesh(12), body = structured_mesh(12, {0});
+  const Space on_both(both, p1()), on_body(body, p1());
+  for (const UnilateralContact& obstacle : obstacles()) {
+    const Solution limit = active_set(stiff_problem(on_both, 0, obstacle));
+    const Solution ventcel = active_set(assemble(Scene({paper_load}, VentcelLayer{}, obstacle), on_body));
+    EXPECT_LT(relative_difference(limit.u.tail(on_body.size()), ventcel.u), 1e-9);
+    EXPECT_LT(relative_difference(limit.lambda, ventcel.lambda), 1e-8);
+    EXPECT_EQ(limit.active, ventcel.active);
+  }
+}
+
+TEST(ActiveSet, ChangeOfVariableOfFigureTwoChangesNothing) {
+  constexpr double epsilon = 0.25;
+  const TriangleMesh thin = unstructured_mesh(8, {epsilon});
+  TriangleMesh scaled = thin;
+  for (int v = 0; v < scaled.vertex_count(); ++v)
+    if (scaled.vertices(v, 1) < 0) scaled.vertices(v, 1) /= epsilon;
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const Solution before =
+        active_set(assemble(Scene({paper_load}, ThinLayer{epsilon}, UnilateralContact{}), Space(thin, *element)));
+    const Solution after = active_set(stiff_problem(Space(scaled, *element), epsilon));
+    EXPECT_LT(relative_difference(after.u, before.u), 1e-10) << element->name();
+    EXPECT_EQ(after.active, before.active) << element->name();
+  }
+}
+
+TEST(ActiveSet, TendsToTheLimitLikeEpsilonSquared) {
+  const TriangleMesh mesh = unstructured_mesh(8);
+  const Space space(mesh, crouzeix_raviart());
+  const Eigen::VectorXd limit = active_set(stiff_problem(space, 0)).u;
+  const double far = relative_difference(active_set(stiff_problem(space, 1e-2)).u, limit);
+  const double near = relative_difference(active_set(stiff_problem(space, 1e-3)).u, limit);
+  EXPECT_NEAR(std::log10(far / near), 2, 0.1);
+  // at 1e-7 the difference is below the accuracy of the solver: right down to there
+  EXPECT_LT(relative_difference(active_set(stiff_problem(space, 1e-7)).u, limit), 1e-9);
+}
+
+TEST(ActiveSet, ScalesWithTheLoadBitByBit) {
+  for (const double epsilon : {1.0, 1e-3, 0.0}) {
+    const TriangleMesh mesh = unstructured_mesh(8);
+    const Space space(mesh, crouzeix_raviart());
+    const VariationalInequality problem = stiff_problem(space, epsilon, obstacles()[3]);
+    const Solution one = active_set(problem);
+    for (const double scale : {0x1p-60, 0x1p-3, 0x1p1, 0x1p60}) {
+      VariationalInequality scaled = problem;
+      scaled.load *= scale;
+      scaled.lower *= scale;
+      const Solution solution = active_set(scaled);
+      EXPECT_EQ(solution.u, scale * one.u) << epsilon << " " << scale;
+      EXPECT_EQ(solution.p, scale * one.p) << epsilon << " " << scale;
+      EXPECT_EQ(solution.lambda, scale * one.lambda) << epsilon << " " << scale;
+      EXPECT_EQ(solution.counters.corrections, one.counters.corrections);
+    }
+    for (const double scale : {1e-12, 1e12}) {
+      VariationalInequality scaled = problem;
+      scaled.load *= scale;
+      scaled.lower *= scale;
+      EXPECT_LT(relative_difference(active_set(scaled).u, scale * one.u), 1e-12) << epsilon << " " << scale;
+    }
+  }
+}
+
+/// The same problem with unknown i called place[i].
+VariationalInequality renumbered(const VariationalInequality& problem, const std::vector<int>& place) {
+  Eigen::PermutationMatrix<Eigen::Dynamic> p(problem.size());
+  for (int i = 0; i < problem.size(); ++i) p.indices()(i) = place[i];
+  VariationalInequality other = problem;
+  other.a1 = SparseMatrix(p * problem.a1 * p.transpose());
+  other.b = RowMatrix(problem.b * p.transpose());
+  other.load = p * problem.load;
+  for (int& i : other.fixed) i = place[i];
+  for (int& i : other.contact) i = place[i];
+  return other;
+}
+
+TEST(ActiveSet, DoesNotDependOnTheNumbering) {
+  std::mt19937 engine(3);
+  for (const auto& [name, mesh] : two_square_meshes(8)) {
+    const Space space(mesh, crouzeix_raviart());
+    const VariationalInequality problem = stiff_problem(space, 1e-4);
+    const Solution one = active_set(problem);
+    std::vector<int> place(problem.size());
+    std::iota(place.begin(), place.end(), 0);
+    std::shuffle(place.begin(), place.end(), engine);
+    VariationalInequality other = renumbered(problem, place);
+    Solution solution = active_set(other);
+    EXPECT_LT(relative_difference(solution.u(place), one.u), 1e-9) << name;
+    EXPECT_EQ(solution.active, one.active) << name;
+    // contact unknowns out of order only cost steps: the nested start looks at neighbours
+    std::vector<int> order(problem.contact.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::shuffle(order.begin(), order.end(), engine);
+    for (std::size_t i = 0; i < order.size(); ++i) other.contact[i] = place[problem.contact[order[i]]];
+    solution = active_set(other);
+    EXPECT_LT(relative_difference(solution.u(place), one.u), 1e-9) << name;
+  }
+}
+
+TEST(ActiveSet, TheStartDoesNotMatter) {
+  const TriangleMesh mesh = unstructured_mesh(16);
+  const Space space(mesh, crouzeix_raviart());
+  const VariationalInequality problem = stiff_problem(space, 1e-2);
+  const Solution one = active_set(problem);
+  const auto c = problem.contact.size();
+  for (const auto& start : {std::vector<bool>(c, false), std::vector<bool>(c, true), one.active}) {
+    ActiveSetOptions options;
+    options.start = start;
+    const Solution solution = active_set(problem, options);
+    EXPECT_LT(relative_difference(solution.u, one.u), 1e-9);
+    EXPECT_EQ(solution.active, one.active);
+  }
+  ActiveSetOptions options;
+  options.start = std::vector<bool>(c + 1, false);
+  expect_refused([&] { active_set(problem, options); }, "active set: the start has");
+}
+
+TEST(ActiveSet, CostsNoMoreThanTheEffectsPresent) {
+  const TriangleMesh both = structured_mesh(8), body = structured_mesh(8, {0});
+  const Space on_both(both, p1()), on_body(body, p1());
+  const auto counters = [](const Scene& scene, const Space& space) {
+    return active_set(assemble(scene, space)).counters;
+  };
+
+  Counters c = counters(Scene({paper_load}), on_body);
+  EXPECT_EQ(c.unknowns, 7 * 8);
+  EXPECT_EQ(c.triangles, 2 * 64);
+  EXPECT_EQ(c.factorisations, 1);
+  EXPECT_EQ(c.solves, 1);  // no stiff part: a linear solve
+  EXPECT_EQ(c.corrections, 0);
+  EXPECT_EQ(c.contact, 0);  // no contact: no step of it
+
+  c = counters(Scene({paper_load}, NoLayer{}, UnilateralContact{}), on_body);
+  EXPECT_EQ(c.solves, 1);
+  EXPECT_EQ(c.corrections, 0);
+  EXPECT_GT(c.contact, 0);
+
+  c = counters(Scene({paper_load}, VentcelLayer{}), on_body);
+  EXPECT_EQ(c.unknowns, 7 * 8);
+  EXPECT_EQ(c.solves, 1);
+
+  c = counters(Scene({paper_load}, StiffLayer{1e-6}), on_both);
+  EXPECT_EQ(c.unknowns, 7 * 16);
+  EXPECT_EQ(c.factorisations, 1);
+  EXPECT_EQ(c.contact, 0);
+  EXPECT_GT(c.corrections, 0);
+  EXPECT_EQ(c.solves, c.corrections + 1);
+
+  c = counters(Scene({paper_load}, StiffLayer{1}, UnilateralContact{}), on_both);
+  EXPECT_LE(c.corrections, 1) << "nothing is penalised at epsilon = 1: one look that nothing is left";
+}
+
+TEST(ActiveSet, NestedStartKeepsTheStepsAtFourAndCorrectionsAtTen) {
+  for (const int cells : {16, 32, 64, 128})
+    for (const bool structured : {true, false}) {
+      const TriangleMesh mesh = structured ? structured_mesh(cells) : unstructured_mesh(cells);
+      for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+        if (!structured && element == &p1()) continue;  // locks: another test
+        const Space space(mesh, *element);
+        for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0}) {
+          if (cells == 128 && epsilon != 1e-1 && epsilon != 0) continue;  // the two hardest, for the sake of time
+          const Counters c = active_set(stiff_problem(space, epsilon)).counters;
+          const std::string where = element->name() + (structured ? "" : " unstructured") +
+                                    ", 1/h = " + std::to_string(cells) + ", epsilon = " + std::to_string(epsilon);
+          EXPECT_LE(c.contact, 4) << where;
+          EXPECT_GE(c.contact, 1) << where;
+          EXPECT_LE(c.corrections, 10) << where;
+          EXPECT_EQ(c.factorisations, 1) << where;
+        }
+      }
+    }
+}
+
+TEST(ActiveSet, NeverReturnsAnUnconvergedAnswer) {
+  const TriangleMesh mesh = unstructured_mesh(8);
+  const Space space(mesh, crouzeix_raviart());
+  const VariationalInequality problem = stiff_problem(space, 0);
+  ActiveSetOptions options;
+  const int needed = active_set(problem).counters.corrections;
+  for (int most = 0; most < needed; ++most) {
+    options.corrections.max_corrections = most;
+    try {
+      active_set(problem, options);
+      ADD_FAILURE() << most << " corrections were taken for enough, " << needed << " were needed";
+    } catch (const NotConverged& error) {
+      EXPECT_EQ(error.steps, most);
+      EXPECT_GT(error.reached, options.corrections.tolerance);
+    }
+  }
+  options.corrections.max_corrections = needed;
+  EXPECT_NO_THROW(active_set(problem, options));
+
+  options = {};
+  options.max_steps = 1;
+  options.start = std::vector<bool>(problem.contact.size(), true);
+  EXPECT_THROW(active_set(problem, options), NotConverged);
+}
+
+TEST(ActiveSet, RefusesWhatHasNoAnswer) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  VariationalInequality problem = stiff_problem(space, 0.1);
+  problem.load(3) = std::nan("");
+  expect_refused([&] { active_set(problem); }, "not finite");
+  problem = assemble(Scene({paper_load}, StiffLayer{0.1}), space);
+  problem.fixed.clear();  // the whole structure may move as one
+  problem.fixed_values.resize(0);
+  EXPECT_THROW(active_set(problem), Error);
+
+  // locked, and an obstacle that presses in: no u meets both B u = 0 and u >= lower
+  const TriangleMesh other = unstructured_mesh(4);
+  const Space locked(other, p1());
+  EXPECT_THROW(active_set(stiff_problem(locked, 0, obstacles()[2])), NotConverged);
+}
+
+TEST(ActiveSet, ZeroLoadGivesZero) {
+  const TriangleMesh mesh = structured_mesh(6);
+  const Space space(mesh, crouzeix_raviart());
+  const Scene scene({[](double, double) { return 0.0; }}, StiffLayer{1e-3}, UnilateralContact{});
+  const Solution solution = active_set(assemble(scene, space));
+  EXPECT_EQ(solution.u.cwiseAbs().maxCoeff(), 0);
+  EXPECT_EQ(solution.lambda.cwiseAbs().maxCoeff(), 0);
+}
+
+TEST(PenaltyFactor, ContactBlockIsTheFactorOfTheSchurComplement) {
+  for (const auto& [name, mesh] : two_square_meshes(6))
+    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+      const Space space(mesh, *element);
+      const VariationalInequality problem = stiff_problem(space, 0.1);
+      const PenaltyFactor factor(problem, 0.01);
+      const Eigen::MatrixXd b = problem.b;
+      const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + b.transpose() * problem.m.asDiagonal() * b / 0.01;
+      std::vector<int> interior;
+      for (int i = 0; i < problem.size(); ++i)
+        if (!std::count(problem.fixed.begin(), problem.fixed.end(), i) &&
+            !std::count(problem.contact.begin(), problem.contact.end(), i))
+          interior.push_back(i);
+      const auto& c = problem.contact;
+      const Eigen::MatrixXd schur =
+          k(c, c) -
+          k(c, interior) * Eigen::MatrixXd(k(interior, interior)).llt().solve(Eigen::MatrixXd(k(interior, c)));
+      const Eigen::MatrixXd& l = factor.contact_block();
+      EXPECT_LT((l * l.transpose() - schur).cwiseAbs().maxCoeff(), 1e-11 * schur.cwiseAbs().maxCoeff()) << name;
+      EXPECT_EQ(Eigen::MatrixXd(l.triangularView<Eigen::StrictlyUpper>()).cwiseAbs().maxCoeff(), 0) << name;
+    }
+}
+
+TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
+  const TriangleMesh mesh = unstructured_mesh(6);
+  const Space space(mesh, crouzeix_raviart());
+  const VariationalInequality problem = stiff_problem(space, 0.1);
+  PenaltyFactor factor(problem, 0.01);
+  EXPECT_EQ(PenaltyFactor(problem).delta(), problem.compliance);  // 0.01, above h^2 / 16
+  for (const double delta : {0.01, 1e-4}) {
+    factor.refactor(problem, delta);
+    EXPECT_EQ(factor.delta(), delta);
+    const std::vector<int>& unknown = factor.numbering().unknown;
+    const Eigen::MatrixXd b = problem.b;
+    const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + b.transpose() * problem.m.asDiagonal() * b / delta;
+    const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.free_count(), -1, 2);
+    const Eigen::VectorXd x = factor.backward(factor.forward(r));
+    const Eigen::VectorXd truth = Eigen::MatrixXd(k(unknown, unknown)).llt().solve(r);
+    EXPECT_LT(relative_difference(x, truth), 1e-10) << delta;
+  }
+  EXPECT_EQ(factor.factorisations, 3);
+  EXPECT_EQ(factor.solves, 2);
+}
+
+}  // namespace
+}  // namespace antilock

@@ -1,0 +1,198 @@
+// make_triangle_mesh lets nothing through that a finite element relies on and that is not so.
+#include "antilock/mesh/triangle_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::expect_refused;
+
+/// What make_triangle_mesh is given; the default is two triangles on the unit square, contact below.
+struct Input {
+  Points vertices{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  Triples triangles{{0, 1, 2}, {0, 2, 3}};
+  std::vector<Region> region{Region::body, Region::body};
+  std::vector<TaggedEdge> tagged{
+      {0, 1, EdgeTag::contact}, {1, 2, EdgeTag::clamped}, {2, 3, EdgeTag::clamped}, {3, 0, EdgeTag::clamped}};
+
+  TriangleMesh make() const { return make_triangle_mesh(vertices, triangles, region, tagged, "input"); }
+  void refused(const std::string& words) const {
+    expect_refused([&] { make(); }, words);
+    expect_refused([&] { make(); }, "input: ");  // every message says where
+  }
+  void add_vertex(double x, double y) {
+    vertices.conservativeResize(vertices.rows() + 1, 2);
+    vertices.bottomRows(1) << x, y;
+  }
+  void add_triangle(int a, int b, int c, Region where = Region::body) {
+    triangles.conservativeResize(triangles.rows() + 1, 3);
+    triangles.bottomRows(1) << a, b, c;
+    region.push_back(where);
+  }
+};
+
+TEST(TriangleMesh, TakesAGoodOne) {
+  const TriangleMesh mesh = Input{}.make();
+  EXPECT_EQ(mesh.edge_count(), 5);
+  EXPECT_EQ(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::clamped), 3);
+  EXPECT_EQ(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::contact), 1);
+  EXPECT_NEAR(mesh.diameter(), std::sqrt(2.0), 1e-15);
+}
+
+TEST(TriangleMesh, TurnsASurfaceThatIsClockwiseAsAWhole) {
+  Input input;
+  input.triangles << 0, 2, 1, 0, 3, 2;
+  const TriangleMesh mesh = input.make();
+  for (int t = 0; t < 2; ++t) EXPECT_EQ(mesh.area(t), 0.5);
+  // and one surface of two
+  input = {};
+  input.add_vertex(0, -1);
+  input.add_vertex(1, -1);
+  input.add_triangle(4, 1, 5, Region::layer);
+  input.add_triangle(4, 0, 1, Region::layer);
+  input.tagged = {{4, 5, EdgeTag::contact}, {1, 2, EdgeTag::clamped}, {2, 3, EdgeTag::clamped},
+                  {3, 0, EdgeTag::clamped}, {0, 4, EdgeTag::clamped}, {1, 5, EdgeTag::clamped}};
+  const TriangleMesh both = input.make();
+  for (int t = 0; t < 4; ++t) EXPECT_EQ(both.area(t), 0.5);
+  EXPECT_EQ(std::count(both.edge_tag.begin(), both.edge_tag.end(), EdgeTag::sigma), 1);  // found without being tagged
+}
+
+TEST(TriangleMesh, RefusesIndicesOutOfRange) {
+  for (const int bad : {-1, 4, 1000}) {
+    Input input;
+    input.triangles(1, 1) = bad;
+    input.refused("accepted 0 to 3");
+    input = {};
+    input.tagged[2].to = bad;
+    input.refused("tagged edge");
+  }
+}
+
+TEST(TriangleMesh, RefusesCoordinatesThatAreNotFinite) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Input input;
+    input.vertices(2, 1) = bad;
+    input.refused("not finite");
+  }
+}
+
+TEST(TriangleMesh, RefusesNoTriangleAndARegionTooFew) {
+  Input input;
+  input.triangles.resize(0, 3);
+  input.region.clear();
+  input.refused("no triangles");
+  input = {};
+  input.region.pop_back();
+  input.refused("one region a triangle");
+}
+
+TEST(TriangleMesh, RefusesADegenerateTriangle) {
+  Input input;
+  input.vertices.row(2) << 0.5, 0;  // on the line of 0 and 1
+  input.refused("degenerate");
+  input.vertices.row(2) << 0.5, 1e-16;
+  input.refused("degenerate");
+  input = {};
+  input.triangles.row(1) << 0, 3, 3;
+  input.refused("degenerate");
+}
+
+TEST(TriangleMesh, RefusesAnInvertedTriangle) {
+  Input input;
+  input.triangles.row(1) << 0, 3, 2;
+  input.refused("inverted");
+}
+
+TEST(TriangleMesh, RefusesTwoVerticesInOnePlace) {
+  Input input;  // a crack along the diagonal
+  input.add_vertex(1, 1);
+  input.add_vertex(0, 0);
+  input.triangles.row(1) << 5, 4, 3;
+  input.tagged[2] = {4, 3, EdgeTag::clamped};
+  input.tagged[3] = {3, 5, EdgeTag::clamped};
+  input.refused("two vertices share the place");
+}
+
+TEST(TriangleMesh, RefusesAVertexOfNoTriangle) {
+  Input input;
+  input.add_vertex(0.3, 0.4);
+  input.refused("belongs to no triangle");
+}
+
+TEST(TriangleMesh, RefusesAHangingNode) {
+  Input input;  // the lower triangle split at the middle of the diagonal, the upper one not
+  input.add_vertex(0.5, 0.5);
+  input.triangles.row(0) << 0, 1, 4;
+  input.add_triangle(1, 2, 4);
+  input.refused("hangs on the edge");
+}
+
+TEST(TriangleMesh, RefusesOverlappingTriangles) {
+  Input input;  // both on the right of the diagonal 0-2, each counterclockwise
+  input.vertices.row(3) << 0.9, 0.5;
+  input.triangles.row(1) << 0, 3, 2;
+  input.refused("overlapping");
+}
+
+TEST(TriangleMesh, RefusesAnEdgeOfThreeTriangles) {
+  Input input;
+  input.add_vertex(0.9, 0.2);
+  input.add_triangle(0, 4, 2);
+  input.refused("three triangles share the edge");
+}
+
+TEST(TriangleMesh, RefusesABoundaryEdgeWithoutTag) {
+  Input input;
+  input.tagged.erase(input.tagged.begin() + 2);
+  input.refused("in no group");
+}
+
+TEST(TriangleMesh, RefusesATaggedEdgeThatIsNoEdgeOrInTheWrongPlace) {
+  Input input;
+  input.tagged.push_back({1, 3, EdgeTag::clamped});  // the other diagonal
+  input.refused("dangling or misplaced");
+  input.tagged.back() = {0, 2, EdgeTag::clamped};  // an inner edge
+  input.refused("dangling or misplaced");
+  input.tagged.back() = {0, 2, EdgeTag::sigma};  // body on both sides
+  input.refused("dangling or misplaced");
+  input.tagged.back() = {0, 1, EdgeTag::sigma};  // the boundary
+  input.refused("dangling or misplaced");
+}
+
+TEST(TriangleMesh, RefusesAnEdgeInTwoGroups) {
+  Input input;
+  input.tagged.push_back({1, 0, EdgeTag::clamped});  // contact already; the direction does not matter
+  input.refused("two groups");
+  input.tagged.back() = {1, 0, EdgeTag::contact};  // the same again is no contradiction
+  EXPECT_NO_THROW(input.make());
+}
+
+TEST(TriangleMesh, RefusesAPieceThatNothingHolds) {
+  Input input;
+  input.add_vertex(2, 0);
+  input.add_vertex(3, 0);
+  input.add_vertex(2, 1);
+  input.add_triangle(4, 5, 6);
+  for (const auto& [a, b] : {std::pair{4, 5}, std::pair{5, 6}, std::pair{6, 4}})
+    input.tagged.push_back({a, b, EdgeTag::contact});
+  input.refused("no clamped edge holds its piece");
+  input.tagged.back().tag = EdgeTag::clamped;
+  EXPECT_NO_THROW(input.make());
+  input = {};
+  for (TaggedEdge& edge : input.tagged) edge.tag = EdgeTag::contact;
+  input.refused("clamped, which is needed");
+}
+
+TEST(TriangleMesh, RefusesALayerWithoutBody) {
+  Input input;
+  input.region.assign(2, Region::layer);
+  input.refused("no triangle is in the group body");
+}
+
+}  // namespace
+}  // namespace antilock
