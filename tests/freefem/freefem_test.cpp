@@ -2,6 +2,7 @@
 // Unknowns are matched by coordinate. Where FreeFEM is missing every test here fails with the line that says so.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -185,11 +186,33 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"05_p1_unstructured", {"solution.csv", "contact.csv", "summary.csv"}},
       {"06_crouzeix_raviart", {"solution.csv", "contact.csv", "summary.csv"}},
       {"07_convergence", {"results.csv"}},
+      {"09_effects", {"effects.csv"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
     const TemporaryFolder folder;
     ASSERT_NO_THROW(freefem::run(script, {"-cells", "8", "-out", folder.path()})) << script;
     for (const std::string& file : files) EXPECT_TRUE(std::filesystem::exists(folder / file)) << script << " " << file;
+  }
+}
+
+// Body alone, obstacle, Ventcel, layer, layer and obstacle: energies of the same discrete problems, made by each side.
+TEST(FreeFemScripts, EveryEffectHasTheSameEnergy) {
+  const Body body{paper_load};
+  const UnilateralContact obstacle;
+  const Scene scenes[] = {Scene(body), Scene(body, NoLayer{}, obstacle), Scene(body, VentcelLayer{}, obstacle),
+                          Scene(body, StiffLayer{1e-2}), Scene(body, StiffLayer{1e-2}, obstacle)};
+  const TemporaryFolder folder;
+  freefem::run("09_effects", {"-cells", "16", "-epsilon", "1e-2", "-out", folder.path()});
+  const freefem::Table table = freefem::read_table(folder / "effects.csv");
+  ASSERT_EQ(table.rows.rows(), 5);
+  for (int i = 0; i < 5; ++i) {
+    const TriangleMesh mesh = structured_mesh(16, Domain{scenes[i].layer_depth()});
+    const Space space(mesh, p1());
+    const VariationalInequality problem = assemble(scenes[i], space);
+    const Solution solution = active_set(problem);
+    const double ours = energy(problem, solution), theirs = table.column("energy")(i);
+    EXPECT_NEAR(theirs, ours, 1e-10 * std::abs(ours)) << "scene " << i + 1;
+    EXPECT_EQ(table.column("active")(i), std::count(solution.active.begin(), solution.active.end(), true)) << i + 1;
   }
 }
 
