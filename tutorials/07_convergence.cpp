@@ -12,7 +12,7 @@
 // ("even slightly better than P1 on structured meshes": not with our load, by a factor 3, and the table says so).
 //
 // What is computed once. The forms a1 and a0 do not depend on epsilon, so a mesh and an element are assembled once for
-// the five epsilons. Nor does the matrix that is factored, where the penalty delta = max(epsilon^2, h^2/16) is the
+// the five epsilons. Nor does the matrix that is factored, where the penalty delta = max(epsilon^2, h^2/256) is the
 // same.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none. Diagonals of structured meshes to the right.
