@@ -23,7 +23,7 @@ Reference reference(const TruthTable& table);
 /// Absolute errors u_h - u; the names say the norm.
 struct Errors {
   double max_at_unknowns = 0;  ///< at the unknowns: vertices (P1) or edge midpoints (CR)
-  double max = 0;              ///< L-infinity, sampled in every triangle (its corners, midpoints and 12 inner points)
+  double max = 0;  ///< L-infinity, sampled at 15 points of every triangle: the lattice of order 4, corners included
   double l2 = 0;
   double h1 = 0;      ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
   double energy = 0;  ///< |.|_a^epsilon of Remark 4; the stiff part through p, so it holds at epsilon = 0

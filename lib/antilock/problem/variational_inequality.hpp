@@ -16,14 +16,14 @@ using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< by rows
 /// a0(u, v) = (B u, M B v) stays in factored form: summed into a1 it destroys a1 by round-off. Everything is
 /// dimensionless. N unknowns, R rows of B, C contact unknowns.
 struct VariationalInequality {
-  SparseMatrix a1;        ///< N x N, symmetric; positive definite together with B' M B on the free unknowns
-  RowMatrix b;            ///< R x N; R = 0 where nothing is stiff
-  Eigen::VectorXd m;      ///< R, the diagonal of M, positive (areas of cells)
-  double compliance = 1;  ///< the class parameter, 0 <= compliance <= 1. In (23) it is epsilon^2: the one place that
-                          ///< says so is `assemble` (problem/assemble.hpp)
-  double penalty = 1e-6;         ///< delta of the iterated penalty where compliance is smaller; about h^2/256
-  Eigen::VectorXd load;          ///< N, L(phi_i)
-  std::vector<int> fixed;        ///< unknowns with a prescribed value, ascending
+  SparseMatrix a1;         ///< N x N, symmetric; positive definite together with B' M B on the free unknowns
+  RowMatrix b;             ///< R x N; R = 0 where nothing is stiff
+  Eigen::VectorXd m;       ///< R, the diagonal of M, positive (areas of cells)
+  double compliance = 1;   ///< the class parameter, 0 <= compliance <= 1. In (23) it is epsilon^2: the one place that
+                           ///< says so is `assemble` (problem/assemble.hpp)
+  double penalty = 1e-6;   ///< delta of the iterated penalty where compliance is smaller; about h^2/256
+  Eigen::VectorXd load;    ///< N, L(phi_i)
+  std::vector<int> fixed;  ///< unknowns with a prescribed value, ascending
   Eigen::VectorXd fixed_values;  ///< one a fixed unknown
   std::vector<int> contact;      ///< unknowns bounded from below, in the order of the reports (by x)
   Eigen::VectorXd lower;         ///< C bounds: u >= lower there (= -gap)
@@ -35,7 +35,8 @@ struct VariationalInequality {
 };
 
 /// Throws Error with the first thing that is wrong: sizes that do not fit, entries that are not finite, an a1 that is
-/// not symmetric, M not positive, compliance or penalty out of range, indices out of order or both fixed and bounded.
+/// not symmetric, M not positive, compliance or penalty out of range, indices out of range or named twice, no free
+/// unknown.
 void check(const VariationalInequality& problem);
 
 }  // namespace antilock
