@@ -17,7 +17,7 @@
 // It is a gradient method for the pressure. The operator behind it is the compliance of Gamma_C (pressure in,
 // displacement out); the step rho must stay below 2 / its largest eigenvalue, and the number of steps is its condition
 // number, which grows like 1/h at epsilon = 1 and like 1/h^2 as epsilon -> 0. Count the steps below. Each one is cheap
-// here, because the compliance is condensed on Gamma_C once; tutorial 10 shows the price when it is not.
+// here, because the compliance is condensed on Gamma_C once; uzawa_cg_ilut (see the end) pays the price when it is not.
 //
 // For this geometry and load there is a better reference, a sine series (lib/antilock/exact): so the reference itself
 // can be checked.

@@ -72,7 +72,7 @@ void check(const VariationalInequality& problem) {
       require(!taken[i], fmt::format("unknown {} is fixed or bounded twice", i));
       taken[i] = 1;
     }
-  require(problem.free_count() > 0, "every unknown is fixed");
+  require(problem.free_count() > 0, "every unknown is fixed; accepted: one free unknown or more");
   // Relative to the largest entry: what assembly leaves is round-off of the sums.
   const Eigen::Map<const Eigen::VectorXd> entries(problem.a1.valuePtr(), problem.a1.nonZeros());
   const double largest = entries.size() > 0 ? entries.cwiseAbs().maxCoeff() : 0;

@@ -24,7 +24,7 @@ struct NaiveAnswer {
   NaiveEnd end = NaiveEnd::settled;
 };
 
-/// An exhibit, for tutorial 08 and its tests: what most codes do. A1 + compliance^-1 B' M B summed in double precision,
+/// An exhibit, to be compared against: what most codes do. A1 + compliance^-1 B' M B summed in double precision,
 /// factored in every step of a primal-dual active set that starts from no contact. The sum forgets A1 digit by digit as
 /// compliance falls; use active_set instead. Throws Error at compliance = 0, where the sum does not exist.
 NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps = 100);

@@ -110,6 +110,7 @@ struct PenaltyFactor::Cholmod {
 
 PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta)
     : numbering_(problem), delta_(delta), cholmod_(std::make_unique<Cholmod>()) {
+  if (numbering_.unknown.empty()) throw Error("solve: every unknown is fixed; accepted: one free unknown or more");
   refactor(problem, delta);
 }
 

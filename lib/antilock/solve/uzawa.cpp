@@ -71,6 +71,8 @@ class CondensedUzawa {
 }  // namespace
 
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options) {
+  if (options.step && !(*options.step > 0))
+    throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
   CorrectionOptions corrections;
   corrections.tolerance = std::max(options.tolerance, 1e-12);
   if (problem.contact.empty()) return iterated_penalty(problem, factor, {}, corrections, "uzawa");
