@@ -155,7 +155,7 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 // Three things to try:
-// - --cells 2, then 4: on the coarsest meshes gmsh has no choice, and lines may cross the layer after all.
+// - --cells 2, 3, 4: even the coarsest meshes of gmsh have no line across inside the layer.
 // - structured_mesh(options.cells, {}, Diagonal::left): every number stays as it is.
 // - jitter the vertices inside the layer of the structured mesh by 1e-9: how many lines are left? (tutorial 05: what
 //   that does to the solution.)
