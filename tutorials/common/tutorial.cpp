@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
 #include "antilock/io/atomic_file.hpp"
@@ -64,6 +65,8 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
   } catch (const CLI::ParseError& error) {
     return fail(stem, std::string(error.what()) + " (see --help)", 2);
   }
+  if (std::isnan(options.epsilon))
+    return fail(stem, "--epsilon: nan; accepted: 0 to 1 (see --help)", 2);  // in any range
   try {
     check_writable(options.out);
     fmt::print("{}: {}\n", stem, what);
