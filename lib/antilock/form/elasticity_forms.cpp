@@ -99,10 +99,10 @@ Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, b
       const bool interior = mesh.edge_triangles(e, 1) >= 0;
       const bool held = mesh.edge_tag[e] == EdgeTag::clamped && (clamped_in_x || part == &space.y);
       if (!interior && !held) continue;
-      // |e|^-1 int_e of an affine function from s to -s squared: s^2 / 3
+      // |e|^-1 int_e of an affine function from s to -s squared: s^2 / 3; times 2 mu
       const auto step = jump(*part, first, e);
       for (const auto& [i, a] : step)
-        for (const auto& [j, b] : step) entries.emplace_back(i, j, weight * a * b / 3);
+        for (const auto& [j, b] : step) entries.emplace_back(i, j, 2 * weight * a * b / 3);
     }
   }
   return sum(space, entries);

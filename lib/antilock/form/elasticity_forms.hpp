@@ -21,9 +21,9 @@ Eigen::SparseMatrix<double> strain_form(const VectorSpace& space);
 /// The factored form of int div u div v: a row of B is div on a triangle, M its area.
 LayerStrain divergence(const VectorSpace& space);
 
-/// N x N matrix of weight sum_e |e|^-1 int_e [u].[v] over the interior and the clamped edges, of the components that
-/// are CR. Crouzeix-Raviart needs it with the symmetric gradient: there is no Korn inequality without (Hansbo and
-/// Larson 2003). clamped_in_x = false: the clamped edges hold the component y alone.
+/// N x N matrix of 2 mu weight sum_e |e|^-1 int_e [u].[v], mu = 1, over the interior and the clamped edges, of the
+/// components that are CR. Crouzeix-Raviart needs it with the symmetric gradient: there is no Korn inequality without
+/// (Hansbo and Larson 2003). clamped_in_x = false: the clamped edges hold the component y alone.
 Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, bool clamped_in_x = true);
 
 }  // namespace antilock

@@ -1,0 +1,75 @@
+#include "antilock/measure/locking.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SPQRSupport>
+
+#include "antilock/scene/error.hpp"
+
+namespace antilock {
+namespace {
+
+/// N x F: puts the free unknowns in their places.
+SparseMatrix free_unknowns(const VariationalInequality& problem) {
+  std::vector<char> fixed(problem.size(), 0);
+  for (const int i : problem.fixed) fixed[i] = 1;
+  SparseMatrix places(problem.size(), problem.free_count());
+  for (int i = 0, column = 0; i < problem.size(); ++i)
+    if (!fixed[i]) places.insert(i, column++) = 1;
+  return places;
+}
+
+double threshold(const SparseMatrix& b) {
+  double largest = 0;
+  for (Eigen::Index j = 0; j < b.cols(); ++j) largest = std::max(largest, b.col(j).norm());
+  return 1e-10 * largest;  // what is dependent is so to round-off
+}
+
+}  // namespace
+
+int kernel_dimension(const VariationalInequality& problem) {
+  check(problem);
+  const SparseMatrix b = problem.b * free_unknowns(problem);
+  if (b.nonZeros() == 0) return problem.free_count();
+  Eigen::SPQR<SparseMatrix> qr;
+  qr.setPivotThreshold(threshold(b));
+  qr.compute(b);
+  return problem.free_count() - static_cast<int>(qr.rank());
+}
+
+Eigen::MatrixXd kernel_basis(const VariationalInequality& problem) {
+  check(problem);
+  const SparseMatrix places = free_unknowns(problem);
+  const int n = problem.free_count();
+  const SparseMatrix b = problem.b * places;
+  if (b.nonZeros() == 0) return places.toDense();
+  // B' = Q R: the columns of Q behind the rank are orthogonal to every row of B
+  Eigen::SPQR<SparseMatrix> qr;
+  qr.setPivotThreshold(threshold(b));
+  qr.compute(SparseMatrix(b.transpose()));
+  const Eigen::MatrixXd behind = Eigen::MatrixXd::Identity(n, n).rightCols(n - qr.rank());
+  if (behind.cols() == 0) return Eigen::MatrixXd(problem.size(), 0);
+  const Eigen::MatrixXd basis = qr.matrixQ() * behind;
+  return places * basis;
+}
+
+double coercivity(const VariationalInequality& problem, const SparseMatrix& norm) {
+  constexpr int most = 2000;
+  check(problem);
+  if (norm.rows() != problem.size() || norm.cols() != problem.size())
+    throw Error(fmt::format("coercivity: the norm is {} x {}; accepted {} x {}", norm.rows(), norm.cols(),
+                            problem.size(), problem.size()));
+  if (problem.free_count() > most)
+    throw Error(fmt::format("coercivity: {} free unknowns; accepted at most {}", problem.free_count(), most));
+  const SparseMatrix places = free_unknowns(problem);
+  const SparseMatrix b = problem.b * places;
+  const Eigen::MatrixXd form = SparseMatrix(places.transpose() * problem.a1 * places).toDense() +
+                               SparseMatrix(b.transpose() * problem.m.asDiagonal() * b).toDense();
+  const Eigen::MatrixXd gram = SparseMatrix(places.transpose() * norm * places).toDense();
+  if (gram.llt().info() != Eigen::Success) throw Error("coercivity: the norm is not positive definite");
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(form, gram, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .minCoeff();
+}
+
+}  // namespace antilock

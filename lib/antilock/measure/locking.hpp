@@ -1,0 +1,19 @@
+#pragma once
+#include "antilock/problem/variational_inequality.hpp"
+
+namespace antilock {
+
+/// dim G_h, G_h = { v : B v = 0, v = 0 on the fixed unknowns } (Section 2, (H2)): by rank-revealing sparse QR. Zero:
+/// complete locking (Proposition 1). Values below 1e-10 of B's largest column count as zero. Throws Error for a
+/// malformed problem.
+int kernel_dimension(const VariationalInequality& problem);
+
+/// An orthonormal basis of G_h, N x kernel_dimension, zero on the fixed unknowns. Dense: for small problems.
+Eigen::MatrixXd kernel_basis(const VariationalInequality& problem);
+
+/// The coercivity constant of (H1) and (H1nc): the smallest a1(v, v) + a0(v, v) over the free v with norm(v, v) = 1.
+/// Zero up to round-off or below: not coercive. `norm` is the N x N Gram matrix of the space's norm. Dense eigenvalues:
+/// throws Error for more than 2000 free unknowns, a malformed problem, or a norm that is not positive definite there.
+double coercivity(const VariationalInequality& problem, const SparseMatrix& norm);
+
+}  // namespace antilock
