@@ -113,7 +113,7 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   s.seconds.factor = factor.factor_seconds;
   s.lambda = answer.lambda.size() > 0 ? answer.lambda : s.lambda;
   s.active = answer.active;
-  certify(problem, s);
+  certify(problem, s, TrustLevels{.refused = options.refused});
   return s;
 }
 

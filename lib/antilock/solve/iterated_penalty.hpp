@@ -14,6 +14,7 @@ using ContactSolver = std::function<ContactAnswer(const ContactProblem&, const C
 
 struct CorrectionOptions {
   double tolerance = 1e-10;   ///< on the estimated relative algebraic error of u in the maximum norm
+  double refused = 1e-6;      ///< KKT report above which no answer is returned (see TrustLevels)
   int max_corrections = 100;  ///< reached: NotConverged
 };
 

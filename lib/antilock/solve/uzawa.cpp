@@ -75,6 +75,8 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
     throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
   CorrectionOptions corrections;
   corrections.tolerance = std::max(options.tolerance, 1e-12);
+  // who asks for little gets little, with a warning: the last step bounds the gap within a factor
+  corrections.refused = std::max(corrections.refused, 10 * options.tolerance);
   if (problem.contact.empty()) return iterated_penalty(problem, factor, {}, corrections, "uzawa");
   CondensedUzawa contact(factor, options);
   Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");
