@@ -131,14 +131,15 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
     domain.AddBounds(solutions.back()->GetBounds());
   }
 
-  constexpr double cell_width = 1500, cell_height = 1250, bar_room = 300, size = 46;
+  constexpr double cell_width = 1500, cell_height = 1250, bar_room = 300, own_bar_room = 420,
+                   size = 46;  // an own scale may need powers of ten
   const std::size_t count = surfaces.size(), columns = std::min<std::size_t>(count, 3);
   const std::size_t rows = (count + columns - 1) / columns;
   const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
   const double row_height = cell_height + (titled ? 120 : 20);
   const bool shared_bar = count > 1 || !style.last_range;
   const double width =
-      static_cast<double>(columns) * cell_width + (shared_bar + style.last_range.has_value()) * bar_room;
+      static_cast<double>(columns) * cell_width + shared_bar * bar_room + style.last_range.has_value() * own_bar_room;
   Page page(static_cast<int>(width), static_cast<int>(static_cast<double>(rows) * row_height));
 
   for (std::size_t i = 0; i < count; ++i) {
