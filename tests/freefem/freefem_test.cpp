@@ -195,17 +195,22 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
   }
 }
 
-// Body alone, obstacle, Ventcel, layer, layer and obstacle: energies of the same discrete problems, made by each side.
+// Body alone, obstacle, Ventcel, layer, layer and obstacle, thin layer and obstacle: energies of the same discrete
+// problems, made by each side.
 TEST(FreeFemScripts, EveryEffectHasTheSameEnergy) {
   const Body body{paper_load};
   const UnilateralContact obstacle;
-  const Scene scenes[] = {Scene(body), Scene(body, NoLayer{}, obstacle), Scene(body, VentcelLayer{}, obstacle),
-                          Scene(body, StiffLayer{1e-2}), Scene(body, StiffLayer{1e-2}, obstacle)};
+  const Scene scenes[] = {Scene(body),
+                          Scene(body, NoLayer{}, obstacle),
+                          Scene(body, VentcelLayer{}, obstacle),
+                          Scene(body, StiffLayer{1e-2}),
+                          Scene(body, StiffLayer{1e-2}, obstacle),
+                          Scene(body, ThinLayer{1e-2}, obstacle)};
   const TemporaryFolder folder;
   freefem::run("09_effects", {"-cells", "16", "-epsilon", "1e-2", "-out", folder.path()});
   const freefem::Table table = freefem::read_table(folder / "effects.csv");
-  ASSERT_EQ(table.rows.rows(), 5);
-  for (int i = 0; i < 5; ++i) {
+  ASSERT_EQ(table.rows.rows(), 6);
+  for (int i = 0; i < 6; ++i) {
     const TriangleMesh mesh = structured_mesh(16, Domain{scenes[i].layer_depth()});
     const Space space(mesh, p1());
     const VariationalInequality problem = assemble(scenes[i], space);
