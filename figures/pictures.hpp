@@ -35,6 +35,14 @@ struct Surface {
 /// Figures 4, 5, 7, 8: one solution, or several side by side (three a row), as surfaces of the same scale.
 Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style);
 
+/// Deformed bodies (VTU with cell data pressure) side by side on one scale, coloured by it; dashed: where they were.
+struct DeformedStyle {
+  Range range{0, 1};               ///< of the colours; values outside take the end's
+  std::string name = "pressure";   ///< of the colours
+  std::filesystem::path obstacle;  ///< table x,y of a line to draw below; empty: none
+};
+Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& style);
+
 /// A chart on logarithmic scales from a table: a panel for each value of the columns `panel_by`, in it a curve for each
 /// value of `series_by`. Points whose y is not finite or not positive are drawn as failed, at the top edge.
 struct ChartStyle {

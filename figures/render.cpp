@@ -26,6 +26,7 @@ struct Request {
   double height_factor = 2;
   int grid = 0;
   ChartStyle chart;
+  DeformedStyle deformed;
   MapStyle map;
   BarStyle bars;
   std::function<Page()> draw;
@@ -37,6 +38,13 @@ CLI::App* add_picture(CLI::App& app, Request& request, const std::string& name, 
   picture->add_option(input, request.inputs, "the file to read")->required();
   picture->add_option("--out", request.out, "the PNG file to write")->required();
   return picture;
+}
+
+std::vector<Surface> titled(const Request& request) {
+  std::vector<Surface> surfaces;
+  for (std::size_t i = 0; i < request.inputs.size(); ++i)
+    surfaces.push_back({request.inputs[i], i < request.titles.size() ? request.titles[i] : ""});
+  return surfaces;
 }
 
 void default_name(std::string& name, const std::string& column) {
@@ -65,13 +73,22 @@ void add_pictures(CLI::App& app, Request& request) {
       ->check(CLI::Range(1, 256));
   surface->callback([&] {
     request.draw = [&] {
-      std::vector<Surface> surfaces;
-      for (std::size_t i = 0; i < request.inputs.size(); ++i)
-        surfaces.push_back({request.inputs[i], i < request.titles.size() ? request.titles[i] : ""});
       SurfaceStyle style{{request.range[0], request.range[1]}, request.height_factor};
       if (request.grid > 0) style.grid = request.grid;
       if (!request.own_range.empty()) style.last_range = {request.own_range[0], request.own_range[1]};
-      return surface_picture(surfaces, style);
+      return surface_picture(titled(request), style);
+    };
+  });
+
+  auto* deformed = add_picture(app, request, "deformed", "deformed bodies, side by side", "SOLUTION.vtu");
+  deformed->add_option("--title", request.titles, "a title each");
+  deformed->add_option("--range", request.range, "smallest and largest value of the colours")->expected(2)->required();
+  deformed->add_option("--name", request.deformed.name, "what the colours are")->capture_default_str();
+  deformed->add_option("--obstacle", request.deformed.obstacle, "table x,y of the line below them");
+  deformed->callback([&] {
+    request.draw = [&] {
+      request.deformed.range = {request.range[0], request.range[1]};
+      return deformed_picture(titled(request), request.deformed);
     };
   });
 

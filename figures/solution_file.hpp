@@ -11,4 +11,8 @@ namespace antilock::figures {
 /// finite.
 vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path);
 
+/// The same for a deformed body: cell data `pressure` are the cells' scalars, point data `displacement` (three
+/// components) say how the points got where they are.
+vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path);
+
 }  // namespace antilock::figures

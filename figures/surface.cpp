@@ -1,5 +1,4 @@
 // Solutions as surfaces over the domain, as in Figures 4, 5, 7 and 8.
-#include <fmt/format.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkCutter.h>
@@ -12,7 +11,7 @@
 
 #include <algorithm>
 
-#include "antilock/scene/error.hpp"
+#include "colour_bar.hpp"
 #include "pictures.hpp"
 #include "room.hpp"
 #include "solution_file.hpp"
@@ -99,26 +98,6 @@ void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surf
   if (grid) add_grid(renderer, surface, *grid, towards_eye);
 }
 
-void draw_colour_bar(Page& page, const Box& box, const Range& range, double size) {
-  constexpr int steps = 256;
-  for (int i = 0; i < steps; ++i)
-    page.fill(Box{box.x, box.y + box.height * i / steps, box.width, box.height / steps + 1.0},
-              viridis((i + 0.5) / steps));
-  page.rectangle(box, {2.5});
-  const Axis axis = Axis::linear(range.low, range.high);
-  for (const Tick& tick : axis.ticks()) {
-    const double y = box.y + box.height * (tick.value - range.low) / (range.high - range.low);
-    page.line({{box.right(), y}, {box.right() + 12, y}}, {2.5});
-    page.text({box.right() + 24, y}, tick.label, {size, {0, Anchor::Height::middle}});
-  }
-  page.text({box.centre().x, box.top() + 30}, "$u$", {1.25 * size, {0.5}});
-}
-
-void check(const Range& range) {
-  if (!(range.high > range.low) || !std::isfinite(range.high - range.low))
-    throw Error(fmt::format("range {} {}: accepted: two finite numbers, the smaller first", range.low, range.high));
-}
-
 }  // namespace
 
 Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style) {
@@ -161,7 +140,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
 
     const bool before_own = style.last_range && rows == 1 && i + 2 == count;
     if (own || before_own || (last_in_row && i < columns))
-      draw_colour_bar(page, {cell.right() + 30, cell.y + 300, 60, cell.height - 500}, range, size);
+      draw_colour_bar(page, {cell.right() + 30, cell.y + 300, 60, cell.height - 500}, range, "$u$", size);
   }
   return page;
 }

@@ -290,5 +290,35 @@ TEST(WriteVtu, P1SharesItsVerticesAndCrouzeixRaviartKeepsItsJumps) {
   }
 }
 
+TEST(WriteDeformedVtu, MovesEveryTriangleWithItsUnknowns) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = structured_mesh(3, Domain{0});
+  const int triangles = mesh.triangle_count();
+  const Space x(mesh, p1()), y(mesh, crouzeix_raviart());
+  // u = (2x + y, -x/2), affine: in both spaces
+  Eigen::VectorXd u(x.size() + y.size());
+  u << 2 * x.points().col(0) + x.points().col(1), -0.5 * y.points().col(0);
+  const Eigen::VectorXd pressure = Eigen::VectorXd::LinSpaced(triangles, 0, 1);
+  write_deformed_vtu(folder / "u.vtu", {x, y}, u, pressure);
+  const std::string text = contents(folder / "u.vtu");
+  EXPECT_TRUE(well_formed(text));
+  const auto point = vtu_array(text, "\"Float64\" NumberOfComponents"),
+             moved = vtu_array(text, "Name=\"displacement\""), found = vtu_array(text, "Name=\"pressure\"");
+  ASSERT_EQ(point.size(), 9U * triangles);
+  ASSERT_EQ(moved.size(), point.size());
+  EXPECT_EQ(found, std::vector<double>(pressure.begin(), pressure.end()));
+  for (int t = 0; t < triangles; ++t)
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t at = 9U * t + 3U * i;
+      const double vx = mesh.vertices(mesh.triangles(t, i), 0), vy = mesh.vertices(mesh.triangles(t, i), 1);
+      // 1e-14: a few terms of order 1
+      EXPECT_NEAR(moved[at], 2 * vx + vy, 1e-14);
+      EXPECT_NEAR(moved[at + 1], -0.5 * vx, 1e-14);
+      EXPECT_NEAR(point[at], vx + moved[at], 1e-14);
+      EXPECT_NEAR(point[at + 1], vy + moved[at + 1], 1e-14);
+    }
+  EXPECT_NE(refusal([&] { write_deformed_vtu(folder / "u.vtu", {x, y}, u, pressure.head(2)); }), "");
+}
+
 }  // namespace
 }  // namespace antilock
