@@ -54,6 +54,17 @@ struct ChartStyle {
 };
 Page chart_picture(const std::filesystem::path& table, const ChartStyle& style);
 
+/// Columns of a table as curves over `x`, on straight scales, panels side by side.
+struct CurvesStyle {
+  std::string x, x_name;
+  std::vector<std::string>
+      panels;  ///< the columns of each, with spaces between; `-` leaves a place of the legend empty
+  std::vector<std::string> y_names;  ///< one a panel
+  std::vector<std::string> names;    ///< of the curves, for the legend, in the order of the columns
+  bool truth_first = false;          ///< draw the first curve broad and pale, behind the others
+};
+Page curves_picture(const std::filesystem::path& table, const CurvesStyle& style);
+
 /// Filled contours of log10 z over (x, y), both on logarithmic scales, half a decade a colour; panels as in a chart.
 /// Rows whose x, y or z is not positive and finite are left out and leave holes.
 struct MapStyle {

@@ -27,6 +27,7 @@ struct Request {
   int grid = 0;
   ChartStyle chart;
   DeformedStyle deformed;
+  CurvesStyle curves;
   MapStyle map;
   BarStyle bars;
   std::function<Page()> draw;
@@ -107,6 +108,20 @@ void add_pictures(CLI::App& app, Request& request) {
       default_name(request.chart.x_name, request.chart.x);
       default_name(request.chart.y_name, request.chart.y);
       return chart_picture(request.inputs.at(0), request.chart);
+    };
+  });
+
+  auto* curves = add_picture(app, request, "curves", "columns of a table as curves, straight scales", "TABLE.csv");
+  curves->add_option("--x", request.curves.x, "column")->required();
+  curves->add_option("--x-name", request.curves.x_name, "name of the axis (default: the column)");
+  curves->add_option("--panel", request.curves.panels, "a panel: 'COLUMN COLUMN ...', - for none")->required();
+  curves->add_option("--y-name", request.curves.y_names, "name of a panel's axis (default: its columns)");
+  curves->add_option("--name", request.curves.names, "of each curve, for the legend")->required();
+  curves->add_flag("--truth-first", request.curves.truth_first, "the first curve lies behind the others");
+  curves->callback([&] {
+    request.draw = [&] {
+      default_name(request.curves.x_name, request.curves.x);
+      return curves_picture(request.inputs.at(0), request.curves);
     };
   });
 
