@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "antilock/io/writers.hpp"
+#include "antilock/measure/energy_bracket.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/problem/assemble.hpp"
@@ -187,6 +189,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"06_crouzeix_raviart", {"solution.csv", "contact.csv", "summary.csv"}},
       {"07_convergence", {"results.csv"}},
       {"09_effects", {"effects.csv"}},
+      {"16_energy_bracket", {"results.csv"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
     const TemporaryFolder folder;
@@ -218,6 +221,25 @@ TEST(FreeFemScripts, EveryEffectHasTheSameEnergy) {
     const double ours = energy(problem, solution), theirs = table.column("energy")(i);
     EXPECT_NEAR(theirs, ours, 1e-10 * std::abs(ours)) << "scene " << i + 1;
     EXPECT_EQ(table.column("active")(i), std::count(solution.active.begin(), solution.active.end(), true)) << i + 1;
+  }
+}
+
+// Both bounds of the energy, made by each side on the same unstructured mesh; 1e-10 as above.
+TEST(FreeFemScripts, TheEnergyBracketIsTheSame) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = unstructured_mesh(8);
+  write_freefem_mesh(folder / "mesh.msh", mesh);
+  freefem::run("16_energy_bracket", {"-mesh", folder / "mesh.msh", "-out", folder.path()});
+  const freefem::Table table = freefem::read_table(folder / "results.csv");
+  const Space above(mesh, p1()), below(mesh, crouzeix_raviart());
+  ASSERT_EQ(table.rows.rows(), 5);
+  for (int i = 0; i < 5; ++i) {
+    const Scene scene = contact_scene(table.column("epsilon")(i));
+    const VariationalInequality upper = assemble(scene, above), lower = assemble(scene, below);
+    const double high = energy(upper, active_set(upper)),
+                 low = energy_lower_bound(below, lower, active_set(lower), paper_load);
+    EXPECT_NEAR(table.column("upper")(i), high, 1e-10 * std::abs(high)) << scene.epsilon().value();
+    EXPECT_NEAR(table.column("lower")(i), low, 1e-10 * std::abs(low)) << scene.epsilon().value();
   }
 }
 

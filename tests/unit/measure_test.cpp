@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "antilock/exact/truth.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/contact_zone.hpp"
+#include "antilock/measure/energy_bracket.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "support/scenes.hpp"
@@ -178,6 +180,67 @@ TEST(ContactZone, IsEmptyWhereNothingTouches) {
   EXPECT_EQ(zone.points, 3);
   EXPECT_EQ(zone.active, 0);
   EXPECT_FALSE(zone.from || zone.to);
+}
+
+/// Both bounds on one mesh. The load is in the scene.
+EnergyBracket bracket(const TriangleMesh& mesh, const Scene& scene) {
+  const Space below(mesh, crouzeix_raviart()), above(mesh, p1());
+  const VariationalInequality lower = assemble(scene, below), upper = assemble(scene, above);
+  return {energy_lower_bound(below, lower, active_set(lower), scene.body().load), energy(upper, active_set(upper))};
+}
+
+TEST(EnergyBracket, HoldsTheExactEnergyAtEveryEpsilon) {
+  for (const double epsilon : {1.0, 1e-3, 0.0}) {
+    const double exact = Truth(paper_sine_load(), epsilon, true, 14).energy();
+    for (const auto& [name, mesh] : two_square_meshes(8)) {
+      const EnergyBracket found = bracket(mesh, Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}));
+      EXPECT_LE(found.lower, exact) << name << epsilon;
+      EXPECT_GE(found.upper, exact) << name << epsilon;
+      EXPECT_LT(found.width(), 0.2 * std::abs(exact)) << name << epsilon;
+    }
+  }
+}
+
+TEST(EnergyBracket, HoldsItWhereTheLoadIsFarFromConstantOnTriangles) {
+  const SineLoad load{{{5, {4.0, -9.0}}, {1, {3.0}}}};  // half a wave on less than two triangles
+  const double exact = Truth(load, 1e-2, true, 14).energy();
+  for (const int cells : {2, 4, 8})
+    for (const auto& [name, mesh] : two_square_meshes(cells)) {
+      const EnergyBracket found = bracket(mesh, Scene({load}, StiffLayer{1e-2}, UnilateralContact{}));
+      EXPECT_LE(found.lower, exact) << name << cells;
+      EXPECT_GE(found.upper, exact) << name << cells;
+    }
+}
+
+TEST(EnergyBracket, IsNeededTheEnergyOfCrouzeixRaviartAloneIsNoBound) {
+  // -lap u = 1 on the unit square, u = 0 around: int u = 0.0351442537 (torsion of a square bar), J = -int u / 2
+  constexpr double exact = -0.5 * 0.0351442537;
+  const auto one = [](double, double) { return 1.0; };
+  const TriangleMesh mesh = structured_mesh(1, {0});
+  const Space space(mesh, crouzeix_raviart());
+  VariationalInequality problem = assemble(Scene({one}), space);
+  // the edge y = 0 is Sigma, free without contact: clamp it
+  for (const int i : space.contact()) problem.fixed.push_back(i);
+  std::sort(problem.fixed.begin(), problem.fixed.end());
+  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  const Solution solution = active_set(problem);
+  EXPECT_NEAR(energy(problem, solution), -1.0 / 144, 1e-15);  // one unknown, by hand
+  EXPECT_GT(energy(problem, solution), exact);                // above
+  EXPECT_LE(energy_lower_bound(space, problem, solution, one), exact);
+  EXPECT_NEAR(energy_lower_bound(space, problem, solution, one), -1.0 / 144 - 4.0 / 288, 1e-15);  // f^2 |T| s_T / 288
+}
+
+TEST(EnergyBracket, RefusesWhatItCannotBound) {
+  const TriangleMesh mesh = structured_mesh(4), body = structured_mesh(4, {0});
+  const Space conforming(mesh, p1()), nonconforming(mesh, crouzeix_raviart()), on_body(body, crouzeix_raviart());
+  const auto bound = [](const Space& space, const VariationalInequality& problem) {
+    return energy_lower_bound(space, problem, active_set(problem), paper_load);
+  };
+  test::expect_refused([&] { bound(conforming, stiff_problem(conforming, 1)); }, "P1");
+  test::expect_refused([&] { bound(nonconforming, stiff_problem(nonconforming, 1, {[](double) { return 0.1; }})); },
+                       "gap");
+  test::expect_refused(
+      [&] { bound(on_body, assemble(Scene({paper_load}, VentcelLayer{}, UnilateralContact{}), on_body)); }, "Ventcel");
 }
 
 }  // namespace
