@@ -8,8 +8,8 @@
 // u solves (23) exactly if it makes J(v) = a(v, v)/2 - (f, v) smallest on K. Three facts follow.
 //
 // Above. P1 is conforming and asks for v >= 0 at every vertex of Gamma_C, hence everywhere on it: K_h is part of K
-// (Section 4.1, before (26)), so J(u_h) >= J(u). More: |u - v|_a^2 / 2 <= J(v) - J(u) for all v of K, in the energy norm of
-// Remark 4.
+// (Section 4.1, before (26)), so J(u_h) >= J(u). More: |u - v|_a^2 / 2 <= J(v) - J(u) for all v of K, in the energy
+// norm of Remark 4.
 //
 // Below. K_h^nc is not part of K, and the energy of Crouzeix-Raviart may lie on either side. The interpolation of
 // Lemma 2 takes K into K_h^nc and gives J_h(u_h) <= J_h(I_h u) = J(u) - |u - I_h u|^2 / 2 + (f, u - I_h u): the last
