@@ -5,6 +5,7 @@
 
 #include "antilock/exact/truth.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/measure/accurate_enough.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/energy_bracket.hpp"
 #include "antilock/measure/errors.hpp"
@@ -182,18 +183,11 @@ TEST(ContactZone, IsEmptyWhereNothingTouches) {
   EXPECT_FALSE(zone.from || zone.to);
 }
 
-/// Both bounds on one mesh. The load is in the scene.
-EnergyBracket bracket(const TriangleMesh& mesh, const Scene& scene) {
-  const Space below(mesh, crouzeix_raviart()), above(mesh, p1());
-  const VariationalInequality lower = assemble(scene, below), upper = assemble(scene, above);
-  return {energy_lower_bound(below, lower, active_set(lower), scene.body().load), energy(upper, active_set(upper))};
-}
-
 TEST(EnergyBracket, HoldsTheExactEnergyAtEveryEpsilon) {
   for (const double epsilon : {1.0, 1e-3, 0.0}) {
     const double exact = Truth(paper_sine_load(), epsilon, true, 14).energy();
     for (const auto& [name, mesh] : two_square_meshes(8)) {
-      const EnergyBracket found = bracket(mesh, Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}));
+      const EnergyBracket found = energy_bracket(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), mesh);
       EXPECT_LE(found.lower, exact) << name << epsilon;
       EXPECT_GE(found.upper, exact) << name << epsilon;
       EXPECT_LT(found.width(), 0.2 * std::abs(exact)) << name << epsilon;
@@ -206,7 +200,7 @@ TEST(EnergyBracket, HoldsItWhereTheLoadIsFarFromConstantOnTriangles) {
   const double exact = Truth(load, 1e-2, true, 14).energy();
   for (const int cells : {2, 4, 8})
     for (const auto& [name, mesh] : two_square_meshes(cells)) {
-      const EnergyBracket found = bracket(mesh, Scene({load}, StiffLayer{1e-2}, UnilateralContact{}));
+      const EnergyBracket found = energy_bracket(Scene({load}, StiffLayer{1e-2}, UnilateralContact{}), mesh);
       EXPECT_LE(found.lower, exact) << name << cells;
       EXPECT_GE(found.upper, exact) << name << cells;
     }
@@ -241,6 +235,18 @@ TEST(EnergyBracket, RefusesWhatItCannotBound) {
                        "gap");
   test::expect_refused(
       [&] { bound(on_body, assemble(Scene({paper_load}, VentcelLayer{}, UnilateralContact{}), on_body)); }, "Ventcel");
+}
+
+TEST(AccurateEnough, FollowsTheBracket) {
+  const EnergyBracket bracket{-1, -0.99};
+  const AccurateEnough enough = accurate_enough(bracket, 1, 0.5);
+  EXPECT_NEAR(enough.relative, 0.005, 1e-15);  // half of 1 %
+  EXPECT_NEAR(enough.energy, 0.005 * 0.005, 1e-18);
+  EXPECT_NEAR(accurate_enough(bracket, 2, 0.5).relative, enough.relative / 4, 1e-15) << "h^2";
+  for (const EnergyBracket& nothing : {EnergyBracket{0, 0}, EnergyBracket{-0.99, -1}, EnergyBracket{-1, NAN}}) {
+    EXPECT_EQ(accurate_enough(nothing).energy, 0);
+    EXPECT_EQ(accurate_enough(nothing).relative, 0);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,9 @@
 
 #include <cmath>
 
+#include "antilock/exact/truth_table.hpp"
+#include "antilock/measure/accurate_enough.hpp"
+#include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/power_iteration.hpp"
@@ -82,6 +85,60 @@ TEST(Uzawa, WithThePapersLinearSolverIsRightOrSaysThatItIsNot) {
       }
     }
   }
+}
+
+TEST(Uzawa, StopsWhereItIsAccurateEnough) {
+  constexpr int cells = 32;
+  const auto stop = [](const std::string& element_name, const TriangleMesh& mesh, const TriangleMesh& coarse) {
+    const Space space(mesh, element(element_name));
+    for (const double epsilon : {1.0, 1e-2, 1e-6}) {
+      const TruthTable truth(Truth(paper_sine_load(), epsilon));
+      const VariationalInequality problem = stiff_problem(space, epsilon);
+      UzawaOptions options;
+      const Solution full = uzawa(problem);
+      options.enough = accurate_enough(energy_bracket(test::stiff_scene(epsilon), coarse), 2);
+      const Solution early = uzawa(problem, options);
+      EXPECT_LT(3 * early.counters.contact, full.counters.contact) << element_name << epsilon;
+      EXPECT_LE(early.counters.corrections, full.counters.corrections);
+      const Errors a = measure_errors(space, full, epsilon, reference(truth)),
+                   b = measure_errors(space, early, epsilon, reference(truth));
+      // the promise of accurate_enough
+      EXPECT_LT(b.max, 1.01 * a.max) << element_name << epsilon;
+      EXPECT_LT(b.h1, 1.01 * a.h1) << element_name << epsilon;
+      EXPECT_LT(b.energy, 1.01 * a.energy) << element_name << epsilon;
+    }
+  };
+  stop("P1", structured_mesh(cells), structured_mesh(cells / 2));
+  stop("CR", unstructured_mesh(cells), unstructured_mesh(cells / 2));
+}
+
+TEST(Uzawa, TheDualityGapBoundsWhatIsLeft) {
+  const TriangleMesh mesh = unstructured_mesh(16);
+  for (const UnilateralContact& obstacle : {UnilateralContact{}, gap()}) {
+    // epsilon^2 > penalty: one matrix, no corrections, so that |u - u_h|_a^2 / 2 is below the gap to the last digit
+    const VariationalInequality problem = stiff_problem(Space(mesh, crouzeix_raviart()), 1e-2, obstacle);
+    const Eigen::VectorXd exact = active_set(problem).u;
+    UzawaOptions options;
+    int steps = 0;
+    for (const double energy : {1e-4, 1e-6, 1e-8, 1e-10}) {
+      options.enough = {energy, 1e-3};
+      const Solution s = uzawa(problem, options);
+      const Eigen::VectorXd e = s.u - exact, strain = problem.b * e;
+      const double left =
+          0.5 * (e.dot(problem.a1 * e) + strain.dot(problem.m.cwiseProduct(strain)) / problem.compliance);
+      EXPECT_LE(left, energy);
+      EXPECT_GE(s.counters.contact, steps) << "more asked, more steps";
+      steps = s.counters.contact;
+    }
+    EXPECT_GT(steps, 32);
+  }
+}
+
+TEST(Uzawa, WithThePapersLinearSolverDoesNotKnowWhatIsEnough) {
+  const TriangleMesh mesh = structured_mesh(4);
+  UzawaOptions options;
+  options.enough = {1e-6, 1e-3};
+  expect_refused([&] { uzawa_cg_ilut(stiff_problem(Space(mesh, p1()), 1), options); }, "options.enough");
 }
 
 TEST(Uzawa, KeepsOneEntryOfHistoryAStep) {

@@ -13,6 +13,14 @@
 namespace antilock {
 namespace {
 
+/// An upper bound of J(v+) - J(u_h) on Gamma_C, v+ = max(v, lower), for v = S^-1 (q + lambda) and any lambda >= 0: the
+/// energy of v+ less the dual energy of lambda, -(q + lambda) S^-1 (q + lambda) / 2 + lambda lower, which simplifies to
+///     lambda (v+ - lower) + d S d / 2,   d = v+ - v >= 0 what v sinks in.
+double duality_gap(const ContactProblem& p, const ContactAnswer& answer) {
+  const Eigen::VectorXd above = answer.v.cwiseMax(p.lower), d = above - answer.v;
+  return answer.lambda.dot(above - p.lower) + 0.5 * d.dot(p.s * d);
+}
+
 /// Uzawa on Gamma_C alone. The compliance C = S^-1 maps contact forces to displacements.
 class CondensedUzawa {
  public:
@@ -39,6 +47,7 @@ class CondensedUzawa {
     const Eigen::VectorXd unloaded = compliance_ * p.q;
     while (true) {
       answer.v = unloaded + compliance_ * answer.lambda;
+      if (options_.enough && answer.steps % 32 == 0 && duality_gap(p, answer) <= options_.enough->energy) break;
       const Eigen::VectorXd next = (answer.lambda - rho_ * (answer.v - p.lower)).cwiseMax(0.0);
       const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), p.u_scale);  // bounds far from v do not count
       const double change = scale > 0 ? (next - answer.lambda).cwiseAbs().maxCoeff() / rho_ / scale : 0;
@@ -74,9 +83,10 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
   CorrectionOptions corrections;
-  corrections.tolerance = std::max(options.tolerance, 1e-12);
+  const double asked = std::max(options.tolerance, options.enough ? options.enough->relative : 0);
+  corrections.tolerance = std::max(asked, 1e-12);
   // who asks for little gets little, with a warning: the last step bounds the gap within a factor
-  corrections.refused = std::max(corrections.refused, 10 * options.tolerance);
+  corrections.refused = std::max(corrections.refused, 10 * asked);
   if (problem.contact.empty()) return iterated_penalty(problem, factor, {}, corrections, "uzawa");
   CondensedUzawa contact(factor, options);
   Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");

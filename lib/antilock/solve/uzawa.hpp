@@ -8,12 +8,20 @@
 
 namespace antilock {
 
+/// An algebraic error not worth pushing further down; measure/accurate_enough.hpp says which.
+struct AccurateEnough {
+  double energy = 0;    ///< of J(v) - J(u_h), v = the iterate pushed out of the obstacle
+  double relative = 0;  ///< the same in u: of |v - u_h|_a relative to |u_h|_a
+};
+
 struct UzawaOptions {
   double tolerance = 1e-10;  ///< on the step in the gap, |lambda - max(0, lambda - rho gap)| / rho, relative to max |u|
   int max_steps = 1'000'000;                                     ///< reached: NotConverged
   double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock; reached: NotConverged
   std::optional<double>
       step;  ///< rho; empty: 2 / (largest + smallest eigenvalue of the compliance), estimated by power iteration
+  /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy.
+  std::optional<AccurateEnough> enough;
 };
 
 /// The paper's algorithm: projected gradient on the contact pressure,
@@ -27,7 +35,8 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
 /// The paper's algorithm with the paper's linear solver (Section 4.2): A1 + compliance^-1 B' M B summed into one
 /// matrix, one run of conjugate gradients preconditioned by ILUT a step. Kept to be compared against: the sum loses
 /// digits, and ILUT breaks down on stiff meshes that are not aligned with the layer, which is reported, never returned
-/// as an answer. Throws Error at compliance = 0, where the sum does not exist.
+/// as an answer. Throws Error at compliance = 0, where the sum does not exist, and for options.enough: the duality gap
+/// asks for the matrix condensed on Gamma_C.
 Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options = {});
 
 }  // namespace antilock

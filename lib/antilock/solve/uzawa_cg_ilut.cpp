@@ -51,6 +51,9 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   check(problem);
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa, CG + ILUT: step = {}; accepted: a positive number", *options.step));
+  if (options.enough)
+    throw Error(
+        "uzawa, CG + ILUT: options.enough asks for the condensed matrix; accepted: tolerance, or the solver uzawa");
   if (problem.b.rows() > 0 && problem.compliance == 0)
     throw Error(
         "uzawa, CG + ILUT: the summed matrix does not exist at epsilon = 0; accepted epsilon > 0, or the solver uzawa");
