@@ -127,6 +127,7 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
   if (options.cells < 2) throw Error("--cells 1: no vertex of the obstacle is free in x; accepted: 2 or more");
   report.stage("meshes");
   const std::vector<Method> methods = make_methods(options.cells);
+  write_freefem_mesh(options.out / "mesh.freefem.msh", methods.front().mesh);
   double patch = 0, worst = 0, least_locked = HUGE_VAL;
   int most_corrections = 0, floppy = 0, stiff = 0;
   std::string table, csv = "element,lambda,epsilon,force,corrections\n";

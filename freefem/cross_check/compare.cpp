@@ -16,6 +16,8 @@
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/problem/assemble.hpp"
+#include "antilock/problem/plane_strain.hpp"
+#include "antilock/problem/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "cross_check.hpp"
@@ -122,6 +124,57 @@ Line study(const Method& method, int cells, const std::filesystem::path& out) {
   return all;
 }
 
+std::string same_set(const Solution& ours, const Eigen::VectorXd& force) {
+  int disagree = 0;
+  for (Eigen::Index i = 0; i < force.size(); ++i) disagree += ours.active[i] != (force(i) != 0);
+  return disagree == 0 ? "same" : fmt::format("{} others", disagree);
+}
+
+/// The beam, both integrations, at epsilon = 1e-4.
+std::vector<Line> beams(int cells, const std::filesystem::path& out) {
+  freefem::run("19_beam", {"-cells", std::to_string(cells), "-epsilon", "1e-4", "-out", out / "freefem"});
+  const freefem::Table nodes = freefem::read_table(out / "freefem" / "beam.csv"),
+                       summary = freefem::read_table(out / "freefem" / "summary.csv");
+  std::vector<Line> lines;
+  for (const bool full : {true, false}) {
+    Beam beam;
+    beam.cells = cells;
+    beam.shear = full ? ShearIntegration::full : ShearIntegration::reduced;
+    const Solution ours = active_set(assemble(beam));
+    const std::string name = full ? "full" : "reduced";
+    const Eigen::VectorXd w = ours.u(Eigen::seqN(0, cells + 1, 2));
+    lines.push_back({"19_beam", fmt::format("{} integration, {} cells, epsilon = {:g}", name, cells, beam.epsilon),
+                     static_cast<int>(ours.u.size()),
+                     (w - nodes.column("w_" + name)).cwiseAbs().maxCoeff() / w.cwiseAbs().maxCoeff(),
+                     same_set(ours, nodes.column("force_" + name).segment(1, cells - 1)), ours.seconds.total(),
+                     summary.column("seconds")(full ? 1 : 0)});
+  }
+  return lines;
+}
+
+/// Nearly incompressible elasticity, lambda = 1e8, the elements that both sides have.
+std::vector<Line> elasticity(int cells, const std::filesystem::path& out) {
+  const TriangleMesh mesh = with_free_sides(structured_mesh(cells, Domain{0}));
+  PlaneStrain scene;
+  scene.gap = [](double x) { return (x - 0.5) * (x - 0.5); };
+  freefem::run_elasticity(mesh, scene.epsilon, out / "freefem");
+  std::vector<Line> lines;
+  const auto add = [&](const std::string& name, const std::string& what, const Element& in_x, const Element& in_y) {
+    const Space x(mesh, in_x), y(mesh, in_y);
+    scene.jump_weight = name == "P1nc" ? 1 : 0;
+    const Solution ours = active_set(assemble(scene, {x, y}));
+    const freefem::ElasticAnswer theirs = freefem::elastic_answer(out / "freefem", name, {x, y});
+    lines.push_back({"20_elasticity", fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon),
+                     static_cast<int>(ours.u.size()),
+                     (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff(),
+                     same_set(ours, theirs.force), ours.seconds.total(), theirs.seconds});
+  };
+  add("P1", "P1 and P1, locked", p1(), p1());
+  add("P1nc", "CR and CR with jumps", crouzeix_raviart(), crouzeix_raviart());
+  add("KS", "P1 and CR", p1(), crouzeix_raviart());
+  return lines;
+}
+
 /// FreeFEM with the plain sum: shown, not asked to agree.
 Line plain_sum(const Method& method, double epsilon, int cells, const std::filesystem::path& out) {
   const TriangleMesh mesh = make_mesh(method, cells);
@@ -182,6 +235,8 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
     write_vtu(out / "figure8_difference.vtu", space, both.theirs.u - both.ours.u);
   }
   for (const Method& method : methods) lines.push_back(study(method, cells, out));
+  for (const Line& line : beams(2 * cells, out)) lines.push_back(line);
+  for (const Line& line : elasticity(cells, out)) lines.push_back(line);
   for (const double e : {1e-2, 1e-4, 1e-6, 1e-8}) lines.push_back(plain_sum(methods[3], e, cells, out));
   return lines;
 }

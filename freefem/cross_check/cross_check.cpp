@@ -110,6 +110,29 @@ Answer solve(const std::string& script, const Space& space, double epsilon, cons
   return answer;
 }
 
+void run_elasticity(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder) {
+  const auto file = folder / "mesh.freefem.msh";
+  write_freefem_mesh(file, mesh);
+  run("20_elasticity", {"-mesh", file, "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+}
+
+ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space) {
+  const Table x = read_table(folder / (name + "_x.csv")), y = read_table(folder / (name + "_y.csv")),
+              summary = read_table(folder / (name + "_summary.csv"));
+  ElasticAnswer answer;
+  answer.u.resize(space.size());
+  answer.u << x.column("u")(match(space.x.points(), places(x))), y.column("u")(match(space.y.points(), places(y)));
+  answer.force = read_table(folder / (name + "_contact.csv")).column("pressure");
+  answer.energy = summary.column("energy")(0);
+  answer.residual = summary.column("residual")(0);
+  answer.seconds = summary.column("seconds")(0);
+  return answer;
+}
+
+double taylor_hood_force(const std::filesystem::path& folder) {
+  return read_table(folder / "TaylorHood_summary.csv").column("force")(0);
+}
+
 Comparison compare(const Space& space, const VariationalInequality& problem, const Solution& ours,
                    const Answer& theirs) {
   Comparison c;

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "antilock/form/elasticity_forms.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/solution.hpp"
@@ -36,6 +37,19 @@ struct Answer {
 /// Writes the mesh of `space` into `folder`, runs `script` (of 03 to 06) on it and reads its files.
 Answer solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
              const std::vector<std::string>& options = {});
+
+/// What 20_elasticity.edp found with one of its elements.
+struct ElasticAnswer {
+  Eigen::VectorXd u;      ///< u_x, then u_y, as the space numbers them
+  Eigen::VectorXd force;  ///< C, by x
+  double energy = 0, residual = 0, seconds = 0;
+};
+/// Runs 20_elasticity.edp on a mesh of the unit square with free sides; its files are in `folder` then.
+void run_elasticity(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
+/// Reads what it left there for the element `name`: P1, P1nc (with jumps) or KS.
+ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space);
+/// The contact force of Taylor-Hood there.
+double taylor_hood_force(const std::filesystem::path& folder);
 
 /// Our solution against theirs.
 struct Comparison {

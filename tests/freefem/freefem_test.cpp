@@ -13,6 +13,8 @@
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/problem/assemble.hpp"
+#include "antilock/problem/plane_strain.hpp"
+#include "antilock/problem/timoshenko_beam.hpp"
 #include "antilock/scene/error.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "cross_check.hpp"
@@ -179,6 +181,73 @@ TEST(FreeFemUzawa, FindsTheActiveSetsSolution) {
   }
 }
 
+// ---- the other members of the class
+
+class Beams : public ::testing::TestWithParam<double> {};
+
+// The same rows of B on both sides. With a penalty of 1e-8 both lose up to eight digits in the stress and none in u;
+// contact sets are equal, forces agree to what the condition number of 32 cells leaves.
+TEST_P(Beams, AgreeInDeflectionForceAndEnergyForBothIntegrations) {
+  const TemporaryFolder folder;
+  freefem::run("19_beam", {"-cells", "32", "-epsilon", std::to_string(GetParam()), "-out", folder.path()});
+  const freefem::Table nodes = freefem::read_table(folder / "beam.csv"),
+                       summary = freefem::read_table(folder / "summary.csv");
+  for (const bool full : {false, true}) {
+    Beam beam;
+    beam.cells = 32;
+    beam.epsilon = GetParam();
+    beam.shear = full ? ShearIntegration::full : ShearIntegration::reduced;
+    const VariationalInequality problem = assemble(beam);
+    const Solution ours = active_set(problem);
+    const Eigen::VectorXd w = nodes.column(full ? "w_full" : "w_reduced"),
+                          force = nodes.column(full ? "force_full" : "force_reduced");
+    ASSERT_EQ(w.size(), 33);
+    for (int i = 0; i <= 32; ++i) EXPECT_NEAR(w(i), ours.u(2 * i), 1e-9) << "node " << i;  // of a deflection of 1
+    for (int i = 1; i < 32; ++i) EXPECT_NEAR(force(i), ours.lambda(i - 1), 1e-6 * beam.load) << "node " << i;
+    EXPECT_NEAR(summary.column("energy")(full ? 1 : 0) / energy(problem, ours), 1, 1e-9);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(FreeFem, Beams, ::testing::Values(1e-2, 1e-4));
+
+class Elasticity : public ::testing::TestWithParam<double> {};
+
+TEST_P(Elasticity, AgreesOnTheSameMeshForEveryElementAndWithTaylorHood) {
+  const TriangleMesh mesh = with_free_sides(structured_mesh(16, Domain{0}));
+  const TemporaryFolder folder;
+  freefem::run_elasticity(mesh, GetParam(), folder.path());
+  const double truth = freefem::taylor_hood_force(folder.path());
+  struct Row {
+    const char* name;
+    const Element &x, &y;
+    double jumps, percent;  // how far the force is from Taylor-Hood's; infinity: it locks
+  };
+  for (const Row& row : {Row{"P1", p1(), p1(), 0, HUGE_VAL}, Row{"P1nc", crouzeix_raviart(), crouzeix_raviart(), 1, 1},
+                         Row{"KS", p1(), crouzeix_raviart(), 0, 1}}) {
+    SCOPED_TRACE(row.name);
+    const Space x(mesh, row.x), y(mesh, row.y);
+    PlaneStrain scene;
+    scene.epsilon = GetParam();
+    scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
+    scene.jump_weight = row.jumps;
+    const VariationalInequality problem = assemble(scene, {x, y});
+    const Solution ours = active_set(problem);
+    const freefem::ElasticAnswer theirs = freefem::elastic_answer(folder.path(), row.name, {x, y});
+    // both sides stop at corrections of 1e-10 of u; 1e-8 as for the scalar problem
+    EXPECT_LE((ours.u - theirs.u).cwiseAbs().maxCoeff(), 1e-8 * ours.u.cwiseAbs().maxCoeff());
+    ASSERT_EQ(theirs.force.size(), ours.lambda.size());
+    EXPECT_LE((ours.lambda - theirs.force).cwiseAbs().maxCoeff(), 1e-7 * ours.lambda.maxCoeff());
+    EXPECT_NEAR(theirs.energy / energy(problem, ours), 1, 1e-8);
+    EXPECT_LE(theirs.residual, 1e-10);
+    const double percent = 100 * std::abs(ours.lambda.sum() / truth - 1);
+    if (std::isfinite(row.percent)) {
+      EXPECT_LE(percent, row.percent);
+    } else if (GetParam() <= 1e-4) {
+      EXPECT_GE(percent, 100);
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(FreeFem, Elasticity, ::testing::Values(1.0, 1e-4, 1e-8, 0.0));
+
 TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> scripts{
       {"01_domain", {"mesh.freefem.msh", "before.freefem.msh"}},
@@ -190,6 +259,8 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"07_convergence", {"results.csv"}},
       {"09_effects", {"effects.csv"}},
       {"16_energy_bracket", {"results.csv"}},
+      {"19_beam", {"beam.csv", "summary.csv"}},
+      {"20_elasticity", {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
     const TemporaryFolder folder;
