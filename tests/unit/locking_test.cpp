@@ -6,7 +6,10 @@
 #include <map>
 
 #include "antilock/exact/truth.hpp"
+#include "antilock/form/forms.hpp"
 #include "antilock/measure/errors.hpp"
+#include "antilock/measure/inf_sup.hpp"
+#include "antilock/mesh/refine.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "support/scenes.hpp"
 
@@ -127,6 +130,64 @@ TEST(Locking, TheEnergyBracketsTheTruthAndDoesNotCloseWhereItLocks) {
     EXPECT_NEAR(above(mesh, crouzeix_raviart()) / row.cr_unstructured, 1, 0.2) << row.cells;
     EXPECT_NEAR(above(mesh, p1()) / row.p1_unstructured, 1, 0.2) << row.cells;
   }
+}
+
+/// Broken H1 seminorm.
+SparseMatrix h1_seminorm(const Space& space) { return gradient_form(space, {1, 1}, {1, 1}); }
+Eigen::MatrixXd seen_by(const Space& space, int merged = 1) {
+  return multiplier_gram(stiff_problem(space, 0), h1_seminorm(space), merged);
+}
+
+TEST(InfSup, OfCrouzeixRaviartIsAtLeastOneInTheDualNorm) {
+  // Lemma 2: grad I_h v = mean of grad v, so that I_h does not enlarge the norm. A larger V only lowers the constant.
+  for (const test::NamedMesh& mesh : test::two_square_meshes(4)) {
+    const TriangleMesh fine = refined(mesh.mesh), finer = refined(fine);
+    const Space space(mesh.mesh, crouzeix_raviart()), quadratic(fine, p2()), linear(finer, p1());
+    EXPECT_GE(inf_sup(seen_by(space), seen_by(linear, 16)), 1 - 1e-10) << mesh.name;
+    // P2 has three rows of B a triangle, its quadrature points; four triangles inside their father
+    EXPECT_GE(inf_sup(seen_by(space), seen_by(quadratic, 12)), 1 - 1e-10) << mesh.name;
+  }
+}
+
+TEST(InfSup, InL2FallsLikeH) {
+  const auto constant = [](int cells) {
+    const TriangleMesh mesh = structured_mesh(cells);
+    const Space space(mesh, crouzeix_raviart());
+    return inf_sup(seen_by(space), stiff_problem(space, 0).m.asDiagonal());
+  };
+  EXPECT_NEAR(constant(4) / constant(8), 2, 0.25);  // 1.82 measured: the order comes with h
+}
+
+TEST(InfSup, IsZeroWhereRowsOfBDependOnEachOther) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  EXPECT_EQ(inf_sup(seen_by(space), stiff_problem(space, 0).m.asDiagonal()), 0);
+}
+
+TEST(InfSup, RefusesWhatDoesNotFit) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  test::expect_refused([&] { seen_by(space, 5); }, "5 a multiplier");
+  test::expect_refused([&] { multiplier_gram(stiff_problem(space, 0), SparseMatrix(3, 3)); }, "the norm is 3 x 3");
+  const Eigen::MatrixXd seen = seen_by(space);
+  test::expect_refused([&] { inf_sup(seen, 0 * seen); }, "not positive definite");
+}
+
+TEST(Locking, ComesWithTheFirstJitterAndGrowsWithItsShareOfEpsilon) {
+  // At fixed h a function of x alone is missed by t h, at the price (t h / epsilon)^2: the answer knows t / epsilon
+  // alone, up to the change of the mesh itself, of order t.
+  const auto on_layer = [](double t, double epsilon) {
+    const TriangleMesh mesh = jittered_mesh(8, t);
+    const Space space(mesh, p1());
+    EXPECT_EQ(kernel_dimension(space), 0) << t;
+    return largest_on_layer(space, active_set(stiff_problem(space, epsilon))) / layer_displacement;
+  };
+  const double some = on_layer(1e-3, 1e-3), half = on_layer(1e-2, 1e-3), most = on_layer(1e-1, 1e-3);
+  EXPECT_NEAR(on_layer(1e-4, 1e-4), some, 1e-3);
+  EXPECT_NEAR(on_layer(1e-3, 1e-4), half, 1e-2);
+  EXPECT_GT(some, 0.9);
+  EXPECT_NEAR(half, 0.3, 0.2);  // t h = 1.25 epsilon: neither all nor nothing
+  EXPECT_LT(most, 0.05);
 }
 
 }  // namespace

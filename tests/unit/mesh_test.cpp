@@ -11,6 +11,7 @@
 #include <set>
 
 #include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/refine.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -244,6 +245,35 @@ TEST(Mesh, StructuredIsTheTransfiniteMeshOfGmsh) {
     }
     EXPECT_EQ(shape, transfinite(6, arrangement)) << arrangement;
   }
+}
+
+TEST(Mesh, RefinedKeepsAreasTagsAndFathers) {
+  for (const auto& [name, mesh] : test::two_square_meshes(3)) {
+    const TriangleMesh fine = refined(mesh);
+    ASSERT_EQ(fine.triangle_count(), 4 * mesh.triangle_count()) << name;
+    for (int t = 0; t < fine.triangle_count(); ++t) {
+      EXPECT_EQ(fine.region[t], mesh.region[t / 4]) << name;
+      EXPECT_NEAR(fine.area(t), mesh.area(t / 4) / 4, 1e-15) << name;  // round-off of coordinates of size 1
+    }
+    for (const EdgeTag tag : {EdgeTag::sigma, EdgeTag::clamped, EdgeTag::contact})
+      EXPECT_NEAR(length(fine, tag), length(mesh, tag), 1e-14) << name;
+  }
+  // the structured family is nested: the refined one is the next
+  const TriangleMesh fine = refined(structured_mesh(4)), next = structured_mesh(8);
+  EXPECT_EQ(fine.vertex_count(), next.vertex_count());
+  EXPECT_EQ(fine.edge_count(), next.edge_count());
+  EXPECT_NEAR(fine.diameter(), next.diameter(), 1e-15);
+}
+
+TEST(Mesh, JitterMovesTheInsideAloneAndTurnsNoTriangleOver) {
+  const TriangleMesh straight = structured_mesh(16), moved = jittered_mesh(16, 0.2), less = jittered_mesh(16, 0.1);
+  EXPECT_EQ(jittered_mesh(16, 0).vertices, straight.vertices);
+  EXPECT_LT((moved.vertices - straight.vertices - 2 * (less.vertices - straight.vertices)).norm(), 1e-13);
+  EXPECT_LE((moved.vertices - straight.vertices).cwiseAbs().maxCoeff(), 0.2 / 16);
+  for (int t = 0; t < moved.triangle_count(); ++t) EXPECT_GT(moved.twice_area(t), 0);
+  for (const EdgeTag tag : {EdgeTag::sigma, EdgeTag::clamped, EdgeTag::contact})
+    EXPECT_EQ(length(moved, tag), length(straight, tag));
+  expect_refused([] { jittered_mesh(4, 0.3); }, "jitter 0.3");
 }
 
 TEST(Mesh, RefusesRequestsOutOfRange) {

@@ -20,6 +20,11 @@ void check_mesh_request(int cells, int most, const Domain& domain);
 /// cells <= 2048.
 TriangleMesh structured_mesh(int cells, const Domain& domain = {}, Diagonal diagonal = Diagonal::right);
 
+/// The structured mesh with every vertex off Sigma and off the boundary moved by up to amount * h in x and in y, at
+/// random: the same directions at every call, whatever the amount. Throws Error unless 0 <= amount <= 0.2 (beyond, a
+/// triangle may turn over).
+TriangleMesh jittered_mesh(int cells, double amount);
+
 /// The unstructured mesh of Figure 6, by gmsh (Frontal-Delaunay, one thread, fixed seed): the same mesh at every call.
 /// In a thin layer the cells shrink to half its depth. Throws Error unless 1 <= cells <= 512.
 TriangleMesh unstructured_mesh(int cells, const Domain& domain = {});
