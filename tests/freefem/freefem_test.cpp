@@ -161,6 +161,31 @@ TEST(PlainSum, HasNothingLeftAtEpsilon1eMinus8) {
   }
 }
 
+// 08_roundoff: UMFPACK adds no tolerance of its own, so the drift follows the digits that the sum has lost, a small
+// multiple of 1e-16 epsilon^-2, until nothing is left at 1e-8; the split form, the cure, does not see epsilon at all.
+TEST(PlainSum, LosesTheDigitsThatTheSplitFormKeeps) {
+  for (const char* element : {"P1", "P1nc"}) {
+    const TemporaryFolder folder;
+    freefem::run("08_roundoff", {"-element", element, "-out", folder.path().string()});
+    const freefem::Table table = freefem::read_table(folder / "results.csv");
+    const Eigen::VectorXd epsilon = table.column("epsilon"), difference = table.column("difference");
+    ASSERT_EQ(epsilon.size(), 17);
+    EXPECT_LT(table.column("residual_split").maxCoeff(), 1e-12) << element;
+    for (Eigen::Index k = 0; k < epsilon.size(); ++k) {
+      const double lost = 1e-16 / (epsilon(k) * epsilon(k));
+      if (epsilon(k) > 3e-7) {
+        EXPECT_LT(difference(k), 1e4 * lost) << element << " at " << epsilon(k);  // 1e4: condition of A1 on 1/h = 16
+      }
+      if (epsilon(k) < 3e-6) {
+        EXPECT_GT(difference(k), 1e-6) << element << " at " << epsilon(k);
+      }
+      if (epsilon(k) < 3e-8) {
+        EXPECT_GT(difference(k), 0.1) << element << " at " << epsilon(k) << ": garbage";
+      }
+    }
+  }
+}
+
 TEST(PlainSum, IsRefusedAtEpsilon0) {
   const TemporaryFolder folder;
   EXPECT_THROW(freefem::run("04_p1_structured", {"-stiff", "sum", "-epsilon", "0", "-out", folder.path()}), Error);

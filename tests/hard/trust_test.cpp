@@ -86,7 +86,7 @@ TEST_P(Trust, TheSignsAreReportedApart) {
 
 TEST_P(Trust, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
   Solution slightly = solution_;
-  slightly.u *= 1 + 1e-7;
+  slightly.u *= 1 + 1e-8;
   certify(problem_, slightly);
   EXPECT_NE(slightly.warning.find("trusted 1e-09"), std::string::npos) << slightly.warning;
   EXPECT_EQ(slightly.warning.find('\n'), std::string::npos) << "one line";
@@ -104,6 +104,18 @@ TEST_P(Trust, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
     EXPECT_NE(std::string(refusal.what()).find("active set: answer refused"), std::string::npos) << refusal.what();
     EXPECT_GT(refusal.reached, 1e-6);
   }
+}
+
+// The terms of A1 u are h^-2 times larger than the forces they balance: an error must not hide behind them.
+TEST_P(Trust, AWrongAnswerIsRefusedOnAFineMeshToo) {
+  const TriangleMesh mesh = structured_mesh(128);
+  const Space space(mesh, p1());
+  const VariationalInequality problem =
+      assemble(Scene({paper_load}, StiffLayer{GetParam()}, UnilateralContact{}), space);
+  Solution wrong = active_set(problem);
+  EXPECT_TRUE(wrong.warning.empty());
+  wrong.u *= 1 + 1e-5;
+  EXPECT_THROW(certify(problem, wrong), NotConverged);
 }
 
 // Scale-free: load and answer multiplied by a power of two give the same report bit for bit, right or wrong.

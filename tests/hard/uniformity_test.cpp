@@ -5,6 +5,7 @@
 #include <Eigen/SPQRSupport>
 #include <Eigen/UmfPackSupport>
 #include <array>
+#include <cstdlib>
 
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/mesh/generate.hpp"
@@ -17,7 +18,7 @@ namespace antilock::hard {
 namespace {
 
 constexpr std::array every_epsilon{1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-16, 1e-20, 0.0};
-constexpr std::array few_epsilons{1e-6, 0.0};  // where a solve takes long
+constexpr std::array few_epsilons{1e-6, 0.0};  // 1/h = 256, where a solve takes long
 
 struct Case {
   const char* element;
@@ -40,7 +41,11 @@ class Uniformity : public testing::TestWithParam<Case> {
       : mesh_(GetParam().structured ? structured_mesh(GetParam().cells) : unstructured_mesh(GetParam().cells)),
         space_(mesh_, element(GetParam().element)) {}
   std::vector<double> epsilons() const {
-    if (GetParam().cells > 64) return {few_epsilons.begin(), few_epsilons.end()};
+    if (GetParam().cells > 64 && std::getenv("ANTILOCK_THOROUGH") == nullptr) {
+      // where P1 has locked, every contact set but one is off by round-off: the reference searches for minutes
+      if (GetParam().locks()) return {1e-2};
+      return {few_epsilons.begin(), few_epsilons.end()};
+    }
     return {every_epsilon.begin(), every_epsilon.end()};
   }
   TriangleMesh mesh_;
@@ -72,7 +77,7 @@ INSTANTIATE_TEST_SUITE_P(Paper, Uniformity,
                          testing::Values(Case{"P1", true, 16}, Case{"CR", true, 16}, Case{"P1", false, 16},
                                          Case{"CR", false, 16}, Case{"P1", true, 64}, Case{"CR", true, 64},
                                          Case{"P1", false, 64}, Case{"CR", false, 64}, Case{"P1", true, 256},
-                                         Case{"CR", true, 256}),
+                                         Case{"CR", true, 256}, Case{"P1", false, 256}, Case{"CR", false, 256}),
                          name);
 
 using SmallUniformity = Uniformity;

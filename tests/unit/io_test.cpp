@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <charconv>
@@ -74,6 +75,13 @@ TEST(WriteFile, AFailureHalfWayLeavesTheOldFileAndNothingElse) {
   EXPECT_EQ(refusal([&] { write_file(folder / "new.txt", fails); }), "half way");
   EXPECT_EQ(contents(folder / "kept.txt"), "old");
   EXPECT_EQ(folder.file_count(), 1);
+}
+
+TEST(WriteFile, ADeviceIsNotReplacedByAFile) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_NE(refusal([&] { write_file(folder / "pipe", [](std::ostream&) {}); }).find("a pipe"), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
 }
 
 TEST(WriteFile, AFullDiskIsReportedAndLeavesNothing) {

@@ -7,6 +7,7 @@
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/accurate_enough.hpp"
 #include "antilock/measure/contact_zone.hpp"
+#include "antilock/measure/eigenvalues.hpp"
 #include "antilock/measure/energy_bracket.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -247,6 +248,19 @@ TEST(AccurateEnough, FollowsTheBracket) {
     EXPECT_EQ(accurate_enough(nothing).energy, 0);
     EXPECT_EQ(accurate_enough(nothing).relative, 0);
   }
+}
+
+// The second difference matrix of n unknowns has the eigenvalues 2 - 2 cos(k pi / (n + 1)).
+TEST(Eigenvalues, OfTheSecondDifferenceAreThoseOfTheFormula) {
+  constexpr int n = 200;
+  SparseMatrix upper(n, n);
+  for (int i = 0; i < n; ++i) {
+    if (i > 0) upper.insert(i - 1, i) = -1;
+    upper.insert(i, i) = 2;
+  }
+  const auto value = [](int k) { return 2 - 2 * std::cos(k * M_PI / (n + 1)); };
+  EXPECT_NEAR(largest_eigenvalue(upper) / value(n), 1, 1e-5);  // the iteration stops at 1e-6
+  EXPECT_NEAR(smallest_eigenvalue(upper) / value(1), 1, 1e-5);
 }
 
 }  // namespace

@@ -52,6 +52,8 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
   if (path.has_parent_path()) fs::create_directories(path.parent_path(), error);
   if (error) refuse(path, error.message());
   if (fs::is_directory(path, error)) refuse(path, "it is a folder");
+  // the rename below would put a plain file in its place
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse(path, "it is a device, a pipe or a socket");
 
   const Unfinished unfinished(path);
   errno = 0;

@@ -8,14 +8,6 @@
 #include "antilock/scene/error.hpp"
 
 namespace antilock {
-namespace {
-
-std::string at(const TriangleMesh& mesh, int vertex) {
-  return fmt::format("({:.6g}, {:.6g})", mesh.vertices(vertex, 0), mesh.vertices(vertex, 1));
-}
-
-}  // namespace
-
 void number_edges(TriangleMesh& mesh, const std::string& where) {
   const int triangle_count = mesh.triangle_count();
   // Half-edges in buckets by their smaller vertex: each bucket holds a handful, so that matching the halves is linear.
@@ -51,7 +43,7 @@ void number_edges(TriangleMesh& mesh, const std::string& where) {
       } else {
         if (mesh.edge_triangles(found->id, 1) != -1)
           throw Error(fmt::format("{}: three triangles share the edge from {} to {}; accepted: two at most", where,
-                                  at(mesh, from), at(mesh, to)));
+                                  mesh.place(from), mesh.place(to)));
         mesh.edge_triangles(found->id, 1) = t;
         mesh.triangle_edges(t, i) = found->id;
       }
@@ -82,11 +74,11 @@ void tag_edges(TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, 
       throw Error(fmt::format(
           "{}: the tagged edge from {} to {} is dangling or misplaced; accepted: clamped and contact on the "
           "boundary, sigma between body and layer",
-          where, at(mesh, tagged.from), at(mesh, tagged.to)));
+          where, mesh.place(tagged.from), mesh.place(tagged.to)));
     EdgeTag& tag = mesh.edge_tag[found->second];
     if (tag != EdgeTag::interior && tag != tagged.tag)
       throw Error(fmt::format("{}: the edge from {} to {} is in two groups; accepted: one of clamped, contact", where,
-                              at(mesh, tagged.from), at(mesh, tagged.to)));
+                              mesh.place(tagged.from), mesh.place(tagged.to)));
     tag = tagged.tag;
   }
 }

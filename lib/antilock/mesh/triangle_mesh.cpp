@@ -12,13 +12,9 @@
 namespace antilock {
 namespace {
 
-std::string at(const TriangleMesh& mesh, int vertex) {
-  return fmt::format("({:.6g}, {:.6g})", mesh.vertices(vertex, 0), mesh.vertices(vertex, 1));
-}
-
 std::string triangle_at(const TriangleMesh& mesh, int t) {
   const auto& v = mesh.triangles;
-  return fmt::format("triangle {} {} {}", at(mesh, v(t, 0)), at(mesh, v(t, 1)), at(mesh, v(t, 2)));
+  return fmt::format("triangle {} {} {}", mesh.place(v(t, 0)), mesh.place(v(t, 1)), mesh.place(v(t, 2)));
 }
 
 void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
@@ -46,7 +42,7 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
   const auto unused = std::find(used.begin(), used.end(), 0);
   if (unused != used.end())
     throw Error(fmt::format("{}: the vertex at {} is dangling: it belongs to no triangle", where,
-                            at(mesh, static_cast<int>(unused - used.begin()))));
+                            mesh.place(static_cast<int>(unused - used.begin()))));
   // Duplicates are neighbours once sorted by x then y.
   std::vector<int> order(mesh.vertex_count());
   std::iota(order.begin(), order.end(), 0);
@@ -56,7 +52,7 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
   for (std::size_t i = 1; i < order.size(); ++i)
     if (p.row(order[i]) == p.row(order[i - 1]))
       throw Error(fmt::format("{}: two vertices share the place {}: a crack; accepted: one vertex a place", where,
-                              at(mesh, order[i])));
+                              mesh.place(order[i])));
 }
 
 /// A surface that gmsh oriented downwards is turned round as a whole; a single inverted triangle is an error.
@@ -122,15 +118,15 @@ void check_boundary(const TriangleMesh& mesh, const std::string& where) {
   const int first = untagged.front();
   const auto refuse_hanging = [&](int v, int e) {
     if (hangs(mesh, v, e))
-      throw Error(fmt::format("{}: the vertex at {} hangs on the edge from {} to {}", where, at(mesh, v),
-                              at(mesh, mesh.edges(e, 0)), at(mesh, mesh.edges(e, 1))));
+      throw Error(fmt::format("{}: the vertex at {} hangs on the edge from {} to {}", where, mesh.place(v),
+                              mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1))));
   };
   // the likely reason: the first of them is the long side of a hanging vertex, or one of the short ones
   for (int v = 0; v < mesh.vertex_count(); ++v) refuse_hanging(v, first);
   for (const int e : untagged)
     for (int end = 0; end < 2; ++end) refuse_hanging(mesh.edges(first, end), e);
   throw Error(fmt::format("{}: the boundary edge from {} to {} is in no group; accepted: clamped or contact", where,
-                          at(mesh, mesh.edges(first, 0)), at(mesh, mesh.edges(first, 1))));
+                          mesh.place(mesh.edges(first, 0)), mesh.place(mesh.edges(first, 1))));
 }
 
 /// A piece that no clamped edge holds could move freely: the problem would be singular.
@@ -165,6 +161,10 @@ double TriangleMesh::twice_area(int t) const {
 }
 
 double TriangleMesh::edge_length(int e) const { return (vertices.row(edges(e, 0)) - vertices.row(edges(e, 1))).norm(); }
+
+std::string TriangleMesh::place(int vertex) const {
+  return fmt::format("({:.6g}, {:.6g})", vertices(vertex, 0), vertices(vertex, 1));
+}
 
 double TriangleMesh::diameter() const {
   double longest = 0;

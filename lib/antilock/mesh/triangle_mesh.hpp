@@ -31,6 +31,8 @@ struct TriangleMesh {
   double twice_area(int triangle) const;
   double area(int triangle) const { return 0.5 * twice_area(triangle); }
   double edge_length(int edge) const;
+  /// Where a vertex is, "(x, y)", for messages.
+  std::string place(int vertex) const;
   /// The longest edge: the paper's h (1/cells times sqrt(2) on a structured mesh).
   double diameter() const;
 };
@@ -41,11 +43,12 @@ struct TaggedEdge {
   EdgeTag tag;
 };
 
-/// Numbers the edges and checks everything a finite element relies on; inverted triangles are turned round.
+/// Numbers the edges and checks everything a finite element relies on; a region whose triangles all turn the wrong way
+/// is turned round.
 /// `where` opens every message (a file name, or what made the mesh). Throws Error for: indices out of range, values
-/// not finite, degenerate triangles (twice the area below 1e-14 of the longest edge squared), duplicate or unused
-/// vertices, hanging nodes, edges of three triangles or of overlapping ones, boundary edges without the tag clamped
-/// or contact, tagged edges that are no edge of the mesh, no body, no clamped edge.
+/// not finite, a single inverted triangle, degenerate triangles (twice the area below 1e-14 of the longest edge
+/// squared), duplicate or unused vertices, hanging nodes, edges of three triangles or of overlapping ones, boundary
+/// edges without the tag clamped or contact, tagged edges that are no edge of the mesh, no body, no clamped edge.
 TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
                                 const std::vector<TaggedEdge>& tagged_edges, const std::string& where);
 

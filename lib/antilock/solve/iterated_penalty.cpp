@@ -13,7 +13,8 @@
 namespace antilock {
 namespace {
 
-double largest(const Eigen::VectorXd& v) { return v.size() == 0 ? 0.0 : v.cwiseAbs().maxCoeff(); }
+constexpr int patience = 15;              // corrections before a change of means: a factor costs about as much
+constexpr double smallest_delta = 1e-13;  // below, K has too few digits of A1 left to contract at all
 
 /// One correction: du on all unknowns, and the contact forces, from the residual r on the free places.
 Eigen::VectorXd correct(const VariationalInequality& problem, PenaltyFactor& factor, const Eigen::VectorXd& u,
@@ -40,12 +41,18 @@ Eigen::VectorXd correct(const VariationalInequality& problem, PenaltyFactor& fac
   return du;
 }
 
+/// S = L_C L_C', C x C.
+Eigen::MatrixXd contact_schur(const PenaltyFactor& factor) {
+  const Eigen::MatrixXd& block = factor.contact_block();
+  return block.triangularView<Eigen::Lower>() * block.transpose();
+}
+
 }  // namespace
 
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name) {
   const auto rows = problem.b.rows();
-  const double delta = factor.delta();
+  double delta = factor.delta();
   Solution s;
   s.solver = name;
   s.u = Eigen::VectorXd::Zero(problem.size());
@@ -55,27 +62,43 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   const Eigen::VectorXd no_force;
   const int solves_before = factor.solves;
 
-  Eigen::MatrixXd schur;
   Stopwatch watch;
-  if (!problem.contact.empty()) {
-    const auto l = factor.contact_block().triangularView<Eigen::Lower>();
-    schur = l * factor.contact_block().transpose();
-    s.seconds.contact += watch.lap();
-  }
+  Eigen::MatrixXd schur = contact_schur(factor);
+  s.seconds.contact += watch.lap();
 
   Anderson acceleration(6);
   ContactAnswer answer;
   const double b_scale =
-      rows > 0 ? Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff() : 0;
+      rows > 0 ? Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff()
+               : 0;
   double u_scale = 0, before = 0, error = 1, gap = 1;
+  int since_change = 0;  // corrections with these means
+  bool careful = false;  // residuals in long double
   for (int correction = 0;; ++correction) {
     if (correction > options.max_corrections)
       throw NotConverged(
-          fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative error of u is {:.1e} "
-                      "and compliance p = B u holds to {:.1e}, accepted {:.0e}",
-                      name, correction - 1, error, gap, options.tolerance),
+          fmt::format(
+              "{}: not converged, or infeasible: after {} corrections the estimated relative error of u is {:.1e} "
+              "and compliance p = B u holds to {:.1e}, accepted {:.0e}",
+              name, correction - 1, error, gap, options.tolerance),
           std::max(error, gap), correction - 1);
-    SplitResidual residual = split_residual(problem, s.u, s.p, no_force);
+    if (since_change > patience) {
+      // Where du no longer falls it drowns in the round-off of the residual (slivers): more digits help. Where it falls
+      // slowly, cells are far narrower than the mean: a smaller delta helps.
+      const bool falling = before < 0.5 * s.history[s.history.size() - 6];
+      const double smaller = std::max({problem.compliance, delta / 64, smallest_delta});
+      if ((falling || careful) && smaller < delta) {
+        factor.refactor(problem, delta = smaller);
+        schur = contact_schur(factor);
+      } else {
+        careful = true;
+      }
+      acceleration.restart();
+      since_change = 0;
+    }
+    ++since_change;
+    SplitResidual residual =
+        careful ? extended_residual(problem, s.u, s.p, no_force) : split_residual(problem, s.u, s.p, no_force);
     if (rows > 0) residual.r1 += problem.b.transpose() * problem.m.cwiseProduct(residual.r2) / delta;
     const Eigen::VectorXd r = residual.r1(factor.numbering().unknown);
     const std::vector<bool> active_before = answer.active;
@@ -87,15 +110,15 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
       s.p += dp;
     }
     // du contracts like the error; the error left behind is du rate / (1 - rate)
-    u_scale = std::max(u_scale, largest(s.u));
-    const double change = u_scale > 0 ? largest(du) / u_scale : 0;
+    u_scale = std::max(u_scale, s.u.lpNorm<Eigen::Infinity>());
+    const double change = u_scale > 0 ? du.lpNorm<Eigen::Infinity>() / u_scale : 0;
     s.history.push_back(change);
     if (!std::isfinite(change))
       throw NotConverged(name + ": the iterated penalty broke down (not a number)", change, correction);
     s.counters.corrections = correction;
     if (rows == 0 || u_scale == 0) break;  // K is the problem's own matrix: nothing was penalised
     // what compliance p - B u comes to now: where no u meets the bounds and B u = 0, u settles and this does not
-    gap = std::abs(problem.compliance - delta) * largest(dp) / (b_scale * u_scale);
+    gap = std::abs(problem.compliance - delta) * dp.lpNorm<Eigen::Infinity>() / (b_scale * u_scale);
     if (correction > 0) {
       const double rate = std::clamp(change / before, 0.01, 0.99);
       error = change * rate / (1 - rate);

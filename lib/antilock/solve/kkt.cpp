@@ -11,22 +11,47 @@
 namespace antilock {
 namespace {
 
-double largest(const Eigen::VectorXd& v) { return v.size() == 0 ? 0.0 : v.cwiseAbs().maxCoeff(); }
-
 double ratio(double value, double scale) {
   return value == 0 ? 0.0 : value / scale;
 }  // 0 / 0 is a condition met exactly
+
+/// The largest displacement that a load would give its unknown if all the others were held: a scale, from below.
+double single_displacement(const VariationalInequality& problem) {
+  const Eigen::VectorXd diagonal = problem.a1.diagonal();
+  double most = 0;
+  for (Eigen::Index i = 0; i < diagonal.size(); ++i)
+    if (diagonal(i) > 0) most = std::max(most, std::abs(problem.load(i)) / diagonal(i));
+  return most;
+}
+
+/// The residual with every product and sum in Scalar, rounded once at the end.
+template <class Scalar>
+SplitResidual residual_in(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
+                          const Eigen::VectorXd& lambda) {
+  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  const Vector wide_u = u.cast<Scalar>(), wide_p = p.cast<Scalar>();
+  Vector r1 = problem.load.cast<Scalar>();
+  r1 -= problem.a1.cast<Scalar>() * wide_u;
+  if (problem.b.rows() > 0) {
+    const Vector stress = problem.m.cast<Scalar>().cwiseProduct(wide_p);
+    r1 -= problem.b.cast<Scalar>().transpose() * stress;
+  }
+  for (Eigen::Index i = 0; i < lambda.size(); ++i) r1(problem.contact[i]) += lambda(i);
+  Vector r2 = static_cast<Scalar>(problem.compliance) * wide_p;
+  r2 -= problem.b.cast<Scalar>() * wide_u;
+  return {r1.template cast<double>(), r2.template cast<double>()};
+}
 
 }  // namespace
 
 SplitResidual split_residual(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
                              const Eigen::VectorXd& lambda) {
-  SplitResidual r;
-  r.r1 = problem.load - problem.a1 * u;
-  if (problem.b.rows() > 0) r.r1 -= problem.b.transpose() * problem.m.cwiseProduct(p);
-  for (Eigen::Index i = 0; i < lambda.size(); ++i) r.r1(problem.contact[i]) += lambda(i);
-  r.r2 = problem.compliance * p - problem.b * u;
-  return r;
+  return residual_in<double>(problem, u, p, lambda);
+}
+
+SplitResidual extended_residual(const VariationalInequality& problem, const Eigen::VectorXd& u,
+                                const Eigen::VectorXd& p, const Eigen::VectorXd& lambda) {
+  return residual_in<long double>(problem, u, p, lambda);
 }
 
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
@@ -37,18 +62,27 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
     return kkt;
   }
   SplitResidual r = split_residual(problem, u, p, lambda);
-  for (const int i : problem.fixed) r.r1(i) = 0;  // the reaction of the clamp, not an error
+  double reaction = 0;
+  for (const int i : problem.fixed) {  // what the clamp bears: a force, not an error
+    reaction = std::max(reaction, std::abs(r.r1(i)));
+    r.r1(i) = 0;
+  }
   Eigen::VectorXd terms = problem.a1.cwiseAbs() * u.cwiseAbs() + problem.load.cwiseAbs();
   double b_largest = 0;
   if (problem.b.rows() > 0) {
     terms += problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(p.cwiseAbs());
     b_largest = Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff();
   }
-  // a locked u may tend to 0: then the bounds tell what is large
-  const double u_largest = largest(u), u_scale = std::max(u_largest, largest(problem.lower));
-  const double f_scale = std::max(largest(problem.load), largest(lambda));
-  kkt.residual = std::max(ratio(largest(r.r1), largest(terms)),
-                          ratio(largest(r.r2), std::max(b_largest * u_scale, problem.compliance * largest(p))));
+  const double u_largest = u.lpNorm<Eigen::Infinity>(),
+               u_scale = std::max(u_largest, problem.lower.lpNorm<Eigen::Infinity>());
+  const double f_scale = std::max(problem.load.lpNorm<Eigen::Infinity>(), lambda.lpNorm<Eigen::Infinity>());
+  // a locked u may tend to 0: then the bounds tell what is large, or what the loads would do to one free unknown
+  double b_scale = b_largest * std::max(u_scale, single_displacement(problem));
+  b_scale = std::max(b_scale, problem.compliance * p.lpNorm<Eigen::Infinity>());
+  // 1e-6 of the terms: where the forces themselves are round-off, as of a rigid displacement
+  kkt.residual = std::max(
+      ratio(r.r1.lpNorm<Eigen::Infinity>(), std::max({f_scale, reaction, 1e-6 * terms.lpNorm<Eigen::Infinity>()})),
+      ratio(r.r2.lpNorm<Eigen::Infinity>(), b_scale));
   // the prescribed values hold exactly or not at all
   for (std::size_t i = 0; i < problem.fixed.size(); ++i)
     if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))

@@ -11,11 +11,15 @@ struct SplitResidual {
 };
 SplitResidual split_residual(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
                              const Eigen::VectorXd& lambda);
+/// The same in long double, for corrections that round-off in the residual itself keeps from settling (slivers).
+SplitResidual extended_residual(const VariationalInequality& problem, const Eigen::VectorXd& u,
+                                const Eigen::VectorXd& p, const Eigen::VectorXd& lambda);
 
-/// The report, each number relative to what the terms of its condition are made of, so that scaling the load by any
-/// factor leaves it unchanged: r1 against max(|A1| |u| + |B'| M |p| + |L|), r2 against max|B| max|u| and compliance
-/// |p|, each gap against max(|u|, its |lower|), pressures against max(|L|, |lambda|). All zero for the zero solution of
-/// a zero load.
+/// The report, each number relative to what its condition is made of, so that scaling the load by any factor leaves it
+/// unchanged: r1 against the forces at work, max(|L|, |lambda|, |reactions|), since the terms of A1 u are larger than
+/// these by h^-2 and would hide an error; r2 against compliance |p| and max|B| times the largest of |u|, |lower| and
+/// the displacement of a single unknown under its load; gaps against max(|u|, |their bound|), pressures against
+/// max(|L|, |lambda|). All zero for the zero solution of a zero load.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
 /// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above

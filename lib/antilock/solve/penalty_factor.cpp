@@ -136,7 +136,7 @@ void PenaltyFactor::refactor(const VariationalInequality& problem, double delta)
     const int unknown = numbering_.unknown[static_cast<int*>(cholmod_->l->Perm)[column]];
     throw Error(fmt::format(
         "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
-        "by nothing; accepted: enough fixed unknowns",
+        "by nothing, or a cell is too flat for double precision; accepted: enough fixed unknowns and cells",
         delta, unknown));
   }
   if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
