@@ -31,18 +31,21 @@ std::vector<Corner> clipped(const std::vector<Corner>& polygon, double level, do
   return kept;
 }
 
-/// Bands of equal width in log10 z, half a decade each.
+/// Bands of equal width in log10 z: half a decade, or a tenth where there are not two decades.
 struct Bands {
-  double low, high;  // log10
-  static constexpr double step = 0.5;
+  Bands(double least, double most)
+      : step(most - least < 2 ? 0.1 : 0.5),
+        low(std::floor(least / step) * step),
+        high(std::max(std::ceil(most / step), std::floor(least / step) + 1) * step) {}
+  double step, low, high;  // log10
   int count() const { return static_cast<int>(std::lround((high - low) / step)); }
   Colour colour(int band) const { return viridis((band + 0.5) / count()); }
 };
 
 void fill_triangle(Page& page, const std::vector<Corner>& triangle, const Bands& bands) {
   for (int band = 0; band < bands.count(); ++band) {
-    const double from = bands.low + band * Bands::step;
-    const auto part = clipped(clipped(triangle, from, 1), from + Bands::step, -1);
+    const double from = bands.low + band * bands.step;
+    const auto part = clipped(clipped(triangle, from, 1), from + bands.step, -1);
     if (part.size() < 3) continue;
     std::vector<Point> corners;
     for (const Corner& corner : part) corners.push_back(corner.at);
@@ -76,10 +79,12 @@ void draw_scale(Page& page, const Box& box, const Bands& bands, const std::strin
     page.fill(Box{box.x, box.y + band * box.height / bands.count(), box.width, box.height / bands.count()},
               bands.colour(band));
   page.rectangle(box, {2.5});
-  for (int power = static_cast<int>(std::ceil(bands.low)); power <= bands.high; ++power) {
-    const double y = box.y + box.height * (power - bands.low) / (bands.high - bands.low);
+  const Axis axis = Axis::logarithmic(std::pow(10, bands.low), std::pow(10, bands.high), 0);
+  for (const Tick& tick : axis.ticks()) {
+    if (tick.label.empty()) continue;
+    const double y = box.y + box.height * (std::log10(tick.value) - bands.low) / (bands.high - bands.low);
     page.line({{box.right(), y}, {box.right() + 12, y}}, {2.5});
-    page.text({box.right() + 24, y}, power_markup(power), {size, {0, Anchor::Height::middle}});
+    page.text({box.right() + 24, y}, tick.label, {size, {0, Anchor::Height::middle}});
   }
   page.text({box.right() + 170, box.centre().y}, name, {1.1 * size, {0.5}, 90});
 }
@@ -106,8 +111,7 @@ Page map_picture(const std::filesystem::path& file, const MapStyle& style) {
   const auto [y_low, y_high] = std::minmax_element(ys.begin(), ys.end());
   const auto [z_low, z_high] = std::minmax_element(zs.begin(), zs.end());
   const Axis x = Axis::logarithmic(*x_low, *x_high, 0), y = Axis::logarithmic(*y_low, *y_high, 0);
-  const Bands bands{std::floor(*z_low / Bands::step) * Bands::step,
-                    std::max(std::ceil(*z_high / Bands::step), std::floor(*z_low / Bands::step) + 1) * Bands::step};
+  const Bands bands(*z_low, *z_high);
 
   const std::size_t count = panels.size(), columns = panel_columns(count), rows = (count + columns - 1) / columns;
   const double panel_height = rows == 1 ? 900 : 640, gap_y = 110, head = 100 + (style.title.empty() ? 0 : 90),

@@ -65,8 +65,8 @@ struct CurvesStyle {
 };
 Page curves_picture(const std::filesystem::path& table, const CurvesStyle& style);
 
-/// Filled contours of log10 z over (x, y), both on logarithmic scales, half a decade a colour; panels as in a chart.
-/// Rows whose x, y or z is not positive and finite are left out and leave holes.
+/// Filled contours of log10 z over (x, y), both on logarithmic scales, half a decade a colour (a tenth where z spans
+/// less than two); panels as in a chart. Rows whose x, y or z is not positive and finite are left out and leave holes.
 struct MapStyle {
   std::string x, y, z, x_name, y_name, z_name;
   std::vector<std::string> panel_by, filters;

@@ -6,11 +6,13 @@
 #include <map>
 
 #include "antilock/exact/truth.hpp"
+#include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/measure/inf_sup.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/sweep.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -171,6 +173,45 @@ TEST(InfSup, RefusesWhatDoesNotFit) {
   test::expect_refused([&] { multiplier_gram(stiff_problem(space, 0), SparseMatrix(3, 3)); }, "the norm is 3 x 3");
   const Eigen::MatrixXd seen = seen_by(space);
   test::expect_refused([&] { inf_sup(seen, 0 * seen); }, "not positive definite");
+}
+
+/// Errors in the broken H1 norm for epsilon = 1, 1e-1, 1e-2, 1e-4, 1e-8, 0.
+std::vector<double> h1_errors(const Space& space) {
+  static const std::vector<double> epsilons{1, 1e-1, 1e-2, 1e-4, 1e-8, 0};
+  static const std::vector<TruthTable> truth = [] {  // 2^13 points: gradients to 2e-6
+    std::vector<TruthTable> tables;
+    for (const double epsilon : epsilons) tables.emplace_back(Truth(paper_sine_load(), epsilon, true, 13));
+    return tables;
+  }();
+  Sweep sweep(test::stiff_scene(1), space);
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < epsilons.size(); ++i) {
+    sweep.set_epsilon(epsilons[i]);
+    errors.push_back(measure_errors(space, sweep.solve(), epsilons[i], reference(truth[i])).h1);
+  }
+  return errors;
+}
+double worst(const std::vector<double>& errors) { return *std::max_element(errors.begin(), errors.end()); }
+
+TEST(UniformConvergence, OfTheoremsFiveAndSevenAndNotOfP1Unstructured) {
+  const auto meshes = [](bool structured) {
+    return structured ? std::pair(structured_mesh(8), structured_mesh(16))
+                      : std::pair(unstructured_mesh(8), unstructured_mesh(16));
+  };
+  for (const bool structured : {true, false})
+    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+      const auto [coarse, fine] = meshes(structured);
+      const auto on_coarse = h1_errors(Space(coarse, *element)), on_fine = h1_errors(Space(fine, *element));
+      const double ratio = worst(on_fine) / on_fine.front();  // of Babuska and Suri
+      if (structured || element != &p1()) {
+        EXPECT_NEAR(worst(on_coarse) / worst(on_fine), 2, 0.1) << element->name() << structured;  // first order
+        EXPECT_LT(ratio, 1.05) << element->name() << structured;  // the worst case is epsilon = 1, or almost
+      } else {
+        EXPECT_LT(worst(on_coarse) / worst(on_fine), 1.6);
+        EXPECT_GT(worst(on_fine), 0.138);  // what the layer's displacement is worth, sup over epsilon as h -> 0
+        EXPECT_GT(ratio, 1.3 * worst(on_coarse) / on_coarse.front());
+      }
+    }
 }
 
 TEST(Locking, ComesWithTheFirstJitterAndGrowsWithItsShareOfEpsilon) {
