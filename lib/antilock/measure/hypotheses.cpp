@@ -1,0 +1,62 @@
+#include "antilock/measure/hypotheses.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "antilock/measure/errors.hpp"
+#include "antilock/measure/locking.hpp"
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
+
+namespace antilock {
+namespace {
+
+double largest(const Eigen::VectorXd& v) { return v.size() == 0 ? 0.0 : v.cwiseAbs().maxCoeff(); }
+
+}  // namespace
+
+Hypotheses check_hypotheses(const VariationalInequality& problem, const SparseMatrix& norm) {
+  Hypotheses found;
+  found.coercivity = coercivity(problem, norm);
+  found.kernel = kernel_dimension(problem);
+  found.free = problem.free_count();
+  // a singular a1 + a0 has no solution to ask: (H1) has failed already
+  found.distance = found.coercive() ? distance_to_kernel(problem) : std::numeric_limits<double>::quiet_NaN();
+  return found;
+}
+
+double distance_to_kernel(const VariationalInequality& problem) {
+  if (problem.b.rows() == 0) return 0;
+  // Without a load, u minimises a1/2 + a0/(2 epsilon) over K_h: as epsilon -> 0, a0 tends to its smallest value there.
+  VariationalInequality unloaded = problem;
+  unloaded.load.setZero();
+  unloaded.compliance = 1e-9;
+  const Solution s = active_set(unloaded);
+  const Eigen::Map<const Eigen::VectorXd> entries(problem.b.valuePtr(), problem.b.nonZeros());
+  const double scale = largest(entries) * std::max(largest(s.u), largest(problem.lower));
+  return scale > 0 ? largest(problem.b * s.u) / scale : 0;
+}
+
+std::vector<EnergyRow> energy_against_epsilon(VariationalInequality problem, const std::vector<double>& epsilons) {
+  std::vector<EnergyRow> rows;
+  for (const double epsilon : epsilons) {
+    problem.compliance = epsilon;
+    EnergyRow row{epsilon};
+    try {
+      const Solution s = active_set(problem);
+      row.energy = energy(problem, s);
+      row.moved = largest(s.u);
+      row.corrections = s.counters.corrections;
+      row.violation = worst_violation(s.kkt);
+    } catch (const NotConverged& failure) {
+      row.energy = row.moved = std::numeric_limits<double>::quiet_NaN();
+      row.corrections = failure.steps;
+      row.violation = failure.reached;
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+}  // namespace antilock

@@ -1,0 +1,42 @@
+#pragma once
+#include <vector>
+
+#include "antilock/problem/variational_inequality.hpp"
+
+namespace antilock {
+
+/// What the paper's theorems ask of a discrete problem (Sections 2 and 3.1), computed for one given problem. Uniformity
+/// in h is seen by asking on two meshes.
+struct Hypotheses {
+  double coercivity = 0;  ///< (H1), (H1nc): smallest (a1 + a0)(v, v) / norm(v, v); the theory wants it >= beta > 0
+  int kernel = 0;         ///< (H2): dim G_h, G_h the kernel of a0 on the free unknowns; 0: complete locking
+  int free = 0;           ///< free unknowns; a family that does not lock keeps kernel / free away from 0
+  double distance = 0;    ///< of K_h from G_h (distance_to_kernel); the theory wants K_h and G_h to meet
+
+  bool coercive() const { return coercivity > 1e-10; }  ///< far above the round-off of an eigenvalue
+  bool meet() const { return distance < 1e-6; }         ///< below what the solvers refuse
+};
+
+/// (H2) also wants a0 >= 0: with M > 0 that is so by construction, and checked as such. `norm` is the N x N Gram matrix
+/// of the space's norm. Throws Error as `coercivity` does (a malformed problem, too many unknowns).
+Hypotheses check_hypotheses(const VariationalInequality& problem, const SparseMatrix& norm);
+
+/// How far K_h and G_h are from meeting: the smallest B v over K_h, least squares in M, relative to max|B| max|v| and
+/// the bounds. Zero up to round-off (below 1e-6) where problem (7), epsilon = 0, has a solution; larger where it has
+/// none. Throws Error for a malformed or singular problem.
+double distance_to_kernel(const VariationalInequality& problem);
+
+/// One line of a locking diagnosis.
+struct EnergyRow {
+  double epsilon = 0;    ///< the class parameter
+  double energy = 0;     ///< J(u); not a number where no answer was found
+  double moved = 0;      ///< largest |u|; a locked problem's falls to the values prescribed
+  int corrections = 0;   ///< of the iterated penalty; many: the penalty does not fit, or the problem locks
+  double violation = 0;  ///< the KKT report's largest number
+};
+
+/// Solves for every class parameter (0 too). J rises as epsilon falls, to a limit; on a locked problem to that of doing
+/// nothing. Throws Error for a malformed or singular problem.
+std::vector<EnergyRow> energy_against_epsilon(VariationalInequality problem, const std::vector<double>& epsilons);
+
+}  // namespace antilock
