@@ -9,8 +9,9 @@ namespace antilock {
 /// in h is seen by asking on two meshes.
 struct Hypotheses {
   double coercivity = 0;  ///< (H1), (H1nc): smallest (a1 + a0)(v, v) / norm(v, v); the theory wants it >= beta > 0
-  int kernel = 0;         ///< (H2): dim G_h, G_h the kernel of a0 on the free unknowns; 0: complete locking
-  int free = 0;           ///< free unknowns; a family that does not lock keeps kernel / free away from 0
+  int kernel = 0;         ///< (H2): dim G_h, G_h the kernel of a0 on the free unknowns (all that a0 does not see is in
+                          ///< it); 0: complete locking
+  int free = 0;           ///< free unknowns: free - kernel conditions are asked
   double distance = 0;    ///< of K_h from G_h (distance_to_kernel); the theory wants K_h and G_h to meet
 
   bool coercive() const { return coercivity > 1e-10; }  ///< far above the round-off of an eigenvalue

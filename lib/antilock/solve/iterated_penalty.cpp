@@ -71,7 +71,7 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   const double b_scale =
       rows > 0 ? Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff()
                : 0;
-  double u_scale = 0, before = 0, error = 1, gap = 1;
+  double u_first = 0, u_scale = 0, before = 0, error = 1, gap = 1;
   int since_change = 0;  // corrections with these means
   bool careful = false;  // residuals in long double
   for (int correction = 0;; ++correction) {
@@ -110,7 +110,10 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
       s.p += dp;
     }
     // du contracts like the error; the error left behind is du rate / (1 - rate)
-    u_scale = std::max(u_scale, s.u.lpNorm<Eigen::Infinity>());
+    if (correction == 0) u_first = s.u.lpNorm<Eigen::Infinity>();
+    // a locked u tends to 0, hence the first; one on its way to infinity (an infeasible problem) must not count for
+    // long
+    u_scale = std::max(u_first, s.u.lpNorm<Eigen::Infinity>());
     const double change = u_scale > 0 ? du.lpNorm<Eigen::Infinity>() / u_scale : 0;
     s.history.push_back(change);
     if (!std::isfinite(change))
