@@ -1,0 +1,168 @@
+#include "hard/quad_reference.hpp"
+
+#include <Eigen/Sparse>
+#include <algorithm>
+#include <utility>
+
+#include "antilock/solve/penalty_factor.hpp"
+
+namespace antilock::hard {
+namespace {
+
+using QuadMatrix = Eigen::SparseMatrix<Quad>;
+
+/// y += factor A x and y += factor A' x, with the matrix's own doubles and every operation in quadruple precision.
+template <class Matrix>
+void add_product(QuadVector& y, int factor, const Matrix& a, const QuadVector& x) {
+  for (Eigen::Index k = 0; k < a.outerSize(); ++k)
+    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.row()) += factor * Quad(it.value()) * x(it.col());
+}
+template <class Matrix>
+void add_transposed_product(QuadVector& y, int factor, const Matrix& a, const QuadVector& x) {
+  for (Eigen::Index k = 0; k < a.outerSize(); ++k)
+    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.col()) += factor * Quad(it.value()) * x(it.row());
+}
+
+/// r1 = L - A1 u - B' M p and r2 = compliance p - B u in quadruple precision.
+std::pair<QuadVector, QuadVector> quad_residual(const VariationalInequality& problem, const QuadVector& u,
+                                                const QuadVector& p) {
+  QuadVector r1 = problem.load.cast<Quad>(), r2 = Quad(problem.compliance) * p;
+  const QuadVector stress = problem.m.cast<Quad>().cwiseProduct(p);
+  add_product(r1, -1, problem.a1, u);
+  add_transposed_product(r1, -1, problem.b, stress);
+  add_product(r2, -1, problem.b, u);
+  return {r1, r2};
+}
+
+/// Iterates u += du, p += dp in quadruple precision with any approximate inverse of K = A1 + delta^-1 B' M B: the limit
+/// depends on the residual alone, which is formed in quadruple precision and in split form.
+QuadSolution refine(const VariationalInequality& problem, const std::vector<bool>& active, double delta,
+                    const std::vector<int>& unknown, const std::function<QuadVector(const QuadVector&)>& inverse,
+                    double tolerance, int most) {
+  const VariationalInequality linear = held(problem, active);
+  QuadSolution s;
+  s.u = QuadVector::Zero(problem.size());
+  for (std::size_t i = 0; i < linear.fixed.size(); ++i)
+    s.u(linear.fixed[i]) = linear.fixed_values(static_cast<Eigen::Index>(i));
+  s.p = QuadVector::Zero(problem.b.rows());
+  const QuadVector weight = problem.m.cast<Quad>() / Quad(delta);
+  while (true) {
+    auto [r1, r2] = quad_residual(problem, s.u, s.p);
+    QuadVector r = r1;
+    add_transposed_product(r, 1, problem.b, weight.cwiseProduct(r2));
+    QuadVector free(static_cast<Eigen::Index>(unknown.size())), free1 = free;
+    for (std::size_t i = 0; i < unknown.size(); ++i) {
+      free(static_cast<Eigen::Index>(i)) = r(unknown[i]);
+      free1(static_cast<Eigen::Index>(i)) = r1(unknown[i]);
+    }
+    const Quad u_scale = std::max<Quad>(largest(s.u), Quad(1e-300));
+    s.residual = static_cast<double>(std::max<Quad>(largest(free1) / largest(problem.load.cast<Quad>()),
+                                                    problem.b.rows() == 0 ? Quad(0) : largest(r2) / u_scale));
+    if ((s.refinements > 0 && s.residual < tolerance) || s.refinements == most) break;
+    ++s.refinements;
+    const QuadVector x = inverse(free);
+    QuadVector du = QuadVector::Zero(problem.size());
+    for (std::size_t i = 0; i < unknown.size(); ++i) du(unknown[i]) = x(static_cast<Eigen::Index>(i));
+    s.u += du;
+    QuadVector dp = -r2;
+    add_product(dp, 1, problem.b, du);
+    s.p += dp / Quad(delta);
+  }
+  const auto [r1, r2] = quad_residual(problem, s.u, s.p);
+  s.lambda = QuadVector::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+  Quad min_gap = 0, min_pressure = 0;
+  for (std::size_t i = 0; i < problem.contact.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (active[i]) s.lambda(k) = -r1(problem.contact[i]);
+    min_gap = std::min<Quad>(min_gap, s.u(problem.contact[i]) - Quad(problem.lower(k)));
+    min_pressure = std::min<Quad>(min_pressure, s.lambda(k));
+  }
+  s.min_gap = static_cast<double>(min_gap / std::max<Quad>(largest(s.u), Quad(1e-300)));
+  s.min_pressure = static_cast<double>(min_pressure / largest(problem.load.cast<Quad>()));
+  return s;
+}
+
+}  // namespace
+
+Quad largest(const QuadVector& v) {
+  Quad most = 0;
+  for (Eigen::Index i = 0; i < v.size(); ++i) most = std::max<Quad>(most, abs(v(i)));
+  return most;
+}
+
+VariationalInequality held(VariationalInequality problem, const std::vector<bool>& active) {
+  std::vector<std::pair<int, double>> fixed;
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+    fixed.emplace_back(problem.fixed[i], problem.fixed_values(static_cast<Eigen::Index>(i)));
+  for (std::size_t i = 0; i < problem.contact.size(); ++i)
+    if (active[i]) fixed.emplace_back(problem.contact[i], problem.lower(static_cast<Eigen::Index>(i)));
+  std::sort(fixed.begin(), fixed.end());
+  problem.fixed.clear();
+  problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()));
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    problem.fixed.push_back(fixed[i].first);
+    problem.fixed_values(static_cast<Eigen::Index>(i)) = fixed[i].second;
+  }
+  problem.contact.clear();
+  problem.lower.resize(0);
+  return problem;
+}
+
+QuadSolution refined_reference(const VariationalInequality& problem, const std::vector<bool>& active) {
+  const VariationalInequality linear = held(problem, active);
+  PenaltyFactor factor(linear, std::max(1e-8, problem.compliance));
+  const auto inverse = [&](const QuadVector& r) {
+    const double scale = static_cast<double>(largest(r));
+    if (scale == 0) return r;
+    const Eigen::VectorXd rounded = (r / Quad(scale)).cast<double>();
+    return QuadVector(factor.backward(factor.forward(rounded)).cast<Quad>() * Quad(scale));
+  };
+  return refine(problem, active, factor.delta(), factor.numbering().unknown, inverse, 1e-22, 200);
+}
+
+QuadSolution quad_reference(const VariationalInequality& problem, const std::vector<bool>& active) {
+  const double delta = std::max(problem.compliance, 1e-14);
+  const VariationalInequality linear = held(problem, active);
+  const FreeNumbering numbering(linear);
+  const int size = static_cast<int>(numbering.unknown.size());
+  std::vector<Eigen::Triplet<Quad>> entries;
+  const auto add = [&](int i, int j, const Quad& value) {
+    if (numbering.place[i] >= 0 && numbering.place[j] >= 0)
+      entries.emplace_back(numbering.place[i], numbering.place[j], value);
+  };
+  for (int j = 0; j < problem.a1.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) add(static_cast<int>(a.row()), j, a.value());
+  for (int row = 0; row < problem.b.rows(); ++row)
+    for (RowMatrix::InnerIterator i(problem.b, row); i; ++i)
+      for (RowMatrix::InnerIterator j(problem.b, row); j; ++j)
+        add(static_cast<int>(i.col()), static_cast<int>(j.col()),
+            Quad(i.value()) * Quad(problem.m(row)) * Quad(j.value()) / Quad(delta));
+  QuadMatrix k(size, size);
+  k.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<QuadMatrix> factor(k);
+  return refine(
+      problem, active, delta, numbering.unknown, [&](const QuadVector& r) { return QuadVector(factor.solve(r)); },
+      1e-26, 60);
+}
+
+QuadSolution settle(const VariationalInequality& problem, std::vector<bool> active, const Reference& reference) {
+  for (int sets = 1;; ++sets) {
+    QuadSolution s = reference(problem, active);
+    s.sets = sets;
+    if (sets == 100 || std::min(s.min_gap, s.min_pressure) >= -1e-18) return s;
+    const Quad gap_slack = Quad(1e-18) * largest(s.u),
+               pressure_slack = Quad(1e-18) * largest(problem.load.cast<Quad>());
+    for (std::size_t i = 0; i < active.size(); ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      const bool wrong =
+          active[i] ? s.lambda(k) < -pressure_slack : s.u(problem.contact[i]) - Quad(problem.lower(k)) < -gap_slack;
+      if (wrong) active[i] = !active[i];
+    }
+  }
+}
+
+double distance(const Eigen::VectorXd& u, const QuadVector& exact) {
+  return static_cast<double>(largest(u.cast<Quad>() - exact) / largest(exact));
+}
+
+}  // namespace antilock::hard
