@@ -29,6 +29,8 @@ std::string number_markup(double value) {
 std::string entry_markup(const std::string& column, const std::string& value) {
   static const std::map<std::string, std::string> names{{"P1", "$P_1$"},
                                                         {"P2", "$P_2$"},
+                                                        {"P3", "$P_3$"},
+                                                        {"P4", "$P_4$"},
                                                         {"CR", "Crouzeix–Raviart"},
                                                         {"structured", "structured mesh"},
                                                         {"unstructured", "unstructured mesh"}};

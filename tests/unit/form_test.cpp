@@ -14,7 +14,7 @@ namespace {
 using test::expect_refused;
 using test::two_square_meshes;
 
-std::vector<const Element*> elements() { return {&p1(), &p2(), &crouzeix_raviart()}; }
+std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()}; }
 
 double factorial(int n) { return n < 2 ? 1 : n * factorial(n - 1); }
 
@@ -49,10 +49,21 @@ TEST(Quadrature, MidpointRuleIsExactToDegreeTwoAndNoFurther) {
   EXPECT_GT(worst_mean(midpoint_rule(), 3), 1e-3);
 }
 
+TEST(Quadrature, EveryTriangleRuleIsExactToItsDegree) {
+  for (int degree = 0; degree <= 12; ++degree) {
+    const Quadrature& rule = triangle_rule(degree);
+    for (int lower = 0; lower <= degree; ++lower) EXPECT_LT(worst_mean(rule, lower), 2e-15) << degree;
+    EXPECT_GT(rule.weights.minCoeff(), 0) << degree;  // M of the factored form must be positive
+    EXPECT_GE(rule.points.minCoeff(), 0) << degree;
+  }
+  for (const int degree : {-1, 13}) expect_refused([&] { triangle_rule(degree); }, "0 to 12");
+}
+
 /// The sum over triangles of int wx d/dx u d/dx v + wy d/dy u d/dy v, by a dense loop of its own: gradients from the
-/// 3 x 3 system of a linear function through the corners (degree 1), the products at the edge midpoints (degree 2).
+/// 3 x 3 system of a linear function through the corners, the products by a rule of higher degree than needed.
 Eigen::MatrixXd dense_form(const Space& space, Region region, double wx, double wy) {
   const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = triangle_rule(10);  // none that the forms use
   Eigen::MatrixXd form = Eigen::MatrixXd::Zero(space.size(), space.size());
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != region) continue;
@@ -63,18 +74,17 @@ Eigen::MatrixXd dense_form(const Space& space, Region region, double wx, double 
     }
     const double area = 0.5 * std::abs(corners.determinant());
     const Eigen::Matrix3d coefficients = corners.inverse();  // column i: lambda_i = c0 + c1 x + c2 y
-    for (int mid = 0; mid < 3; ++mid) {
-      Eigen::Vector3d l = Eigen::Vector3d::Constant(0.5);
-      l(mid) = 0;
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Vector3d l = rule.points.row(q);
       for (int i = 0; i < space.unknowns().cols(); ++i)
         for (int j = 0; j < space.unknowns().cols(); ++j) {
           const auto d = space.element().derivative(l);
           double product = 0;
-          for (int p = 0; p < 3; ++p)
-            for (int q = 0; q < 3; ++q)
-              product += d(i, p) * d(j, q) *
-                         (wx * coefficients(1, p) * coefficients(1, q) + wy * coefficients(2, p) * coefficients(2, q));
-          form(space.unknowns()(t, i), space.unknowns()(t, j)) += area / 3 * product;
+          for (int m = 0; m < 3; ++m)
+            for (int n = 0; n < 3; ++n)
+              product += d(i, m) * d(j, n) *
+                         (wx * coefficients(1, m) * coefficients(1, n) + wy * coefficients(2, m) * coefficients(2, n));
+          form(space.unknowns()(t, i), space.unknowns()(t, j)) += rule.weights(q) * area * product;
         }
     }
   }
@@ -113,7 +123,7 @@ TEST(Forms, RowsOfBBelongToTheLayerTrianglesAndMMeasuresThem) {
       EXPECT_GT(strain.m.minCoeff(), 0);
       EXPECT_NEAR(strain.m.sum(), 1, 1e-13) << name;
       const auto layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
-      EXPECT_EQ(strain.m.size(), layer * (element->degree() == 1 ? 1 : 3));
+      EXPECT_EQ(strain.m.size(), layer * strain_rule(*element).weights.size());
     }
 }
 
@@ -155,6 +165,21 @@ TEST(Forms, EnergyOfAnAffineFunctionIsExact) {
       const Eigen::VectorXd u = 3 * space.points().col(0) + 4 * space.points().col(1);
       // body: (9 * 2 + 16 * 3) * area 1; layer: (9 * 5 + 16 * 7) * area 1
       EXPECT_NEAR(u.dot(gradient_form(space, {2, 3}, {5, 7}) * u), 66 + 157, 1e-10) << name << element->name();
+    }
+}
+
+TEST(Forms, EnergyOfAPolynomialOfTheElementsDegreeIsExact) {
+  for (const auto& [name, mesh] : two_square_meshes(3))
+    for (const Element* element : {&p1(), &p2(), &p3(), &p4()}) {
+      const Space space(mesh, *element);
+      const int k = element->degree();
+      const Eigen::VectorXd in_x = space.points().col(0).array().pow(k), in_y = space.points().col(1).array().pow(k);
+      const double square = k * k / (2.0 * k - 1);  // int_0^1 (k t^(k-1))^2, on (-1, 0) the same
+      EXPECT_NEAR(in_x.dot(gradient_form(space, {2, 3}, {5, 7}) * in_x), 7 * square, 1e-10) << name << k;
+      EXPECT_NEAR(in_y.dot(gradient_form(space, {2, 3}, {5, 7}) * in_y), 10 * square, 1e-10) << name << k;
+      const LayerStrain strain = layer_strain(space);
+      const Eigen::VectorXd slope = strain.b * in_y;
+      EXPECT_NEAR(slope.dot(strain.m.cwiseProduct(slope)), square, 1e-11) << name << k;
     }
 }
 

@@ -111,6 +111,16 @@ TEST(Locking, IsTheDimensionOfTheKernelOfA0) {
   }
 }
 
+TEST(Locking, OfDegreePLeavesOnePolynomialMoreADegreeOnAnUnstructuredMesh) {
+  constexpr int cells = 4;  // finer, B nearly misses functions of high degree, and a rank means less
+  const TriangleMesh structured = structured_mesh(cells), unstructured = unstructured_mesh(cells);
+  for (const Element* element : {&p1(), &p2(), &p3(), &p4()}) {
+    const int p = element->degree();
+    EXPECT_EQ(kernel_dimension(Space(structured, *element)), cells * p - 1);
+    EXPECT_EQ(kernel_dimension(Space(unstructured, *element)), p - 1);  // x (1 - x) times degree p - 2
+  }
+}
+
 TEST(Locking, TheEnergyBracketsTheTruthAndDoesNotCloseWhereItLocks) {
   const double truth = Truth(paper_sine_load(), 0).energy();
   EXPECT_NEAR(truth, -0.44154446, 1e-8);

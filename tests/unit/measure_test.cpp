@@ -19,7 +19,7 @@ namespace {
 using test::stiff_problem;
 using test::two_square_meshes;
 
-std::vector<const Element*> elements() { return {&p1(), &p2(), &crouzeix_raviart()}; }
+std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()}; }
 
 /// u = 0.2 + 3 x - 2 y, exactly in every space; layer stress -2 / epsilon^2.
 Reference affine(double epsilon) {

@@ -2,6 +2,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 
+#include "antilock/form/quadrature.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/space/space.hpp"
@@ -25,9 +26,15 @@ struct LayerStrain {
   std::vector<int> triangle;                       ///< R, the layer triangle behind each row
 };
 LayerStrain layer_strain(const Space& space);
+/// The rule behind the rows of B, a triangle: d/dy u_h is of degree k - 1 and is squared, so 2 (k - 1): the centroid
+/// for degree 1, the edge midpoints for degree 2.
+const Quadrature& strain_rule(const Element& element);
 
-/// N values of (f, phi_i) over the body, by a rule of degree 5.
+/// N values of (f, phi_i) over the body, by load_rule.
 Eigen::VectorXd load_vector(const Space& space, const Field& f);
+
+/// Of degree 5, or 2 k for an element of degree k > 2: what it leaves out is smaller than the error of the element.
+const Quadrature& load_rule(const Element& element);
 
 /// N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25), on the contact edges of a mesh of the body alone.
 /// The trace is the continuous piecewise affine function through the unknowns on Sigma and the clamped ends: for P1 the

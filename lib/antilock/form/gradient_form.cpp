@@ -19,7 +19,7 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& b
              area * weight(t).y * gradient.col(1) * gradient.col(1).transpose();
     });
   }
-  const Quadrature& rule = radon_rule();  // degree 5: enough for elements up to degree 3
+  const Quadrature& rule = triangle_rule(2 * (element.degree() - 1));
   std::vector<Eigen::MatrixX3d> derivative;
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) derivative.push_back(element.derivative(rule.points.row(q)));
   return sum_element_matrices(space, [&](int t) -> Eigen::MatrixXd {

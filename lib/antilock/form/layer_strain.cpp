@@ -1,17 +1,14 @@
 #include "antilock/form/forms.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
+
+const Quadrature& strain_rule(const Element& element) { return triangle_rule(2 * (element.degree() - 1)); }
 
 LayerStrain layer_strain(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
-  // d/dy of degree k - 1 is squared: one point for degree 1, the three midpoints for degree 2
-  if (element.degree() > 2)
-    throw Error("layer strain: element " + element.name() + " of degree above 2 is not accepted");
-  const Quadrature centroid{Eigen::RowVector3d::Constant(1.0 / 3), Eigen::VectorXd::Ones(1)};
-  const Quadrature& rule = element.degree() == 1 ? centroid : midpoint_rule();
+  const Quadrature& rule = strain_rule(element);
   const auto points = rule.weights.size(), m = static_cast<Eigen::Index>(element.unknowns());
   std::vector<Eigen::MatrixX3d> derivative;
   for (Eigen::Index q = 0; q < points; ++q) derivative.push_back(element.derivative(rule.points.row(q)));

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "antilock/form/forms.hpp"
@@ -8,9 +9,11 @@
 
 namespace antilock {
 
+const Quadrature& load_rule(const Element& element) { return triangle_rule(std::max(5, 2 * element.degree())); }
+
 Eigen::VectorXd load_vector(const Space& space, const Field& f) {
   const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = radon_rule();
+  const Quadrature& rule = load_rule(space.element());
   Eigen::MatrixXd basis(space.element().unknowns(), rule.weights.size());
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) basis.col(q) = space.element().basis(rule.points.row(q));
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());

@@ -1,8 +1,39 @@
 #include "antilock/form/quadrature.hpp"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cmath>
 
+#include "antilock/scene/error.hpp"
+
 namespace antilock {
+namespace {
+
+/// Points (n) and weights (n) of Gauss on (0, 1), exact for degree 2n - 1: eigenvalues of the Jacobi matrix of
+/// Legendre's polynomials (Golub and Welsch 1969).
+std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n) {
+  Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
+  for (int k = 1; k < n; ++k) jacobi(k, k - 1) = k / std::sqrt(4.0 * k * k - 1);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);  // reads the lower triangle
+  return {(1 + eigen.eigenvalues().array()) / 2, eigen.eigenvectors().row(0).transpose().array().square()};
+}
+
+/// The square folded onto the triangle, (s, t) -> lambda = (s, (1 - s) t, (1 - s)(1 - t)): its area element is (1 - s).
+Quadrature conical_rule(int degree) {
+  const int n = (degree + 3) / 2;  // in s the polynomial is of degree + 1
+  const auto [points, weights] = gauss_rule(n);
+  Quadrature rule{Eigen::MatrixX3d(n * n, 3), Eigen::VectorXd(n * n)};
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const double s = points(i), t = points(j);
+      rule.points.row(n * i + j) << s, (1 - s) * t, (1 - s) * (1 - t);
+      rule.weights(n * i + j) = 2 * weights(i) * weights(j) * (1 - s);
+    }
+  return rule;
+}
+
+}  // namespace
 
 const Quadrature& radon_rule() {
   static const Quadrature rule = [] {
@@ -23,6 +54,21 @@ const Quadrature& midpoint_rule() {
   static const Quadrature rule{0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity()),
                                Eigen::Vector3d::Constant(1.0 / 3)};
   return rule;
+}
+
+const Quadrature& triangle_rule(int degree) {
+  constexpr int most = 12;
+  if (degree < 0 || degree > most)
+    throw Error(fmt::format("quadrature: degree {} is not accepted; 0 to {}", degree, most));
+  static const std::array<Quadrature, most + 1> rules = [] {
+    std::array<Quadrature, most + 1> r;
+    r[0] = r[1] = {Eigen::RowVector3d::Constant(1.0 / 3), Eigen::VectorXd::Ones(1)};
+    r[2] = midpoint_rule();
+    r[3] = r[4] = r[5] = radon_rule();
+    for (int d = 6; d <= most; ++d) r[d] = conical_rule(d);
+    return r;
+  }();
+  return rules[degree];
 }
 
 }  // namespace antilock

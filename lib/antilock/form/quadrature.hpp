@@ -13,5 +13,8 @@ struct Quadrature {
 const Quadrature& radon_rule();
 /// Strang and Fix's 3-point rule (edge midpoints), exact for degree 2.
 const Quadrature& midpoint_rule();
+/// A rule exact for the given degree, 0 to 12 (else Error): the centroid, midpoint_rule, radon_rule, and from degree 6
+/// on Gauss points in both directions of a square folded to the triangle (Stroud's conical product).
+const Quadrature& triangle_rule(int degree);
 
 }  // namespace antilock

@@ -29,8 +29,11 @@ Eigen::VectorXd contact_lengths(const Space& space) {
       if (mesh.triangle_edges(t, i) != e) continue;
       Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = a;
       a((i + 1) % 3) = b((i + 2) % 3) = 1;
-      // Simpson's rule: exact up to degree 3
-      const Eigen::VectorXd integral = (element.basis(a) + 4 * element.basis(0.5 * (a + b)) + element.basis(b)) / 6;
+      // Boole's rule: exact up to degree 5
+      const Eigen::VectorXd integral =
+          (7 * (element.basis(a) + element.basis(b)) + 12 * element.basis(0.5 * (a + b)) +
+           32 * (element.basis(0.75 * a + 0.25 * b) + element.basis(0.25 * a + 0.75 * b))) /
+          90;
       for (Eigen::Index k = 0; k < integral.size(); ++k)
         length(space.unknowns()(t, k)) += mesh.edge_length(e) * integral(k);
     }

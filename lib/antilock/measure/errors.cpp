@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/form/forms.hpp"
 
 namespace antilock {
 namespace {
@@ -20,10 +20,21 @@ const std::vector<Eigen::Vector3d>& sample_points() {
   return points;
 }
 
-/// p_h on a layer triangle from its rows of B: constant (degree 1), affine through the edge midpoints (degree 2).
-double layer_stress_at(const Eigen::VectorXd& p, Eigen::Index first_row, int degree, const Eigen::RowVector3d& lambda) {
-  if (degree == 1) return p(first_row);
-  return p.segment<3>(first_row).dot((1 - 2 * lambda.array()).matrix().transpose());
+/// The monomials lambda_0^i lambda_1^j, i + j <= degree, at each point.
+Eigen::MatrixXd monomials(const Eigen::MatrixX3d& points, int degree) {
+  Eigen::MatrixXd values(points.rows(), (degree + 1) * (degree + 2) / 2);
+  Eigen::Index column = 0;
+  for (int i = 0; i <= degree; ++i)
+    for (int j = 0; i + j <= degree; ++j)
+      values.col(column++) = points.col(0).array().pow(i) * points.col(1).array().pow(j);
+  return values;
+}
+
+/// p_h on a layer triangle is of degree k - 1: its values at `points`, from its rows of B.
+Eigen::MatrixXd layer_stress_values(const Element& element, const Eigen::MatrixX3d& points) {
+  const int degree = element.degree() - 1;
+  const Eigen::MatrixXd at_rows = monomials(strain_rule(element).points, degree);
+  return monomials(points, degree) * at_rows.completeOrthogonalDecomposition().pseudoInverse();
 }
 
 }  // namespace
@@ -37,7 +48,7 @@ Reference reference(const TruthTable& table) {
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
-  const Quadrature& rule = radon_rule();
+  const Quadrature& rule = load_rule(element);
   const Eigen::Index points = rule.weights.size();
   std::vector<Eigen::VectorXd> basis, sample_basis;
   std::vector<Eigen::MatrixX3d> derivative;
@@ -53,7 +64,7 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
         errors.max_at_unknowns, std::abs(solution.u(i) - reference.value(space.points()(i, 0), space.points()(i, 1))));
   double l2 = 0, gradient2 = 0, energy2 = 0;
   Eigen::Index row = 0;
-  const int rows_a_triangle = element.degree() == 1 ? 1 : 3;
+  const Eigen::MatrixXd stress = layer_stress_values(element, rule.points);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::VectorXd u = solution.u(space.unknowns().row(t));
     for (std::size_t k = 0; k < sample_basis.size(); ++k) {
@@ -72,13 +83,13 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
       if (in_layer && solution.p.size() > 0) {
         // epsilon^-2 (d/dy e)^2 = epsilon^2 (p_h - p)^2, which also holds at epsilon = 0
         const double dp =
-            layer_stress_at(solution.p, row, element.degree(), rule.points.row(q)) - reference.layer_stress(x(0), x(1));
+            stress.row(q).dot(solution.p.segment(row, stress.cols())) - reference.layer_stress(x(0), x(1));
         energy2 += weight * (de(0) * de(0) + epsilon * epsilon * dp * dp);
       } else {
         energy2 += weight * de.squaredNorm();
       }
     }
-    if (in_layer) row += rows_a_triangle;
+    if (in_layer) row += stress.cols();
   }
   errors.l2 = std::sqrt(l2);
   errors.h1 = std::sqrt(l2 + gradient2);

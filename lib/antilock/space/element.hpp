@@ -24,12 +24,15 @@ class Element {
   int unknowns() const { return 3 * per_vertex() + 3 * per_edge() + per_triangle(); }
 };
 
-/// The pages, one instance each, alive as long as the program: P1 and P2 (conforming) and
-/// CR (Crouzeix-Raviart, P1 nonconforming of Section 4.2: edge midpoints).
+/// The pages, one instance each, alive as long as the program: P1, P2, P3 and P4 (conforming; beyond P1 contact is
+/// asked at the unknowns on Gamma_C alone, so that K_h is not part of K) and CR (Crouzeix-Raviart, P1 nonconforming of
+/// Section 4.2: edge midpoints).
 const Element& p1();
 const Element& p2();
+const Element& p3();
+const Element& p4();
 const Element& crouzeix_raviart();
-/// By name, "P1", "P2" or "CR"; throws Error for another.
+/// By name, "P1" to "P4" or "CR"; throws Error for another.
 const Element& element(const std::string& name);
 
 }  // namespace antilock
