@@ -15,11 +15,18 @@ namespace {
 
 struct Sample {
   double x, y;
+  double least = x, most = x;  ///< of repeated measurements of x
 };
+
+bool drawable(const Sample& s) { return s.x > 0 && s.y > 0 && std::isfinite(s.x) && std::isfinite(s.y); }
+
+/// A run that gave no answer, but has a place on the x axis.
+bool failed(const Sample& s) { return !drawable(s) && s.x > 0 && std::isfinite(s.x); }
 
 /// Panels and series by name, and the points of a curve, in the order in which the table brings them.
 struct Curves {
   std::vector<std::string> panels, series;
+  std::vector<std::string> failing;  ///< the series that have failures
   std::map<std::pair<std::string, std::string>, std::vector<Sample>> samples;
 };
 
@@ -33,15 +40,14 @@ Curves read_curves(const Table& table, const ChartStyle& style) {
     const std::string panel = key_markup(table, row, style.panel_by), series = key_markup(table, row, style.series_by);
     remember(curves.panels, panel);
     remember(curves.series, series);
-    curves.samples[{panel, series}].push_back({table.number(row, style.x), table.number(row, style.y)});
+    Sample sample{table.number(row, style.x), table.number(row, style.y)};
+    if (!style.x_least.empty()) sample.least = table.number(row, style.x_least);
+    if (!style.x_most.empty()) sample.most = table.number(row, style.x_most);
+    if (failed(sample)) remember(curves.failing, series);
+    curves.samples[{panel, series}].push_back(sample);
   }
   return curves;
 }
-
-bool drawable(const Sample& s) { return s.x > 0 && s.y > 0 && std::isfinite(s.x) && std::isfinite(s.y); }
-
-/// A run that gave no answer, but has a place on the x axis.
-bool failed(const Sample& s) { return !drawable(s) && s.x > 0 && std::isfinite(s.x); }
 
 /// How the n-th series is drawn; earlier ones are larger, so that curves on top of each other all show.
 struct Look {
@@ -55,6 +61,13 @@ Look look(std::size_t n, std::size_t count) {
                                Marker::triangle, Marker::cross,  Marker::down_triangle};
   const double shrink = count > 1 ? static_cast<double>(n) / (count - 1) : 0;
   return {series_colour(n), shapes[(n + n / 6) % 6], 44 - 26 * shrink, 8 - 4.5 * shrink};
+}
+
+/// A mark that no curve has: a ring with a cross in it.
+void draw_failure(Page& page, const Point& at, const Colour& colour) {
+  page.marker(at, Marker::circle, 44, colour);
+  page.marker(at, Marker::circle, 35, palette::white);
+  page.marker(at, Marker::cross, 24, colour);
 }
 
 /// A right triangle whose long side has the slope p, in the lower right corner of a panel; each next one stands lower.
@@ -82,13 +95,16 @@ void draw_curves(Page& page, const Panel& panel, const Curves& curves, const std
     for (const Sample& s : found->second)
       if (drawable(s)) points.push_back(panel(s.x, s.y));
     page.line(points, {style.width, style.colour});
+    for (const Sample& s : found->second)
+      if (drawable(s) && s.least < s.most)
+        page.line({panel(s.least, s.y), panel(s.most, s.y)}, {0.6 * style.width, style.colour});
     for (const Point& point : points) page.marker(point, style.marker, style.size, style.colour);
-    for (const Sample& s : found->second) {
-      if (!failed(s)) continue;
-      const Point at{panel(s.x, panel.y.high()).x, panel.box.top() - 34};
-      page.marker(at, Marker::cross, 34, style.colour);
-      page.text(at + Point{0, -30}, "failed", {32, {1, Anchor::Height::middle}, 90, style.colour});
-    }
+    // failures: above the curves, each series in a row of its own
+    const auto row = std::find(curves.failing.begin(), curves.failing.end(), curves.series[n]) - curves.failing.begin();
+    for (const Sample& s : found->second)
+      if (failed(s))
+        draw_failure(page, {panel(s.x, panel.y.high()).x, panel.box.top() - 34 - 38.0 * static_cast<double>(row)},
+                     style.colour);
   }
 }
 
@@ -100,7 +116,7 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
   Sample low{HUGE_VAL, HUGE_VAL}, high{0, 0};
   for (const auto& [name, samples] : curves.samples)
     for (const Sample& s : samples) {
-      if (drawable(s) || failed(s)) low.x = std::min(low.x, s.x), high.x = std::max(high.x, s.x);
+      if (drawable(s) || failed(s)) low.x = std::min(low.x, s.least), high.x = std::max(high.x, s.most);
       if (drawable(s)) low.y = std::min(low.y, s.y), high.y = std::max(high.y, s.y);
     }
   if (high.y == 0) throw Error(fmt::format("{}: no row to draw: {} against {}", file.string(), style.y, style.x));
@@ -110,11 +126,15 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
   const double panel_height = rows == 1 ? 1000 : 700, gap_y = 110, head = 100 + (style.title.empty() ? 0 : 90);
   const int width = columns > 2 ? 2600 : columns > 1 ? 2100 : 1800;
   Page page(width, 100);  // measures the legend; the real page follows
-  const double legend = curves.series.size() > 1 ? legend_height(page, curves.series) : 0, foot = legend + 190;
+  std::vector<std::string> entries = curves.series;
+  if (!curves.failing.empty()) entries.push_back("failed");
+  const double legend = entries.size() > 1 ? legend_height(page, entries) : 0, foot = legend + 190;
   const int height = static_cast<int>(rows * panel_height + (rows - 1) * gap_y + head + foot);
   page = Page(width, height);
 
-  const Axis x = Axis::logarithmic(low.x, high.x), y = Axis::logarithmic(low.y, high.y);
+  // room above the curves for the rows of failures
+  const double band = std::pow(high.y / low.y, 0.08 * static_cast<double>(curves.failing.size()));
+  const Axis x = Axis::logarithmic(low.x, high.x), y = Axis::logarithmic(low.y, high.y * band);
   const double left = left_margin(page, y);
   const Box area{left, foot, width - left - 50, height - foot - head};
   const auto boxes = arrange_panels(count, area, 60, gap_y);
@@ -127,7 +147,8 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
                {curves.panels[i], i + columns >= count ? style.x_name : "", i % columns == 0 ? style.y_name : ""});
   }
   if (legend > 0)
-    draw_legend(page, curves.series, 30, [&](std::size_t n, const Box& box) {
+    draw_legend(page, entries, 30, [&](std::size_t n, const Box& box) {
+      if (n == curves.series.size()) return draw_failure(page, box.centre(), palette::ink);
       const Look sample = look(n, curves.series.size());
       page.line({{box.x, box.centre().y}, {box.right(), box.centre().y}}, {sample.width, sample.colour});
       page.marker(box.centre(), sample.marker, sample.size, sample.colour);

@@ -44,13 +44,14 @@ struct DeformedStyle {
 Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& style);
 
 /// A chart on logarithmic scales from a table: a panel for each value of the columns `panel_by`, in it a curve for each
-/// value of `series_by`. Points whose y is not finite or not positive are drawn as failed, at the top edge.
+/// value of `series_by`. Points whose y is not finite or not positive are drawn as failed, above the curves.
 struct ChartStyle {
   std::string x, y, x_name, y_name;
   std::vector<std::string> panel_by, series_by;
   std::vector<std::string> filters;  ///< `column=value`: only these rows
   std::vector<double> slopes;        ///< triangles of these orders in every panel
   std::string title;
+  std::string x_least = "", x_most = "";  ///< columns: the spread of x, drawn as a bar; empty: none
 };
 Page chart_picture(const std::filesystem::path& table, const ChartStyle& style);
 

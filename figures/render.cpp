@@ -98,6 +98,8 @@ void add_pictures(CLI::App& app, Request& request) {
   chart->add_option("--y", request.chart.y, "column")->required();
   chart->add_option("--x-name", request.chart.x_name, "name of the axis (default: the column)");
   chart->add_option("--y-name", request.chart.y_name, "name of the axis (default: the column)");
+  chart->add_option("--x-least", request.chart.x_least, "column: the smallest x of a point");
+  chart->add_option("--x-most", request.chart.x_most, "column: the largest x of a point");
   chart->add_option("--panel-by", request.chart.panel_by, "columns whose values make panels")->delimiter(',');
   chart->add_option("--series-by", request.chart.series_by, "columns whose values make curves")->delimiter(',');
   chart->add_option("--only", request.chart.filters, "column=value: only these rows");

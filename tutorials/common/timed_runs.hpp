@@ -50,9 +50,9 @@ void write_runs(const std::filesystem::path& path, const std::vector<TimedRun>& 
 /// failed (before it came so far) or beyond (a finer mesh than measured would). In short as Markdown: price_list.md.
 void write_price_list(const std::filesystem::path& folder, const std::vector<TimedRun>& runs);
 
-/// Where the time goes: stages.csv, wall seconds of each stage of one run, 1/h from 16 to `finest` (P1, structured
-/// mesh, active set, epsilon = 1e-6). `corrections` holds everything of the solver that is not a stage of its own.
-void write_stages(const std::filesystem::path& folder, int finest);
+/// Where the time goes: stages.csv, wall seconds of each stage of the run of median length, 1/h from 16 to `finest`
+/// (P1, structured mesh, active set, epsilon = 1e-6). `corrections` holds all of the solver that is no other stage.
+void write_stages(const std::filesystem::path& folder, int finest, int repeats);
 
 /// What the seconds were measured on: processor, cores, threads of the BLAS, compiler, libraries, date. One row.
 void write_machine(const std::filesystem::path& path);
