@@ -1,6 +1,7 @@
 // The truth is checked from outside: against the differential equations, the conditions on Sigma and Gamma_C, closed
 // forms, refinement, and the values that an independent script gave.
 #include "antilock/exact/truth.hpp"
+#include "antilock/exact/truth_distance.hpp"
 
 #include <gtest/gtest.h>
 
@@ -350,6 +351,29 @@ TEST(Truth, TendsToTheLimitWithEpsilon) {
     EXPECT_NEAR(truth.value(0.4, -0.5), limit.value(0.4, -0.5), 1e-12);
     EXPECT_NEAR(truth.layer_stress(0.4, -0.5), limit.layer_stress(0.4, -0.5), 1e-7);
   }
+}
+
+TEST(TruthDistance, IsTheNormOfTheDifference) {
+  // One wave without contact: u = sin(pi x) times a profile linear in the load, so three times the load is twice as
+  // far.
+  const Truth one({{{1, {2}}}}, 0.3, false), three({{{1, {6}}}}, 0.3, false), none({}, 0.3, false);
+  EXPECT_EQ(h1_distance(one, one), 0);
+  EXPECT_NEAR(h1_distance(three, one), 2 * h1_distance(one, none), 1e-12);
+  // int |grad u|^2, with the layer's d/dy u weighted by epsilon^-2, is L(u) = -2 J: at epsilon = 1 without weight. The
+  // rest is int u^2, here by the midpoint rule in y on 400 rows, int sin^2 = 1/2 in x.
+  const Truth unit({{{1, {2}}}}, 1, false);
+  double square = 0;
+  for (int j = 0; j < 400; ++j) square += 0.5 * std::pow(unit.value(0.5, -1 + (j + 0.5) / 200), 2) / 200;
+  EXPECT_NEAR(h1_distance(unit, none), std::sqrt(square - 2 * unit.energy()), 1e-4 * std::sqrt(square));
+}
+
+TEST(TruthDistance, FallsLikeEpsilonToThreeHalves) {
+  // The pressure jumps at the end of contact: u_k is of size k^-3, and wave k feels (epsilon k)^2 up to k = 1/epsilon.
+  const Truth limit(paper_sine_load(), 0, true, moderate);
+  const auto distance = [&](double epsilon) {
+    return h1_distance(Truth(paper_sine_load(), epsilon, true, moderate), limit);
+  };
+  EXPECT_NEAR(std::log10(distance(3e-3) / distance(3e-4)), 1.5, 0.1);  // the part of order 2 dies out slowly
 }
 
 // --- hard and broken input ---------------------------------------------------------------------------------------
