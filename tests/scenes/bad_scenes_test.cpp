@@ -37,6 +37,8 @@ const std::vector<BadScene> bad_scenes = {
                  7)},
     {"SyntaxInvalidUtf8", "syntax", "title = \"\xff\xfe\"\n" + load + mesh},
     {"SyntaxJson", "syntax", "{\"load\": {\"f\": \"1\"}}"},
+    {"SyntaxTildeInAHeader", "syntax",
+     "[~load]\nf = \"1\"\n"},  // found by the fuzzer: an assertion of toml++ built for debugging
     {"LargerThanAMegabyte", "file", "#" + std::string(1100000, 'x')},
     // sections
     {"NoLoad", "load", mesh},

@@ -204,8 +204,12 @@ Method read_method(const Section& section) {
 }  // namespace
 
 SceneFile read_scene_file(const std::filesystem::path& path) {
+  return read_scene(read_text(path, printable(path.string(), 1000)), path);
+}
+
+SceneFile read_scene(const std::string& text, const std::filesystem::path& path) {
   const std::string name = printable(path.string(), 1000);
-  const toml::table table = parse(read_text(path, name), name);
+  const toml::table table = parse(text, name);
   const Section root(name, "", table);
   root.only({"title", "load", "layer", "contact", "mesh", "method"});
   for (const std::string required : {"load", "mesh"})

@@ -36,6 +36,9 @@ struct SceneFile {
 /// out not to be finite later.
 SceneFile read_scene_file(const std::filesystem::path& path);
 
+/// The same from a text in memory; `path` is its name in messages, and mesh files are looked for beside it.
+SceneFile read_scene(const std::string& text, const std::filesystem::path& path);
+
 /// The mesh of a scene file: made, or read and compared with the scene: the body must cover (0,1) x (0,1) and the layer
 /// the rectangle of its model, with contact edges on their lower side. Throws Error as above, KEY mesh.cells or
 /// mesh.file.

@@ -13,6 +13,8 @@ template <class... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
 };
+template <class... Ts>
+Overloaded(Ts...) -> Overloaded<Ts...>;  // clang 14 does not find it by itself
 
 void check_epsilon(const std::string& model, double epsilon, double smallest, const std::string& why) {
   if (!(epsilon >= smallest && epsilon <= 1))
