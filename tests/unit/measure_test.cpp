@@ -3,13 +3,15 @@
 
 #include <cmath>
 
-#include "antilock/exact/truth.hpp"
+#include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/accurate_enough.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/eigenvalues.hpp"
 #include "antilock/measure/energy_bracket.hpp"
 #include "antilock/measure/errors.hpp"
+#include "antilock/measure/residual.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "support/scenes.hpp"
 
@@ -261,6 +263,44 @@ TEST(Eigenvalues, OfTheSecondDifferenceAreThoseOfTheFormula) {
   const auto value = [](int k) { return 2 - 2 * std::cos(k * M_PI / (n + 1)); };
   EXPECT_NEAR(largest_eigenvalue(upper) / value(n), 1, 1e-5);  // the iteration stops at 1e-6
   EXPECT_NEAR(smallest_eigenvalue(upper) / value(1), 1, 1e-5);
+}
+
+TEST(ExactResidual, IsTheWorkOfTheContactPressureOnConformingSpaces) {
+  constexpr double epsilon = 0.1;
+  const Truth truth(paper_sine_load(), epsilon, true, 14);
+  const TruthTable table(truth);
+  std::vector<double> ends;
+  for (const auto& [from, to] : truth.contact_zones()) ends.insert(ends.end(), {from, to});
+  for (const auto& [name, mesh] : two_square_meshes(8))
+    for (const Element* element : {&p1(), &p2()}) {
+      const Space space(mesh, *element);
+      Eigen::VectorXd residual = exact_residual(space, load_vector(space, paper_load), reference(table), ends);
+      Eigen::VectorXd work = contact_work(space, [&](double x) { return truth.pressure(x); });
+      for (const int i : space.clamped()) residual(i) = work(i) = 0;  // reactions
+      // 1e-3: the stress rises like a square root at the end of contact, within one column of triangles
+      EXPECT_LT((residual - work).cwiseAbs().maxCoeff(), 1e-3 * work.maxCoeff()) << name << element->name();
+    }
+}
+
+TEST(ExactResidual, OfCrouzeixRaviartIsItsFormAtTheInterpolant) {
+  // the means over the edges fix the mean gradient (Lemma 2): a(u, v_h) = a(I_h u, v_h) for every v_h
+  const Reference u = product(1);
+  for (const auto& [name, mesh] : two_square_meshes(4)) {
+    const Space space(mesh, crouzeix_raviart());
+    const Eigen::VectorXd form = exact_residual(space, Eigen::VectorXd::Zero(space.size()), u, {0.3});
+    const Eigen::VectorXd discrete = gradient_form(space, {1, 1}, {1, 1}) * interpolant(space, u.value);
+    EXPECT_LT((form - discrete).cwiseAbs().maxCoeff(), 1e-12) << name;
+  }
+}
+
+TEST(H1Norm, IsTheNormOfTheReferenceAndItsProducts) {
+  for (const auto& [name, mesh] : two_square_meshes(4))
+    for (const Element* element : {&p2(), &p4()}) {
+      const Space space(mesh, *element);
+      const Eigen::VectorXd u = interpolant(space, product(1).value);
+      EXPECT_NEAR(u.dot(h1_norm(space) * u), 2.0 / 9 + 4.0 / 3, 1e-12) << name;  // x y on both squares, by hand
+      EXPECT_LT((h1_norm(space) * u - h1_products(space, product(1))).cwiseAbs().maxCoeff(), 1e-12) << name;
+    }
 }
 
 }  // namespace

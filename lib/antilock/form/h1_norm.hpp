@@ -1,0 +1,12 @@
+#pragma once
+#include <Eigen/Sparse>
+
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// N x N Gram matrix of the broken H1 norm, the |.|_h of Section 4.2: sum over the triangles of int grad u.grad v + u
+/// v.
+Eigen::SparseMatrix<double> h1_norm(const Space& space);
+
+}  // namespace antilock

@@ -1,0 +1,113 @@
+#include "antilock/measure/residual.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "antilock/form/forms.hpp"
+
+namespace antilock {
+namespace {
+
+/// The rule on each of the four triangles that the edge midpoints cut.
+Quadrature refined(const Quadrature& rule) {
+  const Eigen::Index n = rule.weights.size();
+  Quadrature fine{Eigen::MatrixX3d(4 * n, 3), Eigen::VectorXd(4 * n)};
+  for (int part = 0; part < 4; ++part) {
+    Eigen::Matrix3d corners = 0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity());  // the one in the middle
+    if (part < 3)
+      corners = 0.5 * Eigen::Matrix3d::Identity() + 0.5 * Eigen::Vector3d::Ones() * Eigen::RowVector3d::Unit(part);
+    fine.points.middleRows(part * n, n) = rule.points * corners;
+    fine.weights.segment(part * n, n) = rule.weights / 4;
+  }
+  return fine;
+}
+
+/// Whether one of the lines x = breaks[k] meets the triangle.
+bool across(const TriangleMesh& mesh, int t, const std::vector<double>& breaks) {
+  double low = 1, high = 0;
+  for (int i = 0; i < 3; ++i) {
+    low = std::min(low, mesh.vertices(mesh.triangles(t, i), 0));
+    high = std::max(high, mesh.vertices(mesh.triangles(t, i), 0));
+  }
+  return std::any_of(breaks.begin(), breaks.end(), [&](double x) { return low < x && x < high; });
+}
+
+}  // namespace
+
+Eigen::VectorXd exact_residual(const Space& space, const Eigen::VectorXd& load, const Reference& exact,
+                               const std::vector<double>& breaks) {
+  static const Quadrature fine = refined(refined(refined(refined(radon_rule()))));
+  const TriangleMesh& mesh = space.mesh();
+  Eigen::VectorXd residual = -load;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const bool in_layer = mesh.region[t] == Region::layer;
+    const Quadrature& rule = in_layer && across(mesh, t, breaks) ? fine : load_rule(space.element());
+    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+      Eigen::Vector2d flux = exact.gradient(x(0), x(1));
+      if (in_layer) flux(1) = exact.layer_stress(x(0), x(1));
+      const Eigen::VectorXd work = space.element().derivative(rule.points.row(q)) * (lambda * flux);
+      for (Eigen::Index i = 0; i < work.size(); ++i)
+        residual(space.unknowns()(t, i)) += rule.weights(q) * mesh.area(t) * work(i);
+    }
+  }
+  return residual;
+}
+
+Eigen::VectorXd h1_products(const Space& space, const Reference& exact) {
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = load_rule(space.element());
+  Eigen::VectorXd products = Eigen::VectorXd::Zero(space.size());
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+      const Eigen::VectorXd product =
+          space.element().basis(rule.points.row(q)) * exact.value(x(0), x(1)) +
+          space.element().derivative(rule.points.row(q)) * (lambda * exact.gradient(x(0), x(1)));
+      for (Eigen::Index i = 0; i < product.size(); ++i)
+        products(space.unknowns()(t, i)) += rule.weights(q) * mesh.area(t) * product(i);
+    }
+  }
+  return products;
+}
+
+Eigen::VectorXd contact_work(const Space& space, const Profile& g) {
+  constexpr int points = 32;
+  const TriangleMesh& mesh = space.mesh();
+  Eigen::VectorXd work = Eigen::VectorXd::Zero(space.size());
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const int t = mesh.edge_triangles(e, 0);
+    int opposite = 0;
+    while (mesh.triangle_edges(t, opposite) != e) ++opposite;
+    for (int k = 0; k < points; ++k) {
+      Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+      lambda((opposite + 1) % 3) = (k + 0.5) / points;
+      lambda((opposite + 2) % 3) = 1 - (k + 0.5) / points;
+      const double weighted = mesh.edge_length(e) / points * g(point_in(mesh, t, lambda)(0));
+      const Eigen::VectorXd basis = space.element().basis(lambda);
+      for (Eigen::Index i = 0; i < basis.size(); ++i) work(space.unknowns()(t, i)) += weighted * basis(i);
+    }
+  }
+  return work;
+}
+
+Eigen::VectorXd interpolant(const Space& space, const Field& u) {
+  Eigen::VectorXd values(space.size());
+  if (space.element().per_vertex() > 0) {
+    for (int i = 0; i < space.size(); ++i) values(i) = u(space.points()(i, 0), space.points()(i, 1));
+    return values;
+  }
+  const TriangleMesh& mesh = space.mesh();  // the unknowns of Crouzeix-Raviart are the edges
+  const double s = 0.5 * std::sqrt(0.6);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+    const auto at = [&](double r) { return u(a(0) + r * (b(0) - a(0)), a(1) + r * (b(1) - a(1))); };
+    values(e) = (5 * at(0.5 - s) + 8 * at(0.5) + 5 * at(0.5 + s)) / 18;
+  }
+  return values;
+}
+
+}  // namespace antilock
