@@ -174,6 +174,38 @@ TEST(ContactProblem, NestedStartMakesTheStepsIndependentOfH) {
   }
 }
 
+/// A clamped beam over an obstacle: S of fourth order, condition number n^4, forces concentrated at the ends of
+/// contact.
+Random beam(int n) {
+  Random r;
+  const double h = 1.0 / (n + 1);
+  Eigen::MatrixXd second = Eigen::MatrixXd::Zero(n + 2, n);  // second differences, the clamps by reflection
+  for (int i = 0; i < n; ++i) {
+    second(i + 1, i) = -2;
+    if (i > 0) second(i, i) = 1;
+    if (i + 1 < n) second(i + 2, i) = 1;
+  }
+  second(0, 0) = second(n + 1, n - 1) = std::sqrt(2.0);  // half a cell each
+  r.s = second.transpose() * second / (h * h * h);
+  r.q = Eigen::VectorXd::Constant(n, -5832 * h);
+  r.lower = Eigen::VectorXd::Constant(n, -1);
+  return r;
+}
+
+TEST(ContactProblem, NestedStartServesABeamToo) {
+  for (const int n : {31, 63, 127, 255}) {
+    const Random r = beam(n);
+    const ContactAnswer nested = solve_contact(r.problem(), nested_start(r.problem(), 1000), 1000);
+    EXPECT_LE(nested.steps, 12) << n;
+    const double start = nested.active.empty()
+                             ? 0
+                             : static_cast<double>(std::find(nested.active.begin(), nested.active.end(), true) -
+                                                   nested.active.begin() + 1) /
+                                   (n + 1);
+    EXPECT_NEAR(start, 1.0 / 3, 2.0 / (n + 1)) << n;  // (72 gap / load)^(1/4)
+  }
+}
+
 TEST(ContactProblem, NestedStartTakesEverySize) {
   for (int n = 1; n < 40; ++n) {
     const Random r = obstacle(n);

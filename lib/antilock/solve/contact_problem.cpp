@@ -22,8 +22,9 @@ Noise solve_on(const ContactProblem& p, ContactAnswer& answer) {
   std::vector<int> free, held;
   for (int i = 0; i < p.q.size(); ++i) (answer.active[i] ? held : free).push_back(i);
   answer.v = p.lower;
+  const Eigen::VectorXd from = p.from.size() > 0 ? p.from : Eigen::VectorXd::Zero(p.q.size());
   // each bound by itself: an obstacle far away in one place must not hide contact in another
-  Noise noise{unit * p.lower.cwiseAbs().cwiseMax(p.u_scale), {}};
+  Noise noise{unit * (from + p.lower).cwiseAbs().cwiseMax(p.u_scale), {}};
   if (!free.empty()) {
     Eigen::VectorXd rhs = p.q(free);
     if (!held.empty()) rhs.noalias() -= p.s(free, held) * p.lower(held);
@@ -33,12 +34,13 @@ Noise solve_on(const ContactProblem& p, ContactAnswer& answer) {
     answer.v(free) = inactive;
     // a compliance is positive: forces of the size of their round-off, all of one sign, displace the most
     const Eigen::VectorXd residual_noise =
-        unit * (p.s.diagonal().cwiseAbs().cwiseProduct(answer.v.cwiseAbs()) + p.q.cwiseAbs());
+        unit * (p.s.diagonal().cwiseAbs().cwiseProduct((from + answer.v).cwiseAbs()) + p.q.cwiseAbs());
     const Eigen::VectorXd moved = factor.solve(Eigen::VectorXd(residual_noise(free))).cwiseAbs();
     noise.v(free) += moved;
   }
   noise.lambda =
-      unit * (p.s.diagonal().cwiseAbs().maxCoeff() * answer.v.cwiseAbs().array() + p.q.cwiseAbs().array()).matrix();
+      unit *
+      (p.s.diagonal().cwiseAbs().maxCoeff() * (from + answer.v).cwiseAbs().array() + p.q.cwiseAbs().array()).matrix();
   answer.lambda.setZero(p.q.size());
   if (!held.empty()) answer.lambda(held) = p.s(held, Eigen::all) * answer.v - p.q(held);
   ++answer.steps;
@@ -80,18 +82,6 @@ std::vector<bool> projected_newton_set(const ContactProblem& p, Eigen::VectorXd&
   return active;
 }
 
-/// Every second unknown and the straight lines between them, falling to zero at both ends.
-Eigen::MatrixXd interpolation(Eigen::Index fine) {
-  const Eigen::Index coarse = fine / 2;
-  Eigen::MatrixXd p = Eigen::MatrixXd::Zero(fine, coarse);
-  for (Eigen::Index c = 0; c < coarse; ++c) {
-    p(2 * c + 1, c) = 1;
-    p(2 * c, c) = 0.5;
-    if (2 * c + 2 < fine) p(2 * c + 2, c) = 0.5;
-  }
-  return p;
-}
-
 }  // namespace
 
 ContactAnswer solve_contact(const ContactProblem& problem, std::vector<bool> active, int max_steps) {
@@ -122,18 +112,16 @@ ContactAnswer solve_contact(const ContactProblem& problem, std::vector<bool> act
 std::vector<bool> nested_start(const ContactProblem& problem, int max_steps) {
   const Eigen::Index fine = problem.q.size();
   if (fine <= 8) return std::vector<bool>(fine, false);
-  const Eigen::MatrixXd p = interpolation(fine);
-  const Eigen::Index coarse = p.cols();
-  // P' S P by the three entries of a column of P: quadratic work, not cubic
-  const auto every_second = Eigen::seqN(1, coarse, 2);
-  Eigen::MatrixXd sp = problem.s(Eigen::all, every_second) + 0.5 * problem.s(Eigen::all, Eigen::seqN(0, coarse, 2));
-  const Eigen::Index inner = (fine - 1) / 2;  // columns of P that have a right neighbour
-  sp.leftCols(inner) += 0.5 * problem.s(Eigen::all, Eigen::seqN(2, inner, 2));
-  Eigen::MatrixXd psp = sp(every_second, Eigen::all) + 0.5 * sp(Eigen::seqN(0, coarse, 2), Eigen::all);
-  psp.topRows(inner) += 0.5 * sp(Eigen::seqN(2, inner, 2), Eigen::all);
-
-  const Eigen::VectorXd q = p.transpose() * problem.q, lower = problem.lower(every_second);
-  const ContactProblem smaller{psp, q, lower, problem.u_scale};
+  const Eigen::Index coarse = fine / 2;
+  const auto kept = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
+  const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(problem.s(others, others)));
+  if (factor.info() != Eigen::Success) throw Error("contact: the Schur complement is not positive definite");
+  const Eigen::MatrixXd half = factor.matrixL().solve(Eigen::MatrixXd(problem.s(others, kept)));
+  const Eigen::VectorXd half_q = factor.matrixL().solve(Eigen::VectorXd(problem.q(others)));
+  const Eigen::MatrixXd s = Eigen::MatrixXd(problem.s(kept, kept)) - half.transpose() * half;
+  const Eigen::VectorXd q = Eigen::VectorXd(problem.q(kept)) - half.transpose() * half_q, lower = problem.lower(kept);
+  ContactProblem smaller{s, q, lower, problem.u_scale};
+  if (problem.from.size() > 0) smaller.from = problem.from(kept);
   const ContactAnswer answer = solve_contact(smaller, nested_start(smaller, max_steps), max_steps);
   std::vector<bool> active(fine);
   for (Eigen::Index i = 0; i < fine; ++i) {

@@ -11,6 +11,7 @@ struct ContactProblem {
   const Eigen::VectorXd& q;      ///< C
   const Eigen::VectorXd& lower;  ///< C
   double u_scale;                ///< largest |u| of the whole problem: gaps far below it are round-off
+  Eigen::VectorXd from = {};     ///< C, where v and lower count from (empty: 0): round-off is that of from + v
 };
 
 struct ContactAnswer {
@@ -19,13 +20,15 @@ struct ContactAnswer {
   int steps = 0;              ///< linear systems solved
 };
 
-/// Primal-dual active set from a given start. Where the number of violated conditions stops falling, projected Newton steps
-/// (Bertsekas 1982) propose the sets: they lower the energy, so nothing can cycle.
-/// Throws NotConverged after max_steps linear systems.
+/// Primal-dual active set from a given start. Where the number of violated conditions stops falling, projected Newton
+/// steps (Bertsekas 1982) propose the sets: they lower the energy, so nothing can cycle. Throws NotConverged after
+/// max_steps linear systems.
 ContactAnswer solve_contact(const ContactProblem& problem, std::vector<bool> active, int max_steps);
 
-/// A start for solve_contact that makes its steps independent of h: the same problem on every second unknown
-/// (P' S P, P linear interpolation), solved the same way down to a handful, gives the contact set by interpolation.
+/// A start for solve_contact that makes its steps independent of h: the same problem, bounded on every second unknown
+/// only (the others are free and eliminated), solved the same way down to a handful, gives the contact set by
+/// interpolation. Elimination keeps every order of S right; interpolated functions (P' S P) would be far too stiff for
+/// a beam, whose bending energy does not take their corners.
 std::vector<bool> nested_start(const ContactProblem& problem, int max_steps);
 
 }  // namespace antilock

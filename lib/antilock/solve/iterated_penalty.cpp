@@ -26,12 +26,11 @@ Eigen::VectorXd correct(const VariationalInequality& problem, PenaltyFactor& fac
   Eigen::VectorXd y = factor.forward(r);
   seconds.solve += watch.lap();
   if (c > 0) {
-    // g = L_C y_C is the residual condensed on Gamma_C; v = u_C + du_C
+    // L_C y_C is the residual condensed on Gamma_C; v = du_C counts from u_C, so that no S u_C brings its round-off in
     const auto l = factor.contact_block().triangularView<Eigen::Lower>();
-    const Eigen::VectorXd u_c = u(problem.contact);
-    const Eigen::VectorXd q = l * y.tail(c) + schur * u_c;
-    answer = contact({schur, q, problem.lower, u_scale}, answer, correction);
-    y.tail(c) = l.transpose() * (answer.v - u_c);
+    const Eigen::VectorXd u_c = u(problem.contact), q = l * y.tail(c), lower = problem.lower - u_c;
+    answer = contact({schur, q, lower, u_scale, u_c}, answer, correction);
+    y.tail(c) = l.transpose() * answer.v;
     seconds.contact += watch.lap();
   }
   const Eigen::VectorXd x = factor.backward(y);
