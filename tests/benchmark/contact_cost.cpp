@@ -121,7 +121,14 @@ void write(const std::filesystem::path& path, const std::vector<Row>& rows) {
   });
 }
 
-void target(bool met, const std::string& what) { fmt::print("TARGET {}: {}\n", met ? "met   " : "MISSED", what); }
+// What was asked for and what was measured: lines on the screen, and targets.csv for figures/benchmark.
+struct Targets {
+  std::string csv = "what,asked,measured,met\n";
+  void add(const std::string& what, const std::string& asked, const std::string& measured, bool met) {
+    fmt::print("TARGET {}: {}: {} (asked {})\n", met ? "met   " : "MISSED", what, measured, asked);
+    csv += fmt::format("{},{},{},{}\n", what, asked, measured, met ? "yes" : "no");
+  }
+};
 
 void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
   run_once("P1", finest, 1e-6, false);  // first, alone: what a process needs that solves this problem and ends
@@ -144,21 +151,31 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
       most_steps = std::max(most_steps, run_once("P1", n, epsilon, false).contact);
 
   double cost = 0, outside = 0;
+  std::string costs;
   std::vector<Row> p1;
   for (const Row& r : rows) {
     cost = std::max(cost, r.cost);
-    if (r.cells >= 256) outside = std::max(outside, r.outside);
+    costs += fmt::format("{}{} {}: {:.2f}", costs.empty() ? "" : " / ", r.element, r.cells, r.cost);
+    if (r.cells >= std::min(256, finest)) outside = std::max(outside, r.outside);
     if (r.element == "P1") p1.push_back(r);
   }
   const Row &small = p1.front(), &large = p1.back();
-  const double growth = std::log(large.total() / small.total()) / std::log(1.0 * large.unknowns / small.unknowns);
-  target(cost <= 1.5, fmt::format("contact at epsilon = 1e-6 costs at most {:.2f} Cholesky solves (<= 1.5)", cost));
-  target(most_steps <= 4, fmt::format("contact steps at the finest level {} at most, 1/h = 32 to {}, epsilon = 1 to 0 "
-                                      "(<= 4)",
-                                      most_steps, finest));
-  target(outside < 1, fmt::format("outside the factorisation {:.2f} of its time at 1/h >= 256 (< 1)", outside));
-  target(growth <= 1.3, fmt::format("seconds grow like unknowns^{:.2f} (<= 1.3)", growth));
-  target(megabytes < 1536, fmt::format("peak memory {:.0f} MB at {} unknowns (< 1536)", megabytes, large.unknowns));
+  Targets targets;
+  targets.add("contact solution over one unconstrained Cholesky solve at epsilon = 1e-6", "<= 1.5", costs, cost <= 1.5);
+  targets.add(fmt::format("contact steps at the finest level; 1/h = 32 to {}; epsilon = 1 to 0", finest), "<= 4",
+              fmt::format("{}", most_steps), most_steps <= 4);
+  targets.add("seconds outside the factorisation over those in it; 1/h >= 256", "< 1", fmt::format("{:.2f}", outside),
+              outside < 1);
+  targets.add(fmt::format("structured mesh at 1/h = {}", large.cells), "well below 1 s",
+              fmt::format("{:.3f} s", large.mesh), large.mesh < 0.5);
+  if (p1.size() > 1) {
+    const double growth = std::log(large.total() / small.total()) / std::log(1.0 * large.unknowns / small.unknowns);
+    targets.add(fmt::format("seconds grow like a power of the unknowns; 1/h = {} to {}", small.cells, large.cells),
+                "<= 1.3", fmt::format("{:.2f}", growth), growth <= 1.3);
+  }
+  targets.add(fmt::format("peak memory at {} unknowns", large.unknowns), "< 1536 MB",
+              fmt::format("{:.0f} MB", megabytes), megabytes < 1536);
+  write_file(folder / "targets.csv", [&](std::ostream& out) { out << targets.csv; });
 }
 
 }  // namespace

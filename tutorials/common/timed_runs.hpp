@@ -54,7 +54,7 @@ void write_price_list(const std::filesystem::path& folder, const std::vector<Tim
 /// (P1, structured mesh, active set, epsilon = 1e-6). `corrections` holds all of the solver that is no other stage.
 void write_stages(const std::filesystem::path& folder, int finest, int repeats);
 
-/// What the seconds were measured on: processor, cores, threads of the BLAS, compiler, libraries, date. One row.
+/// What the seconds were measured on: processor, cores, threads of the BLAS, compiler, libraries, date: `what,value`.
 void write_machine(const std::filesystem::path& path);
 
 }  // namespace antilock::tutorial
