@@ -367,6 +367,32 @@ TEST(TruthDistance, IsTheNormOfTheDifference) {
   EXPECT_NEAR(h1_distance(unit, none), std::sqrt(square - 2 * unit.energy()), 1e-4 * std::sqrt(square));
 }
 
+TEST(TruthDistance, H2NormIsThatOfOneWaveByDifferences) {
+  const Truth truth({{{1, {2}}}}, 0.3, false);
+  // u = g(y) sin(pi x), g by values at x = 1/2: int g^2 (1 + a^2 + a^4) + g'^2 (1 + 2 a^2) + g''^2, times 1/2. Midpoint
+  // rule and differences of step 1/400: 1e-4 of g'' and below.
+  const double a2 = pi * pi, h = 1.0 / 400;
+  double norms = 0;
+  for (const double from : {0.0, -1.0}) {
+    double square = 0;
+    for (int j = 0; j < 200; ++j) {
+      const double y = from + (j + 0.5) / 200;
+      const double low = truth.value(0.5, y - h), g = truth.value(0.5, y), high = truth.value(0.5, y + h);
+      const double slope = (high - low) / (2 * h), bend = (high - 2 * g + low) / (h * h);
+      square += 0.5 * (g * g * (1 + a2 + a2 * a2) + slope * slope * (1 + 2 * a2) + bend * bend) / 200;
+    }
+    norms += std::sqrt(square);
+  }
+  EXPECT_NEAR(h2_norm(truth), norms, 1e-3 * norms);
+}
+
+TEST(TruthDistance, H2NormIsBoundedAsEpsilonVanishes) {
+  // The paper's u^epsilon in H2(Omega+ u Omega-), needed by (28) and (31): uniformly, so they fail by epsilon^-2 alone.
+  const double limit = h2_norm(Truth(paper_sine_load(), 0, true, moderate));
+  for (const double epsilon : {1e-1, 1e-3, 1e-6})
+    EXPECT_NEAR(h2_norm(Truth(paper_sine_load(), epsilon, true, moderate)), limit, 0.01 * limit);
+}
+
 TEST(TruthDistance, FallsLikeEpsilonToThreeHalves) {
   // The pressure jumps at the end of contact: u_k is of size k^-3, and wave k feels (epsilon k)^2 up to k = 1/epsilon.
   const Truth limit(paper_sine_load(), 0, true, moderate);

@@ -19,6 +19,16 @@ double row_square(const SineRow& a, double scale_a, const SineRow& b, double sca
   return sum;
 }
 
+// The same of u^2 + |grad u|^2 + u_xx^2 + 2 u_xy^2 + u_yy^2, u_y = scale p.
+double row_square_2(const SineRow& row, double scale) {
+  double sum = 0;
+  for (Eigen::Index k = 1; k < row.u.size(); ++k) {
+    const double a2 = row.a(k) * row.a(k), u2 = row.u(k) * row.u(k), slope2 = std::pow(scale * row.p(k), 2);
+    sum += 0.5 * ((1 + a2 + a2 * a2) * u2 + (1 + 2 * a2) * slope2 + std::pow(scale * row.p_y(k), 2));
+  }
+  return sum;
+}
+
 // Gauss' rule of two points on cells that shrink by half towards both ends of (0, 1), 12 times, each in two parts: high
 // waves live within 1/k of Sigma and, in the layer, within 1/(epsilon k) of either side. Good to 1e-4.
 template <class Row>
@@ -43,6 +53,13 @@ double h1_distance(const Truth& a, const Truth& b) {
   const double layer = integral(
       [&](double t) { return row_square(layer_row(one, t - 1), scale_one, layer_row(two, t - 1), scale_two); });
   return std::sqrt(body + layer);
+}
+
+double h2_norm(const Truth& truth) {
+  const Truth::Data& data = truth.data();
+  const double scale = data.epsilon * data.epsilon;
+  return std::sqrt(integral([&](double y) { return row_square_2(body_row(data, y), 1); })) +
+         std::sqrt(integral([&](double t) { return row_square_2(layer_row(data, t - 1), scale); }));
 }
 
 }  // namespace antilock

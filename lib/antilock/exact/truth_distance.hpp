@@ -7,4 +7,8 @@ namespace antilock {
 /// rows y = const, and Gauss' rule over the rows. The truths may differ in epsilon, load and points.
 double h1_distance(const Truth& a, const Truth& b);
 
+/// ||u||_{2,Omega+} + ||u||_{2,Omega-}, the right side of (28) and (31), by the same rule: each the root of the
+/// integral of u^2 + |grad u|^2 + u_xx^2 + 2 u_xy^2 + u_yy^2.
+double h2_norm(const Truth& truth);
+
 }  // namespace antilock
