@@ -103,7 +103,8 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
                            errors.max_at_unknowns, cap));
   // a step is h/2 times a jump of the gradient, itself O(h)
   report.claim(jump <= 40 * h * h, fmt::format("the steps between triangles are small (largest {:.1e})", jump));
-  if (options.epsilon <= 0.01 * h)
+  // on fewer cells Crouzeix-Raviart itself is off by a tenth of what P1 loses
+  if (options.epsilon <= 0.01 * h && options.cells >= 16)
     report.claim(p1_errors.max_at_unknowns > 10 * errors.max_at_unknowns,
                  fmt::format("where P1 locks ({:.2e}), Crouzeix-Raviart does not ({:.2e})", p1_errors.max_at_unknowns,
                              errors.max_at_unknowns));
