@@ -207,5 +207,16 @@ TEST(Uzawa, PowerIterationFindsTheLargestEigenvalue) {
   EXPECT_LE(found, truth * (1 + 1e-14));  // from below
 }
 
+TEST(Uzawa, FollowsThePenaltyWhereTheCorrectionsTakeASmallerOne) {
+  // a penalty that is too large for a locked layer: after 15 corrections the factor is made anew, and S with it
+  const TriangleMesh mesh = unstructured_mesh(8);
+  const Space space(mesh, p1());
+  VariationalInequality problem = assemble(Scene(Body{paper_load}, StiffLayer{1e-6}, UnilateralContact{}), space);
+  problem.penalty = 1e-2;
+  const Solution direct = active_set(problem), projected = uzawa(problem);
+  EXPECT_GT(projected.counters.factorisations, 1);
+  EXPECT_LT((direct.u - projected.u).cwiseAbs().maxCoeff(), 1e-8 * direct.u.cwiseAbs().maxCoeff());
+}
+
 }  // namespace
 }  // namespace antilock

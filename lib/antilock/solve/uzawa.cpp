@@ -24,24 +24,10 @@ double duality_gap(const ContactProblem& p, const ContactAnswer& answer) {
 /// Uzawa on Gamma_C alone. The compliance C = S^-1 maps contact forces to displacements.
 class CondensedUzawa {
  public:
-  CondensedUzawa(const PenaltyFactor& factor, const UzawaOptions& options) : options_(options) {
-    const auto& l = factor.contact_block();
-    const Eigen::MatrixXd inverse =
-        l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(l.rows(), l.cols()));
-    compliance_ = inverse.transpose() * inverse;
-    if (options.step) {
-      rho_ = *options.step;
-    } else {
-      const Eigen::MatrixXd stiffness = l.triangularView<Eigen::Lower>() * l.transpose();
-      const double largest =
-          largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(compliance_ * x); }, l.rows());
-      const double smallest =
-          1 / largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(stiffness * x); }, l.rows());
-      rho_ = 2 / (largest + smallest);
-    }
-  }
+  CondensedUzawa(const PenaltyFactor& factor, const UzawaOptions& options) : factor_(factor), options_(options) {}
 
   ContactAnswer operator()(const ContactProblem& p, const ContactAnswer& before, int) {
+    if (factor_.delta() != delta_) condense();  // the corrections may have taken another penalty
     ContactAnswer answer;
     answer.lambda = before.lambda.size() > 0 ? before.lambda : Eigen::VectorXd::Zero(p.q.size());
     const Eigen::VectorXd unloaded = compliance_ * p.q;
@@ -71,9 +57,28 @@ class CondensedUzawa {
   std::vector<double> history;
 
  private:
+  void condense() {
+    const auto& l = factor_.contact_block();
+    const Eigen::MatrixXd inverse =
+        l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(l.rows(), l.cols()));
+    compliance_ = inverse.transpose() * inverse;
+    delta_ = factor_.delta();
+    if (options_.step) {
+      rho_ = *options_.step;
+      return;
+    }
+    const Eigen::MatrixXd stiffness = l.triangularView<Eigen::Lower>() * l.transpose();
+    const double largest =
+        largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(compliance_ * x); }, l.rows());
+    const double smallest =
+        1 / largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(stiffness * x); }, l.rows());
+    rho_ = 2 / (largest + smallest);
+  }
+
+  const PenaltyFactor& factor_;
   UzawaOptions options_;
   Eigen::MatrixXd compliance_;
-  double rho_ = 0;
+  double delta_ = 0, rho_ = 0;
   Stopwatch watch_;
 };
 
