@@ -17,6 +17,7 @@
 #include "antilock/problem/timoshenko_beam.hpp"
 #include "antilock/scene/error.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/sweep.hpp"
 #include "cross_check.hpp"
 #include "runner.hpp"
 #include "support/temporary_folder.hpp"
@@ -283,6 +284,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"06_crouzeix_raviart", {"solution.csv", "contact.csv", "summary.csv"}},
       {"07_convergence", {"results.csv"}},
       {"09_effects", {"effects.csv"}},
+      {"12_limits", {"limits.csv"}},
       {"16_energy_bracket", {"results.csv"}},
       {"19_beam", {"beam.csv", "summary.csv"}},
       {"20_elasticity", {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv"}},
@@ -337,6 +339,40 @@ TEST(FreeFemScripts, TheEnergyBracketIsTheSame) {
     EXPECT_NEAR(table.column("upper")(i), high, 1e-10 * std::abs(high)) << scene.epsilon().value();
     EXPECT_NEAR(table.column("lower")(i), low, 1e-10 * std::abs(low)) << scene.epsilon().value();
   }
+}
+
+// ||u_h^epsilon - u_h^0||_h of Proposition 1, four methods, nine epsilons, made by each side on the same meshes. Each
+// side knows u to 1e-10 of its largest value: 1e-10 of a distance that is never below 1e-8, and 1e-6 of larger ones.
+TEST(FreeFemScripts, TheLimitsAreTheSame) {
+  const TemporaryFolder folder;
+  const TriangleMesh structured = structured_mesh(8), unstructured = unstructured_mesh(8);
+  write_freefem_mesh(folder / "mesh.msh", unstructured);
+  freefem::run("12_limits", {"-cells", "8", "-mesh", folder / "mesh.msh", "-out", folder.path()});
+  std::ifstream table(folder / "limits.csv");
+  std::string method, epsilon, theirs;
+  std::getline(table, method);
+  EXPECT_EQ(method, "method,epsilon,distance");
+  const Reference nothing{[](double, double) { return 0.0; },
+                          [](double, double) { return Eigen::Vector2d::Zero().eval(); },
+                          [](double, double) { return 0.0; }};
+  for (const Element* element : {&p1(), &crouzeix_raviart()})
+    for (const TriangleMesh* mesh : {&structured, &unstructured}) {
+      const Space space(*mesh, *element);
+      Sweep sweep(contact_scene(0), space);
+      const Solution limit = sweep.solve();
+      for (int k = 0; k <= 8; ++k) {
+        std::getline(table, method, ',');
+        std::getline(table, epsilon, ',');
+        std::getline(table, theirs);
+        EXPECT_EQ(method, element->name() + (mesh == &structured ? " structured" : " unstructured"));
+        sweep.set_epsilon(std::pow(10.0, -0.5 * k));
+        EXPECT_NEAR(std::stod(epsilon), std::pow(10.0, -0.5 * k), 1e-15);
+        Solution solution = sweep.solve();
+        solution.u -= limit.u;
+        const double ours = measure_errors(space, solution, 1, nothing).h1;
+        EXPECT_NEAR(std::stod(theirs), ours, 1e-6 * ours + 1e-9) << method << " " << epsilon;
+      }
+    }
 }
 
 // Locking, in FreeFEM's own words: on its own meshes, P1 stays at 0 on the layer, Crouzeix-Raviart does not (truth:
