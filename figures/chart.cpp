@@ -27,11 +27,13 @@ bool failed(const Sample& s) { return !drawable(s) && s.x > 0 && std::isfinite(s
 struct Curves {
   std::vector<std::string> panels, series;
   std::vector<std::string> failing;  ///< the series that have failures
+  std::vector<std::size_t> colour;   ///< of each series, where the style says what colours mean
   std::map<std::pair<std::string, std::string>, std::vector<Sample>> samples;
 };
 
 Curves read_curves(const Table& table, const ChartStyle& style) {
   Curves curves;
+  std::vector<std::string> colours;
   const auto remember = [](std::vector<std::string>& names, const std::string& name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
@@ -40,6 +42,11 @@ Curves read_curves(const Table& table, const ChartStyle& style) {
     const std::string panel = key_markup(table, row, style.panel_by), series = key_markup(table, row, style.series_by);
     remember(curves.panels, panel);
     remember(curves.series, series);
+    if (!style.colour_by.empty() && curves.colour.size() < curves.series.size()) {
+      remember(colours, table.text(row, style.colour_by));
+      const auto found = std::find(colours.begin(), colours.end(), table.text(row, style.colour_by));
+      curves.colour.push_back(static_cast<std::size_t>(found - colours.begin()));
+    }
     Sample sample{table.number(row, style.x), table.number(row, style.y)};
     if (!style.x_least.empty()) sample.least = table.number(row, style.x_least);
     if (!style.x_most.empty()) sample.most = table.number(row, style.x_most);
@@ -56,11 +63,17 @@ struct Look {
   double size, width;
 };
 
-Look look(std::size_t n, std::size_t count) {
+Look look(std::size_t n, const Curves& curves) {
   constexpr Marker shapes[] = {Marker::circle,   Marker::square, Marker::diamond,
                                Marker::triangle, Marker::cross,  Marker::down_triangle};
+  const std::size_t count = curves.series.size();
   const double shrink = count > 1 ? static_cast<double>(n) / (count - 1) : 0;
-  return {series_colour(n), shapes[(n + n / 6) % 6], 44 - 26 * shrink, 8 - 4.5 * shrink};
+  std::size_t colour = n, shape = n + n / 6;
+  if (!curves.colour.empty()) {  // series of one colour differ in their markers
+    colour = curves.colour[n];
+    shape = std::count(curves.colour.begin(), curves.colour.begin() + static_cast<std::ptrdiff_t>(n), colour);
+  }
+  return {series_colour(colour), shapes[shape % 6], 44 - 26 * shrink, 8 - 4.5 * shrink};
 }
 
 /// A mark that no curve has: a ring with a cross in it.
@@ -90,7 +103,7 @@ void draw_curves(Page& page, const Panel& panel, const Curves& curves, const std
   for (std::size_t n = 0; n < curves.series.size(); ++n) {
     const auto found = curves.samples.find({name, curves.series[n]});
     if (found == curves.samples.end()) continue;
-    const Look style = look(n, curves.series.size());
+    const Look style = look(n, curves);
     std::vector<Point> points;
     for (const Sample& s : found->second)
       if (drawable(s)) points.push_back(panel(s.x, s.y));
@@ -149,7 +162,7 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
   if (legend > 0)
     draw_legend(page, entries, 30, [&](std::size_t n, const Box& box) {
       if (n == curves.series.size()) return draw_failure(page, box.centre(), palette::ink);
-      const Look sample = look(n, curves.series.size());
+      const Look sample = look(n, curves);
       page.line({{box.x, box.centre().y}, {box.right(), box.centre().y}}, {sample.width, sample.colour});
       page.marker(box.centre(), sample.marker, sample.size, sample.colour);
     });

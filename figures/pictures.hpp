@@ -52,6 +52,7 @@ struct ChartStyle {
   std::vector<double> slopes;        ///< triangles of these orders in every panel
   std::string title;
   std::string x_least = "", x_most = "";  ///< columns: the spread of x, drawn as a bar; empty: none
+  std::string colour_by = "";             ///< column: a colour a value, markers tell the rest; empty: a colour a series
 };
 Page chart_picture(const std::filesystem::path& table, const ChartStyle& style);
 

@@ -102,6 +102,7 @@ void add_pictures(CLI::App& app, Request& request) {
   chart->add_option("--x-most", request.chart.x_most, "column: the largest x of a point");
   chart->add_option("--panel-by", request.chart.panel_by, "columns whose values make panels")->delimiter(',');
   chart->add_option("--series-by", request.chart.series_by, "columns whose values make curves")->delimiter(',');
+  chart->add_option("--colour-by", request.chart.colour_by, "column whose values make colours (default: the series)");
   chart->add_option("--only", request.chart.filters, "column=value: only these rows");
   chart->add_option("--slope", request.chart.slopes, "triangles of these slopes")->delimiter(',');
   chart->add_option("--title", request.chart.title);

@@ -189,7 +189,9 @@ int main(int argc, char** argv) {
   std::string freefem;
   tutorial::Options options;
   options.add = [&](CLI::App& app) {
-    app.add_option("--limit", limit, "seconds after which a run counts as failed")->capture_default_str();
+    app.add_option("--limit", limit, "seconds after which a run counts as failed")
+        ->capture_default_str()
+        ->check(CLI::Range(1e-3, 3600.0));
     app.add_option("--freefem", freefem, "the command freefem/run, to measure FreeFEM's script too");
   };
   return tutorial::run(argc, argv, "10_work_precision", "What accuracy costs in time", options,
