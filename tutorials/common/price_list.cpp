@@ -95,8 +95,10 @@ void write_price_list(const std::filesystem::path& folder, const std::vector<Tim
                         cell(row[2]));
     first = next;
   }
+  int finest = 0;
+  for (const TimedRun& run : runs) finest = std::max(finest, run.cells);
   const std::string how =
-      "Unknowns: seconds of " + solvers +
+      fmt::format("1/h from 8 to {}. Unknowns: seconds of {}", finest, solvers) +
       ", without mesh and assembly, until the relative error at the unknowns is below 1e-2, 1e-3, 1e-4. `-`: failed or "
       "over the limit; `never`: locked; `>`: not even on the finest mesh measured.\n\n";
   page.insert(0, how);
