@@ -7,6 +7,7 @@
 #include "antilock/form/forms.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/accurate_enough.hpp"
+#include "antilock/measure/contact_trace.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/eigenvalues.hpp"
 #include "antilock/measure/energy_bracket.hpp"
@@ -301,6 +302,41 @@ TEST(H1Norm, IsTheNormOfTheReferenceAndItsProducts) {
       EXPECT_NEAR(u.dot(h1_norm(space) * u), 2.0 / 9 + 4.0 / 3, 1e-12) << name;  // x y on both squares, by hand
       EXPECT_LT((h1_norm(space) * u - h1_products(space, product(1))).cwiseAbs().maxCoeff(), 1e-12) << name;
     }
+}
+
+TEST(ContactTrace, IsTheFunctionOnGammaC) {
+  for (const auto& [name, mesh] : two_square_meshes(4))
+    for (const Element* element : elements()) {
+      const Space space(mesh, *element);
+      const Eigen::MatrixX3d trace = contact_trace(space, interpolant(space, affine(1).value));
+      EXPECT_NEAR(trace.col(2).sum(), 1, 1e-12) << name;
+      const Eigen::ArrayXd exact = 0.2 + 3 * trace.col(0).array() + 2;                               // y = -1
+      EXPECT_LT((trace.col(1).array() - exact).abs().maxCoeff(), 1e-11) << name << element->name();  // gmsh: 1e-12 off
+    }
+}
+
+TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
+  for (const auto& [name, mesh] : two_square_meshes(6))
+    for (const Element* element : {&p1(), &p2(), &crouzeix_raviart()}) {
+      const Space space(mesh, *element);
+      const Eigen::SparseMatrix<double> norm = h1_norm(space);
+      const double constant = negative_part_constant(space, stiff_problem(space, 1), norm);
+      double closest = 0;
+      for (int k = 1; k <= 20; ++k) {
+        Eigen::VectorXd v(space.size());  // of K_h, otherwise wild
+        for (int i = 0; i < space.size(); ++i) v(i) = std::sin(k * 1.7 * i * i + i);
+        for (const int i : space.clamped()) v(i) = 0;
+        for (const int i : space.contact()) v(i) = std::max(0.0, v(i));
+        const Eigen::MatrixX3d trace = contact_trace(space, v);
+        const double below = std::sqrt((trace.col(1).array().min(0).square() * trace.col(2).array()).sum());
+        EXPECT_LE(below, constant * std::sqrt(v.dot(norm * v))) << name << element->name();
+        if (below > 0) closest = std::max(closest, below / (constant * std::sqrt(v.dot(norm * v))));
+      }
+      EXPECT_EQ(closest > 0, element != &p1()) << name << element->name();  // P1 never; the others do
+    }
+  const TriangleMesh mesh = structured_mesh(2);
+  const Space cubic(mesh, p3());
+  test::expect_refused([&] { negative_part_constant(cubic, stiff_problem(cubic, 1), h1_norm(cubic)); }, "P3");
 }
 
 }  // namespace
