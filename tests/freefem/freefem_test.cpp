@@ -286,6 +286,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"09_effects", {"effects.csv"}},
       {"12_limits", {"limits.csv"}},
       {"16_energy_bracket", {"results.csv"}},
+      {"18_degree", {"results.csv"}},
       {"19_beam", {"beam.csv", "summary.csv"}},
       {"20_elasticity", {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
@@ -373,6 +374,28 @@ TEST(FreeFemScripts, TheLimitsAreTheSame) {
         EXPECT_NEAR(std::stod(theirs), ours, 1e-6 * ours + 1e-9) << method << " " << epsilon;
       }
     }
+}
+
+// P1 and P2, in FreeFEM summed into one matrix: at epsilon = 1e-2 that costs four digits of sixteen, hence 1e-9.
+TEST(FreeFemScripts, DegreesOneAndTwoAreTheSame) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = unstructured_mesh(8);
+  write_freefem_mesh(folder / "mesh.msh", mesh);
+  freefem::run("18_degree", {"-mesh", folder / "mesh.msh", "-out", folder.path()});
+  const freefem::Table table = freefem::read_table(folder / "results.csv");
+  ASSERT_EQ(table.rows.rows(), 2);
+  for (int i = 0; i < 2; ++i) {
+    const Space space(mesh, i == 0 ? p1() : p2());
+    const VariationalInequality problem = assemble(contact_scene(1e-2), space);
+    const Solution solution = active_set(problem);
+    const double ridge = solution.u(space.contact()).maxCoeff(), ours = energy(problem, solution);
+    const Eigen::VectorXd w = (2 * std::acos(-1) * space.points().col(0).array()).sin(), slope = problem.b * w;
+    const double cost = std::sqrt(slope.dot(problem.m.cwiseProduct(slope)));
+    EXPECT_EQ(table.column("unknowns")(i), space.size());
+    EXPECT_NEAR(table.column("cost")(i), cost, 1e-9 * cost) << space.element().name();
+    EXPECT_NEAR(table.column("ridge")(i), ridge, 1e-9 * ridge) << space.element().name();
+    EXPECT_NEAR(table.column("energy")(i), ours, 1e-9 * std::abs(ours)) << space.element().name();
+  }
 }
 
 // Locking, in FreeFEM's own words: on its own meshes, P1 stays at 0 on the layer, Crouzeix-Raviart does not (truth:
