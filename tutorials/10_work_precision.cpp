@@ -106,12 +106,13 @@ class Study {
 // 2. Stop when it is accurate enough: Uzawa's two errors step by step, and where the bracket stops it.
 void stop_early(const tutorial::Options& options, tutorial::Report& report) {
   constexpr double epsilon = 1e-2;
+  const int cells = std::min(options.cells, 64);  // finer, the steps to the last digit are minutes
   const Scene scene = layer_in_contact(epsilon);
   const TruthTable truth(Truth(paper_sine_load(), epsilon));
   write_file(options.out / "stopping.csv", [&](std::ostream& out) {
     out << "method,quantity,steps,error\n";
     for (const auto& [name, kind] : {std::pair{"P1", "structured"}, {"P1", "unstructured"}, {"CR", "unstructured"}}) {
-      const TriangleMesh mesh = make_mesh(kind, options.cells), coarse = make_mesh(kind, options.cells / 2);
+      const TriangleMesh mesh = make_mesh(kind, cells), coarse = make_mesh(kind, cells / 2);
       const Space space(mesh, element(name));
       const VariationalInequality problem = assemble(scene, space);
       UzawaOptions uzawa_options;
@@ -147,7 +148,7 @@ void judge(const std::vector<TimedRun>& runs, tutorial::Report& report) {
   bool reliable = true, agree = true;
   double reference_error = 0, locked = 0, free = 0;  // the last two on the finest mesh
   for (const TimedRun& r : runs) {
-    if (r.solver == "active set") reliable = reliable && r.ok;
+    reliable = reliable && (r.ok || r.solver != "active set");
     if (r.solver == "active set") reference_error = r.errors.max;  // the first solver of each problem
     if (r.solver == "Uzawa, Cholesky" && r.ok)
       agree = agree && std::abs(reference_error - r.errors.max) <= 1e-3 * reference_error;
