@@ -160,7 +160,7 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
 
   report.stage("inf-sup constants (dense eigenvalues)");
   std::vector<std::array<InfSup, 3>> constants;
-  const std::vector<int> small{4, 8, 12};
+  const std::vector<int> small{4, 8, 16};
   for (const int n : small)
     constants.push_back({inf_sup_of(structured_mesh(n), p1()), inf_sup_of(structured_mesh(n), crouzeix_raviart()),
                          inf_sup_of(unstructured_mesh(n), crouzeix_raviart())});
