@@ -397,6 +397,9 @@ TEST(FreeFemScripts, DegreesOneAndTwoAreTheSame) {
     EXPECT_NEAR(table.column("cost")(i), cost, 1e-9 * cost) << space.element().name();
     EXPECT_NEAR(table.column("ridge")(i), ridge, 1e-9 * ridge) << space.element().name();
     EXPECT_NEAR(table.column("energy")(i), ours, 1e-9 * std::abs(ours)) << space.element().name();
+  }
+}
+
 // The worst broken H1 error over epsilon, structured meshes: there against P1 on a mesh four times finer, here against
 // the truth. The reference's own error is a quarter of what is measured; for P1, nested in it, the squares subtract:
 // sqrt(1 - 1/16) = 0.97. 5 %.
