@@ -184,7 +184,7 @@ void study(const tutorial::Options& options, tutorial::Report& report, double li
 // Three things to try:
 // - --limit 10: Uzawa as in the paper ends on more meshes, and price_list.md says what that costs.
 // - OPENBLAS_NUM_THREADS=1 in front: small meshes are faster on one thread.
-// - accurate_enough(..., 2, 1): where does too generous a share begin to show?
+// - accurate_enough(..., 2, 1): too generous? And corrections_until(...) for the corrections of active_set.
 int main(int argc, char** argv) {
   double limit = 0.1;
   std::string freefem;

@@ -339,5 +339,28 @@ TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
   test::expect_refused([&] { negative_part_constant(cubic, stiff_problem(cubic, 1), h1_norm(cubic)); }, "P3");
 }
 
+TEST(AccurateEnough, SavesCorrectionsAndNoAccuracy) {
+  const auto save = [](const std::string& element_name, const TriangleMesh& mesh, const TriangleMesh& coarse) {
+    const Space space(mesh, element(element_name));
+    for (const double epsilon : {1e-6, 0.0}) {
+      const TruthTable truth(Truth(paper_sine_load(), epsilon, true, 14));
+      const VariationalInequality problem = stiff_problem(space, epsilon);
+      const Solution full = active_set(problem);
+      ActiveSetOptions options;
+      options.corrections = corrections_until(accurate_enough(energy_bracket(test::stiff_scene(epsilon), coarse), 2));
+      const Solution early = active_set(problem, options);
+      EXPECT_LT(early.counters.corrections, full.counters.corrections) << element_name << epsilon;
+      const Errors a = measure_errors(space, full, epsilon, reference(truth)),
+                   b = measure_errors(space, early, epsilon, reference(truth));
+      // the promise of accurate_enough
+      EXPECT_LT(b.max, 1.01 * a.max) << element_name << epsilon;
+      EXPECT_LT(b.energy, 1.01 * a.energy) << element_name << epsilon;
+    }
+  };
+  save("P1", structured_mesh(32), structured_mesh(16));
+  save("P1", unstructured_mesh(16), unstructured_mesh(8));  // locked
+  save("CR", unstructured_mesh(16), unstructured_mesh(8));
+}
+
 }  // namespace
 }  // namespace antilock

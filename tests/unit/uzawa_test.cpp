@@ -92,7 +92,7 @@ TEST(Uzawa, StopsWhereItIsAccurateEnough) {
   const auto stop = [](const std::string& element_name, const TriangleMesh& mesh, const TriangleMesh& coarse) {
     const Space space(mesh, element(element_name));
     for (const double epsilon : {1.0, 1e-2, 1e-6}) {
-      const TruthTable truth(Truth(paper_sine_load(), epsilon));
+      const TruthTable truth(Truth(paper_sine_load(), epsilon, true, 14));
       const VariationalInequality problem = stiff_problem(space, epsilon);
       UzawaOptions options;
       const Solution full = uzawa(problem);

@@ -5,7 +5,6 @@
 
 #include "antilock/measure/errors.hpp"
 #include "antilock/problem/assemble.hpp"
-#include "antilock/solve/active_set.hpp"
 
 namespace antilock {
 
@@ -23,6 +22,13 @@ AccurateEnough accurate_enough(const EnergyBracket& bracket, double coarser, dou
   if (!(bracket.width() > 0)) return {};
   const double relative = share * bracket.width() / (coarser * coarser) / scale;
   return {relative * relative * scale, relative};
+}
+
+CorrectionOptions corrections_until(const AccurateEnough& enough) {
+  CorrectionOptions options;
+  options.tolerance = std::max(options.tolerance, enough.relative);
+  options.refused = std::max(options.refused, 10 * enough.relative);  // who asks for little gets little
+  return options;
 }
 
 }  // namespace antilock

@@ -2,6 +2,7 @@
 #include "antilock/measure/energy_bracket.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
+#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
 
 namespace antilock {
@@ -18,5 +19,9 @@ EnergyBracket energy_bracket(const Scene& scene, const TriangleMesh& mesh);
 /// little, and is divided by coarser^2 then (order h^2): cautious where P1 locks. A width that is not positive says
 /// nothing, and nothing is enough: both numbers are 0.
 AccurateEnough accurate_enough(const EnergyBracket& bracket, double coarser = 1, double share = 0.05);
+
+/// The same rule for the corrections of active_set: one in place of two where nothing locks. Where the answer's report
+/// is then above the trusted level it says so in its warning.
+CorrectionOptions corrections_until(const AccurateEnough& enough);
 
 }  // namespace antilock
