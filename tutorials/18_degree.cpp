@@ -179,8 +179,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // Three things to try:
 // - P2 at epsilon = 1e-4, 1e-3, 1e-2: the knee of its line moves to the h where h^2 = epsilon, or so.
 // - draw `cost` against h: straight lines of slope p.
-// - a load without symmetry, [](double x, double) { return 30 * x * x - 10; }: the one kernel function of P2, x (1 -
-// x), gets its share. Under sin(2 pi x), odd about the middle, it gets nothing.
+// - add 5 sin(pi x) to the load: x (1 - x), the one kernel function of P2, gets its share. Under sin(2 pi x), odd about
+// the middle, it gets nothing, and P2 locks as P1 does once h^2 >> epsilon.
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.epsilon = 1e-4;

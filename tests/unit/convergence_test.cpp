@@ -79,6 +79,29 @@ TEST(Convergence, LayerAsStiffAsTheBody) {
   }
 }
 
+TEST(Convergence, HasTheOrderOfTheDegree) {
+  for (const double epsilon : {1.0, 1e-2})
+    for (const Element* element : {&p3(), &p4()}) {
+      const Manufactured exact = Manufactured::stiff_layer(epsilon);
+      std::vector<double> h, l2, h1, energy;
+      for (const int cells : {4, 8, 16}) {
+        const TriangleMesh mesh = structured_mesh(cells);
+        const Space space(mesh, *element);
+        const Solution s = active_set(assemble(Scene({exact.load()}, StiffLayer{epsilon}), space));
+        const Errors e = measure_errors(space, s, epsilon, exact.reference());
+        h.push_back(1.0 / cells);
+        l2.push_back(e.l2);
+        h1.push_back(e.h1);
+        energy.push_back(e.energy);
+      }
+      const int k = element->degree();
+      // 0.2: three coarse meshes; finer ones come near the floor of the solver, 1e-10
+      EXPECT_NEAR(slope(h, l2), k + 1, 0.2) << element->name() << epsilon;
+      EXPECT_NEAR(slope(h, h1), k, 0.2) << element->name() << epsilon;
+      EXPECT_NEAR(slope(h, energy), k, 0.2) << element->name() << epsilon;
+    }
+}
+
 TEST(Convergence, StiffLayerWhereNothingLocks) {
   for (const double epsilon : {1e-2, 1e-6, 0.0}) {
     check_convergence(StiffLayer{epsilon}, Manufactured::stiff_layer(epsilon), p1(), true);

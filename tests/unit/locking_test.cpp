@@ -121,6 +121,26 @@ TEST(Locking, OfDegreePLeavesOnePolynomialMoreADegreeOnAnUnstructuredMesh) {
   }
 }
 
+TEST(Locking, LeavesP2OneParabolaWhereTheLoadIsNotOddAboutTheMiddle) {
+  const TriangleMesh mesh = unstructured_mesh(4);
+  const Space space(mesh, p2());
+  const auto largest_off_parabola = [&](const SineLoad& load, double& c) {
+    const Solution s = active_set(assemble(Scene({load}, StiffLayer{0}, UnilateralContact{}), space));
+    const Eigen::ArrayXd x = space.points().col(0).array(), parabola = x * (1 - x);
+    double off = 0;
+    c = s.u(space.contact()).maxCoeff() * 4;  // at the middle x (1 - x) = 1/4
+    for (int i = 0; i < space.size(); ++i)
+      if (space.points()(i, 1) <= 0) off = std::max(off, std::abs(s.u(i) - c * parabola(i)));
+    return off;
+  };
+  double c = 0;
+  // 1e-8: u is right to about 1e-10 of its largest value, 0.3
+  EXPECT_LT(largest_off_parabola({{{2, {10.0}}, {1, {5.0}}}}, c), 1e-8);
+  EXPECT_GT(c, 0.1);
+  EXPECT_LT(largest_off_parabola(paper_sine_load(), c), 1e-8);
+  EXPECT_LT(c, 1e-8);  // pulled as much as pressed: nothing is left
+}
+
 TEST(Locking, TheEnergyBracketsTheTruthAndDoesNotCloseWhereItLocks) {
   const double truth = Truth(paper_sine_load(), 0).energy();
   EXPECT_NEAR(truth, -0.44154446, 1e-8);

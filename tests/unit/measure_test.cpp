@@ -315,6 +315,53 @@ TEST(ContactTrace, IsTheFunctionOnGammaC) {
     }
 }
 
+/// The samples of an edge (s = (k + 1/2) / 32, values v_k) minus their mean, or minus the chords 0 - 1/2 - 1 of the
+/// parabola through three of them.
+Eigen::VectorXd hidden(const Eigen::VectorXd& v, bool parabola) {
+  if (!parabola) return v.array() - v.mean();
+  const auto place = [](int k) { return (k + 0.5) / 32; };
+  const auto value = [&](double s) {
+    double sum = 0;
+    for (const int i : {0, 15, 31}) {
+      double phi = 1;
+      for (const int j : {0, 15, 31})
+        if (j != i) phi *= (s - place(j)) / (place(i) - place(j));
+      sum += phi * v(i);
+    }
+    return sum;
+  };
+  Eigen::VectorXd rest(32);
+  for (int k = 0; k < 32; ++k) {
+    const double left = k < 16 ? 0 : 0.5, r = 2 * (place(k) - left);
+    rest(k) = v(k) - (1 - r) * value(left) - r * value(left + 0.5);
+  }
+  return rest;
+}
+
+TEST(ContactTrace, TheConstantIsTheLargestHiddenPartOfSampledFunctions) {
+  for (const auto& [name, mesh] : two_square_meshes(3))
+    for (const Element* element : {&p2(), &crouzeix_raviart()}) {
+      const Space space(mesh, *element);
+      std::vector<int> free;
+      for (int i = 0; i < space.size(); ++i)
+        if (!std::binary_search(space.clamped().begin(), space.clamped().end(), i)) free.push_back(i);
+      Eigen::MatrixXd samples(3 * 32, free.size());  // three edges on Gamma_C
+      for (std::size_t i = 0; i < free.size(); ++i) {
+        const Eigen::MatrixX3d trace = contact_trace(space, Eigen::VectorXd::Unit(space.size(), free[i]));
+        for (int e = 0; e < 3; ++e)
+          samples.col(i).segment(32 * e, 32) = hidden(trace.col(1).segment(32 * e, 32), element == &p2())
+                                                   .cwiseProduct(trace.col(2).segment(32 * e, 32).cwiseSqrt());
+      }
+      const Eigen::MatrixXd norm = Eigen::MatrixXd(h1_norm(space))(free, free);
+      const double largest = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(samples.transpose() * samples,
+                                                                                       norm, Eigen::EigenvaluesOnly)
+                                 .eigenvalues()
+                                 .maxCoeff();
+      const double constant = negative_part_constant(space, stiff_problem(space, 1), h1_norm(space));
+      EXPECT_NEAR(constant / std::sqrt(largest), 1, 5e-3) << name << element->name();  // midpoint sums: 32^-2
+    }
+}
+
 TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
   for (const auto& [name, mesh] : two_square_meshes(6))
     for (const Element* element : {&p1(), &p2(), &crouzeix_raviart()}) {
