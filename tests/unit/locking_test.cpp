@@ -1,15 +1,14 @@
 // Locking is a property of the discretisation, not a bug: P1 on an unstructured mesh must lock, the others must not.
 #include <gtest/gtest.h>
 
-#include <Eigen/SPQRSupport>
 #include <cmath>
-#include <map>
 
 #include "antilock/exact/truth.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/measure/inf_sup.hpp"
+#include "antilock/measure/locking.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/sweep.hpp"
@@ -77,24 +76,7 @@ TEST(Locking, TheLockedSolutionIsDirichletsOnTheBody) {
   EXPECT_LT(relative_difference(locked.u, active_set(dirichlet).u), 1e-8);
 }
 
-/// dim G_h = { v : B v = 0 }, over the unknowns of the layer that are not clamped: by rank-revealing sparse QR.
-Eigen::Index kernel_dimension(const Space& space) {
-  const VariationalInequality problem = stiff_problem(space, 0);
-  std::vector<bool> clamped(problem.size(), false);
-  for (const int i : problem.fixed) clamped[i] = true;
-  std::map<int, int> column;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Eigen::Index r = 0; r < problem.b.rows(); ++r)
-    for (RowMatrix::InnerIterator entry(problem.b, r); entry; ++entry)
-      if (const int i = static_cast<int>(entry.col()); !clamped[i])
-        entries.emplace_back(r, column.emplace(i, column.size()).first->second, entry.value());
-  Eigen::SparseMatrix<double> b(problem.b.rows(), static_cast<Eigen::Index>(column.size()));
-  b.setFromTriplets(entries.begin(), entries.end());
-  Eigen::SPQR<Eigen::SparseMatrix<double>> qr;
-  qr.setPivotThreshold(1e-8);  // entries of B are 1/h; what is dependent is so to round-off
-  qr.compute(b);
-  return b.cols() - qr.rank();
-}
+int kernel_dimension(const Space& space) { return layer_kernel_dimension(stiff_problem(space, 0)); }
 
 TEST(Locking, IsTheDimensionOfTheKernelOfA0) {
   for (const int cells : {8, 16}) {

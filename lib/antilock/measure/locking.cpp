@@ -37,6 +37,21 @@ int kernel_dimension(const VariationalInequality& problem) {
   return problem.free_count() - static_cast<int>(qr.rank());
 }
 
+int layer_kernel_dimension(VariationalInequality problem) {
+  check(problem);
+  std::vector<char> held(problem.size(), 1);
+  for (Eigen::Index row = 0; row < problem.b.rows(); ++row)
+    for (RowMatrix::InnerIterator entry(problem.b, row); entry; ++entry) held[entry.col()] = 0;
+  for (const int i : problem.fixed) held[i] = 1;
+  problem.fixed.clear();
+  for (int i = 0; i < problem.size(); ++i)
+    if (held[i]) problem.fixed.push_back(i);
+  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  std::erase_if(problem.contact, [&](int i) { return held[i] != 0; });
+  problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+  return kernel_dimension(problem);
+}
+
 Eigen::MatrixXd kernel_basis(const VariationalInequality& problem) {
   check(problem);
   const SparseMatrix places = free_unknowns(problem);

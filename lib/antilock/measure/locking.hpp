@@ -8,6 +8,10 @@ namespace antilock {
 /// malformed problem.
 int kernel_dimension(const VariationalInequality& problem);
 
+/// The same of the layer alone: without the unknowns that stand in no row of B (an entry that is zero counts), which
+/// are in every kernel.
+int layer_kernel_dimension(VariationalInequality problem);
+
 /// An orthonormal basis of G_h, N x kernel_dimension, zero on the fixed unknowns. Dense: for small problems.
 Eigen::MatrixXd kernel_basis(const VariationalInequality& problem);
 
