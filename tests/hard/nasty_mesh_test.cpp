@@ -91,7 +91,7 @@ void prove(const std::string& what, const TriangleMesh& mesh, const Element& ele
     ASSERT_LT(exact.residual, 1e-18);
     EXPECT_GE(std::min(exact.min_gap, exact.min_pressure), -1e-18);
     // measured 1.2e-9 at worst, on slivers: what a correction of 1e-9 in double precision leaves
-    EXPECT_LT(distance(solution.u, exact.u), 3e-9);
+    EXPECT_LT(distance(solution.u, exact.u), 1e-9);
     EXPECT_TRUE(solution.warning.empty()) << solution.warning;
   }
 }

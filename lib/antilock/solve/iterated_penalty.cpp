@@ -40,6 +40,16 @@ Eigen::VectorXd correct(const VariationalInequality& problem, PenaltyFactor& fac
   return du;
 }
 
+/// Whether some unknown is a thousand times as stiff as the median, as the corners of flat triangles are: the round-off
+/// of its residual, the same at each correction, would stay in u unseen.
+bool has_flat_cells(const VariationalInequality& problem) {
+  Eigen::VectorXd stiffness = problem.a1.diagonal();
+  if (stiffness.size() == 0) return false;
+  const auto middle = stiffness.begin() + stiffness.size() / 2;
+  std::nth_element(stiffness.begin(), middle, stiffness.end());
+  return *std::max_element(middle, stiffness.end()) > 1e3 * *middle;
+}
+
 /// S = L_C L_C', C x C.
 Eigen::MatrixXd contact_schur(const PenaltyFactor& factor) {
   const Eigen::MatrixXd& block = factor.contact_block();
@@ -71,8 +81,8 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
       rows > 0 ? Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff()
                : 0;
   double u_first = 0, u_scale = 0, before = 0, error = 1, gap = 1;
-  int since_change = 0;  // corrections with these means
-  bool careful = false;  // residuals in long double
+  int since_change = 0;                    // corrections with these means
+  bool careful = has_flat_cells(problem);  // residuals in long double
   for (int correction = 0;; ++correction) {
     if (correction > options.max_corrections)
       throw NotConverged(
