@@ -24,6 +24,8 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include <array>
 #include <map>
 

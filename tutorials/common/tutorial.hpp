@@ -1,10 +1,13 @@
 #pragma once
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <functional>
 #include <string>
 
 #include "antilock/solve/stopwatch.hpp"
+
+namespace CLI {
+class App;  // CLI11 in full would be compiled into every tutorial
+}
 
 namespace antilock::tutorial {
 
