@@ -48,7 +48,7 @@ struct Row {
   int degree;
   bool structured;
   int cells, unknowns;
-  int kernel;   // traces on Sigma of G_h; -1: not counted on this mesh
+  int kernel;   // dim G_h without the functions of the body alone; -1: not counted on this mesh
   double cost;  // |d/dy I_h w| in L2 of the layer, w = sin(2 pi x)
   Errors errors;
   double ridge;  // largest u_h on Gamma_C, at the unknowns
@@ -56,27 +56,14 @@ struct Row {
   std::string mesh() const { return structured ? "structured" : "unstructured"; }
 };
 
-// 1. dim G_h without the functions of the body alone, which are in every kernel: hold every unknown above Sigma.
-int layer_kernel(const Space& space, VariationalInequality problem) {
-  std::vector<char> held(problem.size(), 0);
-  for (const int i : space.clamped()) held[i] = 1;
-  problem.fixed.clear();
-  for (int i = 0; i < space.size(); ++i)
-    if (held[i] || space.points()(i, 1) > 0) problem.fixed.push_back(i);
-  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
-  problem.contact.clear();
-  problem.lower.resize(0);
-  return kernel_dimension(problem);
-}
-
-// 2. What the stiff form charges for a ridge that is constant across the layer: a0(I_h w, I_h w)^(1/2).
+// 1. What the stiff form charges for a ridge that is constant across the layer: a0(I_h w, I_h w)^(1/2).
 double ridge_cost(const Space& space, const VariationalInequality& problem) {
   const Eigen::VectorXd w = (2 * std::numbers::pi * space.points().col(0).array()).sin();
   const Eigen::VectorXd slope = problem.b * w;
   return std::sqrt(slope.dot(problem.m.cwiseProduct(slope)));
 }
 
-// 3. One element on one mesh: the same lines for every degree.
+// 2. One element on one mesh: the same lines for every degree.
 Row solve(int degree, bool structured, int cells, const TriangleMesh& mesh, double epsilon, const TruthTable& truth) {
   const Space space(mesh, element(fmt::format("P{}", degree)));
   const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
@@ -86,7 +73,7 @@ Row solve(int degree, bool structured, int cells, const TriangleMesh& mesh, doub
   problem.penalty = problem.compliance;
   const Solution solution = active_set(problem);
   // on fine meshes B nearly misses so many functions that a rank has no meaning in double precision
-  const int kernel = cells <= 4 ? layer_kernel(space, problem) : -1;
+  const int kernel = cells <= 4 ? layer_kernel_dimension(problem) : -1;
   return {degree,
           structured,
           cells,
