@@ -11,8 +11,8 @@
 //
 // which Theorem 5 says of P1 on structured meshes and Theorem 7 of Crouzeix-Raviart on any, and Remark 4 of the energy
 // seminorm |.|_{a^epsilon} too. Mind the order: for every *fixed* epsilon > 0, P1 on an unstructured mesh converges as
-// well (Proposition 2). Its map shows how: the error is large below a line epsilon = c h, and refining moves along
-// the line. A supremum over epsilon does not get off it.
+// well (Proposition 2). Its map shows how: the error is large below a line, epsilon about h^(3/2) on these meshes,
+// and refining moves along it. A supremum over epsilon does not get off it.
 //
 // The supremum is taken over half decades from 1 to 1e-10, and 0: by Theorem 1 nothing happens below.
 //

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "antilock/measure/hypotheses.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/problem/assemble.hpp"
 #include "antilock/scene/error.hpp"
@@ -131,7 +132,7 @@ TEST_P(Trust, TheReportDoesNotSeeTheScaleOfTheLoad) {
       problem.load *= factor;
       problem.lower *= factor;
       Solution scaled = answer;
-      scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor;
+      scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor, scaled.moderate *= factor;
       const Kkt other = kkt_report(problem, scaled);
       EXPECT_EQ(kkt.residual, other.residual);
       EXPECT_EQ(kkt.min_gap, other.min_gap);
@@ -143,6 +144,77 @@ TEST_P(Trust, TheReportDoesNotSeeTheScaleOfTheLoad) {
 
 INSTANTIATE_TEST_SUITE_P(Epsilon, Trust, testing::Values(1.0, 1e-2, 1e-8, 0.0),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
+
+/// n unknowns in a row with springs between neighbours.
+SparseMatrix springs(const Eigen::VectorXd& stiffness) {
+  const Eigen::Index n = stiffness.size() + 1;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Eigen::Index i = 0; i + 1 < n; ++i)
+    for (const Eigen::Index a : {i, i + 1})
+      for (const Eigen::Index b : {i, i + 1}) entries.emplace_back(a, b, a == b ? stiffness(i) : -stiffness(i));
+  SparseMatrix a1(n, n);
+  a1.setFromTriplets(entries.begin(), entries.end());
+  return a1;
+}
+
+// A pivot of a singular matrix is round-off of either sign: a positive one does not make it regular.
+TEST(Singular, AStructureThatNothingHoldsIsRefusedWhateverTheRoundOff) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    std::srand(seed);
+    VariationalInequality problem;
+    problem.a1 = springs(Eigen::VectorXd::Ones(19) + 0.9 * Eigen::VectorXd::Random(19));
+    problem.b.resize(0, 20);
+    problem.load = Eigen::VectorXd::Unit(20, 3);
+    EXPECT_THROW(active_set(problem), Error) << "seed " << seed;
+  }
+}
+
+/// Six unknowns in a row, the first held at 0, the second held at 0 by B and pressed to 0.1: infeasible at compliance
+/// 0. `far` is the bound of another, `unit` the unit in which a second row of B is written.
+VariationalInequality impossible(double far, double unit) {
+  VariationalInequality problem;
+  problem.a1 = springs(Eigen::VectorXd::Ones(5));
+  problem.b.resize(2, 6);
+  problem.b.insert(0, 1) = 1;
+  problem.b.insert(1, 4) = unit;
+  problem.b.makeCompressed();
+  problem.m = Eigen::Vector2d(1, 1 / (unit * unit));
+  problem.compliance = 0;
+  problem.penalty = 1e-3;
+  problem.load = Eigen::VectorXd::Constant(6, 0.01);
+  problem.fixed = {0};
+  problem.fixed_values = Eigen::VectorXd::Zero(1);
+  problem.contact = {1, 3};
+  problem.lower = Eigen::Vector2d(0.1, far);
+  return problem;
+}
+
+TEST(Infeasible, IsSeenBesideAFarBoundAndInAnyUnits) {
+  for (const double far : {0.0, -1e3, -1e6, -1e9}) {
+    EXPECT_THROW(active_set(impossible(far, 1)), NotConverged) << far;
+    EXPECT_GT(distance_to_kernel(impossible(far, 1)), 0.1) << far;
+  }
+  for (const double unit : {1e-6, 1e3, 1e9, 1e12}) {
+    EXPECT_THROW(active_set(impossible(0, unit)), NotConverged) << unit;
+    EXPECT_GT(distance_to_kernel(impossible(0, unit)), 0.1) << unit;
+  }
+}
+
+TEST(Report, AFarBoundDoesNotHideABrokenCompliance) {
+  for (const double far : {0.0, -1e3, -1e6, -1e9}) {
+    VariationalInequality problem = impossible(far, 1);
+    problem.lower(0) = -1;
+    Solution foreign;  // of the problem without B: p = 0 although B u is not
+    VariationalInequality soft = problem;
+    soft.b.resize(0, 6);
+    soft.m.resize(0);
+    foreign.u = active_set(soft).u;
+    foreign.p = Eigen::Vector2d::Zero();
+    foreign.lambda = Eigen::Vector2d::Zero();
+    EXPECT_GT(kkt_report(problem, foreign).residual, 0.1) << far;
+    EXPECT_THROW(certify(problem, foreign), NotConverged) << far;
+  }
+}
 
 }  // namespace
 }  // namespace antilock

@@ -71,6 +71,7 @@ TEST(Kkt, ReportDoesNotDependOnTheScaleOfTheLoad) {
     solution.u *= scale;
     solution.p *= scale;
     solution.lambda *= scale;
+    solution.moderate *= scale;
     const Kkt kkt = kkt_report(problem, solution);
     EXPECT_EQ(kkt.min_gap, reference.min_gap);  // powers of two: bit by bit
     EXPECT_EQ(kkt.min_pressure, reference.min_pressure);

@@ -25,10 +25,7 @@ AccurateEnough accurate_enough(const EnergyBracket& bracket, double coarser, dou
 }
 
 CorrectionOptions corrections_until(const AccurateEnough& enough) {
-  CorrectionOptions options;
-  options.tolerance = std::max(options.tolerance, enough.relative);
-  options.refused = std::max(options.refused, 10 * enough.relative);  // who asks for little gets little
-  return options;
+  return corrections_to(std::max(CorrectionOptions{}.tolerance, enough.relative));
 }
 
 }  // namespace antilock

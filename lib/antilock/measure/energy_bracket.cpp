@@ -34,7 +34,7 @@ void check_bracket_request(const Space& space, const VariationalInequality& prob
   if (problem.lower.size() > 0 && problem.lower.cwiseAbs().maxCoeff() > 0)
     throw Error("energy bracket: the obstacle has a gap; accepted: u >= 0 on Gamma_C");
   // grad u_h is known on triangles alone: Ventcel's term couples a boundary unknown beyond its triangle
-  for (const int i : problem.contact)
+  for (const int i : space.contact())
     if (problem.a1.col(i).nonZeros() > 3)
       throw Error(
           "energy bracket: a1 couples unknowns on Gamma_C beyond their triangle (Ventcel); accepted: a layer or "

@@ -10,11 +10,6 @@
 #include "antilock/solve/kkt.hpp"
 
 namespace antilock {
-namespace {
-
-double largest(const Eigen::VectorXd& v) { return v.size() == 0 ? 0.0 : v.cwiseAbs().maxCoeff(); }
-
-}  // namespace
 
 Hypotheses check_hypotheses(const VariationalInequality& problem, const SparseMatrix& norm) {
   Hypotheses found;
@@ -33,9 +28,9 @@ double distance_to_kernel(const VariationalInequality& problem) {
   unloaded.load.setZero();
   unloaded.compliance = 1e-9;
   const Solution s = active_set(unloaded);
-  const Eigen::Map<const Eigen::VectorXd> entries(problem.b.valuePtr(), problem.b.nonZeros());
-  const double scale = largest(entries) * std::max(largest(s.u), largest(problem.lower));
-  return scale > 0 ? largest(problem.b * s.u) / scale : 0;
+  const double u = s.u.lpNorm<Eigen::Infinity>();
+  const Eigen::VectorXd strain = (problem.b * s.u).cwiseQuotient(absolute_row_sums(problem.b));
+  return u > 0 ? strain.lpNorm<Eigen::Infinity>() / u : 0;
 }
 
 std::vector<EnergyRow> energy_against_epsilon(VariationalInequality problem, const std::vector<double>& epsilons) {
@@ -46,7 +41,7 @@ std::vector<EnergyRow> energy_against_epsilon(VariationalInequality problem, con
     try {
       const Solution s = active_set(problem);
       row.energy = energy(problem, s);
-      row.moved = largest(s.u);
+      row.moved = s.u.lpNorm<Eigen::Infinity>();
       row.corrections = s.counters.corrections;
       row.violation = worst_violation(s.kkt);
     } catch (const NotConverged& failure) {

@@ -22,9 +22,9 @@ struct Hypotheses {
 /// of the space's norm. Throws Error as `coercivity` does (a malformed problem, too many unknowns).
 Hypotheses check_hypotheses(const VariationalInequality& problem, const SparseMatrix& norm);
 
-/// How far K_h and G_h are from meeting: the smallest B v over K_h, least squares in M, relative to max|B| max|v| and
-/// the bounds. Zero up to round-off (below 1e-6) where problem (7), epsilon = 0, has a solution; larger where it has
-/// none. Throws Error for a malformed or singular problem.
+/// How far K_h and G_h are from meeting: the smallest B v over K_h, least squares in M, each row relative to its own
+/// sum |B| times max|v|. Zero up to round-off (below 1e-6) where problem (7), epsilon = 0, has a solution; larger where
+/// it has none. Throws Error for a malformed or singular problem.
 double distance_to_kernel(const VariationalInequality& problem);
 
 /// One line of a locking diagnosis.

@@ -58,6 +58,13 @@ Eigen::MatrixXd contact_schur(const PenaltyFactor& factor) {
 
 }  // namespace
 
+CorrectionOptions corrections_to(double asked) {
+  CorrectionOptions options;
+  options.tolerance = asked;
+  options.refused = std::max(options.refused, 10 * asked);
+  return options;
+}
+
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name) {
   const auto rows = problem.b.rows();
@@ -77,9 +84,7 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
 
   Anderson acceleration(6);
   ContactAnswer answer;
-  const double b_scale =
-      rows > 0 ? Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff()
-               : 0;
+  const Eigen::VectorXd b_scale = absolute_row_sums(problem.b);
   double u_first = 0, u_scale = 0, before = 0, error = 1, gap = 1;
   int since_change = 0;                    // corrections with these means
   bool careful = has_flat_cells(problem);  // residuals in long double
@@ -130,11 +135,11 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
     s.counters.corrections = correction;
     if (rows == 0 || u_scale == 0) break;  // K is the problem's own matrix: nothing was penalised
     // what compliance p - B u comes to now: where no u meets the bounds and B u = 0, u settles and this does not
-    gap = std::abs(problem.compliance - delta) * dp.lpNorm<Eigen::Infinity>() / (b_scale * u_scale);
+    gap = std::abs(problem.compliance - delta) * dp.cwiseQuotient(b_scale).lpNorm<Eigen::Infinity>() / u_scale;
     if (correction > 0) {
       const double rate = std::clamp(change / before, 0.01, 0.99);
       error = change * rate / (1 - rate);
-      if (error <= options.tolerance && gap <= std::max(options.tolerance, change)) break;
+      if (error <= options.tolerance && gap <= 1e-3 * options.tolerance) break;
     }
     before = change;
     if (answer.active != active_before) acceleration.restart();
@@ -148,6 +153,7 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   s.seconds.factor = factor.factor_seconds;
   s.lambda = answer.lambda.size() > 0 ? answer.lambda : s.lambda;
   s.active = answer.active;
+  s.moderate = u_first;
   certify(problem, s, TrustLevels{.refused = options.refused});
   return s;
 }

@@ -13,10 +13,15 @@ namespace antilock {
 using ContactSolver = std::function<ContactAnswer(const ContactProblem&, const ContactAnswer& before, int correction)>;
 
 struct CorrectionOptions {
-  double tolerance = 1e-10;   ///< on the estimated relative algebraic error of u in the maximum norm
+  double tolerance = 1e-10;   ///< on the estimated relative algebraic error of u in the maximum norm; a thousandth of
+                              ///< it on p compliance = B u, row by row, where errors of modes that B nearly misses hide
   double refused = 1e-6;      ///< KKT report above which no answer is returned (see TrustLevels)
   int max_corrections = 100;  ///< reached: NotConverged
 };
+
+/// The options for a relative error of `asked` at best. Who asks for little gets little, with a warning: the report may
+/// be ten times as large.
+CorrectionOptions corrections_to(double asked);
 
 /// The iterated penalty method (an augmented Lagrangian in the layer stress p = compliance^-1 B u). One factorisation
 /// of the moderately penalised K = A1 + delta^-1 B' M B; the true problem enters through the residual in split form

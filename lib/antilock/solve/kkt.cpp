@@ -54,6 +54,13 @@ SplitResidual extended_residual(const VariationalInequality& problem, const Eige
   return residual_in<long double>(problem, u, p, lambda);
 }
 
+Eigen::VectorXd absolute_row_sums(const RowMatrix& b) {
+  Eigen::VectorXd sums = b.cwiseAbs() * Eigen::VectorXd::Ones(b.cols());
+  for (double& sum : sums)
+    if (sum == 0) sum = 1;
+  return sums;
+}
+
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   const Eigen::VectorXd &u = solution.u, &p = solution.p, &lambda = solution.lambda;
   Kkt kkt;
@@ -67,22 +74,16 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
     reaction = std::max(reaction, std::abs(r.r1(i)));
     r.r1(i) = 0;
   }
-  Eigen::VectorXd terms = problem.a1.cwiseAbs() * u.cwiseAbs() + problem.load.cwiseAbs();
-  double b_largest = 0;
-  if (problem.b.rows() > 0) {
-    terms += problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(p.cwiseAbs());
-    b_largest = Eigen::Map<const Eigen::VectorXd>(problem.b.valuePtr(), problem.b.nonZeros()).cwiseAbs().maxCoeff();
-  }
-  const double u_largest = u.lpNorm<Eigen::Infinity>(),
-               u_scale = std::max(u_largest, problem.lower.lpNorm<Eigen::Infinity>());
   const double f_scale = std::max(problem.load.lpNorm<Eigen::Infinity>(), lambda.lpNorm<Eigen::Infinity>());
-  // a locked u may tend to 0: then the bounds tell what is large, or what the loads would do to one free unknown
-  double b_scale = b_largest * std::max(u_scale, single_displacement(problem));
-  b_scale = std::max(b_scale, problem.compliance * p.lpNorm<Eigen::Infinity>());
-  // 1e-6 of the terms: where the forces themselves are round-off, as of a rigid displacement
-  kkt.residual = std::max(
-      ratio(r.r1.lpNorm<Eigen::Infinity>(), std::max({f_scale, reaction, 1e-6 * terms.lpNorm<Eigen::Infinity>()})),
-      ratio(r.r2.lpNorm<Eigen::Infinity>(), b_scale));
+  // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
+  Eigen::VectorXd terms = problem.a1.cwiseAbs() * u.cwiseAbs() + problem.load.cwiseAbs();
+  if (problem.b.rows() > 0) terms += problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(p.cwiseAbs());
+  const Eigen::VectorXd beyond = (r.r1.cwiseAbs() - 8 * std::numeric_limits<double>::epsilon() * terms).cwiseMax(0);
+  kkt.residual = ratio(beyond.lpNorm<Eigen::Infinity>(), std::max(f_scale, reaction));
+  // a locked u may tend to 0: then its size before, or what the loads would do to one free unknown, tells what is large
+  const double u_scale = std::max({u.lpNorm<Eigen::Infinity>(), solution.moderate, single_displacement(problem)});
+  const Eigen::VectorXd strain = r.r2.cwiseQuotient(absolute_row_sums(problem.b));
+  kkt.residual = std::max(kkt.residual, ratio(strain.lpNorm<Eigen::Infinity>(), u_scale));
   // the prescribed values hold exactly or not at all
   for (std::size_t i = 0; i < problem.fixed.size(); ++i)
     if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
@@ -91,8 +92,7 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   kkt.min_pressure = ratio(lambda.minCoeff(), f_scale);
   kkt.min_gap = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < lambda.size(); ++i) {  // each gap by its own bound: a far obstacle hides no near one
-    const double gap = u(problem.contact[i]) - problem.lower(i),
-                 scale = std::max(u_largest, std::abs(problem.lower(i)));
+    const double gap = u(problem.contact[i]) - problem.lower(i), scale = std::max(u_scale, std::abs(problem.lower(i)));
     kkt.min_gap = std::min(kkt.min_gap, ratio(gap, scale));
     kkt.complementarity = std::max(kkt.complementarity, ratio(std::abs(lambda(i) * gap), scale * f_scale));
   }

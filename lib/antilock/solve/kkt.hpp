@@ -15,11 +15,14 @@ SplitResidual split_residual(const VariationalInequality& problem, const Eigen::
 SplitResidual extended_residual(const VariationalInequality& problem, const Eigen::VectorXd& u,
                                 const Eigen::VectorXd& p, const Eigen::VectorXd& lambda);
 
+/// What a row of B makes of the largest u = 1: the unit of its strain. 1 for a row without entries.
+Eigen::VectorXd absolute_row_sums(const RowMatrix& b);
+
 /// The report, each number relative to what its condition is made of, so that scaling the load by any factor leaves it
 /// unchanged: r1 against the forces at work, max(|L|, |lambda|, |reactions|), since the terms of A1 u are larger than
-/// these by h^-2 and would hide an error; r2 against compliance |p| and max|B| times the largest of |u|, |lower| and
-/// the displacement of a single unknown under its load; gaps against max(|u|, |their bound|), pressures against
-/// max(|L|, |lambda|). All zero for the zero solution of a zero load.
+/// these by h^-2 and would hide an error; each row of r2 against its own sum |B| times the largest of |u| and
+/// the displacement of a single unknown under its load (or `moderate`); gaps against max(|u|, |their bound|), pressures
+/// against max(|L|, |lambda|). All zero for the zero solution of a zero load.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
 /// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above

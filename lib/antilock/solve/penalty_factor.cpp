@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 #include "antilock/scene/error.hpp"
 #include "antilock/solve/stopwatch.hpp"
@@ -87,6 +89,24 @@ struct PenaltyFactor::Cholmod {
     return Eigen::Map<const Eigen::VectorXd>(static_cast<double*>(x->x), b.size());
   }
 
+  /// The column of L whose pivot is nothing but the round-off of its diagonal entry of K: K is singular, though the
+  /// factor came to an end. Empty: there is none. Sound problems stay above 1e-11, on meshes and layers of every kind.
+  std::optional<int> lost_pivot(const Eigen::VectorXd& diagonal) const {
+    constexpr double lost = 64 * std::numeric_limits<double>::epsilon();
+    const auto* perm = static_cast<const int*>(l->Perm);
+    const auto* super = static_cast<const int*>(l->super);
+    const auto* pi = static_cast<const int*>(l->pi);
+    const auto* px = static_cast<const int*>(l->px);
+    const auto* values = static_cast<const double*>(l->x);
+    for (std::size_t s = 0; s < l->nsuper; ++s)
+      for (int column = super[s]; column < super[s + 1]; ++column) {
+        const auto inside = static_cast<std::ptrdiff_t>(column - super[s]);
+        const double root = values[px[s] + inside * (pi[s + 1] - pi[s]) + inside];
+        if (!(root * root > lost * diagonal(perm[column]))) return column;
+      }
+    return std::nullopt;
+  }
+
   /// The trailing block of L from `first` on, out of CHOLMOD's supernodes.
   Eigen::MatrixXd trailing_block(int first) const {
     const int size = static_cast<int>(l->n);
@@ -131,15 +151,19 @@ void PenaltyFactor::refactor(const VariationalInequality& problem, double delta)
   }
   cholmod_sparse whole = view(k);
   cholmod_factorize(&whole, cholmod_->l, &cholmod_->common);
-  if (cholmod_->common.status == CHOLMOD_NOT_POSDEF) {
-    const auto column = cholmod_->l->minor;
-    const int unknown = numbering_.unknown[static_cast<int*>(cholmod_->l->Perm)[column]];
+  if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
+  std::optional<int> column;
+  if (cholmod_->common.status == CHOLMOD_NOT_POSDEF)
+    column = static_cast<int>(cholmod_->l->minor);
+  else
+    column = cholmod_->lost_pivot(k.diagonal());
+  if (column) {
+    const int unknown = numbering_.unknown[static_cast<int*>(cholmod_->l->Perm)[*column]];
     throw Error(fmt::format(
         "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
         "by nothing, or a cell is too flat for double precision; accepted: enough fixed unknowns and cells",
         delta, unknown));
   }
-  if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
   contact_block_ = cholmod_->trailing_block(numbering_.interior);
   factor_seconds = watch.lap();
   ++factorisations;

@@ -35,6 +35,8 @@ struct Solution {
   Eigen::VectorXd p;       ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
   Eigen::VectorXd lambda;  ///< C contact forces, one a contact unknown, >= 0 (a force; measure/ turns it to a density)
   std::vector<bool> active;  ///< C: in contact
+  double moderate = 0;       ///< largest |u| with the moderate penalty in place of the compliance: the size of u before
+                             ///< it locks, where it is known (0: it is not)
   Kkt kkt;
   Counters counters;
   SolveSeconds seconds;

@@ -87,11 +87,8 @@ class CondensedUzawa {
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options) {
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
-  CorrectionOptions corrections;
-  const double asked = std::max(options.tolerance, options.enough ? options.enough->relative : 0);
-  corrections.tolerance = std::max(asked, 1e-12);
-  // who asks for little gets little, with a warning: the last step bounds the gap within a factor
-  corrections.refused = std::max(corrections.refused, 10 * asked);
+  const CorrectionOptions corrections =
+      corrections_to(std::max({options.tolerance, options.enough ? options.enough->relative : 0, 1e-12}));
   if (problem.contact.empty()) return iterated_penalty(problem, factor, {}, corrections, "uzawa");
   CondensedUzawa contact(factor, options);
   Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");

@@ -10,8 +10,9 @@ namespace antilock {
 
 /// An algebraic error not worth pushing further down; measure/accurate_enough.hpp says which.
 struct AccurateEnough {
-  double energy = 0;    ///< of J(v) - J(u_h), v = the iterate pushed out of the obstacle
-  double relative = 0;  ///< the same in u: of |v - u_h|_a relative to |u_h|_a
+  double energy = 0;    ///< of J(v) - J(u_h), v = the iterate pushed out of the obstacle, J with the penalty delta in
+                        ///< place of a smaller compliance
+  double relative = 0;  ///< the same in u: of |v - u_h|_a relative to |u_h|_a, the norm with delta, too
 };
 
 struct UzawaOptions {
@@ -20,7 +21,8 @@ struct UzawaOptions {
   double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock; reached: NotConverged
   std::optional<double>
       step;  ///< rho; empty: 2 / (largest + smallest eigenvalue of the compliance), estimated by power iteration
-  /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy.
+  /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
+  /// for the problem that a correction solves: (6) itself where compliance >= penalty, else with delta in its place.
   std::optional<AccurateEnough> enough;
 };
 
