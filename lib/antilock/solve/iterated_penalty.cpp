@@ -53,6 +53,7 @@ bool has_flat_cells(const VariationalInequality& problem) {
 /// S = L_C L_C', C x C.
 Eigen::MatrixXd contact_schur(const PenaltyFactor& factor) {
   const Eigen::MatrixXd& block = factor.contact_block();
+  if (block.size() == 0) return block;  // no contact: Eigen's triangular product would read what is not there
   return block.triangularView<Eigen::Lower>() * block.transpose();
 }
 
