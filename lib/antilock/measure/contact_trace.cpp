@@ -3,36 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/measure/contact_edges.hpp"
 #include "antilock/measure/inf_sup.hpp"
 #include "antilock/scene/error.hpp"
 
 namespace antilock {
-namespace {
-
-/// An edge of Gamma_C as its triangle sees it: opposite local vertex i, from vertex i + 1 to i + 2.
-struct ContactEdge {
-  int triangle, opposite;
-  double length;
-
-  Eigen::Vector3d lambda(double s) const {
-    Eigen::Vector3d l = Eigen::Vector3d::Zero();
-    l((opposite + 1) % 3) = 1 - s;
-    l((opposite + 2) % 3) = s;
-    return l;
-  }
-};
-
-std::vector<ContactEdge> contact_edges(const TriangleMesh& mesh) {
-  std::vector<ContactEdge> edges;
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i)
-      if (const int e = mesh.triangle_edges(t, i); mesh.edge_tag[e] == EdgeTag::contact)
-        edges.push_back({t, i, mesh.edge_length(e)});
-  return edges;
-}
-
-}  // namespace
-
 Eigen::MatrixX3d contact_trace(const Space& space, const Eigen::VectorXd& v, int points) {
   std::vector<Eigen::RowVector3d> samples;
   for (const ContactEdge& edge : contact_edges(space.mesh()))

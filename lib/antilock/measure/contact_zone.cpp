@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "antilock/measure/contact_edges.hpp"
+
 namespace antilock {
 
 ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution) {
@@ -18,25 +20,14 @@ ContactZone contact_zone(const Space& space, const VariationalInequality& proble
 }
 
 Eigen::VectorXd contact_lengths(const Space& space) {
-  const TriangleMesh& mesh = space.mesh();
-  const Element& element = space.element();
   // int phi_i over the edge: shared by its unknowns as the element's basis says (midpoint: 1; ends: 1/2 each)
   Eigen::VectorXd length = Eigen::VectorXd::Zero(space.size());
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-    const int t = mesh.edge_triangles(e, 0);
-    for (int i = 0; i < 3; ++i) {
-      if (mesh.triangle_edges(t, i) != e) continue;
-      Eigen::Vector3d a = Eigen::Vector3d::Zero(), b = a;
-      a((i + 1) % 3) = b((i + 2) % 3) = 1;
-      // Boole's rule: exact up to degree 5
-      const Eigen::VectorXd integral =
-          (7 * (element.basis(a) + element.basis(b)) + 12 * element.basis(0.5 * (a + b)) +
-           32 * (element.basis(0.75 * a + 0.25 * b) + element.basis(0.25 * a + 0.75 * b))) /
-          90;
-      for (Eigen::Index k = 0; k < integral.size(); ++k)
-        length(space.unknowns()(t, k)) += mesh.edge_length(e) * integral(k);
-    }
+  for (const ContactEdge& edge : contact_edges(space.mesh())) {
+    const auto at = [&](double s) { return space.element().basis(edge.lambda(s)); };
+    // Boole's rule: exact up to degree 5
+    const Eigen::VectorXd integral = (7 * (at(0) + at(1)) + 12 * at(0.5) + 32 * (at(0.25) + at(0.75))) / 90;
+    for (Eigen::Index k = 0; k < integral.size(); ++k)
+      length(space.unknowns()(edge.triangle, k)) += edge.length * integral(k);
   }
   return length(space.contact());
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "antilock/form/forms.hpp"
+#include "antilock/measure/contact_edges.hpp"
 
 namespace antilock {
 namespace {
@@ -77,20 +78,13 @@ Eigen::VectorXd contact_work(const Space& space, const Profile& g) {
   constexpr int points = 32;
   const TriangleMesh& mesh = space.mesh();
   Eigen::VectorXd work = Eigen::VectorXd::Zero(space.size());
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-    const int t = mesh.edge_triangles(e, 0);
-    int opposite = 0;
-    while (mesh.triangle_edges(t, opposite) != e) ++opposite;
+  for (const ContactEdge& edge : contact_edges(mesh))
     for (int k = 0; k < points; ++k) {
-      Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-      lambda((opposite + 1) % 3) = (k + 0.5) / points;
-      lambda((opposite + 2) % 3) = 1 - (k + 0.5) / points;
-      const double weighted = mesh.edge_length(e) / points * g(point_in(mesh, t, lambda)(0));
+      const Eigen::Vector3d lambda = edge.lambda((k + 0.5) / points);
+      const double weighted = edge.length / points * g(point_in(mesh, edge.triangle, lambda)(0));
       const Eigen::VectorXd basis = space.element().basis(lambda);
-      for (Eigen::Index i = 0; i < basis.size(); ++i) work(space.unknowns()(t, i)) += weighted * basis(i);
+      for (Eigen::Index i = 0; i < basis.size(); ++i) work(space.unknowns()(edge.triangle, i)) += weighted * basis(i);
     }
-  }
   return work;
 }
 
