@@ -35,6 +35,9 @@ std::string entry_markup(const std::string& column, const std::string& value) {
                                                         {"structured", "structured mesh"},
                                                         {"unstructured", "unstructured mesh"}};
   if (const auto found = names.find(value); found != names.end()) return found->second;
+  if (const auto space = value.find(' '); space != value.npos)  // a method: an element and its mesh
+    if (const auto element = names.find(value.substr(0, space)); element != names.end())
+      return element->second + ", " + entry_markup("", value.substr(space + 1));
   double number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
   if (error != std::errc{} || end != value.data() + value.size()) return value;
@@ -50,12 +53,14 @@ Axis Axis::logarithmic(double low, double high, double room) {
   const double widened = room > 0 || high == low ? std::max(room, 0.07) * std::max(std::log10(high / low), 0.3) : 1e-9;
   Axis axis(low * std::pow(10, -widened), high * std::pow(10, widened), true);
   const double decades = std::log10(axis.high_ / axis.low_);
+  // few decades, or hardly a power of ten in them: 1, 2 and 5 carry numbers
+  const bool few = decades < 1.6 || std::floor(std::log10(axis.high_)) - std::ceil(std::log10(axis.low_)) < 1;
   for (int power = static_cast<int>(std::floor(std::log10(axis.low_))); std::pow(10, power) <= axis.high_; ++power)
     for (int digit = 1; digit <= 9; ++digit) {
       const double value = digit * std::pow(10, power);
       if (value < axis.low_ || value > axis.high_) continue;
       std::string label;
-      if (decades < 1.6) {  // few decades: 1, 2 and 5 carry numbers
+      if (few) {
         if (digit == 1 || digit == 2 || digit == 5) label = number_markup(value);
       } else if (digit == 1 && power % static_cast<int>(std::ceil(decades / 8)) == 0) {
         label = power_markup(power);

@@ -79,12 +79,11 @@ void draw_scale(Page& page, const Box& box, const Bands& bands, const std::strin
     page.fill(Box{box.x, box.y + band * box.height / bands.count(), box.width, box.height / bands.count()},
               bands.colour(band));
   page.rectangle(box, {2.5});
-  const Axis axis = Axis::logarithmic(std::pow(10, bands.low), std::pow(10, bands.high), 0);
-  for (const Tick& tick : axis.ticks()) {
-    if (tick.label.empty()) continue;
-    const double y = box.y + box.height * (std::log10(tick.value) - bands.low) / (bands.high - bands.low);
+  for (int level = 0; level <= bands.count(); ++level) {  // every level line has its number, to two digits
+    const double y = box.y + level * box.height / bands.count(), value = std::pow(10, bands.low + level * bands.step);
     page.line({{box.right(), y}, {box.right() + 12, y}}, {2.5});
-    page.text({box.right() + 24, y}, tick.label, {size, {0, Anchor::Height::middle}});
+    page.text({box.right() + 24, y}, number_markup(std::stod(fmt::format("{:.2g}", value))),
+              {size, {0, Anchor::Height::middle}});
   }
   page.text({box.right() + 170, box.centre().y}, name, {1.1 * size, {0.5}, 90});
 }

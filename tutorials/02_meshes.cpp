@@ -161,6 +161,7 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
 //   that does to the solution.)
 int main(int argc, char** argv) {
   tutorial::Options options;
+  options.takes_epsilon = false;
   options.cells = 16;
   return tutorial::run(argc, argv, "02_meshes", "Figures 3 and 6: the structured and the unstructured mesh", options,
                        meshes);

@@ -263,6 +263,7 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
 // - set delta = problem.compliance in `cure` at epsilon = 1e-6: fewer corrections, fewer digits.
 int main(int argc, char** argv) {
   tutorial::Options options;
+  options.takes_epsilon = false;
   options.cells = 16;
   return tutorial::run(argc, argv, "08_roundoff", "Round-off: why the two forms must not be added, and what to do",
                        options, roundoff);

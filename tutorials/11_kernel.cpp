@@ -141,8 +141,6 @@ Half half_lost(const Eigen::MatrixXd& study, double epsilon) {
 }
 
 void explain(const tutorial::Options& options, tutorial::Report& report) {
-  if (options.cells < 4 || options.cells > 64)
-    throw Error(fmt::format("--cells {}: sparse QR on the layer; accepted 4 to 64", options.cells));
   report.stage("count the kernels (sparse QR)");
   std::vector<Count> counts;
   for (int n = 4; n <= options.cells; n *= 2) counts.push_back(count_kernels(n));
@@ -219,6 +217,10 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
 // - draw the other functions of a kernel: the columns of kernel_basis, write_vtu.
 // - P2 in count_kernels: on an unstructured mesh one function is left, a parabola in x.
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "11_kernel", "Why P1 locks: the kernel of a0, counted, drawn and killed", {},
+  tutorial::Options options;
+  options.takes_epsilon = false;
+  options.least_cells = 4;
+  options.most_cells = 64;  // sparse QR on the layer
+  return tutorial::run(argc, argv, "11_kernel", "Why P1 locks: the kernel of a0, counted, drawn and killed", options,
                        explain);
 }

@@ -126,8 +126,6 @@ double against_ventcel(int cells) {
 }
 
 void limits(const tutorial::Options& options, tutorial::Report& report) {
-  if (options.cells < 8 || options.cells > 256)
-    throw Error(fmt::format("--cells {}: accepted 8 to 256", options.cells));
   report.stage("exact solutions");
   const Truth limit(paper_sine_load(), 0, true, 15);
   std::vector<Curve> curves{exact_limit(limit)};
@@ -200,5 +198,10 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
 // - another load in Truth and Body, without contact (Truth(..., false)): order 2 for the exact one, too.
 // - plot u and r of sigma.csv: where one is, the other is not.
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "12_limits", "Theorem 1, Propositions 1 and 5: the limit epsilon -> 0", {}, limits);
+  tutorial::Options options;
+  options.takes_epsilon = false;
+  options.least_cells = 8;
+  options.most_cells = 256;
+  return tutorial::run(argc, argv, "12_limits", "Theorem 1, Propositions 1 and 5: the limit epsilon -> 0", options,
+                       limits);
 }

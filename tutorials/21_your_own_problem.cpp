@@ -120,7 +120,6 @@ VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) 
 }
 
 void own(const tutorial::Options& options, tutorial::Report& report) {
-  if (options.cells < 4 || options.cells > 128) throw Error("--cells: accepted 4 to 128");
   const Strings strings{options.cells}, finer{2 * options.cells};
   const double c = 2 * std::sqrt(gap / load), truth = load * load * c * c * c / 3 - load * gap;
   std::vector<double> epsilons;
@@ -193,6 +192,8 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
 // - a problem of your own: replace steps 1 to 3; the checks of steps 4 and 5 need no truth.
 int main(int argc, char** argv) {
   tutorial::Options options;
+  options.least_cells = 4;
+  options.most_cells = 128;
   options.epsilon = 1e-10;
   return tutorial::run(argc, argv, "21_your_own_problem", "Your own problem in the class: two strings and a stiff glue",
                        options, own);

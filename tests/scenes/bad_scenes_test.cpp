@@ -198,6 +198,11 @@ const std::vector<BadMesh> bad_meshes = {
     {"Truncated", square.substr(0, square.size() / 2), ""},
     {"BodyOfAnotherSize",
      msh("1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 1 0\n", contact_edge + clamped_edges + square_triangles), ""},
+    {"ContactOnPartOfTheSide",
+     msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0.5 0\n6 0.5 0 0\n",
+         "1 1 2 5 5 1 6\n9 1 2 4 4 6 2\n" + clamped_edges +
+             "5 2 2 1 1 1 6 5\n10 2 2 1 1 6 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 5\n"),
+     ""},
     {"ContactOnTheWrongSide",
      msh(square_nodes, "1 1 2 5 5 3 4\n2 1 2 4 4 2 3\n3 1 2 4 4 1 2\n4 1 2 4 4 4 1\n" + square_triangles), ""},
 };

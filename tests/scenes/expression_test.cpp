@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <clocale>
 #include <cmath>
 #include <numbers>
@@ -112,6 +113,14 @@ TEST(Expression, RefusesInOneLineWhatItDoesNotUnderstand) {
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     }
   EXPECT_THROW(Expression("y", {"x"}), Error);
+}
+
+TEST(Expression, TakesAsManyValuesAsItHasNames) {
+  const Expression sum("x + y", {"x", "y"});
+  const std::array<double, 3> values = {1, 2, 3};
+  EXPECT_EQ(sum(std::span(values).first(2)), 3);
+  EXPECT_THROW(sum(values), Error);
+  EXPECT_THROW(sum(std::span(values).first(1)), Error);
 }
 
 }  // namespace

@@ -152,7 +152,8 @@ Study study(const Meshes& meshes, const Element& element, double epsilon, const 
 Truth truth(double epsilon) { return Truth(paper_sine_load(), epsilon, true, 14); }
 
 TEST(AccuracyTable, StructuredMeshes) {
-  // numerics: to 1 % (two or three digits are given), diagonal / as in Figure 3
+  // errors measured by a first program that shares no line with this library, two or three digits (1 %); diagonal / as
+  // in Figure 3
   const Meshes meshes = structured_meshes(Diagonal::right);
   struct Row {
     double epsilon;
@@ -174,7 +175,7 @@ TEST(AccuracyTable, StructuredMeshes) {
 }
 
 TEST(AccuracyTable, UnstructuredMeshes) {
-  // numerics: these depend on the mesh, so "about"
+  // measured likewise, on another mesh of the same size, so "about"
   Meshes meshes;
   for (const int cells : {16, 32, 64, 128}) meshes.push_back(unstructured_mesh(cells));
   for (const double epsilon : {1e-2, 1e-6}) {

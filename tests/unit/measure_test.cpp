@@ -199,6 +199,21 @@ TEST(EnergyBracket, HoldsTheExactEnergyAtEveryEpsilon) {
   }
 }
 
+// J(u_h) - J(u) >= |u_h - u|^2 / 2 in the energy norm of Remark 4: the width bounds the error without the truth.
+TEST(EnergyBracket, BoundsTheEnergyErrorOfP1) {
+  for (const double epsilon : {1.0, 1e-3, 0.0}) {
+    const TruthTable truth(Truth(paper_sine_load(), epsilon));
+    for (const auto& [name, mesh] : two_square_meshes(8)) {
+      const Space space(mesh, p1());
+      const double error =
+          measure_errors(space, active_set(stiff_problem(space, epsilon)), epsilon, reference(truth)).energy;
+      const EnergyBracket found = energy_bracket(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), mesh);
+      EXPECT_LE(error, found.error_bound()) << name << epsilon;
+      EXPECT_GT(error, 0.5 * found.error_bound()) << name << epsilon;  // tutorial 16: 0.71 to 0.99 of it
+    }
+  }
+}
+
 TEST(EnergyBracket, HoldsItWhereTheLoadIsFarFromConstantOnTriangles) {
   const SineLoad load{{{5, {4.0, -9.0}}, {1, {3.0}}}};  // half a wave on less than two triangles
   const double exact = Truth(load, 1e-2, true, 14).energy();

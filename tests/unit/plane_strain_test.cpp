@@ -33,7 +33,7 @@ PlaneStrain platen(double lambda) {
 }
 
 /// Error of the contact force in per cent, against a fine reference for lambda = 1, 100, 1e4, infinity. The first three
-/// are Kouhia-Stenberg's on 32 cells less the error that a prototype measured for it.
+/// are Kouhia-Stenberg's on 32 cells less its error there, by a first program that shares no line with this library.
 void expect_force_errors(const Spaces& spaces, double jump_weight, const std::vector<double>& percent,
                          const std::vector<double>& within, int most_corrections) {
   const std::vector<double> lambda = {1, 1e2, 1e4, infinity}, reference = {0.15881, 0.25576, 0.25916, 0.2592};
@@ -55,7 +55,7 @@ TEST(PlaneStrain, P1OnRightDiagonalsLocks) {
 }
 
 TEST(PlaneStrain, P1OnAnUnstructuredMeshLocks) {
-  // another mesh than the prototype's: only the size of the error is the same
+  // another mesh than the first program's: only the size of the error is the same
   const TriangleMesh mesh = gmsh_mesh(32);
   expect_force_errors({mesh, p1(), p1()}, 0, {0.1, 3.4, 135, 643}, {0.05, 0.2, 10, 30}, locked);
 }

@@ -157,6 +157,17 @@ TEST(Check, RefusesWhatTheClassExcludes) {
     refused([=](P& p) { p.penalty = penalty; }, "accepted 0 < penalty <= 1");
   refused([](P& p) { p.a1.coeffRef(0, 1) *= 1 + 1e-9; }, "not symmetric");
   refused([](P& p) { p.a1.coeffRef(1, 0) = 0; }, "not symmetric");
+  // an entry whose partner is not stored, on either side of the diagonal, the stored ones before and after it
+  for (const auto& [i, j] : {std::pair{0, 15}, {15, 0}, {5, 3}, {3, 5}}) {
+    SCOPED_TRACE(testing::Message() << i << ", " << j);
+    refused(
+        [i, j](P& p) {
+          ASSERT_EQ(p.a1.coeff(i, j), 0);
+          p.a1.coeffRef(i, j) = 1;
+          p.a1.makeCompressed();
+        },
+        "not symmetric");
+  }
 }
 
 TEST(Check, RefusesIndicesOutOfRangeAndTwice) {

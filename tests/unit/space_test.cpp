@@ -56,8 +56,8 @@ TEST(Element, ReproducesPolynomialsOfItsDegree) {
 }
 
 TEST(Element, DerivativeIsTheDerivativeOfTheBasis) {
-  // central differences are exact to round-off / step for degree 2; step^2 times the third derivative, at most k^3 (k - 1)
-  // for degree k, is below 1e-7 for degree 4
+  // central differences are exact to round-off / step for degree 2; step^2 times the third derivative, at most k^3 (k -
+  // 1) for degree k, is below 1e-7 for degree 4
   constexpr double step = 1e-5;
   for (const Element* element : elements())
     for (const Eigen::Vector3d& at : sample_points()) {
@@ -65,7 +65,8 @@ TEST(Element, DerivativeIsTheDerivativeOfTheBasis) {
       for (int j = 0; j < 3; ++j) {
         const Eigen::Vector3d e = Eigen::Vector3d::Unit(j) * step;
         const Eigen::VectorXd difference = (element->basis(at + e) - element->basis(at - e)) / (2 * step);
-        EXPECT_LT((difference - d.col(j)).cwiseAbs().maxCoeff(), element->degree() <= 2 ? 1e-9 : 1e-7) << element->name();
+        EXPECT_LT((difference - d.col(j)).cwiseAbs().maxCoeff(), element->degree() <= 2 ? 1e-9 : 1e-7)
+            << element->name();
       }
     }
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/measure/accurate_enough.hpp"
@@ -68,6 +69,17 @@ TEST(Uzawa, WithThePapersLinearSolverAgreesWhereItWorks) {
     }
   }
   expect_refused([&] { uzawa_cg_ilut(stiff_problem(Space(mesh, p1()), 0)); }, "epsilon = 0");
+}
+
+TEST(Uzawa, RefusesAStepThatGoesNowhere) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 1);
+  for (const double step : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    UzawaOptions options;
+    options.step = step;
+    expect_refused([&] { uzawa(problem, options); }, "accepted: a positive number");
+    expect_refused([&] { uzawa_cg_ilut(problem, options); }, "accepted: a positive number");
+  }
 }
 
 TEST(Uzawa, WithThePapersLinearSolverIsRightOrSaysThatItIsNot) {

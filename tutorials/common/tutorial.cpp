@@ -52,12 +52,13 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
         const std::function<void(const Options&, Report&)>& body) {
   CLI::App app(what, stem);
   if (options.out.empty()) options.out = std::filesystem::path("results") / stem;
-  app.add_option("--epsilon", options.epsilon, "the paper's epsilon: 0 (the rigid limit) to 1")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 1.0));
+  if (options.takes_epsilon)
+    app.add_option("--epsilon", options.epsilon, "the paper's epsilon; 0 is the rigid limit")
+        ->capture_default_str()
+        ->check(CLI::Range(options.least_epsilon, 1.0));
   app.add_option("--cells", options.cells, "cells a unit side, h = 1/cells")
       ->capture_default_str()
-      ->check(CLI::Range(1, 2048));
+      ->check(CLI::Range(options.least_cells, options.most_cells));
   app.add_option("--out", options.out, "folder of the results")->capture_default_str();
   options.add(app);
   try {
@@ -68,7 +69,7 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
     return fail(stem, std::string(error.what()) + " (see --help)", 2);
   }
   if (std::isnan(options.epsilon))
-    return fail(stem, "--epsilon: nan; accepted: 0 to 1 (see --help)", 2);  // in any range
+    return fail(stem, "--epsilon: nan; accepted: a number to 1 (see --help)", 2);  // in any range
   try {
     check_writable(options.out);
     fmt::print("{}: {}\n", stem, what);

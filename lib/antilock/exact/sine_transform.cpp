@@ -38,7 +38,6 @@ struct SineTransform::Plans {
 
 SineTransform::SineTransform(int n) : n_(n), plans_(std::make_unique<Plans>(n)) {}
 SineTransform::~SineTransform() = default;
-SineTransform::SineTransform(SineTransform&&) noexcept = default;
 
 // FFTW's DST-I is 2 sum_k v_k sin(pi j k / n); applied twice it gives 2 n.
 void SineTransform::sine(Eigen::VectorXd& v, double scale) {

@@ -10,7 +10,6 @@ class SineTransform {
  public:
   explicit SineTransform(int n);
   ~SineTransform();
-  SineTransform(SineTransform&&) noexcept;
 
   int size() const { return n_; }
   void points_from_modes(Eigen::VectorXd& v);  ///< v_k -> sum_k v_k sin(k pi x_j), in place

@@ -106,6 +106,4 @@ double Expression::operator()(double x, double y) const {
   return (*this)(point);
 }
 
-const std::string& Expression::text() const { return parser_->text; }
-
 }  // namespace antilock

@@ -21,8 +21,6 @@ class Expression {
   double operator()(double x) const { return (*this)(std::span(&x, 1)); }
   double operator()(double x, double y) const;
 
-  const std::string& text() const;
-
  private:
   struct Parser;
   std::shared_ptr<Parser> parser_;

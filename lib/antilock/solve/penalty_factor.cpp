@@ -185,6 +185,4 @@ Eigen::VectorXd PenaltyFactor::backward(const Eigen::VectorXd& y) {
   return x;
 }
 
-double PenaltyFactor::factor_entries() const { return static_cast<double>(cholmod_->l->xsize); }
-
 }  // namespace antilock

@@ -37,7 +37,6 @@ class PenaltyFactor {
   int factorisations = 0;                          ///< numeric factorisations so far
   int solves = 0;                                  ///< forward + backward pairs so far
   double analyse_seconds = 0, factor_seconds = 0;  ///< of the last analysis and factorisation
-  double factor_entries() const;                   ///< nonzeros of L
 
  private:
   struct Cholmod;
