@@ -25,6 +25,7 @@ struct SurfaceStyle {
   double height_factor = 2;              ///< units of length drawn for a unit of u
   std::optional<int> grid = {};          ///< draw lines x, y = k / grid instead of the mesh's edges (for fine meshes)
   std::optional<Range> last_range = {};  ///< the last surface (a difference, say) on a scale and colour bar of its own
+  std::string last_name = "$u$";         ///< what that scale measures
 };
 
 struct Surface {

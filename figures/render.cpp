@@ -23,6 +23,7 @@ struct Request {
   std::string out, title;
   std::vector<std::string> inputs, titles;
   std::vector<double> range{-0.25, 0.25}, own_range;
+  std::string own_name = "$u$";
   double height_factor = 2;
   int grid = 0;
   ChartStyle chart;
@@ -68,6 +69,7 @@ void add_pictures(CLI::App& app, Request& request) {
       ->expected(2)
       ->capture_default_str();
   surface->add_option("--last-range", request.own_range, "draw the last surface on this scale of its own")->expected(2);
+  surface->add_option("--last-name", request.own_name, "what that scale measures")->capture_default_str();
   surface->add_option("--height", request.height_factor, "length drawn for a unit of u")
       ->check(CLI::Range(0.01, 100.0));
   surface->add_option("--grid", request.grid, "draw lines x, y = k / GRID in place of the mesh's edges")
@@ -77,6 +79,7 @@ void add_pictures(CLI::App& app, Request& request) {
       SurfaceStyle style{{request.range[0], request.range[1]}, request.height_factor};
       if (request.grid > 0) style.grid = request.grid;
       if (!request.own_range.empty()) style.last_range = {request.own_range[0], request.own_range[1]};
+      style.last_name = request.own_name;
       return surface_picture(titled(request), style);
     };
   });

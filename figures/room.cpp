@@ -95,14 +95,14 @@ void add_walls(vtkRenderer& renderer, const Room& room) {
     add_lines(renderer, {{{low.x(), 0, low.z()}, {high.x(), 0, low.z()}}}, 4, palette::green);  // Sigma, on the floor
 }
 
-void label_room(Page& page, const View& view, const Room& room, double size) {
+void label_room(Page& page, const View& view, const Room& room, const std::string& height, double size) {
   const Vector &low = room.space.min(), &high = room.space.max();
   label_edge(
       page, view, room.x, [&](double v) { return Vector(v, low.y(), low.z()); }, {0, -1, 0}, "$x$", size, 2.9);
   label_edge(
       page, view, room.y, [&](double v) { return Vector(high.x(), v, low.z()); }, {1, 0, 0}, "$y$", size, 3.2);
   label_edge(
-      page, view, room.u, [&](double v) { return Vector(low.x(), low.y(), room.factor * v); }, {-1, 0, 0}, "$u$", size,
+      page, view, room.u, [&](double v) { return Vector(low.x(), low.y(), room.factor * v); }, {-1, 0, 0}, height, size,
       3.6);
 
   const double inset = high.x() - 0.1 * (high.x() - low.x());

@@ -135,12 +135,13 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
     add_walls(*renderer, room);
     add_surface(*renderer, lifted(solutions[i], room.factor), range, style.grid, view.towards_eye());
     page.scene(renderer, inside);
-    label_room(page, view, room, size);
+    label_room(page, view, room, own ? style.last_name : "$u$", size);
     page.text({cell.centre().x, cell.top() + 24}, surfaces[i].title, {60, {0.5}});
 
     const bool before_own = style.last_range && rows == 1 && i + 2 == count;
     if (own || before_own || (last_in_row && i < columns))
-      draw_colour_bar(page, {cell.right() + 30, cell.y + 300, 60, cell.height - 500}, range, "$u$", size);
+      draw_colour_bar(page, {cell.right() + 30, cell.y + 300, 60, cell.height - 500}, range,
+                      own ? style.last_name : "$u$", size);
   }
   return page;
 }
