@@ -57,25 +57,29 @@ Eigen::VectorXd Table::column(const std::string& name) const {
   return rows.col(found - header.begin());
 }
 
-Table read_table(const std::filesystem::path& path) {
+Table read_table(const std::filesystem::path& path, int text) {
   std::ifstream in(path);
   std::string line;
   if (!std::getline(in, line)) throw Error(path.string() + ": cannot be read, or is empty");
-  Table table{split(line), {}};
+  Table table{split(line), {}, {}};
+  if (static_cast<int>(table.header.size()) <= text) throw Error(path.string() + ": no column of numbers");
   std::vector<double> values;
   for (int number = 2; std::getline(in, line); ++number) {
     const auto fields = split(line);
     const std::string where = fmt::format("{}, line {}: ", path.string(), number);
     if (fields.size() != table.header.size())
       throw Error(where + fmt::format("{} fields; accepted {}", fields.size(), table.header.size()));
-    for (const std::string& field : fields) {
+    const auto numbers = fields.begin() + text;
+    table.names.push_back(fmt::format("{}", fmt::join(fields.begin(), numbers, " ")));
+    for (auto field = numbers; field != fields.end(); ++field) {
       char* end = nullptr;
-      const double value = std::strtod(field.c_str(), &end);
-      if (field.empty() || *end != '\0' || !std::isfinite(value))
-        throw Error(where + "'" + field + "' is no finite number");
+      const double value = std::strtod(field->c_str(), &end);
+      if (field->empty() || *end != '\0' || !std::isfinite(value))
+        throw Error(where + "'" + *field + "' is no finite number");
       values.push_back(value);
     }
   }
+  table.header.erase(table.header.begin(), table.header.begin() + text);
   const auto columns = static_cast<Eigen::Index>(table.header.size());
   using ByRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   table.rows = Eigen::Map<const ByRows>(values.data(), static_cast<Eigen::Index>(values.size()) / columns, columns);

@@ -13,11 +13,12 @@ void run(const std::string& script, const std::vector<std::string>& options);
 struct Table {
   std::vector<std::string> header;
   Eigen::MatrixXd rows;
+  std::vector<std::string> names;  ///< of the rows: their leading fields that are text, a space between them
   /// Throws Error where there is no such column.
   Eigen::VectorXd column(const std::string& name) const;
 };
 /// Throws Error, naming file and line, for a file that is missing, without a header, ragged, or that holds anything but
-/// finite numbers.
-Table read_table(const std::filesystem::path& path);
+/// finite numbers in the fields behind the first `text`.
+Table read_table(const std::filesystem::path& path, int text = 0);
 
 }  // namespace antilock::freefem

@@ -9,8 +9,6 @@
 #include <fstream>
 
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/writers.hpp"
-#include "antilock/measure/energy_bracket.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/problem/assemble.hpp"
@@ -20,6 +18,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/sweep.hpp"
 #include "cross_check.hpp"
+#include "numbers.hpp"
 #include "runner.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -163,12 +162,19 @@ TEST(PlainSum, HasNothingLeftAtEpsilon1eMinus8) {
   }
 }
 
+// Scripts that write numbers and no solution: each number against the library's on the same mesh.
+void expect_same(const freefem::Numbers& numbers, double bound) {
+  EXPECT_FALSE(numbers.all.empty());
+  for (const freefem::Number& n : numbers.all)
+    EXPECT_LE(n.difference(), bound) << n.name << ", here " << n.ours << ", there " << n.theirs;
+}
+
 // 08_roundoff: UMFPACK adds no tolerance of its own, so the drift follows the digits that the sum has lost, a small
 // multiple of 1e-16 epsilon^-2, until nothing is left at 1e-8; the split form, the cure, does not see epsilon at all.
 TEST(PlainSum, LosesTheDigitsThatTheSplitFormKeeps) {
-  for (const char* element : {"P1", "P1nc"}) {
+  for (const char* element : {"P1", "CR"}) {
     const TemporaryFolder folder;
-    freefem::run("08_roundoff", {"-element", element, "-out", folder.path().string()});
+    expect_same(freefem::roundoff(element, 16, folder.path()), 1e-10);  // the split form, here and there
     const freefem::Table table = freefem::read_table(folder / "results.csv");
     const Eigen::VectorXd epsilon = table.column("epsilon"), difference = table.column("difference");
     ASSERT_EQ(epsilon.size(), 17);
@@ -299,120 +305,41 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
   }
 }
 
-// Body alone, obstacle, Ventcel, layer, layer and obstacle, thin layer and obstacle: energies of the same discrete
-// problems, made by each side.
+// Body alone, obstacle, Ventcel, layer, layer and obstacle, thin layer and obstacle: the same discrete problems, made
+// by each side.
 TEST(FreeFemScripts, EveryEffectHasTheSameEnergy) {
-  const Body body{paper_load};
-  const UnilateralContact obstacle;
-  const Scene scenes[] = {Scene(body),
-                          Scene(body, NoLayer{}, obstacle),
-                          Scene(body, VentcelLayer{}, obstacle),
-                          Scene(body, StiffLayer{1e-2}),
-                          Scene(body, StiffLayer{1e-2}, obstacle),
-                          Scene(body, ThinLayer{1e-2}, obstacle)};
   const TemporaryFolder folder;
-  freefem::run("09_effects", {"-cells", "16", "-epsilon", "1e-2", "-out", folder.path()});
-  const freefem::Table table = freefem::read_table(folder / "effects.csv");
-  ASSERT_EQ(table.rows.rows(), 6);
-  for (int i = 0; i < 6; ++i) {
-    const TriangleMesh mesh = structured_mesh(16, Domain{scenes[i].layer_depth()});
-    const Space space(mesh, p1());
-    const VariationalInequality problem = assemble(scenes[i], space);
-    const Solution solution = active_set(problem);
-    const double ours = energy(problem, solution), theirs = table.column("energy")(i);
-    EXPECT_NEAR(theirs, ours, 1e-10 * std::abs(ours)) << "scene " << i + 1;
-    EXPECT_EQ(table.column("active")(i), std::count(solution.active.begin(), solution.active.end(), true)) << i + 1;
-  }
+  expect_same(freefem::effects(16, 1e-2, folder.path()), 1e-10);
 }
 
-// Both bounds of the energy, made by each side on the same unstructured mesh; 1e-10 as above.
 TEST(FreeFemScripts, TheEnergyBracketIsTheSame) {
   const TemporaryFolder folder;
-  const TriangleMesh mesh = unstructured_mesh(8);
-  write_freefem_mesh(folder / "mesh.msh", mesh);
-  freefem::run("16_energy_bracket", {"-mesh", folder / "mesh.msh", "-out", folder.path()});
-  const freefem::Table table = freefem::read_table(folder / "results.csv");
-  const Space above(mesh, p1()), below(mesh, crouzeix_raviart());
-  ASSERT_EQ(table.rows.rows(), 5);
-  for (int i = 0; i < 5; ++i) {
-    const Scene scene = contact_scene(table.column("epsilon")(i));
-    const VariationalInequality upper = assemble(scene, above), lower = assemble(scene, below);
-    const double high = energy(upper, active_set(upper)),
-                 low = energy_lower_bound(below, lower, active_set(lower), paper_load);
-    EXPECT_NEAR(table.column("upper")(i), high, 1e-10 * std::abs(high)) << scene.epsilon().value();
-    EXPECT_NEAR(table.column("lower")(i), low, 1e-10 * std::abs(low)) << scene.epsilon().value();
-  }
+  expect_same(freefem::energy_bracket(8, folder.path()), 1e-10);
 }
 
-// ||u_h^epsilon - u_h^0||_h of Proposition 1, four methods, nine epsilons, made by each side on the same meshes. Each
-// side knows u to 1e-10 of its largest value: 1e-10 of a distance that is never below 1e-8, and 1e-6 of larger ones.
+// ||u_h^epsilon - u_h^0||_h of Proposition 1. Each side knows u to 1e-10 of its largest value, and so both terms.
 TEST(FreeFemScripts, TheLimitsAreTheSame) {
   const TemporaryFolder folder;
-  const TriangleMesh structured = structured_mesh(8), unstructured = unstructured_mesh(8);
-  write_freefem_mesh(folder / "mesh.msh", unstructured);
-  freefem::run("12_limits", {"-cells", "8", "-mesh", folder / "mesh.msh", "-out", folder.path()});
-  std::ifstream table(folder / "limits.csv");
-  std::string method, epsilon, theirs;
-  std::getline(table, method);
-  EXPECT_EQ(method, "method,epsilon,distance");
-  const Reference nothing{[](double, double) { return 0.0; },
-                          [](double, double) { return Eigen::Vector2d::Zero().eval(); },
-                          [](double, double) { return 0.0; }};
-  for (const Element* element : {&p1(), &crouzeix_raviart()})
-    for (const TriangleMesh* mesh : {&structured, &unstructured}) {
-      const Space space(*mesh, *element);
-      Sweep sweep(contact_scene(0), space);
-      const Solution limit = sweep.solve();
-      for (int k = 0; k <= 8; ++k) {
-        std::getline(table, method, ',');
-        std::getline(table, epsilon, ',');
-        std::getline(table, theirs);
-        EXPECT_EQ(method, element->name() + (mesh == &structured ? " structured" : " unstructured"));
-        sweep.set_epsilon(std::pow(10.0, -0.5 * k));
-        EXPECT_NEAR(std::stod(epsilon), std::pow(10.0, -0.5 * k), 1e-15);
-        Solution solution = sweep.solve();
-        solution.u -= limit.u;
-        const double ours = measure_errors(space, solution, 1, nothing).h1;
-        EXPECT_NEAR(std::stod(theirs), ours, 1e-6 * ours + 1e-9) << method << " " << epsilon;
-      }
-    }
+  expect_same(freefem::limits(8, folder.path()), 1e-9);
 }
 
 // P1 and P2, in FreeFEM summed into one matrix: at epsilon = 1e-2 that costs four digits of sixteen, hence 1e-9.
 TEST(FreeFemScripts, DegreesOneAndTwoAreTheSame) {
   const TemporaryFolder folder;
-  const TriangleMesh mesh = unstructured_mesh(8);
-  write_freefem_mesh(folder / "mesh.msh", mesh);
-  freefem::run("18_degree", {"-mesh", folder / "mesh.msh", "-out", folder.path()});
-  const freefem::Table table = freefem::read_table(folder / "results.csv");
-  ASSERT_EQ(table.rows.rows(), 2);
-  for (int i = 0; i < 2; ++i) {
-    const Space space(mesh, i == 0 ? p1() : p2());
-    const VariationalInequality problem = assemble(contact_scene(1e-2), space);
-    const Solution solution = active_set(problem);
-    const double ridge = solution.u(space.contact()).maxCoeff(), ours = energy(problem, solution);
-    const Eigen::VectorXd w = (2 * std::acos(-1) * space.points().col(0).array()).sin(), slope = problem.b * w;
-    const double cost = std::sqrt(slope.dot(problem.m.cwiseProduct(slope)));
-    EXPECT_EQ(table.column("unknowns")(i), space.size());
-    EXPECT_NEAR(table.column("cost")(i), cost, 1e-9 * cost) << space.element().name();
-    EXPECT_NEAR(table.column("ridge")(i), ridge, 1e-9 * ridge) << space.element().name();
-    EXPECT_NEAR(table.column("energy")(i), ours, 1e-9 * std::abs(ours)) << space.element().name();
-  }
+  for (const freefem::Numbers& numbers : freefem::degrees(8, folder.path())) expect_same(numbers, 1e-9);
 }
 
-// The worst broken H1 error over epsilon, structured meshes: there against P1 on a mesh four times finer, here against
-// the truth. The reference's own error is a quarter of what is measured; for P1, nested in it, the squares subtract:
-// sqrt(1 - 1/16) = 0.97. 5 %.
+// The worst broken H1 error over epsilon, structured meshes, against P1 on a mesh four times finer; and against the
+// truth, from which that is not far: the reference's own error is a quarter of what is measured; for P1, nested in it,
+// the squares subtract: sqrt(1 - 1/16) = 0.97. 5 %.
 TEST(FreeFemScripts, TheWorstErrorOverEpsilonIsTheSame) {
   const TemporaryFolder folder;
-  freefem::run("14_uniform", {"-cells", "8", "-out", folder.path()});
-  std::ifstream table(folder / "uniform.csv");
-  std::string line;
-  std::getline(table, line);
-  EXPECT_EQ(line, "norm,element,mesh,h,unknowns,worst");
+  const std::vector<freefem::Numbers> errors = freefem::worst_errors(folder.path());
   const TriangleMesh mesh = structured_mesh(8);
-  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
-    const Space space(mesh, *element);
+  const Element* const elements[] = {&p1(), &crouzeix_raviart()};
+  for (int i = 0; i < 2; ++i) {
+    expect_same(errors[i], 1e-10);
+    const Space space(mesh, *elements[i]);
     Sweep sweep(contact_scene(1), space);
     double worst = 0;
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0}) {
@@ -420,9 +347,7 @@ TEST(FreeFemScripts, TheWorstErrorOverEpsilonIsTheSame) {
       const TruthTable truth(Truth(paper_sine_load(), epsilon, true, 12));
       worst = std::max(worst, measure_errors(space, sweep.solve(), epsilon, reference(truth)).h1);
     }
-    std::getline(table, line);
-    EXPECT_NE(line.find(element->name() + ",structured"), std::string::npos) << line;
-    EXPECT_NEAR(std::stod(line.substr(line.rfind(',') + 1)) / worst, 1, 0.05) << line;
+    EXPECT_NEAR(errors[i].all.back().theirs / worst, 1, 0.05) << errors[i].all.back().name;
   }
 }
 

@@ -1,0 +1,47 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "antilock/solve/solution.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock::freefem {
+
+/// A number that a script wrote, and what the library finds for it on the same mesh.
+struct Number {
+  std::string name;
+  double ours, theirs, scale;  ///< scale: what the difference is relative to
+  double difference() const;   ///< |ours - theirs| / scale; infinity where that is no number
+};
+
+/// The comparison with a script that writes numbers and no solution: all of them, its sizes and counts among them.
+struct Numbers {
+  std::vector<Number> all;
+  int unknowns = 0;                         ///< of the largest problem
+  double seconds = 0, freefem_seconds = 0;  ///< of the solves alone
+  double difference() const;                ///< the largest
+
+  void relative(const std::string& name, double ours, double theirs);  ///< to |ours|
+  void count(const std::string& name, double ours, double theirs);     ///< a scale of 1: one too many is a difference
+  void solved(const Space& space, const Solution& solution);           ///< its unknowns and seconds
+};
+
+// Each runs its script in `folder`, reads what it wrote there, and throws Error where a row is missing.
+
+/// 08: the split form on a structured mesh, epsilon from 1 to 1e-16: energy and largest u. `element`: P1 or CR.
+Numbers roundoff(const std::string& element, int cells, const std::filesystem::path& folder);
+/// 09: the six scenes: energy, least and largest u (relative to the largest |u|), how many unknowns are in contact.
+Numbers effects(int cells, double epsilon, const std::filesystem::path& folder);
+/// 12: |u_h^epsilon - u_h^0| in the broken H1 norm, both elements and meshes, epsilon from 1 to 1e-4. A distance falls
+/// like epsilon^2, while each side knows u to a fixed share of |u|: relative to the distance at epsilon = 1.
+Numbers limits(int cells, const std::filesystem::path& folder);
+/// 14: the worst broken H1 error over epsilon on the structured mesh of 1/h = 8, against P1 on one four times finer.
+/// P1, then CR.
+std::vector<Numbers> worst_errors(const std::filesystem::path& folder);
+/// 16: both bounds of the energy and that of Crouzeix-Raviart, one unstructured mesh, five epsilons.
+Numbers energy_bracket(int cells, const std::filesystem::path& folder);
+/// 18: cost of a ridge, ridge and energy on an unstructured mesh, epsilon = 1e-2. P1, then P2.
+std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder);
+
+}  // namespace antilock::freefem

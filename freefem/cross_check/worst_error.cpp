@@ -1,0 +1,96 @@
+// 14: the worst error over epsilon, of which FreeFEM knows only its own fine mesh for the truth; so the same is done
+// here, and not with the sine series.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "antilock/measure/errors.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/sweep.hpp"
+#include "numbers.hpp"
+#include "runner.hpp"
+
+namespace antilock::freefem {
+namespace {
+
+/// A discrete function on the structured mesh of Figure 3 by place; between triangles that of either.
+class ByPlace {
+ public:
+  ByPlace(const Space& space, int cells) : space_(space), cells_(cells), triangles_(space.mesh().triangle_count() / 2) {
+    for (int t = 0; t < space.mesh().triangle_count(); ++t) {
+      const Eigen::Vector2d c = centre(t);
+      triangles_[square(c(0), c(1))].push_back(t);
+    }
+  }
+  double value(const Eigen::VectorXd& u, double x, double y) const {
+    const auto [t, lambda] = place(x, y);
+    return space_.element().basis(lambda).dot(u(space_.unknowns().row(t)));
+  }
+  Eigen::Vector2d gradient(const Eigen::VectorXd& u, double x, double y) const {
+    const auto [t, lambda] = place(x, y);
+    const Eigen::VectorXd local = u(space_.unknowns().row(t));
+    return (space_.element().derivative(lambda) * barycentric_gradients(space_.mesh(), t)).transpose() * local;
+  }
+
+ private:
+  Eigen::Vector2d centre(int t) const { return point_in(space_.mesh(), t, Eigen::Vector3d::Constant(1.0 / 3)); }
+  int square(double x, double y) const {
+    const auto cell = [&](double s, int last) { return std::clamp(static_cast<int>(std::floor(s * cells_)), 0, last); };
+    return cell(y + 1, 2 * cells_ - 1) * cells_ + cell(x, cells_ - 1);
+  }
+  std::pair<int, Eigen::Vector3d> place(double x, double y) const {
+    std::pair<int, Eigen::Vector3d> best{-1, Eigen::Vector3d::Constant(-1)};
+    for (const int t : triangles_[square(x, y)]) {
+      const Eigen::Vector3d lambda = barycentric_gradients(space_.mesh(), t) * (Eigen::Vector2d(x, y) - centre(t)) +
+                                     Eigen::Vector3d::Constant(1.0 / 3);
+      if (best.first < 0 || lambda.minCoeff() > best.second.minCoeff()) best = {t, lambda};
+    }
+    return best;
+  }
+
+  const Space& space_;
+  int cells_;
+  std::vector<std::vector<int>> triangles_;  ///< of each square
+};
+
+}  // namespace
+
+std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
+  const int cells = 8;
+  run("14_uniform", {"-cells", std::to_string(cells), "-out", folder});
+  const Table table = read_table(folder / "uniform.csv", 3);
+  const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
+  const Space fine_space(fine, p1());
+  const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
+  std::vector<Numbers> both;
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const std::string name = "broken $H^1$ norm " + element->name() + " structured";
+    const auto row = std::find(table.names.begin(), table.names.end(), name) - table.names.begin();
+    if (row == table.rows.rows()) throw Error("uniform.csv: no row " + name);
+    const Space space(mesh, *element);
+    Sweep sweep(scene, space), fine_sweep(scene, fine_space);
+    const ByPlace by_place(space, cells);
+    Numbers numbers;
+    double worst = 0;
+    for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0}) {
+      sweep.set_epsilon(epsilon);
+      fine_sweep.set_epsilon(epsilon);
+      const Solution solution = sweep.solve();
+      numbers.solved(space, solution);
+      // the meshes are nested, so that on a fine triangle both are polynomials, and a rule of it is exact
+      const Reference coarse{[&](double x, double y) { return by_place.value(solution.u, x, y); },
+                             [&](double x, double y) { return by_place.gradient(solution.u, x, y); },
+                             [](double, double) { return 0.0; }};
+      worst = std::max(worst, measure_errors(fine_space, fine_sweep.solve(), 1, coarse).h1);
+    }
+    numbers.count(element->name() + ": unknowns", space.size(), table.column("unknowns")(row));
+    numbers.relative(element->name() + ": worst", worst, table.column("worst")(row));
+    numbers.freefem_seconds = table.column("seconds")(row);
+    both.push_back(numbers);
+  }
+  return both;
+}
+
+}  // namespace antilock::freefem
