@@ -1,18 +1,17 @@
 // The C++ library against FreeFEM, tutorial by tutorial, on identical meshes: one table, and the data of a picture.
 //
-// Run: compare                 about half a minute
+// Run: compare                 about a minute
 // Run: compare --cells 16      coarser meshes, a few seconds
 //
 // Both sides treat the stiff part in split form, so they are the same discrete solution down to solver tolerances; the
-// bound is 1e-8 relative in the maximum norm. The last lines show FreeFEM with the plain sum a1 + epsilon^-2 a0, which
-// is no solution at the paper's epsilon.
+// bound is 1e-8 relative in the maximum norm. Scripts that write numbers and no solution are compared by these. The
+// last lines show FreeFEM with the plain sum a1 + epsilon^-2 a0, which is no solution at the paper's epsilon.
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <optional>
 
-#include "antilock/io/atomic_file.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/problem/assemble.hpp"
@@ -21,24 +20,14 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "cross_check.hpp"
+#include "lines.hpp"
+#include "numbers.hpp"
 #include "runner.hpp"
 
 using namespace antilock;
+using freefem::Line;
 
 namespace {
-
-constexpr double bound = 1e-8;
-
-/// One line of the table.
-struct Line {
-  std::string tutorial, what;
-  int unknowns = 0;
-  double difference = 0;         ///< relative, maximum norm
-  std::string contact = "same";  ///< contact set
-  double seconds = 0, freefem_seconds = 0;
-  bool bounded = true;  ///< the difference is asked to be below the bound
-  bool holds() const { return !bounded || (difference <= bound && contact.find("other") == std::string::npos); }
-};
 
 struct Method {
   std::string element;
@@ -191,23 +180,35 @@ Line plain_sum(const Method& method, double epsilon, int cells, const std::files
   return line;
 }
 
-std::string markdown(const std::vector<Line>& lines, double epsilon) {
-  std::string text = fmt::format(
-      "| tutorial | problem | unknowns | difference | contact set | C++ | FreeFEM "
-      "|\n|---|---|---:|---:|---|---:|---:|\n");
-  const auto time = [](double s) { return s > 0 ? fmt::format("{:.3g} s", s) : std::string("-"); };
-  for (const Line& l : lines)
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", l.tutorial, l.what, l.unknowns,
-                        std::isinf(l.difference) ? std::string("no answer") : fmt::format("{:.1e}", l.difference),
-                        l.contact, time(l.seconds), time(l.freefem_seconds));
-  return text +
-         fmt::format(
-             "\nepsilon = {:g} where not said. Difference: maximum norm over the unknowns, relative to the largest "
-             "|u|; "
-             "bound {:.0e}, except for the lines `plain sum`: FreeFEM with a1 + epsilon^-2 a0 in one matrix, "
-             "which has lost its digits. Seconds: the solve alone, meshes and forms apart. `none moves`: P1 locks, "
-             "all gaps are 0 to solver tolerance, so there is no contact set to compare.\n",
-             epsilon, bound);
+/// The scripts that write numbers and no solution. Coarser meshes where a script solves many problems on one.
+std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
+  std::vector<Line> lines;
+  const auto add = [&](const std::string& tutorial, const std::string& what, const freefem::Numbers& n) {
+    lines.push_back({tutorial, what, n.unknowns, n.difference(), "-", n.seconds, n.freefem_seconds});
+  };
+  const std::filesystem::path folder = out / "freefem";
+  const int half = cells / 2;
+  for (const char* e : {"P1", "CR"})
+    add("08_roundoff", fmt::format("{} structured, h = 1/{}, 17 epsilons to 1e-16: energy, largest u", e, half),
+        freefem::roundoff(e, half, folder));
+  add("09_effects",
+      fmt::format("six scenes, h = 1/{}, epsilon = 0.01: energy, least and largest u, how many in contact", cells),
+      freefem::effects(cells, 1e-2, folder));
+  add("12_limits", fmt::format("P1, CR, both meshes, h = 1/{}, 9 epsilons: distance to the limit", half),
+      freefem::limits(half, folder));
+  const std::vector<freefem::Numbers> errors = freefem::worst_errors(folder);
+  for (const int i : {0, 1})
+    add("14_uniform",
+        fmt::format("{} structured, h = 1/8, 6 epsilons: worst H1 error against P1 on h = 1/32", i == 0 ? "P1" : "CR"),
+        errors[i]);
+  add("16_energy_bracket", fmt::format("P1 and CR unstructured, h = 1/{}, 5 epsilons: both bounds, energy", half),
+      freefem::energy_bracket(half, folder));
+  const std::vector<freefem::Numbers> degrees = freefem::degrees(half, folder);
+  for (const int i : {0, 1})
+    add("18_degree",
+        fmt::format("P{} unstructured, h = 1/{}, epsilon = 0.01: cost of a ridge, ridge, energy", i + 1, half),
+        degrees[i]);
+  return lines;
 }
 
 std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::path& out) {
@@ -235,21 +236,11 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
     write_vtu(out / "figure8_difference.vtu", space, both.theirs.u - both.ours.u);
   }
   for (const Method& method : methods) lines.push_back(study(method, cells, out));
+  for (const Line& line : numbers(cells, out)) lines.push_back(line);
   for (const Line& line : beams(2 * cells, out)) lines.push_back(line);
   for (const Line& line : elasticity(cells, out)) lines.push_back(line);
   for (const double e : {1e-2, 1e-4, 1e-6, 1e-8}) lines.push_back(plain_sum(methods[3], e, cells, out));
   return lines;
-}
-
-void write_files(const std::vector<Line>& lines, double epsilon, const std::filesystem::path& out,
-                 const std::filesystem::path& table) {
-  write_file(out / "results.csv", [&](std::ostream& file) {
-    file << "tutorial,problem,unknowns,difference,contact_set,cpp_seconds,freefem_seconds\n";
-    for (const Line& l : lines)
-      file << fmt::format("{},\"{}\",{},{},{},{:.6g},{:.6g}\n", l.tutorial, l.what, l.unknowns, l.difference, l.contact,
-                          l.seconds, l.freefem_seconds);
-  });
-  write_file(table, [&](std::ostream& file) { file << markdown(lines, epsilon); });
 }
 
 }  // namespace
@@ -267,10 +258,10 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   try {
     const std::vector<Line> lines = compare_all(cells, epsilon, out);
-    write_files(lines, epsilon, out, table.value_or(out / "results.md"));
-    fmt::print("{}", markdown(lines, epsilon));
+    freefem::write_files(lines, epsilon, out, table.value_or(out / "results.md"));
+    fmt::print("{}", freefem::markdown(lines, epsilon));
     const bool all = std::all_of(lines.begin(), lines.end(), [](const Line& l) { return l.holds(); });
-    fmt::print("VERDICT {}: C++ and FreeFEM agree to {:.0e} on every line\n", all ? "holds" : "FAILS", bound);
+    fmt::print("VERDICT {}: C++ and FreeFEM agree to {:.0e} on every line\n", all ? "holds" : "FAILS", freefem::bound);
     return all ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "compare: {}\n", error.what());
