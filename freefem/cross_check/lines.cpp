@@ -26,7 +26,8 @@ std::string markdown(const std::vector<Line>& lines, double epsilon) {
              "the one at epsilon = 1; energies see an error of u only squared). 18 uses the plain sum at an epsilon "
              "that costs it four digits. Bound {:.0e}, except for the lines `plain sum`: FreeFEM with a1 + epsilon^-2 "
              "a0 in one matrix, "
-             "which has lost its digits. Seconds: the solve alone, meshes and forms apart. `none moves`: P1 locks, "
+             "which has lost its digits. Seconds: the solve alone, one thread, meshes and forms apart. `none moves`: "
+             "P1 locks, "
              "all gaps are 0 to solver tolerance, so there is no contact set to compare.\n",
              epsilon, bound);
 }
