@@ -38,9 +38,8 @@ Noise solve_on(const ContactProblem& p, ContactAnswer& answer) {
     const Eigen::VectorXd moved = factor.solve(Eigen::VectorXd(residual_noise(free))).cwiseAbs();
     noise.v(free) += moved;
   }
-  noise.lambda =
-      unit *
-      (p.s.diagonal().cwiseAbs().maxCoeff() * (from + answer.v).cwiseAbs().array() + p.q.cwiseAbs().array()).matrix();
+  // each force by its own row: one stiff unknown must not hide the pull on a soft one
+  noise.lambda = unit * (p.s.cwiseAbs() * (from + answer.v).cwiseAbs() + p.q.cwiseAbs());
   answer.lambda.setZero(p.q.size());
   if (!held.empty()) answer.lambda(held) = p.s(held, Eigen::all) * answer.v - p.q(held);
   ++answer.steps;

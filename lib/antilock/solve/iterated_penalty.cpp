@@ -28,7 +28,9 @@ Eigen::VectorXd correct(const VariationalInequality& problem, PenaltyFactor& fac
   if (c > 0) {
     // L_C y_C is the residual condensed on Gamma_C; v = du_C counts from u_C, so that no S u_C brings its round-off in
     const auto l = factor.contact_block().triangularView<Eigen::Lower>();
-    const Eigen::VectorXd u_c = u(problem.contact), q = l * y.tail(c), lower = problem.lower - u_c;
+    const Eigen::VectorXd u_c = u(problem.contact), lower = problem.lower - u_c;
+    Eigen::VectorXd q = l * y.tail(c);
+    if (answer.lambda.size() > 0) q -= answer.lambda;  // r holds the forces so far, the contact problem asks for all
     answer = contact({schur, q, lower, u_scale, u_c}, answer, correction);
     y.tail(c) = l.transpose() * answer.v;
     seconds.contact += watch.lap();
@@ -40,11 +42,12 @@ Eigen::VectorXd correct(const VariationalInequality& problem, PenaltyFactor& fac
   return du;
 }
 
-/// Whether some unknown is a thousand times as stiff as the median, as the corners of flat triangles are: the round-off
-/// of its residual, the same at each correction, would stay in u unseen.
-bool has_flat_cells(const VariationalInequality& problem) {
+/// Whether the round-off of the residual, the same at each correction, would stay in u unseen: some unknown is a
+/// thousand times as stiff as the median, as the corners of flat triangles are, or hardly anything holds the structure
+/// (of A1 alone the pivots tell; those of a penalised K lie apart by nature).
+bool needs_care(const VariationalInequality& problem, PenaltyFactor& factor) {
+  if (problem.b.rows() == 0 && factor.rcond() < 1e-6) return true;
   Eigen::VectorXd stiffness = problem.a1.diagonal();
-  if (stiffness.size() == 0) return false;
   const auto middle = stiffness.begin() + stiffness.size() / 2;
   std::nth_element(stiffness.begin(), middle, stiffness.end());
   return *std::max_element(middle, stiffness.end()) > 1e3 * *middle;
@@ -76,7 +79,6 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   s.u(problem.fixed) = problem.fixed_values;
   s.p = Eigen::VectorXd::Zero(rows);
   s.lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
-  const Eigen::VectorXd no_force;
   const int solves_before = factor.solves;
 
   Stopwatch watch;
@@ -87,8 +89,8 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   ContactAnswer answer;
   const Eigen::VectorXd b_scale = absolute_row_sums(problem.b);
   double u_first = 0, u_scale = 0, before = 0, error = 1, gap = 1;
-  int since_change = 0;                    // corrections with these means
-  bool careful = has_flat_cells(problem);  // residuals in long double
+  int since_change = 0;                        // corrections with these means
+  bool careful = needs_care(problem, factor);  // residuals in long double
   for (int correction = 0;; ++correction) {
     if (correction > options.max_corrections)
       throw NotConverged(
@@ -112,8 +114,9 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
       since_change = 0;
     }
     ++since_change;
-    SplitResidual residual =
-        careful ? extended_residual(problem, s.u, s.p, no_force) : split_residual(problem, s.u, s.p, no_force);
+    // with the contact forces so far: where they are far above the load, r without them would keep none of its digits
+    SplitResidual residual = careful ? extended_residual(problem, s.u, s.p, answer.lambda)
+                                     : split_residual(problem, s.u, s.p, answer.lambda);
     if (rows > 0) residual.r1 += problem.b.transpose() * problem.m.cwiseProduct(residual.r2) / delta;
     const Eigen::VectorXd r = residual.r1(factor.numbering().unknown);
     const std::vector<bool> active_before = answer.active;
@@ -134,17 +137,17 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
     if (!std::isfinite(change))
       throw NotConverged(name + ": the iterated penalty broke down (not a number)", change, correction);
     s.counters.corrections = correction;
-    if (rows == 0 || u_scale == 0) break;  // K is the problem's own matrix: nothing was penalised
+    if (u_scale == 0 || (rows == 0 && !careful)) break;  // without B, K is A1: the first solve is the answer
     // what compliance p - B u comes to now: where no u meets the bounds and B u = 0, u settles and this does not
     gap = std::abs(problem.compliance - delta) * dp.cwiseQuotient(b_scale).lpNorm<Eigen::Infinity>() / u_scale;
     if (correction > 0) {
-      const double rate = std::clamp(change / before, 0.01, 0.99);
+      const double rate = change < before ? std::clamp(change / before, 0.01, 0.99) : 0.99;  // 0 / 0: settled
       error = change * rate / (1 - rate);
       if (error <= options.tolerance && gap <= 1e-3 * options.tolerance) break;
     }
     before = change;
     if (answer.active != active_before) acceleration.restart();
-    acceleration.mix(s.p, dp, s.u);
+    if (rows > 0) acceleration.mix(s.p, dp, s.u);
   }
   s.counters.triangles = problem.triangles;
   s.counters.unknowns = problem.free_count();

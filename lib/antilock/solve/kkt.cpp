@@ -79,9 +79,17 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   Eigen::VectorXd terms = problem.a1.cwiseAbs() * u.cwiseAbs() + problem.load.cwiseAbs();
   if (problem.b.rows() > 0) terms += problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(p.cwiseAbs());
   const Eigen::VectorXd beyond = (r.r1.cwiseAbs() - 8 * std::numeric_limits<double>::epsilon() * terms).cwiseMax(0);
-  kkt.residual = ratio(beyond.lpNorm<Eigen::Infinity>(), std::max(f_scale, reaction));
   // a locked u may tend to 0: then its size before, or what the loads would do to one free unknown, tells what is large
   const double u_scale = std::max({u.lpNorm<Eigen::Infinity>(), solution.moderate, single_displacement(problem)});
+  // a great force somewhere must hide nothing where all forces are small: those that meet at the row, or that which a
+  // displacement of the size of u meets there in A1 + B' M B
+  Eigen::VectorXd own = problem.a1.diagonal().cwiseAbs();
+  if (problem.b.rows() > 0) own += problem.b.cwiseAbs2().transpose() * problem.m;
+  own = terms.cwiseMax(u_scale * own);
+  for (Eigen::Index i = 0; i < lambda.size(); ++i)
+    own(problem.contact[i]) = std::max(own(problem.contact[i]), std::abs(lambda(i)));
+  for (Eigen::Index i = 0; i < beyond.size(); ++i)
+    kkt.residual = std::max(kkt.residual, ratio(beyond(i), std::min(own(i), std::max(f_scale, reaction))));
   const Eigen::VectorXd strain = r.r2.cwiseQuotient(absolute_row_sums(problem.b));
   kkt.residual = std::max(kkt.residual, ratio(strain.lpNorm<Eigen::Infinity>(), u_scale));
   // the prescribed values hold exactly or not at all
@@ -89,12 +97,13 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
     if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
       kkt.residual = std::max(kkt.residual, 1.0);
   if (problem.contact.empty()) return kkt;
-  kkt.min_pressure = ratio(lambda.minCoeff(), f_scale);
-  kkt.min_gap = std::numeric_limits<double>::infinity();
+  kkt.min_gap = kkt.min_pressure = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < lambda.size(); ++i) {  // each gap by its own bound: a far obstacle hides no near one
     const double gap = u(problem.contact[i]) - problem.lower(i), scale = std::max(u_scale, std::abs(problem.lower(i)));
+    const double force = std::min(own(problem.contact[i]), f_scale);
+    kkt.min_pressure = std::min(kkt.min_pressure, ratio(lambda(i), force));
     kkt.min_gap = std::min(kkt.min_gap, ratio(gap, scale));
-    kkt.complementarity = std::max(kkt.complementarity, ratio(std::abs(lambda(i) * gap), scale * f_scale));
+    kkt.complementarity = std::max(kkt.complementarity, ratio(std::abs(lambda(i) * gap), scale * force));
   }
   return kkt;
 }

@@ -57,7 +57,7 @@ struct PenaltyFactor::Cholmod {
   void analyse(SparseMatrix& k, int interior) {
     const int size = static_cast<int>(k.cols());
     std::vector<int> order(size), group(size, 0);
-    std::fill(group.begin() + interior, group.end(), 1);
+    std::fill(group.begin() + interior, group.end(), interior > 0 ? 1 : 0);  // CAMD wants groups below `size`
     cholmod_sparse whole = view(k);
     if (!cholmod_camd(&whole, nullptr, 0, group.data(), order.data(), &common))
       throw Error("solve: the ordering of the sparse factor failed: out of memory");
@@ -161,13 +161,17 @@ void PenaltyFactor::refactor(const VariationalInequality& problem, double delta)
     const int unknown = numbering_.unknown[static_cast<int*>(cholmod_->l->Perm)[*column]];
     throw Error(fmt::format(
         "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
-        "by nothing, or a cell is too flat for double precision; accepted: enough fixed unknowns and cells",
+        "by nothing, a cell is too flat for double precision, or A1 and B are in units far apart; accepted: enough "
+        "fixed "
+        "unknowns, cells, entries of A1 and B' M B of like size",
         delta, unknown));
   }
   contact_block_ = cholmod_->trailing_block(numbering_.interior);
   factor_seconds = watch.lap();
   ++factorisations;
 }
+
+double PenaltyFactor::rcond() { return cholmod_rcond(cholmod_->l, &cholmod_->common); }
 
 Eigen::VectorXd PenaltyFactor::forward(const Eigen::VectorXd& r) {
   const auto* perm = static_cast<const int*>(cholmod_->l->Perm);

@@ -27,6 +27,8 @@ class PenaltyFactor {
 
   double delta() const { return delta_; }
   const FreeNumbering& numbering() const { return numbering_; }
+  /// Smallest by largest pivot of K: an upper estimate of 1 / condition number, for next to nothing.
+  double rcond();
   /// y = L^-1 P r for r on the F free places; the last C entries of y belong to the contact unknowns, in their order.
   Eigen::VectorXd forward(const Eigen::VectorXd& r);
   /// x = P' L'^-1 y.
