@@ -85,6 +85,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   RunSeconds seconds;
   const SceneFile file = read_scene_file(scene);
   check_folder(out);
+  check_inputs_stay(out, scene, file);
   fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
 
   report.stage("mesh");

@@ -258,6 +258,32 @@ TEST(BadCommandLine, ASceneThatIsNotThere) {
   EXPECT_FALSE(std::filesystem::exists(log / "r"));
 }
 
+// A result of the same name would take the place of what the user wrote.
+TEST(BadCommandLine, ResultsThatWouldReplaceTheirInputs) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "mesh.msh") << square;
+  std::ofstream(folder / "scene.toml") << load + "[mesh]\nkind = \"file\"\nfile = \"mesh.msh\"\n";
+  std::ofstream(folder / "summary.json") << load + "[mesh]\nkind = \"structured\"\ncells = 4\n";
+  for (const std::string name : {"scene.toml", "summary.json"}) {
+    const std::string path = (folder / name).string(), before = contents(path);
+    expect_one_line(run_scene(in_shell(path) + " --out " + in_shell(folder.path().string()), folder),
+                    path + ": --out: ");
+    EXPECT_EQ(contents(path), before);
+    EXPECT_EQ(contents(folder / "mesh.msh"), square);
+    EXPECT_FALSE(std::filesystem::exists(folder / "solution.csv"));
+  }
+}
+
+// What never ends, or never begins.
+TEST(BadCommandLine, DevicesAreNoFiles) {
+  const TemporaryFolder folder;
+  expect_one_line(run_scene("/dev/zero --out " + in_shell(folder / "r"), folder), "/dev/zero: file: ");
+  std::ofstream(folder / "scene.toml") << load + "[mesh]\nkind = \"file\"\nfile = \"/dev/zero\"\n";
+  const std::string path = (folder / "scene.toml").string();
+  expect_one_line(run_scene(in_shell(path) + " --out " + in_shell(folder / "r"), folder), path + ": mesh.file: ");
+  EXPECT_FALSE(std::filesystem::exists(folder / "r"));
+}
+
 TEST(BadCommandLine, ResultsThatCannotBeWritten) {
   const TemporaryFolder folder;
   std::ofstream(folder / "scene.toml") << load << mesh;

@@ -88,7 +88,8 @@ std::string read_text(const std::filesystem::path& path, const std::string& name
   constexpr std::streamsize most = 1 << 20;
   const std::string accepted = "; accepted: a scene file in TOML";
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw Error(name + ": file: is a folder" + accepted);
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+    throw Error(name + ": file: is a folder or a device" + accepted);
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(name + ": file: cannot be opened" + accepted);
   std::string text(most + 1, '\0');

@@ -1,9 +1,12 @@
 #include "antilock/io/scene_results.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "antilock/io/atomic_file.hpp"
+#include "antilock/io/expression.hpp"
 #include "antilock/io/result_folder.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/contact_zone.hpp"
@@ -55,6 +58,14 @@ Json summary(const SceneFile& file, const Space& space, const VariationalInequal
 }
 
 }  // namespace
+
+void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file) {
+  for (const char* name : {"summary.json", "solution.csv", "contact.csv", "mesh.msh", "solution.vtu"})
+    for (const std::filesystem::path& input : {scene, file.mesh.file})
+      if (std::error_code absent; !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
+        throw Error(fmt::format("{}: --out: the result {} would replace {}; accepted: another folder", file.name, name,
+                                printable(input.string(), 1000)));
+}
 
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Space& space,
                          const VariationalInequality& problem, const Solution& solution, const RunSeconds& seconds) {

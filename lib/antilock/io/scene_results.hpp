@@ -13,6 +13,9 @@ struct RunSeconds {
   double mesh = 0, assemble = 0, factor = 0, solve = 0, total = 0;
 };
 
+/// Throws Error where the results in `folder` would replace the scene or its mesh file. Touches nothing.
+void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file);
+
 /// The answer to a scene file, in `folder`: summary.json, solution.csv, contact.csv (with the effect only), mesh.msh
 /// (MSH 2.2), solution.vtu; all of them or none. Columns and keys are those of `run_scene --help`. Gaps and pressures
 /// that are negative by round-off are written as 0; the summary's `kkt` has them as they are. Throws Error where the

@@ -104,8 +104,9 @@ TriangleMesh read_msh(std::istream& in, const std::string& name) {
 }
 
 TriangleMesh read_msh(const std::string& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw Error(path + ": is a folder; accepted: a MSH file");
+  std::error_code ignored;  // a folder, or a device that never ends
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+    throw Error(path + ": is a folder or a device; accepted: a MSH file");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path + ": cannot be opened; accepted: a MSH file, 2.2 or 4.1, ASCII");
   return read_msh(in, path);

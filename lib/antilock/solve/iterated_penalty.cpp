@@ -71,6 +71,7 @@ CorrectionOptions corrections_to(double asked) {
 
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name) {
+  factor.check_fits(problem);
   const auto rows = problem.b.rows();
   double delta = factor.delta();
   Solution s;

@@ -141,6 +141,16 @@ PenaltyFactor::~PenaltyFactor() = default;
 PenaltyFactor::PenaltyFactor(PenaltyFactor&&) noexcept = default;
 PenaltyFactor& PenaltyFactor::operator=(PenaltyFactor&&) noexcept = default;
 
+void PenaltyFactor::check_fits(const VariationalInequality& problem) const {
+  const FreeNumbering other(problem);
+  if (other.unknown != numbering_.unknown || other.interior != numbering_.interior)
+    throw Error(
+        fmt::format("solve: the factor is of {} free unknowns, {} of them in contact, the problem has {} and {}; "
+                    "accepted: the factor of a problem with the same free and contact unknowns",
+                    numbering_.unknown.size(), numbering_.unknown.size() - numbering_.interior, other.unknown.size(),
+                    problem.contact.size()));
+}
+
 void PenaltyFactor::refactor(const VariationalInequality& problem, double delta) {
   delta_ = delta;
   SparseMatrix k = penalised_matrix(problem, numbering_, delta);

@@ -22,6 +22,8 @@ class PenaltyFactor {
   PenaltyFactor(PenaltyFactor&&) noexcept;
   PenaltyFactor& operator=(PenaltyFactor&&) noexcept;
 
+  /// Throws Error for a problem with other free or contact unknowns. (That A1 and B are the same is the caller's word.)
+  void check_fits(const VariationalInequality& problem) const;
   /// A new numeric factorisation for another delta; the symbolic analysis is kept.
   void refactor(const VariationalInequality& problem, double delta);
 

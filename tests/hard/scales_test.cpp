@@ -1,0 +1,173 @@
+// Problems of one's own whose stiffnesses and forces lie far apart, or that are as small as can be: what is large in
+// one place must hide nothing in another.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "antilock/scene/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "antilock/solve/uzawa.hpp"
+#include "hard/quad_reference.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock::hard {
+namespace {
+
+/// A1 (full), its load, and the first unknowns kept above `lower`; no stiff form yet.
+VariationalInequality body(const Eigen::MatrixXd& a1, const Eigen::VectorXd& load, const Eigen::VectorXd& lower) {
+  VariationalInequality v;
+  v.a1 = a1.sparseView();
+  v.a1.makeCompressed();
+  v.b.resize(0, a1.cols());
+  v.load = load;
+  for (int i = 0; i < lower.size(); ++i) v.contact.push_back(i);
+  v.lower = lower;
+  return v;
+}
+
+/// Adds B with M = 1.
+void stiffen(VariationalInequality& v, const Eigen::MatrixXd& b, double compliance) {
+  v.b = b.sparseView();
+  v.b.makeCompressed();
+  v.m = Eigen::VectorXd::Ones(b.rows());
+  v.compliance = compliance;
+}
+
+std::vector<std::vector<bool>> every_start(std::size_t n) {
+  std::vector<std::vector<bool>> starts;
+  for (std::size_t set = 0; set < (1u << n); ++set) {
+    starts.emplace_back(n);
+    for (std::size_t i = 0; i < n; ++i) starts.back()[i] = (set >> i & 1) != 0;
+  }
+  return starts;
+}
+
+// CHOLMOD's constrained ordering once wrote past its end here; the sanitizers watch.
+TEST(Scales, OneUnknownAndItIsInContact) {
+  for (const double load : {-1.0, 1.0}) {
+    const Solution s = active_set(
+        body(Eigen::MatrixXd::Constant(1, 1, 2), Eigen::VectorXd::Constant(1, load), Eigen::VectorXd::Zero(1)));
+    EXPECT_NEAR(s.u(0), load < 0 ? 0 : 0.5, 1e-15);
+    EXPECT_NEAR(s.lambda(0), load < 0 ? 1 : 0, 1e-15);
+  }
+}
+
+// A spring of stiffness K beside one of stiffness 1 that is pulled off its obstacle by next to nothing, from every
+// start.
+TEST(Scales, AStiffUnknownHidesNoPullOnASoftOne) {
+  for (const double k : {1e6, 1e9, 1e12, 1e14})
+    for (const double off : {1e-2, 1e-4, 1e-6})
+      for (const auto& start : every_start(2)) {
+        ActiveSetOptions options;
+        options.start = start;
+        const Solution s = active_set(
+            body(Eigen::Vector2d(k, 1).asDiagonal(), Eigen::Vector2d(1e-4 * k, -1 + off), Eigen::Vector2d(-1, -1)),
+            options);
+        EXPECT_NEAR(s.u(0), 1e-4, 1e-16) << k;
+        EXPECT_NEAR(s.u(1), -1 + off, 1e-15) << k;
+      }
+}
+
+// The same, coupled, and the stiff one in contact with a force of 2 K: the start is the solver's own.
+TEST(Scales, AGreatContactForceHidesNoSmallOne) {
+  for (const double k : {1e6, 1e9, 1e12})
+    for (const double off : {1e-2, 1e-4}) {
+      Eigen::Matrix2d a1;
+      a1 << k, -1, -1, 2;
+      const Solution s = active_set(body(a1, Eigen::Vector2d(-2 * k, -2 + 2 * off), Eigen::Vector2d(0, -1)));
+      EXPECT_EQ(s.u(0), 0);
+      EXPECT_NEAR(s.u(1), -1 + off, 1e-14) << k;
+    }
+}
+
+// u_0 is pressed to 0.83 against a row of B alone: a contact force of 0.3 / compliance. u_2 hangs on u_1 by a spring
+// and knows the truth (0.31 + 2 u_1) / 2.3, u_1 = 0.1 u_0 / 0.35, as compliance -> 0. Right or refused, never in
+// between.
+TEST(Scales, AContactForceFarAboveTheLoadStaysWhereItIs) {
+  Eigen::Matrix3d a1;
+  a1 << 3, -1, 0, -1, 3, -2, 0, -2, 2.3;
+  Eigen::MatrixXd b(2, 3);
+  b << 0.93, 0, 0, 0.1, -0.35, 0;
+  const double u_1 = 0.1 / 0.35 * 0.83;
+  for (const double compliance : {1e-10, 1e-12, 1e-14, 1e-16, 1e-18, 1e-20}) {
+    VariationalInequality v = body(a1, Eigen::Vector3d(0.55, 0, 0.31), Eigen::VectorXd::Constant(1, 0.83));
+    stiffen(v, b, compliance);
+    v.m(0) = 0.47;
+    v.penalty = 3.5e-5;
+    try {
+      const Solution s = active_set(v);
+      // the truth at this compliance is off the limit by about 50 compliance
+      EXPECT_NEAR(s.u(2), (0.31 + 2 * u_1) / 2.3, 1e-12 + 50 * compliance) << compliance;
+    } catch (const NotConverged&) {
+      EXPECT_LT(compliance, 1e-18) << "refused";
+    }
+  }
+}
+
+// The report of a wrong u in a place of small forces, beside a force of 1e12.
+TEST(Scales, TheReportSeesSmallForcesBesideGreatOnes) {
+  const VariationalInequality v =
+      body(Eigen::Vector3d(1e12, 1, 1).asDiagonal(), Eigen::Vector3d(-1e12, -2, 1), Eigen::Vector2d(0, -1));
+  const Solution right = active_set(v);
+  Solution wrong = right;
+  wrong.u(2) *= 1 + 1e-4;
+  EXPECT_THROW(certify(v, wrong), NotConverged) << "a force out of balance";
+  // in balance, but with the wrong contact set
+  VariationalInequality pulled = v;
+  pulled.load(1) = -0.99;
+  wrong = active_set(pulled);
+  EXPECT_NEAR(wrong.u(1), -0.99, 1e-15);
+  wrong.u(1) = -1, wrong.lambda(1) = -0.01;
+  EXPECT_THROW(certify(pulled, wrong), NotConverged) << "a contact that pulls";
+  wrong.u(1) = -0.98, wrong.lambda(1) = 0.01;
+  EXPECT_THROW(certify(pulled, wrong), NotConverged) << "pressed and open";
+}
+
+// Prescribed values alone, and an obstacle that keeps the rest at zero: nothing moves in the first correction.
+TEST(Scales, WhatDoesNotMoveHasSettled) {
+  Eigen::Matrix3d a1;
+  a1 << 2, -1, -1, -1, 2, 0, -1, 0, 1;  // u_0 held up by the obstacle, u_1 hangs on it, u_2 is pushed down
+  for (const bool in_contact : {true, false}) {
+    if (!in_contact) a1 = Eigen::Matrix3d::Identity();
+    VariationalInequality v = body(a1, Eigen::Vector3d::Zero(), Eigen::VectorXd::Zero(in_contact ? 1 : 0));
+    stiffen(v, Eigen::RowVector3d(1, -1, 0), 1e-2);
+    v.fixed = {2};
+    v.fixed_values = Eigen::VectorXd::Constant(1, -1);
+    for (const Solution& s : {active_set(v), uzawa(v)}) {
+      EXPECT_LT((s.u - Eigen::Vector3d(0, 0, -1)).lpNorm<Eigen::Infinity>(), 1e-15);
+      if (in_contact) {
+        EXPECT_NEAR(s.lambda(0), 1, 1e-12);
+      }
+    }
+  }
+}
+
+// Without B too the first solve is not taken on trust: a double keeps 1e-16 / held of it, the corrections 1e-19 / held.
+TEST(Scales, AChainThatIsHardlyHeldIsRightWithoutAStiffForm) {
+  constexpr int n = 40;
+  for (const double held : {1e-4, 1e-6, 1e-8, 1e-10}) {
+    Eigen::VectorXd spring(n + 1), load(n);
+    for (int i = 0; i <= n; ++i) spring(i) = i == 0 ? held : i == n ? 0 : 1 + 0.5 * std::sin(i);
+    for (int i = 0; i < n; ++i) load(i) = held * std::cos(i);
+    Eigen::MatrixXd a1 = Eigen::MatrixXd::Zero(n, n);
+    for (int i = 0; i < n; ++i) {
+      a1(i, i) = spring(i) + spring(i + 1);
+      if (i > 0) a1(i, i - 1) = a1(i - 1, i) = -spring(i);
+    }
+    const VariationalInequality v = body(a1, load, Eigen::VectorXd());
+    const Solution s = active_set(v);
+    EXPECT_LT(distance(s.u, quad_reference(v, {}).u), 1e-10 + 1e-18 / held) << held;
+  }
+}
+
+TEST(Scales, AFactorOfAnotherProblemIsRefused) {
+  const TriangleMesh mesh = structured_mesh(4), finer = structured_mesh(5);
+  PenaltyFactor factor(test::stiff_problem(Space(finer, p1()), 0.1));
+  const VariationalInequality problem = test::stiff_problem(Space(mesh, p1()), 0.1);
+  test::expect_refused([&] { active_set(problem, factor); }, "the factor is of");
+  test::expect_refused([&] { uzawa(problem, factor); }, "the factor is of");
+}
+
+}  // namespace
+}  // namespace antilock::hard
