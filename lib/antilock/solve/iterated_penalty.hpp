@@ -26,8 +26,8 @@ CorrectionOptions corrections_to(double asked);
 /// The iterated penalty method (an augmented Lagrangian in the layer stress p = compliance^-1 B u). One factorisation
 /// of the moderately penalised K = A1 + delta^-1 B' M B; the true problem enters through the residual in split form
 /// only:
-///     r1 = L - A1 u - B' M p            r2 = compliance p - B u
-///     K du = r1 + delta^-1 B' M r2 + lambda      dp = (B du - r2) / delta
+///     r1 = L - A1 u - B' M p + lambda            r2 = compliance p - B u
+///     K du = r1 + delta^-1 B' M r2 + dlambda     dp = (B du - r2) / delta
 /// with the contact conditions solved on Gamma_C in every correction. No digit of A1 is ever added to a large one, so
 /// the answer is right at every compliance down to and including 0, where it solves (7) exactly. Throws NotConverged,
 /// with how far it came, after max_corrections or where B u = 0 cannot be met.

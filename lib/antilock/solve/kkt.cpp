@@ -81,8 +81,7 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   const Eigen::VectorXd beyond = (r.r1.cwiseAbs() - 8 * std::numeric_limits<double>::epsilon() * terms).cwiseMax(0);
   // a locked u may tend to 0: then its size before, or what the loads would do to one free unknown, tells what is large
   const double u_scale = std::max({u.lpNorm<Eigen::Infinity>(), solution.moderate, single_displacement(problem)});
-  // a great force somewhere must hide nothing where all forces are small: those that meet at the row, or that which a
-  // displacement of the size of u meets there in A1 + B' M B
+  // a great force somewhere must hide nothing where all forces are small
   Eigen::VectorXd own = problem.a1.diagonal().cwiseAbs();
   if (problem.b.rows() > 0) own += problem.b.cwiseAbs2().transpose() * problem.m;
   own = terms.cwiseMax(u_scale * own);

@@ -19,10 +19,13 @@ SplitResidual extended_residual(const VariationalInequality& problem, const Eige
 Eigen::VectorXd absolute_row_sums(const RowMatrix& b);
 
 /// The report, each number relative to what its condition is made of, so that scaling the load by any factor leaves it
-/// unchanged: r1 against the forces at work, max(|L|, |lambda|, |reactions|), since the terms of A1 u are larger than
-/// these by h^-2 and would hide an error; each row of r2 against its own sum |B| times the largest of |u| and
+/// unchanged: each row of r1 against the forces at work, max(|L|, |lambda|, |reactions|), since the terms of A1 u are
+/// larger than these by h^-2 and would hide an error, or against the forces at its own unknown where all of these are
+/// smaller (its terms of r1, its lambda, what a displacement of the size of u meets there in A1 + B' M B), so that a
+/// great force hides nothing elsewhere; each row of r2 against its own sum |B| times the largest of |u| and
 /// the displacement of a single unknown under its load (or `moderate`); gaps against max(|u|, |their bound|), pressures
-/// against max(|L|, |lambda|). All zero for the zero solution of a zero load.
+/// against max(|L|, |lambda|) or, where smaller, the forces at their own unknown. All zero for the zero solution of a
+/// zero load.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
 /// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above

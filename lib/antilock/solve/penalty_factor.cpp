@@ -172,8 +172,7 @@ void PenaltyFactor::refactor(const VariationalInequality& problem, double delta)
     throw Error(fmt::format(
         "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
         "by nothing, a cell is too flat for double precision, or A1 and B are in units far apart; accepted: enough "
-        "fixed "
-        "unknowns, cells, entries of A1 and B' M B of like size",
+        "fixed unknowns, cells, entries of A1 and B' M B of like size",
         delta, unknown));
   }
   contact_block_ = cholmod_->trailing_block(numbering_.interior);

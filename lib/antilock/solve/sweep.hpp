@@ -10,8 +10,8 @@ namespace antilock {
 
 /// One scene on one mesh, asked again and again with another epsilon, load or gap. What does not change is done once:
 /// - the forms a1 and a0 of (23) do not hold epsilon: they are assembled once for all of them;
-/// - every epsilon with epsilon^2 <= penalty (about h^2/256) shares one factorisation, and so do all loads and all
-/// gaps;
+/// - every epsilon with epsilon^2 <= penalty (about h^2/256) shares one factorisation, and so do all loads and
+///   all gaps;
 /// - the contact set of one answer starts the search for the next.
 /// The space, and its mesh, must outlive the sweep.
 class Sweep {
