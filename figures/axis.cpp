@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock::figures {
 

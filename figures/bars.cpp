@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "legend.hpp"
 #include "panel.hpp"
 #include "pictures.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "axis.hpp"
 
 namespace antilock::figures {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "legend.hpp"
 #include "panel.hpp"
 #include "pictures.hpp"

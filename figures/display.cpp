@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock::figures {
 

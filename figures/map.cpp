@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "panel.hpp"
 #include "pictures.hpp"
 #include "selection.hpp"

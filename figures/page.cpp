@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
 
 namespace antilock::figures {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "display.hpp"
 #include "pictures.hpp"
 

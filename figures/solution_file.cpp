@@ -13,7 +13,7 @@
 
 #include <cmath>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock::figures {
 namespace {

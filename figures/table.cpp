@@ -7,7 +7,7 @@
 #include <charconv>
 #include <fstream>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock::figures {
 namespace {

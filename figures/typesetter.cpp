@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include FT_FREETYPE_H
 
 namespace antilock::figures {

@@ -21,10 +21,10 @@
 
 #include <fmt/format.h>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/tutorial.hpp"
 

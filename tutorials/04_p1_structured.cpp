@@ -26,7 +26,7 @@
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/results.hpp"
 #include "common/tutorial.hpp"

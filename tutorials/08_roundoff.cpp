@@ -28,14 +28,15 @@
 
 #include <Eigen/CholmodSupport>
 
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/atomic_file.hpp"
-#include "antilock/measure/eigenvalues.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/exhibits/summed_matrix.hpp"
+#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/kkt.hpp"
-#include "antilock/solve/naive.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "common/tutorial.hpp"

@@ -27,11 +27,11 @@
 
 #include <algorithm>
 
+#include "antilock/core/atomic_file.hpp"
 #include "antilock/exact/truth.hpp"
-#include "antilock/io/atomic_file.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/study/sweep.hpp"
 #include "common/results.hpp"
 #include "common/tutorial.hpp"
 

@@ -18,7 +18,7 @@
 // error |u_h - u| stays. Once the one is below the other the steps buy nothing, but neither is known: u and u_h are
 // not. Two computable numbers stand for them. The duality gap, the energy of u_k pushed out of the obstacle less the
 // dual energy of lambda_k, is above |u_k - u_h|_a^2 / 2. The energy bracket (16_energy_bracket) holds J(u), its width
-// is of order h^2, and a mesh twice as coarse gives it at a quarter of the price. See measure/accurate_enough.hpp.
+// is of order h^2, and a mesh twice as coarse gives it at a quarter of the price. See analysis/accurate_enough.hpp.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -29,13 +29,14 @@
 #include <array>
 #include <map>
 
+#include "antilock/analysis/accurate_enough.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/atomic_file.hpp"
-#include "antilock/measure/accurate_enough.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "common/timed_runs.hpp"
 #include "common/tutorial.hpp"

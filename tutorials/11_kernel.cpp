@@ -33,17 +33,17 @@
 
 #include <numbers>
 
+#include "antilock/analysis/inf_sup.hpp"
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/measure/inf_sup.hpp"
-#include "antilock/measure/locking.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/refine.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/study/sweep.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;

@@ -35,15 +35,15 @@
 
 #include <array>
 
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/atomic_file.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/study/sweep.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;

@@ -29,13 +29,13 @@
 #include <array>
 #include <cmath>
 
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/h1_norm.hpp"
-#include "antilock/io/atomic_file.hpp"
 #include "antilock/measure/residual.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/scene/error.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/study/sweep.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;

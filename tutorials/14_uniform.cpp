@@ -30,12 +30,12 @@
 
 #include <array>
 
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/atomic_file.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/scene/error.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/study/sweep.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;

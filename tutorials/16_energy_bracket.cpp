@@ -18,7 +18,7 @@
 // the library). What is proved: every flux sigma with -div sigma = f, sigma.n >= 0 on Gamma_C, gives -|sigma|^2 / 2 <=
 // J(u), and Crouzeix-Raviart's own gradient becomes such a flux by a correction known triangle by triangle. The bound
 // is its energy minus about sum_T |T| f_T^2 s_T / 288, s_T the sum of the squares of the three edges: the same number
-// for every epsilon, 0 included. measure/energy_bracket.cpp derives it, with the term for a load that is not constant
+// for every epsilon, 0 included. analysis/energy_bracket.cpp derives it, with the term for a load that is not constant
 // on triangles.
 //
 // So the bracket [lower, J(P1)] holds J(u) whatever epsilon is, and sqrt(2 width) bounds the energy error of P1. Where
@@ -28,13 +28,13 @@
 
 #include <array>
 
+#include "antilock/analysis/energy_bracket.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/atomic_file.hpp"
-#include "antilock/measure/energy_bracket.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/scene/error.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/study/sweep.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;

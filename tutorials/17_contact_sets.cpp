@@ -30,14 +30,15 @@
 #include <array>
 #include <cmath>
 
+#include "antilock/analysis/negative_part.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/h1_norm.hpp"
-#include "antilock/io/atomic_file.hpp"
 #include "antilock/measure/contact_trace.hpp"
 #include "antilock/measure/residual.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/tutorial.hpp"
 

@@ -30,13 +30,13 @@
 #include <array>
 #include <numbers>
 
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/atomic_file.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/measure/locking.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/tutorial.hpp"
 

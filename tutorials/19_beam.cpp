@@ -21,11 +21,11 @@
 
 #include <cmath>
 
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/atomic_file.hpp"
 #include "antilock/exact/beam_truth.hpp"
-#include "antilock/io/atomic_file.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/measure/locking.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/tutorial.hpp"
 

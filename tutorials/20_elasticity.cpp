@@ -22,11 +22,11 @@
 #include <cmath>
 #include <map>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/atomic_file.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/measure/locking.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/plane_strain.hpp"
+#include "antilock/models/plane_strain.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/tutorial.hpp"
 

@@ -20,11 +20,11 @@
 
 #include <cmath>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/analysis/hypotheses.hpp"
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/measure/hypotheses.hpp"
-#include "antilock/measure/locking.hpp"
-#include "antilock/scene/error.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/tutorial.hpp"
 

@@ -11,13 +11,13 @@
 #include <cstdio>
 #include <new>
 
+#include "antilock/core/result_folder.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/io/expression.hpp"
-#include "antilock/io/result_folder.hpp"
 #include "antilock/io/scene_file.hpp"
 #include "antilock/io/scene_results.hpp"
-#include "antilock/problem/assemble.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/stopwatch.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "common/tutorial.hpp"
 

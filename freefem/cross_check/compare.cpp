@@ -14,9 +14,9 @@
 
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/problem/plane_strain.hpp"
-#include "antilock/problem/timoshenko_beam.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/models/plane_strain.hpp"
+#include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "cross_check.hpp"

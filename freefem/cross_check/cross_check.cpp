@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 
+#include "antilock/core/error.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/scene/error.hpp"
 #include "runner.hpp"
 
 namespace antilock::freefem {

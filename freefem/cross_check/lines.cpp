@@ -5,7 +5,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
 
 namespace antilock::freefem {
 

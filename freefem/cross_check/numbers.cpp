@@ -6,13 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "antilock/analysis/energy_bracket.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/measure/energy_bracket.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/study/sweep.hpp"
 #include "runner.hpp"
 
 namespace antilock::freefem {

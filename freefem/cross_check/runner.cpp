@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock::freefem {
 namespace {

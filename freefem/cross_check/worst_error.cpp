@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/error.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/scene/error.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/study/sweep.hpp"
 #include "numbers.hpp"
 #include "runner.hpp"
 

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <functional>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/stopwatch.hpp"
 #include "benchmark/unconstrained_cholesky.hpp"
 
 namespace antilock {

@@ -3,9 +3,9 @@
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
-#include "antilock/solve/stopwatch.hpp"
 
 namespace antilock {
 

@@ -8,15 +8,15 @@
 #include <filesystem>
 #include <fstream>
 
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/problem/plane_strain.hpp"
-#include "antilock/problem/timoshenko_beam.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/models/plane_strain.hpp"
+#include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/study/sweep.hpp"
 #include "cross_check.hpp"
 #include "numbers.hpp"
 #include "runner.hpp"

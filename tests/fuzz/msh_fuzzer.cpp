@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/msh_file.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "antilock/core/error.hpp"
 #include "antilock/io/scene_file.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace {
 

@@ -6,10 +6,10 @@
 #include <random>
 #include <set>
 
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/contact_problem.hpp"
 #include "antilock/solve/kkt.hpp"

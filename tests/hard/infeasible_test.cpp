@@ -5,13 +5,13 @@
 #include <cmath>
 #include <functional>
 
+#include "antilock/analysis/hypotheses.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/measure/hypotheses.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/problem/plane_strain.hpp"
-#include "antilock/problem/timoshenko_beam.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/models/plane_strain.hpp"
+#include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 

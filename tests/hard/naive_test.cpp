@@ -1,12 +1,13 @@
 // The naive way fails as the tutorial says, and no wrong answer of it gets past the checks.
-#include "antilock/solve/naive.hpp"
+#include "antilock/solve/exhibits/summed_matrix.hpp"
 
 #include <gtest/gtest.h>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 

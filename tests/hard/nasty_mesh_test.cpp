@@ -9,9 +9,9 @@
 #include <numeric>
 #include <random>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"

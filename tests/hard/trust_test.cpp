@@ -4,10 +4,10 @@
 #include <functional>
 #include <limits>
 
-#include "antilock/measure/hypotheses.hpp"
+#include "antilock/analysis/hypotheses.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"

@@ -1,5 +1,5 @@
 #include <antilock/mesh/generate.hpp>
-#include <antilock/problem/assemble.hpp>
+#include <antilock/models/anti_plane.hpp>
 #include <antilock/solve/active_set.hpp>
 using namespace antilock;
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <thread>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

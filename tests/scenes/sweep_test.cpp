@@ -1,13 +1,13 @@
 // Only what is needed: an absent effect costs nothing, and what a sweep can share it shares. Asserted by counting.
-#include "antilock/solve/sweep.hpp"
+#include "antilock/study/sweep.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
 namespace {

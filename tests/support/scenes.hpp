@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
+#include "antilock/models/anti_plane.hpp"
 
 namespace antilock::test {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/beam_truth.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/measure/locking.hpp"
-#include "antilock/scene/error.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {

@@ -11,12 +11,12 @@
 #include <numbers>
 #include <random>
 
+#include "antilock/core/error.hpp"
 #include "antilock/exact/contact_line.hpp"
 #include "antilock/exact/load_response.hpp"
 #include "antilock/exact/sine_transform.hpp"
 #include "antilock/exact/symbols.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 namespace {

@@ -105,7 +105,7 @@ TEST(Forms, FactoredA0IsTheDenseLoop) {
   for (const auto& [name, mesh] : two_square_meshes(3))
     for (const Element* element : elements()) {
       const Space space(mesh, *element);
-      const LayerStrain strain = layer_strain(space);
+      const FactoredForm strain = layer_strain(space);
       const Eigen::MatrixXd b = strain.b;
       const Eigen::MatrixXd a0 = b.transpose() * strain.m.asDiagonal() * b;
       const Eigen::MatrixXd loop = dense_form(space, Region::layer, 0, 1);
@@ -116,10 +116,10 @@ TEST(Forms, FactoredA0IsTheDenseLoop) {
 TEST(Forms, RowsOfBBelongToTheLayerTrianglesAndMMeasuresThem) {
   for (const auto& [name, mesh] : two_square_meshes(4))
     for (const Element* element : elements()) {
-      const LayerStrain strain = layer_strain(Space(mesh, *element));
+      const FactoredForm strain = layer_strain(Space(mesh, *element));
       ASSERT_EQ(strain.b.rows(), strain.m.size());
-      ASSERT_EQ(static_cast<Eigen::Index>(strain.triangle.size()), strain.m.size());
-      for (const int t : strain.triangle) ASSERT_EQ(mesh.region[t], Region::layer);
+      ASSERT_EQ(static_cast<Eigen::Index>(strain.cell.size()), strain.m.size());
+      for (const int t : strain.cell) ASSERT_EQ(mesh.region[t], Region::layer);
       EXPECT_GT(strain.m.minCoeff(), 0);
       EXPECT_NEAR(strain.m.sum(), 1, 1e-13) << name;
       const auto layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
@@ -177,7 +177,7 @@ TEST(Forms, EnergyOfAPolynomialOfTheElementsDegreeIsExact) {
       const double square = k * k / (2.0 * k - 1);  // int_0^1 (k t^(k-1))^2, on (-1, 0) the same
       EXPECT_NEAR(in_x.dot(gradient_form(space, {2, 3}, {5, 7}) * in_x), 7 * square, 1e-10) << name << k;
       EXPECT_NEAR(in_y.dot(gradient_form(space, {2, 3}, {5, 7}) * in_y), 10 * square, 1e-10) << name << k;
-      const LayerStrain strain = layer_strain(space);
+      const FactoredForm strain = layer_strain(space);
       const Eigen::VectorXd slope = strain.b * in_y;
       EXPECT_NEAR(slope.dot(strain.m.cwiseProduct(slope)), square, 1e-11) << name << k;
     }

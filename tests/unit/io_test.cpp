@@ -10,11 +10,11 @@
 #include <limits>
 #include <sstream>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/msh_file.hpp"
-#include "antilock/scene/error.hpp"
 #include "antilock/space/element.hpp"
 #include "support/temporary_folder.hpp"
 

@@ -3,15 +3,15 @@
 
 #include <cmath>
 
+#include "antilock/analysis/inf_sup.hpp"
+#include "antilock/analysis/kernel.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/measure/inf_sup.hpp"
-#include "antilock/measure/locking.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/sweep.hpp"
+#include "antilock/study/sweep.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {

@@ -7,8 +7,8 @@
 #include <functional>
 #include <sstream>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/scene/error.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace antilock {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "antilock/measure/locking.hpp"
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/plane_strain.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/plane_strain.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {

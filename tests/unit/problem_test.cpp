@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "antilock/form/forms.hpp"
-#include "antilock/problem/assemble.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {

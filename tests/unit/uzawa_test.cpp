@@ -1,13 +1,14 @@
 // Uzawa, the paper's algorithm: slow, but to the same answer; or no answer.
 #include "antilock/solve/uzawa.hpp"
+#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
+#include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/measure/accurate_enough.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"

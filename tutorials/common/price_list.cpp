@@ -10,7 +10,7 @@
 #include <thread>
 #include <tuple>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
 #include "common/timed_runs.hpp"
 
 namespace antilock::tutorial {

@@ -5,12 +5,12 @@
 #include <array>
 #include <numeric>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/problem/assemble.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/stopwatch.hpp"
 #include "common/timed_runs.hpp"
 
 namespace antilock::tutorial {

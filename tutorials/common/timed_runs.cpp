@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/scene/error.hpp"
-#include "antilock/solve/stopwatch.hpp"
 
 namespace antilock::tutorial {
 namespace {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "antilock/io/atomic_file.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock::tutorial {
 namespace {

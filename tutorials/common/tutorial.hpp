@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "antilock/solve/stopwatch.hpp"
+#include "antilock/core/stopwatch.hpp"
 
 namespace CLI {
 class App;  // CLI11 in full would be compiled into every tutorial

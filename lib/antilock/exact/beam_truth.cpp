@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

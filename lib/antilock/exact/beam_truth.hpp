@@ -1,5 +1,5 @@
 #pragma once
-#include "antilock/problem/timoshenko_beam.hpp"
+#include "antilock/models/timoshenko_beam.hpp"
 
 namespace antilock {
 

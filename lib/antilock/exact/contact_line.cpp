@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "antilock/core/error.hpp"
 #include "antilock/exact/sine_transform.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_data.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 namespace {

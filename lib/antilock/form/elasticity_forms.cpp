@@ -1,6 +1,6 @@
 #include "antilock/form/elasticity_forms.hpp"
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {
@@ -71,9 +71,9 @@ Eigen::SparseMatrix<double> strain_form(const VectorSpace& space) {
   return sum(space, entries);
 }
 
-LayerStrain divergence(const VectorSpace& space) {
+FactoredForm divergence(const VectorSpace& space) {
   const TriangleMesh& mesh = space.x.mesh();
-  LayerStrain b;
+  FactoredForm b;
   Triplets entries;
   b.m.resize(mesh.triangle_count());
   for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -83,7 +83,7 @@ LayerStrain divergence(const VectorSpace& space) {
       entries.emplace_back(t, y.unknown(i), y.gradient(i, 1));
     }
     b.m(t) = mesh.area(t);
-    b.triangle.push_back(t);
+    b.cell.push_back(t);
   }
   b.b.resize(mesh.triangle_count(), space.size());
   b.b.setFromTriplets(entries.begin(), entries.end());

@@ -2,6 +2,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 
+#include "antilock/form/factored_form.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
@@ -20,12 +21,7 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& b
 
 /// The factored form of a_y^-(u, v) = (B u, M B v), (23): a row of B is d/dy at a quadrature point of a layer triangle,
 /// M its weight. For P1 and CR d/dy is constant on a triangle: one row each, M its area.
-struct LayerStrain {
-  Eigen::SparseMatrix<double, Eigen::RowMajor> b;  ///< R x N
-  Eigen::VectorXd m;                               ///< R, positive
-  std::vector<int> triangle;                       ///< R, the layer triangle behind each row
-};
-LayerStrain layer_strain(const Space& space);
+FactoredForm layer_strain(const Space& space);
 /// The rule behind the rows of B, a triangle: d/dy u_h is of degree k - 1 and is squared, so 2 (k - 1): the centroid
 /// for degree 1, the edge midpoints for degree 2.
 const Quadrature& strain_rule(const Element& element);

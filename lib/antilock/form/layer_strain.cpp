@@ -5,7 +5,7 @@ namespace antilock {
 
 const Quadrature& strain_rule(const Element& element) { return triangle_rule(2 * (element.degree() - 1)); }
 
-LayerStrain layer_strain(const Space& space) {
+FactoredForm layer_strain(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const Quadrature& rule = strain_rule(element);
@@ -13,17 +13,17 @@ LayerStrain layer_strain(const Space& space) {
   std::vector<Eigen::MatrixX3d> derivative;
   for (Eigen::Index q = 0; q < points; ++q) derivative.push_back(element.derivative(rule.points.row(q)));
 
-  LayerStrain strain;
+  FactoredForm strain;
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == Region::layer) strain.triangle.insert(strain.triangle.end(), points, t);
-  const auto rows = static_cast<Eigen::Index>(strain.triangle.size());
+    if (mesh.region[t] == Region::layer) strain.cell.insert(strain.cell.end(), points, t);
+  const auto rows = static_cast<Eigen::Index>(strain.cell.size());
   strain.m.resize(rows);
   strain.b.resize(rows, space.size());
   strain.b.resizeNonZeros(rows * m);
   strain.b.outerIndexPtr()[0] = 0;
   std::vector<std::pair<int, double>> row(m);
   for (Eigen::Index r = 0; r < rows; ++r) {
-    const int t = strain.triangle[r];
+    const int t = strain.cell[r];
     const Eigen::Index q = r % points;
     strain.m(r) = rule.weights(q) * mesh.area(t);
     const Eigen::VectorXd dy = derivative[q] * barycentric_gradients(mesh, t).col(1);

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 

@@ -1,5 +1,5 @@
+#include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 

@@ -1,7 +1,7 @@
-#include "antilock/io/atomic_file.hpp"
-#include "antilock/io/text.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/text.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 

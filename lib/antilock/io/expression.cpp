@@ -9,7 +9,7 @@
 #include <mutex>
 #include <numbers>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/result_folder.hpp"
 #include "antilock/io/expression.hpp"
-#include "antilock/io/result_folder.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"

@@ -1,7 +1,7 @@
 #include "antilock/io/vtu_grid.hpp"
 
-#include "antilock/io/atomic_file.hpp"
-#include "antilock/io/text.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/text.hpp"
 
 namespace antilock {
 namespace {

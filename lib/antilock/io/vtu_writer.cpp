@@ -1,9 +1,9 @@
 // VTU, the unstructured grid of VTK's XML formats, as text: for ParaView and for the figures.
 #include <fmt/format.h>
 
+#include "antilock/core/error.hpp"
 #include "antilock/io/vtu_grid.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "antilock/form/elasticity_forms.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/space/space.hpp"
+#include "antilock/space/vector_space.hpp"
 
 namespace antilock {
 

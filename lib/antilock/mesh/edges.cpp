@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 void number_edges(TriangleMesh& mesh, const std::string& where) {

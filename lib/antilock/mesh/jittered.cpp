@@ -3,8 +3,8 @@
 
 #include <random>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 

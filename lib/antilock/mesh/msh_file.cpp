@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/msh_sections.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 namespace {

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

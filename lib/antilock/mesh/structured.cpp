@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/edges.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 

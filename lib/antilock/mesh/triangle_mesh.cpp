@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/edges.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 #include <unordered_map>
 
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 

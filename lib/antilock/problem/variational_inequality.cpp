@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

@@ -1,12 +1,9 @@
 #pragma once
-#include <Eigen/Dense>
-#include <Eigen/Sparse>
 #include <vector>
 
-namespace antilock {
+#include "antilock/core/matrix.hpp"
 
-using SparseMatrix = Eigen::SparseMatrix<double>;                ///< by columns
-using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< by rows
+namespace antilock {
 
 /// The discrete problem of the paper's whole class, (6), and (7) where compliance = 0:
 ///
@@ -20,7 +17,7 @@ struct VariationalInequality {
   RowMatrix b;             ///< R x N; R = 0 where nothing is stiff
   Eigen::VectorXd m;       ///< R, the diagonal of M, positive (areas of cells)
   double compliance = 1;   ///< the class parameter, 0 <= compliance <= 1. In (23) it is epsilon^2: the one place that
-                           ///< says so is `assemble` (problem/assemble.hpp)
+                           ///< says so is `assemble` (models/anti_plane.hpp)
   double penalty = 1e-6;   ///< delta of the iterated penalty where compliance is smaller; about h^2/256
   Eigen::VectorXd load;    ///< N, L(phi_i)
   std::vector<int> fixed;  ///< unknowns with a prescribed value, ascending

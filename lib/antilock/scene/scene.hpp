@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/anderson.hpp"
 #include "antilock/solve/kkt.hpp"
-#include "antilock/solve/stopwatch.hpp"
 
 namespace antilock {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

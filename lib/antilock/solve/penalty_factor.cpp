@@ -8,8 +8,8 @@
 #include <numeric>
 #include <optional>
 
-#include "antilock/scene/error.hpp"
-#include "antilock/solve/stopwatch.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
 
 namespace antilock {
 namespace {

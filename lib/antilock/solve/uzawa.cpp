@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/iterated_penalty.hpp"
 #include "antilock/solve/power_iteration.hpp"
-#include "antilock/solve/stopwatch.hpp"
 
 namespace antilock {
 namespace {

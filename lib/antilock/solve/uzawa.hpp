@@ -8,7 +8,7 @@
 
 namespace antilock {
 
-/// An algebraic error not worth pushing further down; measure/accurate_enough.hpp says which.
+/// An algebraic error not worth pushing further down; analysis/accurate_enough.hpp says which.
 struct AccurateEnough {
   double energy = 0;    ///< of J(v) - J(u_h), v = the iterate pushed out of the obstacle, J with the penalty delta in
                         ///< place of a smaller compliance
@@ -33,12 +33,5 @@ struct UzawaOptions {
 /// step. Throws NotConverged, with how far it came, instead of ever returning an unconverged answer.
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options = {});
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options = {});
-
-/// The paper's algorithm with the paper's linear solver (Section 4.2): A1 + compliance^-1 B' M B summed into one
-/// matrix, one run of conjugate gradients preconditioned by ILUT a step. Kept to be compared against: the sum loses
-/// digits, and ILUT breaks down on stiff meshes that are not aligned with the layer, which is reported, never returned
-/// as an answer. Throws Error at compliance = 0, where the sum does not exist, and for options.enough: the duality gap
-/// asks for the matrix condensed on Gamma_C.
-Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options = {});
 
 }  // namespace antilock

@@ -9,6 +9,7 @@ class CrouzeixRaviart final : public Element {
  public:
   std::string name() const override { return "CR"; }
   int degree() const override { return 1; }
+  bool conforming() const override { return false; }
   int per_vertex() const override { return 0; }
   int per_edge() const override { return 1; }
   int per_triangle() const override { return 0; }

@@ -1,6 +1,6 @@
 #include "antilock/space/element.hpp"
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 

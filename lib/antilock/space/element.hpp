@@ -11,7 +11,8 @@ class Element {
   virtual ~Element() = default;
   virtual std::string name() const = 0;
   virtual int degree() const = 0;
-  virtual int per_vertex() const = 0;    ///< unknowns at a vertex
+  virtual bool conforming() const { return true; }  ///< V_h is part of V: no jumps
+  virtual int per_vertex() const = 0;               ///< unknowns at a vertex
   virtual int per_edge() const = 0;      ///< unknowns on an edge, ordered from its vertex i+1 to its vertex i+2
   virtual int per_triangle() const = 0;  ///< unknowns inside a triangle
   /// m x 3: barycentric coordinates of the m unknowns; basis function i is 1 at row i and 0 at the others.

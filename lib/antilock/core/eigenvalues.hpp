@@ -1,5 +1,5 @@
 #pragma once
-#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/core/matrix.hpp"
 
 namespace antilock {
 

@@ -1,11 +1,11 @@
-#include "antilock/problem/plane_strain.hpp"
+#include "antilock/models/plane_strain.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <map>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 
@@ -20,7 +20,7 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   problem.a1 = strain_form(space);
   if (scene.jump_weight > 0) problem.a1 += jump_form(space, scene.jump_weight, !scene.sliding);
   problem.a1.makeCompressed();
-  LayerStrain div = divergence(space);
+  FactoredForm div = divergence(space);
   problem.b = std::move(div.b);
   problem.m = std::move(div.m);
   problem.compliance = scene.epsilon;

@@ -1,10 +1,10 @@
-#include "antilock/problem/timoshenko_beam.hpp"
+#include "antilock/models/timoshenko_beam.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

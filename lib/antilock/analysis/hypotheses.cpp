@@ -1,11 +1,11 @@
-#include "antilock/measure/hypotheses.hpp"
+#include "antilock/analysis/hypotheses.hpp"
 
 #include <algorithm>
 #include <limits>
 
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/measure/locking.hpp"
-#include "antilock/scene/error.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 

@@ -1,4 +1,4 @@
-#include "antilock/measure/eigenvalues.hpp"
+#include "antilock/core/eigenvalues.hpp"
 
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/MatOp/SparseSymShiftSolve.h>
@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

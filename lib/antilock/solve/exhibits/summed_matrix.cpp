@@ -1,13 +1,13 @@
-#include "antilock/solve/naive.hpp"
+#include "antilock/solve/exhibits/summed_matrix.hpp"
 
 #include <Eigen/CholmodSupport>
 #include <Eigen/UmfPackSupport>
 #include <set>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
-#include "antilock/solve/stopwatch.hpp"
 
 namespace antilock {
 namespace {

@@ -1,4 +1,4 @@
-#include "antilock/io/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <thread>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

@@ -1,11 +1,11 @@
-#include "antilock/measure/inf_sup.hpp"
+#include "antilock/analysis/inf_sup.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
 
 namespace antilock {

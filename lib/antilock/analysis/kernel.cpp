@@ -1,10 +1,10 @@
-#include "antilock/measure/locking.hpp"
+#include "antilock/analysis/kernel.hpp"
 
 #include <fmt/format.h>
 
 #include <Eigen/SPQRSupport>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

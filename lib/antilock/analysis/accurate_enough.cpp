@@ -1,10 +1,10 @@
-#include "antilock/measure/accurate_enough.hpp"
+#include "antilock/analysis/accurate_enough.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "antilock/measure/errors.hpp"
-#include "antilock/problem/assemble.hpp"
+#include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
 

@@ -16,20 +16,20 @@
 // What is left of the load: f - f_T has mean zero on T, so by Poincare's inequality with constant h_T / pi (Payne and
 // Weinberger 1960) (f - f_T, v - u_h) <= osc |grad v - grad u_h|, osc^2 = sum (h_T / pi)^2 |f - f_T|_T^2, and
 // grad v - grad u_h = (grad v - sigma) + tau in the body. The smallest value of x^2 / 2 - osc x is -osc^2 / 2.
-#include "antilock/measure/energy_bracket.hpp"
+#include "antilock/analysis/energy_bracket.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/scene/error.hpp"
 
 namespace antilock {
 namespace {
 
 void check_bracket_request(const Space& space, const VariationalInequality& problem) {
-  if (space.element().name() != "CR")
+  if (space.element().conforming())
     throw Error("energy bracket: a lower bound from element " + space.element().name() + " is not known; accepted: CR");
   if (problem.lower.size() > 0 && problem.lower.cwiseAbs().maxCoeff() > 0)
     throw Error("energy bracket: the obstacle has a gap; accepted: u >= 0 on Gamma_C");

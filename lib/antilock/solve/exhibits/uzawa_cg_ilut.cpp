@@ -1,14 +1,15 @@
+#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
+
 #include <fmt/format.h>
 
 #include <Eigen/IterativeLinearSolvers>
 #include <cmath>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
 #include "antilock/solve/power_iteration.hpp"
-#include "antilock/solve/stopwatch.hpp"
-#include "antilock/solve/uzawa.hpp"
 
 namespace antilock {
 namespace {

@@ -1,4 +1,4 @@
-#include "antilock/problem/assemble.hpp"
+#include "antilock/models/anti_plane.hpp"
 
 #include <fmt/format.h>
 
@@ -22,7 +22,7 @@ void check_fit(const Scene& scene, const Space& space) {
 /// delta of the iterated penalty (solve/). Measured: a correction contracts like delta / h^2 (h the side of the mean
 /// layer triangle, two of which make a square), and round-off in the factor spoils it like h^-2 delta^-2, so that below
 /// 6e-8 a smaller delta takes more corrections, not fewer.
-double moderate_penalty(const LayerStrain& strain) {
+double moderate_penalty(const FactoredForm& strain) {
   const double h2 = 2 * strain.m.sum() / static_cast<double>(strain.m.size());
   return std::max(h2 / 256, 6e-8);
 }
@@ -50,7 +50,7 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
 
   if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
     problem.a1 = gradient_form(space, {1, 1}, {1, 0});  // a+ + a_x^- of (23)
-    LayerStrain strain = layer_strain(space);           // a_y^-, factored
+    FactoredForm strain = layer_strain(space);          // a_y^-, factored
     problem.penalty = moderate_penalty(strain);
     problem.b = std::move(strain.b);
     problem.m = std::move(strain.m);

@@ -1,11 +1,11 @@
-#include "antilock/solve/sweep.hpp"
+#include "antilock/study/sweep.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/problem/assemble.hpp"
-#include "antilock/scene/error.hpp"
+#include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
 

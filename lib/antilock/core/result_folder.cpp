@@ -1,11 +1,11 @@
-#include "antilock/io/result_folder.hpp"
+#include "antilock/core/result_folder.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <system_error>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {

@@ -1,0 +1,10 @@
+#pragma once
+#include <Eigen/Dense>
+#include <Eigen/Sparse>
+
+namespace antilock {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;                ///< by columns
+using RowMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;  ///< by rows
+
+}  // namespace antilock
