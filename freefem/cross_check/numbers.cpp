@@ -12,7 +12,7 @@
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
-#include "antilock/study/sweep.hpp"
+#include "antilock/study/scene_sweep.hpp"
 #include "runner.hpp"
 
 namespace antilock::freefem {
@@ -61,7 +61,7 @@ Numbers roundoff(const std::string& element, int cells, const std::filesystem::p
   const Space space(mesh, antilock::element(element));
   run("08_roundoff", {"-mesh", written(mesh, folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
   const Table table = results(folder / "results.csv", 17);
-  Sweep sweep(contact_scene(1), space);
+  SceneSweep sweep(contact_scene(1), space);
   Numbers numbers;
   for (int i = 0; i < 17; ++i) {
     const double epsilon = table.column("epsilon")(i);
@@ -121,7 +121,7 @@ Numbers limits(int cells, const std::filesystem::path& folder) {
     for (const TriangleMesh* mesh : {&structured, &unstructured}) {
       const Space space(*mesh, *element);
       const std::string method = element->name() + (mesh == &structured ? " structured" : " unstructured");
-      Sweep sweep(contact_scene(0), space);
+      SceneSweep sweep(contact_scene(0), space);
       const Solution limit = sweep.solve();
       double largest = 0;
       for (int k = 0; k <= 8; ++k, ++row) {
@@ -147,7 +147,7 @@ Numbers energy_bracket(int cells, const std::filesystem::path& folder) {
   run("16_energy_bracket", {"-mesh", written(mesh, folder), "-out", folder});
   const Table table = results(folder / "results.csv", 5);
   const Space above(mesh, p1()), below(mesh, crouzeix_raviart());
-  Sweep upper(contact_scene(1), above), lower(contact_scene(1), below);
+  SceneSweep upper(contact_scene(1), above), lower(contact_scene(1), below);
   Numbers numbers;
   const double epsilons[] = {1, 1e-1, 1e-2, 1e-4, 0};
   for (int i = 0; i < 5; ++i) {

@@ -8,7 +8,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/study/sweep.hpp"
+#include "antilock/study/scene_sweep.hpp"
 #include "numbers.hpp"
 #include "runner.hpp"
 
@@ -70,7 +70,7 @@ std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
     const auto row = std::find(table.names.begin(), table.names.end(), name) - table.names.begin();
     if (row == table.rows.rows()) throw Error("uniform.csv: no row " + name);
     const Space space(mesh, *element);
-    Sweep sweep(scene, space), fine_sweep(scene, fine_space);
+    SceneSweep sweep(scene, space), fine_sweep(scene, fine_space);
     const ByPlace by_place(space, cells);
     Numbers numbers;
     double worst = 0;

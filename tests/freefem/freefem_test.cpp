@@ -16,7 +16,7 @@
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/study/sweep.hpp"
+#include "antilock/study/scene_sweep.hpp"
 #include "cross_check.hpp"
 #include "numbers.hpp"
 #include "runner.hpp"
@@ -340,7 +340,7 @@ TEST(FreeFemScripts, TheWorstErrorOverEpsilonIsTheSame) {
   for (int i = 0; i < 2; ++i) {
     expect_same(errors[i], 1e-10);
     const Space space(mesh, *elements[i]);
-    Sweep sweep(contact_scene(1), space);
+    SceneSweep sweep(contact_scene(1), space);
     double worst = 0;
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0}) {
       sweep.set_epsilon(epsilon);

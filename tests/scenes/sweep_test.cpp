@@ -1,5 +1,5 @@
 // Only what is needed: an absent effect costs nothing, and what a sweep can share it shares. Asserted by counting.
-#include "antilock/study/sweep.hpp"
+#include "antilock/study/scene_sweep.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST(OnlyWhatIsNeeded, AVentcelLayerCostsWhatTheBodyAloneCosts) {
 TEST(Sweep, GivesTheAnswersOfScenesSolvedOneByOne) {
   const TriangleMesh mesh = unstructured_mesh(12);
   const Space space(mesh, crouzeix_raviart());
-  Sweep sweep(Scene({paper_load}, StiffLayer{1}, UnilateralContact{}), space);
+  SceneSweep sweep(Scene({paper_load}, StiffLayer{1}, UnilateralContact{}), space);
   for (const double epsilon : {1.0, 0.1, 1e-3, 1e-6, 0.0, 0.3}) {
     sweep.set_epsilon(epsilon);
     const Scene alone({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
@@ -71,7 +71,7 @@ TEST(Sweep, GivesTheAnswersOfScenesSolvedOneByOne) {
 TEST(Sweep, SharesOneFactorisationBelowTheMeshWidth) {
   const TriangleMesh mesh = structured_mesh(16);
   const Space space(mesh, p1());
-  Sweep sweep(Scene({paper_load}, StiffLayer{0}, UnilateralContact{}), space);
+  SceneSweep sweep(Scene({paper_load}, StiffLayer{0}, UnilateralContact{}), space);
   // epsilon^2 <= h^2 / 256 for all of these: h / 16 = 0.0039
   for (const double epsilon : {0.0, 1e-12, 1e-8, 1e-4, 1e-3, 0.0039}) {
     sweep.set_epsilon(epsilon);
@@ -87,7 +87,7 @@ TEST(Sweep, LoadsAndGapsShareOneFactorisationAndTheForms) {
   const TriangleMesh mesh = structured_mesh(16);
   const Space space(mesh, crouzeix_raviart());
   const int body_triangles = mesh.triangle_count() / 2;
-  Sweep sweep(Scene({paper_load}, StiffLayer{1e-3}, UnilateralContact{}), space);
+  SceneSweep sweep(Scene({paper_load}, StiffLayer{1e-3}, UnilateralContact{}), space);
   sweep.solve();
   for (const double size : {0.5, 2.0, -1.0}) {
     const Field load = [size](double x, double y) { return size * paper_load(x, y); };
@@ -105,7 +105,7 @@ TEST(Sweep, LoadsAndGapsShareOneFactorisationAndTheForms) {
 TEST(Sweep, StartsFromTheContactSetBefore) {
   const TriangleMesh mesh = structured_mesh(64);
   const Space space(mesh, p1());
-  Sweep sweep(Scene({paper_load}, StiffLayer{1e-3}, UnilateralContact{}), space);
+  SceneSweep sweep(Scene({paper_load}, StiffLayer{1e-3}, UnilateralContact{}), space);
   sweep.solve();
   sweep.set_epsilon(0.9e-3);  // moves the contact zone by less than a cell
   EXPECT_LE(sweep.solve().counters.contact, 2);
@@ -114,7 +114,7 @@ TEST(Sweep, StartsFromTheContactSetBefore) {
 TEST(Sweep, ServesScenesWithoutEpsilonToo) {
   const TriangleMesh body = structured_mesh(8, {0});
   const Space space(body, p1());
-  Sweep sweep(Scene({paper_load}), space);
+  SceneSweep sweep(Scene({paper_load}), space);
   const Solution first = sweep.solve();
   sweep.set_load([](double x, double y) { return -3 * paper_load(x, y); });
   const Solution second = sweep.solve();
@@ -125,11 +125,11 @@ TEST(Sweep, ServesScenesWithoutEpsilonToo) {
 TEST(Sweep, RefusesWhatTheSceneDoesNotHave) {
   const TriangleMesh body = structured_mesh(8, {0}), both = structured_mesh(8);
   const Space space(body, p1()), space_with_layer(both, p1());
-  Sweep ventcel(Scene({paper_load}, VentcelLayer{}), space);
+  SceneSweep ventcel(Scene({paper_load}, VentcelLayer{}), space);
   EXPECT_THROW(ventcel.set_epsilon(0.1), Error);
   EXPECT_THROW(ventcel.set_gap([](double) { return 1.0; }), Error);
   EXPECT_THROW(ventcel.set_load(Field{}), Error);
-  Sweep stiff(Scene({paper_load}, StiffLayer{0.1}), space_with_layer);
+  SceneSweep stiff(Scene({paper_load}, StiffLayer{0.1}), space_with_layer);
   EXPECT_THROW(stiff.set_epsilon(-1), Error);
   EXPECT_THROW(stiff.set_epsilon(std::nan("")), Error);
 }

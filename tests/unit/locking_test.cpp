@@ -11,7 +11,7 @@
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/study/sweep.hpp"
+#include "antilock/study/scene_sweep.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -202,7 +202,7 @@ std::vector<double> h1_errors(const Space& space) {
     for (const double epsilon : epsilons) tables.emplace_back(Truth(paper_sine_load(), epsilon, true, 13));
     return tables;
   }();
-  Sweep sweep(test::stiff_scene(1), space);
+  SceneSweep sweep(test::stiff_scene(1), space);
   std::vector<double> errors;
   for (std::size_t i = 0; i < epsilons.size(); ++i) {
     sweep.set_epsilon(epsilons[i]);

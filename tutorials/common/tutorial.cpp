@@ -48,6 +48,10 @@ void Report::claim(bool holds, const std::string& what) {
   all_hold_ = all_hold_ && holds;
 }
 
+void Report::claim_within(double value, double low, double high, const std::string& what) {
+  claim(value >= low && value <= high, fmt::format("{} {:.4g} (accepted {:.4g} to {:.4g})", what, value, low, high));
+}
+
 int run(int argc, char** argv, const std::string& stem, const std::string& what, Options options,
         const std::function<void(const Options&, Report&)>& body) {
   CLI::App app(what, stem);

@@ -1,4 +1,6 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -29,6 +31,13 @@ class Report {
   void stage(const std::string& what);
   /// A claim of the paper and whether the numbers bear it out, as a line `VERDICT holds: ...` or `VERDICT FAILS: ...`.
   void claim(bool holds, const std::string& what);
+  /// The same with a format string, `claim(order > 1.8, "falls like h^{:.2f}", order)`.
+  template <class First, class... More>
+  void claim(bool holds, fmt::format_string<First, More...> what, First&& first, More&&... more) {
+    claim(holds, fmt::format(what, std::forward<First>(first), std::forward<More>(more)...));
+  }
+  /// A claim that a number lies in an interval; its line ends with the number and the interval.
+  void claim_within(double value, double low, double high, const std::string& what);
   /// Ends the last stage.
   void finish();
   bool all_hold() const { return all_hold_; }

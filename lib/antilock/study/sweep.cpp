@@ -1,37 +1,41 @@
 #include "antilock/study/sweep.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <cmath>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/forms.hpp"
-#include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
 
-Sweep::Sweep(const Scene& scene, const Space& space) : space_(&space), scene_(scene), problem_(assemble(scene, space)) {
-  check(problem_);
+Sweep::Sweep(VariationalInequality problem) : problem_(std::move(problem)) { check(problem_); }
+
+void Sweep::set_compliance(double compliance) {
+  if (problem_.b.rows() == 0)
+    throw Error("sweep: the compliance does not vary where nothing is stiff; accepted: a problem whose B has rows");
+  if (!(compliance >= 0 && compliance <= 1))
+    throw Error(fmt::format("sweep: compliance {}; accepted: 0 to 1", compliance));
+  problem_.compliance = compliance;
 }
 
-void Sweep::set_epsilon(double epsilon) {
-  if (!std::holds_alternative<StiffLayer>(scene_.layer()))
-    throw Error("sweep: epsilon does not vary in this scene; accepted: a scene with a scaled layer, (23)");
-  const StiffLayer layer{epsilon};
-  scene_ = Scene(scene_.body(), layer, scene_.contact());  // checks epsilon
-  problem_.compliance = compliance(layer);
+void Sweep::set_load(Eigen::VectorXd load) {
+  if (load.size() != problem_.size() || !load.allFinite())
+    throw Error(fmt::format("sweep: a load of {} entries; accepted: {} finite ones, one per unknown", load.size(),
+                            problem_.size()));
+  problem_.load = std::move(load);
 }
 
-void Sweep::set_load(const Field& f) {
-  scene_ = Scene({f}, scene_.layer(), scene_.contact());
-  problem_.load = load_vector(*space_, f);
-  const auto& region = space_->mesh().region;
-  problem_.triangles += static_cast<int>(std::count(region.begin(), region.end(), Region::body));
+void Sweep::set_bounds(Eigen::VectorXd lower) {
+  if (problem_.contact.empty()) throw Error("sweep: no unknown is bounded; accepted: a problem with contact");
+  if (lower.size() != problem_.lower.size() || !lower.allFinite())
+    throw Error(fmt::format("sweep: {} bounds; accepted: {} finite ones, one per contact unknown", lower.size(),
+                            problem_.lower.size()));
+  problem_.lower = std::move(lower);
 }
 
-void Sweep::set_gap(const Profile& gap) {
-  if (!scene_.contact()) throw Error("sweep: this scene has no contact; accepted: a scene with an obstacle");
-  scene_ = Scene(scene_.body(), scene_.layer(), UnilateralContact{gap});  // checks the ends
-  problem_.lower = contact_bounds(*scene_.contact(), *space_);
+const PenaltyFactor& Sweep::factor() const {
+  if (!factor_) throw Error("sweep: no factor before the first answer; accepted: solve first");
+  return *factor_;
 }
 
 Solution Sweep::solve(ActiveSetOptions options) {

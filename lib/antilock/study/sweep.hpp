@@ -1,41 +1,41 @@
 #pragma once
 #include <optional>
+#include <vector>
 
 #include "antilock/problem/variational_inequality.hpp"
-#include "antilock/scene/scene.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/space/space.hpp"
 
 namespace antilock {
 
-/// One scene on one mesh, asked again and again with another epsilon, load or gap. What does not change is done once:
-/// - the forms a1 and a0 of (23) do not hold epsilon: they are assembled once for all of them;
-/// - every epsilon with epsilon^2 <= penalty (about h^2/256) shares one factorisation, and so do all loads and
-///   all gaps;
+/// One pair (A1, B) asked again and again with another compliance, load or bound. What does not change is done once:
+/// - the forms a1 and a0 hold no compliance: whoever filled the problem assembled them once for all questions;
+/// - all loads, all bounds and every compliance below the penalty delta of the factor share one factorisation;
 /// - the contact set of one answer starts the search for the next.
-/// The space, and its mesh, must outlive the sweep.
+/// Any problem of the class can be swept: the layer, the beam, rubber, one's own. SceneSweep does it for a scene.
 class Sweep {
  public:
-  /// Assembles; throws Error as `assemble` does.
-  Sweep(const Scene& scene, const Space& space);
+  /// Throws Error as `check` does.
+  explicit Sweep(VariationalInequality problem);
 
-  /// Another thickness of a scaled layer, 0 to 1. Throws Error for another layer, which holds no epsilon or holds it in
-  /// its mesh.
-  void set_epsilon(double epsilon);
-  void set_load(const Field& f);
-  /// Another obstacle; throws Error where the scene has none.
-  void set_gap(const Profile& gap);
+  /// Another value of the class parameter, 0 to 1. Throws Error where nothing is stiff (B has no rows).
+  void set_compliance(double compliance);
+  /// N entries, one per unknown.
+  void set_load(Eigen::VectorXd load);
+  /// C entries, one per contact unknown. Throws Error where there is no contact.
+  void set_bounds(Eigen::VectorXd lower);
 
   /// The answer, its counters saying what this question cost beyond the ones before.
   Solution solve(ActiveSetOptions options = {});
 
   const VariationalInequality& problem() const { return problem_; }
   const Counters& total() const { return total_; }  ///< of all answers so far
+  /// The factor of the answers so far, with its delta; throws Error before the first.
+  const PenaltyFactor& factor() const;
+
+ protected:
+  VariationalInequality problem_;
 
  private:
-  const Space* space_;
-  Scene scene_;
-  VariationalInequality problem_;
   std::optional<PenaltyFactor> factor_;
   std::optional<std::vector<bool>> contact_set_;
   Counters total_;

@@ -1,0 +1,52 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "antilock/mesh/generate.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// A family of meshes: a name, and one mesh per number of cells per unit side (h = 1/cells). A family of one's own is
+/// one line: `MeshFamily{"jittered", [](int cells) { return jittered_mesh(cells, 0.1); }}`.
+struct MeshFamily {
+  std::string name;
+  std::function<TriangleMesh(int cells)> mesh;
+};
+/// The meshes of Figure 3 and of Figure 6.
+MeshFamily structured(const Domain& domain = {}, Diagonal diagonal = Diagonal::right);
+MeshFamily unstructured(const Domain& domain = {});
+
+/// A mesh and the space on it, kept together: the space looks at the mesh.
+class Discretisation {
+ public:
+  Discretisation(TriangleMesh mesh, const Element& element);
+  /// Another element on the same mesh.
+  Discretisation(const Discretisation& other, const Element& element);
+  const TriangleMesh& mesh() const { return *mesh_; }
+  const Space& space() const { return space_; }
+
+ private:
+  std::shared_ptr<const TriangleMesh> mesh_;  // stays where it is when this is moved or copied
+  Space space_;
+};
+
+/// A method of the paper's Section 4: an element on a family of meshes.
+struct Method {
+  const Element* element;
+  MeshFamily family;
+
+  std::string name() const;  ///< "P1 structured"
+  TriangleMesh mesh(int cells) const { return family.mesh(cells); }
+  /// The space of this element on a mesh, which must outlive it.
+  Space space(const TriangleMesh& mesh) const { return Space(mesh, *element); }
+  Discretisation on(int cells) const { return {mesh(cells), *element}; }
+};
+
+/// Every element on every family, elements first: the four methods of Figure 9 without arguments.
+std::vector<Method> methods(const std::vector<const Element*>& elements = {&p1(), &crouzeix_raviart()},
+                            const std::vector<MeshFamily>& families = {structured(), unstructured()});
+
+}  // namespace antilock

@@ -1,0 +1,35 @@
+#include "antilock/study/scene_sweep.hpp"
+
+#include <algorithm>
+
+#include "antilock/core/error.hpp"
+#include "antilock/form/forms.hpp"
+#include "antilock/models/anti_plane.hpp"
+
+namespace antilock {
+
+SceneSweep::SceneSweep(const Scene& scene, const Space& space)
+    : Sweep(assemble(scene, space)), space_(&space), scene_(scene) {}
+
+void SceneSweep::set_epsilon(double epsilon) {
+  if (!std::holds_alternative<StiffLayer>(scene_.layer()))
+    throw Error("sweep: epsilon does not vary in this scene; accepted: a scene with a scaled layer, (23)");
+  const StiffLayer layer{epsilon};
+  scene_ = Scene(scene_.body(), layer, scene_.contact());  // checks epsilon
+  problem_.compliance = compliance(layer);
+}
+
+void SceneSweep::set_load(const Field& f) {
+  scene_ = Scene({f}, scene_.layer(), scene_.contact());  // checks that there is one
+  problem_.load = load_vector(*space_, f);
+  const auto& region = space_->mesh().region;
+  problem_.triangles += static_cast<int>(std::count(region.begin(), region.end(), Region::body));
+}
+
+void SceneSweep::set_gap(const Profile& gap) {
+  if (!scene_.contact()) throw Error("sweep: this scene has no contact; accepted: a scene with an obstacle");
+  scene_ = Scene(scene_.body(), scene_.layer(), UnilateralContact{gap});  // checks the ends
+  problem_.lower = contact_bounds(*scene_.contact(), *space_);
+}
+
+}  // namespace antilock

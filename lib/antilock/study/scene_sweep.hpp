@@ -1,0 +1,27 @@
+#pragma once
+#include "antilock/scene/scene.hpp"
+#include "antilock/space/space.hpp"
+#include "antilock/study/sweep.hpp"
+
+namespace antilock {
+
+/// One scene on one mesh, asked again and again with another epsilon, load or gap: a Sweep in the scene's own words.
+/// The space, and its mesh, must outlive it.
+class SceneSweep : public Sweep {
+ public:
+  /// Assembles; throws Error as `assemble` does.
+  SceneSweep(const Scene& scene, const Space& space);
+
+  /// Another thickness of a scaled layer, 0 to 1. Throws Error for another layer, which holds no epsilon or holds it in
+  /// its mesh.
+  void set_epsilon(double epsilon);
+  void set_load(const Field& f);
+  /// Another obstacle; throws Error where the scene has none.
+  void set_gap(const Profile& gap);
+
+ private:
+  const Space* space_;
+  Scene scene_;
+};
+
+}  // namespace antilock

@@ -1,0 +1,196 @@
+#include "antilock/study/table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/text.hpp"
+#include "antilock/measure/errors.hpp"
+
+namespace antilock {
+namespace {
+
+std::string quoted(const std::string& word) {
+  if (word.find_first_of(",\"\n") == std::string::npos) return word;
+  std::string text = "\"";
+  for (const char c : word) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return text + '"';
+}
+
+}  // namespace
+
+std::string Entry::text(int digits) const {
+  if (!is_number()) return std::get<std::string>(value_);
+  const bool whole = number() == std::floor(number()) && std::abs(number()) < 1e9;
+  return digits == 0 || whole ? fmt::format("{}", number()) : fmt::format("{:.{}g}", number(), digits);
+}
+
+std::size_t Table::place(const std::string& column) const {
+  const auto found = std::find(columns_.begin(), columns_.end(), column);
+  if (found == columns_.end())
+    throw Error(fmt::format("table: no column '{}'; accepted: {}", column, fmt::join(columns_, ", ")));
+  return static_cast<std::size_t>(found - columns_.begin());
+}
+
+void Table::add(std::vector<Entry> row) {
+  if (row.size() != columns_.size())
+    throw Error(fmt::format("table: a row of {} entries; accepted: {}, one per column ({})", row.size(),
+                            columns_.size(), fmt::join(columns_, ", ")));
+  rows_.push_back(std::move(row));
+}
+
+void Table::add(const Table& other) {
+  if (other.columns_ != columns_)
+    throw Error(fmt::format("table: rows of the columns {}; accepted: {}", fmt::join(other.columns_, ", "),
+                            fmt::join(columns_, ", ")));
+  rows_.insert(rows_.end(), other.rows_.begin(), other.rows_.end());
+}
+
+Table Table::where(const std::string& column, const Entry& value) const {
+  const std::size_t at = place(column);
+  Table selected(columns_);
+  for (const auto& row : rows_)
+    if (row[at] == value) selected.rows_.push_back(row);
+  return selected;
+}
+
+Table Table::where_number(const std::string& column, const std::function<bool(double)>& holds) const {
+  const std::size_t at = place(column);
+  numbers(column);  // refuses a word
+  Table selected(columns_);
+  for (const auto& row : rows_)
+    if (holds(row[at].number())) selected.rows_.push_back(row);
+  return selected;
+}
+
+std::vector<Entry> Table::entries(const std::string& column) const {
+  const std::size_t at = place(column);
+  std::vector<Entry> entries;
+  for (const auto& row : rows_) entries.push_back(row[at]);
+  return entries;
+}
+
+std::vector<Entry> Table::different(const std::string& column) const {
+  std::vector<Entry> different;
+  for (const Entry& entry : entries(column))
+    if (std::find(different.begin(), different.end(), entry) == different.end()) different.push_back(entry);
+  return different;
+}
+
+std::vector<double> Table::numbers(const std::string& column) const {
+  std::vector<double> numbers;
+  for (const Entry& entry : entries(column)) {
+    if (!entry.is_number())
+      throw Error(fmt::format("table: '{}' in column '{}'; accepted: a number", entry.text(), column));
+    numbers.push_back(entry.number());
+  }
+  return numbers;
+}
+
+double Table::number(const std::string& column) const {
+  const std::vector<double> all = numbers(column);
+  if (all.size() != 1)
+    throw Error(fmt::format("table: column '{}' of {} rows; accepted: of one", column, all.size()));
+  return all.front();
+}
+
+namespace {
+std::vector<double> some(const Table& table, const std::string& column) {
+  std::vector<double> all = table.numbers(column);
+  if (all.empty()) throw Error(fmt::format("table: column '{}' of no rows; accepted: of one or more", column));
+  return all;
+}
+}  // namespace
+
+double Table::least(const std::string& column) const {
+  const std::vector<double> all = some(*this, column);
+  return *std::min_element(all.begin(), all.end());
+}
+double Table::most(const std::string& column) const {
+  const std::vector<double> all = some(*this, column);
+  return *std::max_element(all.begin(), all.end());
+}
+double Table::first(const std::string& column) const { return some(*this, column).front(); }
+double Table::last(const std::string& column) const { return some(*this, column).back(); }
+
+double Table::order(const std::string& y, const std::string& x) const {
+  for (const std::string& column : {y, x})
+    for (const double value : numbers(column))
+      if (!(value > 0)) throw Error(fmt::format("table: order of {} in column '{}'; accepted: > 0", value, column));
+  if (different(x).size() < 2)
+    throw Error(fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y, x,
+                            different(x).size()));
+  return slope(numbers(x), numbers(y));
+}
+
+Table Table::pivot(const std::string& rows, const std::string& across, const std::string& value) const {
+  const std::vector<Entry> down = different(rows), right = different(across);
+  std::vector<std::string> columns{rows};
+  for (const Entry& entry : right) columns.push_back(entry.text(4));
+  Table pivoted(std::move(columns));
+  for (const Entry& name : down) {
+    const Table line = where(rows, name);
+    std::vector<Entry> row{name};
+    for (const Entry& entry : right) {
+      const std::vector<Entry> here = line.where(across, entry).entries(value);
+      if (here.size() > 1)
+        throw Error(fmt::format("table: {} entries for {} = {}, {} = {}; accepted: one", here.size(), rows, name.text(),
+                                across, entry.text()));
+      row.push_back(here.empty() ? Entry("") : here.front());
+    }
+    pivoted.add(std::move(row));
+  }
+  return pivoted;
+}
+
+Table Table::select(const std::vector<std::string>& columns) const {
+  Table selected(columns);
+  std::vector<std::size_t> places;
+  for (const std::string& column : columns) places.push_back(place(column));
+  for (const auto& row : rows_) {
+    std::vector<Entry> kept;
+    for (const std::size_t at : places) kept.push_back(row[at]);
+    selected.rows_.push_back(std::move(kept));
+  }
+  return selected;
+}
+
+std::string Table::text(int digits) const {
+  std::vector<std::size_t> width;
+  for (std::size_t at = 0; at < columns_.size(); ++at) {
+    width.push_back(columns_[at].size());
+    for (const auto& row : rows_) width[at] = std::max(width[at], row[at].text(digits).size());
+  }
+  std::string text;
+  for (std::size_t at = 0; at < columns_.size(); ++at) text += fmt::format("  {:>{}}", columns_[at], width[at]);
+  for (const auto& row : rows_) {
+    text += '\n';
+    for (std::size_t at = 0; at < row.size(); ++at) text += fmt::format("  {:>{}}", row[at].text(digits), width[at]);
+  }
+  return text + '\n';
+}
+
+void Table::print(const std::string& title, int digits) const {
+  fmt::print("\n{}{}{}", title.empty() ? "" : "  " + title, title.empty() ? "" : "\n", text(digits));
+  std::fflush(stdout);
+}
+
+void Table::write(const std::filesystem::path& path) const {
+  write_file(path, [&](std::ostream& out) {
+    Text text(out);
+    const auto line = [&](const std::vector<std::string>& words) { text.print("{}\n", fmt::join(words, ",")); };
+    line(columns_);
+    for (const auto& row : rows_) {
+      std::vector<std::string> words;
+      for (const Entry& entry : row) words.push_back(quoted(entry.text()));
+      line(words);
+    }
+  });
+}
+
+}  // namespace antilock
