@@ -1,0 +1,28 @@
+#pragma once
+#include <functional>
+#include <string>
+
+#include "antilock/core/error.hpp"
+
+namespace antilock {
+
+/// Where a long computation stands. Solvers report once per iteration.
+struct Progress {
+  std::string stage;   ///< such as "corrections" or "contact"
+  int step = 0;        ///< iterations done in this stage, from 1
+  double reached = 1;  ///< the estimated relative error now (dimensionless); 1 where it is not known yet
+  double asked = 0;    ///< the tolerance, to which `reached` falls
+};
+
+/// Called with the progress of a computation; `false` stops it. An empty hook costs nothing.
+using ProgressHook = std::function<bool(const Progress&)>;
+
+/// A computation that its progress hook stopped. It never comes with a solution.
+struct Stopped : NotConverged {
+  using NotConverged::NotConverged;
+};
+
+/// Calls the hook, if there is one. Throws Stopped, with how far `who` came, where the hook says so.
+void report(const ProgressHook& hook, const Progress& progress, const std::string& who);
+
+}  // namespace antilock
