@@ -6,10 +6,12 @@
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/models/anti_plane.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 
 namespace antilock {
 
-Sweep::Sweep(const Scene& scene, const Space& space) : space_(&space), scene_(scene), problem_(assemble(scene, space)) {
+Sweep::Sweep(const Scene& scene, const Space& space)
+    : space_(&space), scene_(scene), problem_(assemble(scene, space)), assembled_(space.mesh().triangle_count()) {
   check(problem_);
 }
 
@@ -25,7 +27,7 @@ void Sweep::set_load(const Field& f) {
   scene_ = Scene({f}, scene_.layer(), scene_.contact());
   problem_.load = load_vector(*space_, f);
   const auto& region = space_->mesh().region;
-  problem_.triangles += static_cast<int>(std::count(region.begin(), region.end(), Region::body));
+  assembled_ += static_cast<int>(std::count(region.begin(), region.end(), Region::body));
 }
 
 void Sweep::set_gap(const Profile& gap) {
@@ -35,7 +37,7 @@ void Sweep::set_gap(const Profile& gap) {
 }
 
 Solution Sweep::solve(ActiveSetOptions options) {
-  const double delta = std::max(problem_.compliance, problem_.penalty);
+  const double delta = moderate_delta(problem_);
   const int factorisations_before = factor_ ? factor_->factorisations : 0;
   if (!factor_)
     factor_.emplace(problem_, delta);
@@ -48,8 +50,6 @@ Solution Sweep::solve(ActiveSetOptions options) {
   solution.counters.factorisations = factor_->factorisations - factorisations_before;
   if (solution.counters.factorisations == 0) solution.seconds.factor = 0;
   if (factorisations_before > 0) solution.seconds.analyse = 0;
-  problem_.triangles = 0;  // those assembled so far are counted now
-  total_.triangles += solution.counters.triangles;
   total_.unknowns = solution.counters.unknowns;
   total_.factorisations += solution.counters.factorisations;
   total_.solves += solution.counters.solves;

@@ -10,7 +10,7 @@ namespace antilock {
 
 /// One scene on one mesh, asked again and again with another epsilon, load or gap. What does not change is done once:
 /// - the forms a1 and a0 of (23) do not hold epsilon: they are assembled once for all of them;
-/// - every epsilon with epsilon^2 <= penalty (about h^2/256) shares one factorisation, and so do all loads and
+/// - every epsilon with epsilon^2 <= choose_penalty (about h^2/256) shares one factorisation, and so do all loads and
 ///   all gaps;
 /// - the contact set of one answer starts the search for the next.
 /// The space, and its mesh, must outlive the sweep.
@@ -31,6 +31,7 @@ class Sweep {
 
   const VariationalInequality& problem() const { return problem_; }
   const Counters& total() const { return total_; }  ///< of all answers so far
+  int assembled() const { return assembled_; }      ///< triangles walked over by assembly so far
 
  private:
   const Space* space_;
@@ -39,6 +40,7 @@ class Sweep {
   std::optional<PenaltyFactor> factor_;
   std::optional<std::vector<bool>> contact_set_;
   Counters total_;
+  int assembled_ = 0;
 };
 
 }  // namespace antilock
