@@ -29,6 +29,7 @@
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/results.hpp"
 #include "common/tutorial.hpp"
@@ -65,7 +66,7 @@ std::vector<Row> solve_all(const Method& method, const TriangleMesh& mesh, int c
   for (std::size_t i = 0; i < epsilons.size(); ++i) {
     const Stopwatch watch;
     problem.compliance = epsilons[i] * epsilons[i];
-    const double delta = std::max(problem.compliance, problem.penalty);
+    const double delta = moderate_delta(problem);
     if (delta != factor.delta()) factor.refactor(problem, delta);
     const Solution solution = active_set(problem, factor);
     const double seconds = watch.seconds();

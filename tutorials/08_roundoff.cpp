@@ -33,6 +33,7 @@
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/exhibits/summed_matrix.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
@@ -51,7 +52,7 @@ Eigen::VectorXd cure(VariationalInequality problem, const std::vector<bool>& act
     if (active[i]) problem.fixed.push_back(problem.contact[i]);
   problem.contact.clear();
   const FreeNumbering free(problem);  // numbers what is neither clamped nor in contact
-  const double delta = std::max(problem.compliance, problem.penalty);
+  const double delta = moderate_delta(problem);
   const SparseMatrix k = penalised_matrix(problem, free, delta);  // A1 + delta^-1 B' M B: delta is harmless
   const Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor(k);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.size()), p = Eigen::VectorXd::Zero(problem.b.rows());
@@ -163,7 +164,7 @@ std::vector<Condition> condition_numbers(const Space& space, const std::vector<d
   for (const double epsilon : epsilons) {
     const VariationalInequality problem = assemble(make_scene(epsilon), space);
     const FreeNumbering free(problem);
-    const SparseMatrix k = penalised_matrix(problem, free, std::max(problem.compliance, problem.penalty));
+    const SparseMatrix k = penalised_matrix(problem, free, moderate_delta(problem));
     const double smallest = smallest_eigenvalue(k);
     conditions.push_back({epsilon, largest_eigenvalue(penalised_matrix(problem, free, problem.compliance)) / smallest,
                           largest_eigenvalue(k) / smallest});

@@ -67,11 +67,12 @@ double ridge_cost(const Space& space, const VariationalInequality& problem) {
 Row solve(int degree, bool structured, int cells, const TriangleMesh& mesh, double epsilon, const TruthTable& truth) {
   const Space space(mesh, element(fmt::format("P{}", degree)));
   const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
-  VariationalInequality problem = assemble(scene, space);
+  const VariationalInequality problem = assemble(scene, space);
   // Factor at the true epsilon: of the functions that B nearly misses (a0 falls like h^(2p)) a larger penalty would
   // need hundreds of corrections. Below epsilon = 1e-4 that costs too many digits; the solver says so, and refuses.
-  problem.penalty = problem.compliance;
-  const Solution solution = active_set(problem);
+  ActiveSetOptions options;
+  options.penalty = problem.compliance;
+  const Solution solution = active_set(problem, options);
   // on fine meshes B nearly misses so many functions that a rank has no meaning in double precision
   const int kernel = cells <= 4 ? layer_kernel_dimension(problem) : -1;
   return {degree,

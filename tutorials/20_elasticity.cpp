@@ -27,6 +27,7 @@
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/plane_strain.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/tutorial.hpp"
 
@@ -113,7 +114,7 @@ std::vector<Solution> sweep(VariationalInequality problem, const std::vector<dou
   std::vector<Solution> solutions;
   for (const double epsilon : epsilons) {
     problem.compliance = epsilon;
-    const double delta = std::max(epsilon, problem.penalty);
+    const double delta = moderate_delta(problem);
     if (delta != factor.delta()) factor.refactor(problem, delta);
     solutions.push_back(active_set(problem, factor));
   }

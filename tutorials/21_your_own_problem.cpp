@@ -108,8 +108,6 @@ VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) 
   problem.a1 = sum_over_cells(s, 1, 0);
   fill_glue(s, glue, problem);
   problem.compliance = epsilon;
-  // delta: small against a0 on what is not in its kernel, here (h^2)^2; too large costs corrections, never digits
-  problem.penalty = 0.01 / std::pow(s.cells, 4);
   problem.load = Eigen::VectorXd::Zero(s.size());
   for (int i = 1; i <= s.cells; ++i) problem.load(s.upper(i)) = -load / (s.cells + 1);
   problem.fixed = {s.upper(0), s.upper(s.cells + 1), s.lower(0), s.lower(s.cells)};

@@ -5,13 +5,14 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
 
 namespace antilock {
 
 CholeskySeconds unconstrained_cholesky(const VariationalInequality& problem) {
   const FreeNumbering numbering(problem);
-  const SparseMatrix k = penalised_matrix(problem, numbering, std::max(problem.compliance, problem.penalty));
+  const SparseMatrix k = penalised_matrix(problem, numbering, moderate_delta(problem));
   const Eigen::VectorXd load = problem.load(numbering.unknown);
   CholeskySeconds seconds;
   Stopwatch watch;

@@ -180,7 +180,6 @@ VariationalInequality impossible(double far, double unit) {
   problem.b.makeCompressed();
   problem.m = Eigen::Vector2d(1, 1 / (unit * unit));
   problem.compliance = 0;
-  problem.penalty = 1e-3;
   problem.load = Eigen::VectorXd::Constant(6, 0.01);
   problem.fixed = {0};
   problem.fixed_values = Eigen::VectorXd::Zero(1);

@@ -49,9 +49,7 @@ TEST(OnlyWhatIsNeeded, AVentcelLayerCostsWhatTheBodyAloneCosts) {
     const Counters ventcel = cost(Scene({paper_load}, VentcelLayer{}), body, *element);
     const Counters limit = cost(Scene({paper_load}, StiffLayer{0}), both, *element);
     EXPECT_EQ(ventcel.unknowns, none.unknowns);
-    EXPECT_EQ(ventcel.triangles, none.triangles);
     EXPECT_EQ(ventcel.solves, none.solves);
-    EXPECT_EQ(limit.triangles, 2 * ventcel.triangles);
     EXPECT_GT(limit.unknowns, 1.9 * ventcel.unknowns);
     EXPECT_GT(limit.solves, ventcel.solves);
   }
@@ -80,7 +78,7 @@ TEST(Sweep, SharesOneFactorisationBelowTheMeshWidth) {
   sweep.set_epsilon(0.1);
   EXPECT_EQ(sweep.solve().counters.factorisations, 1);
   EXPECT_EQ(sweep.total().factorisations, 2);
-  EXPECT_EQ(sweep.total().triangles, mesh.triangle_count());
+  EXPECT_EQ(sweep.assembled(), mesh.triangle_count());
 }
 
 TEST(Sweep, LoadsAndGapsShareOneFactorisationAndTheForms) {
@@ -88,6 +86,7 @@ TEST(Sweep, LoadsAndGapsShareOneFactorisationAndTheForms) {
   const Space space(mesh, crouzeix_raviart());
   const int body_triangles = mesh.triangle_count() / 2;
   SceneSweep sweep(Scene({paper_load}, StiffLayer{1e-3}, UnilateralContact{}), space);
+  int assembled = mesh.triangle_count();
   sweep.solve();
   for (const double size : {0.5, 2.0, -1.0}) {
     const Field load = [size](double x, double y) { return size * paper_load(x, y); };
@@ -96,7 +95,7 @@ TEST(Sweep, LoadsAndGapsShareOneFactorisationAndTheForms) {
     sweep.set_gap(gap);
     const Solution swept = sweep.solve();
     EXPECT_EQ(swept.counters.factorisations, 0);
-    EXPECT_EQ(swept.counters.triangles, body_triangles);
+    EXPECT_EQ(sweep.assembled(), assembled += body_triangles);
     const Scene alone({load}, StiffLayer{1e-3}, UnilateralContact{gap});
     EXPECT_LE(difference(swept, active_set(assemble(alone, space))), same) << size;
   }

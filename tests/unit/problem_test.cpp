@@ -7,6 +7,7 @@
 
 #include "antilock/form/forms.hpp"
 #include "antilock/models/anti_plane.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -103,8 +104,32 @@ TEST(Assemble, ClampsTheSidesAndTheTopAtZero) {
 TEST(Assemble, ThePenaltyFollowsTheMesh) {
   for (const int cells : {4, 8}) {  // h^2 / 256, h the side of the mean layer triangle
     const TriangleMesh mesh = structured_mesh(cells);
-    EXPECT_NEAR(stiff_problem(Space(mesh, p1()), 0).penalty * 256 * cells * cells, 1, 1e-12);
+    EXPECT_NEAR(choose_penalty(stiff_problem(Space(mesh, p1()), 0)) * 256 * cells * cells, 1, 1e-12);
   }
+}
+
+TEST(ChoosePenalty, IsInTheUnitsOfCompliance) {
+  // A1 times s: the same problem at compliance / s. B times s, or M times s^2: at compliance s^2.
+  const TriangleMesh mesh = structured_mesh(8);
+  const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 0);
+  const double delta = choose_penalty(problem);
+  EXPECT_EQ(moderate_delta(problem), delta);
+  EXPECT_EQ(moderate_delta(problem, 1e-3), 1e-3);
+  for (const double s : {1e3, 1e6}) {
+    VariationalInequality scaled = problem;
+    scaled.b *= s;
+    EXPECT_NEAR(choose_penalty(scaled) / (delta * s * s), 1, 0.5);  // the ratio of the diagonals is 0.8, not 1
+    scaled = problem;
+    scaled.a1 /= s;
+    EXPECT_NEAR(choose_penalty(scaled) / (delta * s), 1, 0.5);
+    EXPECT_NEAR(smallest_penalty(scaled) / (smallest_penalty(problem) * s), 1, 0.5);
+    // strain in a far smaller unit: never below what the factor bears
+    scaled = problem;
+    scaled.b /= s;
+    EXPECT_NEAR(choose_penalty(scaled) / (6e-8 / (s * s)), 1, 0.5);
+  }
+  for (const double penalty : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+    expect_refused([&] { moderate_delta(problem, penalty); }, "accepted: a positive number");
 }
 
 TEST(Assemble, RefusesASceneThatDoesNotFitItsMesh) {
@@ -153,8 +178,6 @@ TEST(Check, RefusesWhatTheClassExcludes) {
   refused([](P& p) { p.m(2) = -1; }, "M is not positive");
   for (const double compliance : {-1e-300, 1.5, nan})
     refused([=](P& p) { p.compliance = compliance; }, "accepted 0 to 1");
-  for (const double penalty : {0.0, -1.0, 2.0, nan})
-    refused([=](P& p) { p.penalty = penalty; }, "accepted 0 < penalty <= 1");
   refused([](P& p) { p.a1.coeffRef(0, 1) *= 1 + 1e-9; }, "not symmetric");
   refused([](P& p) { p.a1.coeffRef(1, 0) = 0; }, "not symmetric");
   // an entry whose partner is not stored, on either side of the diagonal, the stored ones before and after it

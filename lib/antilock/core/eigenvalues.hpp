@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+
 #include "antilock/core/matrix.hpp"
 
 namespace antilock {
@@ -6,6 +8,11 @@ namespace antilock {
 /// The largest eigenvalue of a symmetric positive definite matrix, of which the upper triangle is stored, by Lanczos
 /// iteration (Spectra) to a relative 1e-6. Throws NotConverged where it does not settle.
 double largest_eigenvalue(const SparseMatrix& upper);
+
+/// The same of an operator on R^size that is known by its products, to a relative `tolerance`; from below. One product
+/// per step of the iteration, at least min(size, `basis`) of them.
+double largest_eigenvalue(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
+                          double tolerance = 1e-6, int basis = 30);
 
 /// The smallest one, by inverse iteration on a sparse LU factor: trustworthy only where the matrix itself can be
 /// factored, that is for condition numbers well below 1e16. Throws NotConverged.

@@ -19,14 +19,6 @@ void check_fit(const Scene& scene, const Space& space) {
     throw Error("scene and mesh: the scene has a layer, the mesh has no group layer, which is needed");
 }
 
-/// delta of the iterated penalty (solve/). Measured: a correction contracts like delta / h^2 (h the side of the mean
-/// layer triangle, two of which make a square), and round-off in the factor spoils it like h^-2 delta^-2, so that below
-/// 6e-8 a smaller delta takes more corrections, not fewer.
-double moderate_penalty(const FactoredForm& strain) {
-  const double h2 = 2 * strain.m.sum() / static_cast<double>(strain.m.size());
-  return std::max(h2 / 256, 6e-8);
-}
-
 }  // namespace
 
 double compliance(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
@@ -44,14 +36,12 @@ Eigen::VectorXd contact_bounds(const UnilateralContact& contact, const Space& sp
 VariationalInequality assemble(const Scene& scene, const Space& space) {
   check_fit(scene, space);
   VariationalInequality problem;
-  problem.triangles = space.mesh().triangle_count();
   problem.b.resize(0, space.size());
   problem.load = load_vector(space, scene.body().load);
 
   if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
     problem.a1 = gradient_form(space, {1, 1}, {1, 0});  // a+ + a_x^- of (23)
     FactoredForm strain = layer_strain(space);          // a_y^-, factored
-    problem.penalty = moderate_penalty(strain);
     problem.b = std::move(strain.b);
     problem.m = std::move(strain.m);
     problem.compliance = compliance(*stiff);

@@ -24,7 +24,6 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   problem.b = std::move(div.b);
   problem.m = std::move(div.m);
   problem.compliance = scene.epsilon;
-  problem.penalty = 1e-4;  // few corrections for every element that does not lock
   problem.load = Eigen::VectorXd::Zero(space.size());
 
   std::map<int, double> fixed;

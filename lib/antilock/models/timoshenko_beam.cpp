@@ -54,8 +54,6 @@ VariationalInequality assemble(const Beam& beam) {
   problem.b.resize(problem.m.size(), 2 * n + 2);
   problem.b.setFromTriplets(b.begin(), b.end());
   problem.compliance = beam.epsilon;  // here the class parameter is epsilon itself
-  // contact destroys the inf-sup constant (it falls like h^2 on the contact set): a small penalty, few corrections
-  problem.penalty = 1e-8;
   problem.fixed = {w(0), theta(0), w(n), theta(n)};
   problem.fixed_values = Eigen::VectorXd::Zero(4);
   for (int i = 1; i < n; ++i) problem.contact.push_back(w(i));

@@ -59,8 +59,6 @@ void check(const VariationalInequality& problem) {
   require(rows == 0 || problem.m.minCoeff() > 0, "M is not positive");
   require(problem.compliance >= 0 && problem.compliance <= 1,
           fmt::format("compliance = {}; accepted 0 to 1", problem.compliance));
-  require(problem.penalty > 0 && problem.penalty <= 1,
-          fmt::format("penalty = {}; accepted 0 < penalty <= 1", problem.penalty));
   require(problem.fixed_values.size() == static_cast<Eigen::Index>(problem.fixed.size()),
           "one value a fixed unknown is needed");
   require(problem.lower.size() == static_cast<Eigen::Index>(problem.contact.size()),

@@ -18,22 +18,18 @@ struct VariationalInequality {
   Eigen::VectorXd m;       ///< R, the diagonal of M, positive (areas of cells)
   double compliance = 1;   ///< the class parameter, 0 <= compliance <= 1. In (23) it is epsilon^2: the one place that
                            ///< says so is `assemble` (models/anti_plane.hpp)
-  double penalty = 1e-6;   ///< delta of the iterated penalty where compliance is smaller; about h^2/256
   Eigen::VectorXd load;    ///< N, L(phi_i)
   std::vector<int> fixed;  ///< unknowns with a prescribed value, ascending
   Eigen::VectorXd fixed_values;  ///< one a fixed unknown
   std::vector<int> contact;      ///< unknowns bounded from below, in the order of the reports (by x)
   Eigen::VectorXd lower;         ///< C bounds: u >= lower there (= -gap)
 
-  int triangles = 0;  ///< of the mesh that it was assembled on; 0 where it came from elsewhere
-
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(fixed.size()); }
 };
 
 /// Throws Error with the first thing that is wrong: sizes that do not fit, entries that are not finite, an a1 that is
-/// not symmetric, M not positive, compliance or penalty out of range, indices out of range or named twice, no free
-/// unknown.
+/// not symmetric, M not positive, compliance out of range, indices out of range or named twice, no free unknown.
 void check(const VariationalInequality& problem);
 
 }  // namespace antilock

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "antilock/core/error.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 
 namespace antilock {
 
@@ -26,7 +27,7 @@ Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor,
 
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options) {
   check(problem);
-  PenaltyFactor factor(problem);
+  PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
   return active_set(problem, factor, options);
 }
 

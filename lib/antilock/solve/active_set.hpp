@@ -11,6 +11,7 @@ namespace antilock {
 
 struct ActiveSetOptions {
   CorrectionOptions corrections;
+  std::optional<double> penalty;           ///< delta where compliance is smaller; empty: choose_penalty
   int max_steps = 1000;                    ///< of the contact iteration, a correction; reached: NotConverged
   std::optional<std::vector<bool>> start;  ///< contact set to start from; empty: the nested start
 };

@@ -1,14 +1,30 @@
 #include "antilock/solve/anderson.hpp"
 
+#include <algorithm>
+
 #include "antilock/core/dense.hpp"
 
 namespace antilock {
 
-void Anderson::mix(Eigen::VectorXd& reached, const Eigen::VectorXd& g, Eigen::VectorXd& companion) {
+void Anderson::note(const Eigen::VectorXd& reached, const Eigen::VectorXd& g, const Eigen::VectorXd& companion) {
   past_.push_front({reached, g, companion});
   if (static_cast<int>(past_.size()) > depth_) past_.pop_back();
+}
+
+double Anderson::contraction() const {
+  double most = past_.size() < 2 ? 0.99 : 0.01;
+  for (std::size_t i = 1; i < past_.size(); ++i) {
+    const Eigen::VectorXd after = past_[0].reached - past_[i].reached;
+    const double apart = (after - past_[0].g + past_[i].g).norm();
+    if (apart > 0) most = std::max(most, after.norm() / apart);
+  }
+  return std::min(most, 0.99);
+}
+
+void Anderson::mix(Eigen::VectorXd& reached, Eigen::VectorXd& companion) const {
   const auto others = static_cast<Eigen::Index>(past_.size()) - 1;
-  if (others == 0) return;
+  if (others < 1) return;
+  const Eigen::VectorXd& g = past_[0].g;
   // min | g_0 - sum gamma_i (g_0 - g_i) |: a handful of columns, by a QR that drops dependent ones
   Eigen::MatrixXd difference(g.size(), others);
   for (Eigen::Index i = 0; i < others; ++i) difference.col(i) = g - past_[i + 1].g;

@@ -10,9 +10,16 @@ class Anderson {
  public:
   explicit Anderson(int depth) : depth_(depth) {}
 
-  /// Notes the iterate reached, `x + g`, and its step `g`, and mixes `reached` in place; `companion` (a vector that
-  /// depends affinely on x) is mixed with the same weights.
-  void mix(Eigen::VectorXd& reached, const Eigen::VectorXd& g, Eigen::VectorXd& companion);
+  /// Notes a plain step: `reached` = x + g from some x, and `companion`, a vector that depends affinely on x.
+  void note(const Eigen::VectorXd& reached, const Eigen::VectorXd& g, const Eigen::VectorXd& companion);
+
+  /// By how much a plain step brings two starts closer, at worst over the last start and those before it; 0.01 to 0.99,
+  /// and 0.99 where there is only one. It holds wherever the starts came from. (The ratio of two steps |g| does not: a
+  /// mix makes g smaller, not the error by the same factor.)
+  double contraction() const;
+
+  /// Mixes the noted iterates: `reached` and, with the same weights, `companion` become the next start.
+  void mix(Eigen::VectorXd& reached, Eigen::VectorXd& companion) const;
 
   /// Forgets the past: after a change of the iteration itself (another contact set), it would only mislead.
   void restart() { past_.clear(); }
@@ -22,7 +29,7 @@ class Anderson {
     Eigen::VectorXd reached, g, companion;
   };
   int depth_;
-  std::deque<Iterate> past_;
+  std::deque<Iterate> past_;  ///< the last one first
 };
 
 }  // namespace antilock

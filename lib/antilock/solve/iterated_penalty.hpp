@@ -30,7 +30,8 @@ CorrectionOptions corrections_to(double asked);
 ///     K du = r1 + delta^-1 B' M r2 + dlambda     dp = (B du - r2) / delta
 /// with the contact conditions solved on Gamma_C in every correction. No digit of A1 is ever added to a large one, so
 /// the answer is right at every compliance down to and including 0, where it solves (7) exactly. Throws NotConverged,
-/// with how far it came, after max_corrections or where B u = 0 cannot be met.
+/// with how far it came, after max_corrections or where B u = 0 cannot be met. Its steps are a page each: the loop is
+/// corrections.hpp.
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name);
 

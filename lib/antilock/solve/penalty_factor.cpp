@@ -10,6 +10,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 
 namespace antilock {
 namespace {
@@ -134,8 +135,7 @@ PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta)
   refactor(problem, delta);
 }
 
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem)
-    : PenaltyFactor(problem, std::max(problem.compliance, problem.penalty)) {}
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem) : PenaltyFactor(problem, moderate_delta(problem)) {}
 
 PenaltyFactor::~PenaltyFactor() = default;
 PenaltyFactor::PenaltyFactor(PenaltyFactor&&) noexcept = default;

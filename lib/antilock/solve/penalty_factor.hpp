@@ -16,7 +16,7 @@ class PenaltyFactor {
   /// Throws Error if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of
   /// memory.
   PenaltyFactor(const VariationalInequality& problem, double delta);
-  /// The usual penalty: delta = max(compliance, penalty); the compliance itself where nothing is gained by less.
+  /// The usual one: delta = moderate_delta(problem), the compliance itself where nothing is gained by less.
   explicit PenaltyFactor(const VariationalInequality& problem);
   ~PenaltyFactor();
   PenaltyFactor(PenaltyFactor&&) noexcept;

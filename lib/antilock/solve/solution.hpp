@@ -16,7 +16,6 @@ struct Kkt {
 /// What the solve did: counted, so that a test can assert that an absent effect costs nothing.
 struct Counters {
   int unknowns = 0;        ///< solved for: neither fixed nor condensed away by hand
-  int triangles = 0;       ///< assembled for it
   int factorisations = 0;  ///< numeric sparse Cholesky factorisations (or ILUT)
   int solves = 0;          ///< sparse triangular solves (or CG runs)
   int contact = 0;         ///< steps of the contact iteration (active sets tried, Uzawa steps)

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/iterated_penalty.hpp"
-#include "antilock/solve/power_iteration.hpp"
 
 namespace antilock {
 namespace {
@@ -99,7 +100,7 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
 
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
   check(problem);
-  PenaltyFactor factor(problem);
+  PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
   return uzawa(problem, factor, options);
 }
 

@@ -20,9 +20,10 @@ struct UzawaOptions {
   int max_steps = 1'000'000;                                     ///< reached: NotConverged
   double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock; reached: NotConverged
   std::optional<double>
-      step;  ///< rho; empty: 2 / (largest + smallest eigenvalue of the compliance), estimated by power iteration
+      step;  ///< rho; empty: 2 / (largest + smallest eigenvalue of the compliance), by Lanczos iteration
+  std::optional<double> penalty;  ///< delta where compliance is smaller; empty: choose_penalty
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
-  /// for the problem that a correction solves: (6) itself where compliance >= penalty, else with delta in its place.
+  /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
   std::optional<AccurateEnough> enough;
 };
 

@@ -9,7 +9,7 @@
 namespace antilock {
 
 SceneSweep::SceneSweep(const Scene& scene, const Space& space)
-    : Sweep(assemble(scene, space)), space_(&space), scene_(scene) {}
+    : Sweep(assemble(scene, space)), space_(&space), scene_(scene), assembled_(space.mesh().triangle_count()) {}
 
 void SceneSweep::set_epsilon(double epsilon) {
   if (!std::holds_alternative<StiffLayer>(scene_.layer()))
@@ -23,7 +23,7 @@ void SceneSweep::set_load(const Field& f) {
   scene_ = Scene({f}, scene_.layer(), scene_.contact());  // checks that there is one
   problem_.load = load_vector(*space_, f);
   const auto& region = space_->mesh().region;
-  problem_.triangles += static_cast<int>(std::count(region.begin(), region.end(), Region::body));
+  assembled_ += static_cast<int>(std::count(region.begin(), region.end(), Region::body));
 }
 
 void SceneSweep::set_gap(const Profile& gap) {

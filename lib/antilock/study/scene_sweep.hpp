@@ -19,9 +19,12 @@ class SceneSweep : public Sweep {
   /// Another obstacle; throws Error where the scene has none.
   void set_gap(const Profile& gap);
 
+  int assembled() const { return assembled_; }  ///< triangles walked over by assembly so far
+
  private:
   const Space* space_;
   Scene scene_;
+  int assembled_;
 };
 
 }  // namespace antilock

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "antilock/core/error.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 
 namespace antilock {
 
@@ -39,7 +40,7 @@ const PenaltyFactor& Sweep::factor() const {
 }
 
 Solution Sweep::solve(ActiveSetOptions options) {
-  const double delta = std::max(problem_.compliance, problem_.penalty);
+  const double delta = moderate_delta(problem_);
   const int factorisations_before = factor_ ? factor_->factorisations : 0;
   if (!factor_)
     factor_.emplace(problem_, delta);
@@ -52,8 +53,6 @@ Solution Sweep::solve(ActiveSetOptions options) {
   solution.counters.factorisations = factor_->factorisations - factorisations_before;
   if (solution.counters.factorisations == 0) solution.seconds.factor = 0;
   if (factorisations_before > 0) solution.seconds.analyse = 0;
-  problem_.triangles = 0;  // those assembled so far are counted now
-  total_.triangles += solution.counters.triangles;
   total_.unknowns = solution.counters.unknowns;
   total_.factorisations += solution.counters.factorisations;
   total_.solves += solution.counters.solves;

@@ -5,11 +5,11 @@
 #include <Eigen/IterativeLinearSolvers>
 #include <cmath>
 
+#include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
-#include "antilock/solve/power_iteration.hpp"
 
 namespace antilock {
 namespace {
@@ -82,7 +82,7 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
       b.tail(c) = force;
       return Eigen::VectorXd(solve(b, zero).tail(c));
     };
-    rho = 1.9 / largest_eigenvalue(compliance, c, 20, 1e-2);  // 1.9 < 2: the estimate is from below
+    rho = 1.9 / largest_eigenvalue(compliance, c, 1e-2, 10);  // 1.9 < 2: the estimate is from below
   }
 
   Eigen::VectorXd x = zero, lambda = Eigen::VectorXd::Zero(c);
@@ -111,7 +111,6 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   s.lambda = lambda;
   for (Eigen::Index i = 0; i < c; ++i) s.active.push_back(lambda(i) > 0);
   s.p = problem.b * s.u / problem.compliance;
-  s.counters.triangles = problem.triangles;
   s.counters.unknowns = problem.free_count();
   s.counters.factorisations = 1;
   s.counters.solves = solve.runs;

@@ -1,0 +1,116 @@
+#include "antilock/solve/corrections.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
+
+namespace antilock {
+
+Solution Corrections::solve(const ContactSolver& contact) {
+  for (;; ++correction_) {
+    if (correction_ > options_.max_corrections)
+      throw NotConverged(
+          fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative error of u is "
+                      "{:.1e} and compliance p = B u holds to {:.1e}, accepted {:.0e}",
+                      s_.solver, correction_ - 1, error_, gap_, options_.tolerance),
+          std::max(error_, gap_), correction_ - 1);
+    rescue();
+    const Change change = correct(residual(), contact);
+    if (settled(change)) return finished();
+    accelerate(change);
+  }
+}
+
+SplitResidual Corrections::residual() const {
+  // with the contact forces so far: where they are far above the load, r without them would keep none of its digits
+  return long_double_ ? extended_residual(problem_, s_.u, s_.p, contact_.lambda)
+                      : split_residual(problem_, s_.u, s_.p, contact_.lambda);
+}
+
+Corrections::Change Corrections::correct(const SplitResidual& residual, const ContactSolver& contact) {
+  const double delta = factor_.delta();
+  const bool stiff = problem_.b.rows() > 0;
+  Eigen::VectorXd rhs = residual.r1;
+  if (stiff) rhs += problem_.b.transpose() * problem_.m.cwiseProduct(residual.r2) / delta;
+  const std::vector<bool> active_before = contact_.active;
+  Change change;
+  change.u = solve_with_factor(rhs(factor_.numbering().unknown), contact);
+  s_.u += change.u;
+  if (stiff) {
+    change.p = (problem_.b * change.u - residual.r2) / delta;
+    s_.p += change.p;
+  }
+  change.same_contact = contact_.active == active_before;
+  return change;
+}
+
+Eigen::VectorXd Corrections::solve_with_factor(const Eigen::VectorXd& r, const ContactSolver& contact) {
+  const auto c = static_cast<Eigen::Index>(problem_.contact.size());
+  Stopwatch watch;
+  Eigen::VectorXd y = factor_.forward(r);
+  s_.seconds.solve += watch.lap();
+  if (c > 0) {
+    // L_C y_C is the residual condensed on Gamma_C; v = du_C counts from u_C, so that no S u_C brings its round-off in
+    const auto l = factor_.contact_block().triangularView<Eigen::Lower>();
+    const Eigen::VectorXd u_c = s_.u(problem_.contact), lower = problem_.lower - u_c;
+    Eigen::VectorXd q = l * y.tail(c);
+    if (contact_.lambda.size() > 0) q -= contact_.lambda;  // r holds them already; contact asks for all
+    contact_ = contact({schur_, q, lower, u_scale_, u_c}, contact_, correction_);
+    y.tail(c) = l.transpose() * contact_.v;
+    s_.seconds.contact += watch.lap();
+  }
+  const Eigen::VectorXd x = factor_.backward(y);
+  Eigen::VectorXd du = Eigen::VectorXd::Zero(problem_.size());
+  du(factor_.numbering().unknown) = x;
+  s_.seconds.solve += watch.lap();
+  return du;
+}
+
+bool Corrections::settled(const Change& change) {
+  const bool stiff = problem_.b.rows() > 0;
+  const double before = s_.history.empty() ? 0 : s_.history.back();
+  // a locked u tends to 0, hence the first; one on its way to infinity (an infeasible problem) must not count for long
+  if (correction_ == 0) u_first_ = s_.u.lpNorm<Eigen::Infinity>();
+  u_scale_ = std::max(u_first_, s_.u.lpNorm<Eigen::Infinity>());
+  const double step = u_scale_ > 0 ? change.u.lpNorm<Eigen::Infinity>() / u_scale_ : 0;
+  s_.history.push_back(step);
+  if (!std::isfinite(step))
+    throw NotConverged(s_.solver + ": the iterated penalty broke down (not a number)", step, correction_);
+  if (u_scale_ == 0 || (!stiff && !long_double_)) return true;  // without B, K is A1: the first solve is the answer
+  // what compliance p - B u comes to now: where no u meets the bounds and B u = 0, u settles and this does not
+  gap_ = std::abs(problem_.compliance - factor_.delta()) *
+         change.p.cwiseQuotient(absolute_row_sums(problem_.b)).lpNorm<Eigen::Infinity>() / u_scale_;
+  if (!change.same_contact) acceleration_.restart();
+  if (stiff) acceleration_.note(s_.p, change.p, s_.u);
+  if (correction_ == 0) return false;
+  // du contracts like the error, and the error left behind is du rate / (1 - rate). A mix makes du smaller than its own
+  // contraction would: the rate is that of the plain corrections, which the past still tells.
+  const double rate =
+      stiff ? acceleration_.contraction() : std::clamp(step < before ? step / before : 0.99, 0.01, 0.99);
+  error_ = step * rate / (1 - rate);
+  return error_ <= options_.tolerance && gap_ <= 1e-3 * options_.tolerance;
+}
+
+void Corrections::accelerate(const Change& change) {
+  if (change.p.size() > 0) acceleration_.mix(s_.p, s_.u);
+}
+
+Solution Corrections::finished() {
+  s_.counters.corrections = correction_;
+  s_.counters.unknowns = problem_.free_count();
+  s_.counters.factorisations = factor_.factorisations;
+  s_.counters.solves = factor_.solves - s_.counters.solves;  // since the start
+  s_.seconds.analyse = factor_.analyse_seconds;
+  s_.seconds.factor = factor_.factor_seconds;
+  if (contact_.lambda.size() > 0) s_.lambda = contact_.lambda;
+  s_.active = contact_.active;
+  s_.moderate = u_first_;
+  certify(problem_, s_, TrustLevels{.refused = options_.refused});
+  return std::move(s_);
+}
+
+}  // namespace antilock

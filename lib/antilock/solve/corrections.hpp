@@ -1,0 +1,63 @@
+#pragma once
+#include <string>
+
+#include "antilock/solve/anderson.hpp"
+#include "antilock/solve/iterated_penalty.hpp"
+#include "antilock/solve/kkt.hpp"
+
+namespace antilock {
+
+/// The loop of the iterated penalty, one member function per step:
+///
+///     loop: rescue (where it has not settled in time), residual, correct, and out if settled; else accelerate
+///
+/// For one solve; `problem` and `factor` must outlive it.
+class Corrections {
+ public:
+  Corrections(const VariationalInequality& problem, PenaltyFactor& factor, const CorrectionOptions& options,
+              std::string name);
+
+  /// Runs the loop. Throws NotConverged.
+  Solution solve(const ContactSolver& contact);
+
+ private:
+  /// What a correction changed.
+  struct Change {
+    Eigen::VectorXd u, p;      ///< N, R
+    bool same_contact = true;  ///< the contact set is the one of the correction before
+  };
+
+  /// Changes the means where they have not been enough for `patience` corrections (rescue.cpp).
+  void rescue();
+  /// r1, r2 with the forces known so far, in double, or in long double where that has been found necessary.
+  SplitResidual residual() const;
+  /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp; u, p and the contact forces follow.
+  Change correct(const SplitResidual& r, const ContactSolver& contact);
+  /// Whether u is right to the tolerance, judged by the change, and compliance p = B u holds.
+  bool settled(const Change& change);
+  /// Anderson's mix of the last corrections: the start of the next.
+  void accelerate(const Change& change);
+  /// What the counters and the report say of the answer.
+  Solution finished();
+
+  void refactor(double delta);
+  /// du on all unknowns, with the contact problem on Gamma_C solved on the way.
+  Eigen::VectorXd solve_with_factor(const Eigen::VectorXd& r, const ContactSolver& contact);
+
+  const VariationalInequality& problem_;
+  PenaltyFactor& factor_;
+  const CorrectionOptions options_;
+  Solution s_;                ///< u, p and what is counted
+  ContactAnswer contact_;     ///< of the last correction: forces, contact set
+  Eigen::MatrixXd schur_;     ///< C x C, S = L_C L_C', of the factor as it is now
+  Anderson acceleration_{6};  ///< the past that the mix and the contraction are read from
+  int correction_ = 0;
+  int since_rescue_ = 0;      ///< corrections with the means as they are
+  bool long_double_ = false;  ///< residuals in long double
+  double u_first_ = 0;        ///< max |u| after the first correction: its size before it locks
+  double u_scale_ = 0;        ///< what is large for u
+  double error_ = 1;          ///< estimated relative error of u left behind
+  double gap_ = 1;            ///< to which compliance p = B u holds, in units of strain
+};
+
+}  // namespace antilock

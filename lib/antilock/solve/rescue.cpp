@@ -1,0 +1,74 @@
+// How the corrections start, and the means that they change where those are not enough.
+#include <algorithm>
+
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/corrections.hpp"
+
+namespace antilock {
+namespace {
+
+/// Corrections before a change of means. Measured at 1/h = 128: a new factor costs as much as 10 to 20 corrections.
+constexpr int patience = 15;
+
+/// By which a new penalty is smaller. A correction contracts like delta / (delta + sigma): 0.9 becomes 0.12.
+constexpr double smaller_by = 64;
+
+/// Whether the round-off of the residual, the same at each correction, would stay in u unseen: some unknown is a
+/// thousand times as stiff as the median, as the corners of flat triangles are, or hardly anything holds the structure
+/// (of A1 alone the pivots tell; those of a penalised K lie apart by nature). Then long double: three digits more.
+bool needs_long_double(const VariationalInequality& problem, PenaltyFactor& factor) {
+  if (problem.b.rows() == 0 && factor.rcond() < 1e-6) return true;
+  Eigen::VectorXd stiffness = problem.a1.diagonal();
+  const auto middle = stiffness.begin() + stiffness.size() / 2;
+  std::nth_element(stiffness.begin(), middle, stiffness.end());
+  return *std::max_element(middle, stiffness.end()) > 1e3 * *middle;
+}
+
+/// S = L_C L_C', C x C.
+Eigen::MatrixXd contact_schur(const PenaltyFactor& factor) {
+  const Eigen::MatrixXd& block = factor.contact_block();
+  if (block.size() == 0) return block;  // no contact: Eigen's triangular product would read what is not there
+  return block.triangularView<Eigen::Lower>() * block.transpose();
+}
+
+}  // namespace
+
+Corrections::Corrections(const VariationalInequality& problem, PenaltyFactor& factor, const CorrectionOptions& options,
+                         std::string name)
+    : problem_(problem), factor_(factor), options_(options), long_double_(needs_long_double(problem, factor)) {
+  s_.solver = std::move(name);
+  s_.u = Eigen::VectorXd::Zero(problem.size());
+  s_.u(problem.fixed) = problem.fixed_values;
+  s_.p = Eigen::VectorXd::Zero(problem.b.rows());
+  s_.lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+  s_.counters.solves = factor.solves;  // `finished` takes it off again
+  const Stopwatch watch;
+  schur_ = contact_schur(factor);
+  s_.seconds.contact = watch.seconds();
+}
+
+// Two things keep corrections from settling, and du tells them apart:
+// - du no longer falls: it drowns in the round-off of the residual, as on slivers. Residuals in long double help.
+// - du falls, but slowly: delta is not small beside sigma, as where cells are far narrower than the mean, or where a
+//   locked element leaves B nearly dependent. A smaller delta helps, until the factor has no digit of A1 left.
+void Corrections::rescue() {
+  if (since_rescue_++ <= patience) return;
+  const double delta = factor_.delta();
+  const double smaller =
+      std::max({problem_.compliance, delta / smaller_by, std::min(delta, smallest_penalty(problem_))});
+  const bool falling = s_.history.back() < 0.5 * s_.history[s_.history.size() - 6];
+  if ((falling || long_double_) && smaller < delta)
+    refactor(smaller);
+  else
+    long_double_ = true;
+  acceleration_.restart();
+  since_rescue_ = 1;
+}
+
+void Corrections::refactor(double delta) {
+  factor_.refactor(problem_, delta);
+  schur_ = contact_schur(factor_);
+}
+
+}  // namespace antilock
