@@ -110,8 +110,8 @@ TEST(Table, PrintsAlignedColumns) {
   table.add({"P1", 0.0123456});
   table.add({"Crouzeix-Raviart", 152064});
   EXPECT_EQ(table.text(),
-            "           element    error\n"
-            "                P1  0.01235\n"
+            "  element             error\n"
+            "  P1                0.01235\n"
             "  Crouzeix-Raviart   152064\n");
 }
 

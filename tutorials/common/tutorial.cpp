@@ -48,6 +48,11 @@ void Report::claim(bool holds, const std::string& what) {
   all_hold_ = all_hold_ && holds;
 }
 
+void Report::not_judged(const std::string& why) {
+  finish();
+  fmt::print("NOT JUDGED: {}\n", why);
+}
+
 void Report::claim_within(double value, double low, double high, const std::string& what) {
   claim(value >= low && value <= high, fmt::format("{} {:.4g} (accepted {:.4g} to {:.4g})", what, value, low, high));
 }

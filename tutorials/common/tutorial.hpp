@@ -38,6 +38,8 @@ class Report {
   }
   /// A claim that a number lies in an interval; its line ends with the number and the interval.
   void claim_within(double value, double low, double high, const std::string& what);
+  /// A claim that this run cannot decide, and why: a line `NOT JUDGED: ...`. Nothing is left out in silence.
+  void not_judged(const std::string& why);
   /// Ends the last stage.
   void finish();
   bool all_hold() const { return all_hold_; }

@@ -161,22 +161,21 @@ Table Table::select(const std::vector<std::string>& columns) const {
 }
 
 std::string Table::text(int digits) const {
-  std::vector<std::size_t> width;
+  std::vector<std::string> lines(rows_.size() + 1);
   for (std::size_t at = 0; at < columns_.size(); ++at) {
-    width.push_back(columns_[at].size());
-    for (const auto& row : rows_) width[at] = std::max(width[at], row[at].text(digits).size());
+    std::vector<std::string> words{columns_[at]};
+    for (const auto& row : rows_) words.push_back(row[at].text(digits));
+    std::size_t width = 0;
+    for (const std::string& word : words) width = std::max(width, word.size());
+    const bool left = std::none_of(rows_.begin(), rows_.end(), [&](const auto& row) { return row[at].is_number(); });
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      lines[i] += left ? fmt::format("  {:<{}}", words[i], width) : fmt::format("  {:>{}}", words[i], width);
   }
-  std::string text;
-  for (std::size_t at = 0; at < columns_.size(); ++at) text += fmt::format("  {:>{}}", columns_[at], width[at]);
-  for (const auto& row : rows_) {
-    text += '\n';
-    for (std::size_t at = 0; at < row.size(); ++at) text += fmt::format("  {:>{}}", row[at].text(digits), width[at]);
-  }
-  return text + '\n';
+  return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
 void Table::print(const std::string& title, int digits) const {
-  fmt::print("\n{}{}{}", title.empty() ? "" : "  " + title, title.empty() ? "" : "\n", text(digits));
+  fmt::print("\n{}{}{}\n", title.empty() ? "" : "  " + title, title.empty() ? "" : "\n", text(digits));
   std::fflush(stdout);
 }
 

@@ -62,7 +62,8 @@ class Table {
   /// These columns alone, in this order.
   Table select(const std::vector<std::string>& columns) const;
 
-  /// Aligned columns of numbers rounded to `digits`; `print` puts them on standard output, an empty line before.
+  /// Aligned columns, words to the left, numbers to the right and rounded to `digits`; `print` puts them on standard
+  /// output between two empty lines.
   std::string text(int digits = 4) const;
   void print(const std::string& title = "", int digits = 4) const;
   /// CSV, whole or not at all: a header, then the rows; a word that holds a comma or a quotation mark is quoted.
