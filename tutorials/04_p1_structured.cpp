@@ -76,10 +76,10 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   report.claim(worst <= cap && spread <= 0.05,
                "Theorem 5: uniform in epsilon (worst {:.2e} over nine epsilons down to 0; spread below 1e-2: {:.1f} %)",
                worst, 100 * spread);
-  // d/dy u = epsilon^2 p, and the layer is 1 thick; 1e-13: round-off of u
+  // d/dy u = epsilon^2 p, and the layer is 1 thick; 1e-12: what the solver leaves of u
   const double variation = variation_across_layer(solution.u, options.cells);
   const double stress = options.epsilon * options.epsilon * solution.p.cwiseAbs().maxCoeff();
-  report.claim(variation <= 1.001 * stress + 1e-13,
+  report.claim(variation <= 1.001 * stress + 1e-12,
                "across the layer the solution varies by {:.1e}, at most epsilon^2 max |p| = {:.1e}", variation, stress);
   const double from = contact_zone(space, problem, solution).from.value_or(1);
   report.claim(std::abs(from - exact.contact_from()) <= h,
