@@ -85,6 +85,8 @@ TEST(Table, SelectsByWordNumberAndCondition) {
   EXPECT_EQ(p1.last("error"), p1.least("error"));
   EXPECT_EQ(p1.select({"h", "cells"}).columns(), (std::vector<std::string>{"h", "cells"}));
   EXPECT_EQ(p1.select({"h", "cells"}).last("cells"), 64);
+  ASSERT_EQ(p1.rows().size(), 4u);
+  EXPECT_EQ(p1.rows()[1].number("cells"), 16);
 }
 
 TEST(Table, FindsTheOrderOfAPowerLaw) {

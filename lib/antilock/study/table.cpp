@@ -22,6 +22,12 @@ std::string quoted(const std::string& word) {
   return text + '"';
 }
 
+std::vector<double> some(const Table& table, const std::string& column) {
+  std::vector<double> all = table.numbers(column);
+  if (all.empty()) throw Error(fmt::format("table: column '{}' of no rows; accepted: of one or more", column));
+  return all;
+}
+
 }  // namespace
 
 std::string Entry::text(int digits) const {
@@ -68,6 +74,12 @@ Table Table::where_number(const std::string& column, const std::function<bool(do
   return selected;
 }
 
+std::vector<Table> Table::rows() const {
+  std::vector<Table> rows(rows_.size(), Table(columns_));
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows[i].rows_.push_back(rows_[i]);
+  return rows;
+}
+
 std::vector<Entry> Table::entries(const std::string& column) const {
   const std::size_t at = place(column);
   std::vector<Entry> entries;
@@ -92,20 +104,17 @@ std::vector<double> Table::numbers(const std::string& column) const {
   return numbers;
 }
 
-double Table::number(const std::string& column) const {
-  const std::vector<double> all = numbers(column);
+Entry Table::entry(const std::string& column) const {
+  const std::vector<Entry> all = entries(column);
   if (all.size() != 1)
     throw Error(fmt::format("table: column '{}' of {} rows; accepted: of one", column, all.size()));
   return all.front();
 }
 
-namespace {
-std::vector<double> some(const Table& table, const std::string& column) {
-  std::vector<double> all = table.numbers(column);
-  if (all.empty()) throw Error(fmt::format("table: column '{}' of no rows; accepted: of one or more", column));
-  return all;
+double Table::number(const std::string& column) const {
+  entry(column);  // refuses more rows than one, or none
+  return numbers(column).front();
 }
-}  // namespace
 
 double Table::least(const std::string& column) const {
   const std::vector<double> all = some(*this, column);
