@@ -62,10 +62,10 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
   CLI::App app(what, stem);
   if (options.out.empty()) options.out = std::filesystem::path("results") / stem;
   if (options.takes_epsilon)
-    app.add_option("--epsilon", options.epsilon, "the paper's epsilon; 0 is the rigid limit")
+    app.add_option("--epsilon", options.epsilon, options.epsilon_is)
         ->capture_default_str()
         ->check(CLI::Range(options.least_epsilon, 1.0));
-  app.add_option("--cells", options.cells, "cells a unit side, h = 1/cells")
+  app.add_option("--cells", options.cells, "cells per unit side, h = 1/cells")
       ->capture_default_str()
       ->check(CLI::Range(options.least_cells, options.most_cells));
   app.add_option("--out", options.out, "folder of the results")->capture_default_str();
