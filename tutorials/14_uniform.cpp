@@ -10,190 +10,123 @@
 //     lim_{h->0} sup_{0 < epsilon <= 1} || u_h^epsilon - u^epsilon ||_h = 0 ,
 //
 // which Theorem 5 says of P1 on structured meshes and Theorem 7 of Crouzeix-Raviart on any, and Remark 4 of the energy
-// seminorm |.|_{a^epsilon} too. Mind the order: for every *fixed* epsilon > 0, P1 on an unstructured mesh converges as
-// well (Proposition 2). Its map shows how: the error is large below a line, epsilon about h^(3/2) on these meshes,
-// and refining moves along it. A supremum over epsilon does not get off it.
+// seminorm |.|_{a^epsilon} too. Mind the order of limit and supremum. For every *fixed* epsilon > 0, P1 on an
+// unstructured mesh converges as well (Proposition 2). The map shows how: the error is large below a boundary, epsilon
+// about h^(3/2) on these meshes. Refining moves this boundary to smaller epsilon; it never disappears, so the supremum
+// stays.
 //
 // The supremum is taken over half decades from 1 to 1e-10, and 0: by Theorem 1 nothing happens below.
 //
-// How much is lost is a number, too. Babuska and Suri (1992) compare, at equal unknowns N, the worst error over epsilon
-// with the error where nothing is stiff, here epsilon = 1:
+// How much is lost is a number, too. Babuska and Suri (1992, the paper's [3]) compare, at equal unknowns N, the worst
+// error over epsilon with the error where nothing is stiff, here epsilon = 1:
 //
 //     locking ratio  L(N) = sup_epsilon E(epsilon, N) / E(1, N).
 //
-// L bounded: free of locking. L growing like N^k: locking of order N^k; in the plane k = 1/2 is all that P1 can lose in
-// H1. And sup_epsilon E falling like N^-r: robust of order N^-r; r = 1/2 is the best, r = 0 is none.
+// Their definition takes the supremum over a ball of loads as well; here there is one load. L bounded: free of locking.
+// L growing like N^k: locking of order N^k; in the plane k = 1/2 is all that P1 can lose in H1. And sup_epsilon E
+// falling like N^-r: robust of order N^-r; r = 1/2 is the best, r = 0 is none.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
-#include <fmt/format.h>
+#include <cmath>
 
-#include <array>
-
-#include "antilock/core/atomic_file.hpp"
-#include "antilock/core/error.hpp"
-#include "antilock/exact/truth_table.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/study/sweep.hpp"
+#include "antilock/study/method.hpp"
+#include "antilock/study/scene_sweep.hpp"
+#include "antilock/study/table.hpp"
+#include "common/paper_problem.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;
+using tutorial::Exact;
 
-struct Method {
-  std::string element, mesh;
-  std::string name() const { return element + " " + mesh; }
-};
-const std::array<Method, 4> methods{
-    {{"P1", "structured"}, {"P1", "unstructured"}, {"CR", "structured"}, {"CR", "unstructured"}}};
-
-// 1, 10^-1/2, ..., 1e-10, 0, each with its truth. 2^14 points of the series: gradients to 1e-6, errors are 1e-2.
-struct Case {
-  double epsilon;
-  TruthTable truth;
-};
-std::vector<Case> make_cases() {
-  std::vector<Case> cases;
-  for (int k = 0; k <= 21; ++k) {
-    const double epsilon = k <= 20 ? std::pow(10.0, -0.5 * k) : 0;
-    cases.push_back({epsilon, TruthTable(Truth(paper_sine_load(), epsilon, true, 14))});
+// 1. The map: the errors of one method on one mesh at every epsilon, in the broken H1 norm and the energy seminorm.
+Table solve_all(const Method& method, int cells, const std::vector<Exact>& truth) {
+  const Discretisation on = method.on(cells);
+  SceneSweep sweep(tutorial::paper_scene(1), on.space());
+  Table rows({"element", "mesh", "epsilon", "cells", "h", "unknowns", "h1", "energy"});
+  for (const Exact& exact : truth) {
+    sweep.set_epsilon(exact.epsilon);
+    const Errors errors = exact.errors(on.space(), sweep.solve());
+    rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, on.space().free_count(),
+              errors.h1, errors.energy});
   }
-  return cases;
+  return rows;
 }
 
-// One method on one mesh: the errors, a case of epsilon each, in the broken H1 norm and in the energy seminorm.
-struct Line {
-  Method method;
-  int cells, unknowns;
-  std::vector<double> h1, energy;
-
-  double worst(const std::vector<double>& error) const { return *std::max_element(error.begin(), error.end()); }
-  double ratio() const { return worst(h1) / h1.front(); }  // cases begin with epsilon = 1
-};
-
-Line solve_all(const Method& method, const TriangleMesh& mesh, int cells, const std::vector<Case>& cases) {
-  const Space space(mesh, element(method.element));
-  Sweep sweep(Scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{}), space);
-  Line line{method, cells, space.free_count(), {}, {}};
-  for (const Case& one : cases) {
-    sweep.set_epsilon(one.epsilon);
-    const Errors errors = measure_errors(space, sweep.solve(), one.epsilon, reference(one.truth));
-    line.h1.push_back(errors.h1);
-    line.energy.push_back(errors.energy);
-  }
-  return line;
+// 2. The supremum over epsilon and the locking ratio: one row per mesh.
+Table suprema(const Table& map) {
+  Table rows({"element", "mesh", "cells", "h", "unknowns", "h1", "energy", "h1_at_1", "ratio"});
+  for (const Entry& element : map.different("element"))
+    for (const Entry& mesh : map.different("mesh"))
+      for (const Entry& cells : map.different("cells")) {
+        const Table own = map.where("element", element).where("mesh", mesh).where("cells", cells);
+        const double at_1 = own.where("epsilon", 1).number("h1");
+        rows.add({element, mesh, cells, own.first("h"), own.first("unknowns"), own.most("h1"), own.most("energy"), at_1,
+                  own.most("h1") / at_1});
+      }
+  return rows;
 }
 
-std::vector<Line> lines_of(const std::vector<Line>& lines, const Method& method) {
-  std::vector<Line> own;
-  for (const Line& line : lines)
-    if (line.method.name() == method.name()) own.push_back(line);
-  return own;
-}
-
-// Least-squares slope of a quantity of the lines against another, both logarithmic.
-template <class X, class Y>
-double slope_of(const std::vector<Line>& lines, X&& x, Y&& y) {
-  std::vector<double> xs, ys;
-  for (const Line& line : lines) xs.push_back(x(line)), ys.push_back(y(line));
-  return slope(xs, ys);
-}
-double spacing(const Line& line) { return 1.0 / line.cells; }
-double unknowns(const Line& line) { return line.unknowns; }
-double worst_h1(const Line& line) { return line.worst(line.h1); }
-// Where worst^2 = limit^2 + (c h)^2 tends, by the first and the last mesh.
-double limit_of_worst(const std::vector<Line>& lines) {
-  const double a = spacing(lines.front()), b = spacing(lines.back());
-  const double high = std::pow(worst_h1(lines.front()), 2), low = std::pow(worst_h1(lines.back()), 2);
-  return std::sqrt(std::max(0.0, (a * a * low - b * b * high) / (a * a - b * b)));
-}
-double worst_energy(const Line& line) { return line.worst(line.energy); }
-
-void print_table(const std::vector<Line>& lines, const std::vector<Case>& cases) {
-  fmt::print("\n  {:<16} {:>5} {:>7} {:>11} {:>11} {:>11} {:>11} {:>9}\n", "", "1/h", "N", "sup H1", "at epsilon",
-             "sup energy", "H1, eps=1", "L(N)");
-  for (const Line& line : lines) {
-    const auto at = std::max_element(line.h1.begin(), line.h1.end()) - line.h1.begin();
-    fmt::print("  {:<16} {:5} {:7} {:11.3e} {:11.1e} {:11.3e} {:11.3e} {:9.3f}\n", line.method.name(), line.cells,
-               line.unknowns, worst_h1(line), cases[at].epsilon, worst_energy(line), line.h1.front(), line.ratio());
-  }
-}
-
-void write_tables(const std::filesystem::path& out, const std::vector<Line>& lines, const std::vector<Case>& cases) {
-  write_file(out / "map.csv", [&](std::ostream& file) {
-    file << "element,mesh,epsilon,cells,h,unknowns,h1,energy\n";
-    for (const Line& line : lines)
-      for (std::size_t i = 0; i < cases.size(); ++i)
-        file << fmt::format("{},{},{:.6g},{},{:.17g},{},{:.17g},{:.17g}\n", line.method.element, line.method.mesh,
-                            cases[i].epsilon, line.cells, spacing(line), line.unknowns, line.h1[i], line.energy[i]);
-  });
-  write_file(out / "uniform.csv", [&](std::ostream& file) {
-    file << "norm,element,mesh,h,unknowns,worst\n";
-    for (const Line& line : lines)
-      file << fmt::format(
-          "broken $H^1$ norm,{0},{1},{2:.17g},{3},{4:.17g}\nenergy seminorm,{0},{1},{2:.17g},{3},"
-          "{5:.17g}\n",
-          line.method.element, line.method.mesh, spacing(line), line.unknowns, worst_h1(line), worst_energy(line));
-  });
-}
+std::vector<Exact> truths();
+Table worst_by_norm(const Table& suprema);
+void judge(const Method& method, const Table& own, tutorial::Report& report);
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("truth for 22 epsilons");
-  const std::vector<Case> cases = make_cases();
-  std::vector<Line> lines;
-  for (int n = 8; n <= options.cells; n += n % 3 == 0 ? n / 3 : n / 2) {  // 8, 12, 16, 24, 32, ...
-    report.stage(fmt::format("1/h = {}: four methods, 22 epsilons", n));
-    const TriangleMesh structured = structured_mesh(n), unstructured = unstructured_mesh(n);
-    for (const Method& method : methods)
-      lines.push_back(solve_all(method, method.mesh == "structured" ? structured : unstructured, n, cases));
+  const std::vector<Exact> truth = truths();
+  const std::vector<Method> all = methods({&crouzeix_raviart(), &p1()});
+  Table map({"element", "mesh", "epsilon", "cells", "h", "unknowns", "h1", "energy"});
+  for (const Method& method : all) {
+    report.stage(method.name() + ", 22 epsilons per mesh");
+    for (int n = 8; n <= options.cells; n += n % 3 == 0 ? n / 3 : n / 2)  // 8, 12, 16, 24, 32, ...
+      map.add(solve_all(method, n, truth));
   }
   report.finish();
-  std::stable_sort(lines.begin(), lines.end(),
-                   [](const Line& a, const Line& b) { return a.method.name() < b.method.name(); });
-  print_table(lines, cases);
-  write_tables(options.out, lines, cases);
+  const Table worst = suprema(map);
+  worst.print("the worst error over epsilon, and the locking ratio");
+  map.write(options.out / "map.csv");
+  worst_by_norm(worst).write(options.out / "uniform.csv");
 
-  fmt::print("\n  {:<16} {:>22} {:>22}\n", "", "order of locking", "order of robustness");
-  for (const Method& method : methods) {
-    const std::vector<Line> own = lines_of(lines, method);
-    fmt::print("  {:<16} {:>22} {:>22}\n", method.name(),
-               fmt::format("N^{:.2f}", slope_of(own, unknowns, [](const Line& line) { return line.ratio(); })),
-               fmt::format("N^{:.2f}", slope_of(own, unknowns, worst_h1)));
+  Table orders({"method", "order of locking", "order of robustness"});
+  for (const Method& method : all) {
+    const Table own = worst.where("element", method.element->name()).where("mesh", method.family.name);
+    orders.add({method.name(), fmt::format("N^{:.2f}", own.order("ratio", "unknowns")),
+                fmt::format("N^{:.2f}", own.order("h1", "unknowns"))});
   }
-  fmt::print("\n");
+  orders.print();
+  for (const Method& method : methods())
+    judge(method, worst.where("element", method.element->name()).where("mesh", method.family.name), report);
+  // The boundary of the map: for a fixed epsilon the locked method converges at last (Proposition 2).
+  const Table locked = map.where("element", "P1").where("mesh", "unstructured");
+  const double order = locked.where_number("epsilon", [](double e) { return e > 0.09 && e < 0.11; }).order("h1", "h");
+  report.claim(order > 0.7, "P1 unstructured at epsilon = 0.1, fixed: converges like h^{:.2f} (Proposition 2)", order);
+}
 
-  // First order is the best of P1 and CR in these norms; 0.2: the meshes are coarse. A locked method has a limit: what
-  // the layer's displacement is worth in H1.
-  for (const Method& method : methods) {
-    const std::vector<Line> own = lines_of(lines, method);
-    const double h1 = slope_of(own, spacing, worst_h1), energy = slope_of(own, spacing, worst_energy);
-    const bool locks = method.name() == "P1 unstructured";
-    if (locks)
-      report.claim(limit_of_worst(own) > 0.1, fmt::format("{}: Section 4.1, locks: sup over epsilon tends to {:.3f} in "
-                                                          "H1, not to 0",
-                                                          method.name(), limit_of_worst(own)));
-    else
-      report.claim(h1 > 0.8 && energy > 0.8,
-                   fmt::format("{}: {} and Remark 4: sup over epsilon falls like h^{:.2f} in H1, h^{:.2f} in energy",
-                               method.name(), method.element == "P1" ? "Theorem 5" : "Theorem 7", h1, energy));
-    const double growth = own.back().ratio() / own.front().ratio();
-    report.claim(
-        locks ? growth > 1.3 : own.back().ratio() < 2 && growth < 1.2,
-        fmt::format("{}: locking ratio {:.2f} at N = {}, {:.2f} at N = {}: {}", method.name(), own.front().ratio(),
-                    own.front().unknowns, own.back().ratio(), own.back().unknowns, locks ? "it grows" : "bounded"));
-  }
-  // The line of the map: for a fixed epsilon the locked method converges at last (Proposition 2).
-  const std::vector<Line> locked = lines_of(lines, methods[1]);
-  const double at_tenth = slope_of(locked, spacing, [](const Line& line) { return line.h1[2]; });
-  report.claim(at_tenth > 0.7, fmt::format("P1 unstructured at epsilon = 0.1, fixed: converges like h^{:.2f} "
-                                           "(Proposition 2)",
-                                           at_tenth));
+void judge(const Method& method, const Table& own, tutorial::Report& report) {
+  // First order is the best of P1 and CR in these norms; 0.2: the meshes are coarse. A locked method has a limit: the
+  // H1 norm of the displacement that the layer loses. It is where worst^2 = limit^2 + (c h)^2 tends, by the first and
+  // the last mesh.
+  const double a = own.first("h"), b = own.last("h"), high = own.first("h1"), low = own.last("h1");
+  const double limit = std::sqrt(std::max(0.0, (a * a * low * low - b * b * high * high) / (a * a - b * b)));
+  const double h1 = own.order("h1", "h"), energy = own.order("energy", "h");
+  const bool locks = method.name() == "P1 unstructured";
+  if (locks)
+    report.claim(limit > 0.1, "{}: Section 4.1, locks: sup over epsilon tends to {:.3f} in H1, not to 0", method.name(),
+                 limit);
+  else
+    report.claim(h1 > 0.8 && energy > 0.8,
+                 "{}: {} and Remark 4: sup over epsilon falls like h^{:.2f} in H1, h^{:.2f} in energy", method.name(),
+                 method.element->conforming() ? "Theorem 5" : "Theorem 7", h1, energy);
+  const double growth = own.last("ratio") / own.first("ratio");
+  report.claim(locks ? growth > 1.3 : own.last("ratio") < 2 && growth < 1.2,
+               "{}: locking ratio {:.2f} at N = {}, {:.2f} at N = {}: {}", method.name(), own.first("ratio"),
+               own.first("unknowns"), own.last("ratio"), own.last("unknowns"), locks ? "it grows" : "bounded");
 }
 
 // Three things to try:
 // - --cells 64: the locking ratio of P1 unstructured goes on like N^1/2, the three others stay.
 // - `energy` in place of `h1` in the locking ratio: epsilon = 1 is then the worst case of the good methods.
-// - {"P2", "unstructured"} as a fifth method: less locking, not none.
+// - {&p2(), unstructured()} as a fifth method: less locking, not none.
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.takes_epsilon = false;
@@ -201,4 +134,22 @@ int main(int argc, char** argv) {
   options.most_cells = 128;  // a slope needs meshes from 1/8 to 1/16, 22 epsilons each
   return tutorial::run(argc, argv, "14_uniform",
                        "Theorems 4, 5, 7: convergence uniform in epsilon, and the locking map", options, study);
+}
+
+// 1, 10^-1/2, ..., 1e-10, 0, each with its truth. 2^14 points of the series: gradients to 1e-6, errors are 1e-2.
+std::vector<Exact> truths() {
+  std::vector<double> epsilons;
+  for (int k = 0; k <= 20; ++k) epsilons.push_back(std::pow(10.0, -0.5 * k));
+  epsilons.push_back(0);
+  return tutorial::exact_solutions(epsilons, 14);
+}
+
+// The worst error in each of the two norms, for the picture.
+Table worst_by_norm(const Table& suprema) {
+  Table rows({"norm", "element", "mesh", "h", "unknowns", "worst"});
+  for (const Table& row : suprema.rows())
+    for (const auto& [norm, column] : {std::pair{"broken $H^1$ norm", "h1"}, {"energy seminorm", "energy"}})
+      rows.add({norm, row.entry("element"), row.entry("mesh"), row.number("h"), row.number("unknowns"),
+                row.number(column)});
+  return rows;
 }

@@ -85,6 +85,8 @@ TEST(Table, SelectsByWordNumberAndCondition) {
   EXPECT_EQ(p1.last("error"), p1.least("error"));
   EXPECT_EQ(p1.select({"h", "cells"}).columns(), (std::vector<std::string>{"h", "cells"}));
   EXPECT_EQ(p1.select({"h", "cells"}).last("cells"), 64);
+  ASSERT_EQ(p1.rows().size(), 4u);
+  EXPECT_EQ(p1.rows()[1].number("cells"), 16);
 }
 
 TEST(Table, FindsTheOrderOfAPowerLaw) {
@@ -110,8 +112,8 @@ TEST(Table, PrintsAlignedColumns) {
   table.add({"P1", 0.0123456});
   table.add({"Crouzeix-Raviart", 152064});
   EXPECT_EQ(table.text(),
-            "           element    error\n"
-            "                P1  0.01235\n"
+            "  element             error\n"
+            "  P1                0.01235\n"
             "  Crouzeix-Raviart   152064\n");
 }
 

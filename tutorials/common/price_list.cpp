@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "antilock/core/atomic_file.hpp"
+#include "antilock/study/table.hpp"
 #include "common/timed_runs.hpp"
 
 namespace antilock::tutorial {
@@ -37,19 +38,19 @@ Price price(const std::vector<TimedRun>& runs, double tolerance) {
   return {"beyond", good.back().seconds, good.back().unknowns};
 }
 
-using Method = std::vector<TimedRun>;  // one method at one epsilon, from coarse to fine
+using Runs = std::vector<TimedRun>;  // of one method at one epsilon, from coarse to fine
 
-std::vector<Method> by_method(const std::vector<TimedRun>& runs) {
-  std::vector<Method> methods;
+std::vector<Runs> by_method(const std::vector<TimedRun>& runs) {
+  std::vector<Runs> methods;
   for (const TimedRun& run : runs) {
     const auto known =
-        std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.front().same_method(run); });
+        std::find_if(methods.begin(), methods.end(), [&](const Runs& m) { return m.front().same_method(run); });
     if (known == methods.end())
       methods.push_back({run});
     else
       known->push_back(run);
   }
-  std::stable_sort(methods.begin(), methods.end(), [](const Method& a, const Method& b) {
+  std::stable_sort(methods.begin(), methods.end(), [](const Runs& a, const Runs& b) {
     const TimedRun &x = a.front(), &y = b.front();
     return std::tie(y.element, x.mesh, y.epsilon) < std::tie(x.element, y.mesh, x.epsilon);
   });
@@ -72,8 +73,9 @@ std::string cell(const std::vector<Price>& prices) {
 
 void write_price_list(const std::filesystem::path& folder, const std::vector<TimedRun>& runs) {
   constexpr std::array tolerances{1e-2, 1e-3, 1e-4};
-  const std::vector<Method> methods = by_method(runs);
-  std::string csv = "element,mesh,epsilon,solver,tolerance,outcome,seconds,unknowns\n", solvers;
+  const std::vector<Runs> methods = by_method(runs);
+  Table csv({"element", "mesh", "epsilon", "solver", "tolerance", "outcome", "seconds", "unknowns"});
+  std::string solvers;
   std::string page = "| element and mesh | epsilon | 1e-2 | 1e-3 | 1e-4 |\n|---|---|---|---|---|\n";
   for (std::size_t first = 0; first < methods.size();) {
     const TimedRun& m = methods[first].front();
@@ -87,8 +89,7 @@ void write_price_list(const std::filesystem::path& folder, const std::vector<Tim
       for (std::size_t i = 0; i < tolerances.size(); ++i) {
         row[i].push_back(price(methods[next], tolerances[i]));
         const Price& p = row[i].back();
-        csv += fmt::format("{},{},{:g},\"{}\",{:g},{},{:.6g},{}\n", m.element, m.mesh, m.epsilon, other.solver,
-                           tolerances[i], p.outcome, p.seconds, p.unknowns);
+        csv.add({m.element, m.mesh, m.epsilon, other.solver, tolerances[i], p.outcome, p.seconds, p.unknowns});
       }
     }
     page += fmt::format("| {} {} | {:g} | {} | {} | {} |\n", m.element, m.mesh, m.epsilon, cell(row[0]), cell(row[1]),
@@ -102,7 +103,7 @@ void write_price_list(const std::filesystem::path& folder, const std::vector<Tim
       ", without mesh and assembly, until the relative error at the unknowns is below 1e-2, 1e-3, 1e-4. `-`: failed or "
       "over the limit; `never`: locked; `>`: not even on the finest mesh measured.\n\n";
   page.insert(0, how);
-  write_file(folder / "price_list.csv", [&](std::ostream& out) { out << csv; });
+  csv.write(folder / "price_list.csv");
   write_file(folder / "price_list.md", [&](std::ostream& out) { out << page; });
 }
 
@@ -115,13 +116,16 @@ void write_machine(const std::filesystem::path& path) {
   const std::time_t now = std::time(nullptr);
   std::strftime(date.data(), date.size(), "%F %R UTC", std::gmtime(&now));
   const char* blas_threads = std::getenv("OPENBLAS_NUM_THREADS");
-  write_file(path, [&](std::ostream& out) {
-    out << fmt::format("what,value\nprocessor,{}\ncores,{}\nthreads of the BLAS,{}\n", processor,
-                       std::thread::hardware_concurrency(), blas_threads ? blas_threads : "as many")
-        << fmt::format("compiler,GCC {}\nEigen,{}.{}.{}\nCHOLMOD,{}.{}.{}\ndate,{}\n", __VERSION__, EIGEN_WORLD_VERSION,
-                       EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION, CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION,
-                       CHOLMOD_SUBSUB_VERSION, date.data());
-  });
+  Table table({"what", "value"});
+  const auto version = [](auto a, auto b, auto c) { return fmt::format("{}.{}.{}", a, b, c); };
+  table.add({"processor", processor});
+  table.add({"cores", std::thread::hardware_concurrency()});
+  table.add({"threads of the BLAS", blas_threads ? blas_threads : "as many"});
+  table.add({"compiler", std::string("GCC ") + __VERSION__});
+  table.add({"Eigen", version(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)});
+  table.add({"CHOLMOD", version(CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)});
+  table.add({"date", date.data()});
+  table.write(path);
 }
 
 }  // namespace antilock::tutorial

@@ -1,22 +1,20 @@
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
 #include <array>
 #include <numeric>
 
-#include "antilock/core/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/study/table.hpp"
+#include "common/paper_problem.hpp"
 #include "common/timed_runs.hpp"
 
 namespace antilock::tutorial {
 
 void write_stages(const std::filesystem::path& folder, int finest, int repeats) {
-  const Scene scene(Body{paper_load}, StiffLayer{1e-6}, UnilateralContact{});
+  const Scene scene = paper_scene(1e-6);
   const auto scratch = folder / "stages_solution.csv";
   using Stages = std::array<double, 7>;
   const auto total = [](const Stages& s) { return std::accumulate(s.begin(), s.end(), 0.0); };
@@ -33,15 +31,15 @@ void write_stages(const std::filesystem::path& folder, int finest, int repeats) 
     write_solution_csv(scratch, space, solution.u);
     return Stages{mesh_seconds, assembly, s.analyse, s.factor, s.contact, s.solve + rest, watch.lap()};
   };
-  write_file(folder / "stages.csv", [&](std::ostream& out) {
-    out << "cells,mesh,assembly,analyse,factor,contact,corrections,output\n";
-    for (int n = 16; n <= finest; n *= 2) {
-      std::vector<Stages> runs;
-      for (int i = 0; i < repeats; ++i) runs.push_back(run(n));
-      std::sort(runs.begin(), runs.end(), [&](const Stages& a, const Stages& b) { return total(a) < total(b); });
-      out << fmt::format("{},{:.6g}\n", n, fmt::join(runs[runs.size() / 2], ","));
-    }
-  });
+  Table table({"cells", "mesh", "assembly", "analyse", "factor", "contact", "corrections", "output"});
+  for (int n = 16; n <= finest; n *= 2) {
+    std::vector<Stages> runs;
+    for (int i = 0; i < repeats; ++i) runs.push_back(run(n));
+    std::sort(runs.begin(), runs.end(), [&](const Stages& a, const Stages& b) { return total(a) < total(b); });
+    const auto [mesh, assembly, analyse, factor, contact, corrections, output] = runs[runs.size() / 2];
+    table.add({n, mesh, assembly, analyse, factor, contact, corrections, output});
+  }
+  table.write(folder / "stages.csv");
   std::filesystem::remove(scratch);
 }
 

@@ -7,10 +7,10 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "antilock/core/atomic_file.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/writers.hpp"
+#include "antilock/study/table.hpp"
 
 namespace antilock::tutorial {
 namespace {
@@ -102,16 +102,13 @@ void time_freefem(TimedRun& run, const std::string& command, const Space& space,
 }
 
 void write_runs(const std::filesystem::path& path, const std::vector<TimedRun>& runs) {
-  write_file(path, [&](std::ostream& out) {
-    out << "element,mesh,solver,epsilon,cells,unknowns,status,seconds,least,most,mesh_seconds,iterations,relative,"
-           "max_at_unknowns,max,h1,energy,why\n";
-    for (const TimedRun& r : runs)
-      out << fmt::format(
-          "{},{},\"{}\",{:g},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n",
-          r.element, r.mesh, r.solver, r.epsilon, r.cells, r.unknowns, r.ok ? "ok" : "failed", r.seconds, r.least,
-          r.most, r.mesh_seconds, r.iterations, r.ok ? r.relative() : 0, r.errors.max_at_unknowns, r.errors.max,
-          r.errors.h1, r.errors.energy, r.why);
-  });
+  Table table({"element", "mesh", "solver", "epsilon", "cells", "unknowns", "status", "seconds", "least", "most",
+               "mesh_seconds", "iterations", "relative", "max_at_unknowns", "max", "h1", "energy", "why"});
+  for (const TimedRun& r : runs)
+    table.add({r.element, r.mesh, r.solver, r.epsilon, r.cells, r.unknowns, r.ok ? "ok" : "failed", r.seconds, r.least,
+               r.most, r.mesh_seconds, r.iterations, r.ok ? r.relative() : 0, r.errors.max_at_unknowns, r.errors.max,
+               r.errors.h1, r.errors.energy, r.why});
+  table.write(path);
 }
 
 }  // namespace antilock::tutorial

@@ -42,10 +42,10 @@ std::optional<Solution> time_solver(TimedRun& run, const std::function<Solution(
 void time_freefem(TimedRun& run, const std::string& command, const Space& space, const TruthTable& truth, double limit,
                   int repeats, const std::filesystem::path& folder);
 
-/// One row a run, columns as in TimedRun; status is ok or failed. `relative` and the errors are 0 where it failed.
+/// One row per run, columns as in TimedRun; status is ok or failed. `relative` and the errors are 0 where it failed.
 void write_runs(const std::filesystem::path& path, const std::vector<TimedRun>& runs);
 
-/// The cheapest run that was measured within a relative error (at the unknowns) of 1e-2, 1e-3 and 1e-4, a row for each
+/// The cheapest run that was measured within a relative error (at the unknowns) of 1e-2, 1e-3 and 1e-4, one row per
 /// method and epsilon: price_list.csv, its outcome reached, never (locked: the error hardly falls from mesh to mesh),
 /// failed (before it came so far) or beyond (a finer mesh than measured would). In short as Markdown: price_list.md.
 void write_price_list(const std::filesystem::path& folder, const std::vector<TimedRun>& runs);

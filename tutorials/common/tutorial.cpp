@@ -48,6 +48,11 @@ void Report::claim(bool holds, const std::string& what) {
   all_hold_ = all_hold_ && holds;
 }
 
+void Report::not_judged(const std::string& why) {
+  finish();
+  fmt::print("NOT JUDGED: {}\n", why);
+}
+
 void Report::claim_within(double value, double low, double high, const std::string& what) {
   claim(value >= low && value <= high, fmt::format("{} {:.4g} (accepted {:.4g} to {:.4g})", what, value, low, high));
 }
@@ -57,10 +62,10 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
   CLI::App app(what, stem);
   if (options.out.empty()) options.out = std::filesystem::path("results") / stem;
   if (options.takes_epsilon)
-    app.add_option("--epsilon", options.epsilon, "the paper's epsilon; 0 is the rigid limit")
+    app.add_option("--epsilon", options.epsilon, options.epsilon_is)
         ->capture_default_str()
         ->check(CLI::Range(options.least_epsilon, 1.0));
-  app.add_option("--cells", options.cells, "cells a unit side, h = 1/cells")
+  app.add_option("--cells", options.cells, "cells per unit side, h = 1/cells")
       ->capture_default_str()
       ->check(CLI::Range(options.least_cells, options.most_cells));
   app.add_option("--out", options.out, "folder of the results")->capture_default_str();

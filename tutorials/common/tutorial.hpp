@@ -16,9 +16,11 @@ namespace antilock::tutorial {
 /// The options that every tutorial understands. Set the defaults, and `add` options of one tutorial's own.
 struct Options {
   double epsilon = 1e-6;      ///< the paper's epsilon, least_epsilon to 1 (dimensionless)
-  double least_epsilon = 0;   ///< what the study can do with
+  double least_epsilon = 0;   ///< the smallest that the study accepts
+  /// What --epsilon stands for, in --help.
+  std::string epsilon_is = "the paper's epsilon; 0 is the rigid limit";
   bool takes_epsilon = true;  ///< false where it has none, or studies its own: --epsilon is not offered then
-  int cells = 32;             ///< cells a unit side: h = 1/cells
+  int cells = 32;             ///< cells per unit side: h = 1/cells
   int least_cells = 1, most_cells = 2048;  ///< what the study needs, and can afford
   std::filesystem::path out;               ///< folder of the results; default results/STEM
   std::function<void(CLI::App&)> add = [](CLI::App&) {};
@@ -38,6 +40,8 @@ class Report {
   }
   /// A claim that a number lies in an interval; its line ends with the number and the interval.
   void claim_within(double value, double low, double high, const std::string& what);
+  /// A claim that this run cannot decide, and why: a line `NOT JUDGED: ...`. Nothing is left out in silence.
+  void not_judged(const std::string& why);
   /// Ends the last stage.
   void finish();
   bool all_hold() const { return all_hold_; }

@@ -22,6 +22,12 @@ std::string quoted(const std::string& word) {
   return text + '"';
 }
 
+std::vector<double> some(const Table& table, const std::string& column) {
+  std::vector<double> all = table.numbers(column);
+  if (all.empty()) throw Error(fmt::format("table: column '{}' of no rows; accepted: of one or more", column));
+  return all;
+}
+
 }  // namespace
 
 std::string Entry::text(int digits) const {
@@ -68,6 +74,12 @@ Table Table::where_number(const std::string& column, const std::function<bool(do
   return selected;
 }
 
+std::vector<Table> Table::rows() const {
+  std::vector<Table> rows(rows_.size(), Table(columns_));
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows[i].rows_.push_back(rows_[i]);
+  return rows;
+}
+
 std::vector<Entry> Table::entries(const std::string& column) const {
   const std::size_t at = place(column);
   std::vector<Entry> entries;
@@ -92,19 +104,17 @@ std::vector<double> Table::numbers(const std::string& column) const {
   return numbers;
 }
 
-double Table::number(const std::string& column) const {
-  const std::vector<double> all = numbers(column);
-  if (all.size() != 1) throw Error(fmt::format("table: column '{}' of {} rows; accepted: of one", column, all.size()));
+Entry Table::entry(const std::string& column) const {
+  const std::vector<Entry> all = entries(column);
+  if (all.size() != 1)
+    throw Error(fmt::format("table: column '{}' of {} rows; accepted: of one", column, all.size()));
   return all.front();
 }
 
-namespace {
-std::vector<double> some(const Table& table, const std::string& column) {
-  std::vector<double> all = table.numbers(column);
-  if (all.empty()) throw Error(fmt::format("table: column '{}' of no rows; accepted: of one or more", column));
-  return all;
+double Table::number(const std::string& column) const {
+  entry(column);  // refuses more rows than one, or none
+  return numbers(column).front();
 }
-}  // namespace
 
 double Table::least(const std::string& column) const {
   const std::vector<double> all = some(*this, column);
@@ -122,8 +132,8 @@ double Table::order(const std::string& y, const std::string& x) const {
     for (const double value : numbers(column))
       if (!(value > 0)) throw Error(fmt::format("table: order of {} in column '{}'; accepted: > 0", value, column));
   if (different(x).size() < 2)
-    throw Error(
-        fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y, x, different(x).size()));
+    throw Error(fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y, x,
+                            different(x).size()));
   return slope(numbers(x), numbers(y));
 }
 
@@ -160,22 +170,21 @@ Table Table::select(const std::vector<std::string>& columns) const {
 }
 
 std::string Table::text(int digits) const {
-  std::vector<std::size_t> width;
+  std::vector<std::string> lines(rows_.size() + 1);
   for (std::size_t at = 0; at < columns_.size(); ++at) {
-    width.push_back(columns_[at].size());
-    for (const auto& row : rows_) width[at] = std::max(width[at], row[at].text(digits).size());
+    std::vector<std::string> words{columns_[at]};
+    for (const auto& row : rows_) words.push_back(row[at].text(digits));
+    std::size_t width = 0;
+    for (const std::string& word : words) width = std::max(width, word.size());
+    const bool left = std::none_of(rows_.begin(), rows_.end(), [&](const auto& row) { return row[at].is_number(); });
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      lines[i] += left ? fmt::format("  {:<{}}", words[i], width) : fmt::format("  {:>{}}", words[i], width);
   }
-  std::string text;
-  for (std::size_t at = 0; at < columns_.size(); ++at) text += fmt::format("  {:>{}}", columns_[at], width[at]);
-  for (const auto& row : rows_) {
-    text += '\n';
-    for (std::size_t at = 0; at < row.size(); ++at) text += fmt::format("  {:>{}}", row[at].text(digits), width[at]);
-  }
-  return text + '\n';
+  return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
 void Table::print(const std::string& title, int digits) const {
-  fmt::print("\n{}{}{}", title.empty() ? "" : "  " + title, title.empty() ? "" : "\n", text(digits));
+  fmt::print("\n{}{}{}\n", title.empty() ? "" : "  " + title, title.empty() ? "" : "\n", text(digits));
   std::fflush(stdout);
 }
 

@@ -42,11 +42,14 @@ class Table {
   /// The rows that hold `value` in this column, in their order; those whose number there satisfies `holds`.
   Table where(const std::string& column, const Entry& value) const;
   Table where_number(const std::string& column, const std::function<bool(double)>& holds) const;
+  /// Each row as a table of its own.
+  std::vector<Table> rows() const;
   /// One column: its entries; the different ones, in the order in which they occur; its numbers.
   std::vector<Entry> entries(const std::string& column) const;
   std::vector<Entry> different(const std::string& column) const;
   std::vector<double> numbers(const std::string& column) const;
-  /// The number in the one row of a table; throws Error where there are more or none.
+  /// The entry, or the number, in the one row of a table; throws Error where there are more or none.
+  Entry entry(const std::string& column) const;
   double number(const std::string& column) const;
   /// The smallest, the largest, the first and the last number of a column; throws Error for a table without rows.
   double least(const std::string& column) const;
@@ -62,7 +65,8 @@ class Table {
   /// These columns alone, in this order.
   Table select(const std::vector<std::string>& columns) const;
 
-  /// Aligned columns of numbers rounded to `digits`; `print` puts them on standard output, an empty line before.
+  /// Aligned columns, words to the left, numbers to the right and rounded to `digits`; `print` puts them on standard
+  /// output between two empty lines.
   std::string text(int digits = 4) const;
   void print(const std::string& title = "", int digits = 4) const;
   /// CSV, whole or not at all: a header, then the rows; a word that holds a comma or a quotation mark is quoted.
