@@ -36,7 +36,7 @@ struct Names {
 };
 
 // A drawing as a table: kind, name (its first word chooses the colour), label, x, y; a row a corner.
-// figures/drawing.cpp reads it.
+// figures/pictures/domain.cpp reads it.
 void write_drawing(const std::filesystem::path& path, double depth, const Names& names) {
   write_file(path, [&](std::ostream& out) {
     out << "kind,name,label,x,y\n";
