@@ -2,16 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
-#include <map>
 
 #include "antilock/core/error.hpp"
 
 namespace antilock::figures {
 
 std::string power_markup(int power) {
-  return power == 0 ? "1" : fmt::format("$10^{{{}{}}}$", power < 0 ? "−" : "", std::abs(power));
+  return power == 0 ? "1" : power == 1 ? "10" : fmt::format("$10^{{{}{}}}$", power < 0 ? "−" : "", std::abs(power));
 }
 
 std::string number_markup(double value) {
@@ -26,35 +24,19 @@ std::string number_markup(double value) {
   return fmt::format("${}{:.3g} × 10^{{{}}}$", sign, leading, power);
 }
 
-std::string entry_markup(const std::string& column, const std::string& value) {
-  static const std::map<std::string, std::string> names{{"P1", "$P_1$"},
-                                                        {"P2", "$P_2$"},
-                                                        {"P3", "$P_3$"},
-                                                        {"P4", "$P_4$"},
-                                                        {"CR", "Crouzeix–Raviart"},
-                                                        {"structured", "structured mesh"},
-                                                        {"unstructured", "unstructured mesh"}};
-  if (const auto found = names.find(value); found != names.end()) return found->second;
-  if (const auto space = value.find(' '); space != value.npos)  // a method: an element and its mesh
-    if (const auto element = names.find(value.substr(0, space)); element != names.end())
-      return element->second + ", " + entry_markup("", value.substr(space + 1));
-  double number = 0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  if (error != std::errc{} || end != value.data() + value.size()) return value;
-  const bool power_of_ten = number > 0 && std::abs(std::log10(number) - std::round(std::log10(number))) < 1e-9;
-  std::string written = number_markup(number);
-  if (power_of_ten && number < 0.5) written = power_markup(static_cast<int>(std::lround(std::log10(number))));
-  return (column == "epsilon" ? "$ε =$ " : column == "h" ? "$h =$ " : column + " = ") + written;
-}
-
-Axis Axis::logarithmic(double low, double high, double room) {
+Axis Axis::widened(double low, double high, double room) {
   if (!(low > 0 && high >= low && std::isfinite(high)))
     throw Error(fmt::format("a logarithmic axis from {} to {} cannot be drawn; accepted: positive values", low, high));
-  const double widened = room > 0 || high == low ? std::max(room, 0.07) * std::max(std::log10(high / low), 0.3) : 1e-9;
-  Axis axis(low * std::pow(10, -widened), high * std::pow(10, widened), true);
+  const double more = room > 0 || high == low ? std::max(room, 0.07) * std::max(std::log10(high / low), 0.3) : 1e-9;
+  return Axis(low * std::pow(10, -more), high * std::pow(10, more), true);
+}
+
+Axis Axis::logarithmic(double low, double high, double room, int most) {
+  Axis axis = widened(low, high, room);
   const double decades = std::log10(axis.high_ / axis.low_);
   // few decades, or hardly a power of ten in them: 1, 2 and 5 carry numbers
   const bool few = decades < 1.6 || std::floor(std::log10(axis.high_)) - std::ceil(std::log10(axis.low_)) < 1;
+  const int every = static_cast<int>(std::ceil(decades / most));
   for (int power = static_cast<int>(std::floor(std::log10(axis.low_))); std::pow(10, power) <= axis.high_; ++power)
     for (int digit = 1; digit <= 9; ++digit) {
       const double value = digit * std::pow(10, power);
@@ -62,11 +44,22 @@ Axis Axis::logarithmic(double low, double high, double room) {
       std::string label;
       if (few) {
         if (digit == 1 || digit == 2 || digit == 5) label = number_markup(value);
-      } else if (digit == 1 && power % static_cast<int>(std::ceil(decades / 8)) == 0) {
+      } else if (digit == 1 && power % every == 0) {
         label = power_markup(power);
       }
       if (!label.empty() || decades < 10) axis.ticks_.push_back({value, label});
     }
+  return axis;
+}
+
+Axis Axis::halving(double low, double high, double room, int most) {
+  Axis axis = widened(low, high, room);
+  const int first = static_cast<int>(std::ceil(std::log2(axis.low_))),
+            last = static_cast<int>(std::floor(std::log2(axis.high_))), every = (last - first) / most + 1;
+  for (int power = first; power <= last; ++power) {
+    const std::string label = power < 0 ? fmt::format("1/{}", 1L << -power) : fmt::format("{}", 1L << power);
+    axis.ticks_.push_back({std::exp2(power), power % every == 0 ? label : ""});
+  }
   return axis;
 }
 

@@ -12,9 +12,11 @@ struct Tick {
 /// A range of numbers with its ticks, on a straight or a logarithmic scale.
 class Axis {
  public:
-  /// Widens [low, high] by a share `room` of its length, so that no point lies on the frame. Throws Error for a range
-  /// that cannot be drawn.
-  static Axis logarithmic(double low, double high, double room = 0.07);
+  /// Widens [low, high] by a share `room` of its length, so that no point lies on the frame; numbers at `most` ticks at
+  /// most. Throws Error for a range that cannot be drawn.
+  static Axis logarithmic(double low, double high, double room = 0.07, int most = 8);
+  /// The same with ticks at 1, 1/2, 1/4, ..., as mesh widths are chosen.
+  static Axis halving(double low, double high, double room = 0.07, int most = 8);
   /// Exactly [low, high], with about as many ticks as asked for. Throws Error likewise.
   static Axis linear(double low, double high, int about = 5);
   /// Where a value lies between the ends, 0 to 1.
@@ -24,19 +26,17 @@ class Axis {
   double high() const { return high_; }
 
  private:
+  static Axis widened(double low, double high, double room);
   Axis(double low, double high, bool logarithmic) : low_(low), high_(high), logarithmic_(logarithmic) {}
   double low_, high_;
   bool logarithmic_;
   std::vector<Tick> ticks_;
 };
 
-/// `$10^{−6}$`, and 1 for 0.
+/// `$10^{−6}$`, and 1 and 10 as they are.
 std::string power_markup(int power);
 
 /// A number as a reader writes it: `0.05`, `−0.2`, `$10^{−6}$`.
 std::string number_markup(double value);
-
-/// What a legend calls an entry of a table: `$ε = 10^{−6}$`, `$P_1$`, `structured mesh`.
-std::string entry_markup(const std::string& column, const std::string& value);
 
 }  // namespace antilock::figures

@@ -1,13 +1,24 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "drawing/page.hpp"
-#include "pictures/pictures.hpp"
 
 namespace antilock::figures {
 
-/// A vertical bar of viridis with its numbers to the right and its name above; `size` of the numbers in pixels.
-void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name, double size);
+/// Extent of a quantity that colours (and heights) stand for.
+struct Range {
+  double low, high;
+};
+
+/// Colours of what lies outside a range, where that is to be seen.
+struct Beyond {
+  Colour below, above;
+};
+
+/// A vertical bar of viridis with its numbers to the right and its name above; `beyond` adds a head at each end.
+void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name,
+                     const std::optional<Beyond>& beyond = {});
 
 /// Throws Error unless the range has two finite ends, the smaller first.
 void check(const Range& range);

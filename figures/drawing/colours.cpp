@@ -4,12 +4,6 @@
 
 namespace antilock::figures {
 
-Colour series_colour(std::size_t n) {
-  static constexpr std::array<Colour, 6> colours{palette::blue,   palette::vermillion, palette::green,
-                                                 palette::purple, palette::orange,     palette::black};
-  return colours[n % colours.size()];
-}
-
 Colour viridis(double t) {
   // matplotlib's table, every 17th of 256 entries
   static constexpr std::array<Colour, 16> samples{{{0.267004, 0.004874, 0.329415},

@@ -1,48 +1,46 @@
 #include "drawing/legend.hpp"
 
-#include <numeric>
+#include <algorithm>
 
 namespace antilock::figures {
 namespace {
 
-constexpr double size = 46, swatch_width = 100, space = 20, gap = 70, line_height = 74;
-
-struct Line {
-  std::vector<std::size_t> entries;
-  double width = -gap;
-};
-
-double entry_width(const Page& page, const std::string& name) {
-  return swatch_width + space + page.text_width(name, size) + gap;
-}
-
-std::vector<Line> break_lines(const Page& page, const std::vector<std::string>& names) {
-  std::vector<Line> lines(1);
-  for (std::size_t n = 0; n < names.size(); ++n) {
-    const double width = entry_width(page, names[n]);
-    if (!lines.back().entries.empty() && lines.back().width + width > page.width() - 200) lines.emplace_back();
-    lines.back().entries.push_back(n);
-    lines.back().width += width;
-  }
-  return lines;
-}
+constexpr double size = 48, swatch_width = 100, space = 20, gap = 64, line_height = 76, edge = 60;
 
 }  // namespace
 
-double legend_height(const Page& page, const std::vector<std::string>& names) {
-  return line_height * static_cast<double>(break_lines(page, names).size());
+Legend::Legend(const Page& page, const std::vector<std::string>& names) : names_(names) {
+  for (std::size_t n = 0; n < names.size(); ++n) {
+    widths_.push_back(swatch_width + space + page.text_width(names[n], size));
+    if (lines_.empty() || lines_.back().width + gap + widths_[n] > Page::width - 2 * edge) lines_.push_back({{}, -gap});
+    lines_.back().entries.push_back(n);
+    lines_.back().width += gap + widths_[n];
+  }
 }
 
-void draw_legend(Page& page, const std::vector<std::string>& names, double bottom, const Swatch& swatch) {
-  double y = bottom + legend_height(page, names) - 0.5 * line_height;
-  for (const Line& line : break_lines(page, names)) {
-    double x = 0.5 * (page.width() - line.width);
+double Legend::height() const { return line_height * static_cast<double>(lines_.size()); }
+
+void Legend::draw(Page& page, double bottom, const Swatch& swatch) const {
+  double y = bottom + height() - 0.5 * line_height;
+  for (const Line& line : lines_) {
+    double x = 0.5 * (Page::width - line.width);
     for (const std::size_t n : line.entries) {
       swatch(n, {x, y - 0.3 * line_height, swatch_width, 0.6 * line_height});
-      page.text({x + swatch_width + space, y}, names[n], {size, {0, Anchor::Height::middle}});
-      x += entry_width(page, names[n]);
+      page.text({x + swatch_width + space, y}, names_[n], {size, {0, Anchor::Height::middle}});
+      x += widths_[n] + gap;
     }
     y -= line_height;
+  }
+}
+
+double Legend::column_width() const { return widths_.empty() ? 0 : *std::max_element(widths_.begin(), widths_.end()); }
+
+void Legend::draw_in(Page& page, const Box& box, const Swatch& swatch) const {
+  const double x = box.centre().x - 0.5 * column_width();
+  double y = box.centre().y + 0.5 * line_height * static_cast<double>(names_.size() - 1);
+  for (std::size_t n = 0; n < names_.size(); ++n, y -= line_height) {
+    swatch(n, {x, y - 0.3 * line_height, swatch_width, 0.6 * line_height});
+    page.text({x + swatch_width + space, y}, names_[n], {size, {0, Anchor::Height::middle}});
   }
 }
 

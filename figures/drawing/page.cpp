@@ -42,7 +42,7 @@ void set_brush(vtkContext2D& context, const Colour& colour, double opacity) {
   context.GetBrush()->SetColor(byte(colour[0]), byte(colour[1]), byte(colour[2]), byte(opacity));
 }
 
-/// A thick line is painted as one quadrilateral a segment and one disc a joint: round joints, on every driver.
+/// A thick line is painted as one quadrilateral per segment and one disc per joint: round joints, on every driver.
 void paint_line(vtkContext2D& context, const std::vector<Point>& points, double width, const Colour& colour) {
   set_brush(context, colour, 1);
   const double half = 0.5 * width;
@@ -105,17 +105,19 @@ void Page::fill(const Box& box, const Colour& colour, double opacity) {
 }
 
 void Page::marker(Point at, Marker shape, double size, const Colour& colour) {
-  std::vector<Point> corners = outline(shape);
-  for (Point& corner : corners) corner = at + (0.5 * size) * corner;
-  const Stroke edge{4, colour};
+  const auto scaled = [&](double diameter) {
+    std::vector<Point> corners = outline(shape);
+    for (Point& corner : corners) corner = at + (0.5 * diameter) * corner;
+    return corners;
+  };
   if (shape == Marker::cross) {
-    line({corners[0], corners[2]}, edge);
-    line({corners[1], corners[3]}, edge);
+    const auto corners = scaled(size);
+    line({corners[0], corners[2]}, {7, colour});
+    line({corners[1], corners[3]}, {7, colour});
     return;
   }
-  corners.push_back(corners[0]);
-  corners.push_back(corners[1]);  // so that the first corner has a joint as well
-  line(corners, edge);
+  fill(scaled(size + 4), palette::white);
+  fill(scaled(size), colour);
 }
 
 void Page::arrow(Point from, Point to, const Stroke& stroke) {
@@ -125,18 +127,31 @@ void Page::arrow(Point from, Point to, const Stroke& stroke) {
   fill({to, to - head * along + (0.4 * head) * side, to - head * along - (0.4 * head) * side}, stroke.colour);
 }
 
-void Page::text(Point at, const std::string& markup, const TextStyle& style) { texts_.push_back({at, markup, style}); }
+void Page::text(Point at, const std::string& markup, const TextStyle& style) {
+  if (!markup.empty()) texts_.push_back({at, markup, style});
+}
 
 void Page::scene(vtkSmartPointer<vtkRenderer> renderer, const Box& where) {
-  renderer->SetViewport(where.x / width_, where.y / height_, where.right() / width_, where.top() / height_);
+  renderer->SetViewport(where.x / width, where.y / height_, where.right() / width, where.top() / height_);
   scenes_.push_back(std::move(renderer));
 }
+
+std::vector<LaidText> Page::laid_texts() const {
+  std::vector<LaidText> laid;
+  for (const Text& text : texts_)
+    laid.push_back({text.markup, typesetter_.extent(text.at, text.markup, text.style), text.style.most});
+  return laid;
+}
+
+std::optional<std::string> Page::layout_fault() const { return figures::layout_fault(laid_texts(), width, height_); }
+
+double Page::smallest_type() const { return figures::smallest_type(laid_texts(), width); }
 
 void Page::save(const std::filesystem::path& path) const {
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetMultiSamples(0);
-  window->SetSize(oversampling * width_, oversampling * height_);
+  window->SetSize(oversampling * width, oversampling * height_);
   window->SetNumberOfLayers(2);
 
   vtkNew<vtkRenderer> paper;

@@ -40,6 +40,7 @@ struct Glyph {
   unsigned index;
   double size;  // pixels an em
   double x, y;  // from the text's origin
+  Box ink;      // likewise, in pixels
 };
 
 struct Line {
@@ -48,7 +49,7 @@ struct Line {
 };
 
 /// Script sizes and shifts, in ems of the text around them.
-constexpr double script_size = 0.7, raise = 0.36, lower = 0.17, stacked_lower = 0.26;
+constexpr double script_size = 0.75, raise = 0.36, lower = 0.17, stacked_lower = 0.26;
 
 }  // namespace
 
@@ -81,8 +82,17 @@ struct Typesetter::Fonts {
     if (index == 0) throw Error(fmt::format("text: STIX has no glyph U+{:04X}", static_cast<unsigned>(character)));
     if (FT_Load_Glyph(face, index, FT_LOAD_NO_SCALE | FT_LOAD_IGNORE_TRANSFORM) != 0)
       throw Error("text: a glyph cannot be loaded");
-    line.glyphs.push_back({face, index, size, line.width, y});
-    line.width += size * static_cast<double>(face->glyph->advance.x) / face->units_per_EM;
+    const FT_Glyph_Metrics& metrics = face->glyph->metrics;
+    const double unit = size / face->units_per_EM;
+    line.glyphs.push_back(
+        {face,
+         index,
+         size,
+         line.width,
+         y,
+         {line.width + unit * metrics.horiBearingX, y + unit * (metrics.horiBearingY - metrics.height),
+          unit * metrics.width, unit * metrics.height}});
+    line.width += unit * static_cast<double>(face->glyph->advance.x);
   }
 
   /// Sets characters [from, to) and stops at `end` (0: none); returns the place after the last one read.
@@ -152,6 +162,31 @@ double Typesetter::width(const std::string& markup, double size) const { return 
 
 namespace {
 
+/// From places in a set line to places on the page.
+class Placement {
+ public:
+  Placement(Point at, double line_width, const TextStyle& style)
+      : at_(at),
+        across_(style.anchor.across * line_width),
+        drop_(drop(style)),
+        angle_(style.angle * std::numbers::pi / 180) {}
+  Point operator()(double x, double y) const {
+    const double across = x - across_, up = y - drop_, c = std::cos(angle_), s = std::sin(angle_);
+    return {at_.x + c * across - s * up, at_.y + s * across + c * up};
+  }
+  double angle() const { return angle_; }
+
+ private:
+  static double drop(const TextStyle& style) {
+    constexpr double capital = 0.662;  // height of STIX capitals, in ems
+    return style.size * (style.anchor.height == Anchor::Height::top      ? capital
+                         : style.anchor.height == Anchor::Height::middle ? 0.5 * capital
+                                                                         : 0);
+  }
+  Point at_;
+  double across_, drop_, angle_;
+};
+
 /// Mixes one glyph's coverage into the image; (left, top) is the bitmap's upper left pixel.
 void blend(vtkImageData& image, const FT_Bitmap& bitmap, int left, int top, const Colour& colour) {
   int size[3];
@@ -171,19 +206,34 @@ void blend(vtkImageData& image, const FT_Bitmap& bitmap, int left, int top, cons
 
 }  // namespace
 
+Extent Typesetter::extent(Point at, const std::string& markup, const TextStyle& style) const {
+  const Line line = fonts_->layout(markup, style.size);
+  const Placement place(at, line.width, style);
+  Extent extent{{at.x, at.y, 0, 0}, style.size, line.width};
+  Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+  for (const Glyph& glyph : line.glyphs) {
+    if (!(glyph.ink.width > 0)) continue;  // a space
+    extent.smallest = std::min(extent.smallest, glyph.size);
+    for (const double x : {glyph.ink.x, glyph.ink.right()})
+      for (const double y : {glyph.ink.y, glyph.ink.top()}) {
+        const Point corner = place(x, y);
+        low = {std::min(low.x, corner.x), std::min(low.y, corner.y)};
+        high = {std::max(high.x, corner.x), std::max(high.y, corner.y)};
+      }
+  }
+  if (low.x <= high.x) extent.ink = {low.x, low.y, high.x - low.x, high.y - low.y};
+  return extent;
+}
+
 void Typesetter::draw(vtkImageData& image, Point at, const std::string& markup, const TextStyle& style) const {
   const Line line = fonts_->layout(markup, style.size);
-  constexpr double capital = 0.662;  // height of STIX capitals, in ems
-  const double drop = style.anchor.height == Anchor::Height::top      ? capital
-                      : style.anchor.height == Anchor::Height::middle ? 0.5 * capital
-                                                                      : 0;
-  const double turn = style.angle * std::numbers::pi / 180, c = std::cos(turn), s = std::sin(turn);
+  const Placement place(at, line.width, style);
+  const double c = std::cos(place.angle()), s = std::sin(place.angle());
   const auto fixed = [](double v) { return static_cast<FT_Fixed>(std::lround(v * 65536)); };
   FT_Matrix rotation{fixed(c), fixed(-s), fixed(s), fixed(c)};
 
   for (const Glyph& glyph : line.glyphs) {
-    const double across = glyph.x - style.anchor.across * line.width, up = glyph.y - drop * style.size;
-    const Point origin{at.x + c * across - s * up, at.y + s * across + c * up};
+    const Point origin = place(glyph.x, glyph.y);
     const Point whole{std::floor(origin.x), std::floor(origin.y)};
     FT_Vector rest{std::lround(64 * (origin.x - whole.x)), std::lround(64 * (origin.y - whole.y))};
     FT_Set_Char_Size(glyph.face, std::lround(64 * glyph.size), 0, 72, 72);  // at 72 dpi a point is a pixel

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "drawing/geometry.hpp"
@@ -16,10 +17,18 @@ struct Anchor {
 };
 
 struct TextStyle {
-  double size = 44;  ///< of an em, in pixels
+  double size = 48;  ///< of an em, in pixels
   Anchor anchor = {};
   double angle = 0;  ///< degrees, counterclockwise
   Colour colour = {0.13, 0.13, 0.13};
+  std::optional<double> most = {};  ///< the width that the text must not exceed (a title: its panel's), in pixels
+};
+
+/// What a text covers on the page.
+struct Extent {
+  Box ink;              ///< around its glyphs
+  double smallest = 0;  ///< em of the smallest glyph: a text's size, or that of its scripts
+  double width = 0;     ///< along the text
 };
 
 /// Sets text in STIX, as a paper does, and draws it into a finished image (FreeType).
@@ -34,6 +43,8 @@ class Typesetter {
 
   /// Pixels from the first to the last glyph, at angle 0. Throws Error for broken UTF-8 or unbalanced markup.
   double width(const std::string& markup, double size) const;
+  /// What the text covers; `at` is the place of its anchor. Throws Error likewise.
+  Extent extent(Point at, const std::string& markup, const TextStyle& style) const;
   /// Draws into an image of 3 components (unsigned char).
   void draw(vtkImageData& image, Point at, const std::string& markup, const TextStyle& style) const;
 

@@ -8,19 +8,25 @@
 
 namespace antilock::figures {
 
-View::View(const Eigen::AlignedBox3d& space, const Box& page, double azimuth, double elevation) : page_(page) {
+View::View(const Eigen::AlignedBox3d& space, const Eigen::AlignedBox3d& fitted, const Box& page, double azimuth,
+           double elevation)
+    : page_(page) {
   const double turn = azimuth * std::numbers::pi / 180, lift = elevation * std::numbers::pi / 180;
   towards_eye_ = {std::cos(lift) * std::sin(turn), -std::cos(lift) * std::cos(turn), std::sin(lift)};
   right_ = {std::cos(turn), std::sin(turn), 0};
   up_ = towards_eye_.cross(right_);
 
-  Eigen::AlignedBox2d seen;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Eigen::Vector3d at = space.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
-    seen.extend(Eigen::Vector2d(at.dot(right_), at.dot(up_)));
-  }
-  scale_ = std::min(page.width / seen.sizes().x(), page.height / seen.sizes().y());
-  focus_ = seen.center().x() * right_ + seen.center().y() * up_;
+  const auto seen = [&](const Eigen::AlignedBox3d& box) {
+    Eigen::AlignedBox2d shadow;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d at = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+      shadow.extend(Eigen::Vector2d(at.dot(right_), at.dot(up_)));
+    }
+    return shadow;
+  };
+  const Eigen::Vector2d size = seen(fitted).sizes(), centre = seen(space).center();
+  scale_ = std::min(page.width / size.x(), page.height / size.y());
+  focus_ = centre.x() * right_ + centre.y() * up_;
 }
 
 Point View::operator()(const Eigen::Vector3d& place) const {

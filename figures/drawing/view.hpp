@@ -13,8 +13,10 @@ namespace antilock::figures {
 /// lies on the page, so that text can be set there.
 class View {
  public:
-  /// `azimuth` turns the eye from the front (-y) towards +x, `elevation` lifts it; both in degrees.
-  View(const Eigen::AlignedBox3d& space, const Box& page, double azimuth, double elevation);
+  /// `azimuth` turns the eye from the front (-y) towards +x, `elevation` lifts it; both in degrees. The scale is that
+  /// at which `fitted` fills the box, so that views of different spaces compare.
+  View(const Eigen::AlignedBox3d& space, const Eigen::AlignedBox3d& fitted, const Box& page, double azimuth,
+       double elevation);
   Point operator()(const Eigen::Vector3d& place) const;
   vtkSmartPointer<vtkCamera> camera() const;
   /// Unit vector towards the eye.
@@ -23,7 +25,7 @@ class View {
  private:
   Eigen::Vector3d towards_eye_, right_, up_, focus_;
   Box page_;
-  double scale_;  // pixels a unit of length
+  double scale_;  // pixels per unit of length
 };
 
 }  // namespace antilock::figures

@@ -23,7 +23,8 @@ std::vector<Bar> read_bars(const Table& table, const BarStyle& style, const std:
   std::vector<Bar> bars;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (!selected(table, row, style.filters)) continue;
-    Bar bar{style.x_name.empty() ? key_markup(table, row, style.bar_by) : table.text(row, style.bar_by.front()), {}};
+    Bar bar{style.x_name.empty() ? row_meaning(table, row, style.bar_by).name : table.text(row, style.bar_by.front()),
+            {}};
     for (const std::string& part : style.parts) {
       const double value = table.number(row, part);
       if (!(value >= 0) || !std::isfinite(value))
@@ -45,15 +46,12 @@ Colour part_colour(std::size_t n, std::size_t count) { return viridis((n + 0.5) 
 Page bar_picture(const std::filesystem::path& file, const BarStyle& style) {
   const Table table(file);
   const auto bars = read_bars(table, style, file.string());
-  std::vector<std::string> names;
-  for (const std::string& part : style.parts) names.push_back(part);
-
-  constexpr double size = 42;
-  const int width = std::max(1800, static_cast<int>(300 + 170 * bars.size()));
-  Page measure(width, 100);
-  const double foot = legend_height(measure, names) + 200, head = 110 + (style.title.empty() ? 0 : 90);
-  Page page(width, static_cast<int>(900 + foot + head));
-  const Box box{220, foot, width - 280.0, 900};
+  const std::vector<std::string>& names = style.parts;
+  constexpr double size = number_size;
+  const Legend legend(Page(1), names);
+  const double foot = foot_margin + legend.height() + 30, head = 90 + (style.title.empty() ? 0 : 90);
+  Page page(800 + foot + head);
+  const Box box{230, foot, Page::width - 280.0, 800};
   const Axis percent = Axis::linear(0, 100);
   const double slot = box.width / static_cast<double>(bars.size());
 
@@ -75,13 +73,13 @@ Page bar_picture(const std::filesystem::path& file, const BarStyle& style) {
     page.text({middle, box.top() + 16}, fmt::format("{:.3g}{}", total, style.unit), {size, {0.5}});
   }
   page.rectangle(box, {3});
-  page.text({box.x - 130, box.centre().y}, "share (%)", {50, {0.5}, 90});
-  page.text({box.centre().x, box.y - 74}, style.x_name, {50, {0.5, Anchor::Height::top}});
-  draw_legend(page, names, 30, [&](std::size_t n, const Box& swatch) {
+  page.text({box.x - 130, box.centre().y}, "share (%)", {name_size, {0.5}, 90});
+  page.text({box.centre().x, box.y - 84}, style.x_name, {name_size, {0.5, Anchor::Height::top}});
+  legend.draw(page, 24, [&](std::size_t n, const Box& swatch) {
     page.fill(swatch, part_colour(n, names.size()));
     page.rectangle(swatch, {2});
   });
-  if (!style.title.empty()) page.text({0.5 * width, page.height() - 76.0}, style.title, {58, {0.5}});
+  if (!style.title.empty()) page.text({0.5 * Page::width, page.height() - 76.0}, style.title, {58, {0.5}});
   return page;
 }
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "drawing/colour_bar.hpp"
+#include "drawing/panel.hpp"
 #include "pictures/pictures.hpp"
 #include "pictures/solution_file.hpp"
 #include "pictures/table.hpp"
@@ -31,6 +31,15 @@ struct Frame {
   Point operator()(double x, double y) const { return origin + Point{scale * (x - x0), scale * (y - y0)}; }
 };
 
+/// Outside the scale: tension (or less than the scale begins with), and more than it ends with.
+const Beyond beyond{{0.72, 0.72, 0.72}, palette::vermillion};
+
+Colour colour_of(double pressure, const Range& range) {
+  return pressure < range.low    ? beyond.below
+         : pressure > range.high ? beyond.above
+                                 : viridis((pressure - range.low) / (range.high - range.low));
+}
+
 void draw_body(Page& page, const Frame& at, vtkPolyData& body, const Range& range, double thin) {
   vtkDataArray* pressure = body.GetCellData()->GetScalars();
   std::vector<std::vector<Point>> triangles;
@@ -40,11 +49,11 @@ void draw_body(Page& page, const Frame& at, vtkPolyData& body, const Range& rang
     body.GetCellPoints(cell, size, corners);
     std::vector<Point> triangle;
     for (int i = 0; i < 3; ++i) triangle.push_back(at(body.GetPoint(corners[i])[0], body.GetPoint(corners[i])[1]));
-    page.fill(triangle, viridis((pressure->GetTuple1(cell) - range.low) / (range.high - range.low)));
+    page.fill(triangle, colour_of(pressure->GetTuple1(cell), range));
     triangle.push_back(triangle.front());
     triangles.push_back(triangle);
   }
-  for (const auto& triangle : triangles) page.line(triangle, {thin, {0.15, 0.15, 0.15}});
+  for (const auto& triangle : triangles) page.line(triangle, {thin, {0.25, 0.25, 0.25}});
 }
 
 /// The obstacle fills everything below its line; strips, since a polygon must be convex.
@@ -73,24 +82,25 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
   for (std::size_t i = 0; obstacle && i < obstacle->rows(); ++i)
     seen.AddPoint(obstacle->number(i, "x"), obstacle->number(i, "y"), 0);
 
-  constexpr double body_width = 1000, gap = 90, margin = 70, head = 130, foot = 60, bar_room = 300;
+  constexpr double gap = 70, margin = 40, head = 100, foot = 40, bar_room = 280;
+  const auto count = static_cast<double>(bodies.size());
+  const double body_width = (Page::width - 2 * margin - bar_room - (count - 1) * gap) / count;
   const Frame unit{seen.GetBound(0), seen.GetBound(2), body_width / seen.GetLength(0), {0, 0}};
   const double body_height = unit.scale * seen.GetLength(1), bottom = seen.GetBound(2) - 0.02 * seen.GetLength(1);
-  const auto count = static_cast<double>(bodies.size());
-  Page page(static_cast<int>(std::max(1800.0, 2 * margin + count * body_width + (count - 1) * gap + bar_room)),
-            static_cast<int>(foot + body_height + head));
+  Page page(foot + body_height + head);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const double left = margin + static_cast<double>(i) * (body_width + gap);
     const Frame at{unit.x0, unit.y0, unit.scale, {left, foot}};
     if (obstacle) draw_obstacle(page, at, *obstacle, bottom);
-    draw_body(page, at, *read[i], style.range, read[i]->GetNumberOfCells() > 3000 ? 0.9 : 1.4);
+    draw_body(page, at, *read[i], style.range, 0.8);
     const vtkBoundingBox rest = at_rest(*read[i]);
     const Point low = at(rest.GetBound(0), rest.GetBound(2)), high = at(rest.GetBound(1), rest.GetBound(3));
-    page.line({low, {high.x, low.y}, high, {low.x, high.y}, low}, {4, palette::vermillion, {22, 14}});
-    page.text({left + 0.5 * body_width, page.height() - 84.0}, bodies[i].title, {58, {0.5}});
+    page.line({low, {high.x, low.y}, high, {low.x, high.y}, low}, {4, palette::ink, {22, 14}});
+    page.text({left + 0.5 * body_width, page.height() - 70.0}, bodies[i].title,
+              {name_size, {0.5}, 0, palette::ink, body_width});
   }
-  draw_colour_bar(page, {page.width() - bar_room + 60.0, foot + 0.15 * body_height, 60, 0.65 * body_height},
-                  style.range, style.name, 46);
+  draw_colour_bar(page, {Page::width - bar_room + 80.0, foot + 0.2 * body_height, 56, 0.55 * body_height}, style.range,
+                  style.name, beyond);
   return page;
 }
 

@@ -1,4 +1,4 @@
-// The labelled domains of Figures 1 and 2, from a table `kind,name,label,x,y`: a row a corner, in the order of
+// The labelled domains of Figures 1 and 2, from a table `kind,name,label,x,y`: one row per corner, in the order of
 // painting. Kinds: page (the two corners of the window), fill, line, arrow, dimension (an arrow both ways), obstacle (a
 // hatched edge), label (markup of typesetter.hpp at its place). The first word of the name chooses
 // the colour.
@@ -80,20 +80,19 @@ Page domain_picture(const std::filesystem::path& outline, const std::string& tit
     throw Error(fmt::format("{}: must open with two rows of kind page, the lower left and upper right corner",
                             outline.string()));
 
-  constexpr int width = 1800;
   const double head = title.empty() ? 0 : 120;
   const Point span = window.corners[1] - window.corners[0];
-  const double scale = width / span.x;
+  const double scale = Page::width / span.x;
   const double height = scale * span.y + head;
   if (!(height > 200 && height < 8000))
     throw Error(fmt::format("{}: the page is too flat or too tall", outline.string()));
 
-  Page page(width, static_cast<int>(height));
+  Page page(height);
   for (Part& part : parts) {
     for (Point& corner : part.corners) corner = scale * (corner - window.corners[0]);
     draw(page, part);
   }
-  if (!title.empty()) page.text({0.5 * width, height - 90}, title, {56, {0.5}});
+  if (!title.empty()) page.text({0.5 * Page::width, height - 90}, title, {56, {0.5}});
   return page;
 }
 

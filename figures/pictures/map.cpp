@@ -74,18 +74,20 @@ void draw_map(Page& page, const Panel& panel, const std::map<double, std::map<do
 }
 
 void draw_scale(Page& page, const Box& box, const Bands& bands, const std::string& name) {
-  constexpr double size = 42;
+  constexpr double size = number_size;
   for (int band = 0; band < bands.count(); ++band)
     page.fill(Box{box.x, box.y + band * box.height / bands.count(), box.width, box.height / bands.count()},
               bands.colour(band));
   page.rectangle(box, {2.5});
+  double widest = 0;
   for (int level = 0; level <= bands.count(); ++level) {  // every level line has its number, to two digits
     const double y = box.y + level * box.height / bands.count(), value = std::pow(10, bands.low + level * bands.step);
     page.line({{box.right(), y}, {box.right() + 12, y}}, {2.5});
-    page.text({box.right() + 24, y}, number_markup(std::stod(fmt::format("{:.2g}", value))),
-              {size, {0, Anchor::Height::middle}});
+    const std::string number = number_markup(std::stod(fmt::format("{:.2g}", value)));
+    page.text({box.right() + 24, y}, number, {size, {0, Anchor::Height::middle}});
+    widest = std::max(widest, page.text_width(number, size));
   }
-  page.text({box.right() + 170, box.centre().y}, name, {1.1 * size, {0.5}, 90});
+  page.text({box.right() + 24 + widest + 24 + name_size, box.centre().y}, name, {name_size, {0.5}, 90});
 }
 
 }  // namespace
@@ -93,15 +95,15 @@ void draw_scale(Page& page, const Box& box, const Bands& bands, const std::strin
 Page map_picture(const std::filesystem::path& file, const MapStyle& style) {
   const Table table(file);
   Grids grids;
-  std::vector<std::string> panels;
+  Meanings panels;
   std::vector<double> xs, ys, zs;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (!selected(table, row, style.filters)) continue;
     const double x = table.number(row, style.x), y = table.number(row, style.y), z = table.number(row, style.z);
     if (!(x > 0 && y > 0 && z > 0 && std::isfinite(x + y + z))) continue;
-    const std::string name = key_markup(table, row, style.panel_by);
-    if (!grids.contains(name)) panels.push_back(name);
-    grids[name][x][y] = std::log10(z);
+    const Meaning panel = row_meaning(table, row, style.panel_by);
+    panels.add(panel);
+    grids[panel.name][x][y] = std::log10(z);
     xs.push_back(x), ys.push_back(y), zs.push_back(std::log10(z));
   }
   if (zs.empty())
@@ -109,25 +111,30 @@ Page map_picture(const std::filesystem::path& file, const MapStyle& style) {
   const auto [x_low, x_high] = std::minmax_element(xs.begin(), xs.end());
   const auto [y_low, y_high] = std::minmax_element(ys.begin(), ys.end());
   const auto [z_low, z_high] = std::minmax_element(zs.begin(), zs.end());
-  const Axis x = Axis::logarithmic(*x_low, *x_high, 0), y = Axis::logarithmic(*y_low, *y_high, 0);
   const Bands bands(*z_low, *z_high);
 
-  const std::size_t count = panels.size(), columns = panel_columns(count), rows = (count + columns - 1) / columns;
-  const double panel_height = rows == 1 ? 900 : 640, gap_y = 110, head = 100 + (style.title.empty() ? 0 : 90),
-               foot = 170;
-  const int width = columns > 2 ? 2800 : columns > 1 ? 2300 : 1800;
-  Page page(width, static_cast<int>(rows * panel_height + (rows - 1) * gap_y + head + foot));
+  const std::size_t count = panels.size(), columns = panel_columns(count), rows = panel_rows(count);
+  const double panel_height = rows > 1 ? 560 : 760, gap_x = 60, gap_y = head_margin + 30;
+  const double head = head_margin + (style.title.empty() ? 0 : 90), foot = foot_margin + 10, scale_room = 330;
+  const double rows_height = static_cast<double>(rows) * panel_height + static_cast<double>(rows - 1) * gap_y;
+  Page page(rows_height + head + foot);
+  const Axis y = style.y == "h" ? Axis::halving(*y_low, *y_high, 0) : Axis::logarithmic(*y_low, *y_high, 0);
   const double left = left_margin(page, y);
-  const Box area{left, foot, width - left - 310, page.height() - foot - head};
-  const auto boxes = arrange_panels(count, area, 120, gap_y);
+  const Box area{left, foot, Page::width - left - scale_room, rows_height};
+  const auto boxes = arrange_panels(count, area, gap_x, gap_y);
+  const Axis x = Axis::logarithmic(*x_low, *x_high, 0, static_cast<int>(boxes[0].width / 170));
+  const auto titles = panels.names([&](const auto& names) {
+    return std::all_of(names.begin(), names.end(),
+                       [&](const std::string& name) { return page.text_width(name, name_size) <= boxes[0].width; });
+  });
   for (std::size_t i = 0; i < count; ++i) {
     const Panel panel{boxes[i], x, y};
-    draw_map(page, panel, grids.at(panels[i]), bands);
+    draw_map(page, panel, grids.at(panels[i].name), bands);
     draw_frame(page, panel,
-               {panels[i], i + columns >= count ? style.x_name : "", i % columns == 0 ? style.y_name : ""});
+               {titles[i], i + columns >= count ? style.x_name : "", i % columns == 0 ? style.y_name : ""});
   }
-  draw_scale(page, {area.right() + 60, area.y, 56, area.height}, bands, style.z_name);
-  if (!style.title.empty()) page.text({0.5 * width, page.height() - 76.0}, style.title, {58, {0.5}});
+  draw_scale(page, {area.right() + 40, area.y, 56, area.height}, bands, style.z_name);
+  if (!style.title.empty()) page.text({0.5 * Page::width, page.height() - 76.0}, style.title, {58, {0.5}});
   return page;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "antilock/mesh/msh_file.hpp"
+#include "drawing/panel.hpp"
 #include "pictures/pictures.hpp"
 
 namespace antilock::figures {
@@ -73,9 +74,9 @@ void draw_legend(Page& page, Point at, const TriangleMesh& mesh) {
 Page mesh_picture(const std::filesystem::path& file, const std::string& title) {
   const TriangleMesh mesh = read_msh(file.string());
   const Eigen::RowVector2d low = mesh.vertices.colwise().minCoeff(), span = mesh.vertices.colwise().maxCoeff() - low;
-  const double head = title.empty() ? 40 : 130, left = 170, foot = 150, right = 790,
-               scale = (1800 - left - right) / span.x();
-  Page page(1800, static_cast<int>(std::max(scale * span.y(), 1000.0) + foot + head));
+  const double head = title.empty() ? 40 : 130, left = 180, foot = 150, right = 840,
+               scale = (Page::width - left - right) / span.x();
+  Page page(std::max(scale * span.y(), 1000.0) + foot + head);
   const auto pixel = [&](const Eigen::RowVector2d& p) {
     return Point{left + scale * (p.x() - low.x()), foot + scale * (p.y() - low.y())};
   };
@@ -95,7 +96,7 @@ Page mesh_picture(const std::filesystem::path& file, const std::string& title) {
         page.line({a - extra, b + extra}, {9, group.colour});
       }
 
-  constexpr double size = 46;
+  constexpr double size = number_size;
   const double bottom = low.y(), top = low.y() + span.y();
   for (const double x : {low.x(), low.x() + 0.5 * span.x(), low.x() + span.x()})
     page.text(pixel({x, bottom}) + Point{0, -28}, fmt::format("{:g}", x), {size, {0.5, Anchor::Height::top}});
@@ -105,8 +106,8 @@ Page mesh_picture(const std::filesystem::path& file, const std::string& title) {
               {size, {1, Anchor::Height::middle}});
   page.text(pixel({low.x(), 0.5 * (bottom + top)}) + Point{-112, 0.25 * scale}, "$y$",
             {1.1 * size, {0.5, Anchor::Height::middle}});
-  draw_legend(page, {1800 - right + 110, foot + scale * span.y() - 60}, mesh);
-  if (!title.empty()) page.text({900, page.height() - 90.0}, title, {58, {0.5}});
+  draw_legend(page, {Page::width - right + 110, foot + scale * span.y() - 60}, mesh);
+  if (!title.empty()) page.text({0.5 * Page::width, page.height() - 90.0}, title, {58, {0.5}});
   return page;
 }
 

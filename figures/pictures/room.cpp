@@ -9,6 +9,7 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace antilock::figures {
@@ -37,27 +38,38 @@ void add_lines(vtkRenderer& renderer, const std::vector<std::pair<Vector, Vector
   renderer.AddActor(actor);
 }
 
-/// Numbers and a name along one edge of the room; `outward` points away from it.
+/// Numbers along one edge of the room; `outward` points away from it.
 void label_edge(Page& page, const View& view, const Axis& axis, const std::function<Vector(double)>& place,
-                const Vector& outward, const std::string& name, double size, double name_distance) {
+                const Vector& outward) {
   const Point full = view(place(axis.low()) + outward) - view(place(axis.low())), away = (1 / length(full)) * full;
   for (const Tick& t : axis.ticks()) {
     const Point at = view(place(t.value));
     page.line({at, at + 14.0 * away}, {2.5});
-    page.text(at + (0.75 * size + 8) * away, t.label, {size, {0.5 - 0.5 * away.x, Anchor::Height::middle}});
+    page.text(at + (0.75 * number_size + 6) * away, t.label,
+              {number_size, {0.5 - 0.5 * away.x, Anchor::Height::middle}});
   }
-  const Point middle = view(place(0.5 * (axis.low() + axis.high())));
-  page.text(middle + (name_distance * size) * away, name, {1.2 * size, {0.5, Anchor::Height::middle}});
+}
+
+/// The name of an edge, beside its middle.
+void name_edge(Page& page, Point from, Point to, Point beside, const std::string& name) {
+  page.text(0.5 * (from + to) + beside, name, {name_size, {0.5, Anchor::Height::middle}});
 }
 
 }  // namespace
 
-Room make_room(const vtkBoundingBox& domain, const Range& range, double height) {
+Room make_room(const vtkBoundingBox& domain, const Range& range, double height, RoomDetail detail) {
   double b[6];
   domain.GetBounds(b);
   const double factor = height / (range.high - range.low);
   const Eigen::AlignedBox3d space(Vector(b[0], b[2], factor * range.low), Vector(b[1], b[3], factor * range.high));
-  return {space, Axis::linear(b[0], b[1], 2), Axis::linear(b[2], b[3], 4), Axis::linear(range.low, range.high), factor};
+  const bool full = detail == RoomDetail::full;
+  const int along = std::max(1, static_cast<int>(std::lround((full ? 2 : 1) * (b[3] - b[2]))));  // 1/2 or 1 apart
+  return {space,
+          Axis::linear(b[0], b[1], full ? 2 : 1),
+          Axis::linear(b[2], b[3], along),
+          Axis::linear(range.low, range.high, full ? 5 : 2),
+          factor,
+          detail};
 }
 
 void add_walls(vtkRenderer& renderer, const Room& room) {
@@ -95,22 +107,27 @@ void add_walls(vtkRenderer& renderer, const Room& room) {
     add_lines(renderer, {{{low.x(), 0, low.z()}, {high.x(), 0, low.z()}}}, 4, palette::green);  // Sigma, on the floor
 }
 
-void label_room(Page& page, const View& view, const Room& room, const std::string& height, double size) {
+void label_room(Page& page, const View& view, const Room& room, const std::string& height) {
   const Vector &low = room.space.min(), &high = room.space.max();
-  label_edge(
-      page, view, room.x, [&](double v) { return Vector(v, low.y(), low.z()); }, {0, -1, 0}, "$x$", size, 2.9);
-  label_edge(
-      page, view, room.y, [&](double v) { return Vector(high.x(), v, low.z()); }, {1, 0, 0}, "$y$", size, 3.2);
-  label_edge(
-      page, view, room.u, [&](double v) { return Vector(low.x(), low.y(), room.factor * v); }, {-1, 0, 0}, height, size,
-      3.6);
+  label_edge(page, view, room.x, [&](double v) { return Vector(v, low.y(), low.z()); }, {0, -1, 0});
+  label_edge(page, view, room.y, [&](double v) { return Vector(high.x(), v, low.z()); }, {1, 0, 0});
+  label_edge(page, view, room.u, [&](double v) { return Vector(low.x(), low.y(), room.factor * v); }, {-1, 0, 0});
+  const Point left = view(low), front = view({high.x(), low.y(), low.z()}), right = view({high.x(), high.y(), low.z()});
+  const bool full = room.detail == RoomDetail::full;  // with numbers also in the middle of an edge
+  name_edge(page, left, front, full ? Point{-75, -110} : Point{-55, -75}, "$x$");
+  name_edge(page, front, right, full ? Point{110, -90} : Point{75, -75}, "$y$");
+  const Point top = view({low.x(), low.y(), high.z()});
+  name_edge(page, top, top, {-45, 64}, height);  // above its numbers
 
+  if (room.detail == RoomDetail::least) return;
   const double inset = high.x() - 0.1 * (high.x() - low.x());
   const Anchor centre{0.5, Anchor::Height::middle};
-  page.text(view({inset, 0.25 * high.y(), low.z()}), "$Ω^+$", {1.1 * size, centre, 0, {0.4, 0.4, 0.4}});
+  const Colour pale_ink{0.4, 0.4, 0.4};
+  const double share = full ? 0.25 : 0.45;
+  page.text(view({inset, share * high.y(), low.z()}), "$Ω^+$", {name_size, centre, 0, pale_ink});
   if (!(low.y() < 0)) return;
-  page.text(view({inset, 0.25 * low.y(), low.z()}), "$Ω^−$", {1.1 * size, centre, 0, {0.4, 0.4, 0.4}});
-  page.text(view({inset, 0, low.z()}) + Point{0, 0.7 * size}, "$Σ$", {1.1 * size, centre, 0, palette::green});
+  page.text(view({inset, share * low.y(), low.z()}), "$Ω^−$", {name_size, centre, 0, pale_ink});
+  page.text(view({inset, 0, low.z()}) + Point{0, 0.7 * name_size}, "$Σ$", {name_size, centre, 0, palette::green});
 }
 
 }  // namespace antilock::figures

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "antilock/scene/error.hpp"
-#include "drawing/axis.hpp"
 
 namespace antilock::figures {
 
@@ -17,11 +16,28 @@ bool selected(const Table& table, std::size_t row, const std::vector<std::string
   });
 }
 
-std::string key_markup(const Table& table, std::size_t row, const std::vector<std::string>& columns) {
-  std::string name;
-  for (const std::string& column : columns)
-    name += (name.empty() ? "" : ", ") + entry_markup(column, table.text(row, column));
-  return name;
+Meaning row_meaning(const Table& table, std::size_t row, const std::vector<std::string>& columns) {
+  std::vector<std::string> entries;
+  for (const std::string& column : columns) entries.push_back(table.text(row, column));
+  return meaning_of(columns, entries);
+}
+
+void Meanings::add(Meaning meaning) {
+  const auto named = [&](const Meaning& other) { return other.name == meaning.name; };
+  if (std::any_of(meanings_.begin(), meanings_.end(), named)) return;
+  if (!meaning.known) meaning.look = other_look(others_++);
+  const auto place = std::upper_bound(meanings_.begin(), meanings_.end(), meaning,
+                                      [](const Meaning& a, const Meaning& b) { return a.rank < b.rank; });
+  meanings_.insert(place, std::move(meaning));
+}
+
+std::vector<std::string> Meanings::names(const std::function<bool(const std::vector<std::string>&)>& fit) const {
+  std::vector<std::string> names, short_names;
+  for (const Meaning& meaning : meanings_) {
+    names.push_back(meaning.name);
+    short_names.push_back(meaning.short_name);
+  }
+  return fit(names) ? names : short_names;
 }
 
 }  // namespace antilock::figures

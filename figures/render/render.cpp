@@ -11,8 +11,8 @@
 #include <functional>
 
 #include "antilock/scene/error.hpp"
-#include "render/display.hpp"
 #include "pictures/pictures.hpp"
+#include "render/display.hpp"
 
 namespace {
 
@@ -22,11 +22,13 @@ using namespace antilock::figures;
 struct Request {
   std::string out, title;
   std::vector<std::string> inputs, titles;
-  std::vector<double> range{-0.25, 0.25}, own_range;
+  std::vector<double> range{-0.25, 0.25}, own_range, window{0, 1, -1, 1};
+  bool check_layout = false;
   std::string own_name = "$u$";
   double height_factor = 2;
   int grid = 0;
   ChartStyle chart;
+  PlanStyle plan;
   DeformedStyle deformed;
   CurvesStyle curves;
   MapStyle map;
@@ -39,6 +41,8 @@ CLI::App* add_picture(CLI::App& app, Request& request, const std::string& name, 
   CLI::App* picture = app.add_subcommand(name, what);
   picture->add_option(input, request.inputs, "the file to read")->required();
   picture->add_option("--out", request.out, "the PNG file to write")->required();
+  picture->add_flag("--check-layout", request.check_layout,
+                    "fail where a text is too small, leaves the page, or overlaps another one");
   return picture;
 }
 
@@ -64,13 +68,13 @@ void add_pictures(CLI::App& app, Request& request) {
 
   auto* surface =
       add_picture(app, request, "surface", "solutions as surfaces, side by side (Figures 4, 5, 7, 8)", "SOLUTION.vtu");
-  surface->add_option("--title", request.titles, "a title each");
+  surface->add_option("--title", request.titles, "one title per solution");
   surface->add_option("--range", request.range, "smallest and largest u of the scale")
       ->expected(2)
       ->capture_default_str();
   surface->add_option("--last-range", request.own_range, "draw the last surface on this scale of its own")->expected(2);
   surface->add_option("--last-name", request.own_name, "what that scale measures")->capture_default_str();
-  surface->add_option("--height", request.height_factor, "length drawn for a unit of u")
+  surface->add_option("--height", request.height_factor, "length drawn for one unit of u")
       ->check(CLI::Range(0.01, 100.0));
   surface->add_option("--grid", request.grid, "draw lines x, y = k / GRID in place of the mesh's edges")
       ->check(CLI::Range(1, 256));
@@ -84,8 +88,22 @@ void add_pictures(CLI::App& app, Request& request) {
     };
   });
 
+  auto* plan = add_picture(app, request, "plan", "solutions seen from above, three per row", "SOLUTION.vtu");
+  plan->add_option("--title", request.titles, "one title per solution");
+  plan->add_option("--row-title", request.plan.row_titles, "one title per row");
+  plan->add_option("--range", request.range, "smallest and largest u of the colours")->expected(2)->required();
+  plan->add_option("--window", request.window, "x from and to, y from and to")->expected(4);
+  plan->callback([&] {
+    request.draw = [&] {
+      const auto& w = request.window;
+      request.plan.range = {request.range[0], request.range[1]};
+      request.plan.x = {w[0], w[1]}, request.plan.y = {w[2], w[3]};
+      return plan_picture(titled(request), request.plan);
+    };
+  });
+
   auto* deformed = add_picture(app, request, "deformed", "deformed bodies, side by side", "SOLUTION.vtu");
-  deformed->add_option("--title", request.titles, "a title each");
+  deformed->add_option("--title", request.titles, "one title per solution");
   deformed->add_option("--range", request.range, "smallest and largest value of the colours")->expected(2)->required();
   deformed->add_option("--name", request.deformed.name, "what the colours are")->capture_default_str();
   deformed->add_option("--obstacle", request.deformed.obstacle, "table x,y of the line below them");
@@ -101,13 +119,10 @@ void add_pictures(CLI::App& app, Request& request) {
   chart->add_option("--y", request.chart.y, "column")->required();
   chart->add_option("--x-name", request.chart.x_name, "name of the axis (default: the column)");
   chart->add_option("--y-name", request.chart.y_name, "name of the axis (default: the column)");
-  chart->add_option("--x-least", request.chart.x_least, "column: the smallest x of a point");
-  chart->add_option("--x-most", request.chart.x_most, "column: the largest x of a point");
   chart->add_option("--panel-by", request.chart.panel_by, "columns whose values make panels")->delimiter(',');
   chart->add_option("--series-by", request.chart.series_by, "columns whose values make curves")->delimiter(',');
-  chart->add_option("--colour-by", request.chart.colour_by, "column whose values make colours (default: the series)");
   chart->add_option("--only", request.chart.filters, "column=value: only these rows");
-  chart->add_option("--slope", request.chart.slopes, "triangles of these slopes")->delimiter(',');
+  chart->add_option("--slope", request.chart.slopes, "lines of these slopes")->delimiter(',');
   chart->add_option("--title", request.chart.title);
   chart->callback([&] {
     request.draw = [&] {
@@ -122,8 +137,10 @@ void add_pictures(CLI::App& app, Request& request) {
   curves->add_option("--x-name", request.curves.x_name, "name of the axis (default: the column)");
   curves->add_option("--panel", request.curves.panels, "a panel: 'COLUMN COLUMN ...', - for none")->required();
   curves->add_option("--y-name", request.curves.y_names, "name of a panel's axis (default: its columns)");
-  curves->add_option("--name", request.curves.names, "of each curve, for the legend")->required();
-  curves->add_flag("--truth-first", request.curves.truth_first, "the first curve lies behind the others");
+  curves->add_option("--curve", request.curves.meanings, "what each curve is: a key of styles.cpp, or 'KEY: more'")
+      ->required();
+  curves->add_option("--stems", request.curves.stems, "panels (1, 2, ...) whose values stand alone");
+  curves->add_flag("--jumps", request.curves.jumps, "break curves where they jump");
   curves->callback([&] {
     request.draw = [&] {
       default_name(request.curves.x_name, request.curves.x);
@@ -150,7 +167,7 @@ void add_pictures(CLI::App& app, Request& request) {
     };
   });
 
-  auto* bars = add_picture(app, request, "bars", "stacked bars, one a row", "TABLE.csv");
+  auto* bars = add_picture(app, request, "bars", "stacked bars, one per row", "TABLE.csv");
   bars->add_option("--parts", request.bars.parts, "columns to stack")->delimiter(',')->required();
   bars->add_option("--bar-by", request.bars.bar_by, "columns that name a bar")->delimiter(',')->required();
   bars->add_option("--x-name", request.bars.x_name, "name of the axis");
@@ -192,7 +209,12 @@ int main(int argc, char** argv) {
   try {
     const DisplayConnection display = connect_display();
     vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said in one line, below
-    request.draw().save(request.out);
+    const Page page = request.draw();
+    if (request.check_layout) {
+      if (const auto fault = page.layout_fault()) return fail(*fault);
+      fmt::print("smallest type {:.2f} pixels where the picture is {} wide\n", page.smallest_type(), shown_width);
+    }
+    page.save(request.out);
   } catch (const std::exception& error) {
     return fail(error.what());
   }
