@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "drawing/axis.hpp"
 #include "drawing/panel.hpp"
 

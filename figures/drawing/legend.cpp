@@ -10,9 +10,17 @@ constexpr double size = 48, swatch_width = 100, space = 20, gap = 64, line_heigh
 }  // namespace
 
 Legend::Legend(const Page& page, const std::vector<std::string>& names) : names_(names) {
-  for (std::size_t n = 0; n < names.size(); ++n) {
-    widths_.push_back(swatch_width + space + page.text_width(names[n], size));
-    if (lines_.empty() || lines_.back().width + gap + widths_[n] > Page::width - 2 * edge) lines_.push_back({{}, -gap});
+  for (const std::string& name : names) widths_.push_back(swatch_width + space + page.text_width(name, size));
+  break_lines(names.size());
+  if (!lines_.empty()) break_lines((names.size() + lines_.size() - 1) / lines_.size());  // about as many in each
+}
+
+void Legend::break_lines(std::size_t most) {
+  lines_.clear();
+  for (std::size_t n = 0; n < names_.size(); ++n) {
+    const bool full = !lines_.empty() && (lines_.back().entries.size() == most ||
+                                          lines_.back().width + gap + widths_[n] > Page::width - 2 * edge);
+    if (lines_.empty() || full) lines_.push_back({{}, -gap});
     lines_.back().entries.push_back(n);
     lines_.back().width += gap + widths_[n];
   }

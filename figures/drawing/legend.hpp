@@ -27,6 +27,7 @@ class Legend {
     std::vector<std::size_t> entries;
     double width;
   };
+  void break_lines(std::size_t most);  // entries per line
   std::vector<std::string> names_;
   std::vector<double> widths_;  // of the names
   std::vector<Line> lines_;

@@ -29,7 +29,6 @@ const Row rows[] = {
     {"P1 layered", "$P_1$, layered mesh", "$P_1$ layered", {olive, down_triangle, 6}},
     {"CR structured", "Crouzeix–Raviart, structured mesh", "CR structured", {green, diamond, 4.5}},
     {"CR unstructured", "Crouzeix–Raviart, unstructured mesh", "CR unstructured", {purple, triangle, 8.5}},
-    {"P2 structured", "$P_2$, structured mesh", "$P_2$ structured", {indigo, down_triangle, 6}},
     {"P1", "$P_1$", "", {blue, circle, 6.5}},
     {"CR", "Crouzeix–Raviart", "CR", {purple, triangle, 8.5}},
     {"P2", "$P_2$", "", {indigo, down_triangle, 6}},
@@ -46,11 +45,11 @@ const Row rows[] = {
     {"glue at every point", "glue at every point", "", {vermillion, square, 9}},
     {"glue against hat functions", "glue against hat functions", "", {blue, circle, 6}},
     // solvers, and the two ways to hold the stiff form
-    {"split form", "split form", "", {blue, circle, 10}},
-    {"cure in 20 lines", "cure in 20 lines", "", {sky, square, 5}},
-    {"sum: Cholesky", "sum: Cholesky", "", {vermillion, square, 6}},
-    {"sum: LU", "sum: LU", "", {purple, triangle, 6}},
-    {"sum: CG + ILUT", "sum: CG + ILUT", "", {olive, down_triangle, 6}},
+    {"split form", "split form", "", {blue, circle, 10.5}},
+    {"cure in 20 lines", "cure in 20 lines", "", {sky, square, 3.5}},
+    {"sum: Cholesky", "sum: Cholesky", "", {vermillion, square, 8}},
+    {"sum: LU", "sum: LU", "", {purple, triangle, 6.5}},
+    {"sum: CG + ILUT", "sum: CG + ILUT", "", {olive, down_triangle, 5}},
     {"active set", "active set", "", {blue, circle, 9}},
     {"Uzawa, Cholesky", "Uzawa, Cholesky", "", {vermillion, square, 6}},
     {"Uzawa, CG + ILUT", "Uzawa, CG + ILUT", "", {olive, down_triangle, 6}},
@@ -134,7 +133,7 @@ Meaning meaning_of(const std::vector<std::string>& columns, const std::vector<st
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Meaning part = find(key_of(columns[i], entries[i])).value_or(unknown(columns[i], entries[i]));
     together.name.append(i == 0 ? "" : ", ").append(part.name);
-    together.short_name.append(i == 0 ? "" : ", ").append(part.short_name);
+    together.short_name.append(i == 0 ? 0 : 1, ' ').append(part.short_name);
     together.rank.insert(together.rank.end(), part.rank.begin(), part.rank.end());
     together.known = together.known && part.known;
     if (i == 0) together.look = part.look;

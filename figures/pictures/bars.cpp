@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "drawing/legend.hpp"
 #include "drawing/panel.hpp"
 #include "pictures/pictures.hpp"

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "drawing/legend.hpp"
 #include "pictures/chart_marks.hpp"
 #include "pictures/pictures.hpp"
@@ -121,8 +121,9 @@ void draw_curves(Page& page, const Panel& panel, const Curves& curves, std::size
   draw_strip(page, panel, failures, curves.failing.size());
 }
 
-Axis x_axis(const ChartStyle& style, double low, double high, int most) {
-  return style.x == "h" ? Axis::halving(low, high, 0.07, most) : Axis::logarithmic(low, high, 0.07, most);
+Axis x_axis(const ChartStyle& style, double low, double high, double width) {
+  return style.x == "h" ? Axis::halving(low, high, 0.07, static_cast<int>(width / 130))
+                        : Axis::logarithmic(low, high, 0.07, static_cast<int>(width / 170));
 }
 
 }  // namespace
@@ -161,7 +162,7 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
   const double left = left_margin(page, y);
   const Box area{left, foot, Page::width - left - 50, rows_height};
   const auto boxes = arrange_panels(count, area, gap_x, gap_y);
-  const Axis x = x_axis(style, low.x, high.x, static_cast<int>(boxes[0].width / 170));
+  const Axis x = x_axis(style, low.x, high.x, boxes[0].width);
   const auto titles = curves.panels.names([&](const auto& names) {
     return std::all_of(names.begin(), names.end(),
                        [&](const std::string& name) { return page.text_width(name, name_size) <= boxes[0].width; });

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "drawing/legend.hpp"
 #include "drawing/panel.hpp"
 #include "drawing/styles.hpp"

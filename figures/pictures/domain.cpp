@@ -6,7 +6,7 @@
 
 #include <map>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "pictures/pictures.hpp"
 #include "pictures/table.hpp"
 

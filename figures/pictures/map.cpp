@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "drawing/panel.hpp"
 #include "pictures/pictures.hpp"
 #include "pictures/selection.hpp"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "drawing/panel.hpp"
 #include "drawing/view.hpp"
 #include "pictures/pictures.hpp"
@@ -18,7 +18,7 @@ Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style) 
   constexpr std::size_t columns = 3;
   const std::size_t count = surfaces.size(), rows = (count + columns - 1) / columns;
   const Axis x = Axis::linear(style.x.low, style.x.high, 2), y = Axis::linear(style.y.low, style.y.high, 3);
-  const double bar_room = 230, gap = 50, row_head = style.row_titles.empty() ? 0 : 90, foot = foot_margin;
+  const double bar_room = 230, gap = 90, row_head = style.row_titles.empty() ? 0 : 90, foot = foot_margin;
   const double left = left_margin(Page(1), y);
   const double width = (Page::width - left - bar_room - (columns - 1) * gap) / columns,
                height = width * (style.y.high - style.y.low) / (style.x.high - style.x.low);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock::figures {
 

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <functional>
 
-#include "antilock/scene/error.hpp"
+#include "antilock/core/error.hpp"
 #include "pictures/pictures.hpp"
 #include "render/display.hpp"
 
