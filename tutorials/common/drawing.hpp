@@ -10,7 +10,7 @@ struct DomainNames {
 };
 
 /// The domain with a layer of this depth, as a table of shapes: kind, name (its first word chooses the colour), label,
-/// x, y; one row per corner. figures/drawing.cpp reads it. The obstacle is drawn apart from Gamma_C, to be seen; in the
+/// x, y; one row per corner. figures/pictures/domain.cpp reads it. The obstacle is drawn apart from Gamma_C, to be seen; in the
 /// problem they touch where u = 0.
 void write_drawing(const std::filesystem::path& path, double depth, const DomainNames& names);
 

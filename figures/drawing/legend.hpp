@@ -1,0 +1,36 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "drawing/page.hpp"
+
+namespace antilock::figures {
+
+/// Draws the sample of entry n within a box.
+using Swatch = std::function<void(std::size_t n, const Box& box)>;
+
+/// A legend of these names: in centred lines over the page's width, or one below the other in a box.
+class Legend {
+ public:
+  Legend(const Page& page, const std::vector<std::string>& names);
+  std::size_t lines() const { return lines_.size(); }
+  double height() const;
+  void draw(Page& page, double bottom, const Swatch& swatch) const;
+  /// One entry per line, centred in the box.
+  void draw_in(Page& page, const Box& box, const Swatch& swatch) const;
+  /// The width of a box that holds every entry.
+  double column_width() const;
+
+ private:
+  struct Line {
+    std::vector<std::size_t> entries;
+    double width;
+  };
+  void break_lines(std::size_t most);  // entries per line
+  std::vector<std::string> names_;
+  std::vector<double> widths_;  // of the names
+  std::vector<Line> lines_;
+};
+
+}  // namespace antilock::figures

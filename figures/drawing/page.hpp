@@ -1,0 +1,74 @@
+#pragma once
+#include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drawing/colours.hpp"
+#include "drawing/geometry.hpp"
+#include "drawing/layout.hpp"
+#include "drawing/shapes.hpp"
+#include "drawing/typesetter.hpp"
+
+class vtkContext2D;
+
+namespace antilock::figures {
+
+struct Stroke {
+  double width = 3;  ///< pixels
+  Colour colour = palette::ink;
+  std::vector<double> dashes = {};  ///< drawn, skipped, drawn, ... in pixels; empty: solid
+};
+
+/// One picture: three-dimensional scenes below, drawing above, text on top. White, units of pixels, rendered larger and
+/// averaged down, which smooths every edge.
+class Page {
+ public:
+  static constexpr int oversampling = 3;  ///< pixels rendered per pixel written, each way
+  static constexpr int width = 1920;      ///< of every picture, so that a size of type means the same in all of them
+
+  explicit Page(double height) : height_(static_cast<int>(height)) {}
+  int height() const { return height_; }
+
+  void line(const std::vector<Point>& points, const Stroke& stroke = {});
+  void rectangle(const Box& box, const Stroke& stroke = {});
+  /// A filled convex polygon.
+  void fill(const std::vector<Point>& corners, const Colour& colour, double opacity = 1);
+  void fill(const Box& box, const Colour& colour, double opacity = 1);
+  /// A filled marker of about the given diameter with a white rim; at one place, a smaller one shows on a larger one.
+  void marker(Point at, Marker shape, double size, const Colour& colour);
+  /// An arrow from one point to another, with a filled head.
+  void arrow(Point from, Point to, const Stroke& stroke = {});
+  void text(Point at, const std::string& markup, const TextStyle& style = {});
+  double text_width(const std::string& markup, double size) const { return typesetter_.width(markup, size); }
+  /// Shows a renderer in part of the page.
+  void scene(vtkSmartPointer<vtkRenderer> renderer, const Box& where);
+
+  /// What is wrong with the texts, one line: too small, over each other, wider than allowed or off the page
+  /// (layout.hpp).
+  std::optional<std::string> layout_fault() const;
+  /// The smallest em on the page, scripts included, in pixels of a picture shown `shown_width` wide (layout.hpp).
+  double smallest_type() const;
+
+  /// Renders and writes a PNG file, whole or not at all. Throws Error where it cannot be written.
+  void save(const std::filesystem::path& path) const;
+
+ private:
+  struct Text {
+    Point at;
+    std::string markup;
+    TextStyle style;
+  };
+  std::vector<LaidText> laid_texts() const;
+  int height_;
+  std::vector<vtkSmartPointer<vtkRenderer>> scenes_;
+  std::vector<std::function<void(vtkContext2D&)>> strokes_;  // in the order in which they are painted
+  std::vector<Text> texts_;
+  Typesetter typesetter_;
+};
+
+}  // namespace antilock::figures

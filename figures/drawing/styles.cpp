@@ -1,0 +1,155 @@
+#include "drawing/styles.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "drawing/axis.hpp"
+
+namespace antilock::figures {
+namespace {
+
+using namespace palette;
+using enum Marker;
+
+struct Row {
+  const char *key, *name, *short_name;
+  Look look;
+};
+
+/// Every meaning, in the order of panels and legends. Vermillion and red stand for what locks or is nearly locked, and
+/// have the widest lines; exact values lie broad and grey below the others.
+const Row rows[] = {
+    {"exact", "exact", "", {grey, circle, 14}},
+    // methods: an element, or an element and its mesh
+    {"P1 structured", "$P_1$, structured mesh", "$P_1$ structured", {blue, circle, 6.5}},
+    {"P1 unstructured", "$P_1$, unstructured mesh", "$P_1$ unstructured", {vermillion, square, 10}},
+    {"P1 layered", "$P_1$, layered mesh", "$P_1$ layered", {olive, down_triangle, 6}},
+    {"CR structured", "Crouzeix–Raviart, structured mesh", "CR structured", {green, diamond, 4.5}},
+    {"CR unstructured", "Crouzeix–Raviart, unstructured mesh", "CR unstructured", {purple, triangle, 8.5}},
+    {"P1", "$P_1$", "", {blue, circle, 6.5}},
+    {"CR", "Crouzeix–Raviart", "CR", {purple, triangle, 8.5}},
+    {"P2", "$P_2$", "", {indigo, down_triangle, 6}},
+    {"P3", "$P_3$", "", {olive, diamond, 6}},
+    {"P4", "$P_4$", "", {black, triangle, 6}},
+    // methods of nearly incompressible elasticity
+    {"P1 right diagonals", "$P_1$, right diagonals", "", {blue, circle, 9}},
+    {"P1 crossed triangles", "$P_1$, crossed triangles", "", {indigo, down_triangle, 9}},
+    {"Crouzeix-Raviart with jumps", "Crouzeix–Raviart with jumps", "CR with jumps", {green, diamond, 6.5}},
+    {"Kouhia-Stenberg", "Kouhia–Stenberg", "", {black, triangle, 4}},
+    // integration of the beam, glue of the strings
+    {"full integration", "full integration", "", {vermillion, square, 8}},
+    {"reduced integration", "reduced integration", "", {blue, circle, 6}},
+    {"glue at every point", "glue at every point", "", {vermillion, square, 9}},
+    {"glue against hat functions", "glue against hat functions", "", {blue, circle, 6}},
+    // solvers, and the two ways to hold the stiff form
+    {"split form", "split form", "", {blue, circle, 10.5}},
+    {"cure in 20 lines", "cure in 20 lines", "", {sky, square, 3.5}},
+    {"sum: Cholesky", "sum: Cholesky", "", {vermillion, square, 8}},
+    {"sum: LU", "sum: LU", "", {purple, triangle, 6.5}},
+    {"sum: CG + ILUT", "sum: CG + ILUT", "", {olive, down_triangle, 5}},
+    {"active set", "active set", "", {blue, circle, 9}},
+    {"Uzawa, Cholesky", "Uzawa, Cholesky", "", {vermillion, square, 6}},
+    {"Uzawa, CG + ILUT", "Uzawa, CG + ILUT", "", {olive, down_triangle, 6}},
+    {"FreeFEM", "FreeFEM", "", {black, diamond, 6}},
+    {"error of the iterate", "error", "", {blue, circle, 6}},
+    {"its algebraic part", "its algebraic part", "", {olive, diamond, 5}},
+    {"accurate enough: stop", "Uzawa stops here", "", {vermillion, square, 9}},
+    // estimates and what they estimate
+    {"estimate $h = 1/8$", "estimate, $h = 1/8$", "", {vermillion, square, 9}},
+    {"estimate $h = 1/32$", "estimate, $h = 1/32$", "", {olive, down_triangle, 5}},
+    {"error $h = 1/8$", "error, $h = 1/8$", "", {blue, circle, 9}},
+    {"error $h = 1/32$", "error, $h = 1/32$", "", {indigo, diamond, 6}},
+    {"$h = 1/8$", "$h = 1/8$", "", {sky, circle, 6}},
+    {"$h = 1/16$", "$h = 1/16$", "", {blue, square, 7}},
+    {"$h = 1/32$", "$h = 1/32$", "", {indigo, diamond, 9}},
+    // epsilon: the smaller, the stronger
+    {"epsilon 1", "$ε = 1$", "", {grey, circle, 5}},
+    {"epsilon 0.1", "$ε = 10^{−1}$", "", {sky, square, 6}},
+    {"epsilon 0.01", "$ε = 10^{−2}$", "", {green, diamond, 7}},
+    {"epsilon 0.001", "$ε = 10^{−3}$", "", {olive, down_triangle, 7.5}},
+    {"epsilon 0.0001", "$ε = 10^{−4}$", "", {purple, triangle, 8}},
+    {"epsilon 1e-05", "$ε = 10^{−5}$", "", {indigo, circle, 9}},
+    {"epsilon 1e-06", "$ε = 10^{−6}$", "", {red, square, 10}},
+    {"epsilon 0", "$ε = 0$", "", {black, square, 10}},
+    // panels alone
+    {"structured", "structured mesh", "structured", {blue, circle, 6}},
+    {"unstructured", "unstructured mesh", "unstructured", {vermillion, square, 6}},
+    {"layered", "layered mesh", "layered", {olive, down_triangle, 6}},
+    {"cells 16", "$h = 1/16$", "", {sky, circle, 6}},
+    {"cells 32", "$h = 1/32$", "", {blue, square, 7}},
+    {"cells 64", "$h = 1/64$", "", {indigo, diamond, 9}},
+};
+
+/// An entry as the table above writes it: numbers of epsilon and cells with the column, each in one form.
+std::string key_of(const std::string& column, const std::string& entry) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), number);
+  if (error != std::errc{} || end != entry.data() + entry.size()) return entry;
+  return fmt::format("{} {:g}", column, number);
+}
+
+std::optional<Meaning> find(const std::string& key) {
+  for (int i = 0; const Row& row : rows) {
+    const std::string name = row.name, short_name = row.short_name;
+    if (row.key == key) return Meaning{name, short_name.empty() ? name : short_name, {i}, row.look};
+    ++i;
+  }
+  return std::nullopt;
+}
+
+/// What the table does not have is drawn in a look of its own, after everything that it has.
+Meaning unknown(const std::string& column, const std::string& entry) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), number);
+  const bool numeric = error == std::errc{} && end == entry.data() + entry.size();
+  const std::string name =
+      numeric ? fmt::format("{} = {}", column == "epsilon" ? "$ε$" : column, number_markup(number)) : entry;
+  return {name, name, {static_cast<int>(std::size(rows))}, {black, cross, 5}, false};
+}
+
+}  // namespace
+
+std::vector<std::string> known_keys() {
+  std::vector<std::string> keys;
+  for (const Row& row : rows) keys.emplace_back(row.key);
+  return keys;
+}
+
+Look other_look(std::size_t n) {
+  static const Look looks[] = {{blue, circle, 7},     {vermillion, square, 7},     {green, diamond, 6},
+                               {purple, triangle, 6}, {olive, down_triangle, 5.5}, {indigo, circle, 5}};
+  return looks[n % std::size(looks)];
+}
+
+Meaning meaning_of(const std::vector<std::string>& columns, const std::vector<std::string>& entries) {
+  std::string key;
+  for (std::size_t i = 0; i < entries.size(); ++i)
+    key.append(i == 0 ? 0 : 1, ' ').append(key_of(columns[i], entries[i]));
+  if (auto meaning = find(key)) return *meaning;
+  Meaning together;  // part by part; drawn like the first
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Meaning part = find(key_of(columns[i], entries[i])).value_or(unknown(columns[i], entries[i]));
+    together.name.append(i == 0 ? "" : ", ").append(part.name);
+    together.short_name.append(i == 0 ? 0 : 1, ' ').append(part.short_name);
+    together.rank.insert(together.rank.end(), part.rank.begin(), part.rank.end());
+    together.known = together.known && part.known;
+    if (i == 0) together.look = part.look;
+  }
+  return together;
+}
+
+Meaning meaning_of(const std::string& key) {
+  if (auto meaning = find(key)) return *meaning;
+  if (const auto colon = key.find(": "); colon != std::string::npos)
+    if (auto meaning = find(key.substr(0, colon))) {
+      meaning->name += key.substr(colon);
+      meaning->short_name += key.substr(colon);
+      return *meaning;
+    }
+  return unknown("", key);
+}
+
+}  // namespace antilock::figures

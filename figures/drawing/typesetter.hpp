@@ -1,0 +1,56 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "drawing/geometry.hpp"
+
+class vtkImageData;
+
+namespace antilock::figures {
+
+/// Where the given place lies in a text: across from its left (0) to its right end (1), and on its height.
+struct Anchor {
+  enum class Height { baseline, middle, top };
+  double across = 0;
+  Height height = Height::baseline;
+};
+
+struct TextStyle {
+  double size = 48;  ///< of an em, in pixels
+  Anchor anchor = {};
+  double angle = 0;  ///< degrees, counterclockwise
+  Colour colour = {0.13, 0.13, 0.13};
+  std::optional<double> most = {};  ///< the width that the text must not exceed (a title: its panel's), in pixels
+};
+
+/// What a text covers on the page.
+struct Extent {
+  Box ink;              ///< around its glyphs
+  double smallest = 0;  ///< em of the smallest glyph: a text's size, or that of its scripts
+  double width = 0;     ///< along the text
+};
+
+/// Sets text in STIX, as a paper does, and draws it into a finished image (FreeType).
+/// Markup is UTF-8 with mathematics between dollars, as in `the layer $Ω_ε^−$, $u ≥ 0$`: there Latin and small Greek
+/// letters are italic, and `_` and `^` take one character or a {group} below and above the line (both: stacked).
+class Typesetter {
+ public:
+  Typesetter();  ///< throws Error where the fonts cannot be read
+  ~Typesetter();
+  Typesetter(Typesetter&&) noexcept;
+  Typesetter& operator=(Typesetter&&) noexcept;
+
+  /// Pixels from the first to the last glyph, at angle 0. Throws Error for broken UTF-8 or unbalanced markup.
+  double width(const std::string& markup, double size) const;
+  /// What the text covers; `at` is the place of its anchor. Throws Error likewise.
+  Extent extent(Point at, const std::string& markup, const TextStyle& style) const;
+  /// Draws into an image of 3 components (unsigned char).
+  void draw(vtkImageData& image, Point at, const std::string& markup, const TextStyle& style) const;
+
+ private:
+  struct Fonts;
+  std::unique_ptr<Fonts> fonts_;
+};
+
+}  // namespace antilock::figures

@@ -1,0 +1,107 @@
+// Deformed bodies side by side, coloured by pressure, over the obstacle they are pressed on.
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkPointData.h>
+
+#include <algorithm>
+
+#include "drawing/panel.hpp"
+#include "pictures/pictures.hpp"
+#include "pictures/solution_file.hpp"
+#include "pictures/table.hpp"
+
+namespace antilock::figures {
+namespace {
+
+/// Where the points were before they moved.
+vtkBoundingBox at_rest(vtkPolyData& body) {
+  vtkBoundingBox box;
+  vtkDataArray* moved = body.GetPointData()->GetArray("displacement");
+  for (vtkIdType i = 0; i < body.GetNumberOfPoints(); ++i) {
+    const double* p = body.GetPoint(i);
+    box.AddPoint(p[0] - moved->GetComponent(i, 0), p[1] - moved->GetComponent(i, 1), 0);
+  }
+  return box;
+}
+
+/// From places in the body to places on the page.
+struct Frame {
+  double x0, y0, scale;
+  Point origin;
+  Point operator()(double x, double y) const { return origin + Point{scale * (x - x0), scale * (y - y0)}; }
+};
+
+/// Outside the scale: tension (or less than the scale begins with), and more than it ends with.
+const Beyond beyond{{0.72, 0.72, 0.72}, palette::vermillion};
+
+Colour colour_of(double pressure, const Range& range) {
+  return pressure < range.low    ? beyond.below
+         : pressure > range.high ? beyond.above
+                                 : viridis((pressure - range.low) / (range.high - range.low));
+}
+
+void draw_body(Page& page, const Frame& at, vtkPolyData& body, const Range& range, double thin) {
+  vtkDataArray* pressure = body.GetCellData()->GetScalars();
+  std::vector<std::vector<Point>> triangles;
+  for (vtkIdType cell = 0; cell < body.GetNumberOfCells(); ++cell) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    body.GetCellPoints(cell, size, corners);
+    std::vector<Point> triangle;
+    for (int i = 0; i < 3; ++i) triangle.push_back(at(body.GetPoint(corners[i])[0], body.GetPoint(corners[i])[1]));
+    page.fill(triangle, colour_of(pressure->GetTuple1(cell), range));
+    triangle.push_back(triangle.front());
+    triangles.push_back(triangle);
+  }
+  for (const auto& triangle : triangles) page.line(triangle, {thin, {0.25, 0.25, 0.25}});
+}
+
+/// The obstacle fills everything below its line; strips, since a polygon must be convex.
+void draw_obstacle(Page& page, const Frame& at, const Table& line, double bottom) {
+  for (std::size_t i = 0; i + 1 < line.rows(); ++i) {
+    const double x0 = line.number(i, "x"), x1 = line.number(i + 1, "x"), y0 = line.number(i, "y"),
+                 y1 = line.number(i + 1, "y");
+    page.fill({at(x0, bottom), at(x1, bottom), at(x1, y1), at(x0, y0)}, palette::pale);
+    page.line({at(x0, y0), at(x1, y1)}, {5, palette::ink});
+  }
+}
+
+}  // namespace
+
+Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& style) {
+  check(style.range);
+  std::vector<vtkSmartPointer<vtkPolyData>> read;
+  vtkBoundingBox seen;
+  for (const Surface& body : bodies) {
+    read.push_back(read_deformed(body.solution));
+    seen.AddBounds(read.back()->GetBounds());
+    seen.AddBox(at_rest(*read.back()));
+  }
+  std::optional<Table> obstacle;
+  if (!style.obstacle.empty()) obstacle.emplace(style.obstacle);
+  for (std::size_t i = 0; obstacle && i < obstacle->rows(); ++i)
+    seen.AddPoint(obstacle->number(i, "x"), obstacle->number(i, "y"), 0);
+
+  constexpr double gap = 70, margin = 40, head = 100, foot = 40, bar_room = 280;
+  const auto count = static_cast<double>(bodies.size());
+  const double body_width = (Page::width - 2 * margin - bar_room - (count - 1) * gap) / count;
+  const Frame unit{seen.GetBound(0), seen.GetBound(2), body_width / seen.GetLength(0), {0, 0}};
+  const double body_height = unit.scale * seen.GetLength(1), bottom = seen.GetBound(2) - 0.02 * seen.GetLength(1);
+  Page page(foot + body_height + head);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const double left = margin + static_cast<double>(i) * (body_width + gap);
+    const Frame at{unit.x0, unit.y0, unit.scale, {left, foot}};
+    if (obstacle) draw_obstacle(page, at, *obstacle, bottom);
+    draw_body(page, at, *read[i], style.range, 0.8);
+    const vtkBoundingBox rest = at_rest(*read[i]);
+    const Point low = at(rest.GetBound(0), rest.GetBound(2)), high = at(rest.GetBound(1), rest.GetBound(3));
+    page.line({low, {high.x, low.y}, high, {low.x, high.y}, low}, {4, palette::ink, {22, 14}});
+    page.text({left + 0.5 * body_width, page.height() - 70.0}, bodies[i].title,
+              {name_size, {0.5}, 0, palette::ink, body_width});
+  }
+  draw_colour_bar(page, {Page::width - bar_room + 80.0, foot + 0.2 * body_height, 56, 0.55 * body_height}, style.range,
+                  style.name, beyond);
+  return page;
+}
+
+}  // namespace antilock::figures

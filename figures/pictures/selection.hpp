@@ -1,0 +1,33 @@
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "drawing/styles.hpp"
+#include "pictures/table.hpp"
+
+namespace antilock::figures {
+
+/// Whether a row passes every filter `column=value`. Throws Error for a filter of another form.
+bool selected(const Table& table, std::size_t row, const std::vector<std::string>& filters);
+
+/// What the row's entries of these columns mean together.
+Meaning row_meaning(const Table& table, std::size_t row, const std::vector<std::string>& columns);
+
+/// The different meanings of the rows of a table, such as those that make panels, ordered by their ranks.
+class Meanings {
+ public:
+  /// Keeps a meaning unless there is one of that name.
+  void add(Meaning meaning);
+  /// The long names if they pass `fit`, otherwise the short ones.
+  std::vector<std::string> names(const std::function<bool(const std::vector<std::string>&)>& fit) const;
+
+  std::size_t size() const { return meanings_.size(); }
+  const Meaning& operator[](std::size_t n) const { return meanings_[n]; }
+
+ private:
+  std::vector<Meaning> meanings_;
+  std::size_t others_ = 0;  // meanings that the table of styles does not have
+};
+
+}  // namespace antilock::figures

@@ -1,0 +1,100 @@
+#include "pictures/solution_file.hpp"
+
+#include <fmt/format.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellType.h>
+#include <vtkDataArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkXMLUnstructuredGridReader.h>
+
+#include <cmath>
+
+#include "antilock/core/error.hpp"
+
+namespace antilock::figures {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw Error(
+      fmt::format("{}: {}; accepted: a VTU file of triangles as the tutorials write it", path.string(), reason));
+}
+
+/// VTK reports a bad file by an event (or, unheard, by several lines on standard error).
+vtkSmartPointer<vtkUnstructuredGrid> read_grid(const std::filesystem::path& path) {
+  if (!std::filesystem::is_regular_file(path))
+    throw Error(fmt::format("{}: no such file; run the tutorial that writes it first", path.string()));
+  bool failed = false;
+  vtkNew<vtkCallbackCommand> heard;
+  heard->SetClientData(&failed);
+  heard->SetCallback([](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
+
+  vtkNew<vtkXMLUnstructuredGridReader> reader;
+  reader->SetReaderErrorObserver(heard);
+  reader->SetParserErrorObserver(heard);
+  reader->AddObserver(vtkCommand::ErrorEvent, heard);
+  reader->AddObserver(vtkCommand::WarningEvent, heard);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (failed || reader->GetErrorCode() != 0) refuse(path, "malformed");
+  vtkSmartPointer<vtkUnstructuredGrid> grid = reader->GetOutput();
+  if (grid->GetNumberOfCells() == 0) refuse(path, "no cells, or malformed");
+  return grid;
+}
+
+/// An array of `components` finite numbers each.
+vtkDataArray* array_of(const std::filesystem::path& path, vtkDataSetAttributes* data, const char* name,
+                       int components) {
+  vtkDataArray* array = data->GetArray(name);
+  if (array == nullptr || array->GetNumberOfComponents() != components)
+    refuse(path, fmt::format("no data {} of {} component(s)", name, components));
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+    for (int k = 0; k < components; ++k)
+      if (!std::isfinite(array->GetComponent(i, k))) refuse(path, fmt::format("{} of entry {} is not finite", name, i));
+  return array;
+}
+
+/// The points and triangles, without data.
+vtkSmartPointer<vtkPolyData> triangles_of(const std::filesystem::path& path, vtkUnstructuredGrid& grid) {
+  vtkNew<vtkCellArray> triangles;
+  for (vtkIdType cell = 0; cell < grid.GetNumberOfCells(); ++cell) {
+    if (grid.GetCellType(cell) != VTK_TRIANGLE) refuse(path, fmt::format("cell {} is not a triangle", cell));
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    grid.GetCellPoints(cell, size, corners);
+    for (int i = 0; i < 3; ++i)
+      if (corners[i] < 0 || corners[i] >= grid.GetNumberOfPoints())
+        refuse(path, fmt::format("cell {} has a corner {}, but there are {} points", cell, corners[i],
+                                 grid.GetNumberOfPoints()));
+    triangles->InsertNextCell(size, corners);
+  }
+  auto surface = vtkSmartPointer<vtkPolyData>::New();
+  surface->SetPoints(grid.GetPoints());
+  surface->SetPolys(triangles);
+  return surface;
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path) {
+  const auto grid = read_grid(path);
+  vtkDataArray* u = array_of(path, grid->GetPointData(), "u", 1);
+  auto surface = triangles_of(path, *grid);
+  surface->GetPointData()->SetScalars(u);
+  return surface;
+}
+
+vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path) {
+  const auto grid = read_grid(path);
+  vtkDataArray* pressure = array_of(path, grid->GetCellData(), "pressure", 1);
+  vtkDataArray* displacement = array_of(path, grid->GetPointData(), "displacement", 3);
+  auto surface = triangles_of(path, *grid);
+  surface->GetCellData()->SetScalars(pressure);
+  surface->GetPointData()->AddArray(displacement);
+  return surface;
+}
+
+}  // namespace antilock::figures

@@ -1,0 +1,97 @@
+// Solutions as surfaces over the domain, as in Figures 4, 5, 7 and 8.
+#include <vtkCamera.h>
+
+#include <algorithm>
+
+#include "pictures/pictures.hpp"
+#include "pictures/room.hpp"
+#include "pictures/shaded.hpp"
+#include "pictures/solution_file.hpp"
+
+namespace antilock::figures {
+namespace {
+
+constexpr double azimuth = 38, elevation = 32;  // of every surface, so that they compare
+constexpr double bar_room = 250;
+
+/// Where the surfaces stand and how much is written around each.
+struct Arrangement {
+  std::size_t columns, rows;
+  double cell_width, cell_height, head;
+  bool bar_aside;  ///< a strip at the right; otherwise in the empty last cell, or nowhere
+  bool bar_in_cell;
+
+  Arrangement(std::size_t count, bool titled, bool own_scale)
+      : columns(count == 1   ? 1
+                : count <= 4 ? 2
+                             : 3),
+        rows((count + columns - 1) / columns),
+        bar_aside(count % columns == 0 && !(own_scale && count <= 2)),
+        bar_in_cell(count % columns != 0) {
+    cell_width = (Page::width - (bar_aside ? bar_room : 0)) / static_cast<double>(columns);
+    cell_height = columns == 1 ? 0.78 * cell_width : 0.92 * cell_width;
+    head = titled ? 90 : 20;
+  }
+  double height() const { return static_cast<double>(rows) * (cell_height + head); }
+  Box cell(std::size_t i) const {
+    return {static_cast<double>(i % columns) * cell_width,
+            static_cast<double>(rows - 1 - i / columns) * (cell_height + head), cell_width, cell_height};
+  }
+};
+
+vtkBoundingBox domain_of(vtkPolyData& solution) {
+  vtkBoundingBox box;
+  box.AddBounds(solution.GetBounds());
+  return box;
+}
+
+}  // namespace
+
+Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style) {
+  check(style.range);
+  if (style.last_range) check(*style.last_range);
+  std::vector<vtkSmartPointer<vtkPolyData>> solutions;
+  vtkBoundingBox all;  // so that they share a scale
+  for (const Surface& surface : surfaces) {
+    solutions.push_back(read_solution(surface.solution));
+    all.AddBox(domain_of(*solutions.back()));
+  }
+  const std::size_t count = surfaces.size();
+  const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
+  const Arrangement at(count, titled, style.last_range.has_value());
+  const RoomDetail detail = at.columns == 1 ? RoomDetail::full : at.columns == 2 ? RoomDetail::few : RoomDetail::least;
+  Page page(at.height());
+
+  const double drawn_height = style.height_factor * (style.range.high - style.range.low);
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool own = style.last_range && i + 1 == count;
+    const Range range = own ? *style.last_range : style.range;
+    const Box cell = at.cell(i);
+    const Room room = make_room(domain_of(*solutions[i]), range, drawn_height, detail);
+    const double left = widest_number(page, room.u) + 65, below = 130;
+    const Box inside{cell.x + left, cell.y + below, cell.width - left - 85, cell.height - below - 10};
+    const View view(room.space, make_room(all, range, drawn_height, detail).space, inside, azimuth, elevation);
+
+    auto renderer = vtkSmartPointer<vtkRenderer>::New();
+    renderer->SetActiveCamera(view.camera());
+    add_walls(*renderer, room);
+    add_surface(*renderer, lifted(solutions[i], room.factor), range, style.grid, view.towards_eye());
+    page.scene(renderer, inside);
+    label_room(page, view, room, own ? style.last_name : "$u$");
+    page.text({cell.centre().x, cell.top() + 20}, surfaces[i].title,
+              {name_size, {0.5}, 0, palette::ink, cell.width - 20});
+  }
+  if (at.bar_aside) {
+    const Box first = at.cell(at.columns - 1);
+    draw_colour_bar(page, {first.right() + 20, first.y + 0.2 * first.height, 56, 0.6 * first.height}, style.range,
+                    "$u$");
+  }
+  if (at.bar_in_cell) {
+    const Box empty = at.cell(count);
+    draw_colour_bar(page, {empty.centre().x - 60, empty.y + 0.2 * empty.height, 56, 0.6 * empty.height}, style.range,
+                    "$u$");
+  }
+  return page;
+}
+
+}  // namespace antilock::figures

@@ -1,0 +1,124 @@
+// The layout check must see each fault that it is there for, and the table of looks must hold what it promises.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "drawing/page.hpp"
+#include "drawing/styles.hpp"
+
+namespace antilock::figures {
+namespace {
+
+/// A page with one good text; each test adds what is wrong.
+Page good_page() {
+  Page page(1000);
+  page.text({960, 500}, "distance to the limit in $H^1$", {48, {0.5}});
+  return page;
+}
+
+std::string fault(const Page& page) { return page.layout_fault().value_or("none"); }
+
+TEST(Layout, AGoodPageHasNoFault) {
+  EXPECT_EQ(fault(good_page()), "none");
+  EXPECT_DOUBLE_EQ(good_page().smallest_type(),
+                   9);  // the script: 3/4 of 48 pixels, shown at a quarter of the page's width
+}
+
+TEST(Layout, SmallTypeIsSeen) {
+  Page page = good_page();
+  page.text({960, 300}, "small", {35});
+  EXPECT_NE(fault(page).find("type of 8.8 pixels in \"small\""), std::string::npos) << fault(page);
+}
+
+TEST(Layout, SmallTypeInAScriptIsSeen) {
+  Page page = good_page();
+  page.text({960, 300}, "$10^{−6}$", {47});
+  EXPECT_NE(fault(page).find("8.8 pixels"), std::string::npos) << fault(page);
+}
+
+TEST(Layout, TextsThatOverlapAreSeen) {
+  Page page = good_page();
+  page.text({960, 520}, "over it", {48, {0.5}});
+  EXPECT_NE(fault(page).find("overlap"), std::string::npos) << fault(page);
+}
+
+TEST(Layout, TurnedTextsThatOverlapAreSeen) {
+  Page page = good_page();
+  page.text({960, 500}, "across it, from below", {48, {0.5}, 90});
+  EXPECT_NE(fault(page).find("overlap"), std::string::npos) << fault(page);
+}
+
+TEST(Layout, ATurnedTextBesideAnotherIsNoFault) {
+  Page page = good_page();
+  page.text({200, 500}, "a vertical axis", {48, {0.5}, 90});
+  EXPECT_EQ(fault(page), "none");
+}
+
+TEST(Layout, ATextOffThePageIsSeenAtEachEdge) {
+  for (const Point at : {Point{-20, 300}, {1880, 300}, {300, -20}, {300, 990}}) {
+    Page page = good_page();
+    page.text(at, "edge", {48});
+    EXPECT_NE(fault(page).find("\"edge\" leaves the page"), std::string::npos) << at.x << ", " << at.y << fault(page);
+  }
+}
+
+TEST(Layout, ATitleWiderThanItsPanelIsSeen) {
+  Page page = good_page();
+  page.text({960, 300}, "Crouzeix–Raviart, unstructured mesh", {52, {0.5}, 0, palette::ink, 500});
+  EXPECT_NE(fault(page).find("its place holds 500"), std::string::npos) << fault(page);
+}
+
+/// Relative luminance, as in the contrast ratio of WCAG 2.
+double luminance(const Colour& colour) {
+  const auto linear = [](double c) { return c <= 0.03928 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+  return 0.2126 * linear(colour[0]) + 0.7152 * linear(colour[1]) + 0.0722 * linear(colour[2]);
+}
+
+TEST(Styles, EveryLineStandsOutFromWhite) {
+  for (const std::string& key : known_keys()) {
+    const Colour colour = meaning_of(key).look.colour;
+    EXPECT_GT(1.05 / (luminance(colour) + 0.05), 3) << key;  // the ratio that WCAG 2 asks of graphics
+  }
+}
+
+TEST(Styles, WhatLocksIsStrongest) {
+  for (const char* other : {"P1 structured", "P1 layered", "CR structured", "CR unstructured", "P2", "P3", "P4"})
+    EXPECT_GT(meaning_of("P1 unstructured").look.width, meaning_of(other).look.width) << other;
+  for (const char* other : {"1", "0.1", "0.01", "0.001", "0.0001", "1e-05"})
+    EXPECT_GT(meaning_of({"epsilon"}, {"1e-6"}).look.width, meaning_of({"epsilon"}, {other}).look.width) << other;
+}
+
+TEST(Styles, MethodsDifferInColourAndInMarker) {
+  std::vector<Look> looks;
+  for (const char* key : {"P1 structured", "P1 unstructured", "CR structured", "CR unstructured", "P2"})
+    looks.push_back(meaning_of(key).look);
+  for (std::size_t i = 0; i < looks.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_NE(looks[i].colour, looks[k].colour) << i << ", " << k;
+      EXPECT_NE(looks[i].marker, looks[k].marker) << i << ", " << k;
+    }
+}
+
+TEST(Styles, ANumberHasOneMeaningHoweverItIsWritten) {
+  EXPECT_EQ(meaning_of({"epsilon"}, {"1e-06"}).name, meaning_of({"epsilon"}, {"0.000001"}).name);
+  EXPECT_EQ(meaning_of({"element", "mesh"}, {"P1", "unstructured"}).name, meaning_of("P1 unstructured").name);
+}
+
+TEST(Styles, PanelsComeInOneOrder) {
+  const auto rank = [](const char* element, const char* mesh) {
+    return meaning_of({"element", "mesh"}, {element, mesh}).rank;
+  };
+  EXPECT_LT(rank("P1", "structured"), rank("P1", "unstructured"));
+  EXPECT_LT(rank("P1", "unstructured"), rank("CR", "structured"));
+  EXPECT_LT(rank("CR", "structured"), rank("CR", "unstructured"));
+}
+
+TEST(Styles, WhatTheTableDoesNotHaveIsItsOwnName) {
+  const Meaning own = meaning_of({"solver"}, {"my own solver"});
+  EXPECT_FALSE(own.known);
+  EXPECT_EQ(own.name, "my own solver");
+}
+
+}  // namespace
+}  // namespace antilock::figures
