@@ -11,11 +11,11 @@ namespace antilock::freefem {
 
 std::string markdown(const std::vector<Line>& lines, double epsilon) {
   std::string text = fmt::format(
-      "| tutorial | problem | unknowns | difference | contact set | C++ | FreeFEM "
-      "|\n|---|---|---:|---:|---|---:|---:|\n");
+      "| tutorial | problem | road | unknowns | difference | contact set | C++ | FreeFEM "
+      "|\n|---|---|---|---:|---:|---|---:|---:|\n");
   const auto time = [](double s) { return s > 0 ? fmt::format("{:.3g} s", s) : std::string("-"); };
   for (const Line& l : lines)
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", l.tutorial, l.what, l.unknowns,
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", l.tutorial, l.what, l.road, l.unknowns,
                         std::isinf(l.difference) ? std::string("no answer") : fmt::format("{:.1e}", l.difference),
                         l.contact, time(l.seconds), time(l.freefem_seconds));
   return text +
@@ -35,9 +35,9 @@ std::string markdown(const std::vector<Line>& lines, double epsilon) {
 void write_files(const std::vector<Line>& lines, double epsilon, const std::filesystem::path& out,
                  const std::filesystem::path& table) {
   write_file(out / "results.csv", [&](std::ostream& file) {
-    file << "tutorial,problem,unknowns,difference,contact_set,cpp_seconds,freefem_seconds\n";
+    file << "tutorial,problem,road,unknowns,difference,contact_set,cpp_seconds,freefem_seconds\n";
     for (const Line& l : lines)
-      file << fmt::format("{},\"{}\",{},{},{},{:.6g},{:.6g}\n", l.tutorial, l.what, l.unknowns, l.difference, l.contact,
+      file << fmt::format("{},\"{}\",\"{}\",{},{},{},{:.6g},{:.6g}\n", l.tutorial, l.what, l.road, l.unknowns, l.difference, l.contact,
                           l.seconds, l.freefem_seconds);
   });
   write_file(table, [&](std::ostream& file) { file << markdown(lines, epsilon); });

@@ -10,6 +10,7 @@ constexpr double bound = 1e-8;
 /// One line of the table.
 struct Line {
   std::string tutorial, what;
+  std::string road;  ///< how FreeFEM solved the stiff part
   int unknowns = 0;
   double difference = 0;         ///< relative, maximum norm
   std::string contact = "same";  ///< contact set

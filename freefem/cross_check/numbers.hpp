@@ -18,12 +18,14 @@ struct Number {
 /// The comparison with a script that writes numbers and no solution: all of them, its sizes and counts among them.
 struct Numbers {
   std::vector<Number> all;
+  std::string road;                         ///< how FreeFEM solved the stiff part; more than one: "mixed, penalty"
   int unknowns = 0;                         ///< of the largest problem
   double seconds = 0, freefem_seconds = 0;  ///< of the solves alone
   double difference() const;                ///< the largest
 
   void relative(const std::string& name, double ours, double theirs);  ///< to |ours|
   void count(const std::string& name, double ours, double theirs);     ///< a scale of 1: one too many is a difference
+  void took(const std::string& roads);  ///< one more line of a table: "mixed", or "penalty; mixed"
   void solved(const Space& space, const Solution& solution);           ///< its unknowns and seconds
 };
 
@@ -31,7 +33,7 @@ struct Numbers {
 
 /// 08: the split form on a structured mesh, epsilon from 1 to 1e-16: energy and largest u. `element`: P1 or CR.
 Numbers roundoff(const std::string& element, int cells, const std::filesystem::path& folder);
-/// 09: the six scenes: energy, least and largest u (relative to the largest |u|), how many unknowns are in contact.
+/// 09: the eight scenes: energy, least and largest u (relative to the largest |u|), how many unknowns are in contact.
 Numbers effects(int cells, double epsilon, const std::filesystem::path& folder);
 /// 12: |u_h^epsilon - u_h^0| in the broken H1 norm, both elements and meshes, epsilon from 1 to 1e-4. A distance falls
 /// like epsilon^2, while each side knows u to a fixed share of |u|: relative to the distance at epsilon = 1.
