@@ -123,9 +123,9 @@ Answer solve(const std::string& script, const Space& space, double epsilon, cons
 }
 
 History uzawa_history(const Space& space, double epsilon, double rho, int steps, const std::filesystem::path& folder) {
-  run("03_reference_solution", {"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-solver",
-                                "uzawa", "-rho", fmt::format("{}", rho), "-steps", std::to_string(steps), "-out",
-                                folder});
+  run("03_reference_solution",
+      {"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-solver", "uzawa", "-rho",
+       fmt::format("{}", rho), "-steps", std::to_string(steps), "-out", folder});
   const Table history = read_table(folder / "history.csv"), summary = read_table(folder / "summary.csv", 1);
   return {summary.names.at(0), history.column("change"), summary.column("seconds")(0)};
 }
