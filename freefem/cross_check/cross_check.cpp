@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "antilock/core/error.hpp"
 #include "antilock/io/writers.hpp"
@@ -27,6 +28,15 @@ Points places(const Table& table) {
   Points points(table.rows.rows(), 2);
   points << table.column("x"), table.column("y");
   return points;
+}
+
+/// The rows of a table of contact unknowns, by x.
+std::vector<int> by_x(const Table& table) {
+  const Eigen::VectorXd x = table.column("x");
+  std::vector<int> order(x.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int j) { return x(i) < x(j); });
+  return order;
 }
 
 SparseMatrix matrix(const std::filesystem::path& path, const std::vector<int>& ours) {
@@ -93,12 +103,14 @@ Answer solve(const std::string& script, const Space& space, double epsilon, cons
   run(script, all);
 
   const Table solution = read_table(folder / "solution.csv"), contact = read_table(folder / "contact.csv"),
-              summary = read_table(folder / "summary.csv");
+              summary = read_table(folder / "summary.csv", 1);
   Answer answer;
+  answer.road = summary.names.at(0);
   answer.u = solution.column("u")(match(space.points(), places(solution)));
-  answer.gap = contact.column("gap");
-  answer.pressure = contact.column("pressure");
-  const Eigen::VectorXd x = contact.column("x");
+  const std::vector<int> order = by_x(contact);
+  answer.gap = contact.column("gap")(order);
+  answer.pressure = contact.column("pressure")(order);
+  const Eigen::VectorXd x = contact.column("x")(order);
   const std::vector<int>& here = space.contact();
   const bool as_many = x.size() == static_cast<Eigen::Index>(here.size());
   if (x.size() > 0 && !(as_many && (x - space.points().col(0)(here)).cwiseAbs().maxCoeff() < same_place))
@@ -110,6 +122,14 @@ Answer solve(const std::string& script, const Space& space, double epsilon, cons
   return answer;
 }
 
+History uzawa_history(const Space& space, double epsilon, double rho, int steps, const std::filesystem::path& folder) {
+  run("03_reference_solution",
+      {"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-solver", "uzawa", "-rho",
+       fmt::format("{}", rho), "-steps", std::to_string(steps), "-out", folder});
+  const Table history = read_table(folder / "history.csv"), summary = read_table(folder / "summary.csv", 1);
+  return {summary.names.at(0), history.column("change"), summary.column("seconds")(0)};
+}
+
 void run_elasticity(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder) {
   const auto file = folder / "mesh.freefem.msh";
   write_freefem_mesh(file, mesh);
@@ -119,11 +139,13 @@ void run_elasticity(const TriangleMesh& mesh, double epsilon, const std::filesys
 
 ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space) {
   const Table x = read_table(folder / (name + "_x.csv")), y = read_table(folder / (name + "_y.csv")),
-              summary = read_table(folder / (name + "_summary.csv"));
+              summary = read_table(folder / (name + "_summary.csv"), 1),
+              contact = read_table(folder / (name + "_contact.csv"));
   ElasticAnswer answer;
   answer.u.resize(space.size());
   answer.u << x.column("u")(match(space.x.points(), places(x))), y.column("u")(match(space.y.points(), places(y)));
-  answer.force = read_table(folder / (name + "_contact.csv")).column("pressure");
+  answer.road = summary.names.at(0);
+  answer.force = contact.column("force")(by_x(contact));
   answer.energy = summary.column("energy")(0);
   answer.residual = summary.column("residual")(0);
   answer.seconds = summary.column("seconds")(0);
@@ -131,7 +153,7 @@ ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::str
 }
 
 double taylor_hood_force(const std::filesystem::path& folder) {
-  return read_table(folder / "TaylorHood_summary.csv").column("force")(0);
+  return read_table(folder / "TaylorHood_summary.csv", 1).column("force")(0);
 }
 
 Comparison compare(const Space& space, const VariationalInequality& problem, const Solution& ours,

@@ -26,6 +26,7 @@ Discretisation assemble(const Space& space, const std::filesystem::path& folder)
 
 /// The solution that a script computed, renumbered as `space` numbers its unknowns.
 struct Answer {
+  std::string road;          ///< how the stiff part was solved: mixed, penalty or sum
   Eigen::VectorXd u;         ///< N
   Eigen::VectorXd gap;       ///< C, by x
   Eigen::VectorXd pressure;  ///< C, a density
@@ -38,8 +39,18 @@ struct Answer {
 Answer solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
              const std::vector<std::string>& options = {});
 
+/// The paper's Uzawa in FreeFEM, LinearCG in each step: what 03_reference_solution.edp writes with -solver uzawa.
+struct History {
+  std::string road;
+  Eigen::VectorXd change;  ///< per step, |lambda^{k+1} - lambda^k| / rho / |u^k|, maximum norms
+  double seconds = 0;
+};
+/// Runs it from lambda = 0 with the step `rho` for at most `steps` steps, P1 on the mesh of `space`.
+History uzawa_history(const Space& space, double epsilon, double rho, int steps, const std::filesystem::path& folder);
+
 /// What 20_elasticity.edp found with one of its elements.
 struct ElasticAnswer {
+  std::string road;
   Eigen::VectorXd u;      ///< u_x, then u_y, as the space numbers them
   Eigen::VectorXd force;  ///< C, by x
   double energy = 0, residual = 0, seconds = 0;

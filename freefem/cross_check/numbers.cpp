@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "antilock/analysis/energy_bracket.hpp"
 #include "antilock/core/error.hpp"
@@ -51,6 +52,14 @@ void Numbers::relative(const std::string& name, double ours, double theirs) {
 
 void Numbers::count(const std::string& name, double ours, double theirs) { all.push_back({name, ours, theirs, 1}); }
 
+void Numbers::took(const std::string& roads) {
+  std::istringstream words(roads);
+  for (std::string word; words >> word;) {
+    word.erase(word.find_last_not_of(';') + 1);
+    if (road.find(word) == std::string::npos) road += (road.empty() ? "" : ", ") + word;
+  }
+}
+
 void Numbers::solved(const Space& space, const Solution& solution) {
   unknowns = std::max(unknowns, space.size());
   seconds += solution.seconds.total();
@@ -60,11 +69,12 @@ Numbers roundoff(const std::string& element, int cells, const std::filesystem::p
   const TriangleMesh mesh = structured_mesh(cells);
   const Space space(mesh, antilock::element(element));
   run("08_roundoff", {"-mesh", written(mesh, folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
-  const Table table = results(folder / "results.csv", 17);
+  const Table table = results(folder / "results.csv", 17, 1);
   SceneSweep sweep(contact_scene(1), space);
   Numbers numbers;
   for (int i = 0; i < 17; ++i) {
     const double epsilon = table.column("epsilon")(i);
+    numbers.took(table.names[i]);
     const std::string at = fmt::format("{}, epsilon = {:g}: ", element, epsilon);
     numbers.relative(at + "epsilon", std::pow(10.0, -i), epsilon);
     sweep.set_epsilon(epsilon);
@@ -82,14 +92,17 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
   const UnilateralContact obstacle;
   const Scene scenes[] = {Scene(body),
                           Scene(body, NoLayer{}, obstacle),
-                          Scene(body, VentcelLayer{}, obstacle),
+                          Scene(body, VentcelLayer{}),
                           Scene(body, StiffLayer{epsilon}),
                           Scene(body, StiffLayer{epsilon}, obstacle),
+                          Scene(body, StiffLayer{0}, obstacle),
+                          Scene(body, VentcelLayer{}, obstacle),
                           Scene(body, ThinLayer{epsilon}, obstacle)};
   run("09_effects", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
-  const Table table = results(folder / "effects.csv", 6);
+  const Table table = results(folder / "effects.csv", 8, 1);
   Numbers numbers;
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 8; ++i) {
+    numbers.took(table.names[i]);
     const TriangleMesh mesh = structured_mesh(cells, Domain{scenes[i].layer_depth()});
     const Space space(mesh, p1());
     const VariationalInequality problem = assemble(scenes[i], space);
@@ -111,7 +124,7 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
 Numbers limits(int cells, const std::filesystem::path& folder) {
   const TriangleMesh structured = structured_mesh(cells), unstructured = unstructured_mesh(cells);
   run("12_limits", {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
-  const Table table = results(folder / "limits.csv", 36, 1);
+  const Table table = results(folder / "limits.csv", 36, 2);
   const Reference zero{[](double, double) { return 0.0; },
                        [](double, double) { return Eigen::Vector2d::Zero().eval(); },
                        [](double, double) { return 0.0; }};
@@ -125,7 +138,10 @@ Numbers limits(int cells, const std::filesystem::path& folder) {
       const Solution limit = sweep.solve();
       double largest = 0;
       for (int k = 0; k <= 8; ++k, ++row) {
-        if (table.names[row] != method) throw Error("limits.csv: " + table.names[row] + "; accepted " + method);
+        const std::size_t space_at = table.names[row].find(' ');  // "mixed P1 structured"
+        if (table.names[row].substr(space_at + 1) != method)
+          throw Error("limits.csv: " + table.names[row] + "; accepted " + method);
+        numbers.took(table.names[row].substr(0, space_at));
         const double epsilon = std::pow(10.0, -0.5 * k);
         const std::string at = fmt::format("{}, epsilon = {:g}: ", method, epsilon);
         sweep.set_epsilon(epsilon);
@@ -145,13 +161,14 @@ Numbers limits(int cells, const std::filesystem::path& folder) {
 Numbers energy_bracket(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
   run("16_energy_bracket", {"-mesh", written(mesh, folder), "-out", folder});
-  const Table table = results(folder / "results.csv", 5);
+  const Table table = results(folder / "results.csv", 5, 1);
   const Space above(mesh, p1()), below(mesh, crouzeix_raviart());
   SceneSweep upper(contact_scene(1), above), lower(contact_scene(1), below);
   Numbers numbers;
   const double epsilons[] = {1, 1e-1, 1e-2, 1e-4, 0};
   for (int i = 0; i < 5; ++i) {
     const std::string at = fmt::format("epsilon = {:g}: ", epsilons[i]);
+    numbers.took(table.names[i]);
     upper.set_epsilon(epsilons[i]);
     lower.set_epsilon(epsilons[i]);
     const Solution high = upper.solve(), low = lower.solve();
@@ -170,7 +187,7 @@ Numbers energy_bracket(int cells, const std::filesystem::path& folder) {
 std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
   run("18_degree", {"-mesh", written(mesh, folder), "-epsilon", "1e-2", "-out", folder});
-  const Table table = results(folder / "results.csv", 2);
+  const Table table = results(folder / "results.csv", 2, 1);
   std::vector<Numbers> both(2);
   for (int i = 0; i < 2; ++i) {
     const Space space(mesh, i == 0 ? p1() : p2());
@@ -178,6 +195,7 @@ std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
     const Solution solution = active_set(problem);
     const Eigen::VectorXd w = (2 * std::acos(-1) * space.points().col(0).array()).sin(), slope = problem.b * w;
     const std::string of = space.element().name() + ": ";
+    both[i].took(table.names[i]);
     both[i].solved(space, solution);
     both[i].count(of + "unknowns", space.size(), table.column("unknowns")(i));
     both[i].relative(of + "cost", std::sqrt(slope.dot(problem.m.cwiseProduct(slope))), table.column("cost")(i));

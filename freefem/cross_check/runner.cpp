@@ -51,6 +51,8 @@ void run(const std::string& script, const std::vector<std::string>& options) {
   throw Error(words);
 }
 
+void check() { run("--check", {}); }
+
 Eigen::VectorXd Table::column(const std::string& name) const {
   const auto found = std::find(header.begin(), header.end(), name);
   if (found == header.end()) throw Error("table: no column " + name);

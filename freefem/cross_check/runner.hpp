@@ -9,6 +9,9 @@ namespace antilock::freefem {
 /// Runs `freefem/run SCRIPT OPTIONS` and waits. Throws Error with the one line that it failed with.
 void run(const std::string& script, const std::vector<std::string>& options);
 
+/// Throws Error with one line where FreeFEM is missing, too old, or cannot solve a small system by UMFPACK.
+void check();
+
 /// A table of numbers that a script wrote: one header line, then rows, comma separated.
 struct Table {
   std::vector<std::string> header;

@@ -1,0 +1,206 @@
+// The scripts whose C++ chapter is not a solution on a triangle mesh: the string, P1 by hand, kernels, estimates, two
+// glued strings. Each number against the library's own.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/io/writers.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/study/scene_sweep.hpp"
+#include "cross_check.hpp"
+#include "numbers.hpp"
+#include "runner.hpp"
+
+namespace antilock::freefem {
+namespace {
+
+/// Strings fixed at both ends, one after the other in one vector: A1 = int u' v', the rest of the problem empty.
+VariationalInequality strings(const std::vector<int>& cells) {
+  VariationalInequality problem;
+  std::vector<Eigen::Triplet<double>> entries;
+  int first = 0;
+  for (const int n : cells) {
+    for (int i = first; i < first + n; ++i)
+      for (const int j : {i, i + 1})
+        for (const int k : {i, i + 1}) entries.emplace_back(j, k, j == k ? n : -n);
+    problem.fixed.insert(problem.fixed.end(), {first, first + n});
+    first += n + 1;
+  }
+  problem.a1.resize(first, first);
+  problem.a1.setFromTriplets(entries.begin(), entries.end());
+  problem.b.resize(0, first);
+  problem.load = Eigen::VectorXd::Zero(first);
+  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  return problem;
+}
+
+/// The value at x of hat function `node` on a string of `cells` cells.
+double hat(int cells, int node, double x) { return std::max(0.0, 1 - std::abs(x * cells - node)); }
+
+/// B and M of the glue between a string of n + 1 cells and one of n: at two Gauss points of each piece between corners
+/// (pointwise), or against the inner hat functions of the lower string (mortar).
+void fill_glue(VariationalInequality& problem, int n, bool mortar) {
+  std::vector<double> corners{1};
+  for (int i = 0; i < n; ++i) corners.push_back(static_cast<double>(i) / n);
+  for (int i = 1; i <= n; ++i) corners.push_back(static_cast<double>(i) / (n + 1));
+  std::sort(corners.begin(), corners.end());
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(mortar ? n - 1 : 4 * n, problem.size());
+  Eigen::VectorXd m = Eigen::VectorXd::Constant(b.rows(), 1.0 / n);
+  for (int piece = 0; piece < 2 * n; ++piece)
+    for (const int side : {-1, 1}) {
+      const double length = corners[piece + 1] - corners[piece];
+      const double x = corners[piece] + 0.5 * length * (1 + side / std::sqrt(3.0));
+      Eigen::RowVectorXd jump = Eigen::RowVectorXd::Zero(problem.size());  // (u - w)(x)
+      for (int i = 0; i <= n + 1; ++i) jump(i) = hat(n + 1, i, x);
+      for (int i = 0; i <= n; ++i) jump(n + 2 + i) = -hat(n, i, x);
+      if (mortar) {
+        for (int i = 1; i < n; ++i) b.row(i - 1) += 0.5 * length * hat(n, i, x) * n * jump;
+      } else {
+        b.row(2 * piece + (side > 0)) = jump;
+        m(2 * piece + (side > 0)) = 0.5 * length;
+      }
+    }
+  problem.b = b.sparseView();
+  problem.m = m;
+}
+
+}  // namespace
+
+Numbers string_on_an_obstacle(int cells, const std::filesystem::path& folder) {
+  run("00_string_on_an_obstacle", {"-cells", std::to_string(cells), "-out", folder});
+  const Table nodes = read_table(folder / "string.csv"), summary = read_table(folder / "summary.csv");
+  VariationalInequality problem = strings({cells});
+  problem.load.setConstant(-32.0 / cells);
+  problem.load(0) = problem.load(cells) = -16.0 / cells;
+  for (int i = 1; i < cells; ++i) problem.contact.push_back(i);
+  problem.lower = Eigen::VectorXd::Constant(cells - 1, -1);
+  const Solution ours = active_set(problem);
+  Numbers numbers;
+  numbers.unknowns = cells + 1;
+  numbers.seconds = ours.seconds.total();
+  for (int i = 0; i <= cells; ++i)
+    numbers.all.push_back({fmt::format("u at node {}", i), ours.u(i), nodes.column("u")(i), 1});
+  numbers.relative("force", ours.lambda.sum(), summary.column("force")(0));
+  numbers.relative("energy", energy(problem, ours), summary.column("energy")(0));
+  return numbers;
+}
+
+Numbers by_hand(int cells, double epsilon, const std::filesystem::path& folder) {
+  run("03_by_hand", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+  const Table solution = read_table(folder / "solution.csv"), summary = read_table(folder / "summary.csv");
+  const TriangleMesh mesh = structured_mesh(cells);
+  const Space space(mesh, p1());
+  const VariationalInequality problem =
+      assemble(Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
+  const Solution ours = active_set(problem);
+  Points places(solution.rows.rows(), 2);
+  places << solution.column("x"), solution.column("y");
+  const Eigen::VectorXd theirs = solution.column("u")(match(space.points(), places));
+  Numbers numbers;
+  numbers.road = "mixed";
+  numbers.solved(space, ours);
+  const double largest = ours.u.cwiseAbs().maxCoeff();
+  for (int i = 0; i < space.size(); ++i)
+    numbers.all.push_back({fmt::format("u at unknown {}", i), ours.u(i), theirs(i), largest});
+  const auto held = std::count(ours.active.begin(), ours.active.end(), true);
+  numbers.count("in contact", static_cast<double>(held), summary.column("active")(0));
+  numbers.relative("energy", energy(problem, ours), summary.column("energy")(0));
+  return numbers;
+}
+
+Numbers kernels(int cells, const std::filesystem::path& folder) {
+  const TriangleMesh unstructured = unstructured_mesh(4);
+  write_freefem_mesh(folder / "mesh.freefem.msh", unstructured);
+  run("11_kernel", {"-cells", std::to_string(cells), "-mesh", folder / "mesh.freefem.msh", "-out", folder});
+  const Table table = read_table(folder / "kernel.csv", 1);
+  Numbers numbers;
+  const Scene scene(Body{paper_load}, StiffLayer{0});
+  for (Eigen::Index row = 0; row < table.rows.rows(); ++row) {
+    const bool structured = table.names[row] == "structured";
+    const int n = static_cast<int>(table.column("cells")(row));
+    const TriangleMesh mesh = structured ? structured_mesh(n) : unstructured;
+    const Space conforming(mesh, p1()), broken(mesh, crouzeix_raviart());
+    const int p1_kernel = layer_kernel_dimension(assemble(scene, conforming));
+    const auto triangles = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
+    const std::string at = fmt::format("{}, 1/h = {}: ", table.names[row], n);
+    numbers.unknowns = std::max(numbers.unknowns, conforming.size());
+    numbers.count(at + "layer triangles", static_cast<double>(triangles), table.column("triangles")(row));
+    numbers.count(at + "P1 by ties", p1_kernel, table.column("kernel_by_ties")(row));
+    if (n > 4) continue;  // ranks on the small meshes only
+    const int cr_kernel = layer_kernel_dimension(assemble(scene, broken));
+    numbers.count(at + "P1 by rank", p1_kernel, table.column("p1_kernel")(row));
+    numbers.count(at + "CR by rank", cr_kernel, table.column("cr_kernel")(row));
+    numbers.count(at + "CR rank", static_cast<double>(triangles), table.column("cr_rank")(row));
+  }
+  return numbers;
+}
+
+Numbers estimates(int cells, const std::filesystem::path& folder) {
+  const TriangleMesh mesh = unstructured_mesh(cells);
+  write_freefem_mesh(folder / "mesh.freefem.msh", mesh);
+  run("15_estimates", {"-mesh", folder / "mesh.freefem.msh", "-out", folder});
+  const Table table = read_table(folder / "estimates.csv", 1);
+  const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
+  const Space conforming(mesh, p1()), broken(mesh, crouzeix_raviart());
+  SceneSweep p1_sweep(scene, conforming), cr_sweep(scene, broken);
+  Numbers numbers;
+  double largest = 0;
+  for (Eigen::Index row = 0; row < table.rows.rows(); ++row) {
+    const double epsilon = std::pow(10.0, -0.5 * static_cast<double>(row));
+    p1_sweep.set_epsilon(epsilon);
+    cr_sweep.set_epsilon(epsilon);
+    const Solution locked = p1_sweep.solve(), free = cr_sweep.solve();
+    numbers.took(table.names[row]);
+    numbers.solved(conforming, locked);
+    numbers.solved(broken, free);
+    const double kept = locked.u(conforming.contact()).maxCoeff(), all = free.u(broken.contact()).maxCoeff();
+    largest = std::max({largest, kept, all});
+    const std::string at = fmt::format("epsilon = {:g}: ", epsilon);
+    numbers.relative(at + "epsilon", epsilon, table.column("epsilon")(row));
+    // relative to the largest displacement of the layer: what P1 keeps falls like epsilon^2, far below its digits
+    numbers.all.push_back({at + "P1 on Gamma_C", kept, table.column("ridge_p1")(row), largest});
+    numbers.all.push_back({at + "CR on Gamma_C", all, table.column("ridge_cr")(row), largest});
+  }
+  numbers.freefem_seconds = table.column("seconds").sum();
+  return numbers;
+}
+
+Numbers glued_strings(int cells, const std::filesystem::path& folder) {
+  constexpr double load = 32, gap = 0.5;
+  run("21_your_own_problem", {"-cells", std::to_string(cells), "-out", folder});
+  const Table table = read_table(folder / "results.csv", 2);
+  if (table.rows.rows() != 26) throw Error(fmt::format("results.csv: {} rows; accepted 26", table.rows.rows()));
+  Numbers numbers;
+  Eigen::Index row = 0;
+  for (const bool mortar : {false, true}) {
+    VariationalInequality problem = strings({cells + 1, cells});
+    fill_glue(problem, cells, mortar);
+    problem.penalty = 0.01 / std::pow(cells, 4);  // small against a0 on what is not in its kernel
+    for (int i = 1; i <= cells; ++i) problem.load(i) = -load / (cells + 1);
+    problem.load(0) = problem.load(cells + 1) = -0.5 * load / (cells + 1);
+    for (int i = 1; i < cells; ++i) problem.contact.push_back(cells + 2 + i);
+    problem.lower = Eigen::VectorXd::Constant(cells - 1, -gap);
+    for (int k = 0; k <= 12; ++k, ++row) {
+      problem.compliance = std::pow(10.0, -k);
+      const Solution ours = active_set(problem);
+      const std::string at = fmt::format("{}, epsilon = 1e-{}: ", mortar ? "mortar" : "pointwise", k);
+      numbers.took(table.names[row].substr(0, table.names[row].find(' ')));
+      numbers.unknowns = problem.size();
+      numbers.seconds += ours.seconds.total();
+      numbers.relative(at + "epsilon", problem.compliance, table.column("epsilon")(row));
+      numbers.all.push_back({at + "energy", energy(problem, ours), table.column("energy")(row), load * gap});
+      numbers.all.push_back({at + "largest |u|", ours.u.cwiseAbs().maxCoeff(), table.column("moved")(row), gap});
+      numbers.all.push_back({at + "contact force", ours.lambda.sum(), table.column("force")(row), load});
+    }
+  }
+  return numbers;
+}
+
+}  // namespace antilock::freefem
