@@ -1,0 +1,112 @@
+// The third mesh: a body as gmsh likes it, a layer in columns, as Figure 3 has them.
+#include "antilock/mesh/layered.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "antilock/core/error.hpp"
+#include "antilock/mesh/generate.hpp"
+
+namespace antilock {
+namespace {
+
+constexpr double on_line = 1e-9;  // gmsh places points of a line to about 1e-12
+
+/// The body's vertices, numbered anew in their order; -1 for those of the layer alone.
+std::vector<int> body_numbers(const TriangleMesh& mesh) {
+  std::vector<int> number(mesh.vertex_count(), -1);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::body)
+      for (int i = 0; i < 3; ++i) number[mesh.triangles(t, i)] = 0;
+  int count = 0;
+  for (int& n : number)
+    if (n == 0) n = count++;
+  return number;
+}
+
+/// The edges of Sigma, each from left to right.
+std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh) {
+  const bool has_layer = std::find(mesh.region.begin(), mesh.region.end(), Region::layer) != mesh.region.end();
+  const EdgeTag sigma = has_layer ? EdgeTag::sigma : EdgeTag::contact;
+  std::vector<std::array<int, 2>> edges;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != sigma) continue;
+    std::array<int, 2> ends{mesh.edges(e, 0), mesh.edges(e, 1)};
+    if (mesh.vertices(ends[0], 0) > mesh.vertices(ends[1], 0)) std::swap(ends[0], ends[1]);
+    for (const int v : ends)
+      if (std::abs(mesh.vertices(v, 1)) > on_line)
+        throw Error("extruded layer: Sigma has a vertex at " + mesh.place(v) + "; accepted: Sigma on the line y = 0");
+    edges.push_back(ends);
+  }
+  if (edges.empty()) throw Error("extruded layer: the body has no edge in the group contact or sigma to stand on");
+  return edges;
+}
+
+}  // namespace
+
+TriangleMesh extruded(const TriangleMesh& body, double epsilon) {
+  if (!(epsilon >= 0 && epsilon <= 1))
+    throw Error(fmt::format("extruded layer: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
+  const std::vector<int> number = body_numbers(body);
+  const auto kept = static_cast<int>(std::count_if(number.begin(), number.end(), [](int n) { return n >= 0; }));
+  std::vector<Eigen::RowVector2d> vertices(kept);
+  for (int v = 0; v < body.vertex_count(); ++v) {
+    if (number[v] < 0) continue;
+    if (body.vertices(v, 1) < -on_line)
+      throw Error("extruded layer: the body has a vertex at " + body.place(v) + "; accepted: a body above y = 0");
+    vertices[number[v]] = body.vertices.row(v);
+  }
+  const auto columns = sigma_edges(body);
+  double length = 0;
+  for (const auto& [left, right] : columns) length += body.vertices(right, 0) - body.vertices(left, 0);
+  const double cells = epsilon * static_cast<double>(columns.size()) / length;  // epsilon / h
+  const int rows = std::max(1, static_cast<int>(std::ceil(cells - 1e-9)));
+
+  // below[v] + j: the vertex j + 1 rows below vertex v of Sigma; degree 1: an end of Sigma
+  std::vector<int> below(body.vertex_count(), -1), degree(body.vertex_count(), 0);
+  for (const auto& ends : columns)
+    for (const int v : ends)
+      if (++degree[v] == 1) {
+        below[v] = static_cast<int>(vertices.size());
+        for (int j = 1; j <= rows; ++j) vertices.emplace_back(body.vertices(v, 0), -static_cast<double>(j) / rows);
+      }
+  const auto vertex = [&](int v, int row) { return row == 0 ? number[v] : below[v] + row - 1; };
+
+  std::vector<Eigen::RowVector3i> triangles;
+  for (int t = 0; t < body.triangle_count(); ++t)
+    if (body.region[t] == Region::body)
+      triangles.emplace_back(number[body.triangles(t, 0)], number[body.triangles(t, 1)], number[body.triangles(t, 2)]);
+  std::vector<Region> region(triangles.size(), Region::body);
+  std::vector<TaggedEdge> tagged;
+  for (int e = 0; e < body.edge_count(); ++e) {
+    const int from = number[body.edges(e, 0)], to = number[body.edges(e, 1)];
+    const bool on_outline = body.edge_triangles(e, 1) < 0 && body.region[body.edge_triangles(e, 0)] == Region::body;
+    if (on_outline && body.edge_tag[e] != EdgeTag::contact) tagged.push_back({from, to, body.edge_tag[e]});
+  }
+  for (const auto& [left, right] : columns) {
+    for (int j = 0; j < rows; ++j) {
+      triangles.emplace_back(vertex(left, j + 1), vertex(right, j + 1), vertex(right, j));
+      triangles.emplace_back(vertex(left, j + 1), vertex(right, j), vertex(left, j));
+      for (const int v : {left, right})
+        if (degree[v] == 1) tagged.push_back({vertex(v, j), vertex(v, j + 1), EdgeTag::clamped});
+    }
+    tagged.push_back({vertex(left, 0), vertex(right, 0), EdgeTag::sigma});
+    tagged.push_back({vertex(left, rows), vertex(right, rows), EdgeTag::contact});
+  }
+  region.resize(triangles.size(), Region::layer);
+
+  Points points(static_cast<Eigen::Index>(vertices.size()), 2);
+  for (std::size_t i = 0; i < vertices.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = vertices[i];
+  Triples corners(static_cast<Eigen::Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t) corners.row(static_cast<Eigen::Index>(t)) = triangles[t];
+  return make_triangle_mesh(std::move(points), std::move(corners), std::move(region), tagged, "extruded layer");
+}
+
+TriangleMesh layered_mesh(int cells, double epsilon) {
+  return extruded(unstructured_mesh(cells, Domain{.layer_depth = 0}), epsilon);
+}
+
+}  // namespace antilock
