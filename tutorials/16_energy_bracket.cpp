@@ -18,8 +18,8 @@
 // the library). What is proved: every flux sigma with -div sigma = f, sigma.n >= 0 on Gamma_C, gives -|sigma|^2 / 2 <=
 // J(u), and Crouzeix-Raviart's own gradient becomes such a flux by a correction known triangle by triangle. The bound
 // is its energy minus about sum_T |T| f_T^2 s_T / 288, s_T the sum of the squares of the three edges: the same number
-// for every epsilon, 0 included. analysis/energy_bracket.cpp derives it, with the term for a load that is not constant
-// on triangles.
+// for every epsilon, 0 included. analysis/energy_bracket.cpp and certificate.cpp derive it, with the terms for a load
+// that is not constant on triangles.
 //
 // So the bracket [lower, J(P1)] holds J(u) whatever epsilon is, and sqrt(2 width) bounds the energy error of P1. Where
 // P1 locks, its energy does not come down, the bracket stays open, and the reader of the two numbers knows.
@@ -66,7 +66,8 @@ std::vector<Row> solve_all(bool structured, int cells, const std::vector<Truth>&
     below.set_epsilon(epsilons[i]);
     const Solution upper = above.solve(), lower = below.solve();
     // 2. The bracket: nothing in these two lines knows u.
-    const EnergyBracket bracket{energy_lower_bound(nonconforming, below.problem(), lower, paper_load),
+    const Scene now(Body{paper_load}, StiffLayer{epsilons[i]}, UnilateralContact{});
+    const EnergyBracket bracket{energy_lower_bound(now, nonconforming, below.problem(), lower),
                                 energy(above.problem(), upper)};
     const Errors errors = measure_errors(conforming, upper, epsilons[i], reference(table[i]));
     rows.push_back(
