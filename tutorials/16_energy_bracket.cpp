@@ -18,8 +18,8 @@
 // the library). What is proved: every flux sigma with -div sigma = f, sigma.n >= 0 on Gamma_C, gives -|sigma|^2 / 2 <=
 // J(u), and Crouzeix-Raviart's own gradient becomes such a flux by a correction known triangle by triangle. The bound
 // is its energy minus about sum_T |T| f_T^2 s_T / 288, s_T the sum of the squares of the three edges: the same number
-// for every epsilon, 0 included. analysis/energy_bracket.cpp derives it, with the term for a load that is not constant
-// on triangles.
+// for every epsilon, 0 included. analysis/energy_bracket.cpp and certificate.cpp derive it, with the terms for a load
+// that is not constant on triangles.
 //
 // So the bracket [lower, J(P1)] holds J(u) at every epsilon, and sqrt(2 width) bounds the energy error of P1. Where P1
 // locks, its energy does not come down and the bracket stays open: these two numbers show it, without u.
@@ -52,7 +52,8 @@ Table solve_all(const MeshFamily& family, int cells, const std::vector<Exact>& t
     below.set_epsilon(exact.epsilon);
     const Solution upper = above.solve(), lower = below.solve();
     // 2. The bracket: nothing in these two lines knows u.
-    const EnergyBracket bracket{energy_lower_bound(nonconforming.space(), below.problem(), lower, paper_load),
+    const EnergyBracket bracket{
+        energy_lower_bound(tutorial::paper_scene(exact.epsilon), nonconforming.space(), below.problem(), lower),
                                 energy(above.problem(), upper)};
     rows.add({family.name, exact.epsilon, cells, 1.0 / cells, bracket.lower, energy(below.problem(), lower),
               exact.truth.energy(), bracket.upper, bracket.width(), bracket.error_bound(),

@@ -177,7 +177,7 @@ Numbers energy_bracket(int cells, const std::filesystem::path& folder) {
     numbers.count(at + "epsilon", epsilons[i], table.column("epsilon")(i));
     numbers.relative(at + "upper", energy(upper.problem(), high), table.column("upper")(i));
     numbers.relative(at + "cr", energy(lower.problem(), low), table.column("cr")(i));
-    numbers.relative(at + "lower", energy_lower_bound(below, lower.problem(), low, paper_load),
+    numbers.relative(at + "lower", energy_lower_bound(contact_scene(epsilons[i]), below, lower.problem(), low),
                      table.column("lower")(i));
   }
   numbers.freefem_seconds = table.column("seconds").sum();

@@ -229,10 +229,10 @@ TEST(EnergyBracket, HoldsItWhereTheLoadIsFarFromConstantOnTriangles) {
 TEST(EnergyBracket, IsNeededTheEnergyOfCrouzeixRaviartAloneIsNoBound) {
   // -lap u = 1 on the unit square, u = 0 around: int u = 0.0351442537 (torsion of a square bar), J = -int u / 2
   constexpr double exact = -0.5 * 0.0351442537;
-  const auto one = [](double, double) { return 1.0; };
+  const Scene scene({[](double, double) { return 1.0; }});
   const TriangleMesh mesh = structured_mesh(1, {0});
   const Space space(mesh, crouzeix_raviart());
-  VariationalInequality problem = assemble(Scene({one}), space);
+  VariationalInequality problem = assemble(scene, space);
   // the edge y = 0 is Sigma, free without contact: clamp it
   for (const int i : space.contact()) problem.fixed.push_back(i);
   std::sort(problem.fixed.begin(), problem.fixed.end());
@@ -240,21 +240,61 @@ TEST(EnergyBracket, IsNeededTheEnergyOfCrouzeixRaviartAloneIsNoBound) {
   const Solution solution = active_set(problem);
   EXPECT_NEAR(energy(problem, solution), -1.0 / 144, 1e-15);  // one unknown, by hand
   EXPECT_GT(energy(problem, solution), exact);                // above
-  EXPECT_LE(energy_lower_bound(space, problem, solution, one), exact);
-  EXPECT_NEAR(energy_lower_bound(space, problem, solution, one), -1.0 / 144 - 4.0 / 288, 1e-15);  // f^2 |T| s_T / 288
+  EXPECT_LE(energy_lower_bound(scene, space, problem, solution), exact);
+  EXPECT_NEAR(energy_lower_bound(scene, space, problem, solution), -1.0 / 144 - 4.0 / 288, 1e-15);  // f^2 |T| s_T / 288
+}
+
+// Against the bracket of a mesh eight times as fine: a gap that the chord cuts, fixed values, a solve stopped early.
+TEST(EnergyBracket, HoldsWithAGapWithFixedValuesAndAfterAnEarlyStop) {
+  const Scene scene({paper_load}, StiffLayer{1e-2}, UnilateralContact{[](double x) { return 0.02 * x * (1 - x); }});
+  const TriangleMesh mesh = unstructured_mesh(6), fine = unstructured_mesh(48);
+  const EnergyBracket coarse = energy_bracket(scene, mesh), reference = energy_bracket(scene, fine);
+  EXPECT_LE(coarse.lower, reference.upper);
+  EXPECT_LE(reference.lower, coarse.upper);
+  EXPECT_LT(coarse.width(), 0.3 * std::abs(coarse.upper));  // h = 1/6
+
+  const auto lower_bound = [&](const TriangleMesh& on, double value, double noise) {
+    const Space space(on, crouzeix_raviart());
+    VariationalInequality problem = assemble(scene, space);
+    problem.fixed_values.setConstant(value);
+    Solution solution = active_set(problem);
+    std::vector<char> fixed(space.size(), 0);
+    for (const int i : problem.fixed) fixed[i] = 1;
+    for (int i = 0; i < space.size(); ++i) solution.u(i) += fixed[i] ? 0 : noise * std::sin(7.0 * i);
+    for (Eigen::Index k = 0; k < solution.p.size(); ++k) solution.p(k) += noise * std::cos(5.0 * double(k));
+    return energy_lower_bound(scene, space, problem, solution);
+  };
+  // fixed values of 1 lift u off the obstacle: J(1 + w) = J_0(w) - L(1), L(1) = 0 for this load
+  const Scene free({paper_load}, StiffLayer{1e-2});
+  const EnergyBracket lifted = energy_bracket(free, fine);
+  EXPECT_LE(lower_bound(mesh, 1, 0), lifted.upper);
+  EXPECT_NEAR(lower_bound(mesh, 1, 0), lifted.lower, 0.1 * std::abs(lifted.lower));
+  double before = lower_bound(mesh, 0, 0);
+  EXPECT_LE(before, reference.upper);
+  for (const double noise : {1e-3, 1e-2}) {
+    EXPECT_LT(lower_bound(mesh, 0, noise), before) << "less is known";
+    before = lower_bound(mesh, 0, noise);
+  }
 }
 
 TEST(EnergyBracket, RefusesWhatItCannotBound) {
   const TriangleMesh mesh = structured_mesh(4), body = structured_mesh(4, {0});
   const Space conforming(mesh, p1()), nonconforming(mesh, crouzeix_raviart()), on_body(body, crouzeix_raviart());
-  const auto bound = [](const Space& space, const VariationalInequality& problem) {
-    return energy_lower_bound(space, problem, active_set(problem), paper_load);
+  const auto bound = [](const Scene& scene, const Space& space, const Scene& assembled) {
+    const VariationalInequality problem = assemble(assembled, space);
+    return energy_lower_bound(scene, space, problem, active_set(problem));
   };
-  test::expect_refused([&] { bound(conforming, stiff_problem(conforming, 1)); }, "P1");
-  test::expect_refused([&] { bound(nonconforming, stiff_problem(nonconforming, 1, {[](double) { return 0.1; }})); },
-                       "gap");
+  const Scene stiff = test::stiff_scene(1);
+  test::expect_refused([&] { bound(stiff, conforming, stiff); }, "P1");
   test::expect_refused(
-      [&] { bound(on_body, assemble(Scene({paper_load}, VentcelLayer{}, UnilateralContact{}), on_body)); }, "Ventcel");
+      [&] {
+        bound(Scene({[](double x, double) { return x; }}, StiffLayer{1}, UnilateralContact{}), nonconforming, stiff);
+      },
+      "its load above all");
+  const Scene ventcel({paper_load}, VentcelLayer{}, UnilateralContact{});
+  test::expect_refused([&] { bound(ventcel, on_body, ventcel); }, "Ventcel");
+  for (const EnergyBracket& none : {EnergyBracket{-0.99, -1}, EnergyBracket{-1, NAN}})
+    test::expect_refused([&] { none.error_bound(); }, "no width");
 }
 
 TEST(AccurateEnough, FollowsTheBracket) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/analysis/companion.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/models/anti_plane.hpp"
 
@@ -10,10 +11,12 @@ namespace antilock {
 
 EnergyBracket energy_bracket(const Scene& scene, const TriangleMesh& mesh) {
   const Space conforming(mesh, p1()), nonconforming(mesh, crouzeix_raviart());
-  const VariationalInequality above = assemble(scene, conforming), below = assemble(scene, nonconforming);
+  VariationalInequality above = assemble(scene, conforming);
+  if (scene.contact()) above.lower = admissible_bounds(*scene.contact(), conforming);  // in K between the vertices, too
+  const VariationalInequality below = assemble(scene, nonconforming);
   EnergyBracket bracket;
   bracket.upper = energy(above, active_set(above));
-  bracket.lower = energy_lower_bound(nonconforming, below, active_set(below), scene.body().load);
+  bracket.lower = energy_lower_bound(scene, nonconforming, below, active_set(below));
   return bracket;
 }
 

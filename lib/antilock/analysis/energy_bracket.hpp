@@ -1,6 +1,7 @@
 #pragma once
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/scene/scene.hpp"
+#include "antilock/solve/penalty_factor.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/space/space.hpp"
 
@@ -13,14 +14,15 @@ struct EnergyBracket {
 
   double width() const { return upper - lower; }
   /// At least |u - u_h| in the energy norm of Remark 4, u_h the P1 solution: |u - v|_a^2 / 2 <= J(v) - J(u) on K.
+  /// Throws Error for a width that is negative or not finite: then one of the two is no bound.
   double error_bound() const;
 };
 
-/// A lower bound of J(u) at every epsilon in [0, 1], proved (derivation in energy_bracket.cpp) up to round-off and the
-/// rule that integrates the load. It lies below the energy of the Crouzeix-Raviart solution by O(h^2), however small
-/// epsilon is: that energy alone is no bound. `f` is the load of the body that the problem was assembled with.
-/// Throws Error for another element, another obstacle than u >= 0, and where the layer is a Ventcel term.
-double energy_lower_bound(const Space& space, const VariationalInequality& problem, const Solution& solution,
-                          const Field& f);
+/// A lower bound of J(u) at every epsilon in [0, 1], proved (derivation in energy_bracket.cpp) up to round-off, for the
+/// load as sampled. It lies below the energy of the Crouzeix-Raviart solution by O(h^2), however small epsilon is: that
+/// energy alone is no bound. It holds with a gap, with nonzero fixed values and for a solve stopped early; `factor` as
+/// for unbalanced(). Sharper with a function of K at hand: certify(). Throws Error as equilibrated_flux does.
+double energy_lower_bound(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                          const Solution& solution, PenaltyFactor* factor = nullptr);
 
 }  // namespace antilock

@@ -1,0 +1,278 @@
+// Notation. A = 1 in the body; diag(1, epsilon^-2) in the scaled layer, 1/epsilon in the thin one. |q| of a flux is
+// counted by A^-1: in the scaled layer q_x^2 + epsilon^2 q_y^2, so that nothing is divided by epsilon and epsilon = 0 is
+// no exception. g the gap, u the exact solution, v a conforming function with v >= -g on Gamma_C and v = u on Gamma_D.
+// u_h, p any function of the Crouzeix-Raviart space and any layer stress; S_h = A grad u_h, (d_x u_h, p) in the scaled
+// layer; r = A1 u + B' M p - b, one force per edge E.
+//
+// 1. The flux. On a body triangle T with centroid c and vertices P_i
+//
+//     sigma = grad u_h + tau,   tau = -f_T (x - 3 c) / 2 - mean_T(f x) - 1/3 sum_i f_i lambda_i (x - P_i);
+//
+// sigma = S_h in the layer. The first two terms are Marini's (1985): their flux through the edge E is -int_T f phi_E,
+// phi_E the basis function of E, and their divergence -f_T. The third one is new: lambda_i (x - P_i) has no flux through
+// any edge and the divergence 3 lambda_i - 1. With f_i = 12 mean_T(f lambda_i) - 3 f_T, the vertex values of the L2
+// projection f_1 of f on the affine functions, -div sigma = f_T + sum_i f_i (3 lambda_i - 1) / 3 = f_1, since the f_i
+// have the mean f_T. Row E of A1 u + B' M p - b says that sigma.n, constant on E from either side, sums up to r_E / |E|.
+// So, for every w of H1, with lambda_E = r_E^+ on Gamma_C, r1 = r - lambda on the free edges,
+//
+//     (sigma, grad w) = (f_1, w) + sum_E lambda_E mean_E(w) + R(w) + sum_{E in Gamma_D} r_E mean_E(w),          (a)
+//     R(w) = sum_E r1_E mean_E(w).
+//
+// 2. What stays small. (f - f_1, w) <= osc |grad w|, osc^2 = sum_T (h_T / pi)^2 |f - f_1|_T^2, by Poincare's inequality
+// with constant h_T / pi (Payne and Weinberger 1960), since f - f_1 has mean zero on T. And R(w) = r1' I_h w, I_h the
+// interpolation by means over edges: its gradients are the means of grad w, so |I_h w|_a <= |w|_a, and for w = 0 on
+// Gamma_D, with K = A1 + delta^-1 B' M B, delta >= epsilon^2, on the free unknowns: |R(w)| <= rho |w|_a,
+// rho^2 = r1' K^-1 r1. Set q = osc + rho.
+//
+// 3. The bounds. Put e = A^-1/2 (A grad u - S_h), and w, t the same with A grad v and sigma in place of A grad u. The
+// inequality for u with v, and (a) with u - v, which is 0 on Gamma_D, give
+//
+//     (e - t, e - w) <= (f - f_1, u - v) - sum_E lambda_E mean_E(u - v) - R(u - v) <= C + q |e - w|,
+//     C = sum_E lambda_E mean_E(v + g) >= 0,
+//
+// since lambda_E >= 0 and u + g >= 0. With m = |w - t| = |A grad v - sigma|:
+// - Y = |e - w| = |u - v|_a: (e - t, e - w) = Y^2 + (w - t, e - w), so Y^2 <= (m + q) Y + C.
+// - X = |e - (w + t) / 2|: (e - t, e - w) = X^2 - m^2 / 4 and |e - w| <= X + m / 2, so
+//   (X - q / 2)^2 <= (m + q)^2 / 4 + C. That is the midpoint of the two fluxes; |e| <= X + |w + t| / 2 is the rest.
+//
+//     |u - v|_a                         <= (m + q) / 2 + ((m + q)^2 / 4 + C)^(1/2)
+//     |A grad u - (sigma + A grad v)/2| <= q / 2 + ((m + q)^2 / 4 + C)^(1/2)
+//     |A grad u - S_h|                  <= |sigma + A grad v - 2 S_h| / 2 + q / 2 + ((m + q)^2 / 4 + C)^(1/2)
+//
+// 4. No mesh intersection. Expand m^2 and use (a) with v:
+//
+//     m^2 / 2 + C = J(v) - D - R(v),   D = -|sigma|^2 / 2 - sum_E lambda_E mean_E(g) + sum_{Gamma_D} r_E mean_E(u_D).
+//
+// A term (f - f_1, v) drops out: v is affine on the body's triangles, which are those of sigma. In the layer v may live
+// on columns of its own: of them only its energy and its means over the edges of the other mesh are needed.
+//
+// 5. The energy. For v = u the identity reads J(u) = D + m_u^2 / 2 + C_u - (f - f_1, u) + R(u), where C_u >= 0. With v
+// of the bound above, (f - f_1, u) = (f - f_1, u - v) and R(u) = R(v) + R(u - v), hence
+//     D + R(v) - q |u - v|_a <= J(u) <= J(v).
+#include "antilock/analysis/certificate.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "antilock/core/error.hpp"
+#include "antilock/form/quadrature.hpp"
+
+namespace antilock {
+namespace {
+
+/// v as the sums over triangles and edges need it.
+class Conforming {
+ public:
+  Conforming(const Space& space, const LayerLaw& law, const Companion& v) : mesh_(space.mesh()), law_(law), v_(v) {
+    const auto layer = std::count(mesh_.region.begin(), mesh_.region.end(), Region::layer);
+    if (v.at_vertices.size() != mesh_.vertex_count() || (law.split && !v.layer && v.stress.size() != layer))
+      throw Error("certificate: the companion has another number of values than the mesh has vertices or layer cells");
+    if (!v.at_vertices.allFinite() || !v.stress.allFinite()) throw Error("certificate: the companion is not finite");
+  }
+
+  bool on_mesh(int t) const { return mesh_.region[t] == Region::body || !v_.layer; }
+  /// A grad v on a triangle that v shares; `row`: of the layer stress.
+  Eigen::Vector2d flux(int t, int row) const {
+    Eigen::Vector2d flux = Eigen::Vector2d::Zero();
+    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh_, t);
+    for (int i = 0; i < 3; ++i) flux += v_.at_vertices(mesh_.triangles(t, i)) * lambda.row(i).transpose();
+    if (mesh_.region[t] == Region::body) return flux;
+    flux *= law_.stiffness;
+    if (law_.split) flux(1) = v_.stress(row);
+    return flux;
+  }
+  /// At a point of the layer, whatever mesh v has there.
+  Eigen::Vector2d flux_at(const Eigen::Vector2d& x) const { return v_.layer->flux(x); }
+  double mean(int e) const {
+    const int a = mesh_.edges(e, 0), b = mesh_.edges(e, 1);
+    const bool in_body = mesh_.region[mesh_.edge_triangles(e, 0)] == Region::body ||
+                         (mesh_.edge_triangles(e, 1) >= 0 && mesh_.region[mesh_.edge_triangles(e, 1)] == Region::body);
+    if (in_body || !v_.layer) return (v_.at_vertices(a) + v_.at_vertices(b)) / 2;
+    return v_.layer->mean(mesh_.vertices.row(a).transpose(), mesh_.vertices.row(b).transpose());
+  }
+  double value(int e, double theta) const {  ///< on a contact edge, theta from its first vertex
+    const int a = mesh_.edges(e, 0), b = mesh_.edges(e, 1);
+    if (!v_.layer) return (1 - theta) * v_.at_vertices(a) + theta * v_.at_vertices(b);
+    return v_.layer->value(((1 - theta) * mesh_.vertices.row(a) + theta * mesh_.vertices.row(b)).transpose());
+  }
+  /// |v|_a^2 of a layer on columns.
+  double layer_norm2() const {
+    if (!v_.layer) return 0;
+    double sum = 0;
+    const TriangleMesh& mesh = v_.layer->mesh();
+    for (int t = v_.layer->first_triangle(); t < mesh.triangle_count(); ++t)
+      sum += mesh.area(t) * law_.squared(v_.layer->flux_of(t - v_.layer->first_triangle()));
+    return sum;
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  const LayerLaw& law_;
+  const Companion& v_;
+};
+
+/// v is the prescribed function at the ends of fixed edges, and that has the fixed values as its means.
+void check_prescribed(const Space& space, const VariationalInequality& problem, const Companion& v,
+                      const Field& prescribed) {
+  const TriangleMesh& mesh = space.mesh();
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
+    const int e = problem.fixed[i];
+    double mean = 0;
+    for (int end = 0; end < 2; ++end) {
+      const int vertex = mesh.edges(e, end);
+      const double asked = prescribed ? prescribed(mesh.vertices(vertex, 0), mesh.vertices(vertex, 1)) : 0;
+      const double found = v.layer && mesh.vertices(vertex, 1) < 0
+                               ? v.layer->value(mesh.vertices.row(vertex).transpose())
+                               : v.at_vertices(vertex);
+      mean += asked / 2;
+      if (!(std::abs(found - asked) <= 1e-11 * std::max(1.0, std::abs(asked))))
+        throw Error(fmt::format("certificate: the companion is {} at {}, where {} is prescribed", found,
+                                mesh.place(vertex), asked));
+    }
+    const double value = problem.fixed_values(static_cast<Eigen::Index>(i));
+    if (!(std::abs(value - mean) <= 1e-11 * std::max(1.0, std::abs(mean))))
+      throw Error(
+          fmt::format("certificate: {} is fixed between {} and {}, where the prescribed function has the mean "
+                      "{}; accepted: the function behind the fixed values",
+                      value, mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1)), mean));
+  }
+}
+
+/// v >= -g between the vertices, too, by samples: else the proof does not start.
+void check_admissible(const Scene& scene, const Space& space, const VariationalInequality& problem, const Conforming& v,
+                      double scale) {
+  constexpr int samples = 8;
+  for (const int e : problem.contact)
+    for (int k = 0; k <= samples; ++k) {
+      const double theta = static_cast<double>(k) / samples;
+      const double x = (1 - theta) * space.mesh().vertices(space.mesh().edges(e, 0), 0) +
+                       theta * space.mesh().vertices(space.mesh().edges(e, 1), 0);
+      const double gap = scene.contact()->gap(x), above = v.value(e, theta) + gap;
+      if (!(above >= -1e-9 * std::max(scale, std::abs(gap))))
+        throw Error(
+            fmt::format("certificate: the companion is {:.1e} below the obstacle at x = {:.6g}; accepted: a "
+                        "function of K, as admissible_bounds make it",
+                        -above, x));
+    }
+}
+
+}  // namespace
+
+double Certificate::relative(Quantity of) const {
+  const double norm_of_u = std::max(norm - displacement, midpoint_norm - stress);
+  return norm_of_u > 0 ? bound(of) / norm_of_u : std::numeric_limits<double>::infinity();
+}
+
+double unbalanced(const VariationalInequality& problem, const EquilibratedFlux& flux, PenaltyFactor* factor) {
+  std::optional<PenaltyFactor> own;
+  if (factor == nullptr) factor = &own.emplace(problem);
+  factor->check_fits(problem);
+  if (factor->delta() < problem.compliance)
+    throw Error("certificate: the factor has a smaller penalty than the compliance; accepted: at least as large");
+  return factor->forward(flux.imbalance(factor->numbering().unknown)).norm();  // |L^-1 r1|^2 = r1' K^-1 r1
+}
+
+Certificate certify(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                    const Solution& solution, const CertificateOptions& options) {
+  const EquilibratedFlux flux = equilibrated_flux(scene, space, problem, solution);
+  Companion made;
+  if (options.companion == nullptr) made = strip_companion(scene, space, problem, solution, options.prescribed);
+  const Companion& companion = options.companion != nullptr ? *options.companion : made;
+  const TriangleMesh& mesh = space.mesh();
+  const Conforming v(space, flux.law, companion);
+  const Quadrature &fine = radon_rule(), &midpoints = midpoint_rule();
+
+  Certificate certificate;
+  certificate.oscillation = std::sqrt(flux.oscillation2);
+  certificate.imbalance = unbalanced(problem, flux, options.factor);
+  certificate.indicator = Eigen::VectorXd::Zero(mesh.triangle_count());
+  double norm2 = v.layer_norm2(), work = 0;  // |v|_a^2, (f, v)
+  double mismatch2 = 0, spread2 = 0;         // m^2 and |sigma + A grad v - 2 S_h|^2, of the triangles that v shares
+  int row = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const FluxCell& here = flux.cell[t];
+    const double area = mesh.area(t);
+    double mismatch = 0, spread = 0;
+    if (mesh.region[t] == Region::body) {
+      const Eigen::Vector2d gradient = v.flux(t, 0), jump = gradient - here.s;
+      const Eigen::MatrixX2d tau = flux.tau(mesh, t, fine.points);
+      mismatch = area * fine.weights.dot((tau.rowwise() - jump.transpose()).rowwise().squaredNorm());
+      spread = area * fine.weights.dot((tau.rowwise() + jump.transpose()).rowwise().squaredNorm());
+      norm2 += area * gradient.squaredNorm();
+      for (int i = 0; i < 3; ++i)  // mean(f lambda_i) = (f_i + 3 f_T) / 12
+        work += area * (here.f(i) + 3 * here.mean) / 12 * companion.at_vertices(mesh.triangles(t, i));
+    } else if (v.on_mesh(t)) {
+      const Eigen::Vector2d gradient = v.flux(t, row);
+      norm2 += area * flux.law.squared(gradient);
+      mismatch = spread = area * flux.law.squared(gradient - here.s);
+    } else {  // for the indicator alone
+      for (Eigen::Index q = 0; q < midpoints.weights.size(); ++q) {
+        const Eigen::Vector2d x =
+            point_in(mesh, t, 0.98 * midpoints.points.row(q).transpose() + Eigen::Vector3d::Constant(0.02 / 3));
+        certificate.indicator(t) += area * midpoints.weights(q) * flux.law.squared(v.flux_at(x) - here.s) / 2;
+      }
+    }
+    if (mesh.region[t] == Region::layer) ++row;
+    mismatch2 += mismatch;
+    spread2 += spread;
+    certificate.indicator(t) += mismatch / 2 + here.oscillation2;
+  }
+  certificate.norm = std::sqrt(norm2);
+  check_prescribed(space, problem, companion, options.prescribed);
+  check_admissible(scene, space, problem, v, companion.at_vertices.cwiseAbs().maxCoeff());
+  for (std::size_t i = 0; i < problem.contact.size(); ++i) {
+    const int e = problem.contact[i];
+    const auto place = static_cast<Eigen::Index>(i);
+    if (flux.lambda(place) == 0) continue;
+    const double contact_work = std::max(flux.lambda(place) * (v.mean(e) + flux.gap(place)), 0.0);
+    certificate.contact_work += contact_work;
+    certificate.indicator(mesh.edge_triangles(e, 0)) += contact_work;
+  }
+  // R(v); forces that are round-off are bounded together, which spares their means over columns
+  double unbalanced_work = 0, small_forces = 0;
+  const double round_off = 1e-13 * flux.residual.lpNorm<Eigen::Infinity>();
+  for (Eigen::Index e = 0; e < flux.imbalance.size(); ++e)
+    if (std::abs(flux.imbalance(e)) > round_off)
+      unbalanced_work += flux.imbalance(e) * v.mean(static_cast<int>(e));
+    else
+      small_forces += std::abs(flux.imbalance(e));
+  small_forces *= companion.at_vertices.cwiseAbs().maxCoeff();
+
+  certificate.energy_upper = norm2 / 2 - work;
+  const double scale = norm2 + flux.norm2 + std::abs(work);
+  const double by_identity =
+      2 * (certificate.energy_upper - flux.dual - unbalanced_work + small_forces - certificate.contact_work);
+  if (!(by_identity >= -1e-12 * scale))
+    throw Error(
+        fmt::format("certificate: round-off has eaten the mismatch, {:.1e} of the energy; accepted: values at "
+                    "the vertices that agree with the fixed ones, cells far from degenerate",
+                    by_identity / scale));
+  if (companion.layer) {
+    spread2 += std::max(by_identity - mismatch2, 0.0);  // tau = 0 in the layer: the two squares are one there
+    mismatch2 = std::max(by_identity, mismatch2);
+  } else if (std::abs(by_identity - mismatch2) > 2 * small_forces + 1e-10 * scale) {
+    throw Error(
+        fmt::format("certificate: the companion does not have the fixed values: the two sides of the identity "
+                    "differ by {:.1e} of the energy",
+                    std::abs(by_identity - mismatch2) / scale));
+  }
+  certificate.mismatch = std::sqrt(mismatch2);
+  certificate.midpoint_norm = std::sqrt(std::max(2 * norm2 + 2 * flux.norm2 - mismatch2, 0.0)) / 2;
+
+  const double q = certificate.oscillation + certificate.imbalance, m = certificate.mismatch;
+  const double root = std::sqrt((m + q) * (m + q) / 4 + certificate.contact_work);
+  certificate.displacement = (m + q) / 2 + root;
+  certificate.stress = q / 2 + root;
+  certificate.gradient = std::sqrt(spread2) / 2 + q / 2 + root;
+  certificate.energy_lower = flux.dual + unbalanced_work - small_forces - q * certificate.displacement;
+
+  double layer = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer) layer += certificate.indicator(t);
+  certificate.layer_share = layer > 0 ? layer / certificate.indicator.sum() : 0;
+  return certificate;
+}
+
+}  // namespace antilock

@@ -1,0 +1,36 @@
+#pragma once
+#include <optional>
+
+#include "antilock/analysis/column_function.hpp"
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/scene/scene.hpp"
+#include "antilock/solve/solution.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// A conforming function v of K, P1 in the body on the mesh of the Crouzeix-Raviart solution that it accompanies.
+struct Companion {
+  Eigen::VectorXd at_vertices;          ///< V values; those of the layer's vertices only without `columns`
+  Eigen::VectorXd stress;               ///< epsilon^-2 d_y v per layer triangle (scaled layer, without `columns`)
+  std::optional<ColumnFunction> layer;  ///< v in the layer where that has columns of its own
+  int unknowns = 0;                     ///< solved for
+};
+
+/// Bounds for the contact unknowns of a P1 space under which v >= -gap on the whole of Gamma_C, not at the vertices
+/// alone: -gap, raised by what the chord of the gap overshoots on both sides; the gap is sampled at 32 points per edge.
+/// `prescribed`: v at the clamped ends (empty: 0).
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& prescribed = {});
+
+/// The strip: v is the average of u_CR at the body's vertices off Sigma, and on Sigma and in the layer the function of
+/// least energy in K, by active set. The scaled layer has columns for it under the vertices of Sigma (mesh/layered.hpp),
+/// the mesh's own where it is extruded already: P1 cannot lock on them. A handful of unknowns per column, whatever the
+/// body has. `prescribed`: the function whose values at the vertices are the boundary values (empty: 0). Throws what
+/// active_set throws.
+Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                          const Solution& solution, const Field& prescribed = {});
+
+/// A P1 solution on the mesh itself as the companion.
+Companion p1_companion(const Solution& p1_solution);
+
+}  // namespace antilock

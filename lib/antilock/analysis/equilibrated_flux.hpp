@@ -1,0 +1,58 @@
+#pragma once
+#include <vector>
+
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/scene/scene.hpp"
+#include "antilock/solve/solution.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// How the layer turns a gradient into a flux, and how a flux counts in the energy: |q|^2 = x q_x^2 + y q_y^2.
+struct LayerLaw {
+  explicit LayerLaw(const Scene& scene);
+  bool split = false;    ///< the scaled layer: the flux is (d_x u, p), p its own unknown; else it is stiffness * grad u
+  double stiffness = 1;  ///< 1 / epsilon for the thin layer
+  double x = 1, y = 1;   ///< weights: 1 and epsilon^2 for the scaled layer, epsilon and epsilon for the thin one
+
+  double squared(const Eigen::Vector2d& flux) const { return x * flux(0) * flux(0) + y * flux(1) * flux(1); }
+};
+
+/// The flux of Crouzeix-Raviart on one triangle, sigma = s + tau; tau = 0 in the layer.
+struct FluxCell {
+  Eigen::Vector2d s = Eigen::Vector2d::Zero();       ///< A grad u_h; (d_x u_h, p) in the scaled layer
+  double mean = 0;                                   ///< f_T, the mean of f
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();  ///< the mean of f x
+  Eigen::Vector3d f = Eigen::Vector3d::Zero();       ///< f_1 at the vertices: f projected on the affine functions
+  double oscillation2 = 0;                           ///< (h_T / pi)^2 |f - f_1|_T^2
+};
+
+/// A flux in equilibrium with f_1, built from any u and p on the Crouzeix-Raviart space (derivation in
+/// certificate.hpp).
+struct EquilibratedFlux {
+  explicit EquilibratedFlux(const Scene& scene) : law(scene) {}
+
+  LayerLaw law;
+  std::vector<FluxCell> cell;  ///< T
+  Eigen::VectorXd residual;    ///< N, r = A1 u + B' M p - b, with the scene's own A1, B and load
+  Eigen::VectorXd lambda;      ///< C, the positive part of r on Gamma_C: contact forces
+  Eigen::VectorXd imbalance;   ///< N, r1: what is left of r on free unknowns; 0 on the fixed ones
+  Eigen::VectorXd gap;         ///< C, the mean of the gap over each contact edge
+  double norm2 = 0;            ///< |sigma|^2, counted by A^-1
+  double tau2 = 0;             ///< |tau|^2
+  double oscillation2 = 0;     ///< osc^2, the sum over the triangles
+  double dual = 0;             ///< D, the energy of the dual problem at sigma
+
+  /// tau at the points of a rule on triangle t, q x 2.
+  Eigen::MatrixX2d tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& lambda) const;
+};
+
+/// Builds it; u and p need satisfy no equation. Where f is far from affine on a triangle, a finer rule integrates it
+/// than the solver used, and the difference is a part of r. Throws Error for another element than Crouzeix-Raviart, for
+/// the Ventcel layer (accepted in its place: the scaled layer with epsilon = 0, the same problem), for a solution of
+/// another size or with entries that are not finite, and for a problem that is not this scene's on this space (its load
+/// above all).
+EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                                   const Solution& solution);
+
+}  // namespace antilock

@@ -1,0 +1,374 @@
+// The certificate: never below the true error, close to it at every epsilon, and true however the solve ended.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include "antilock/analysis/certificate.hpp"
+#include "antilock/exact/truth.hpp"
+#include "antilock/form/quadrature.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/mesh/layered.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "support/bodies.hpp"
+#include "support/exact_errors.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::exact_errors;
+using test::ExactErrors;
+using test::expect_refused;
+
+/// One question with its answer, and room for what a test does to it.
+struct Answered {
+  TriangleMesh mesh;
+  Scene scene;
+  Space space;
+  VariationalInequality problem;
+  Solution solution;
+
+  Answered(TriangleMesh made, Scene asked)
+      : mesh(std::move(made)),
+        scene(std::move(asked)),
+        space(mesh, crouzeix_raviart()),
+        problem(assemble(scene, space)),
+        solution(active_set(problem)) {}
+  Answered(const Answered&) = delete;
+  Answered& operator=(const Answered&) = delete;
+
+  EquilibratedFlux flux() const { return equilibrated_flux(scene, space, problem, solution); }
+  Companion strip() const { return strip_companion(scene, space, problem, solution); }
+  Certificate certified() const { return certify(scene, space, problem, solution); }
+};
+
+/// u and p pushed away from the answer: no equation holds any more.
+void disturb(Answered& run, double amount, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto noise = [&] { return amount * (2.0 * random() / std::mt19937::max() - 1); };
+  std::vector<char> fixed(run.space.size(), 0);
+  for (const int i : run.problem.fixed) fixed[i] = 1;
+  const double u = run.solution.u.lpNorm<Eigen::Infinity>(), p = run.solution.p.lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < run.space.size(); ++i) run.solution.u(i) += fixed[i] ? 0 : noise() * u;
+  for (double& value : run.solution.p) value += noise() * p;
+}
+
+TEST(Certificate, IsCloseToTheErrorAndFlatInEpsilon) {
+  const std::vector<double> epsilons{1, 1e-1, 1e-2, 1e-4, 1e-6, 1e-12, 0};
+  std::map<double, Truth> truths;
+  std::map<double, TruthTable> truth;
+  for (const double epsilon : epsilons) {
+    truths.emplace(epsilon, Truth(paper_sine_load(), epsilon));
+    truth.emplace(epsilon, truths.at(epsilon));
+  }
+  for (const bool structured : {true, false})
+    for (const int cells : {8, 16, 32}) {
+      double least = 1e9, most = 0;
+      for (const double epsilon : epsilons) {
+        const Answered run(structured ? structured_mesh(cells) : unstructured_mesh(cells), test::stiff_scene(epsilon));
+        const Companion v = run.strip();
+        const ExactErrors exact = exact_errors(run.mesh, run.flux(), v, truth.at(epsilon));
+        const Certificate found = run.certified();
+        const double ratio = found.gradient / exact.gradient;
+        const std::string at = fmt::format("{} 1/h = {} epsilon = {:g}", structured, cells, epsilon);
+        EXPECT_GE(ratio, 1) << at;
+        EXPECT_LE(ratio, structured ? 1.5 : 1.4) << at;
+        EXPECT_GE(found.displacement, exact.displacement) << at;
+        EXPECT_LE(found.displacement, 1.35 * exact.displacement) << at;
+        EXPECT_LE(found.energy_lower, truths.at(epsilon).energy()) << at;
+        EXPECT_GE(found.energy_upper, truths.at(epsilon).energy()) << at;
+        EXPECT_GE(found.indicator.minCoeff(), 0) << at;
+        if (epsilon > 0.1) continue;
+        least = std::min(least, ratio);
+        most = std::max(most, ratio);
+      }
+      EXPECT_LE(most, 1.02 * least) << structured << cells;
+    }
+  // the midpoint: v in the layer lives on the mesh itself here
+  for (const double epsilon : epsilons)
+    for (const int cells : {16, 32}) {
+      const Answered run(layered_mesh(cells, epsilon), test::stiff_scene(epsilon));
+      const ExactErrors exact = exact_errors(run.mesh, run.flux(), run.strip(), truth.at(epsilon));
+      const double ratio = run.certified().stress / exact.stress;
+      EXPECT_GE(ratio, 1) << cells << epsilon;
+      EXPECT_LE(ratio, 1.02) << cells << epsilon;
+    }
+}
+
+/// The left side of the identity, m^2 / 2 + C, summed over elements and edges by itself.
+double left_side(const Answered& run, const EquilibratedFlux& flux, const Companion& v, const Profile& gap) {
+  const Quadrature& rule = triangle_rule(6);
+  double sum = 0;
+  int row = 0;
+  for (int t = 0; t < run.mesh.triangle_count(); ++t) {
+    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
+    for (int i = 0; i < 3; ++i)
+      gradient += v.at_vertices(run.mesh.triangles(t, i)) * barycentric_gradients(run.mesh, t).row(i).transpose();
+    const bool layer = run.mesh.region[t] == Region::layer;
+    if (layer) gradient(1) = v.stress(row++);
+    const Eigen::MatrixX2d tau = flux.tau(run.mesh, t, rule.points);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Vector2d d = gradient - flux.cell[t].s - (layer ? Eigen::Vector2d(0, 0) : tau.row(q).transpose());
+      sum += run.mesh.area(t) * rule.weights(q) * (layer ? flux.law.squared(d) : d.squaredNorm()) / 2;
+    }
+  }
+  for (std::size_t i = 0; i < run.problem.contact.size(); ++i) {
+    const auto ends = run.mesh.edges.row(run.problem.contact[i]);
+    for (const auto& [theta, weight] : {std::pair{0.0, 1.0 / 6}, {0.5, 4.0 / 6}, {1.0, 1.0 / 6}}) {  // a cubic gap
+      const double x = (1 - theta) * run.mesh.vertices(ends(0), 0) + theta * run.mesh.vertices(ends(1), 0);
+      sum += flux.lambda(static_cast<Eigen::Index>(i)) * weight *
+             ((1 - theta) * v.at_vertices(ends(0)) + theta * v.at_vertices(ends(1)) + gap(x));
+    }
+  }
+  return sum;
+}
+
+TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
+  const Profile gap = [](double x) { return 0.05 - 0.9 * x * (1 - x) * (1 + 0.5 * x); };
+  const Field prescribed = [](double x, double y) { return 0.3 * (x - 0.4) * (x + y) + 0.1 * y * y + 0.03; };
+  for (const double epsilon : {1.0, 1e-2})
+    for (const double amount : {0.0, 0.05}) {
+      // prescribed values that depend on y are for the body's sides; in the layer they are those of Sigma's ends
+      const Field values = [&](double x, double y) { return prescribed(x, std::max(y, 0.0)); };
+      Answered run(layered_mesh(6, epsilon), test::stiff_scene(epsilon, {gap}));
+      for (std::size_t i = 0; i < run.problem.fixed.size(); ++i) {
+        const auto ends = run.mesh.edges.row(run.problem.fixed[i]);
+        double mean = 0;
+        for (int k = 0; k < 2; ++k) mean += values(run.mesh.vertices(ends(k), 0), run.mesh.vertices(ends(k), 1)) / 2;
+        run.problem.fixed_values(static_cast<Eigen::Index>(i)) = mean;
+      }
+      run.solution = active_set(run.problem);
+      disturb(run, amount, 7);
+      const EquilibratedFlux flux = run.flux();
+      const Companion v = strip_companion(run.scene, run.space, run.problem, run.solution, values);
+      ASSERT_FALSE(v.layer);
+      const Certificate found =
+          certify(run.scene, run.space, run.problem, run.solution, {.prescribed = values, .companion = &v});
+      const double left = left_side(run, flux, v, gap);
+      EXPECT_GT(flux.lambda.sum(), 0.1);
+      EXPECT_NEAR(found.mismatch * found.mismatch / 2 + found.contact_work, left, 1e-10);
+      double balance = 0;  // R(v)
+      for (int e = 0; e < run.mesh.edge_count(); ++e)
+        balance += flux.imbalance(e) * (v.at_vertices(run.mesh.edges(e, 0)) + v.at_vertices(run.mesh.edges(e, 1))) / 2;
+      EXPECT_EQ(std::abs(balance) > 1e-4, amount > 0);
+      EXPECT_NEAR(found.energy_upper - flux.dual - balance, left, 1e-10) << epsilon << amount;
+
+      // the same v as a function on columns of its own
+      Companion apart = v;
+      apart.layer.emplace(run.mesh, v.at_vertices, v.stress);
+      const Certificate other =
+          certify(run.scene, run.space, run.problem, run.solution, {.prescribed = values, .companion = &apart});
+      EXPECT_NEAR(other.displacement, found.displacement, 1e-10);
+      EXPECT_NEAR(other.gradient, found.gradient, 1e-10);
+      EXPECT_NEAR(other.stress, found.stress, 1e-10);
+      EXPECT_NEAR(other.energy_lower, found.energy_lower, 1e-10);
+      EXPECT_NEAR((other.indicator - found.indicator).lpNorm<Eigen::Infinity>(), 0, 1e-10);
+    }
+}
+
+TEST(ColumnFunction, IsTheP1FunctionAnywhereAndItsMeansAreExact) {
+  const TriangleMesh mesh = extruded(test::bridge(8), 0.7);
+  std::mt19937 random(3);
+  Eigen::VectorXd v(mesh.vertex_count());
+  for (double& value : v) value = random() / 4e9;
+  const ColumnFunction f(mesh, v, Eigen::VectorXd::Zero(mesh.triangle_count()));
+  for (int t = f.first_triangle(); t < mesh.triangle_count(); ++t) {
+    const Eigen::Vector3d lambda(0.2, 0.5, 0.3);
+    const Eigen::Vector3d corners = v(mesh.triangles.row(t));
+    EXPECT_NEAR(f.value(point_in(mesh, t, lambda)), lambda.dot(corners), 1e-13);
+    const double slope = barycentric_gradients(mesh, t).col(0).dot(corners);
+    EXPECT_NEAR(f.flux(point_in(mesh, t, lambda))(0), slope, 1e-11);
+  }
+  for (const auto& [a, b] : {std::pair{Eigen::Vector2d(0.01, -0.97), Eigen::Vector2d(0.24, -0.03)},
+                             {Eigen::Vector2d(0.9, -1), Eigen::Vector2d(0.8, -0.2)},
+                             {Eigen::Vector2d(0.1, -1), Eigen::Vector2d(0.2, -1)},
+                             {Eigen::Vector2d(0.03, -0.3), Eigen::Vector2d(0.03, -0.9)}}) {
+    double mean = 0;
+    constexpr int parts = 200000;
+    for (int k = 0; k < parts; ++k) mean += f.value(a + (k + 0.5) / parts * (b - a)) / parts;
+    EXPECT_NEAR(f.mean(a, b), mean, 1e-8);
+  }
+}
+
+// A few contact steps, a contact set that is wrong, corrections left out: r1 tells, and the bound stays one.
+TEST(Certificate, HoldsForUzawaAfterAFewSteps) {
+  const double epsilon = 1e-2;
+  Answered run(unstructured_mesh(16), test::stiff_scene(epsilon));
+  const TruthTable truth{Truth(paper_sine_load(), epsilon)};
+  PenaltyFactor factor(run.problem, run.problem.compliance);  // no correction is needed: K is the problem's own
+  const auto& free = factor.numbering().unknown;
+  const Eigen::MatrixXd& block = factor.contact_block();
+  const Eigen::MatrixXd schur = block.triangularView<Eigen::Lower>() * block.transpose();
+  const double step = 2 * Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(schur).eigenvalues().minCoeff();
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(run.problem.contact.size()));
+  double ratio = 0;
+  for (int steps = 0; steps <= 100; ++steps) {
+    Eigen::VectorXd force = run.problem.load;
+    for (Eigen::Index i = 0; i < lambda.size(); ++i) force(run.problem.contact[i]) += lambda(i);
+    run.solution.u.setZero();
+    run.solution.u(free) = factor.backward(factor.forward(force(free)));
+    run.solution.p = run.problem.b * run.solution.u / run.problem.compliance;
+    if (steps == 0 || steps == 1 || steps == 3 || steps == 10 || steps == 100) {
+      const ExactErrors exact = exact_errors(run.mesh, run.flux(), run.strip(), truth);
+      const Certificate found = run.certified();
+      ratio = found.gradient / exact.gradient;
+      EXPECT_GE(ratio, 1) << steps;
+      EXPECT_LE(ratio, steps < 10 ? 1.7 : 1.35) << steps;  // 1.56, 1.37, 1.31, 1.30, 1.30 in a prototype
+    }
+    for (Eigen::Index i = 0; i < lambda.size(); ++i)
+      lambda(i) = std::max(0.0, lambda(i) - 0.5 * step * run.solution.u(run.problem.contact[i]));
+  }
+}
+
+TEST(Certificate, CountsWhatIsLeftOfTheForcesByTheFactorInHand) {
+  Answered run(unstructured_mesh(8), test::stiff_scene(1e-4));
+  disturb(run, 1e-2, 3);
+  PenaltyFactor factor(run.problem);
+  const double rho = unbalanced(run.problem, run.flux(), &factor);
+  EXPECT_GT(rho, 1e-3);
+  EXPECT_EQ(unbalanced(run.problem, run.flux()), rho) << "a factor of its own is the same";
+  // rho^2 = max |r1' w|^2 / w' K w, reached by w = K^-1 r1
+  const auto& free = factor.numbering().unknown;
+  const Eigen::VectorXd r1 = run.flux().imbalance(free), w = factor.backward(factor.forward(r1));
+  EXPECT_NEAR(rho * rho, r1.dot(w), 1e-12 * rho * rho);
+}
+
+TEST(Certificate, BoundsAP1SolutionAndNamesTheLayerWhereItLocks) {
+  const double epsilon = 1e-6;
+  const TruthTable truth{Truth(paper_sine_load(), epsilon)};
+  for (const bool locks : {true, false}) {
+    const Answered run(locks ? unstructured_mesh(32) : layered_mesh(32, 1), test::stiff_scene(epsilon));
+    const Space conforming(run.mesh, p1());
+    const Companion v = p1_companion(active_set(test::stiff_problem(conforming, epsilon)));
+    const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
+    EXPECT_GE(found.displacement, exact_errors(run.mesh, run.flux(), v, truth).displacement);
+    EXPECT_EQ(found.displacement > 0.1, locks);
+    EXPECT_EQ(found.layer_share > 0.5, locks) << found.layer_share;
+  }
+}
+
+TEST(Certificate, HoldsForTheThinLayerAndTheBodyAlone) {
+  // against the energy on a mesh four times as fine: |u - v|^2 / 2 <= J(v) - J(u)
+  for (const Layer& layer : {Layer(ThinLayer{0.25}), Layer(NoLayer{})}) {
+    const Scene scene({paper_load}, layer, UnilateralContact{});
+    const Domain domain{scene.layer_depth()};
+    const Answered run(unstructured_mesh(8, domain), scene), fine(unstructured_mesh(64, domain), scene);
+    const Certificate coarse = run.certified(), reference = fine.certified();
+    EXPECT_LT(reference.displacement, 0.2 * coarse.displacement);
+    const double gap = coarse.energy_upper - reference.energy_lower;  // >= J(v) - J(u)
+    EXPECT_GE(coarse.displacement, 0.9 * std::sqrt(2 * gap)) << "not far above";
+    EXPECT_GE(coarse.displacement + reference.displacement,
+              std::sqrt(2 * (coarse.energy_upper - reference.energy_upper)));
+    EXPECT_LE(coarse.energy_lower, reference.energy_upper);
+    EXPECT_LE(reference.energy_lower, coarse.energy_upper);
+    EXPECT_LT(coarse.energy_upper - coarse.energy_lower, 0.2 * std::abs(coarse.energy_upper));
+  }
+}
+
+TEST(Certificate, KeepsItsCompanionOutOfACurvedObstacle) {
+  // a needle that rises between two vertices, and a gap that closes at a clamped end
+  const Profile needle = [](double x) { return 0.02 - 0.05 * std::exp(-std::pow((x - 0.71) / 0.02, 2)); };
+  const Profile closing = [](double x) { return 0.3 * x * x * (1 - x) * (1 - x); };
+  for (const Profile& gap : {needle, closing})
+    for (const double epsilon : {1.0, 1e-3}) {
+      const Answered run(unstructured_mesh(8), test::stiff_scene(epsilon, {gap}));
+      const Companion v = run.strip();
+      ASSERT_TRUE(v.layer);
+      for (int k = 0; k <= 1000; ++k)
+        EXPECT_GE(v.layer->value({k / 1000.0, -1}) + gap(k / 1000.0), -2e-4) << k;  // between the samples
+      const Certificate coarse = run.certified();
+      const Answered fine(unstructured_mesh(64), test::stiff_scene(epsilon, {gap}));
+      const Certificate reference = fine.certified();
+      EXPECT_LE(coarse.energy_lower, reference.energy_upper);
+      EXPECT_LE(reference.energy_lower, coarse.energy_upper);
+    }
+}
+
+TEST(Certificate, IntegratesALoadThatTheSolversRuleMisses) {
+  // half a wave on less than a triangle: the finer rule's difference is a part of r1
+  const SineLoad load{{{9, {4.0, -9.0}}, {1, {3.0}}}};
+  for (const int cells : {2, 3, 4})
+    for (const bool structured : {true, false}) {
+      const Answered run(structured ? structured_mesh(cells) : unstructured_mesh(cells),
+                         Scene({load}, StiffLayer{1e-2}, UnilateralContact{}));
+      const Truth truth(load, 1e-2, true, 14);
+      const Certificate found = run.certified();
+      EXPECT_GT(found.imbalance, 1e-4) << "the rule does miss something";
+      EXPECT_GE(found.gradient, exact_errors(run.mesh, run.flux(), run.strip(), TruthTable(truth)).gradient) << cells;
+      EXPECT_LE(found.energy_lower, truth.energy()) << cells;
+      EXPECT_GE(found.energy_upper, truth.energy()) << cells;
+    }
+}
+
+TEST(Certificate, RefusesWhatItCannotProve) {
+  Answered run(unstructured_mesh(4), test::stiff_scene(1e-2));
+  const auto with = [&](const Scene& scene) { certify(scene, run.space, run.problem, run.solution); };
+  expect_refused([&] { with(Scene({[](double, double) { return 1.0; }}, StiffLayer{1e-2}, UnilateralContact{})); },
+                 "the problem is not the scene's");
+  expect_refused([&] { with(Scene({paper_load}, StiffLayer{1e-2})); }, "do not agree whether there is contact");
+  const Space conforming(run.mesh, p1());
+  const auto p1_problem = test::stiff_problem(conforming, 1e-2);
+  const Solution p1_solution = active_set(p1_problem);
+  expect_refused([&] { certify(run.scene, conforming, p1_problem, p1_solution); }, "element P1");
+  const Answered ventcel(structured_mesh(4, {0}), Scene({paper_load}, VentcelLayer{}, UnilateralContact{}));
+  expect_refused([&] { ventcel.certified(); }, "epsilon = 0");
+  Companion low = p1_companion(p1_solution);
+  for (const int i : p1_problem.contact) low.at_vertices(i) -= 0.1;
+  expect_refused([&] { certify(run.scene, run.space, run.problem, run.solution, {.companion = &low}); },
+                 "below the obstacle");
+  Companion off = p1_companion(p1_solution);
+  off.at_vertices(conforming.clamped().front()) = 0.1;
+  expect_refused([&] { certify(run.scene, run.space, run.problem, run.solution, {.companion = &off}); }, "prescribed");
+  const Companion wrong{.at_vertices = Eigen::VectorXd::Zero(3), .stress = {}, .layer = std::nullopt};
+  expect_refused([&] { certify(run.scene, run.space, run.problem, run.solution, {.companion = &wrong}); },
+                 "another number of values");
+  run.problem.fixed_values(0) = 1;
+  run.solution = active_set(run.problem);
+  expect_refused([&] { run.certified(); }, "the function behind the fixed values");
+  run.solution.u(5) = std::nan("");
+  expect_refused([&] { run.certified(); }, "not finite");
+}
+
+// Random loads, meshes and epsilons; a third of the solves is disturbed or comes with another contact set.
+TEST(Certificate, IsNeverBelowTheErrorInThreeHundredCases) {
+  constexpr int cases = 300;
+  const std::vector<double> epsilons{1, 0.3, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 0};
+  std::mt19937 random(20040);
+  const auto uniform = [&] { return random() / (std::mt19937::max() + 1.0); };
+  const auto pick = [&](int n) { return static_cast<int>(uniform() * n); };
+  double sharpest = 1e9, bluntest = 0;
+  for (int k = 0; k < cases; ++k) {
+    SineLoad load;
+    for (int modes = 1 + pick(4); modes > 0; --modes)
+      load.modes.push_back({1 + pick(4), {20 * uniform() - 10, 20 * uniform() - 10}});
+    const double epsilon = epsilons[k % epsilons.size()];
+    const int cells = 6 + pick(13), kind = k % 4;
+    TriangleMesh mesh = kind == 0   ? structured_mesh(cells)
+                        : kind == 1 ? jittered_mesh(cells, 0.2 * uniform())
+                        : kind == 2 ? unstructured_mesh(cells)
+                                    : layered_mesh(cells, epsilon);
+    Answered run(std::move(mesh), Scene({load}, StiffLayer{epsilon}, UnilateralContact{}));
+    if (k % 3 == 0) disturb(run, std::pow(10, -1 - 4 * uniform()), static_cast<unsigned>(k));
+    const TruthTable truth(Truth(load, epsilon, true, 12));
+    const Companion v = run.strip();
+    const ExactErrors exact = exact_errors(run.mesh, run.flux(), v, truth);
+    const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
+    const std::string at = fmt::format("case {}: kind {}, {} cells, epsilon = {:g}", k, kind, cells, epsilon);
+    EXPECT_GE(found.gradient, exact.gradient) << at;
+    EXPECT_GE(found.displacement, exact.displacement) << at;
+    EXPECT_GE(found.stress, exact.stress) << at;
+    if (k % 3 == 0) continue;
+    sharpest = std::min(sharpest, found.gradient / exact.gradient);
+    bluntest = std::max(bluntest, found.gradient / exact.gradient);
+  }
+  RecordProperty("sharpest", std::to_string(sharpest));
+  RecordProperty("bluntest", std::to_string(bluntest));
+  EXPECT_LT(bluntest, 2.1);  // 1.30 to 2.03 in a prototype: the worst where f oscillates on a triangle
+  fmt::print("bound / error of the undisturbed cases: {:.3f} to {:.3f}\n", sharpest, bluntest);
+}
+
+}  // namespace
+}  // namespace antilock
