@@ -14,7 +14,9 @@ inline TriangleMesh layered_mesh(int cells) {
     if (body.vertices(v, 1) == 0) top.push_back(v);
   std::sort(top.begin(), top.end(), [&](int a, int b) { return body.vertices(a, 0) < body.vertices(b, 0); });
   const int columns = static_cast<int>(top.size()) - 1, above = body.vertex_count();
-  const auto vertex = [&](int column, int row) { return row == 0 ? top[column] : above + (row - 1) * (columns + 1) + column; };
+  const auto vertex = [&](int column, int row) {
+    return row == 0 ? top[column] : above + (row - 1) * (columns + 1) + column;
+  };
   Points vertices(above + cells * (columns + 1), 2);
   vertices.topRows(above) = body.vertices;
   for (int row = 1; row <= cells; ++row)

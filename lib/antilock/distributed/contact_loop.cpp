@@ -102,8 +102,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
       Entries value(u), residual(r1), right(rhs), gap(jump);
       for (std::size_t i = 0; i < owned; ++i) {
         const bool was = state.active[i] != 0;
-        const bool is = std::isfinite(lower(i)) &&
-                        (step == 0 ? was : was ? residual[i] < 0 : value[i] < lower(i));
+        const bool is = std::isfinite(lower(i)) && (step == 0 ? was : was ? residual[i] < 0 : value[i] < lower(i));
         changed += is != was;
         state.active[i] = is ? 1 : 0;
         gap[i] = is ? lower(i) - value[i] : 0;
@@ -124,11 +123,13 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     if (changed > 0) ++report.sets, since_change = 0;
     const bool settled = report.change <= options.tolerance && unbalanced <= options.residual;
     if (step > 0 && changed == 0 && settled) break;
-    if (!std::isfinite(scale + unbalanced) || since_change > options.most_corrections || report.sets > options.most_sets)
-      throw NotConverged(fmt::format("petsc: relative change {:.1e} and residual {:.1e} after {} corrections and {} contact "
-                                     "sets, asked for {:.1e} and {:.1e}",
-                                     report.change, unbalanced, step, report.sets, options.tolerance, options.residual),
-                         std::max(report.change, unbalanced), step);
+    if (!std::isfinite(scale + unbalanced) || since_change > options.most_corrections ||
+        report.sets > options.most_sets)
+      throw NotConverged(
+          fmt::format("petsc: relative change {:.1e} and residual {:.1e} after {} corrections and {} contact "
+                      "sets, asked for {:.1e} and {:.1e}",
+                      report.change, unbalanced, step, report.sets, options.tolerance, options.residual),
+          std::max(report.change, unbalanced), step);
 
     watch.lap();
     const bool new_set = step == 0 || changed > 0;

@@ -18,9 +18,9 @@ class Inequality {
 
   const VariationalInequality& part() const { return part_; }  ///< without fixed and contact unknowns
   const Rows& rows() const { return rows_; }
-  const Matrix& k() const { return k_; }    ///< N x N
-  double delta() const { return delta_; }   ///< max(compliance, h^2 / 256): it must follow the mesh
-  bool stiff() const { return stiff_; }     ///< whether any rank has a row of B
+  const Matrix& k() const { return k_; }                   ///< N x N
+  double delta() const { return delta_; }                  ///< max(compliance, h^2 / 256): it must follow the mesh
+  bool stiff() const { return stiff_; }                    ///< whether any rank has a row of B
   const Eigen::VectorXd& lower() const { return lower_; }  ///< per owned row: the bound, -infinity where there is none
 
   /// r1 = L - A1 u - B' M p, the part of this rank. u at the unknowns of the piece, p at its rows of B.

@@ -36,7 +36,10 @@ Eigen::Matrix3d corners_of_child(int i) {
 }  // namespace
 
 Level::Level(const Scene& scene, Piece piece_in, const Element& element)
-    : piece(std::move(piece_in)), space(piece.mesh, element), problem(scene, piece, space), state(zero_state(problem)) {}
+    : piece(std::move(piece_in)),
+      space(piece.mesh, element),
+      problem(scene, piece, space),
+      state(zero_state(problem)) {}
 
 ContactSet Level::contact_set() const {
   std::vector<double> x;

@@ -33,10 +33,10 @@ struct NestedOptions {
 
 /// What a solve did. Seconds are those of this rank.
 struct NestedReport {
-  LoopReport last;                      ///< of the last level
-  std::vector<LoopReport> loops;        ///< per level solved
-  std::vector<long long> unknowns;      ///< per level solved
-  int linear_iterations = 0;            ///< of all levels
+  LoopReport last;                                      ///< of the last level
+  std::vector<LoopReport> loops;                        ///< per level solved
+  std::vector<long long> unknowns;                      ///< per level solved
+  int linear_iterations = 0;                            ///< of all levels
   double mesh = 0, assemble = 0, setup = 0, solve = 0;  ///< seconds, all levels
   Kkt kkt;
   std::string warning;

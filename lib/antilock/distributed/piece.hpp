@@ -14,8 +14,8 @@ struct SharedCorner {
 
 /// An edge of the coarse mesh that two ranks hold, with all that refinement made of it, in the same order on both.
 struct Seam {
-  int owner;  ///< rank, the lower of the two
-  int index;  ///< among the seams that the owner owns
+  int owner;                         ///< rank, the lower of the two
+  int index;                         ///< among the seams that the owner owns
   std::vector<int> vertices, edges;  ///< 2^level + 1 and 2^level of this piece, from one end to the other
 };
 

@@ -24,9 +24,9 @@ std::string petsc_version();
 /// first of them threw: no rank goes on and waits for one that has given up. `work` itself must not communicate.
 void together(const std::function<void()>& work);
 
-double sum(double value);            ///< over the ranks
-double largest(double value);        ///< over the ranks
-long long sum(long long value);      ///< over the ranks
+double sum(double value);                                         ///< over the ranks
+double largest(double value);                                     ///< over the ranks
+long long sum(long long value);                                   ///< over the ranks
 std::vector<double> gathered(const std::vector<double>& values);  ///< of all ranks, rank by rank, on every rank
 std::vector<long long> each(long long value);                     ///< one value per rank, on every rank
 std::string from_first(std::string text);                         ///< the text of rank 0, on every rank

@@ -7,8 +7,8 @@
 #include <numeric>
 #include <tuple>
 
-#include "antilock/distributed/ranks.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/distributed/ranks.hpp"
 
 namespace antilock::distributed {
 namespace {

@@ -16,18 +16,16 @@ class Rows {
   /// P1 or CR. Every rank must call it (the ranks tell each other how many rows they own).
   Rows(const Piece& piece, const Space& space);
 
-  int owned() const { return owned_; }                                        ///< rows of this rank
-  int held() const { return static_cast<int>(unknown_.size()); }              ///< owned ones and ghosts
-  int shared() const { return shared_; }                                      ///< the first owned ones: others hold them
-  PetscInt first() const { return first_; }                                   ///< the row of place 0
-  long long total() const { return total_; }                                  ///< rows of all ranks
-  int place(int unknown) const { return place_[unknown]; }                    ///< -1 where clamped
-  int unknown(int place) const { return unknown_[place]; }                    ///< of the space
-  PetscInt row(int place) const {
-    return place < owned_ ? first_ + place : ghosts_[place - owned_];
-  }
+  int owned() const { return owned_; }                            ///< rows of this rank
+  int held() const { return static_cast<int>(unknown_.size()); }  ///< owned ones and ghosts
+  int shared() const { return shared_; }                          ///< the first owned ones: others hold them
+  PetscInt first() const { return first_; }                       ///< the row of place 0
+  long long total() const { return total_; }                      ///< rows of all ranks
+  int place(int unknown) const { return place_[unknown]; }        ///< -1 where clamped
+  int unknown(int place) const { return unknown_[place]; }        ///< of the space
+  PetscInt row(int place) const { return place < owned_ ? first_ + place : ghosts_[place - owned_]; }
   bool clamped(int unknown) const { return place_[unknown] < 0; }
-  const std::vector<char>& on_contact() const { return on_contact_; }         ///< per unknown; not the clamped ones
+  const std::vector<char>& on_contact() const { return on_contact_; }  ///< per unknown; not the clamped ones
 
   /// A vector of the owned rows with room for the ghosts, zero.
   Vector vector() const;

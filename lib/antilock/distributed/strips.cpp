@@ -34,9 +34,10 @@ std::vector<int> strips(const TriangleMesh& mesh, int ranks) {
   const std::vector<double> lines = column_lines(mesh);
   const int columns = static_cast<int>(lines.size()) - 1;
   if (columns < ranks)
-    throw Error(fmt::format("{} ranks for {} columns of the layer; accepted: a column or more per rank (start fewer "
-                            "ranks, or ask for more cells)",
-                            ranks, columns));
+    throw Error(
+        fmt::format("{} ranks for {} columns of the layer; accepted: a column or more per rank (start fewer "
+                    "ranks, or ask for more cells)",
+                    ranks, columns));
   std::vector<int> column(mesh.triangle_count()), filled(columns, 0);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Vector3d x = mesh.vertices.col(0)(mesh.triangles.row(t));
@@ -45,10 +46,11 @@ std::vector<int> strips(const TriangleMesh& mesh, int ranks) {
     if (mesh.region[t] != Region::layer) continue;
     const double left = lines[column[t]], right = lines[column[t] + 1];
     if (x.minCoeff() < left - slack || x.maxCoeff() > right + slack)
-      throw Error(fmt::format("the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
-                              "of the contact edges: the layer is not made of columns, and multigrid fails on it; "
-                              "accepted: kind = \"layered\" or \"structured\"",
-                              x.mean(), mesh.vertices.col(1)(mesh.triangles.row(t)).mean()));
+      throw Error(
+          fmt::format("the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
+                      "of the contact edges: the layer is not made of columns, and multigrid fails on it; "
+                      "accepted: kind = \"layered\" or \"structured\"",
+                      x.mean(), mesh.vertices.col(1)(mesh.triangles.row(t)).mean()));
   }
   // a strip ends at the column that brings the triangles up to its share, and leaves a column to each rank to come
   std::vector<int> rank_of(columns);
