@@ -10,10 +10,10 @@
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "distributed/layered.hpp"
 
 namespace antilock::distributed {
 namespace {

@@ -1,6 +1,4 @@
 #pragma once
-#include <functional>
-
 #include "antilock/distributed/inequality.hpp"
 #include "antilock/solve/solution.hpp"
 
@@ -21,13 +19,6 @@ struct LoopOptions {
   int most_iterations = 500;  ///< of conjugate gradients, per correction
   int most_corrections = 60;  ///< since the contact set changed last
   int most_sets = 2000;       ///< contact sets tried
-  /// Asked by every rank before each correction; true on any: all throw Interrupted.
-  std::function<bool()> interrupted = [] { return false; };
-};
-
-/// The run was told to stop.
-struct Interrupted : Error {
-  using Error::Error;
 };
 
 /// What the loop did; the same on every rank.

@@ -16,6 +16,16 @@ namespace {
 /// with the larger floor 59 iterations, with this one 14.
 constexpr double least_delta = 1e-9;
 
+/// The mean width of the layer's columns: a correction contracts like delta / h^2, h in the direction of x.
+double column_width(const TriangleMesh& mesh) {
+  double length = 0;
+  long long edges = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == EdgeTag::contact) length += mesh.edge_length(e), ++edges;
+  edges = sum(edges);
+  return edges > 0 ? sum(length) / static_cast<double>(edges) : 1;
+}
+
 }  // namespace
 
 Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& space) : rows_(piece, space) {
@@ -30,9 +40,9 @@ Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& spac
       lower_(place) = -gap;
     }
   });
-  const auto cells = static_cast<double>(sum(static_cast<long long>(part_.m.size())));
-  stiff_ = cells > 0;
-  delta_ = stiff_ ? std::max({part_.compliance, 2 * sum(part_.m.sum()) / cells / 256, least_delta}) : 1;
+  stiff_ = sum(static_cast<long long>(part_.m.size())) > 0;
+  const double h = column_width(piece.mesh);
+  delta_ = stiff_ ? std::max({part_.compliance, h * h / 256, least_delta}) : 1;
   // B' M B is the layer's y-derivatives: the same form with weight delta^-1 on the layer is A1 + delta^-1 B' M B
   if (stiff_)
     sum_k(gradient_form(space, {1, 1}, {1, 1 / delta_}));

@@ -45,7 +45,7 @@ struct NestedReport {
 /// Solves a scene on `coarse`, refined: strips, assembly, and on every level the contact loop started from the level
 /// before. No rank ever holds more of the fine mesh than its own strip. Every rank must call it, with the same coarse
 /// mesh. Throws, on every rank alike, Error where the coarse mesh cannot be dealt out or does not fit the scene, where
-/// a load or a gap is not finite or the element is neither P1 nor CR; NotConverged; Interrupted.
+/// a load or a gap is not finite or the element is neither P1 nor CR; NotConverged.
 std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
                                     const NestedOptions& options, NestedReport& report);
 

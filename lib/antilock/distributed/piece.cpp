@@ -58,13 +58,14 @@ Piece piece_of(const TriangleMesh& coarse, const std::vector<int>& owner_of, int
 
   const std::vector<char> clamped = vertices_with(coarse, EdgeTag::clamped),
                           contact = vertices_with(coarse, EdgeTag::contact);
-  piece.corner_rows.assign(ranks, 0);
+  piece.corner_count.assign(ranks, 0), piece.corner_rows.assign(ranks, 0);
   for (int v = 0; v < coarse.vertex_count(); ++v) {
     if (vertex[v] >= 0 && clamped[v] != 0) piece.clamped.push_back(vertex[v]);
     if (vertex[v] >= 0 && contact[v] != 0) piece.contact.push_back(vertex[v]);
     if (holders[v].size() < 2) continue;
-    const int owner = *holders[v].begin(), index = clamped[v] != 0 ? -1 : piece.corner_rows[owner]++;
-    if (vertex[v] >= 0) piece.corners.push_back({vertex[v], owner, index});
+    const int owner = *holders[v].begin(), index = piece.corner_count[owner]++;
+    const int row = clamped[v] != 0 ? -1 : piece.corner_rows[owner]++;
+    if (vertex[v] >= 0) piece.corners.push_back({vertex[v], owner, index, row});
   }
   std::vector<int> seams(ranks, 0);
   for (int e = 0; e < coarse.edge_count(); ++e) {
@@ -88,7 +89,8 @@ Piece refined(const Piece& piece) {
   // the midpoint of edge e becomes vertex corners + e; its halves become edges 2 e (at edges(e, 0)) and 2 e + 1;
   // inside triangle t, the edge that cuts off corner i becomes edge 2 edges + 3 t + i
   const auto half = [&](int e, int vertex) { return mesh.edges(e, 0) == vertex ? 2 * e : 2 * e + 1; };
-  Piece fine{{}, piece.level + 1, piece.corners, {}, piece.corner_rows, piece.clamped, piece.contact};
+  Piece fine{{},           piece.level + 1, piece.corners, {}, piece.corner_count, piece.corner_rows, piece.clamped,
+             piece.contact};
   TriangleMesh& cut = fine.mesh;
   cut.vertices.resize(corners + edges, 2), cut.vertices.topRows(corners) = mesh.vertices;
   const int edge_count = 2 * edges + 3 * triangles;

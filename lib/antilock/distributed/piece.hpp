@@ -9,7 +9,8 @@ namespace antilock::distributed {
 struct SharedCorner {
   int vertex;  ///< of this piece
   int owner;   ///< rank
-  int index;   ///< among the corners that the owner owns; -1 where it is clamped and has no row
+  int index;   ///< among the corners that the owner owns
+  int row;     ///< among those of them that are not clamped; -1 where it is
 };
 
 /// An edge of the coarse mesh that two ranks hold, with all that refinement made of it, in the same order on both.
@@ -26,7 +27,8 @@ struct Piece {
   int level = 0;  ///< refinements since the coarse mesh
   std::vector<SharedCorner> corners;
   std::vector<Seam> seams;
-  std::vector<int> corner_rows;       ///< corners with a row that each rank owns
+  std::vector<int> corner_count;      ///< corners that each rank owns
+  std::vector<int> corner_rows;       ///< those of them that are not clamped
   std::vector<int> clamped, contact;  ///< vertices of the coarse mesh that lie on clamped and on contact edges
 };
 

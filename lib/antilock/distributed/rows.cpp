@@ -18,18 +18,29 @@ struct Shared {
   int unknown, owner, position;
 };
 
-/// P1: the corners, then the vertices inside each seam. CR: the edges of each seam. Clamped ones have position -1.
-std::vector<Shared> shared_unknowns(const Piece& piece, bool at_vertices) {
+/// P1: the corners, then the vertices inside each seam. CR: the edges of each seam. Counted are all of them, or those
+/// alone that have a row (then a clamped corner has position -1).
+std::vector<Shared> shared_unknowns(const Piece& piece, bool at_vertices, bool with_clamped) {
+  const std::vector<int>& corners = with_clamped ? piece.corner_count : piece.corner_rows;
   std::vector<Shared> shared;
   if (at_vertices)
-    for (const SharedCorner& corner : piece.corners) shared.push_back({corner.vertex, corner.owner, corner.index});
+    for (const SharedCorner& corner : piece.corners)
+      shared.push_back({corner.vertex, corner.owner, with_clamped ? corner.index : corner.row});
   for (const Seam& seam : piece.seams) {
     const int pieces = static_cast<int>(seam.edges.size()), inner = at_vertices ? pieces - 1 : pieces;
-    const int start = (at_vertices ? piece.corner_rows[seam.owner] : 0) + seam.index * inner;
+    const int start = (at_vertices ? corners[seam.owner] : 0) + seam.index * inner;
     for (int s = 0; s < inner; ++s)
       shared.push_back({at_vertices ? seam.vertices[s + 1] : seam.edges[s], seam.owner, start + s});
   }
   return shared;
+}
+
+/// What comes before each rank's own, and the sum of all.
+std::vector<long long> starts(long long owned) {
+  const std::vector<long long> counts = each(owned);
+  std::vector<long long> start(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), start.begin() + 1);
+  return start;
 }
 
 }  // namespace
@@ -47,7 +58,7 @@ Rows::Rows(const Piece& piece, const Space& space) {
   for (int i = 0; i < space.size(); ++i)
     if (place_[i] < 0) on_contact_[i] = 0;
 
-  std::vector<Shared> shared = shared_unknowns(piece, at_vertices);
+  std::vector<Shared> shared = shared_unknowns(piece, at_vertices, false);
   std::erase_if(shared, [&](const Shared& s) { return place_[s.unknown] < 0; });
   std::vector<char> taken(space.size(), 0);
   for (const Shared& s : shared) {
@@ -64,13 +75,11 @@ Rows::Rows(const Piece& piece, const Space& space) {
   std::sort(unknown_.begin() + shared_, unknown_.end(), by_column);
   owned_ = static_cast<int>(unknown_.size());
 
-  const std::vector<long long> owned = each(owned_);
-  total_ = std::accumulate(owned.begin(), owned.end(), 0LL);
+  const std::vector<long long> start = starts(owned_);
+  total_ = start.back();
   if (total_ > std::numeric_limits<PetscInt>::max() / 16)  // 16 entries per row fit into the indices of the matrices
     throw Error(fmt::format("mesh: {} unknowns; accepted by this build of PETSc (32-bit indices): {}", total_,
                             std::numeric_limits<PetscInt>::max() / 16));
-  std::vector<long long> start(owned.size() + 1, 0);
-  std::partial_sum(owned.begin(), owned.end(), start.begin() + 1);
   first_ = static_cast<PetscInt>(start[rank()]);
   for (const Shared& s : shared) {
     if (s.owner == rank()) continue;
@@ -115,6 +124,28 @@ void Rows::owned_part(const Eigen::VectorXd& local, Vec v) const {
   ok(VecGetArray(v, &values));
   for (int p = 0; p < owned_; ++p) values[p] = local(unknown_[p]);
   ok(VecRestoreArray(v, &values));
+}
+
+Numbers numbers(const Piece& piece, bool at_vertices) {
+  const int count = at_vertices ? piece.mesh.vertex_count() : piece.mesh.edge_count();
+  const std::vector<Shared> shared = shared_unknowns(piece, at_vertices, true);
+  std::vector<char> taken(count, 0);
+  long long next = 0;
+  for (const Shared& s : shared) {
+    taken[s.unknown] = 1;
+    if (s.owner == rank()) ++next;
+  }
+  Numbers all{std::vector<long long>(count), std::vector<int>(next)};
+  for (int i = 0; i < count; ++i)
+    if (taken[i] == 0) all.own.push_back(i);
+  const std::vector<long long> start = starts(static_cast<long long>(all.own.size()));
+  for (const Shared& s : shared) {
+    all.number[s.unknown] = start[s.owner] + s.position;
+    if (s.owner == rank()) all.own[s.position] = s.unknown;
+  }
+  for (std::size_t i = 0; i < all.own.size(); ++i) all.number[all.own[i]] = start[rank()] + static_cast<long long>(i);
+  all.total = start.back();
+  return all;
 }
 
 }  // namespace antilock::distributed

@@ -45,4 +45,13 @@ class Rows {
   long long total_ = 0;
 };
 
+/// One number per vertex, or per edge, of the whole mesh, clamped or not: those of rank 0 first.
+struct Numbers {
+  std::vector<long long> number;  ///< per vertex or edge of the piece, from 0
+  std::vector<int> own;           ///< those that this rank owns, by their numbers, which follow each other
+  long long total = 0;            ///< of all ranks
+};
+/// Every rank must call it.
+Numbers numbers(const Piece& piece, bool at_vertices);
+
 }  // namespace antilock::distributed
