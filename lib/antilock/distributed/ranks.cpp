@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <new>
 
 #include "antilock/core/error.hpp"
@@ -87,6 +89,13 @@ void together(const std::function<void()>& work) {
   if (outcome == no_memory) throw std::bad_alloc();
   if (outcome == unconverged) throw NotConverged(message, reached, steps);
   throw Error(message);
+}
+
+void abort(const std::string& message, int status) {
+  fmt::print(stderr, "{}\n", message);
+  std::fflush(nullptr);
+  if (ranks() > 1) MPI_Abort(PETSC_COMM_WORLD, status);
+  std::_Exit(status);
 }
 
 double sum(double value) {

@@ -24,6 +24,10 @@ std::string petsc_version();
 /// first of them threw: no rank goes on and waits for one that has given up. `work` itself must not communicate.
 void together(const std::function<void()>& work);
 
+/// Ends the run of all ranks with that status, after one line on standard error: for a failure of this rank that the
+/// others do not know of.
+[[noreturn]] void abort(const std::string& message, int status);
+
 double sum(double value);                                         ///< over the ranks
 double largest(double value);                                     ///< over the ranks
 long long sum(long long value);                                   ///< over the ranks
