@@ -56,7 +56,7 @@ Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/f
 // clang-format on
 
 /// Scenes with solver = "petsc" are answered by the program beside this one, alone or on many ranks.
-void hand_over(const SceneFile& file, bool restart, char** argv) {
+void check_solver(const SceneFile& file, bool restart, char** argv) {
   if (file.method.solver == "petsc") {
     tutorial::become("run_scene_petsc", argv);
     throw Error(file.name +
@@ -65,9 +65,9 @@ void hand_over(const SceneFile& file, bool restart, char** argv) {
   }
   if (restart) throw Error(file.name + ": --restart goes with solver = \"petsc\" only; accepted: a run without it");
   if (tutorial::launched_ranks() > 1)
-    throw Error(
-        fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; accepted: \"petsc\"",
-                    file.name, file.method.solver, tutorial::launched_ranks()));
+    throw Error(file.name +
+                ": method.solver: was started on several ranks, and PETSc or MPI was missing when this was "
+                "built; accepted: a run without mpiexec");
 }
 
 /// Below this no double can be promised, however long one iterates.
@@ -101,7 +101,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   Stopwatch watch;
   RunSeconds seconds;
   const SceneFile file = read_scene_file(scene);
-  hand_over(file, restart, argv);
+  check_solver(file, restart, argv);
   check_folder(out);
   check_inputs_stay(out, scene, file);
   fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
@@ -139,13 +139,16 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
 }
 
 int fail(const std::string& message, int status) {
-  if (tutorial::launched_rank() == 0) fmt::print(stderr, "{}\n", printable(message, 4000));
+  if (tutorial::launched_rank() > 0) return 0;  // rank 0 says it, and its status is that of the run
+  fmt::print(stderr, "{}\n", printable(message, 4000));
   return status;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (tutorial::launched_ranks() > 1)
+    tutorial::become("run_scene_petsc", argv);  // which reads the scene on all at once
   CLI::App app("Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
                "run_scene");
   std::filesystem::path scene, out;

@@ -110,6 +110,10 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   std::string question;
   dist::together([&] {
     file = read_scene_file(scene);
+    if (file->method.solver != "petsc")
+      throw Error(
+          fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; accepted: \"petsc\"",
+                      file->name, file->method.solver, dist::ranks()));
     check_folder(out);
     check_inputs_stay(out, scene, *file);
     question = dist::question_of(scene, file->mesh.file);
