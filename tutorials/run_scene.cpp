@@ -56,14 +56,15 @@ Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/f
 // clang-format on
 
 /// Scenes with solver = "petsc" are answered by the program beside this one, alone or on many ranks.
-void check_solver(const SceneFile& file, bool restart, char** argv) {
+void check_solver(const SceneFile& file, bool for_petsc, char** argv) {
   if (file.method.solver == "petsc") {
     tutorial::become("run_scene_petsc", argv);
     throw Error(file.name +
                 ": method.solver: \"petsc\" is not built here, since PETSc or MPI was missing; accepted: "
                 "\"active-set\", \"uzawa\"");
   }
-  if (restart) throw Error(file.name + ": --restart goes with solver = \"petsc\" only; accepted: a run without it");
+  if (for_petsc)
+    throw Error(file.name + ": --restart and --direct go with solver = \"petsc\" only; accepted: a run without it");
   if (tutorial::launched_ranks() > 1)
     throw Error(file.name +
                 ": method.solver: was started on several ranks, and PETSc or MPI was missing when this was "
@@ -96,12 +97,12 @@ Solution solve(const VariationalInequality& problem, const Method& method) {
 }
 
 void answer(const std::filesystem::path& scene, const std::filesystem::path& out, tutorial::Report& report,
-            bool restart, char** argv) {
+            bool for_petsc, char** argv) {
   const Stopwatch total;
   Stopwatch watch;
   RunSeconds seconds;
   const SceneFile file = read_scene_file(scene);
-  check_solver(file, restart, argv);
+  check_solver(file, for_petsc, argv);
   check_folder(out);
   check_inputs_stay(out, scene, file);
   fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
@@ -154,7 +155,8 @@ int main(int argc, char** argv) {
   std::filesystem::path scene, out;
   app.add_option("SCENE", scene, "the scene file, in TOML")->required();
   app.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  bool restart = false;
+  bool restart = false, direct = false;
+  app.add_flag("--direct", direct, "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
   app.add_flag("--restart", restart, "with solver = \"petsc\": start from the last level of a run that was ended");
   app.footer(help);
   try {
@@ -171,7 +173,7 @@ int main(int argc, char** argv) {
     return fail(message, status);
   };
   try {
-    answer(scene, out, report, restart, argv);
+    answer(scene, out, report, restart || direct, argv);
   } catch (const NotConverged& failure) {
     return failed(failure.what(), 3);
   } catch (const std::bad_alloc&) {

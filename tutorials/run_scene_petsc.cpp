@@ -96,7 +96,7 @@ void named(const std::string& file, const Work& work) {
   }
 }
 
-void answer(const std::filesystem::path& scene, const std::filesystem::path& out, bool restart,
+void answer(const std::filesystem::path& scene, const std::filesystem::path& out, bool restart, bool direct,
             tutorial::Report& report) {
   const auto say = [&](const std::string& what) {
     if (dist::rank() == 0) report.stage(what);
@@ -140,6 +140,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
     say(fmt::format("restart from the contact set at 1/h = {}", solved));
   }
   options.refinements = h.refinements;
+  options.loop.direct = direct;
   options.loop.tolerance = std::clamp(file->method.tolerance, finest_tolerance, 1e-8);
   options.stage = say;
   options.checkpoint = [&](int level, const dist::ContactSet& set) {
@@ -192,10 +193,11 @@ int run(int argc, char** argv) {
   CLI::App app("Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.",
                "run_scene");
   std::filesystem::path scene, out;
-  bool restart = false;
+  bool restart = false, direct = false;
   app.add_option("SCENE", scene, "the scene file, in TOML")->required();
   app.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
   app.add_flag("--restart", restart, "start from the last level of a run to the same folder that was ended");
+  app.add_flag("--direct", direct, "MUMPS in place of multigrid: for layers without columns");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& request) {
@@ -210,7 +212,7 @@ int run(int argc, char** argv) {
     return fail(message, status);
   };
   try {
-    answer(scene, out, restart, report);
+    answer(scene, out, restart, direct, report);
   } catch (const NotConverged& failure) {
     return failed(failure.what(), 3);
   } catch (const Error& error) {

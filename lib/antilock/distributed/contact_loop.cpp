@@ -35,9 +35,13 @@ class Entries {
 /// K with the rows and columns of the contact set replaced by delta^-1 times the identity, and its multigrid.
 class HeldSystem {
  public:
-  explicit HeldSystem(const Inequality& problem) : problem_(problem) {
+  HeldSystem(const Inequality& problem, bool direct) : problem_(problem) {
     ok(MatDuplicate(problem.k(), MAT_DO_NOT_COPY_VALUES, &held_));
     ok(KSPCreate(PETSC_COMM_WORLD, &solver_)), ok(KSPSetFromOptions(solver_));
+    if (!direct) return;
+    PC factor = nullptr;
+    ok(KSPGetPC(solver_, &factor)), ok(PCSetType(factor, PCCHOLESKY));
+    ok(PCFactorSetMatSolverType(factor, MATSOLVERMUMPS));
   }
   /// Holds the rows of the set; moves what they do to the others (K times `jump`) to the right-hand side.
   void hold(const std::vector<PetscInt>& rows, bool changed, Vec jump, Vec rhs) {
@@ -86,7 +90,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
   state.u = rows.local(u);
   rows.summed(problem.part().load, rhs);
   const double load = largest_entry(rhs);
-  HeldSystem system(problem);
+  HeldSystem system(problem, options.direct);
   LoopReport report;
   Stopwatch watch;
   for (int step = 0, since_change = 0;; ++step, ++since_change) {

@@ -19,6 +19,7 @@ struct LoopOptions {
   int most_iterations = 500;  ///< of conjugate gradients, per correction
   int most_corrections = 60;  ///< since the contact set changed last
   int most_sets = 2000;       ///< contact sets tried
+  bool direct = false;        ///< MUMPS factors the matrix in place of multigrid: for layers without columns
 };
 
 /// What the loop did; the same on every rank.

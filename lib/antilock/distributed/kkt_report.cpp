@@ -53,14 +53,12 @@ Kkt kkt_report(const Inequality& problem, const State& state) {
     terms_part += part.b.cwiseAbs().transpose() * part.m.cwiseProduct(p.cwiseAbs());
     own_part += part.b.cwiseAbs2().transpose() * part.m;
   }
-  double reaction = 0, single = 0;
-  for (int i = 0; i < part.size(); ++i)
-    if (rows.clamped(i)) reaction = std::max(reaction, std::abs(r1_part(i)));
+  double single = 0;
   for (Eigen::Index i = 0; i < load.size(); ++i)
     if (diagonal(i) > 0) single = std::max(single, std::abs(load(i)) / diagonal(i));
   const Eigen::VectorXd lambda = contact_forces(problem, state);
   const double f_scale = largest(std::max(size(load), size(lambda))), u_scale = largest(std::max(size(u), single));
-  const double forces = std::max(f_scale, largest(reaction));
+  const double forces = std::max(f_scale, rows.largest_at_clamped(r1_part));
   const Eigen::VectorXd terms = summed(rows, terms_part);
   const Eigen::VectorXd own = terms.cwiseMax(u_scale * summed(rows, own_part)).cwiseMax(lambda.cwiseAbs());
 

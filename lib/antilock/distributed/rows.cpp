@@ -58,6 +58,15 @@ Rows::Rows(const Piece& piece, const Space& space) {
   for (int i = 0; i < space.size(); ++i)
     if (place_[i] < 0) on_contact_[i] = 0;
 
+  if (at_vertices) {
+    for (const SharedCorner& corner : piece.corners)
+      if (corner.row < 0)
+        clamped_corners_.emplace_back(
+            corner.vertex,
+            corner.index + std::accumulate(piece.corner_count.begin(), piece.corner_count.begin() + corner.owner, 0));
+    corners_ = std::accumulate(piece.corner_count.begin(), piece.corner_count.end(), 0);
+  }
+
   std::vector<Shared> shared = shared_unknowns(piece, at_vertices, false);
   std::erase_if(shared, [&](const Shared& s) { return place_[s.unknown] < 0; });
   std::vector<char> taken(space.size(), 0);
@@ -124,6 +133,17 @@ void Rows::owned_part(const Eigen::VectorXd& local, Vec v) const {
   ok(VecGetArray(v, &values));
   for (int p = 0; p < owned_; ++p) values[p] = local(unknown_[p]);
   ok(VecRestoreArray(v, &values));
+}
+
+double Rows::largest_at_clamped(Eigen::VectorXd local) const {
+  std::vector<double> at_corner(corners_, 0);
+  for (const auto& [unknown, number] : clamped_corners_) at_corner[number] = local(unknown);
+  MPI_Allreduce(MPI_IN_PLACE, at_corner.data(), corners_, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  for (const auto& [unknown, number] : clamped_corners_) local(unknown) = at_corner[number];
+  double most = 0;
+  for (std::size_t i = 0; i < place_.size(); ++i)
+    if (place_[i] < 0) most = std::max(most, std::abs(local(static_cast<Eigen::Index>(i))));
+  return largest(most);
 }
 
 Numbers numbers(const Piece& piece, bool at_vertices) {

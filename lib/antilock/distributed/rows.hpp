@@ -35,8 +35,12 @@ class Rows {
   void summed(const Eigen::VectorXd& local, Vec v) const;
   /// v = what this rank has at the unknowns that it owns.
   void owned_part(const Eigen::VectorXd& local, Vec v) const;
+  /// The largest |sum over the ranks| at a clamped unknown.
+  double largest_at_clamped(Eigen::VectorXd local) const;
 
  private:
+  std::vector<std::pair<int, int>> clamped_corners_;  ///< unknown, number among the corners of all ranks
+  int corners_ = 0;                                   ///< of all ranks
   std::vector<int> place_, unknown_;
   std::vector<PetscInt> ghosts_;
   std::vector<char> on_contact_;

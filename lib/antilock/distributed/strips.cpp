@@ -30,7 +30,7 @@ int column_at(const std::vector<double>& lines, double x) {
 
 }  // namespace
 
-std::vector<int> strips(const TriangleMesh& mesh, int ranks) {
+std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer) {
   const std::vector<double> lines = column_lines(mesh);
   const int columns = static_cast<int>(lines.size()) - 1;
   if (columns < ranks)
@@ -43,13 +43,13 @@ std::vector<int> strips(const TriangleMesh& mesh, int ranks) {
     const Eigen::Vector3d x = mesh.vertices.col(0)(mesh.triangles.row(t));
     column[t] = column_at(lines, x.mean());
     ++filled[column[t]];
-    if (mesh.region[t] != Region::layer) continue;
+    if (any_layer || mesh.region[t] != Region::layer) continue;
     const double left = lines[column[t]], right = lines[column[t] + 1];
     if (x.minCoeff() < left - slack || x.maxCoeff() > right + slack)
       throw Error(
           fmt::format("the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
                       "of the contact edges: the layer is not made of columns, and multigrid fails on it; "
-                      "accepted: kind = \"layered\" or \"structured\"",
+                      "accepted: kind = \"layered\" or \"structured\", or --direct (MUMPS)",
                       x.mean(), mesh.vertices.col(1)(mesh.triangles.row(t)).mean()));
   }
   // a strip ends at the column that brings the triangles up to its share, and leaves a column to each rank to come
