@@ -19,6 +19,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
+#include "common/hand_over.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;
@@ -43,7 +44,7 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   cells = 64                    # cells a unit side; with kind = "file" instead: file = "my.msh", beside the scene
   [method]                      # optional
   element = "CR"                # "P1" (default) or "CR" (Crouzeix-Raviart)
-  solver = "active-set"         # (default) or "uzawa", the paper's
+  solver = "active-set"         # (default), "uzawa", the paper's, or "petsc": PETSc, alone or under mpiexec
   tolerance = 1e-10             # relative, on the algebraic error
 
 Written to the results folder: summary.json, solution.csv (x,y,u), contact.csv (x,gap,pressure; with contact only),
@@ -53,6 +54,22 @@ Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8
 )help";
 // clang-format on
+
+/// Scenes with solver = "petsc" are answered by the program beside this one, alone or on many ranks.
+void check_solver(const SceneFile& file, bool for_petsc, char** argv) {
+  if (file.method.solver == "petsc") {
+    tutorial::become("run_scene_petsc", argv);
+    throw Error(file.name +
+                ": method.solver: \"petsc\" is not built here, since PETSc or MPI was missing; accepted: "
+                "\"active-set\", \"uzawa\"");
+  }
+  if (for_petsc)
+    throw Error(file.name + ": --restart and --direct go with solver = \"petsc\" only; accepted: a run without it");
+  if (tutorial::launched_ranks() > 1)
+    throw Error(file.name +
+                ": method.solver: was started on several ranks, and PETSc or MPI was missing when this was "
+                "built; accepted: a run without mpiexec");
+}
 
 /// Below this no double can be promised, however long one iterates.
 constexpr double finest_tolerance = 1e-14;
@@ -79,11 +96,13 @@ Solution solve(const VariationalInequality& problem, const Method& method) {
   return solution;
 }
 
-void answer(const std::filesystem::path& scene, const std::filesystem::path& out, tutorial::Report& report) {
+void answer(const std::filesystem::path& scene, const std::filesystem::path& out, tutorial::Report& report,
+            bool for_petsc, char** argv) {
   const Stopwatch total;
   Stopwatch watch;
   RunSeconds seconds;
   const SceneFile file = read_scene_file(scene);
+  check_solver(file, for_petsc, argv);
   check_folder(out);
   check_inputs_stay(out, scene, file);
   fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
@@ -121,6 +140,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
 }
 
 int fail(const std::string& message, int status) {
+  if (tutorial::launched_rank() > 0) return 0;  // rank 0 says it, and its status is that of the run
   fmt::print(stderr, "{}\n", printable(message, 4000));
   return status;
 }
@@ -128,11 +148,16 @@ int fail(const std::string& message, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  if (tutorial::launched_ranks() > 1)
+    tutorial::become("run_scene_petsc", argv);  // which reads the scene on all at once
   CLI::App app("Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
                "run_scene");
   std::filesystem::path scene, out;
   app.add_option("SCENE", scene, "the scene file, in TOML")->required();
   app.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
+  bool restart = false, direct = false;
+  app.add_flag("--direct", direct, "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
+  app.add_flag("--restart", restart, "with solver = \"petsc\": start from the last level of a run that was ended");
   app.footer(help);
   try {
     app.parse(argc, argv);
@@ -148,7 +173,7 @@ int main(int argc, char** argv) {
     return fail(message, status);
   };
   try {
-    answer(scene, out, report);
+    answer(scene, out, report, restart || direct, argv);
   } catch (const NotConverged& failure) {
     return failed(failure.what(), 3);
   } catch (const std::bad_alloc&) {

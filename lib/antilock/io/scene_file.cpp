@@ -194,7 +194,7 @@ Method read_method(const Section& section) {
   section.only({"element", "solver", "tolerance"});
   Method method;
   if (section.has("element")) method.element = section.one_of("element", {"P1", "CR"});
-  if (section.has("solver")) method.solver = section.one_of("solver", {"active-set", "uzawa"});
+  if (section.has("solver")) method.solver = section.one_of("solver", {"active-set", "uzawa", "petsc"});
   if (!section.has("tolerance")) return method;
   method.tolerance = section.number("tolerance", "0 < tolerance < 1");
   if (!(method.tolerance > 0 && method.tolerance < 1))

@@ -18,7 +18,7 @@ struct MeshRequest {
 /// How a scene file wants to be solved.
 struct Method {
   std::string element = "P1";         ///< "P1" or "CR"
-  std::string solver = "active-set";  ///< "active-set" or "uzawa"
+  std::string solver = "active-set";  ///< "active-set", "uzawa" or "petsc"
   double tolerance = 1e-10;           ///< relative, on the algebraic error; 0 < tolerance < 1
 };
 

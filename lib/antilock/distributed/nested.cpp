@@ -1,0 +1,120 @@
+#include "antilock/distributed/nested.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/distributed/kkt_report.hpp"
+#include "antilock/distributed/ranks.hpp"
+#include "antilock/distributed/strips.hpp"
+
+namespace antilock::distributed {
+namespace {
+
+void check_question(const Scene& scene, const Element& element) {
+  if (element.degree() != 1)
+    throw Error("element: \"" + element.name() + "\" is not accepted by petsc; accepted \"P1\" and \"CR\"");
+  if (std::holds_alternative<VentcelLayer>(scene.layer()))
+    throw Error("layer.model: \"ventcel\" is not accepted by petsc; accepted \"scaled\" and \"thin\"");
+}
+
+/// The corners of child i of a triangle in the barycentric coordinates of its father (piece.hpp's order).
+Eigen::Matrix3d corners_of_child(int i) {
+  const auto middle = [](int a, int b) {
+    return Eigen::RowVector3d(0.5 * (Eigen::RowVector3d::Unit(a) + Eigen::RowVector3d::Unit(b)));
+  };
+  Eigen::Matrix3d corners;
+  if (i == 3)
+    corners << middle(1, 2), middle(2, 0), middle(0, 1);
+  else
+    corners << Eigen::RowVector3d::Unit(i), middle(i, (i + 1) % 3), middle(i, (i + 2) % 3);
+  return corners;
+}
+
+}  // namespace
+
+Level::Level(const Scene& scene, Piece piece_in, const Element& element)
+    : piece(std::move(piece_in)),
+      space(piece.mesh, element),
+      problem(scene, piece, space),
+      state(zero_state(problem)) {}
+
+ContactSet Level::contact_set() const {
+  std::vector<double> x;
+  std::vector<char> active;
+  for (int place = 0; place < problem.rows().owned(); ++place) {
+    if (std::isinf(problem.lower()(place))) continue;
+    x.push_back(space.points()(problem.rows().unknown(place), 0));
+    active.push_back(state.active[place]);
+  }
+  return gathered_set(x, active);
+}
+
+void Level::start_from(const ContactSet& set) {
+  for (int place = 0; place < problem.rows().owned(); ++place)
+    state.active[place] =
+        std::isfinite(problem.lower()(place)) && set.at(space.points()(problem.rows().unknown(place), 0)) ? 1 : 0;
+}
+
+void Level::start_from(const Level& coarse) {
+  const Element& element = space.element();
+  std::array<Eigen::Matrix3d, 4> values;  // the father's basis at the unknowns of child i
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Matrix3d nodes = element.nodes() * corners_of_child(i);
+    for (int k = 0; k < 3; ++k) values[i].row(k) = element.basis(nodes.row(k)).transpose();
+  }
+  for (Eigen::Index t = 0; t < space.unknowns().rows(); ++t) {
+    const Eigen::RowVector3i father = coarse.space.unknowns().row(t / 4), child = space.unknowns().row(t);
+    const Eigen::Vector3d u(coarse.state.u(father(0)), coarse.state.u(father(1)), coarse.state.u(father(2)));
+    const Eigen::Vector3d here = values[t % 4] * u;
+    for (int k = 0; k < 3; ++k) state.u(child(k)) = here(k);
+  }
+  // rows of B stand in the order of their triangles, and the children of one triangle follow each other
+  for (Eigen::Index r = 0; r < state.p.size(); ++r) state.p(r) = coarse.state.p(r / 4);
+}
+
+std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
+                                    const NestedOptions& options, NestedReport& report) {
+  Stopwatch watch;
+  Piece piece;
+  together([&] {
+    check_question(scene, element);
+    piece = piece_of(coarse, strips(coarse, ranks(), options.loop.direct), rank(), ranks());
+  });
+  std::unique_ptr<Level> level;
+  for (int l = 0; l <= options.refinements; ++l) {
+    const bool last = l == options.refinements;
+    watch.lap();
+    if (l > 0) together([&] { piece = refined(level ? level->piece : piece); });
+    report.mesh += watch.lap();
+    if (l < options.first_level && !last) continue;
+    options.stage(fmt::format("level {} of {}: {} triangles", l, options.refinements,
+                              sum(static_cast<long long>(piece.mesh.triangle_count()))));
+    watch.lap();
+    auto finer = std::make_unique<Level>(scene, std::move(piece), element);
+    if (level) {
+      finer->start_from(*level);
+      finer->start_from(level->contact_set());
+    } else if (options.start) {
+      finer->start_from(*options.start);
+    }
+    level = std::move(finer);
+    report.assemble += watch.lap();
+    LoopOptions loop = options.loop;
+    if (!last) loop.tolerance = std::max(loop.tolerance, 1e-6), loop.residual = 1e-4;  // a start, no answer
+    report.last = contact_loop(level->problem, level->state, loop);
+    report.loops.push_back(report.last);
+    report.unknowns.push_back(level->problem.rows().total());
+    report.linear_iterations += report.last.linear_iterations;
+    report.setup += report.last.seconds_setup, report.solve += report.last.seconds_solve;
+    if (!last) options.checkpoint(l, level->contact_set());
+  }
+  watch.lap();
+  report.kkt = certified(level->problem, level->state, report.warning);
+  report.solve += watch.lap();
+  return level;
+}
+
+}  // namespace antilock::distributed

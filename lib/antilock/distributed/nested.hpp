@@ -1,0 +1,52 @@
+#pragma once
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "antilock/distributed/contact_loop.hpp"
+#include "antilock/distributed/contact_set.hpp"
+
+namespace antilock::distributed {
+
+/// One mesh of the hierarchy with everything that this rank has on it.
+struct Level {
+  Level(const Scene& scene, Piece piece, const Element& element);
+  Piece piece;
+  Space space;
+  Inequality problem;
+  State state;
+  ContactSet contact_set() const;  ///< of all ranks; every rank must call it
+  void start_from(const ContactSet& set);
+  /// Takes over u and p of the level that this one refines, each on its own triangles.
+  void start_from(const Level& coarse);
+};
+
+struct NestedOptions {
+  int refinements = 0;              ///< of the coarse mesh
+  LoopOptions loop;                 ///< of the last level
+  int first_level = 0;              ///< where to begin to solve: a checkpoint holds the set of the level before
+  std::optional<ContactSet> start;  ///< of the first level; empty: no contact
+  /// After each level but the last, on every rank: what a later run can start from.
+  std::function<void(int level, const ContactSet&)> checkpoint = [](int, const ContactSet&) {};
+  std::function<void(const std::string&)> stage = [](const std::string&) {};  ///< told what is being done
+};
+
+/// What a solve did. Seconds are those of this rank.
+struct NestedReport {
+  LoopReport last;                                      ///< of the last level
+  std::vector<LoopReport> loops;                        ///< per level solved
+  std::vector<long long> unknowns;                      ///< per level solved
+  int linear_iterations = 0;                            ///< of all levels
+  double mesh = 0, assemble = 0, setup = 0, solve = 0;  ///< seconds, all levels
+  Kkt kkt;
+  std::string warning;
+};
+
+/// Solves a scene on `coarse`, refined: strips, assembly, and on every level the contact loop started from the level
+/// before. No rank ever holds more of the fine mesh than its own strip. Every rank must call it, with the same coarse
+/// mesh. Throws, on every rank alike, Error where the coarse mesh cannot be dealt out or does not fit the scene, where
+/// a load or a gap is not finite or the element is neither P1 nor CR; NotConverged.
+std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
+                                    const NestedOptions& options, NestedReport& report);
+
+}  // namespace antilock::distributed

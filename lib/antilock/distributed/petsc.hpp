@@ -1,0 +1,47 @@
+#pragma once
+#include <petscksp.h>
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace antilock::distributed {
+
+/// A call of PETSc that failed on this rank, which the other ranks need not know of: the run is to be aborted, since
+/// they may wait for this rank for ever.
+struct PetscFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Throws PetscFailure where a call of PETSc failed; PETSc itself stays silent (see Session).
+inline void ok(PetscErrorCode code) {
+  if (code == 0) return;
+  const char* text = nullptr;
+  PetscErrorMessage(code, &text, nullptr);
+  throw PetscFailure(std::string("PETSc: ") + (text != nullptr ? text : "unknown error"));
+}
+
+/// A PETSc object, destroyed with its owner. `&handle` is where PETSc writes a new object.
+template <class Object, PetscErrorCode (*destroy)(Object*)>
+class Handle {
+ public:
+  Handle() = default;
+  Handle(Handle&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+  Handle& operator=(Handle&& other) noexcept {
+    std::swap(object_, other.object_);
+    return *this;
+  }
+  ~Handle() {
+    if (object_ != nullptr) destroy(&object_);
+  }
+  operator Object() const { return object_; }
+  Object* operator&() { return &object_; }
+
+ private:
+  Object object_ = nullptr;
+};
+using Matrix = Handle<Mat, MatDestroy>;
+using Vector = Handle<Vec, VecDestroy>;
+using LinearSolver = Handle<KSP, KSPDestroy>;
+
+}  // namespace antilock::distributed

@@ -1,0 +1,147 @@
+#include "antilock/distributed/ranks.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+
+#include "antilock/core/error.hpp"
+#include "antilock/distributed/petsc.hpp"
+
+namespace antilock::distributed {
+namespace {
+
+/// Conjugate gradients with BoomerAMG: 2 to 4 iterations for four digits in the energy norm, whatever delta, on layers
+/// in columns. One forward sweep of SOR down and one backward sweep up take half the time of symmetric sweeps on both
+/// ways, and as many iterations.
+constexpr std::array<std::array<const char*, 2>, 9> defaults = {
+    {{"-ksp_type", "cg"},
+     {"-ksp_norm_type", "natural"},
+     {"-pc_type", "hypre"},
+     {"-pc_hypre_type", "boomeramg"},
+     {"-pc_hypre_boomeramg_coarsen_type", "HMIS"},
+     {"-pc_hypre_boomeramg_interp_type", "ext+i"},
+     {"-pc_hypre_boomeramg_P_max", "6"},
+     {"-pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
+     {"-pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}}};
+
+enum Outcome : int { unconverged, no_memory, refused };
+
+}  // namespace
+
+Session::Session() {
+  ok(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
+  ok(PetscInitializeNoArguments());
+  ok(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
+  for (const auto& [name, value] : defaults) {
+    PetscBool set = PETSC_FALSE;
+    ok(PetscOptionsHasName(nullptr, nullptr, name, &set));
+    if (set == PETSC_FALSE) ok(PetscOptionsSetValue(nullptr, name, value));
+  }
+}
+
+Session::~Session() { PetscFinalize(); }
+
+int rank() {
+  PetscMPIInt value = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &value);
+  return value;
+}
+
+int ranks() {
+  PetscMPIInt value = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &value);
+  return value;
+}
+
+std::string petsc_version() {
+  return fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR);
+}
+
+void together(const std::function<void()>& work) {
+  std::string message;
+  int outcome = refused, failed = ranks();
+  double reached = 0;
+  int steps = 0;
+  try {
+    work();
+  } catch (const NotConverged& failure) {
+    message = failure.what(), outcome = unconverged, failed = rank();
+    reached = failure.reached, steps = failure.steps;
+  } catch (const Error& failure) {
+    message = failure.what(), failed = rank();
+  } catch (const std::bad_alloc&) {
+    outcome = no_memory, failed = rank();
+  }
+  int first = 0;
+  MPI_Allreduce(&failed, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD);
+  if (first == ranks()) return;
+  int length = static_cast<int>(message.size());
+  MPI_Bcast(&length, 1, MPI_INT, first, PETSC_COMM_WORLD);
+  message.resize(length);
+  MPI_Bcast(message.data(), length, MPI_CHAR, first, PETSC_COMM_WORLD);
+  MPI_Bcast(&outcome, 1, MPI_INT, first, PETSC_COMM_WORLD);
+  MPI_Bcast(&reached, 1, MPI_DOUBLE, first, PETSC_COMM_WORLD);
+  MPI_Bcast(&steps, 1, MPI_INT, first, PETSC_COMM_WORLD);
+  if (outcome == no_memory) throw std::bad_alloc();
+  if (outcome == unconverged) throw NotConverged(message, reached, steps);
+  throw Error(message);
+}
+
+void abort(const std::string& message, int status) {
+  fmt::print(stderr, "{}\n", message);
+  std::fflush(nullptr);
+  if (ranks() > 1) MPI_Abort(PETSC_COMM_WORLD, status);
+  std::_Exit(status);
+}
+
+double sum(double value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return value;
+}
+
+double largest(double value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  return value;
+}
+
+long long sum(long long value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_LONG_LONG, MPI_SUM, PETSC_COMM_WORLD);
+  return value;
+}
+
+std::vector<double> gathered(const std::vector<double>& values) {
+  std::vector<int> counts(ranks()), starts(ranks() + 1, 0);
+  const int mine = static_cast<int>(values.size());
+  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, PETSC_COMM_WORLD);
+  for (int r = 0; r < ranks(); ++r) starts[r + 1] = starts[r] + counts[r];
+  std::vector<double> all(starts.back());
+  MPI_Allgatherv(values.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
+                 PETSC_COMM_WORLD);
+  return all;
+}
+
+std::vector<long long> each(long long value) {
+  std::vector<long long> all(ranks());
+  MPI_Allgather(&value, 1, MPI_LONG_LONG, all.data(), 1, MPI_LONG_LONG, PETSC_COMM_WORLD);
+  return all;
+}
+
+std::string from_first(std::string text) {
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, PETSC_COMM_WORLD);
+  text.resize(length);
+  MPI_Bcast(text.data(), length, MPI_CHAR, 0, PETSC_COMM_WORLD);
+  return text;
+}
+
+double peak_megabytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return largest(static_cast<double>(usage.ru_maxrss) / 1024);
+}
+
+}  // namespace antilock::distributed

@@ -1,0 +1,29 @@
+# The room lib/antilock/distributed: PETSc over MPI, where it is asked for or found. Where it is built, there is a target
+# antilock::distributed.
+set(found FALSE)
+if(ANTILOCK_DISTRIBUTED)
+  find_package(PkgConfig QUIET)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(PETSc QUIET IMPORTED_TARGET GLOBAL PETSc>=3.18)
+  endif()
+  find_package(MPI QUIET COMPONENTS CXX)
+  if(PETSc_FOUND AND MPI_CXX_FOUND)
+    set(found TRUE)
+    set_target_properties(MPI::MPI_CXX PROPERTIES IMPORTED_GLOBAL TRUE)
+  elseif(NOT ANTILOCK_DISTRIBUTED STREQUAL "AUTO")
+    message(FATAL_ERROR "ANTILOCK_DISTRIBUTED=${ANTILOCK_DISTRIBUTED}: PETSc (3.18 or later, by pkg-config) or MPI is missing; "
+                        "`.ci/install distributed` installs both")
+  endif()
+endif()
+if(NOT found)
+  message(STATUS "PETSc over MPI: not built (ANTILOCK_DISTRIBUTED=${ANTILOCK_DISTRIBUTED}); solver = \"petsc\" and its tests are left out")
+  return()
+endif()
+message(STATUS "PETSc over MPI: built with PETSc ${PETSc_VERSION}")
+
+file(GLOB distributed_sources CONFIGURE_DEPENDS antilock/distributed/*.cpp)
+add_library(antilock_distributed STATIC ${distributed_sources})
+add_library(antilock::distributed ALIAS antilock_distributed)
+target_link_libraries(antilock_distributed PUBLIC antilock PkgConfig::PETSc MPI::MPI_CXX PRIVATE antilock_warnings)
+# MPI's C++ interface is not used, and its header is not free of warnings
+target_compile_definitions(antilock_distributed PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)

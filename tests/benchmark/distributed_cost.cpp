@@ -1,0 +1,83 @@
+// What the distributed road costs beside the serial one, on the structured mesh: one line of numbers per run.
+//
+// Run:    mpiexec -n 2 distributed_cost --cells 1024        PETSc, on two ranks
+//         distributed_cost --cells 1024 --serial            the library's own factor, in this process
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/distributed/nested.hpp"
+#include "antilock/distributed/ranks.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+
+using namespace antilock;
+
+namespace {
+
+void serial(const Scene& scene, const Element& element, int cells) {
+  Stopwatch watch;
+  const TriangleMesh mesh = structured_mesh(cells);
+  const double mesh_seconds = watch.lap();
+  const Space space(mesh, element);
+  const VariationalInequality problem = assemble(scene, space);
+  const double assemble_seconds = watch.lap();
+  const Solution solution = active_set(problem);
+  fmt::print("serial,{},1,{},{:.3f},{:.3f},{:.3f},{:.3f},,{},,{},{:.0f},{:.1e}\n", element.name(), problem.free_count(),
+             mesh_seconds, assemble_seconds, solution.seconds.analyse + solution.seconds.factor,
+             solution.seconds.contact + solution.seconds.solve, solution.counters.corrections,
+             solution.counters.contact, distributed::peak_megabytes(), solution.kkt.residual);
+}
+
+void petsc(const Scene& scene, const Element& element, int cells, bool levels) {
+  int coarse = cells, refinements = 0;
+  while (coarse % 2 == 0 && coarse / 2 >= std::max(16, 8 * distributed::ranks())) coarse /= 2, ++refinements;
+  distributed::NestedOptions options;
+  options.refinements = refinements;
+  distributed::NestedReport report;
+  const auto level = distributed::solve_nested(scene, structured_mesh(coarse), element, options, report);
+  const double peak = distributed::peak_megabytes();
+  if (distributed::rank() > 0) return;
+  fmt::print("petsc,{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{:.0f},{:.1e}\n", element.name(),
+             distributed::ranks(), report.unknowns.back(), report.mesh, report.assemble, report.setup, report.solve,
+             report.last.linear_iterations, report.last.corrections, report.last.most_iterations, report.last.sets,
+             peak, report.kkt.residual);
+  for (std::size_t l = 0; levels && l < report.loops.size(); ++l)
+    fmt::print("  {} unknowns: {} corrections, {} iterations (most {}), {} setups; setup {:.3f} s, solve {:.3f} s\n",
+               report.unknowns[l], report.loops[l].corrections, report.loops[l].linear_iterations,
+               report.loops[l].most_iterations, report.loops[l].setups, report.loops[l].seconds_setup,
+               report.loops[l].seconds_solve);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app(
+      "The cost of the distributed road and of the serial one: "
+      "solver,element,ranks,unknowns,mesh,assemble,setup or factor,solve,iterations,corrections,"
+      "most iterations,contact sets,peak MB of the largest rank,residual");
+  int cells = 256;
+  double epsilon = 1e-6;
+  std::string name = "P1";
+  bool alone = false, levels = false;
+  app.add_option("--cells", cells);
+  app.add_option("--epsilon", epsilon);
+  app.add_option("--element", name);
+  app.add_flag("--serial", alone, "the serial library");
+  app.add_flag("--levels", levels, "every level too");
+  CLI11_PARSE(app, argc, argv);
+  const distributed::Session session;
+  try {
+    const Scene scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+    if (alone)
+      serial(scene, element(name), cells);
+    else
+      petsc(scene, element(name), cells, levels);
+  } catch (const Error& error) {
+    if (distributed::rank() == 0) fmt::print(stderr, "distributed_cost: {}\n", error.what());
+    return 3;
+  }
+  return 0;
+}

@@ -1,0 +1,94 @@
+// The distributed room gives the serial library's answer, on any number of ranks.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+#include "antilock/distributed/kkt_report.hpp"
+#include "antilock/distributed/nested.hpp"
+#include "antilock/distributed/ranks.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/refine.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+
+namespace antilock::distributed {
+namespace {
+
+constexpr int coarse_cells = 8, refinements = 3;  // 1/h = 64
+
+std::tuple<long long, long long> key(double x, double y) {
+  return {std::llround(x * (1LL << 30)), std::llround(y * (1LL << 30))};
+}
+
+struct Case {
+  bool layered;
+  const char* element;
+  double epsilon;
+};
+
+class Agreement : public ::testing::TestWithParam<Case> {};
+
+TEST_P(Agreement, WithTheSerialLibrary) {
+  const auto [layered, name, epsilon] = GetParam();
+  const Element& page = element(name);
+  const Scene scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+  const TriangleMesh coarse = layered ? layered_mesh(coarse_cells) : structured_mesh(coarse_cells);
+
+  TriangleMesh mesh = coarse;
+  for (int i = 0; i < refinements; ++i) mesh = antilock::refined(mesh);
+  const Space space(mesh, page);
+  const VariationalInequality problem = assemble(scene, space);
+  const Solution serial = active_set(problem);
+  std::map<std::tuple<long long, long long>, double> u;
+  for (int i = 0; i < space.size(); ++i) u[key(space.points()(i, 0), space.points()(i, 1))] = serial.u(i);
+  std::map<long long, bool> in_contact;
+  for (std::size_t i = 0; i < problem.contact.size(); ++i)
+    in_contact[std::get<0>(key(space.points()(problem.contact[i], 0), 0))] = serial.active[i];
+
+  NestedOptions options;
+  options.refinements = refinements;
+  NestedReport report;
+  const auto level = solve_nested(scene, coarse, page, options, report);
+
+  EXPECT_EQ(report.unknowns.back(), problem.free_count());
+  double worst = 0;
+  for (int i = 0; i < level->space.size(); ++i) {
+    const auto found = u.find(key(level->space.points()(i, 0), level->space.points()(i, 1)));
+    ASSERT_NE(found, u.end());
+    worst = std::max(worst, std::abs(level->state.u(i) - found->second));
+  }
+  worst = largest(worst) / serial.u.lpNorm<Eigen::Infinity>();
+  EXPECT_LE(worst, 1e-9);
+  const ContactSet set = level->contact_set();
+  ASSERT_EQ(set.x.size(), in_contact.size());
+  int different = 0;
+  for (std::size_t i = 0; i < set.x.size(); ++i)
+    different += in_contact.at(std::get<0>(key(set.x[i], 0))) != (set.active[i] != 0);
+  EXPECT_EQ(different, 0);
+  EXPECT_LE(report.kkt.residual, 1e-9);
+  EXPECT_GE(report.kkt.min_gap, -1e-9);
+  EXPECT_GE(report.kkt.min_pressure, -1e-9);
+  EXPECT_LE(report.last.corrections, 8);
+  EXPECT_LE(report.last.most_iterations, 15);
+  if (rank() == 0)
+    std::printf("%s %s %g: difference %.1e, residual %.1e, %d corrections, %d iterations (most %d), %d setups\n",
+                layered ? "layered" : "structured", name, epsilon, worst, report.kkt.residual, report.last.corrections,
+                report.last.linear_iterations, report.last.most_iterations, report.last.setups);
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> all;
+  for (const bool layered : {false, true})
+    for (const char* name : {"P1", "CR"})
+      for (const double epsilon : {1.0, 1e-2, 1e-6, 1e-12, 0.0}) all.push_back({layered, name, epsilon});
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Everywhere, Agreement, ::testing::ValuesIn(cases()));
+
+}  // namespace
+}  // namespace antilock::distributed

@@ -1,0 +1,236 @@
+// Strips, pieces, refusals and the report of the distributed room.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "antilock/core/error.hpp"
+#include "antilock/distributed/kkt_report.hpp"
+#include "antilock/distributed/nested.hpp"
+#include "antilock/distributed/ranks.hpp"
+#include "antilock/distributed/strips.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/refine.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
+
+namespace antilock::distributed {
+namespace {
+
+Scene scene(double epsilon = 1e-6) { return Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
+
+TEST(Strips, EndAtColumnsAndShareTheTrianglesOut) {
+  for (const TriangleMesh& mesh : {structured_mesh(24), layered_mesh(24), layered_mesh(24, 1e-6)})
+    for (int count = 1; count <= 8; ++count) {
+      const std::vector<int> rank_of = strips(mesh, count);
+      std::vector<int> size(count, 0);
+      std::vector<double> left(count, 2), right(count, -1);
+      for (int t = 0; t < mesh.triangle_count(); ++t) {
+        ++size[rank_of[t]];
+        if (mesh.region[t] != Region::layer) continue;
+        for (int i = 0; i < 3; ++i) {
+          const double x = mesh.vertices(mesh.triangles(t, i), 0);
+          left[rank_of[t]] = std::min(left[rank_of[t]], x), right[rank_of[t]] = std::max(right[rank_of[t]], x);
+        }
+      }
+      for (int r = 0; r < count; ++r) {
+        // a share is exceeded by less than the fullest columns, of which 24 make the mesh
+        EXPECT_NEAR(size[r], mesh.triangle_count() / count, mesh.triangle_count() / 12);
+        // no layer triangle reaches over the end of its strip
+        if (r > 0) {
+          EXPECT_NEAR(left[r], right[r - 1], 1e-12);
+        }
+      }
+    }
+}
+
+TEST(Strips, RefuseALayerWithoutColumnsAndMoreRanksThanColumns) {
+  EXPECT_THROW(strips(unstructured_mesh(8), 2), Error);
+  EXPECT_THROW(strips(structured_mesh(3), 4), Error);
+  EXPECT_NO_THROW(strips(structured_mesh(4), 4));
+  EXPECT_NO_THROW(strips(unstructured_mesh(8), 2, true));
+}
+
+TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {
+  const TriangleMesh coarse = layered_mesh(6);
+  const TriangleMesh fine = antilock::refined(antilock::refined(coarse));
+  const std::vector<int> rank_of = strips(coarse, 3);
+  int triangles = 0;
+  std::set<std::array<double, 2>> places;
+  for (int r = 0; r < 3; ++r) {
+    const Piece piece = refined(refined(piece_of(coarse, rank_of, r, 3)));
+    const TriangleMesh& mesh = piece.mesh;
+    triangles += mesh.triangle_count();
+    for (int v = 0; v < mesh.vertex_count(); ++v) places.insert({mesh.vertices(v, 0), mesh.vertices(v, 1)});
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      ASSERT_GT(mesh.twice_area(t), 0);
+      for (int i = 0; i < 3; ++i) {  // edge i lies opposite vertex i, its smaller end first
+        const int e = mesh.triangle_edges(t, i), a = mesh.triangles(t, (i + 1) % 3), b = mesh.triangles(t, (i + 2) % 3);
+        ASSERT_EQ(mesh.edges(e, 0), std::min(a, b));
+        ASSERT_EQ(mesh.edges(e, 1), std::max(a, b));
+      }
+    }
+    for (const Seam& seam : piece.seams) {
+      ASSERT_EQ(seam.edges.size(), 4U);
+      for (int s = 0; s < 4; ++s) {
+        EXPECT_EQ(std::min(seam.vertices[s], seam.vertices[s + 1]), mesh.edges(seam.edges[s], 0));
+        EXPECT_EQ(std::max(seam.vertices[s], seam.vertices[s + 1]), mesh.edges(seam.edges[s], 1));
+        EXPECT_EQ(mesh.edge_triangles(seam.edges[s], 1), -1);
+      }
+    }
+  }
+  EXPECT_EQ(triangles, fine.triangle_count());
+  std::set<std::array<double, 2>> wanted;
+  for (int v = 0; v < fine.vertex_count(); ++v) wanted.insert({fine.vertices(v, 0), fine.vertices(v, 1)});
+  EXPECT_EQ(places, wanted);  // to the last bit: both sides of a seam see the same vertex
+}
+
+TEST(Numbers, OneForEveryVertexAndEdgeOfTheWholeMesh) {
+  const TriangleMesh coarse = layered_mesh(8), whole = antilock::refined(coarse);
+  const Piece piece = refined(piece_of(coarse, strips(coarse, ranks()), rank(), ranks()));
+  EXPECT_EQ(numbers(piece, true).total, whole.vertex_count());
+  EXPECT_EQ(numbers(piece, false).total, whole.edge_count());
+  const Numbers vertices = numbers(piece, true);
+  std::vector<double> mine;  // number, x: a number means the same vertex on every rank
+  for (int v = 0; v < piece.mesh.vertex_count(); ++v)
+    mine.insert(mine.end(),
+                {static_cast<double>(vertices.number[v]), piece.mesh.vertices(v, 0), piece.mesh.vertices(v, 1)});
+  const std::vector<double> all = gathered(mine);
+  std::vector<std::array<double, 2>> place(whole.vertex_count(), {-9, -9});
+  for (std::size_t i = 0; i < all.size(); i += 3) {
+    auto& known = place[static_cast<std::size_t>(all[i])];
+    if (known[0] == -9) known = {all[i + 1], all[i + 2]};
+    EXPECT_EQ(known[0], all[i + 1]);
+    EXPECT_EQ(known[1], all[i + 2]);
+  }
+}
+
+TEST(Together, WhatOneRankThrowsAllThrow) {
+  const int last = ranks() - 1;
+  const auto thrown = [&](const auto& failure) {
+    try {
+      together([&] {
+        if (rank() == last) throw failure;
+      });
+    } catch (const NotConverged& error) {
+      return "not converged: " + std::string(error.what()) + std::to_string(error.steps);
+    } catch (const Error& error) {
+      return "error: " + std::string(error.what());
+    } catch (const std::bad_alloc&) {
+      return std::string("memory");
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(thrown(Error("here")), "error: here");
+  EXPECT_EQ(thrown(NotConverged("there", 0.5, 7)), "not converged: there7");
+  EXPECT_EQ(thrown(std::bad_alloc()), "memory");
+  EXPECT_NO_THROW(together([] {}));
+}
+
+/// solve_nested on `coarse`, its failure as text, the same on every rank or the test fails.
+template <class Failure>
+void expect_refused(const Scene& scene, const TriangleMesh& coarse, const Element& element, NestedOptions options) {
+  NestedReport report;
+  bool refused = false;
+  try {
+    solve_nested(scene, coarse, element, options, report);
+  } catch (const Failure&) {
+    refused = true;
+  }
+  EXPECT_TRUE(refused);
+  EXPECT_EQ(sum(static_cast<long long>(refused)), ranks());
+}
+
+TEST(Refusals, AreTheSameOnEveryRank) {
+  expect_refused<Error>(scene(), unstructured_mesh(8), crouzeix_raviart(), {});
+  expect_refused<Error>(scene(), structured_mesh(8), p2(), {});
+  expect_refused<Error>(scene(), structured_mesh(8, {0}), p1(), {});  // no layer to be found
+  expect_refused<Error>(Scene({paper_load}, VentcelLayer{}), structured_mesh(8, {0}), p1(), {});
+  const auto infinite_at_the_right = [](double x, double) { return x > 0.9 ? INFINITY : 1; };
+  expect_refused<Error>(Scene({infinite_at_the_right}, StiffLayer{1e-2}), structured_mesh(8), p1(), {});
+  const UnilateralContact bad_gap{[](double x) { return x > 0.7 && x < 0.9 ? NAN : 1; }};
+  expect_refused<Error>(Scene({paper_load}, StiffLayer{1e-2}, bad_gap), structured_mesh(16), p1(), {});
+  NestedOptions hasty;
+  hasty.loop.most_corrections = 1;
+  expect_refused<NotConverged>(scene(), structured_mesh(16), p1(), hasty);
+  NestedOptions few;
+  few.loop.most_iterations = 1;
+  expect_refused<NotConverged>(scene(), structured_mesh(16), p1(), few);
+}
+
+TEST(Report, IsTheSerialOneOfTheSameNumbers) {
+  const TriangleMesh mesh = structured_mesh(16);
+  const Space space(mesh, p1());
+  const VariationalInequality problem = assemble(scene(1e-2), space);
+  Solution serial = active_set(problem);
+  NestedReport report;
+  auto level = solve_nested(scene(1e-2), mesh, p1(), {}, report);
+  // the same error on both sides: u is pushed by a smooth function of size 1e-4
+  const auto push = [](double x, double y) { return 1e-4 * std::sin(7 * x + 3 * y); };
+  for (int i = 0; i < space.size(); ++i)
+    if (serial.u(i) != 0) serial.u(i) += push(space.points()(i, 0), space.points()(i, 1));
+  for (int i = 0; i < level->space.size(); ++i)
+    if (level->state.u(i) != 0) level->state.u(i) += push(level->space.points()(i, 0), level->space.points()(i, 1));
+  const Eigen::VectorXd forces = -split_residual(problem, serial.u, serial.p, Eigen::VectorXd(0)).r1;
+  for (std::size_t i = 0; i < problem.contact.size(); ++i)  // the forces that the distributed side takes
+    serial.lambda(static_cast<Eigen::Index>(i)) = serial.active[i] ? forces(problem.contact[i]) : 0;
+  serial.moderate = 0;
+  const Kkt theirs = antilock::kkt_report(problem, serial), ours = kkt_report(level->problem, level->state);
+  EXPECT_GT(ours.residual, 1e-4);
+  EXPECT_NEAR(ours.residual, theirs.residual, 0.01 * theirs.residual);
+  EXPECT_NEAR(ours.min_gap, theirs.min_gap, 0.01 * std::abs(theirs.min_gap) + 1e-12);
+  EXPECT_NEAR(ours.min_pressure, theirs.min_pressure, 0.01 * std::abs(theirs.min_pressure) + 1e-9);
+  EXPECT_NEAR(ours.complementarity, theirs.complementarity, 0.01 * theirs.complementarity + 1e-12);
+  std::string warning;
+  EXPECT_THROW(certified(level->problem, level->state, warning), NotConverged);
+}
+
+TEST(Direct, SolvesALayerWithoutColumns) {
+  const TriangleMesh mesh = unstructured_mesh(32);
+  const Space space(mesh, crouzeix_raviart());
+  const Solution serial = active_set(assemble(scene(), space));
+  NestedOptions options;
+  options.loop.direct = true;
+  NestedReport report;
+  const auto level = solve_nested(scene(), mesh, crouzeix_raviart(), options, report);
+  EXPECT_NEAR(largest(level->state.u.maxCoeff()), serial.u.maxCoeff(), 1e-9 * serial.u.maxCoeff());
+  EXPECT_NEAR(-largest(-level->state.u.minCoeff()), serial.u.minCoeff(), 1e-9 * serial.u.maxCoeff());
+  EXPECT_EQ(level->contact_set().count(), std::count(serial.active.begin(), serial.active.end(), true));
+  EXPECT_LE(report.last.most_iterations, 3);
+}
+
+TEST(ContactSets, BetweenTwoPointsInContactIsContact) {
+  const ContactSet set{{0.1, 0.2, 0.3, 0.4}, {0, 1, 1, 0}};
+  EXPECT_EQ(set.count(), 2);
+  EXPECT_TRUE(set.at(0.25));
+  EXPECT_TRUE(set.at(0.2));
+  EXPECT_FALSE(set.at(0.15));
+  EXPECT_FALSE(set.at(0.35));
+  EXPECT_FALSE(set.at(0.05));
+  EXPECT_FALSE(ContactSet{}.at(0.5));
+}
+
+TEST(EffectsAlone, NoLayerNoContactAreSolvedToo) {
+  const std::array<Scene, 3> scenes = {Scene({paper_load}), Scene({paper_load}, NoLayer{}, UnilateralContact{}),
+                                       Scene({paper_load}, ThinLayer{0.1}, UnilateralContact{})};
+  for (const Scene& question : scenes) {
+    const TriangleMesh mesh = structured_mesh(32, Domain{question.layer_depth()});
+    const Space space(mesh, p1());
+    const VariationalInequality problem = assemble(question, space);
+    const Solution serial = active_set(problem);
+    NestedReport report;
+    const auto level = solve_nested(question, mesh, p1(), {}, report);
+    EXPECT_NEAR(largest(level->state.u.maxCoeff()), serial.u.maxCoeff(), 1e-9 * serial.u.maxCoeff());
+    EXPECT_NEAR(-largest(-level->state.u.minCoeff()), serial.u.minCoeff(), 1e-9 * serial.u.maxCoeff());
+    if (!question.contact()) {
+      EXPECT_EQ(report.last.sets, 0);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace antilock::distributed

@@ -1,0 +1,183 @@
+// run_scene with solver = "petsc", from outside: alone and under mpiexec, asked well and badly, ended and restarted.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include "scenes/runner.hpp"
+
+namespace antilock::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string scene_text(const std::string& solver, const std::string& kind, const std::string& element, int cells,
+                       const std::string& method = "") {
+  return "[load]\nf = \"10*sin(2*pi*x)\"\n[layer]\nepsilon = 1e-6\n[contact]\n[mesh]\nkind = \"" + kind +
+         "\"\ncells = " + std::to_string(cells) + "\n[method]\nelement = \"" + element + "\"\nsolver = \"" + solver +
+         "\"\n" + method;
+}
+
+/// A scene and its runs, on as many ranks as asked: 0 is without mpiexec.
+class Runs {
+ public:
+  explicit Runs(const std::string& scene) { std::ofstream(folder / "scene.toml", std::ios::binary) << scene; }
+  fs::path results(const std::string& name) const { return folder / name; }
+  std::string command(int ranks, const std::string& name, const std::string& options = "") const {
+    const std::string launch = ranks > 0 ? MPIEXEC " -n " + std::to_string(ranks) + " " : "";
+    return launch + in_shell(RUN_SCENE) + " " + in_shell(folder / "scene.toml") + " --out " +
+           in_shell(results(name).string()) + " " + options + " >" + in_shell(folder / "out") + " 2>" +
+           in_shell(folder / "err");
+  }
+  Outcome run(int ranks, const std::string& name, const std::string& options = "") const {
+    const int status = std::system(command(ranks, name, options).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder / "out"), contents(folder / "err")};
+  }
+  nlohmann::json summary(const std::string& name) const {
+    return nlohmann::json::parse(contents(results(name) / "summary.json"));
+  }
+  TemporaryFolder folder;
+};
+
+/// Rows by place: the ranks write theirs in another order.
+Eigen::MatrixXd sorted(const Eigen::MatrixXd& rows) {
+  std::vector<Eigen::RowVectorXd> all(rows.rows());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) all[i] = rows.row(i);
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    return std::lexicographical_compare(a.begin(), a.begin() + 2, b.begin(), b.begin() + 2);
+  });
+  Eigen::MatrixXd result(rows.rows(), rows.cols());
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) result.row(i) = all[i];
+  return result;
+}
+
+/// What run_scene itself says on standard error: mpiexec adds lines of its own, all without the file's name.
+int lines_about(const std::string& name, const std::string& err) {
+  std::istringstream text(err);
+  int count = 0;
+  for (std::string line; std::getline(text, line);) count += line.find(name) != std::string::npos ? 1 : 0;
+  return count;
+}
+
+TEST(PetscScene, GivesTheFilesOfTheSerialRunOnAnyNumberOfRanks) {
+  for (const std::string element : {"P1", "CR"}) {
+    const Runs serial(scene_text("active-set", "structured", element, 64)),
+        petsc(scene_text("petsc", "structured", element, 64));
+    ASSERT_EQ(serial.run(0, "serial").status, 0);
+    const Eigen::MatrixXd u = sorted(read_csv(serial.results("serial") / "solution.csv").rows);
+    const Eigen::MatrixXd contact = read_csv(serial.results("serial") / "contact.csv").rows;
+    for (const int ranks : {0, 1, 2, 4}) {
+      const std::string name = std::to_string(ranks);
+      const Outcome outcome = petsc.run(ranks, name);
+      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      const Csv mine = read_csv(petsc.results(name) / "solution.csv"),
+                table = read_csv(petsc.results(name) / "contact.csv");
+      EXPECT_EQ(mine.header, "x,y,u");
+      EXPECT_EQ(table.header, "x,gap,pressure");
+      ASSERT_EQ(mine.rows.rows(), u.rows());
+      EXPECT_LE((sorted(mine.rows) - u).cwiseAbs().maxCoeff(), 1e-9 * u.col(2).cwiseAbs().maxCoeff());
+      ASSERT_EQ(table.rows.rows(), contact.rows());
+      EXPECT_LE((table.rows - contact).leftCols<2>().cwiseAbs().maxCoeff(), 1e-9);
+      EXPECT_LE((table.rows - contact).col(2).cwiseAbs().maxCoeff(), 1e-6 * contact.col(2).maxCoeff());
+      const nlohmann::json ours = petsc.summary(name), theirs = serial.summary("serial");
+      EXPECT_EQ(ours["dofs"], theirs["dofs"]);
+      EXPECT_EQ(ours["contact"], theirs["contact"]);
+      EXPECT_NEAR(ours["energy"].get<double>(), theirs["energy"].get<double>(), 1e-9);
+      EXPECT_LE(ours["kkt"]["residual"].get<double>(), 1e-9);
+      EXPECT_EQ(ours["parallel"]["ranks"], std::max(ranks, 1));
+      for (int r = 0; r < std::max(ranks, 1); ++r)
+        EXPECT_TRUE(fs::exists(petsc.results(name) / ("solution_" + std::to_string(r) + ".vtu")));
+      EXPECT_NE(contents(petsc.results(name) / "solution.pvtu").find("solution_0.vtu"), std::string::npos);
+      EXPECT_FALSE(fs::exists(petsc.results(name).string() + ".checkpoint"));
+    }
+  }
+}
+
+TEST(PetscScene, TheMeshItWritesIsTheMeshItUsed) {
+  const Runs petsc(scene_text("petsc", "structured", "P1", 32));
+  ASSERT_EQ(petsc.run(3, "petsc").status, 0);
+  std::string text = scene_text("active-set", "file", "P1", 0);
+  text.replace(text.find("cells = 0"), 9, "file = \"" + (petsc.results("petsc") / "mesh.msh").string() + "\"");
+  const Runs again(text);
+  const Outcome outcome = again.run(0, "again");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Csv mine = read_csv(petsc.results("petsc") / "solution.csv"),
+            theirs = read_csv(again.results("again") / "solution.csv");
+  ASSERT_EQ(mine.rows.rows(), theirs.rows.rows());
+  EXPECT_LE((mine.rows - theirs.rows).cwiseAbs().maxCoeff(), 1e-9);  // row for row: the order of the nodes
+}
+
+TEST(PetscScene, ABadQuestionIsRefusedOnEveryRankAlike) {
+  const struct {
+    std::string scene, says;
+    int status;
+  } cases[] = {
+      {scene_text("petsc", "unstructured", "CR", 16), "layered", 2},
+      {scene_text("petsc", "structured", "P1", 3), "4 ranks for 3 columns", 2},
+      {scene_text("active-set", "structured", "P1", 16), "petsc", 2},
+      {scene_text("petsc", "structured", "P1", 64, "tolerance = 1e-18\n"), "double precision", 3},
+      {"[load]\nf = \"1/(x - 0.6)\"\n[mesh]\nkind = \"structured\"\ncells = 30\n[method]\nsolver = \"petsc\"\n",
+       "not finite", 2},
+  };
+  for (const auto& [scene, says, status] : cases) {
+    const Runs runs(scene);
+    const Outcome outcome = runs.run(4, "results");
+    EXPECT_EQ(outcome.status, status) << outcome.err;
+    EXPECT_EQ(lines_about("scene.toml: ", outcome.err), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(runs.results("results")));
+    EXPECT_FALSE(fs::exists(runs.results("results").string() + ".checkpoint"));
+  }
+}
+
+TEST(PetscScene, ALimitOfMemoryIsSeenBeforeItIsMet) {
+  const Runs runs(scene_text("petsc", "structured", "P1", 1024));
+  const int status = std::system(("ulimit -v 1500000; " + runs.command(0, "results")).c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 3);
+  EXPECT_EQ(lines_about("limit of this process", contents(runs.folder / "err")), 1) << contents(runs.folder / "err");
+  EXPECT_FALSE(fs::exists(runs.results("results")));
+}
+
+TEST(PetscScene, AKilledRunLeavesACheckpointFromWhichAnotherStarts) {
+  const Runs runs(scene_text("petsc", "structured", "P1", 256));
+  const fs::path checkpoint = runs.results("results").string() + ".checkpoint";
+  EXPECT_EQ(runs.run(2, "results", "--restart").status, 2);  // there is none yet
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::setpgid(0, 0);
+    ::execl("/bin/sh", "sh", "-c", ("exec " + runs.command(2, "results")).c_str(), nullptr);
+    ::_exit(127);
+  }
+  for (int i = 0; i < 3000 && !fs::exists(checkpoint); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ::kill(child, SIGTERM);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  EXPECT_NE(status, 0);
+  ASSERT_TRUE(fs::exists(checkpoint));
+  EXPECT_FALSE(fs::exists(runs.results("results")));
+  const Outcome again = runs.run(3, "results", "--restart");  // on another number of ranks
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_NE(again.out.find("restart from the contact set"), std::string::npos);
+  EXPECT_FALSE(fs::exists(checkpoint));
+  ASSERT_EQ(runs.run(2, "whole").status, 0);
+  EXPECT_EQ(runs.summary("results")["contact"], runs.summary("whole")["contact"]);
+  EXPECT_NEAR(runs.summary("results")["energy"].get<double>(), runs.summary("whole")["energy"].get<double>(), 1e-10);
+}
+
+TEST(PetscScene, ACheckpointOfAnotherSceneOrADamagedOneIsRefused) {
+  const Runs runs(scene_text("petsc", "structured", "P1", 64));
+  const fs::path checkpoint = runs.results("results").string() + ".checkpoint";
+  for (const std::string text : {"antilock checkpoint 1\n0123456789abcdef 32 1\n0.5 1\n", "nothing\n", ""}) {
+    std::ofstream(checkpoint, std::ios::binary) << text;
+    const Outcome outcome = runs.run(2, "results", "--restart");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_EQ(lines_about("--restart", outcome.err), 1) << outcome.err;
+    EXPECT_FALSE(fs::exists(runs.results("results")));
+  }
+}
+
+}  // namespace
+}  // namespace antilock::test

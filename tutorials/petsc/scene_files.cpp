@@ -1,0 +1,151 @@
+#include "petsc/scene_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/distributed/kkt_report.hpp"
+#include "antilock/distributed/ranks.hpp"
+#include "antilock/distributed/whole_files.hpp"
+#include "antilock/io/writers.hpp"
+
+namespace antilock::distributed {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+double finite(const char* what, double value) {
+  if (!std::isfinite(value)) throw NotConverged(std::string(what) + " of the answer is not finite", value, 0);
+  return value;
+}
+
+/// J(u) = a(u, u)/2 - L(u), the stiff part as compliance p' M p: a sum over the pieces.
+double energy_of_all(const Level& level) {
+  const VariationalInequality& part = level.problem.part();
+  const Eigen::VectorXd &u = level.state.u, &p = level.state.p;
+  return sum(u.dot(part.a1 * u) / 2 + part.compliance * p.dot(part.m.cwiseProduct(p)) / 2 - part.load.dot(u));
+}
+
+/// Per unknown of the piece: the length of Gamma_C that it stands for, summed over the ranks.
+Eigen::VectorXd contact_lengths_of_all(const Level& level) {
+  const TriangleMesh& mesh = level.piece.mesh;
+  const bool at_vertices = level.space.element().per_vertex() > 0;
+  Eigen::VectorXd lengths = Eigen::VectorXd::Zero(level.space.size());
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    if (!at_vertices) lengths(e) += mesh.edge_length(e);
+    for (int i = 0; at_vertices && i < 2; ++i) lengths(mesh.edges(e, i)) += mesh.edge_length(e) / 2;
+  }
+  const Vector v = level.problem.rows().vector();
+  level.problem.rows().summed(lengths, v);
+  return level.problem.rows().local(v);
+}
+
+/// One row per contact unknown of all ranks, by x: x, gap, pressure. Certified: what is below zero is round-off.
+Eigen::MatrixX3d contact_table_of_all(const Level& level) {
+  const Rows& rows = level.problem.rows();
+  const Eigen::VectorXd lengths = contact_lengths_of_all(level), lambda = contact_forces(level.problem, level.state);
+  std::vector<double> mine;
+  for (int place = 0; place < rows.owned(); ++place) {
+    const double lower = level.problem.lower()(place);
+    if (std::isinf(lower)) continue;
+    const int i = rows.unknown(place);
+    mine.insert(mine.end(), {level.space.points()(i, 0), std::max(level.state.u(i) - lower, 0.0),
+                             std::max(lambda(place) / lengths(i), 0.0)});
+  }
+  const std::vector<double> all = gathered(mine);
+  std::vector<std::array<double, 3>> sorted(all.size() / 3);
+  for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = {all[3 * i], all[3 * i + 1], all[3 * i + 2]};
+  std::sort(sorted.begin(), sorted.end());
+  Eigen::MatrixX3d table(static_cast<Eigen::Index>(sorted.size()), 3);
+  for (Eigen::Index i = 0; i < table.rows(); ++i) table.row(i) << sorted[i][0], sorted[i][1], sorted[i][2];
+  return table;
+}
+
+std::string piece_name(int rank) { return fmt::format("solution_{}.vtu", rank); }
+
+void write_pvtu(const fs::path& path) {
+  write_file(path, [&](std::ostream& out) {
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
+           "<PUnstructuredGrid GhostLevel=\"0\">\n"
+           "<PPointData Scalars=\"u\">\n<PDataArray type=\"Float64\" Name=\"u\"/>\n</PPointData>\n"
+           "<PCellData Scalars=\"region\">\n<PDataArray type=\"Int32\" Name=\"region\"/>\n</PCellData>\n"
+           "<PPoints>\n<PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n</PPoints>\n";
+    for (int r = 0; r < ranks(); ++r) out << "<Piece Source=\"" << piece_name(r) << "\"/>\n";
+    out << "</PUnstructuredGrid>\n</VTKFile>\n";
+  });
+}
+
+/// Every number of the summary that all ranks must form together.
+Json summary(const SceneFile& file, const Level& level, const NestedReport& report, int levels) {
+  const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
+  Json s;
+  s["element"] = file.method.element;
+  s["solver"] = file.method.solver;
+  s["epsilon"] = or_null(file.scene.epsilon());
+  const bool from_file = file.mesh.kind == MeshRequest::Kind::file;
+  s["h"] = from_file ? largest(level.piece.mesh.diameter()) : 1.0 / file.mesh.cells;
+  s["dofs"] = level.problem.rows().total();
+  s["effects"] = file.scene.effects();
+  s["energy"] = finite("the energy", energy_of_all(level));
+  s["u_max"] = finite("the maximum", largest(level.state.u.maxCoeff()));
+  s["u_min"] = finite("the minimum", -largest(-level.state.u.minCoeff()));
+  if (file.scene.contact()) {
+    const ContactSet set = level.contact_set();
+    std::optional<double> from, to;
+    for (std::size_t i = 0; i < set.x.size(); ++i)
+      if (set.active[i] != 0) from = from.value_or(set.x[i]), to = set.x[i];
+    s["contact"] = {{"points", set.x.size()}, {"active", set.count()}, {"from", or_null(from)}, {"to", or_null(to)}};
+    s["kkt"] = {{"min_gap", report.kkt.min_gap},
+                {"min_pressure", report.kkt.min_pressure},
+                {"complementarity", report.kkt.complementarity},
+                {"residual", report.kkt.residual}};
+  } else {
+    s["kkt"] = {{"residual", report.kkt.residual}};
+  }
+  s["iterations"] = {{"contact", report.last.sets + 1}, {"corrections", report.last.corrections}};
+  s["parallel"] = {{"ranks", ranks()},
+                   {"petsc", petsc_version()},
+                   {"levels", levels},
+                   {"linear_iterations", report.linear_iterations},
+                   {"memory_mb", peak_megabytes()}};
+  s["warning"] = report.warning;
+  return s;
+}
+
+}  // namespace
+
+void write_scene_files(const fs::path& folder, const SceneFile& file, const Level& level, const NestedReport& report,
+                       int levels, const RunClock& clock) {
+  const bool contact = file.scene.contact().has_value();
+  const bool csv = level.problem.rows().total() <= most_csv_unknowns;
+  Json json = summary(file, level, report, levels);
+  const Stopwatch files;
+  const auto write = [&](const fs::path& draft) {
+    if (csv) write_solution_csv_together(draft / "solution.csv", level.piece, level.space, level.state.u);
+    write_msh_together(draft / "mesh.msh", level.piece);
+    const Eigen::MatrixX3d table = contact ? contact_table_of_all(level) : Eigen::MatrixX3d(0, 3);
+    together([&] { write_vtu(draft / piece_name(rank()), level.space, level.state.u); });
+    together([&] {
+      if (rank() > 0) return;
+      write_pvtu(draft / "solution.pvtu");
+      if (contact) write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
+      json["seconds"] = {{"mesh", clock.mesh},   {"assemble", clock.assemble}, {"factor", clock.factor},
+                         {"solve", clock.solve}, {"files", files.seconds()},   {"total", clock.total.seconds()}};
+      write_file(draft / "summary.json", [&](std::ostream& out) { out << json.dump(2) << "\n"; });
+    });
+  };
+  std::vector<std::string> stale = {"solution.vtu"};
+  if (!contact) stale.emplace_back("contact.csv");
+  if (!csv) stale.emplace_back("solution.csv");
+  std::error_code none;
+  for (int r = ranks(); fs::exists(folder / piece_name(r), none); ++r) stale.push_back(piece_name(r));
+  write_folder_together(folder, write, stale);
+}
+
+}  // namespace antilock::distributed

@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/distributed/nested.hpp"
+#include "antilock/io/scene_file.hpp"
+
+namespace antilock::distributed {
+
+/// Wall seconds of a run, as summary.json has them.
+struct RunClock {
+  double mesh = 0, assemble = 0, factor = 0, solve = 0;
+  Stopwatch total;
+};
+
+/// The answer of all ranks in one folder, all files or none: summary.json, solution.csv (up to a million unknowns),
+/// contact.csv (with contact), mesh.msh, solution.pvtu with a piece per rank. Columns and keys are those of a run
+/// without MPI. Every rank must call it; throws on every rank alike.
+void write_scene_files(const std::filesystem::path& folder, const SceneFile& file, const Level& level,
+                       const NestedReport& report, int levels, const RunClock& clock);
+
+/// The names that it may write, for rank 0 to check that no input stands in their place.
+constexpr int most_csv_unknowns = 1'000'000;
+
+}  // namespace antilock::distributed
