@@ -1,35 +1,41 @@
 // Figures 1 and 2. The domain, and the change of variable that makes a thin layer thick.
 //
-// Run: 01_domain                    the layer drawn with thickness 0.15; a moment
+// Run: 01_domain   the layer drawn with thickness 0.15; a moment
 // Run: 01_domain --epsilon 0.3
 //
-// What the pictures show. An elastic body Omega+ = (0,1) x (0,1), clamped on Gamma+ (both sides and the top). A thin
-// stiff layer Omega_epsilon^- = (0,1) x (-epsilon,0) is grafted onto its lower side Sigma. The layer is clamped on its
-// two ends Gamma_D,epsilon^- and may touch a rigid obstacle on Gamma_C,epsilon. The thinner the layer, the stiffer it
-// is: its Lame coefficients are those of the body divided by epsilon. The displacement u is out of the plane of the
-// drawing (anti-plane elasticity). The obstacle is a stop for that displacement, u >= 0 on Gamma_C,epsilon; the picture
+// What the pictures show. An elastic body Omega+ = (0,1) x (0,1), clamped on Gamma+ (both sides and
+// the top). A thin stiff layer Omega_epsilon^- = (0,1) x (-epsilon,0) is grafted onto its lower
+// side Sigma. The layer is clamped on its two ends Gamma_D,epsilon^- and may touch a rigid obstacle
+// on Gamma_C,epsilon. The thinner the layer, the stiffer it is: its Lame coefficients are those of
+// the body divided by epsilon. The displacement u is out of the plane of the drawing (anti-plane
+// elasticity). The obstacle is a stop for that displacement, u >= 0 on Gamma_C,epsilon; the picture
 // draws it below Gamma_C and apart from it, in the problem there is no distance between them.
 //
 // The equations, (21):
 //
 //     -Delta u = f in the body,   -epsilon^-1 Delta u = 0 in the layer,   u = 0 on Gamma_D,epsilon,
 //     on Sigma, between body (+) and layer (-):   u+ = u-,   d_n u+ = epsilon^-1 d_n u-,
-//     on Gamma_C,epsilon:   u >= 0,   d_n u >= 0,   u d_n u = 0        (a gap, or a pressure, never both)
+//     on Gamma_C,epsilon:   u >= 0,   d_n u >= 0,   u d_n u = 0   (gap or pressure, never both)
 //
-// From (21) to (22). Take v in K_epsilon = { v = 0 on Gamma_D,epsilon, v >= 0 on Gamma_C,epsilon }, multiply by v - u,
-// integrate by parts on both parts. The terms on Sigma cancel, by the second condition there. What is left on the
-// boundary is  epsilon^-1 int_Gamma_C d_n u (v - u)  =  epsilon^-1 int_Gamma_C (d_n u) v  >=  0,  since u d_n u = 0 and
-// neither d_n u nor v is negative. This is the term that makes an inequality of the equation: with mu_epsilon = 1 in
-// the body and 1/epsilon in the layer,
+// From (21) to (22). Take v in K_epsilon = { v = 0 on Gamma_D,epsilon, v >= 0 on Gamma_C,epsilon },
+// multiply by v - u, integrate by parts on both parts. The terms on Sigma cancel, by the second
+// condition there. What is left on the boundary is
 //
-//     u in K_epsilon,   int mu_epsilon grad u . grad (v - u) >= int f (v - u)   for all v in K_epsilon           (22)
+//     epsilon^-1 int_Gamma_C d_n u (v - u)  =  epsilon^-1 int_Gamma_C (d_n u) v  >=  0,
 //
-// From (22) to (23). Two difficulties come at once: the domain degenerates and the coefficient explodes. The change of
-// variable y~ = y/epsilon in the layer removes the first. There dy = epsilon dy~ and d/dy = epsilon^-1 d/dy~, so that
+// since u d_n u = 0 and neither d_n u nor v is negative. This is the term that makes an inequality
+// of the equation: with mu_epsilon = 1 in the body and 1/epsilon in the layer,
 //
-//     int_{thin} 1/epsilon |grad u|^2 = int_{unit} |d/dx u|^2 + epsilon^-2 |d/dy~ u|^2                            (23)
+//     u in K_epsilon,   int mu_epsilon grad u . grad (v - u) >= int f (v - u),  all v in K_epsilon  (22)
 //
-// What is left of the thickness is one factor in front of one form, on a domain that does not change (Figure 2).
+// From (22) to (23). Two difficulties come at once: the domain degenerates and the coefficient
+// explodes. The change of variable y~ = y/epsilon in the layer removes the first. There dy =
+// epsilon dy~ and d/dy = epsilon^-1 d/dy~, so that
+//
+//     int_{thin} 1/epsilon |grad u|^2 = int_{unit} |d/dx u|^2 + epsilon^-2 |d/dy~ u|^2         (23)
+//
+// What is left of the thickness is one factor in front of one form, on a domain that does not
+// change (Figure 2).
 
 #include <cmath>
 
@@ -43,7 +49,7 @@
 
 using namespace antilock;
 
-TriangleMesh squashed(TriangleMesh mesh, double epsilon);                              // Figure 2 to Figure 1
+TriangleMesh squashed(TriangleMesh mesh, double epsilon);                            // Figure 2 to Figure 1
 double energy_form(const VariationalInequality& problem, const Eigen::VectorXd& v);  // a(v, v)
 Eigen::VectorXd test_function(const Space& space);
 
@@ -84,9 +90,11 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 // Three things to try:
-// - --epsilon 0.05: the triangles of the thin layer become needles, 20 times as long as high; those of Figure 2 do not.
+// - --epsilon 0.05: the triangles of the thin layer become needles, 20 times as long as high; those
+//   of Figure 2 do not.
 // - replace v by a function of x alone: after the change of variable epsilon^-2 multiplies nothing.
-// - write (21) on the unit layer: which normal derivative carries the epsilon^-2 on Sigma and on Gamma_C?
+// - write (21) on the unit layer: which normal derivative carries the epsilon^-2 on Sigma and on
+//   Gamma_C?
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.epsilon = 0.15;

@@ -1,20 +1,22 @@
 // Figures 3 and 6. Two meshes of the same domain, and the one property that decides between them.
 //
-// Run: 02_meshes                 16 cells per unit side, as drawn; a moment
+// Run: 02_meshes   16 cells per unit side, as drawn; a moment
 // Run: 02_meshes --cells 64
 //
-// What the pictures show. Figure 3: squares cut by a diagonal. Figure 6: an arbitrary triangulation of about the same
-// size, by gmsh. Both are conforming, both respect the interface Sigma (no triangle lies on both sides), and both have
-// good angles. By every rule of thumb they are equally good.
+// What the pictures show. Figure 3: squares cut by a diagonal. Figure 6: an arbitrary triangulation
+// of about the same size, by gmsh. Both are conforming, both respect the interface Sigma (no
+// triangle lies on both sides), and both have good angles. By every rule of thumb they are equally
+// good.
 //
-// What differs. As epsilon -> 0 the layer may only carry functions with d/dy v = 0. A P1 function with this property is
-// constant along the normal in every triangle. It can bend only where a straight line of mesh edges crosses the whole
-// layer along the normal, from Sigma to Gamma_C. So count these lines. The structured mesh has cells + 1; the
-// unstructured mesh has two, the ends of the layer, where v = 0 is prescribed. The kernel of a0 is
-// G_h = { v in V_h : d/dy v = 0 in the layer }. On the layer, its functions are one per line inside: on the
-// unstructured mesh every function of G_h, and of K_0h = K_h n G_h, vanishes on the layer. (In the body G_h asks
-// nothing: every function is left there.) In the limit epsilon = 0 the discrete solution must vanish on the layer. That
-// is locking, seen before anything is solved (Figure 7, tutorial 05).
+// What differs. As epsilon -> 0 the layer may only carry functions with d/dy v = 0. A P1 function
+// with this property is constant along the normal in every triangle. It can bend only where a
+// straight line of mesh edges crosses the whole layer along the normal, from Sigma to Gamma_C. So
+// count these lines. The structured mesh has cells + 1; the unstructured mesh has two, the ends of
+// the layer, where v = 0 is prescribed. The kernel of a0 is G_h = { v in V_h : d/dy v = 0 in the
+// layer }. On the layer, its functions are one per line inside: on the unstructured mesh every
+// function of G_h, and of K_0h = K_h n G_h, vanishes on the layer. (In the body G_h asks nothing:
+// every function is left there.) In the limit epsilon = 0 the discrete solution must vanish on the
+// layer. That is locking, seen before anything is solved (Figure 7, tutorial 05).
 
 #include <algorithm>
 #include <cmath>
@@ -48,10 +50,11 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
   for (const auto& [name, value] : of_regular) table.add({name, value, of_arbitrary.at(name)});
   table.print("", 5);
 
-  // 1e-10: sums of some thousand areas and lengths. 25 degrees: the angles of a regular family stay away from 0.
-  const std::map<std::string, double> figure2{{"area of the body", 1},     {"area of the layer", 1},
-                                              {"length of Sigma", 1},      {"length of Gamma_D", 5},
-                                              {"length of Gamma_C", 1},    {"triangles on both sides of Sigma", 0}};
+  // 1e-10: sums of some thousand areas and lengths. 25 degrees: the angles of a regular family stay
+  // away from 0.
+  const std::map<std::string, double> figure2{{"area of the body", 1},  {"area of the layer", 1},
+                                              {"length of Sigma", 1},   {"length of Gamma_D", 5},
+                                              {"length of Gamma_C", 1}, {"triangles on both sides of Sigma", 0}};
   double off = 0;
   for (const auto& [name, wanted] : figure2)
     off = std::max({off, std::abs(of_regular.at(name) - wanted), std::abs(of_arbitrary.at(name) - wanted)});
@@ -66,7 +69,8 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
                normal_lines(regular), normal_lines(arbitrary));
 }
 
-// Lines of mesh edges that cross the whole layer along the normal: climb from each vertex of Gamma_C, edge by edge.
+// Lines of mesh edges that cross the whole layer along the normal: climb from each vertex of
+// Gamma_C, edge by edge.
 int normal_lines(const TriangleMesh& mesh) {
   constexpr double straight = 1e-12;  // of coordinates that are rounded once
   std::map<int, int> above;           // the vertex straight above another, where an edge leads there
@@ -89,8 +93,8 @@ int normal_lines(const TriangleMesh& mesh) {
 // Three things to try:
 // - --cells 2, 3, 4: even the coarsest meshes of gmsh have no line across inside the layer.
 // - structured({}, Diagonal::left) in `meshes`: every number stays as it is.
-// - jitter the vertices inside the layer of the structured mesh by 1e-9: how many lines are left? (Tutorial 05: what
-//   that does to the solution.)
+// - jitter the vertices inside the layer of the structured mesh by 1e-9: how many lines are left?
+//   (Tutorial 05: what that does to the solution.)
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.takes_epsilon = false;

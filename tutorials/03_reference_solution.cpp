@@ -1,28 +1,30 @@
 // Figure 4. The reference solution, computed as the paper does, and how good it is.
 //
-// Run: 03_reference_solution                          epsilon = 1e-6, h = 1/256; about ten seconds
+// Run: 03_reference_solution   epsilon = 1e-6, h = 1/256; about ten seconds
 // Run: 03_reference_solution --epsilon 1 --cells 64
 //
-// What the picture shows. A hill over the left half of the body, where the load lifts it, a valley over the right half,
-// where the load presses it on the obstacle. On the layer "its value along the normal to Sigma is constant and
-// nonnegative" (Section 4.1): a ridge that falls to zero at x = 0.702 and stays there, in contact.
+// What the picture shows. A hill over the left half of the body, where the load lifts it, a valley
+// over the right half, where the load presses it on the obstacle. On the layer "its value along the
+// normal to Sigma is constant and nonnegative" (Section 4.1): a ridge that falls to zero at x =
+// 0.702 and stays there, in contact.
 //
-// How. "Unilateral contact problems generally do not admit analytical solution" (Section 4.1), so the paper takes the
-// standard method on a very fine uniform mesh, solved by Uzawa's algorithm. The contact pressure lambda >= 0 is the
-// multiplier of the condition u >= 0, and one step is
+// How. "Unilateral contact problems generally do not admit analytical solution" (Section 4.1), so
+// the paper takes the standard method on a very fine uniform mesh, solved by Uzawa's algorithm. The
+// contact pressure lambda >= 0 is the multiplier of the condition u >= 0, and one step is
 //
-//     a(u^k, v) = (f, v) + (lambda^k, v)_{Gamma_C} for all v         an elastic body under a known pressure
-//     lambda^{k+1} = max(0, lambda^k - rho u^k)                      more pressure where u < 0, less where u > 0
+//     a(u^k, v) = (f, v) + (lambda^k, v)_{Gamma_C} for all v     the body under a known pressure
+//     lambda^{k+1} = max(0, lambda^k - rho u^k)                  more where u < 0, less where u > 0
 //
-// It is a gradient method for the pressure. The operator behind it is the compliance of Gamma_C (pressure in,
-// displacement out). The step rho must stay below 2 / its largest eigenvalue. Let kappa be its condition number, the
-// largest by the smallest eigenvalue. With the best rho the error falls by (kappa - 1)/(kappa + 1) per step, so that an
-// error of tol takes about (kappa / 2) log(1 / tol) steps. kappa grows like 1/h at epsilon = 1 and like 1/h^2 as
-// epsilon -> 0. Count the steps below. Each step is cheap here, because the compliance is condensed on Gamma_C once;
+// It is a gradient method for the pressure. The operator behind it is the compliance of Gamma_C
+// (pressure in, displacement out). The step rho must stay below 2 / its largest eigenvalue. Let
+// kappa be its condition number, the largest by the smallest eigenvalue. With the best rho the
+// error falls by (kappa - 1)/(kappa + 1) per step, so that an error of tol takes about (kappa / 2)
+// log(1 / tol) steps. kappa grows like 1/h at epsilon = 1 and like 1/h^2 as epsilon -> 0. Count the
+// steps below. Each step is cheap here, because the compliance is condensed on Gamma_C once;
 // uzawa_cg_ilut (see the end) shows the price when it is not.
 //
-// For this geometry and load there is a better reference, a sine series (lib/antilock/exact). With it the reference
-// itself can be checked.
+// For this geometry and load there is a better reference, a sine series (lib/antilock/exact). With
+// it the reference itself can be checked.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -47,8 +49,8 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   const Discretisation fine = p1_structured.on(options.cells);
   const VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), fine.space());
 
-  // 2. Uzawa. The step comes from an estimate of the compliance's extreme eigenvalues; the tolerance 1e-8 is far below
-  //    the discretisation error.
+  // 2. Uzawa. The step comes from an estimate of the compliance's extreme eigenvalues; the
+  //    tolerance 1e-8 is far below the discretisation error.
   report.stage("factor");
   PenaltyFactor factor(problem);
   report.stage("Uzawa");
@@ -69,8 +71,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   report.stage("Uzawa on coarser meshes");
   Table steps({"cells", "h", "steps"});
   for (int n = 16; n <= options.cells / 2; n *= 2) {
-    const VariationalInequality coarse =
-        assemble(tutorial::paper_scene(options.epsilon), p1_structured.on(n).space());
+    const VariationalInequality coarse = assemble(tutorial::paper_scene(options.epsilon), p1_structured.on(n).space());
     steps.add({n, 1.0 / n, uzawa(coarse).counters.contact});
   }
   report.finish();
@@ -88,17 +89,18 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   const double h = 1.0 / options.cells, lowest = solution.u(problem.contact).minCoeff();
   report.claim(errors.max_at_unknowns <= h * h, "the reference solution is within {:.1e} of the truth (h^2 = {:.1e})",
                errors.max_at_unknowns, h * h);
-  // the step in the gap bounds the error up to the few contact points that it moves: a factor 10 of room
+  // the step in the gap bounds the error up to the few contact points that it moves: a factor 10 of
+  // room
   report.claim(difference <= 10 * uzawa_options.tolerance, "Uzawa and the active set agree to {:.1e}", difference);
   report.claim(lowest >= -1e-7, "nonnegative on Gamma_C (smallest value {:.1e})", lowest);
 }
 
 // Three things to try:
-// - --epsilon 1, 1e-1, 1e-2 and watch the steps: the stiffer the layer, the more steps Uzawa takes; those of the active
-//   set stay as they are.
+// - --epsilon 1, 1e-1, 1e-2 and watch the steps: the stiffer the layer, the more steps Uzawa takes;
+//   those of the active set stay as they are.
 // - set uzawa_options.step to twice what the estimate gives: it diverges, and says so.
-// - replace uzawa by uzawa_cg_ilut (solve/exhibits), the paper's own linear solver, at --epsilon 1 --cells 16, then at
-//   1e-6.
+// - replace uzawa by uzawa_cg_ilut (solve/exhibits), the paper's own linear solver, at --epsilon 1
+//   --cells 16, then at 1e-6.
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.cells = 256;

@@ -1,24 +1,27 @@
 // Figure 5. P1 on the structured mesh of Figure 3: no locking, at any epsilon.
 //
-// Run: 04_p1_structured                           the paper's epsilon = 1e-6, h = 1/32; about a second
-// Run: 04_p1_structured --epsilon 0               the limit problem (27) itself, on the same mesh
+// Run: 04_p1_structured               the paper's epsilon = 1e-6, h = 1/32; about a second
+// Run: 04_p1_structured --epsilon 0   the limit problem (27) itself, on the same mesh
 // Run: 04_p1_structured --epsilon 1 --cells 128
 //
-// What the picture shows. A hill over the left half of the body, a valley over the right half. The hill runs out over
-// the layer as a ridge that is constant along the normal. Where the load presses down, from x = 0.702 on, the layer
-// lies on the obstacle, flat zero. It is the picture of the reference solution (Figure 4).
+// What the picture shows. A hill over the left half of the body, a valley over the right half. The
+// hill runs out over the layer as a ridge that is constant along the normal. Where the load presses
+// down, from x = 0.702 on, the layer lies on the obstacle, flat zero. It is the picture of the
+// reference solution (Figure 4).
 //
-// Why it works. A structured mesh has vertical mesh lines. A function of V_h that depends on x alone, affine between
-// the lines, satisfies d/dy v = 0 in every triangle of the layer: on the layer, the kernel G_h of a0 holds one function
-// per line, enough to approximate every function of x. Theorem 4 asks that K_h approach K, which P1 does on every
-// regular mesh, and that K_0h approach K_0, which these functions see to. So
+// Why it works. A structured mesh has vertical mesh lines. A function of V_h that depends on x
+// alone, affine between the lines, satisfies d/dy v = 0 in every triangle of the layer: on the
+// layer, the kernel G_h of a0 holds one function per line, enough to approximate every function of
+// x. Theorem 4 asks that K_h approach K, which P1 does on every regular mesh, and that K_0h
+// approach K_0, which these functions see to. So
 //
-//     lim_{h->0} sup_{0 < epsilon <= 1} | u^epsilon - u_h^epsilon |_{1,Omega} = 0                          (Theorem 5)
+//     lim_{h->0} sup_{0 < epsilon <= 1} | u^epsilon - u_h^epsilon |_{1,Omega} = 0       (Theorem 5)
 //
-// Here the theorem is seen at work: the same error, to three digits, for every epsilon from 1e-2 down to exactly 0.
+// Here the theorem is seen at work: the same error, to three digits, for every epsilon from 1e-2
+// down to exactly 0.
 //
-// Load chosen here, f = 10 sin(2 pi x); the paper gives none. The diagonals run from lower left to upper right
-// (Figure 3). The inequality and its forms stand in common/paper_problem.hpp.
+// Load chosen here, f = 10 sin(2 pi x); the paper gives none. The diagonals run from lower left to
+// upper right (Figure 3). The inequality and its forms stand in common/paper_problem.hpp.
 
 #include <algorithm>
 
@@ -66,7 +69,8 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   tutorial::write_results(options.out, space, problem, solution);
   sweep.write(options.out / "sweep.csv");
 
-  // The verdicts. The cap comes from the interpolation error of the truth, h^2/8 |u''| with |u''| <= 10.
+  // The verdicts. The cap comes from the interpolation error of the truth, h^2/8 |u''| with |u''|
+  // <= 10.
   const double h = 1.0 / options.cells, cap = h * h, worst = sweep.most("max_at_unknowns");
   const Table small = sweep.where_number("epsilon", [](double epsilon) { return epsilon <= 1e-2; });
   const double spread = small.most("max_at_unknowns") / small.least("max_at_unknowns") - 1;
@@ -87,17 +91,18 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
 }
 
 // Three things to try:
-// - Diagonal::left in step 1: the error hardly changes; the vertical mesh lines matter, not the diagonals.
+// - Diagonal::left in step 1: the error hardly changes; the vertical mesh lines matter, not the
+//   diagonals.
 // - --cells 64, then 128: the error falls by four each time, at every epsilon.
-// - move one vertex of the layer sideways (mesh.vertices(...) in step 1): the kernel loses its functions; tutorial 05
-//   is where that ends.
+// - move one vertex of the layer sideways (mesh.vertices(...) in step 1): the kernel loses its
+//   functions; tutorial 05 is where that ends.
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "04_p1_structured", "Figure 5: P1 on a structured mesh does not lock", {},
                        structured_study);
 }
 
-// How far the solution is from constant along the normal: the largest |u(x, y) - u(x, 0)| over the vertices of the
-// layer. They are numbered row by row from the bottom; row `cells` is Sigma.
+// How far the solution is from constant along the normal: the largest |u(x, y) - u(x, 0)| over the
+// vertices of the layer. They are numbered row by row from the bottom; row `cells` is Sigma.
 double variation_across_layer(const Eigen::VectorXd& u, int cells) {
   const int columns = cells + 1;
   double variation = 0;

@@ -3,22 +3,24 @@
 // Run: 05_p1_unstructured                             the paper's epsilon = 1e-6, h = 1/32; about a second
 // Run: 05_p1_unstructured --epsilon 1e-1 --cells 64   a layer that is hardly stiff: no locking yet
 //
-// What the picture shows. The exact solution (Figure 4) is a hill over the left half of the body that runs out,
-// constant along the normal, over the whole layer below: its ridge on the layer is 0.0457 high. The computed solution
-// of Figure 7 is flat zero on the layer. It does not oscillate, it does not blow up, it looks perfectly reasonable, and
-// it is wrong.
+// What the picture shows. The exact solution (Figure 4) is a hill over the left half of the body
+// that runs out, constant along the normal, over the whole layer below: its ridge on the layer is
+// 0.0457 high. The computed solution of Figure 7 is flat zero on the layer. It does not oscillate,
+// it does not blow up, it looks perfectly reasonable, and it is wrong.
 //
-// Why. As epsilon -> 0 problem (23) demands d/dy u = 0 in the layer. The discrete problem demands it of a P1 function,
-// triangle by triangle. An affine function with d/dy v = 0 is v = a + b x: two numbers per triangle. Across an edge
-// that is not vertical, continuity fixes both numbers of the neighbour. On the structured mesh whole columns are tied
-// together, and one free function per column is left. On an unstructured mesh every triangle of the layer is tied to
-// every other, and through the clamped ends to zero: every function of the kernel G_h of a0 vanishes on the layer. So
+// Why. As epsilon -> 0 problem (23) demands d/dy u = 0 in the layer. The discrete problem demands
+// it of a P1 function, triangle by triangle. An affine function with d/dy v = 0 is v = a + b x: two
+// numbers per triangle. Across an edge that is not vertical, continuity fixes both numbers of the
+// neighbour. On the structured mesh whole columns are tied together, and one free function per
+// column is left. On an unstructured mesh every triangle of the layer is tied to every other, and
+// through the clamped ends to zero: every function of the kernel G_h of a0 vanishes on the layer.
+// So
 //
-//     u_h^epsilon -> 0 on the layer as epsilon -> 0 with h fixed                                    (Proposition 1)
+//     u_h^epsilon -> 0 on the layer as epsilon -> 0 with h fixed                    (Proposition 1)
 //
-// How much of the ridge is left at epsilon > 0? About 1/(1 + x) with x = (h^(3/2)/epsilon)^2 on these meshes: tutorial
-// 15 measures it. And what is left on the body is the Dirichlet-Laplace problem, "without any connection to Problem
-// (25)" (Section 4.1). This program checks both.
+// How much of the ridge is left at epsilon > 0? About 1/(1 + x) with x = (h^(3/2)/epsilon)^2 on
+// these meshes: tutorial 15 measures it. And what is left on the body is the Dirichlet-Laplace
+// problem, "without any connection to Problem (25)" (Section 4.1). This program checks both.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -42,12 +44,12 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   const Discretisation discrete = Method{&p1(), unstructured()}.on(options.cells);
   const Space& space = discrete.space();
 
-  // 2. The discrete problem (26): matrices a1 = a+ + a_x^- and, in factored form, a0 = a_y^-; the load; bounds on
-  //    Gamma_C.
+  // 2. The discrete problem (26): matrices a1 = a+ + a_x^- and, in factored form, a0 = a_y^-; the
+  //    load; bounds on Gamma_C.
   const VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), space);
 
-  // 3. Solve. Nothing is wrong with the solver: the conditions of the inequality hold to round-off. The discrete
-  //    problem itself has the wrong solution.
+  // 3. Solve. Nothing is wrong with the solver: the conditions of the inequality hold to round-off.
+  //    The discrete problem itself has the wrong solution.
   report.stage("solve");
   const Solution solution = active_set(problem);
 
@@ -70,7 +72,8 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
              solution.u.cwiseAbs().maxCoeff());
   tutorial::write_results(options.out, space, problem, solution);
 
-  // The verdict. First the law of tutorial 15, at any epsilon > 0: a factor 4 for its constant, which is not derived.
+  // The verdict. First the law of tutorial 15, at any epsilon > 0: a factor 4 for its constant,
+  // which is not derived.
   const double h = 1.0 / options.cells, x = h * h * h / (options.epsilon * options.epsilon);
   const double kept = solution.u(space.contact()).maxCoeff() / ridge;
   if (options.epsilon > 0 && x < 1e12)  // beyond, 1/x is round-off
@@ -82,17 +85,20 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   report.claim(on_layer < 4 * ridge / (1 + x) + solved,
                "Figure 7: the discrete solution vanishes on the layer (|u| <= {:.1e} there; the truth reaches {:.4f})",
                on_layer, ridge);
-  // 10 h^2: how much the largest nodal value of the ridge and of the error on the body may differ from the ridge
+  // 10 h^2: how much the largest nodal value of the ridge and of the error on the body may differ
+  // from the ridge
   report.claim(std::abs(errors.max_at_unknowns / ridge - 1) < 10 * h * h,
                "locking is complete: the error is the layer's whole displacement ({:.2e})", errors.max_at_unknowns);
-  // both solve the same equations on the body, and differ by on_layer at most on Sigma: a maximum principle
+  // both solve the same equations on the body, and differ by on_layer at most on Sigma: a maximum
+  // principle
   report.claim(difference < 1.001 * on_layer + solved,
                "on the body it is the Dirichlet-Laplace solution (difference {:.1e})", difference);
 }
 
-// The problem that the paper says the locked solution solves: -Laplace u = f on the body, u = 0 on its whole boundary.
-// On the same mesh and with the same matrices it takes two changes: every unknown of the layer, Sigma included, is
-// fixed to zero, and nothing is left to touch the obstacle.
+// The problem that the paper says the locked solution solves: -Laplace u = f on the body, u = 0 on
+// its whole boundary. On the same mesh and with the same matrices it takes two changes: every
+// unknown of the layer, Sigma included, is fixed to zero, and nothing is left to touch the
+// obstacle.
 VariationalInequality dirichlet_laplace(VariationalInequality problem, const Space& space) {
   constexpr double tolerance = 1e-12;
   problem.fixed.clear();
@@ -110,9 +116,10 @@ VariationalInequality dirichlet_laplace(VariationalInequality problem, const Spa
 }
 
 // Three things to try:
-// - refine: --cells 64, 128. The error stays 4.57e-2: at epsilon = 1e-6 no mesh that fits a computer helps.
-// - soften: --epsilon 1e-2. The P1 method with an unstructured mesh "locks already" there (caption of Figure 9): the
-//   error shrinks with h, but is 40 times that of the structured mesh.
+// - refine: --cells 64, 128. The error stays 4.57e-2: at epsilon = 1e-6 no mesh that fits a
+//   computer helps.
+// - soften: --epsilon 1e-2. The P1 method with an unstructured mesh "locks already" there (caption
+//   of Figure 9): the error shrinks with h, but is 40 times that of the structured mesh.
 // - replace p1() by crouzeix_raviart() in the body of `lock`: that is tutorial 06.
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "05_p1_unstructured", "Figure 7: P1 on an unstructured mesh locks", {}, lock);

@@ -1,18 +1,20 @@
-// Figure 8. Crouzeix-Raviart (P1 nonconforming) on the unstructured mesh on which P1 locks: it does not.
+// Figure 8. Crouzeix-Raviart (P1 nonconforming) on the unstructured mesh on which P1 locks: it does
+// not.
 //
-// Run: 06_crouzeix_raviart                            the paper's epsilon = 1e-6, h = 1/32; about a second
-// Run: 06_crouzeix_raviart --epsilon 0 --cells 64     the limit problem (30) itself
+// Run: 06_crouzeix_raviart                          the paper's epsilon = 1e-6, h = 1/32; about a second
+// Run: 06_crouzeix_raviart --epsilon 0 --cells 64   the limit problem (30) itself
 //
-// What the picture shows. The solution of Figure 4 again, on the mesh of Figure 6, the ridge on the layer included.
-// Look closely: the triangles do not quite meet. A Crouzeix-Raviart function is affine on each triangle and continuous
-// at the edge midpoints only. The small steps between triangles are the price of the freedom that cures the locking.
+// What the picture shows. The solution of Figure 4 again, on the mesh of Figure 6, the ridge on the
+// layer included. Look closely: the triangles do not quite meet. A Crouzeix-Raviart function is
+// affine on each triangle and continuous at the edge midpoints only. The small steps between
+// triangles are the price of the freedom that cures the locking.
 //
-// Why it works. V_h^nc has one unknown per edge: three halves per triangle (P1: half a vertex per triangle). The
-// condition d/dy v = 0 takes one per triangle of the layer. What is left there is a kernel G_h^nc of about half a
-// function per layer triangle, on every mesh. And the interpolation that keeps the mean over each edge maps K_0 into it
-// (Green's formula, proof of Lemma 2), so that
+// Why it works. V_h^nc has one unknown per edge: three halves per triangle (P1: half a vertex per
+// triangle). The condition d/dy v = 0 takes one per triangle of the layer. What is left there is a
+// kernel G_h^nc of about half a function per layer triangle, on every mesh. And the interpolation
+// that keeps the mean over each edge maps K_0 into it (Green's formula, proof of Lemma 2), so that
 //
-//     lim_{h->0} sup_{0 < epsilon <= 1} | u^epsilon - u_h^{nc,epsilon} |_{1,Omega_h} = 0                   (Theorem 7)
+//     lim_{h->0} sup_{0 < epsilon <= 1} | u^epsilon - u_h^{nc,epsilon} |_{1,Omega_h} = 0   (Theorem 7)
 //
 // with no condition on the mesh beyond a regular family.
 //
@@ -33,14 +35,16 @@ using namespace antilock;
 double largest_jump(const Space& space, const Eigen::VectorXd& u);
 
 void robust(const tutorial::Options& options, tutorial::Report& report) {
-  // 1. The very mesh of tutorial 05, and two spaces on it: the one that locks and the one that does not.
+  // 1. The very mesh of tutorial 05, and two spaces on it: the one that locks and the one that does
+  // not.
   report.stage("mesh and assembly, 1/h = " + std::to_string(options.cells));
   const Discretisation conforming = Method{&p1(), unstructured()}.on(options.cells);
   const Discretisation nonconforming(conforming, crouzeix_raviart());
   const Space& space = nonconforming.space();
 
-  // 2. The inequality (29): (23) with every integral taken triangle by triangle, since v is discontinuous, and the
-  //    contact condition v >= 0 at the midpoints of the edges on Gamma_C. The scene does not know the element.
+  // 2. The inequality (29): (23) with every integral taken triangle by triangle, since v is
+  //    discontinuous, and the contact condition v >= 0 at the midpoints of the edges on Gamma_C.
+  //    The scene does not know the element.
   const Scene scene = tutorial::paper_scene(options.epsilon);
   const VariationalInequality p1_problem = assemble(scene, conforming.space()), problem = assemble(scene, space);
   report.stage("solve: P1");
@@ -62,14 +66,15 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
              p1_solution.counters.unknowns, solution.counters.unknowns, jump);
   tutorial::write_results(options.out, space, problem, solution);
 
-  // The verdicts. Interpolation costs h^2/8 |u''| with |u''| <= 10, twice on a nonconforming space; the end of contact,
-  // where u'' is not bounded, the rest of 4 h^2. A locked solution at 1/h = 32 is ten times above it.
+  // The verdicts. Interpolation costs h^2/8 |u''| with |u''| <= 10, twice on a nonconforming space;
+  // the end of contact, where u'' is not bounded, the rest of 4 h^2. A locked solution at 1/h = 32
+  // is ten times above it.
   const double h = 1.0 / options.cells, cap = 4 * h * h;
   report.claim(errors.max_at_unknowns <= cap,
                "Figure 8: matches the reference solution (error {:.2e} <= 4 h^2 = {:.2e})", errors.max_at_unknowns,
                cap);
-  // A step is h/2 times a jump of the discrete gradient. At the end of contact u is like r^(3/2), its gradient like
-  // r^(1/2): the largest jump falls like h^(1/2), the largest step like h^(3/2).
+  // A step is h/2 times a jump of the discrete gradient. At the end of contact u is like r^(3/2),
+  // its gradient like r^(1/2): the largest jump falls like h^(1/2), the largest step like h^(3/2).
   report.claim(jump <= 1.5 * h * std::sqrt(h), "the steps between triangles are small: {:.2f} h^(3/2) at most",
                jump / (h * std::sqrt(h)));
   // on fewer cells Crouzeix-Raviart itself is off by a tenth of what P1 loses
@@ -93,7 +98,8 @@ int main(int argc, char** argv) {
                        robust);
 }
 
-// The largest step between two triangles, measured at the ends of their common edge (at its midpoint they meet).
+// The largest step between two triangles, measured at the ends of their common edge (at its
+// midpoint they meet).
 double largest_jump(const Space& space, const Eigen::VectorXd& u) {
   const TriangleMesh& mesh = space.mesh();
   const auto value_at = [&](int t, int vertex) {

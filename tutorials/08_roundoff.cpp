@@ -1,28 +1,32 @@
 // Round-off: the trap that the paper does not mention, and the unknown that gets out of it.
 //
-// Run: 08_roundoff                epsilon from 1 to 1e-16 on 1/h = 16; half a minute
-// Run: 08_roundoff --cells 64     a finer mesh: the trap closes at a larger epsilon
+// Run: 08_roundoff              epsilon from 1 to 1e-16 on 1/h = 16; half a minute
+// Run: 08_roundoff --cells 64   a finer mesh: the trap closes at a larger epsilon
 //
-// What the table shows. Locking is a fault of the discrete space. There is a second fault that looks just like it and
-// has nothing to do with the space: a solver that adds the two forms of (6) into one matrix,
+// What the table shows. Locking is a fault of the discrete space. There is a second fault that
+// looks just like it and has nothing to do with the space: a solver that adds the two forms of (6)
+// into one matrix,
 //
 //     A = A1 + epsilon^-2 B' M B        (B = d/dy on each layer triangle, M = their areas)
 //
-// and factors that. A double holds 16 digits. An entry of the sum that needs the digits of A1 below those of
-// epsilon^-2 B' M B keeps 16 + 2 log10(epsilon) of them: at epsilon = 1e-4 half, at 1e-8 none. What is lost is the
-// stiffness of the layer in x; the body keeps all its digits. And the answer looks reasonable: at 1e-10 the contact set
-// settles, every factorisation reports success, and u is flat zero on the layer. Round-off imitates Figure 7.
+// and factors that. A double holds 16 digits. An entry of the sum that needs the digits of A1 below
+// those of epsilon^-2 B' M B keeps 16 + 2 log10(epsilon) of them: at epsilon = 1e-4 half, at 1e-8
+// none. What is lost is the stiffness of the layer in x; the body keeps all its digits. And the
+// answer looks reasonable: at 1e-10 the contact set settles, every factorisation reports success,
+// and u is flat zero on the layer. Round-off imitates Figure 7.
 //
-// The way out. Nothing is wrong with the problem, which has a limit (24); the large number is the mistake. The paper
-// bounds a0(u, u) <= C epsilon in its class (proof of Theorem 1), so d/dy u tends to 0. Take one step more than the
-// paper, and carry as an unknown of its own the layer stress
+// The way out. Nothing is wrong with the problem, which has a limit (24); the large number is the
+// mistake. The paper bounds a0(u, u) <= C epsilon in its class (proof of Theorem 1), so d/dy u
+// tends to 0. Take one step more than the paper, and carry as an unknown of its own the layer
+// stress
 //
 //     p = epsilon^-2 d/dy u,   finite at every epsilon:
-//     A1 u + B' M p = L + lambda,      epsilon^2 p - B u = 0                              (split form)
+//     A1 u + B' M p = L + lambda,   epsilon^2 p - B u = 0                              (split form)
 //
-// No number of the split form is large, and epsilon = 0 is a value like any other. `cure` below solves it in twenty
-// lines. It factors K = A1 + delta^-1 B' M B once, with a moderate delta in place of epsilon^2, and uses the factor for
-// corrections alone: each correction solves for what the split form leaves over (iterated penalty).
+// No number of the split form is large, and epsilon = 0 is a value like any other. `cure` below
+// solves it in twenty lines. It factors K = A1 + delta^-1 B' M B once, with a moderate delta in
+// place of epsilon^2, and uses the factor for corrections alone: each correction solves for what
+// the split form leaves over (iterated penalty).
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -44,7 +48,8 @@
 
 using namespace antilock;
 
-// The cure, for a given contact set: its unknowns are held at zero like clamped ones, what is left is linear.
+// The cure, for a given contact set: its unknowns are held at zero like clamped ones, what is left
+// is linear.
 Eigen::VectorXd cure(VariationalInequality problem, const std::vector<bool>& active, double delta) {
   for (std::size_t i = 0; i < active.size(); ++i)
     if (active[i]) problem.fixed.push_back(problem.contact[i]);
@@ -80,8 +85,7 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   for (const double epsilon :
        {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-14, 1e-16}) {
     const tutorial::Exact exact(epsilon);
-    for (const Method& method : settings)
-      results.add(solve_all(method, method.on(options.cells).space(), exact));
+    for (const Method& method : settings) results.add(solve_all(method, method.on(options.cells).space(), exact));
   }
   report.stage("condition numbers (P1 structured)");
   const Table conditions = condition_numbers(settings.front().on(options.cells).space());
@@ -92,8 +96,7 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
         .where("mesh", method.family.name)
         .pivot("epsilon", "solver", "ended")
         .print(method.name() + ": maximum error at the unknowns, and how it ended");
-  results
-      .select({"solver", "element", "mesh", "epsilon", "max_at_unknowns", "kkt_residual", "status", "seconds"})
+  results.select({"solver", "element", "mesh", "epsilon", "max_at_unknowns", "kkt_residual", "status", "seconds"})
       .write(options.out / "results.csv");
   conditions.write(options.out / "conditions.csv");
   judge(results, conditions, report);
@@ -107,8 +110,10 @@ void judge(const Table& results, const Table& conditions, tutorial::Report& repo
   double flattest = 0;
   for (const Entry& element : stable.different("element"))
     for (const Entry& mesh : stable.different("mesh")) {
-      const Table small = stable.where("element", element).where("mesh", mesh).where_number(
-          "epsilon", [](double epsilon) { return epsilon <= 1e-3; });
+      const Table small =
+          stable.where("element", element).where("mesh", mesh).where_number("epsilon", [](double epsilon) {
+            return epsilon <= 1e-3;
+          });
       if (small.size() > 0)
         flattest = std::max(flattest, small.most("max_at_unknowns") / small.least("max_at_unknowns") - 1);
     }
@@ -118,14 +123,16 @@ void judge(const Table& results, const Table& conditions, tutorial::Report& repo
 
   const Table below = naive.where_number("epsilon", [](double epsilon) { return epsilon < 0.9e-8; });
   const Table wrong = naive.where("wrong", 1), settled = wrong.where("status", "settled; refused");
-  report.claim(below.where("wrong", 1).size() == below.size(),
-               "the summed matrix: {} of {} answers below epsilon = 1e-8 are wrong or missing (more than twice the right "
-               "error)",
-               below.where("wrong", 1).size(), below.size());
+  report.claim(
+      below.where("wrong", 1).size() == below.size(),
+      "the summed matrix: {} of {} answers below epsilon = 1e-8 are wrong or missing (more than twice the right "
+      "error)",
+      below.where("wrong", 1).size(), below.size());
   report.claim(settled.size() > 0, "{} wrong answers came with a settled contact set and no complaint", settled.size());
   report.claim(wrong.where("refused", 0).size() == 0, "every wrong answer was refused by the checks in split form");
 
-  // What the condition number foretells: with 1.1e-16 in front it bounds the relative error, up to a factor.
+  // What the condition number foretells: with 1.1e-16 in front it bounds the relative error, up to
+  // a factor.
   bool foretold = true;
   for (const Entry& epsilon : conditions.different("epsilon")) {
     const double lost = 1.1e-16 * conditions.where("epsilon", epsilon).number("summed");
@@ -138,14 +145,20 @@ void judge(const Table& results, const Table& conditions, tutorial::Report& repo
   report.claim(small.most("factored") < 1.01 * small.least("factored"),
                "condition number of K: {:.0e} from epsilon = 1e-4 to 1e-16, that of the sum {:.0e} to {:.0e}",
                small.most("factored"), small.least("summed"), small.most("summed"));
-  const auto sum = [](const Table& table) { double s = 0; for (double x : table.numbers("seconds")) s += x; return s; };
+  const auto sum = [](const Table& table) {
+    double s = 0;
+    for (double x : table.numbers("seconds")) s += x;
+    return s;
+  };
   fmt::print("  what it costs: split form {:.2f} s in all, Cholesky of the sum {:.2f} s\n", sum(stable),
              sum(naive.where("solver", "sum: Cholesky")));
 }
 
 // Three things to try:
-// - print u on Sigma for the summed Cholesky at epsilon = 1e-10 beside the locked u of tutorial 05: they look the same.
-// - in `cure`, form r from the summed matrix in place of the split form: the corrections then correct nothing.
+// - print u on Sigma for the summed Cholesky at epsilon = 1e-10 beside the locked u of tutorial 05:
+//   they look the same.
+// - in `cure`, form r from the summed matrix in place of the split form: the corrections then
+//   correct nothing.
 // - set delta = problem.compliance in `cure` at epsilon = 1e-6: fewer corrections, fewer digits.
 int main(int argc, char** argv) {
   tutorial::Options options;
@@ -155,8 +168,8 @@ int main(int argc, char** argv) {
                        options, roundoff);
 }
 
-// Every solver on one discrete problem. The naive ones report what they found, and this library's checks in split form
-// (certify) what that is worth.
+// Every solver on one discrete problem. The naive ones report what they found, and this library's
+// checks in split form (certify) what that is worth.
 Table solve_all(const Method& method, const Space& space, const tutorial::Exact& exact) {
   const VariationalInequality problem = assemble(tutorial::paper_scene(exact.epsilon), space);
   Table rows({"solver", "element", "mesh", "epsilon", "max_at_unknowns", "kkt_residual", "status", "seconds", "ended",
@@ -188,8 +201,7 @@ Table solve_all(const Method& method, const Space& space, const tutorial::Exact&
   const Eigen::VectorXd u = cure(problem, stable.active, factor.delta());
   add("cure in 20 lines", u, (u - stable.u).lpNorm<Eigen::Infinity>() / stable.u.lpNorm<Eigen::Infinity>(), "",
       watch.lap());
-  for (const auto& [kind, name] :
-       {std::pair{SummedFactor::cholesky, "sum: Cholesky"}, {SummedFactor::lu, "sum: LU"}}) {
+  for (const auto& [kind, name] : {std::pair{SummedFactor::cholesky, "sum: Cholesky"}, {SummedFactor::lu, "sum: LU"}}) {
     watch.lap();
     const NaiveAnswer naive = naive_summed_solve(problem, kind);
     const double seconds = watch.lap();
@@ -209,9 +221,9 @@ Table solve_all(const Method& method, const Space& space, const tutorial::Exact&
   return rows;
 }
 
-// The condition numbers of the sum and of the K that `cure` factors. Both have the same smallest eigenvalue but for a
-// few percent (it belongs to a smooth function of the kernel of B), and the one of the sum could not be computed where
-// it matters: it would have to be factored.
+// The condition numbers of the sum and of the K that `cure` factors. Both have the same smallest
+// eigenvalue but for a few percent (it belongs to a smooth function of the kernel of B), and the
+// one of the sum could not be computed where it matters: it would have to be factored.
 Table condition_numbers(const Space& space) {
   Table conditions({"epsilon", "summed", "factored"});
   for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-16}) {

@@ -1,12 +1,12 @@
 // Effects: a scene is made of those that it calls for, and an absent effect costs nothing.
 //
-// Run: 09_effects                          five scenes, three models, a change of variable; two seconds
+// Run: 09_effects   five scenes, three models, a change of variable; two seconds
 // Run: 09_effects --cells 64 --epsilon 0.1
 //
-// What the picture shows. One body under one load, five times: alone; resting on an obstacle; held by a stiff layer
-// that is not meshed; with the layer meshed below it; with layer and obstacle. Glue a layer that is rigid across its
-// thickness under the body, and its lower side, which moved freely by 0.2, moves by 0.045: it has become a stretched
-// string.
+// What the picture shows. One body under one load, five times: alone; resting on an obstacle; held
+// by a stiff layer that is not meshed; with the layer meshed below it; with layer and obstacle.
+// Glue a layer that is rigid across its thickness under the body, and its lower side, which moved
+// freely by 0.2, moves by 0.045: it has become a stretched string.
 //
 // The inequality and its parts. With every effect present it is (23),
 //
@@ -16,11 +16,14 @@
 // - no contact:  K is a space, >= becomes =, and one linear solve is the answer;
 // - no layer:    a+ alone, on the body's mesh alone;
 // - epsilon = 0: (24), the layer can only follow Sigma: u(x, y) = u(x, 0) there;
-// - and then it need not be meshed at all: what is left of it is a_x^- on functions of x, one term on Sigma,
+// - and then it need not be meshed at all: what is left of it is a_x^- on functions of x, one term
+//   on Sigma,
 //                int_Sigma d/dx u d/dx v      the condition of Ventcel, (25);
-// - before the change of variable y -> epsilon y, the layer is (0,1) x (-epsilon,0) and 1/epsilon times as stiff: (22).
+// - before the change of variable y -> epsilon y, the layer is (0,1) x (-epsilon,0) and 1/epsilon
+//   times as stiff: (22).
 //
-// Each of these is a type (scene/scene.hpp), so that what a scene lacks cannot cost anything: there is no code to skip.
+// Each of these is a type (scene/scene.hpp), so that what a scene lacks cannot cost anything: there
+// is no code to skip.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -49,8 +52,8 @@ struct Run {
   double energy = 0, contact_from = 1, assemble_seconds = 0, solve_seconds = 0;
 };
 
-// 1. The five scenes, from plain Laplace to a stiff layer with contact, each on a mesh as large as it needs:
-// layer_depth is 0 where no layer is meshed.
+// 1. The five scenes, from plain Laplace to a stiff layer with contact, each on a mesh as large as
+// it needs: layer_depth is 0 where no layer is meshed.
 void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<std::pair<std::string, Scene>> scenes{
       {"1_body", Scene(body)},
@@ -78,8 +81,9 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
   report.claim(same, "a Ventcel layer costs what the body alone costs: no triangle, no unknown, no solve more");
 }
 
-// 2. One question, three models of the layer: (23) at a small epsilon, (24) on the layer's mesh, (25) without one. All
-// are held against the truth at that epsilon, so the last two show the error of their model as well.
+// 2. One question, three models of the layer: (23) at a small epsilon, (24) on the layer's mesh,
+// (25) without one. All are held against the truth at that epsilon, so the last two show the error
+// of their model as well.
 void three_models(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("truth at epsilon and at 0: sine series");
   const tutorial::Exact exact(options.epsilon, 14), limit(0, 14);
@@ -88,9 +92,10 @@ void three_models(const tutorial::Options& options, tutorial::Report& report) {
     model_error = std::max(model_error, std::abs(exact.truth.value(i / 64.0, -1) - limit.truth.value(i / 64.0, -1)));
   report.finish();
 
-  const std::vector<std::pair<std::string, Scene>> models{{"scaled", Scene(body, StiffLayer{options.epsilon}, obstacle)},
-                                                          {"limit", Scene(body, StiffLayer{0}, obstacle)},
-                                                          {"ventcel", Scene(body, VentcelLayer{}, obstacle)}};
+  const std::vector<std::pair<std::string, Scene>> models{
+      {"scaled", Scene(body, StiffLayer{options.epsilon}, obstacle)},
+      {"limit", Scene(body, StiffLayer{0}, obstacle)},
+      {"ventcel", Scene(body, VentcelLayer{}, obstacle)}};
   const double h = 1.0 / options.cells, truth = exact.truth.energy();
   const double energy_error = std::abs(truth - limit.truth.energy());
   Table table({"model", "unknowns", "mesh_s", "assemble_s", "solve_s", "error_on_contact", "energy", "contact_from"});
@@ -109,7 +114,8 @@ void three_models(const tutorial::Options& options, tutorial::Report& report) {
   table.print(fmt::format("truth: contact from x = {:.4f}, J = {:.6f}; the limit differs by {:.1e} in u on Gamma_C",
                           exact.contact_from(), truth, model_error));
   table.write(options.out / "models.csv");
-  // h^2 / 2 in energy and up to 1.6 h^2 in u on Gamma_C were measured; the end of contact falls into a cell or the next
+  // h^2 / 2 in energy and up to 1.6 h^2 in u on Gamma_C were measured; the end of contact falls
+  // into a cell or the next
   const auto within = [&](const std::string& column, double wanted, double room) {
     return std::max(table.most(column) - wanted, wanted - table.least(column)) <= room;
   };
@@ -126,8 +132,9 @@ void three_models(const tutorial::Options& options, tutorial::Report& report) {
                scaled.number("error_on_contact"));
 }
 
-// 3. The change of variable y -> epsilon y takes (22) to (23). On a mesh whose layer is pressed flat by the same map it
-// does so term by term: the same matrices, the same answer. On a mesh made for the thin layer, up to discretisation.
+// 3. The change of variable y -> epsilon y takes (22) to (23). On a mesh whose layer is pressed
+// flat by the same map it does so term by term: the same matrices, the same answer. On a mesh made
+// for the thin layer, up to discretisation.
 void change_of_variable(const tutorial::Options& options, tutorial::Report& report) {
   Table table({"epsilon", "energy_thin", "energy_scaled", "from_thin", "from_scaled", "difference_on_pressed_mesh"});
   double energy = 0, from = 0;
@@ -153,8 +160,8 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
                "and up to discretisation on others: energy within {:.1e}, contact within {:.3f}", energy, from);
 }
 
-// 4. Only what is needed holds for many questions, too: the forms of (23) do not contain epsilon, and every epsilon
-// below a fraction of h is solved with one and the same factorisation.
+// 4. Only what is needed holds for many questions, too: the forms of (23) do not contain epsilon,
+// and every epsilon below a fraction of h is solved with one and the same factorisation.
 void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
   const Discretisation on = Method{&crouzeix_raviart(), unstructured()}.on(options.cells);
@@ -184,9 +191,12 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 // Three things to try:
-// - UnilateralContact{[](double) { return 1.0; }} as `obstacle`: out of reach; one solve and a look at the signs.
-// - --epsilon 0.3: the limit is no longer a model of the layer; its own error fills the column error_on_contact.
-// - p1() for crouzeix_raviart() in Run: the scaled layer locks on its unstructured mesh, Ventcel has nothing to lock.
+// - UnilateralContact{[](double) { return 1.0; }} as `obstacle`: out of reach; one solve and a look
+//   at the signs.
+// - --epsilon 0.3: the limit is no longer a model of the layer; its own error fills the column
+//   error_on_contact.
+// - p1() for crouzeix_raviart() in Run: the scaled layer locks on its unstructured mesh, Ventcel
+//   has nothing to lock.
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.epsilon = 1e-2;

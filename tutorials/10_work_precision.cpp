@@ -1,25 +1,28 @@
-// What accuracy costs in time: the error against wall seconds, where the seconds go, and when to stop.
+// What accuracy costs in time: the error against wall seconds, where the seconds go, and when to
+// stop.
 //
-// Run: 10_work_precision                           h from 1/8 to 1/64; half a minute
-// Run: 10_work_precision --cells 256 --limit 4     h down to 1/256; minutes (figures/benchmark does this)
-// Run: 10_work_precision --freefem freefem/run     FreeFEM's active set beside them, the stiff part summed as it comes
+// Run: 10_work_precision                         h from 1/8 to 1/64; half a minute
+// Run: 10_work_precision --cells 256 --limit 4   h down to 1/256; minutes (figures/benchmark does this)
+// Run: 10_work_precision --freefem freefem/run   FreeFEM's active set beside them, the stiff part summed as it comes
 //
 // --epsilon is not asked for here: the study has three of its own.
 //
-// A method is an element, a kind of mesh and a solver. Three solvers of (23): the primal-dual active set on Gamma_C,
-// Uzawa with a Cholesky factor, and Uzawa as the paper ran it, with conjugate gradients and ILUT. Each point is the
-// median of five runs, mesh and assembly apart. A run that fails, or takes longer than the limit, is drawn as failed;
-// where time was the reason, finer meshes are not tried.
+// A method is an element, a kind of mesh and a solver. Three solvers of (23): the primal-dual
+// active set on Gamma_C, Uzawa with a Cholesky factor, and Uzawa as the paper ran it, with
+// conjugate gradients and ILUT. Each point is the median of five runs, mesh and assembly apart. A
+// run that fails, or takes longer than the limit, is drawn as failed; where time was the reason,
+// finer meshes are not tried.
 //
-// What to see. A good method is a line that falls steeply, far to the left. At epsilon = 1e-6, P1 on the unstructured
-// mesh is a level line: it has locked, and no time buys accuracy.
+// What to see. A good method is a line that falls steeply, far to the left. At epsilon = 1e-6, P1
+// on the unstructured mesh is a level line: it has locked, and no time buys accuracy.
 //
-// When to stop. Uzawa's algebraic error |u_k - u_h| falls by a constant factor per step, for ever; the discretisation
-// error |u_h - u| stays. Once the first is below the second, more steps do not bring u_k nearer to u. Neither error is
-// known, since neither u nor u_h is. Two computable numbers stand for them. The duality gap, the energy of u_k pushed
-// out of the obstacle less the dual energy of lambda_k, is above |u_k - u_h|_a^2 / 2. The energy bracket
-// (16_energy_bracket) holds J(u), its width is of order h^2, and a mesh twice as coarse gives it at a quarter of the
-// price. See analysis/accurate_enough.hpp.
+// When to stop. Uzawa's algebraic error |u_k - u_h| falls by a constant factor per step, for ever;
+// the discretisation error |u_h - u| stays. Once the first is below the second, more steps do not
+// bring u_k nearer to u. Neither error is known, since neither u nor u_h is. Two computable numbers
+// stand for them. The duality gap, the energy of u_k pushed out of the obstacle less the dual
+// energy of lambda_k, is above |u_k - u_h|_a^2 / 2. The energy bracket (16_energy_bracket) holds
+// J(u), its width is of order h^2, and a mesh twice as coarse gives it at a quarter of the price.
+// See analysis/accurate_enough.hpp.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -47,10 +50,10 @@ using tutorial::TimedRun;
 constexpr int repeats = 5;
 
 struct Study {
-  double limit;                      // seconds
-  std::string freefem;               // the command freefem/run, or nothing
+  double limit;         // seconds
+  std::string freefem;  // the command freefem/run, or nothing
   std::filesystem::path out;
-  std::vector<Exact> exact{};        // one per epsilon
+  std::vector<Exact> exact{};  // one per epsilon
   std::vector<TimedRun> runs{};
 };
 
@@ -78,8 +81,7 @@ void add(Study& study, const Method& method, const TriangleMesh& mesh, int cells
       // the active set without a limit: no verdict may hang on the machine
       const double limit = name == "active set" ? std::numeric_limits<double>::infinity() : study.limit;
       if (!given_up(study.runs, run, study.limit))
-        if (const auto solution = time_solver(run, solve, limit, repeats))
-          run.errors = exact.errors(space, *solution);
+        if (const auto solution = time_solver(run, solve, limit, repeats)) run.errors = exact.errors(space, *solution);
       study.runs.push_back(std::move(run));
     }
     if (study.freefem.empty()) continue;
@@ -90,7 +92,8 @@ void add(Study& study, const Method& method, const TriangleMesh& mesh, int cells
   }
 }
 
-// 2. Stop when it is accurate enough: Uzawa's two errors step by step, and where the bracket stops it.
+// 2. Stop when it is accurate enough: Uzawa's two errors step by step, and where the bracket stops
+// it.
 Table stop_early(const Method& method, int cells, tutorial::Report& report) {
   const Exact exact(1e-2);
   const Scene scene = tutorial::paper_scene(exact.epsilon);
@@ -130,8 +133,7 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
       const Stopwatch watch;
       const TriangleMesh mesh = family.mesh(n);
       const double mesh_seconds = watch.seconds();
-      for (const Element* element : {&p1(), &crouzeix_raviart()})
-        add(study, {element, family}, mesh, n, mesh_seconds);
+      for (const Element* element : {&p1(), &crouzeix_raviart()}) add(study, {element, family}, mesh, n, mesh_seconds);
     }
   report.stage("where the time goes");
   tutorial::write_stages(options.out, std::max(128, options.cells), repeats);
@@ -171,7 +173,8 @@ void judge(const std::vector<TimedRun>& runs, tutorial::Report& report) {
 // Three things to try:
 // - --limit 10: Uzawa as in the paper ends on more meshes, and price_list.md says what that costs.
 // - OPENBLAS_NUM_THREADS=1 in front: small meshes are faster on one thread.
-// - accurate_enough(..., 2, 1): too generous? And corrections_until(...) for the corrections of active_set.
+// - accurate_enough(..., 2, 1): too generous? And corrections_until(...) for the corrections of
+//   active_set.
 int main(int argc, char** argv) {
   double limit = 0.1;
   std::string freefem;

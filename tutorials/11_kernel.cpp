@@ -1,33 +1,37 @@
 // Why P1 locks: the kernel of a0 on V_h, counted, drawn, and emptied by moving vertices.
 //
-// Run: 11_kernel                     counts to 1/h = 32; a few seconds
+// Run: 11_kernel   counts to 1/h = 32; a few seconds
 // Run: 11_kernel --cells 16
 //
 // --epsilon is not asked for here: the kernel does not depend on it.
 //
-// The idea. As epsilon -> 0 the answer must lie in G_h = { v in V_h : d/dy v = 0 in the layer }, (2) and (7). Uniform
-// convergence asks, besides K_h approaching K, that K_0h = K_h n G_h approach K_0 (Theorem 4). So count G_h first,
-// before anything is solved. In the body G_h asks nothing, so every unknown of the body is in it: what decides is how
-// many functions of the kernel live on the layer, and whether their number grows under refinement. There are
+// The idea. As epsilon -> 0 the answer must lie in G_h = { v in V_h : d/dy v = 0 in the layer },
+// (2) and (7). Uniform convergence asks, besides K_h approaching K, that K_0h = K_h n G_h approach
+// K_0 (Theorem 4). So count G_h first, before anything is solved. In the body G_h asks nothing, so
+// every unknown of the body is in it: what decides is how many functions of the kernel live on the
+// layer, and whether their number grows under refinement. There are
 //
-//   P1, structured     n - 1    one hat per column of vertices: every function of x, affine between the columns
-//   P1, unstructured   0        v = a + b x on one triangle, the same a and b on its neighbours, and 0 at the sides
+//   P1, structured     n - 1    one hat per column of vertices: functions of x, affine in between
+//   P1, unstructured   0        v = a + b x on one triangle, the same a, b on all, 0 at the sides
 //   CR, any mesh       N_T / 2  3/2 edges per layer triangle, one condition d/dy v = 0 each
 //
-// A large kernel is not yet a good one. Lemma 2 needs more: the interpolation I_h that keeps the mean over each edge
-// satisfies, by Green's formula, grad I_h v = mean of grad v on each triangle, so it maps K_0 into K_0h. The same
-// formula gives Fortin's property of I_h, which the paper does not use: for every multiplier q, constant on triangles,
+// A large kernel is not yet a good one. Lemma 2 needs more: the interpolation I_h that keeps the
+// mean over each edge satisfies, by Green's formula, grad I_h v = mean of grad v on each triangle,
+// so it maps K_0 into K_0h. The same formula gives Fortin's property of I_h, which the paper does
+// not use: for every multiplier q, constant on triangles,
 //
 //   sup_{v in V_h} (q, d/dy v) / |v|_{1,h}  >=  sup_{v in V} (q, d/dy v) / |v|_1 ,
 //
-// that is, the discrete inf-sup constant of B is at least 1 in the dual norm of V, on every mesh (V here: P1 on a mesh
-// refined twice). In L2 there is no such bound: d/dy from H1 to L2 has no closed range, and the constant falls like h.
-// For P1 the rows of B depend on each other and the constant is 0, on the structured mesh too, where nothing locks: the
-// condition is sufficient, not necessary.
+// that is, the discrete inf-sup constant of B is at least 1 in the dual norm of V, on every mesh (V
+// here: P1 on a mesh refined twice). In L2 there is no such bound: d/dy from H1 to L2 has no closed
+// range, and the constant falls like h. For P1 the rows of B depend on each other and the constant
+// is 0, on the structured mesh too, where nothing locks: the condition is sufficient, not
+// necessary.
 //
-// At last, from Figure 3 to Figure 6: every vertex is moved by t h at random. The kernel on the layer is empty at the
-// first t > 0. But a function of x is only missed by t h, at the price epsilon^-2 (t h)^2: at fixed h the error rises
-// like (t h / epsilon)^2, until all is lost. Locking is a matter of degree, its cause is not.
+// At last, from Figure 3 to Figure 6: every vertex is moved by t h at random. The kernel on the
+// layer is empty at the first t > 0. But a function of x is only missed by t h, at the price
+// epsilon^-2 (t h)^2: at fixed h the error rises like (t h / epsilon)^2, until all is lost. Locking
+// is a matter of degree, its cause is not.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -57,14 +61,16 @@ Table count_kernels(int finest) {
       const Discretisation on = method.on(n);
       const auto triangles = std::count(on.mesh().region.begin(), on.mesh().region.end(), Region::layer);
       const bool is_p1 = method.element->conforming();
-      const double predicted = !is_p1 ? 0.5 * static_cast<double>(triangles) : method.family.name == "structured" ? n - 1 : 0;
+      const double predicted = !is_p1                               ? 0.5 * static_cast<double>(triangles)
+                               : method.family.name == "structured" ? n - 1
+                                                                    : 0;
       counts.add({n, method.name(), triangles, layer_kernel_dimension(assemble(scene, on.space())), predicted});
     }
   return counts;
 }
 
-// 2. Draw: the orthogonal projection onto G_h of one unknown in the middle of the layer, and of sin(pi x). What is not
-// in the kernel cannot survive epsilon -> 0.
+// 2. Draw: the orthogonal projection onto G_h of one unknown in the middle of the layer, and of
+// sin(pi x). What is not in the kernel cannot survive epsilon -> 0.
 void draw_kernel(const std::filesystem::path& out, const std::string& name, const Space& space);
 
 // 3. The inf-sup constant of B, |v|_{1,h} the broken H1 seminorm: in the dual norm of V, and in L2.
@@ -103,8 +109,8 @@ Table jitter_study(int n) {
   return table;
 }
 
-// Where half of the layer's displacement is lost: the amount t, and the slope of log(lost / kept) there, both between
-// the two nearest.
+// Where half of the layer's displacement is lost: the amount t, and the slope of log(lost / kept)
+// there, both between the two nearest.
 struct Half {
   double t, slope;
 };
@@ -134,17 +140,19 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
   counts.pivot("cells", "method", "triangles").print("N_T, the layer's triangles");
   constants.pivot("cells", "method", "dual").print("inf-sup constant of B, dual norm of V");
   constants.pivot("cells", "method", "l2").print("the same in L2");
-  jitter.pivot("t", "epsilon", "lost").print("moved by t h: share of the layer's displacement that is lost, by epsilon");
+  jitter.pivot("t", "epsilon", "lost")
+      .print("moved by t h: share of the layer's displacement that is lost, by epsilon");
   jitter.write(options.out / "jitter.csv");
 
   report.claim(counts.numbers("kernel") == counts.numbers("predicted"),
                "dim G_h on {} meshes: n - 1 for P1 structured, 0 for P1 unstructured, N_T / 2 for CR on both",
                counts.different("cells").size());
   const Table cr_s = constants.where("method", "CR structured"), cr_u = constants.where("method", "CR unstructured");
-  report.claim(std::min(cr_s.least("dual"), cr_u.least("dual")) > 1 - 1e-9,
-               "by Fortin's property of the interpolation of Lemma 2, the inf-sup constant of CR is at least 1: {:.3f} and "
-               "{:.3f} at 1/h = {}",
-               cr_s.last("dual"), cr_u.last("dual"), cr_s.last("cells"));
+  report.claim(
+      std::min(cr_s.least("dual"), cr_u.least("dual")) > 1 - 1e-9,
+      "by Fortin's property of the interpolation of Lemma 2, the inf-sup constant of CR is at least 1: {:.3f} and "
+      "{:.3f} at 1/h = {}",
+      cr_s.last("dual"), cr_u.last("dual"), cr_s.last("cells"));
   report.claim(constants.where("method", "P1 structured").most("dual") == 0,
                "P1 has dependent rows of B: its constant is 0 even where it does not lock");
   report.claim(jitter.most("kernel") == 0, "the kernel on the layer is empty at the first t = 1e-6");
@@ -161,7 +169,8 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
 // Three things to try:
 // - epsilon = 0 in `jitter_study`: all is lost at the first t; a limit has no degrees.
 // - draw the other functions of a kernel: the columns of kernel_basis, write_vtu.
-// - methods({&p2()}) in `count_kernels`: on an unstructured mesh one function is left, a parabola in x.
+// - methods({&p2()}) in `count_kernels`: on an unstructured mesh one function is left, a parabola
+//   in x.
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.takes_epsilon = false;

@@ -1,33 +1,37 @@
-// Theorem 1, Propositions 1 and 5: the limit epsilon -> 0, exact and discrete, with its orders; the limit problem (25).
+// Theorem 1, Propositions 1 and 5: the limit epsilon -> 0, exact and discrete, with its orders; the
+// limit problem (25).
 //
-// Run: 12_limits                     1/h = 32, epsilon from 1 to 1e-4; a few seconds
+// Run: 12_limits   1/h = 32, epsilon from 1 to 1e-4; a few seconds
 // Run: 12_limits --cells 64
 //
 // --epsilon is not asked for here: it runs to 0.
 //
-// Two limits. The exact one: u^epsilon -> u^0 (Theorem 1, Proposition 5). And the discrete one, for every fixed h and
-// every method: u_h^epsilon -> u_h^0 (Proposition 1). P1 on an unstructured mesh converges as well as the others, to a
-// u_h^0 that is 0 on the layer. So locking is not in these limits; it is in u_h^0 being nowhere near u^0 (the second
-// part of Proposition 2 does not apply, since K_0h does not approach K_0).
+// Two limits. The exact one: u^epsilon -> u^0 (Theorem 1, Proposition 5). And the discrete one, for
+// every fixed h and every method: u_h^epsilon -> u_h^0 (Proposition 1). P1 on an unstructured mesh
+// converges as well as the others, to a u_h^0 that is 0 on the layer. So locking is not in these
+// limits; it is in u_h^0 being nowhere near u^0 (the second part of Proposition 2 does not apply,
+// since K_0h does not approach K_0).
 //
-// The theorems give no order in epsilon. Two are seen here. At fixed h every u_h^epsilon is, once its contact set has
-// settled, a rational function of epsilon^2: order 2, from epsilon about h on (where P1 locks from about h^(3/2) on,
-// which 1e-4 does not show on meshes finer than 1/32). The exact limit is slower. The thickness of the layer changes
-// wave k of u by the factor (epsilon k)^2 up to k = 1/epsilon, and the jump of the contact pressure at the end of
-// contact leaves u_k of size k^-3, so
+// The theorems give no order in epsilon. Two are seen here. At fixed h every u_h^epsilon is, once
+// its contact set has settled, a rational function of epsilon^2: order 2, from epsilon about h on
+// (where P1 locks from about h^(3/2) on, which 1e-4 does not show on meshes finer than 1/32). The
+// exact limit is slower. The thickness of the layer changes wave k of u by the factor (epsilon k)^2
+// up to k = 1/epsilon, and the jump of the contact pressure at the end of contact leaves u_k of
+// size k^-3, so
 //
 //     ||u^epsilon - u^0||_1^2 = sum_k k^-4 min(1, (epsilon k)^4) = O(epsilon^3),   order 3/2.
 //
-// A mesh carries no waves beyond 1/h: that is where its order changes. The proof of Theorem 1 uses a0(u, u) <= C
-// epsilon_c, epsilon_c = epsilon^2 the parameter of the class, so |d/dy u| <= C epsilon; measured is order 2, since
-// d/dy u = epsilon^2 p with a bounded p.
+// A mesh carries no waves beyond 1/h: that is where its order changes. The proof of Theorem 1 uses
+// a0(u, u) <= C epsilon_c, epsilon_c = epsilon^2 the parameter of the class, so |d/dy u| <= C
+// epsilon; measured is order 2, since d/dy u = epsilon^2 p with a bounded p.
 //
 // The limit lives on the body alone: u^0 solves the problem of Ventcel and Signorini (25),
 //
 //     -Delta u = f,   u >= 0,  r = d_n u - u_xx >= 0,  u r = 0  on Sigma
 //
-// (n the body's outward normal, d_n = -d/dy): a string on Sigma, pulled by the body, over an obstacle. It is checked
-// in this strong form, by the series; and u_h^0 of P1 on the structured mesh *is* the discrete solution of (25).
+// (n the body's outward normal, d_n = -d/dy): a string on Sigma, pulled by the body, over an
+// obstacle. It is checked in this strong form, by the series; and u_h^0 of P1 on the structured
+// mesh *is* the discrete solution of (25).
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -46,8 +50,9 @@ using tutorial::Exact;
 
 std::vector<double> epsilons();  // 1, 10^-1/2, ..., 1e-4
 
-// 1. Proposition 1 for one method: u_h^0 is (7), solved on the same mesh at epsilon = 0, not at a small epsilon.
-// `strain` is the L2 norm of d/dy u = epsilon^2 p in the layer, `to_limit` is ||u_h^0 - u^0||_h.
+// 1. Proposition 1 for one method: u_h^0 is (7), solved on the same mesh at epsilon = 0, not at a
+// small epsilon. `strain` is the L2 norm of d/dy u = epsilon^2 p in the layer, `to_limit` is
+// ||u_h^0 - u^0||_h.
 Table discrete_limit(const Method& method, int cells, const Exact& exact_limit) {
   const Discretisation on = method.on(cells);
   SceneSweep sweep(tutorial::paper_scene(0), on.space());
@@ -114,8 +119,8 @@ void judge(const Table& curves, int cells, tutorial::Report& report) {
 }
 
 void judge_strong_form(const Table& sigma, const Exact& limit, int cells, tutorial::Report& report) {
-  // Away from the end of contact, where u_xx jumps and its series rings. 1e-6 and 1e-5 of r, the largest of which is
-  // 1.5: what the sum of 2^15 waves leaves.
+  // Away from the end of contact, where u_xx jumps and its series rings. 1e-6 and 1e-5 of r, the
+  // largest of which is 1.5: what the sum of 2^15 waves leaves.
   const double end = limit.contact_from();
   const Table away = sigma.where_number("x", [&](double x) { return std::abs(x - end) > 0.005; });
   const Table free = away.where_number("x", [&](double x) { return x < end; });
@@ -137,8 +142,10 @@ void judge_strong_form(const Table& sigma, const Exact& limit, int cells, tutori
 }
 
 // Three things to try:
-// - --cells 128: the discrete curves follow the exact one of order 3/2 further before they turn to order 2.
-// - another load in Truth and Body, without contact (Truth(..., false)): order 2 for the exact one, too.
+// - --cells 128: the discrete curves follow the exact one of order 3/2 further before they turn to
+//   order 2.
+// - another load in Truth and Body, without contact (Truth(..., false)): order 2 for the exact one,
+//   too.
 // - plot u and r of sigma.csv: where one is positive, the other is 0.
 int main(int argc, char** argv) {
   tutorial::Options options;
@@ -178,7 +185,8 @@ double laplace_residual(const Truth& limit) {
   return largest;
 }
 
-// u_h^0 on the two squares against the discrete (25) on the body alone, P1 structured: largest difference.
+// u_h^0 on the two squares against the discrete (25) on the body alone, P1 structured: largest
+// difference.
 double against_ventcel(int cells) {
   const Discretisation both(structured_mesh(cells), p1()), body(structured_mesh(cells, Domain{0}), p1());
   const Scene ventcel(Body{paper_load}, VentcelLayer{}, UnilateralContact{});

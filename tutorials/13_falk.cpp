@@ -1,29 +1,35 @@
-// Theorem 2, the estimate of Falk's type, with both of its sides evaluated: what it sees of locking, and what not.
+// Theorem 2, the estimate of Falk's type, with both of its sides evaluated: what it sees of
+// locking, and what not.
 //
-// Run: 13_falk                       h from 1/8 to 1/32, five epsilons, P1 and Crouzeix-Raviart on both meshes
+// Run: 13_falk   h from 1/8 to 1/32, five epsilons, P1 and Crouzeix-Raviart on both meshes
 // Run: 13_falk --cells 64
 //
-// --epsilon is not asked for here: the study has five of its own. Load: f = 10 sin(2 pi x); the paper gives none.
+// --epsilon is not asked for here: the study has five of its own. Load: f = 10 sin(2 pi x); the
+// paper gives none.
 //
 //   |u - u_h|_h^2 <= C ( inf over v_h in K_h { |u - v_h|_h^2 + a(u, v_h - u) - f(v_h - u) }
 //                        + inf over v in K { a(u, v - u_h) - f(v - u_h) } ),                (13)
 //
-// C depending "linearly on the constants M and 1/alpha_2" (Theorem 2), M and alpha_2 the constants of continuity and
-// coercivity of a in the norm |.|_h. All of the right-hand side is made of one functional of the exact u,
+// C depending "linearly on the constants M and 1/alpha_2" (Theorem 2), M and alpha_2 the constants
+// of continuity and coercivity of a in the norm |.|_h. All of the right-hand side is made of one
+// functional of the exact u,
 //
 //   R(v) = a(u, v) - f(v),   R(u) = 0;   in V the work of the contact pressure: R(v) = int_Gamma_C lambda v.
 //
-// The first infimum is a contact problem over the same K_h, with the form 2 (., .)_h and the load 2 (u, .)_h - R: the
-// solver finds it. The second is known: R >= 0 on K and R(u) = 0, so it is -R(u_h).
+// The first infimum is a contact problem over the same K_h, with the form 2 (., .)_h and the load 2
+// (u, .)_h - R: the solver finds it. The second is known: R >= 0 on K and R(u) = 0, so it is
+// -R(u_h).
 //
-// P1: -R(u_h) <= 0, since K_h is a part of K; Falk's lemma has no second term. Crouzeix-Raviart: -R(u_h) is the
-// consistency term, the fluxes of u through the jumps of u_h, and the larger half of the estimate. As a functional of
-// w_h its norm is about O(h) at every epsilon: the flux through an edge of the layer is the layer stress p, bounded.
+// P1: -R(u_h) <= 0, since K_h is a part of K; Falk's lemma has no second term. Crouzeix-Raviart:
+// -R(u_h) is the consistency term, the fluxes of u through the jumps of u_h, and the larger half of
+// the estimate. As a functional of w_h its norm is about O(h) at every epsilon: the flux through an
+// edge of the layer is the layer stress p, bounded.
 //
-// And locking? Neither infimum divides by epsilon: for P1 on an unstructured mesh the right-hand side falls like h^2 at
-// every epsilon, while the left one stands still. All of the locking is in C: M, the continuity of a in the norm |.|_h,
-// is epsilon^-2, and (13) promises nothing uniform. Where nothing locks the C that is needed stays near 1. That is why
-// uniformity takes Theorem 4, and K_0h.
+// And locking? Neither infimum divides by epsilon: for P1 on an unstructured mesh the right-hand
+// side falls like h^2 at every epsilon, while the left one stands still. All of the locking is in
+// C: M, the continuity of a in the norm |.|_h, is epsilon^-2, and (13) promises nothing uniform.
+// Where nothing locks the C that is needed stays near 1. That is why uniformity takes Theorem 4,
+// and K_0h.
 
 #include <cmath>
 
@@ -44,8 +50,9 @@ double dual_norm(VariationalInequality problem, const SparseMatrix& norm, const 
 std::vector<double> ends_of_contact(const Truth& truth);
 void verdicts(const Table& results, tutorial::Report& report);
 
-// Columns: left = |u - u_h|_h^2; first, second: the two infima; jumps: the part of the second that comes from the jumps
-// of u_h; constant: what C must be at least; consistency: the largest consistency term over |w_h|_h = 1.
+// Columns: left = |u - u_h|_h^2; first, second: the two infima; jumps: the part of the second that
+// comes from the jumps of u_h; constant: what C must be at least; consistency: the largest
+// consistency term over |w_h|_h = 1.
 const std::vector<std::string> columns{"element", "mesh",   "epsilon", "cells",    "h",          "left",
                                        "first",   "second", "jumps",   "constant", "consistency"};
 
@@ -84,8 +91,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
         results.add(both_sides({element, family}, mesh, n, exact));
     }
   report.finish();
-  results
-      .select({"element", "mesh", "cells", "epsilon", "left", "first", "second", "jumps", "constant", "consistency"})
+  results.select({"element", "mesh", "cells", "epsilon", "left", "first", "second", "jumps", "constant", "consistency"})
       .print("both sides of (13)", 3);
   results.write(options.out / "results.csv");
   verdicts(results, report);
@@ -108,12 +114,14 @@ void verdicts(const Table& results, tutorial::Report& report) {
                "P1 unstructured, epsilon = 1e-6: the right-hand side falls all the same, and C must be {:.1f} at 1/h = "
                "{}, {:.1f} at 1/h = {}: no constant will do",
                before.number("constant"), finest / 2, last.number("constant"), finest);
-  // 1e-9 of the first infimum, 1e-3 or more of which is left on these meshes: the digits of the solver
+  // 1e-9 of the first infimum, 1e-3 or more of which is left on these meshes: the digits of the
+  // solver
   report.claim(p1_rows.most("second") < 1e-9 * p1_rows.least("first"),
                "P1: the second infimum is never positive (K_h is a part of K, Falk's lemma)");
   double share = 1;
   for (const Table& row : cr_rows.rows()) share = std::min(share, row.number("jumps") / row.number("second"));
-  report.claim(share > 0.9, "CR: at least {:.0f} % of the second infimum is consistency, the rest contact", 100 * share);
+  report.claim(share > 0.9, "CR: at least {:.0f} % of the second infimum is consistency, the rest contact",
+               100 * share);
   for (const Entry& mesh : cr_rows.different("mesh")) {
     const Table own = cr_rows.where("mesh", mesh), fine = own.where("cells", finest);
     double slowest = 9;
@@ -128,9 +136,10 @@ void verdicts(const Table& results, tutorial::Report& report) {
 }
 
 // Three things to try:
-// - replace the first infimum by its value at the paper's interpolant, interpolant(space, u.value): a few percent more
-//   for P1, half again as much for CR.
-// - measure both sides in the energy norm (Remark 4): M and alpha_2 become 1, and the locking moves into the infimum.
+// - replace the first infimum by its value at the paper's interpolant, interpolant(space, u.value):
+//   a few percent more for P1, half again as much for CR.
+// - measure both sides in the energy norm (Remark 4): M and alpha_2 become 1, and the locking moves
+//   into the infimum.
 // - draw left and first + second against h, one epsilon per panel.
 int main(int argc, char** argv) {
   tutorial::Options options;

@@ -1,7 +1,7 @@
 // Theorems 4, 5 and 7 and Remark 4: uniform convergence, as a program sees it, and the locking map.
 //
-// Run: 14_uniform                     h from 1/8 to 1/32, 22 epsilons; some six seconds
-// Run: 14_uniform --cells 64          to h = 1/64
+// Run: 14_uniform              h from 1/8 to 1/32, 22 epsilons; some six seconds
+// Run: 14_uniform --cells 64   to h = 1/64
 //
 // --epsilon is not asked for here: the supremum over it is the point.
 //
@@ -9,22 +9,24 @@
 //
 //     lim_{h->0} sup_{0 < epsilon <= 1} || u_h^epsilon - u^epsilon ||_h = 0 ,
 //
-// which Theorem 5 says of P1 on structured meshes and Theorem 7 of Crouzeix-Raviart on any, and Remark 4 of the energy
-// seminorm |.|_{a^epsilon} too. Mind the order of limit and supremum. For every *fixed* epsilon > 0, P1 on an
-// unstructured mesh converges as well (Proposition 2). The map shows how: the error is large below a boundary, epsilon
-// about h^(3/2) on these meshes. Refining moves this boundary to smaller epsilon; it never disappears, so the supremum
-// stays.
+// which Theorem 5 says of P1 on structured meshes and Theorem 7 of Crouzeix-Raviart on any, and
+// Remark 4 of the energy seminorm |.|_{a^epsilon} too. Mind the order of limit and supremum. For
+// every *fixed* epsilon > 0, P1 on an unstructured mesh converges as well (Proposition 2). The map
+// shows how: the error is large below a boundary, epsilon about h^(3/2) on these meshes. Refining
+// moves this boundary to smaller epsilon; it never disappears, so the supremum stays.
 //
-// The supremum is taken over half decades from 1 to 1e-10, and 0: by Theorem 1 nothing happens below.
+// The supremum is taken over half decades from 1 to 1e-10, and 0: by Theorem 1 nothing happens
+// below.
 //
-// How much is lost is a number, too. Babuska and Suri (1992, the paper's [3]) compare, at equal unknowns N, the worst
-// error over epsilon with the error where nothing is stiff, here epsilon = 1:
+// How much is lost is a number, too. Babuska and Suri (1992, the paper's [3]) compare, at equal
+// unknowns N, the worst error over epsilon with the error where nothing is stiff, here epsilon = 1:
 //
 //     locking ratio  L(N) = sup_epsilon E(epsilon, N) / E(1, N).
 //
-// Their definition takes the supremum over a ball of loads as well; here there is one load. L bounded: free of locking.
-// L growing like N^k: locking of order N^k; in the plane k = 1/2 is all that P1 can lose in H1. And sup_epsilon E
-// falling like N^-r: robust of order N^-r; r = 1/2 is the best, r = 0 is none.
+// Their definition takes the supremum over a ball of loads as well; here there is one load. L
+// bounded: free of locking. L growing like N^k: locking of order N^k; in the plane k = 1/2 is all
+// that P1 can lose in H1. And sup_epsilon E falling like N^-r: robust of order N^-r; r = 1/2 is the
+// best, r = 0 is none.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -39,7 +41,8 @@
 using namespace antilock;
 using tutorial::Exact;
 
-// 1. The map: the errors of one method on one mesh at every epsilon, in the broken H1 norm and the energy seminorm.
+// 1. The map: the errors of one method on one mesh at every epsilon, in the broken H1 norm and the
+// energy seminorm.
 Table solve_all(const Method& method, int cells, const std::vector<Exact>& truth) {
   const Discretisation on = method.on(cells);
   SceneSweep sweep(tutorial::paper_scene(1), on.space());
@@ -96,16 +99,17 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   orders.print();
   for (const Method& method : methods())
     judge(method, worst.where("element", method.element->name()).where("mesh", method.family.name), report);
-  // The boundary of the map: for a fixed epsilon the locked method converges at last (Proposition 2).
+  // The boundary of the map: for a fixed epsilon the locked method converges at last (Proposition
+  // 2).
   const Table locked = map.where("element", "P1").where("mesh", "unstructured");
   const double order = locked.where_number("epsilon", [](double e) { return e > 0.09 && e < 0.11; }).order("h1", "h");
   report.claim(order > 0.7, "P1 unstructured at epsilon = 0.1, fixed: converges like h^{:.2f} (Proposition 2)", order);
 }
 
 void judge(const Method& method, const Table& own, tutorial::Report& report) {
-  // First order is the best of P1 and CR in these norms; 0.2: the meshes are coarse. A locked method has a limit: the
-  // H1 norm of the displacement that the layer loses. It is where worst^2 = limit^2 + (c h)^2 tends, by the first and
-  // the last mesh.
+  // First order is the best of P1 and CR in these norms; 0.2: the meshes are coarse. A locked
+  // method has a limit: the H1 norm of the displacement that the layer loses. It is where worst^2 =
+  // limit^2 + (c h)^2 tends, by the first and the last mesh.
   const double a = own.first("h"), b = own.last("h"), high = own.first("h1"), low = own.last("h1");
   const double limit = std::sqrt(std::max(0.0, (a * a * low * low - b * b * high * high) / (a * a - b * b)));
   const double h1 = own.order("h1", "h"), energy = own.order("energy", "h");
@@ -125,7 +129,8 @@ void judge(const Method& method, const Table& own, tutorial::Report& report) {
 
 // Three things to try:
 // - --cells 64: the locking ratio of P1 unstructured goes on like N^1/2, the three others stay.
-// - `energy` in place of `h1` in the locking ratio: epsilon = 1 is then the worst case of the good methods.
+// - `energy` in place of `h1` in the locking ratio: epsilon = 1 is then the worst case of the good
+//   methods.
 // - {&p2(), unstructured()} as a fifth method: less locking, not none.
 int main(int argc, char** argv) {
   tutorial::Options options;
@@ -136,7 +141,8 @@ int main(int argc, char** argv) {
                        "Theorems 4, 5, 7: convergence uniform in epsilon, and the locking map", options, study);
 }
 
-// 1, 10^-1/2, ..., 1e-10, 0, each with its truth. 2^14 points of the series: gradients to 1e-6, errors are 1e-2.
+// 1, 10^-1/2, ..., 1e-10, 0, each with its truth. 2^14 points of the series: gradients to 1e-6,
+// errors are 1e-2.
 std::vector<Exact> truths() {
   std::vector<double> epsilons;
   for (int k = 0; k <= 20; ++k) epsilons.push_back(std::pow(10.0, -0.5 * k));
@@ -149,7 +155,7 @@ Table worst_by_norm(const Table& suprema) {
   Table rows({"norm", "element", "mesh", "h", "unknowns", "worst"});
   for (const Table& row : suprema.rows())
     for (const auto& [norm, column] : {std::pair{"broken $H^1$ norm", "h1"}, {"energy seminorm", "energy"}})
-      rows.add({norm, row.entry("element"), row.entry("mesh"), row.number("h"), row.number("unknowns"),
-                row.number(column)});
+      rows.add(
+          {norm, row.entry("element"), row.entry("mesh"), row.number("h"), row.number("unknowns"), row.number(column)});
   return rows;
 }

@@ -1,6 +1,6 @@
 // Estimates (28) and (31): C epsilon^-2 h^(3/4), against what is observed.
 //
-// Run: 15_estimates                     h from 1/8 to 1/32, 15 epsilons; a few seconds
+// Run: 15_estimates   h from 1/8 to 1/32, 15 epsilons; a few seconds
 // Run: 15_estimates --cells 64
 //
 // --epsilon is not asked for here: the power of it is the point.
@@ -9,24 +9,27 @@
 //
 //     || u^epsilon - u_h^epsilon ||  <=  C epsilon^-2 h^(3/4) ( ||u||_{2,Omega+} + ||u||_{2,Omega-} ) .
 //
-// "This estimate highlights the fact that one needs to choose h << epsilon" (after (28)). For a small right side it
-// takes more, h << epsilon^(8/3). The right side is evaluated here, the norms of the exact solution by its series; C is
-// the smallest number for which the estimate holds on all runs of a method. Then the exponents:
+// "This estimate highlights the fact that one needs to choose h << epsilon" (after (28)). For a
+// small right side it takes more, h << epsilon^(8/3). The right side is evaluated here, the norms
+// of the exact solution by its series; C is the smallest number for which the estimate holds on all
+// runs of a method. Then the exponents:
 //
-// - h^(3/4) is what the contact condition costs in Falk's lemma where no more is known; observed is h^1.
-// - epsilon^-2 is the continuity constant M of a^epsilon, which the proof cannot avoid. For P1 on structured meshes and
-//   for CR the error does not depend on epsilon at all: there the estimate is too large by epsilon^-2, a factor of 1e12.
-// - For P1 on an unstructured mesh it is real. A function that moves the layer has a strain d/dy there, and (26)
-//   charges epsilon^-2 times its energy, which the mesh sets. So the layer keeps 1/(1 + x) of its displacement and
-//   loses x/(1 + x), and
+// - h^(3/4) is what the contact condition costs in Falk's lemma where no more is known; observed is
+//   h^1.
+// - epsilon^-2 is the continuity constant M of a^epsilon, which the proof cannot avoid. For P1 on
+//   structured meshes and for CR the error does not depend on epsilon at all: there the estimate is
+//   too large by epsilon^-2, a factor of 1e12.
+// - For P1 on an unstructured mesh it is real. A function that moves the layer has a strain d/dy
+//   there, and (26) charges epsilon^-2 times its energy, which the mesh sets. So the layer keeps
+//   1/(1 + x) of its displacement and loses x/(1 + x), and
 //
 //       x = lost / kept  =  d(h) epsilon^-2 ,
 //
-//   a straight line of slope 2 from nothing lost to everything lost. The error itself cannot grow beyond that: it
-//   levels off where x = 1, from epsilon about h^(3/2) on.
+//   a straight line of slope 2 from nothing lost to everything lost. The error itself cannot grow
+//   beyond that: it levels off where x = 1, from epsilon about h^(3/2) on.
 //
-// What is lost is read off in L2, where P1's usual error is of second order and does not hide it; it is the share of
-// the L2 error at epsilon = 1e-6, where all is lost.
+// What is lost is read off in L2, where P1's usual error is of second order and does not hide it;
+// it is the share of the L2 error at epsilon = 1e-6, where all is lost.
 //
 // Load chosen here, f = 10 sin(2 pi x); the paper gives none.
 
@@ -58,13 +61,14 @@ Table solve_all(const Method& method, const TriangleMesh& mesh, int cells, const
     sweep.set_epsilon(exact.epsilon);
     const Errors errors = exact.errors(space, sweep.solve());
     const double bound = std::pow(exact.epsilon, -2) * std::pow(cells, -0.75) * h2;
-    rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, errors.h1, errors.l2,
-              bound});
+    rows.add(
+        {method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, errors.h1, errors.l2, bound});
   }
   return rows;
 }
 
-// 2. What the estimate claims of one method and what is observed: the smallest C that makes it true, the exponents.
+// 2. What the estimate claims of one method and what is observed: the smallest C that makes it
+// true, the exponents.
 struct Exponents {
   double c, epsilon, h_at_1, h_at_tenth, h_at_smallest, too_large;
 };
@@ -76,14 +80,22 @@ Exponents exponents(const Table& own) {
   };
   const Table fine = own.where("cells", own.most("cells")), last = fine.where("epsilon", smallest);
   const double growth = last.number("h1") / fine.where("epsilon", 1).number("h1");
-  return {c, -std::log(growth) / std::log(smallest), order(1), order(tenth), order(smallest),
+  return {c,
+          -std::log(growth) / std::log(smallest),
+          order(1),
+          order(tenth),
+          order(smallest),
           c * last.number("bound") / last.number("h1")};
 }
 
-// 3. x = lost / kept on one mesh, where between 3 and 97 per cent are lost and P1 errs twice as much as CR.
+// 3. x = lost / kept on one mesh, where between 3 and 97 per cent are lost and P1 errs twice as
+// much as CR.
 Table lost_to_kept(const Table& locked, const Table& usual) {
-  const auto excess = [](double error, double usual_error) { return std::sqrt(error * error - usual_error * usual_error); };
-  const double all = excess(locked.where("epsilon", smallest).number("l2"), usual.where("epsilon", smallest).number("l2"));
+  const auto excess = [](double error, double usual_error) {
+    return std::sqrt(error * error - usual_error * usual_error);
+  };
+  const double all =
+      excess(locked.where("epsilon", smallest).number("l2"), usual.where("epsilon", smallest).number("l2"));
   Table table({"curve", "inverse_epsilon", "x"});
   for (const Entry& epsilon : locked.different("epsilon")) {
     const double error = locked.where("epsilon", epsilon).number("l2");
@@ -130,7 +142,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   observed.print("error ~ epsilon^-a h^b in H1; the estimate says a = 2, b = 3/4; C: the smallest that makes it true");
 
   const Table locked = of({&p1(), unstructured()}), usual = of({&crouzeix_raviart(), unstructured()});
-  Table lost({"curve", "inverse_epsilon", "x"}), halves({"cells", "a", "half lost at epsilon", "that over h", "lost in H1"});
+  Table lost({"curve", "inverse_epsilon", "x"}),
+      halves({"cells", "a", "half lost at epsilon", "that over h", "lost in H1"});
   for (const Entry& cells : locked.different("cells")) {
     const Table here = locked.where("cells", cells), other = usual.where("cells", cells);
     const Table own = lost_to_kept(here, other);
@@ -144,18 +157,22 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   curves(results).write(options.out / "estimates.csv");
 
   report.claim(std::max(halves.most("a") - 2, 2 - halves.least("a")) < 0.3,
-               "(28) P1 unstructured: epsilon^-2 is real: lost / kept = d epsilon^-{:.2f} at 1/h = {}", halves.last("a"),
-               halves.last("cells"));
-  // the lost displacement belongs to the problem, not to the mesh: 5 % for what the usual error is on 1/8
-  report.claim(halves.most("lost in H1") < 1.05 * halves.least("lost in H1"),
-               "but the error levels off: at epsilon = 1e-6 the H1 norm of the lost displacement is {:.3f} to {:.3f} on "
-               "every mesh",
-               halves.least("lost in H1"), halves.most("lost in H1"));
+               "(28) P1 unstructured: epsilon^-2 is real: lost / kept = d epsilon^-{:.2f} at 1/h = {}",
+               halves.last("a"), halves.last("cells"));
+  // the lost displacement belongs to the problem, not to the mesh: 5 % for what the usual error is
+  // on 1/8
+  report.claim(
+      halves.most("lost in H1") < 1.05 * halves.least("lost in H1"),
+      "but the error levels off: at epsilon = 1e-6 the H1 norm of the lost displacement is {:.3f} to {:.3f} on "
+      "every mesh",
+      halves.least("lost in H1"), halves.most("lost in H1"));
 }
 
 // Three things to try:
-// - --cells 64: half is lost at a smaller epsilon each time, about like h^(3/2): h << epsilon is more than it takes.
-// - MeshFamily{"jittered", [](int n) { return jittered_mesh(n, 0.2); }} for the unstructured one: slope 2, another d.
+// - --cells 64: half is lost at a smaller epsilon each time, about like h^(3/2): h << epsilon is
+//   more than it takes.
+// - MeshFamily{"jittered", [](int n) { return jittered_mesh(n, 0.2); }} for the unstructured one:
+//   slope 2, another d.
 // - &p2() beside &p1(): the same picture, with a smaller d.
 int main(int argc, char** argv) {
   tutorial::Options options;
@@ -196,8 +213,7 @@ Table curves(const Table& results) {
     const double c = exponents(own).c;
     for (const double cells : {own.least("cells"), own.most("cells")})
       for (const Table& row : own.where("cells", cells).rows())
-        for (const auto& [what, value] :
-             {std::pair{"error", row.number("h1")}, {"estimate", c * row.number("bound")}})
+        for (const auto& [what, value] : {std::pair{"error", row.number("h1")}, {"estimate", c * row.number("bound")}})
           table.add({method.element->name(), method.family.name, fmt::format("{} $h = 1/{}$", what, cells),
                      row.number("epsilon"), value});
   }

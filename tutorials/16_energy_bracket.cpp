@@ -1,28 +1,32 @@
-// The energy bracket: two computable numbers with the exact energy between them, and locking seen without the solution.
+// The energy bracket: two computable numbers with the exact energy between them, and locking seen
+// without the solution.
 //
-// Run: 16_energy_bracket                     h from 1/8 to 1/64, five epsilons, both meshes; a few seconds
+// Run: 16_energy_bracket   h from 1/8 to 1/64, five epsilons, both meshes; a few seconds
 // Run: 16_energy_bracket --cells 128
 //
 // --epsilon is not asked for here: the study has five of its own.
 //
 // u solves (23) exactly if it makes J(v) = a(v, v)/2 - (f, v) smallest on K. Three facts follow.
 //
-// Above. P1 is conforming and asks for v >= 0 at every vertex of Gamma_C, hence everywhere on it: K_h is part of K
-// (Section 4.1, before (26)), so J(u_h) >= J(u). More: |u - v|_a^2 / 2 <= J(v) - J(u) for all v of K, in the energy
-// norm of Remark 4.
+// Above. P1 is conforming and asks for v >= 0 at every vertex of Gamma_C, hence everywhere on it:
+// K_h is part of K (Section 4.1, before (26)), so J(u_h) >= J(u). More: |u - v|_a^2 / 2 <= J(v) -
+// J(u) for all v of K, in the energy norm of Remark 4.
 //
-// Below. K_h^nc is not part of K, and the energy of Crouzeix-Raviart may lie on either side. The interpolation of
-// Lemma 2 takes K into K_h^nc and gives J_h(u_h) <= J_h(I_h u) = J(u) - |u - I_h u|^2 / 2 + (f, u - I_h u): the last
-// term, of the same size h^2, is what stands in the way. On every mesh of this study J_h(u_h) < J(u): that is observed.
-// It is not proved, and it is false in general: on the unit square cut in two triangles, load 1, it fails (a test of
-// the library). What is proved: every flux sigma with -div sigma = f, sigma.n >= 0 on Gamma_C, gives -|sigma|^2 / 2 <=
-// J(u), and Crouzeix-Raviart's own gradient becomes such a flux by a correction known triangle by triangle. The bound
-// is its energy minus about sum_T |T| f_T^2 s_T / 288, s_T the sum of the squares of the three edges: the same number
-// for every epsilon, 0 included. analysis/energy_bracket.cpp and certificate.cpp derive it, with the terms for a load
-// that is not constant on triangles.
+// Below. K_h^nc is not part of K, and the energy of Crouzeix-Raviart may lie on either side. The
+// interpolation of Lemma 2 takes K into K_h^nc and gives J_h(u_h) <= J_h(I_h u) = J(u) - |u - I_h
+// u|^2 / 2 + (f, u - I_h u): the last term, of the same size h^2, is what stands in the way. On
+// every mesh of this study J_h(u_h) < J(u): that is observed. It is not proved, and it is false in
+// general: on the unit square cut in two triangles, load 1, it fails (a test of the library). What
+// is proved: every flux sigma with -div sigma = f, sigma.n >= 0 on Gamma_C, gives -|sigma|^2 / 2 <=
+// J(u), and Crouzeix-Raviart's own gradient becomes such a flux by a correction known triangle by
+// triangle. The bound is its energy minus about sum_T |T| f_T^2 s_T / 288, s_T the sum of the
+// squares of the three edges: the same number for every epsilon, 0 included.
+// analysis/energy_bracket.cpp and certificate.cpp derive it, with the term for a load that is not
+// constant on triangles.
 //
-// So the bracket [lower, J(P1)] holds J(u) at every epsilon, and sqrt(2 width) bounds the energy error of P1. Where P1
-// locks, its energy does not come down and the bracket stays open: these two numbers show it, without u.
+// So the bracket [lower, J(P1)] holds J(u) at every epsilon, and sqrt(2 width) bounds the energy
+// error of P1. Where P1 locks, its energy does not come down and the bracket stays open: these two
+// numbers show it, without u.
 
 #include <cmath>
 
@@ -36,8 +40,8 @@
 using namespace antilock;
 using tutorial::Exact;
 
-// cr is J of Crouzeix-Raviart, the uncorrected number. truth = J(u) and energy_error = |u - u_h| of P1, measured with
-// the truth, are used by the verdicts alone.
+// cr is J of Crouzeix-Raviart, the uncorrected number. truth = J(u) and energy_error = |u - u_h| of
+// P1, measured with the truth, are used by the verdicts alone.
 const std::vector<std::string> columns{"mesh",  "epsilon", "cells", "h",           "lower",       "cr",
                                        "truth", "upper",   "width", "error_bound", "energy_error"};
 
@@ -54,7 +58,7 @@ Table solve_all(const MeshFamily& family, int cells, const std::vector<Exact>& t
     // 2. The bracket: nothing in these two lines knows u.
     const EnergyBracket bracket{
         energy_lower_bound(tutorial::paper_scene(exact.epsilon), nonconforming.space(), below.problem(), lower),
-                                energy(above.problem(), upper)};
+        energy(above.problem(), upper)};
     rows.add({family.name, exact.epsilon, cells, 1.0 / cells, bracket.lower, energy(below.problem(), lower),
               exact.truth.energy(), bracket.upper, bracket.width(), bracket.error_bound(),
               exact.errors(conforming.space(), upper).energy});
@@ -74,8 +78,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       results.add(solve_all(family, n, truth));
     }
   report.finish();
-  results
-      .select({"mesh", "cells", "epsilon", "lower", "cr", "truth", "upper", "width", "error_bound", "energy_error"})
+  results.select({"mesh", "cells", "epsilon", "lower", "cr", "truth", "upper", "width", "error_bound", "energy_error"})
       .print("lower bound, J(CR), J(u), J(P1)", 6);
   results.write(options.out / "results.csv");
   verdicts(results, report);
@@ -110,7 +113,8 @@ void verdicts(const Table& results, tutorial::Report& report) {
     for (const double epsilon : {1.0, 1e-4, 0.0}) {
       const double order = last.where("mesh", mesh).where("epsilon", epsilon).order("width", "h");
       const bool locks = mesh == "unstructured" && epsilon < 1e-2;
-      // 2 is the order of energies; 0.6: the width of a locked run still falls with what P1 gains in the body
+      // 2 is the order of energies; 0.6: the width of a locked run still falls with what P1 gains
+      // in the body
       report.claim(locks ? order < 0.6 : order > 1.8,
                    "P1 {}, epsilon = {:g}: the bracket {}, its width falls like h^{:.2f}", mesh.text(), epsilon,
                    locks ? "stays open: locked" : "closes", order);
@@ -119,10 +123,10 @@ void verdicts(const Table& results, tutorial::Report& report) {
 
 // Three things to try:
 // - draw `error_bound` and `energy_error` of results.csv against h: the bound and what it bounds.
-// - replace p1() by p2(): K_h is no longer part of K (the parabola between two unknowns may dip below 0), and J(u_h) is
-//   an upper bound no more.
-// - J(CR) in place of energy_lower_bound: the bracket is narrower by 0.57 h^2 and holds J(u) here all the same, but
-//   nothing proves it.
+// - replace p1() by p2(): K_h is no longer part of K (the parabola between two unknowns may dip
+//   below 0), and J(u_h) is an upper bound no more.
+// - J(CR) in place of energy_lower_bound: the bracket is narrower by 0.57 h^2 and holds J(u) here
+//   all the same, but nothing proves it.
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.takes_epsilon = false;

@@ -1,30 +1,33 @@
-// A thin structure in the same class: Timoshenko's beam over an obstacle, full against reduced integration.
+// A thin structure in the same class: Timoshenko's beam over an obstacle, full against reduced
+// integration.
 //
-// Run: 19_beam                                 epsilon = 1e-4, 32 cells
-// Run: 19_beam --epsilon 1e-2 --cells 64       a thick beam: both integrations are good
+// Run: 19_beam                             epsilon = 1e-4, 32 cells
+// Run: 19_beam --epsilon 1e-2 --cells 64   a thick beam: both integrations are good
 //
-// Here epsilon is the parameter of the class, (1): the square of the beam's thickness but for a factor, as epsilon^2
-// was in (23). The two integrations below are two forms a0, not two choices of V_h: Theorem 4 compares spaces for one
-// a0, and does not cover reduced integration.
+// Here epsilon is the parameter of the class, (1): the square of the beam's thickness but for a
+// factor, as epsilon^2 was in (23). The two integrations below are two forms a0, not two choices of
+// V_h: Theorem 4 compares spaces for one a0, and does not cover reduced integration.
 //
-// What the picture shows. A clamped beam is pressed on a flat obstacle at -1. The exact beam lies on it over [c, 1 - c],
-// and presses most near the two ends of contact (at epsilon = 0: over the middle third, with two concentrated forces at
-// its ends). Full integration bends too little: the deflection stays above the truth and contact is short; at epsilon =
-// 0 it does not move at all. Nothing looks wrong.
+// What the picture shows. A clamped beam is pressed on a flat obstacle at -1. The exact beam lies
+// on it over [c, 1 - c], and presses most near the two ends of contact (at epsilon = 0: over the
+// middle third, with two concentrated forces at its ends). Full integration bends too little: the
+// deflection stays above the truth and contact is short; at epsilon = 0 it does not move at all.
+// Nothing looks wrong.
 //
 // Why. The unknowns are the deflection w and the rotation theta, both P1. With
 //
-//     u = (w, theta) in K,  a1(u, v-u) + epsilon^-1 a0(u, v-u) >= L(v-u)  for all v in K,                       (6)
+//     u = (w, theta) in K,  a1(u, v-u) + epsilon^-1 a0(u, v-u) >= L(v-u)  for all v in K,       (6)
 //     a1 = int theta' phi',  a0 = int (w' - theta)(v' - phi),  K = { w >= -1, clamped at both ends },
 //
-// epsilon^-1 a0 demands w' = theta as epsilon -> 0. On a cell w' is constant and theta affine. Asked at two Gauss
-// points, the demand is that theta be constant on each cell, and so zero. Asked at the midpoint, it is one condition
-// per cell, and n - 2 free functions are left. In one line, because theta is affine:
+// epsilon^-1 a0 demands w' = theta as epsilon -> 0. On a cell w' is constant and theta affine.
+// Asked at two Gauss points, the demand is that theta be constant on each cell, and so zero. Asked
+// at the midpoint, it is one condition per cell, and n - 2 free functions are left. In one line,
+// because theta is affine:
 //
 //     full shear energy = reduced shear energy + h^2/(12 epsilon) int theta'^2
 //
-// so that full integration is the reduced one with a bending stiffness 1 + h^2/(12 epsilon) times too large, contact
-// included. At h = 1/32, epsilon = 1e-4: 1.8 times.
+// so that full integration is the reduced one with a bending stiffness 1 + h^2/(12 epsilon) times
+// too large, contact included. At h = 1/32, epsilon = 1e-4: 1.8 times.
 
 #include <cmath>
 
@@ -40,11 +43,12 @@ using namespace antilock;
 double nodal_error(const Beam& beam, const Solution& solution);
 Table drawn(const Beam& beam, const Solution& full, const Solution& reduced);
 
-// The error against epsilon, both integrations, on three meshes: one sweep per mesh and integration.
+// The error against epsilon, both integrations, on three meshes: one sweep per mesh and
+// integration.
 Table error_study() {
   Table table({"integration", "cells", "epsilon", "error"});
-  for (const auto& [shear, name] : {std::pair{ShearIntegration::full, "full integration"},
-                                    {ShearIntegration::reduced, "reduced integration"}})
+  for (const auto& [shear, name] :
+       {std::pair{ShearIntegration::full, "full integration"}, {ShearIntegration::reduced, "reduced integration"}})
     for (const int cells : {16, 32, 64}) {
       Beam beam{.cells = cells, .shear = shear};
       Sweep sweep(assemble(beam));
@@ -108,9 +112,12 @@ void bend(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 // Three things to try:
-// - thinner: --epsilon 1e-8, or 0, the Bernoulli beam. Full integration does not move; the error of reduced stays.
-// - refine: --cells 128. The factor 1 + h^2/(12 epsilon) falls to 1.05: full integration wants h^2 << epsilon.
-// - the point forces: plot force_reduced of beam.csv; the ends of contact carry 2/5 of the force at epsilon = 0.
+// - thinner: --epsilon 1e-8, or 0, the Bernoulli beam. Full integration does not move; the error of
+//   reduced stays.
+// - refine: --cells 128. The factor 1 + h^2/(12 epsilon) falls to 1.05: full integration wants h^2
+//   << epsilon.
+// - the point forces: plot force_reduced of beam.csv; the ends of contact carry 2/5 of the force at
+//   epsilon = 0.
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.epsilon = 1e-4;

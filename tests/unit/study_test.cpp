@@ -1,4 +1,5 @@
-// The room study: tables that are asked by name, methods that make their meshes and spaces, sweeps over any problem.
+// The room study: tables that are asked by name, methods that make their meshes and spaces, sweeps
+// over any problem.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -39,7 +40,8 @@ Table power_laws() {
   return table;
 }
 
-// A CSV that is written reads back to the same doubles: 17 significant digits. A word with a comma is quoted.
+// A CSV that is written reads back to the same doubles: 17 significant digits. A word with a comma
+// is quoted.
 TEST(Table, WritesNumbersThatReadBackToTheSameDoubles) {
   const test::TemporaryFolder folder;
   const std::vector<double> numbers{0.1, 1 / 3.0, 1e-300, -std::acos(-1.0), 1e-6, 152064, 0, 5e-324};
@@ -121,7 +123,9 @@ TEST(Table, RefusesAndSaysWhat) {
   Table table = power_laws();
   EXPECT_EQ(message([&] { table.numbers("eror"); }),
             "table: no column 'eror'; accepted: element, epsilon, cells, h, error");
-  EXPECT_EQ(message([&] { table.add({"P1", 1.0}); }),
+  EXPECT_EQ(message([&] {
+              table.add({"P1", 1.0});
+            }),
             "table: a row of 2 entries; accepted: 5, one per column (element, epsilon, cells, h, error)");
   EXPECT_EQ(table.size(), 16);  // nothing was added
   EXPECT_EQ(message([&] { table.numbers("element"); }), "table: 'P1' in column 'element'; accepted: a number");
@@ -164,7 +168,8 @@ void expect_same(const Solution& swept, const Solution& alone, double epsilon) {
   EXPECT_LE((swept.u - alone.u).cwiseAbs().maxCoeff(), 1e-8 * alone.u.cwiseAbs().maxCoeff()) << epsilon;
 }
 
-// The beam and rubber are swept as the layer is: one assembly, one factorisation for all small epsilon.
+// The beam and rubber are swept as the layer is: one assembly, one factorisation for all small
+// epsilon.
 TEST(SweepOfAnyProblem, GivesTheAnswersOfTheBeam) {
   Beam beam{.cells = 16};
   Sweep sweep(assemble(beam));

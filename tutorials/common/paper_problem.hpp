@@ -8,7 +8,8 @@
 
 namespace antilock::tutorial {
 
-/// The problem of Section 4, (23): body, scaled layer, contact. The paper gives no load; ours is f = 10 sin(2 pi x).
+/// The problem of Section 4, (23): body, scaled layer, contact. The paper gives no load; ours is f
+/// = 10 sin(2 pi x).
 ///
 ///     u in K,  a+(u, v - u) + a_x^-(u, v - u) + epsilon^-2 a_y^-(u, v - u) >= (f, v - u)   for all v in K
 ///

@@ -57,7 +57,8 @@ std::vector<Runs> by_method(const std::vector<TimedRun>& runs) {
   return methods;
 }
 
-/// `unknowns: seconds of the first solver / the second / ...`; the solvers of one element, mesh and epsilon.
+/// `unknowns: seconds of the first solver / the second / ...`; the solvers of one element, mesh and
+/// epsilon.
 std::string cell(const std::vector<Price>& prices) {
   const Price& first = prices.front();
   if (first.outcome == "never" || first.outcome == "failed") return first.outcome;

@@ -10,12 +10,13 @@
 
 namespace antilock::tutorial {
 
-/// Writes what every solved scene leaves behind: mesh.msh, mesh.freefem.msh, solution.csv, solution.vtu and
-/// contact.csv.
+/// Writes what every solved scene leaves behind: mesh.msh, mesh.freefem.msh, solution.csv,
+/// solution.vtu and contact.csv.
 void write_results(const std::filesystem::path& out, const Space& space, const VariationalInequality& problem,
                    const Solution& solution);
 
-/// Prints how a problem was solved: unknowns, iterations, KKT report, contact zone, energy, seconds by stage.
+/// Prints how a problem was solved: unknowns, iterations, KKT report, contact zone, energy, seconds
+/// by stage.
 void print_solution(const Space& space, const VariationalInequality& problem, const Solution& solution);
 
 /// Prints the errors in every norm, absolute.

@@ -29,7 +29,8 @@ void note_failure(TimedRun& run, double spent, std::string why) {
   run.why = std::move(why);
 }
 
-/// The script's own seconds, the last number of its summary; nothing where it fails or takes too long.
+/// The script's own seconds, the last number of its summary; nothing where it fails or takes too
+/// long.
 std::optional<double> script_seconds(const std::string& line, const std::filesystem::path& summary_file) {
   std::filesystem::remove(summary_file);
   if (std::system(line.c_str()) != 0) return {};

@@ -12,7 +12,8 @@
 
 namespace antilock::tutorial {
 
-/// One point of the work-precision study: a method (element, kind of mesh, solver) at one epsilon on one mesh.
+/// One point of the work-precision study: a method (element, kind of mesh, solver) at one epsilon
+/// on one mesh.
 struct TimedRun {
   std::string element{}, mesh{}, solver{};
   double epsilon = 0;
@@ -30,31 +31,37 @@ struct TimedRun {
   bool same_method(const TimedRun& other) const;
 };
 
-/// Marks a run as failed where the same method was over the limit on a coarser mesh; true: then it need not be tried.
+/// Marks a run as failed where the same method was over the limit on a coarser mesh; true: then it
+/// need not be tried.
 bool given_up(const std::vector<TimedRun>& before, TimedRun& run, double limit);
 
-/// Runs `solve` `repeats` times and notes the seconds; the last answer, or nothing where it throws or takes longer than
-/// `limit`: a run over the limit counts as a failure, even where its answer is good.
+/// Runs `solve` `repeats` times and notes the seconds; the last answer, or nothing where it throws
+/// or takes longer than `limit`: a run over the limit counts as a failure, even where its answer is
+/// good.
 std::optional<Solution> time_solver(TimedRun& run, const std::function<Solution()>& solve, double limit, int repeats);
 
-/// FreeFEM's active set on the same mesh, the stiff part summed as a plain script does: `command` is freefem/run. The
-/// clock is the script's own, without start-up and reading the mesh.
+/// FreeFEM's active set on the same mesh, the stiff part summed as a plain script does: `command`
+/// is freefem/run. The clock is the script's own, without start-up and reading the mesh.
 void time_freefem(TimedRun& run, const std::string& command, const Space& space, const TruthTable& truth, double limit,
                   int repeats, const std::filesystem::path& folder);
 
-/// One row per run, columns as in TimedRun; status is ok or failed. `relative` and the errors are 0 where it failed.
+/// One row per run, columns as in TimedRun; status is ok or failed. `relative` and the errors are 0
+/// where it failed.
 void write_runs(const std::filesystem::path& path, const std::vector<TimedRun>& runs);
 
-/// The cheapest run that was measured within a relative error (at the unknowns) of 1e-2, 1e-3 and 1e-4, one row per
-/// method and epsilon: price_list.csv, its outcome reached, never (locked: the error hardly falls from mesh to mesh),
-/// failed (before it came so far) or beyond (a finer mesh than measured would). In short as Markdown: price_list.md.
+/// The cheapest run that was measured within a relative error (at the unknowns) of 1e-2, 1e-3 and
+/// 1e-4, one row per method and epsilon: price_list.csv, its outcome reached, never (locked: the
+/// error hardly falls from mesh to mesh), failed (before it came so far) or beyond (a finer mesh
+/// than measured would). In short as Markdown: price_list.md.
 void write_price_list(const std::filesystem::path& folder, const std::vector<TimedRun>& runs);
 
-/// Where the time goes: stages.csv, wall seconds of each stage of the run of median length, 1/h from 16 to `finest`
-/// (P1, structured mesh, active set, epsilon = 1e-6). `corrections` holds all of the solver that is no other stage.
+/// Where the time goes: stages.csv, wall seconds of each stage of the run of median length, 1/h
+/// from 16 to `finest` (P1, structured mesh, active set, epsilon = 1e-6). `corrections` holds all
+/// of the solver that is no other stage.
 void write_stages(const std::filesystem::path& folder, int finest, int repeats);
 
-/// What the seconds were measured on: processor, cores, threads of the BLAS, compiler, libraries, date: `what,value`.
+/// What the seconds were measured on: processor, cores, threads of the BLAS, compiler, libraries,
+/// date: `what,value`.
 void write_machine(const std::filesystem::path& path);
 
 }  // namespace antilock::tutorial

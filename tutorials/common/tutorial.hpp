@@ -13,10 +13,11 @@ class App;  // CLI11 in full would be compiled into every tutorial
 
 namespace antilock::tutorial {
 
-/// The options that every tutorial understands. Set the defaults, and `add` options of one tutorial's own.
+/// The options that every tutorial understands. Set the defaults, and `add` options of one
+/// tutorial's own.
 struct Options {
-  double epsilon = 1e-6;      ///< the paper's epsilon, least_epsilon to 1 (dimensionless)
-  double least_epsilon = 0;   ///< the smallest that the study accepts
+  double epsilon = 1e-6;     ///< the paper's epsilon, least_epsilon to 1 (dimensionless)
+  double least_epsilon = 0;  ///< the smallest that the study accepts
   /// What --epsilon stands for, in --help.
   std::string epsilon_is = "the paper's epsilon; 0 is the rigid limit";
   bool takes_epsilon = true;  ///< false where it has none, or studies its own: --epsilon is not offered then
@@ -29,9 +30,11 @@ struct Options {
 /// What a tutorial says while it runs: stages with their seconds, and the verdict at its end.
 class Report {
  public:
-  /// Prints what is being done now; the seconds of the stage before are printed when the next begins.
+  /// Prints what is being done now; the seconds of the stage before are printed when the next
+  /// begins.
   void stage(const std::string& what);
-  /// A claim of the paper and whether the numbers bear it out, as a line `VERDICT holds: ...` or `VERDICT FAILS: ...`.
+  /// A claim of the paper and whether the numbers bear it out, as a line `VERDICT holds: ...` or
+  /// `VERDICT FAILS: ...`.
   void claim(bool holds, const std::string& what);
   /// The same with a format string, `claim(order > 1.8, "falls like h^{:.2f}", order)`.
   template <class First, class... More>
@@ -40,7 +43,8 @@ class Report {
   }
   /// A claim that a number lies in an interval; its line ends with the number and the interval.
   void claim_within(double value, double low, double high, const std::string& what);
-  /// A claim that this run cannot decide, and why: a line `NOT JUDGED: ...`. Nothing is left out in silence.
+  /// A claim that this run cannot decide, and why: a line `NOT JUDGED: ...`. Nothing is left out in
+  /// silence.
   void not_judged(const std::string& why);
   /// Ends the last stage.
   void finish();
@@ -51,8 +55,9 @@ class Report {
   bool in_stage_ = false, all_hold_ = true;
 };
 
-/// Parses the command line, runs `body`, and turns the outcome into an exit status: 0 all claims hold, 1 one fails, 2
-/// bad input (one line on standard error), 3 a solver did not converge (one line that says how far it came).
+/// Parses the command line, runs `body`, and turns the outcome into an exit status: 0 all claims
+/// hold, 1 one fails, 2 bad input (one line on standard error), 3 a solver did not converge (one
+/// line that says how far it came).
 int run(int argc, char** argv, const std::string& stem, const std::string& what, Options options,
         const std::function<void(const Options&, Report&)>& body);
 

@@ -9,8 +9,9 @@
 
 namespace antilock {
 
-/// A family of meshes: a name, and one mesh per number of cells per unit side (h = 1/cells). A family of one's own is
-/// one line: `MeshFamily{"jittered", [](int cells) { return jittered_mesh(cells, 0.1); }}`.
+/// A family of meshes: a name, and one mesh per number of cells per unit side (h = 1/cells). A
+/// family of one's own is one line:
+/// `MeshFamily{"jittered", [](int cells) { return jittered_mesh(cells, 0.1); }}`.
 struct MeshFamily {
   std::string name;
   std::function<TriangleMesh(int cells)> mesh;

@@ -106,8 +106,7 @@ std::vector<double> Table::numbers(const std::string& column) const {
 
 Entry Table::entry(const std::string& column) const {
   const std::vector<Entry> all = entries(column);
-  if (all.size() != 1)
-    throw Error(fmt::format("table: column '{}' of {} rows; accepted: of one", column, all.size()));
+  if (all.size() != 1) throw Error(fmt::format("table: column '{}' of {} rows; accepted: of one", column, all.size()));
   return all.front();
 }
 
@@ -132,8 +131,8 @@ double Table::order(const std::string& y, const std::string& x) const {
     for (const double value : numbers(column))
       if (!(value > 0)) throw Error(fmt::format("table: order of {} in column '{}'; accepted: > 0", value, column));
   if (different(x).size() < 2)
-    throw Error(fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y, x,
-                            different(x).size()));
+    throw Error(
+        fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y, x, different(x).size()));
   return slope(numbers(x), numbers(y));
 }
 
