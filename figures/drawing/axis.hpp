@@ -12,8 +12,8 @@ struct Tick {
 /// A range of numbers with its ticks, on a straight or a logarithmic scale.
 class Axis {
  public:
-  /// Widens [low, high] by a share `room` of its length, so that no point lies on the frame; numbers at `most` ticks at
-  /// most. Throws Error for a range that cannot be drawn.
+  /// Widens [low, high] by a share `room` of its length, so that no point lies on the frame;
+  /// numbers at `most` ticks at most. Throws Error for a range that cannot be drawn.
   static Axis logarithmic(double low, double high, double room = 0.07, int most = 8);
   /// The same with ticks at 1, 1/2, 1/4, ..., as mesh widths are chosen.
   static Axis halving(double low, double high, double room = 0.07, int most = 8);

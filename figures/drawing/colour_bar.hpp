@@ -16,7 +16,8 @@ struct Beyond {
   Colour below, above;
 };
 
-/// A vertical bar of viridis with its numbers to the right and its name above; `beyond` adds a head at each end.
+/// A vertical bar of viridis with its numbers to the right and its name above; `beyond` adds a head
+/// at each end.
 void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name,
                      const std::optional<Beyond>& beyond = {});
 

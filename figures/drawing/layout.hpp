@@ -18,11 +18,12 @@ struct LaidText {
   std::optional<double> most = {};  ///< the width that it must not exceed
 };
 
-/// The smallest em of the texts in a picture of `page_width` that is shown `shown_width` wide; infinite without texts.
+/// The smallest em of the texts in a picture of `page_width` that is shown `shown_width` wide;
+/// infinite without texts.
 double smallest_type(const std::vector<LaidText>& texts, double page_width);
 
-/// The first fault of a layout, one line: a text below `least_type`, off the page, wider than it may be, or nearer to
-/// another one than `least_distance`.
+/// The first fault of a layout, one line: a text below `least_type`, off the page, wider than it
+/// may be, or nearer to another one than `least_distance`.
 std::optional<std::string> layout_fault(const std::vector<LaidText>& texts, double page_width, double page_height);
 
 }  // namespace antilock::figures

@@ -10,7 +10,8 @@ namespace antilock::figures {
 /// Draws the sample of entry n within a box.
 using Swatch = std::function<void(std::size_t n, const Box& box)>;
 
-/// A legend of these names: in centred lines over the page's width, or one below the other in a box.
+/// A legend of these names: in centred lines over the page's width, or one below the other in a
+/// box.
 class Legend {
  public:
   Legend(const Page& page, const std::vector<std::string>& names);

@@ -42,7 +42,8 @@ void set_brush(vtkContext2D& context, const Colour& colour, double opacity) {
   context.GetBrush()->SetColor(byte(colour[0]), byte(colour[1]), byte(colour[2]), byte(opacity));
 }
 
-/// A thick line is painted as one quadrilateral per segment and one disc per joint: round joints, on every driver.
+/// A thick line is painted as one quadrilateral per segment and one disc per joint: round joints,
+/// on every driver.
 void paint_line(vtkContext2D& context, const std::vector<Point>& points, double width, const Colour& colour) {
   set_brush(context, colour, 1);
   const double half = 0.5 * width;

@@ -24,8 +24,8 @@ struct Stroke {
   std::vector<double> dashes = {};  ///< drawn, skipped, drawn, ... in pixels; empty: solid
 };
 
-/// One picture: three-dimensional scenes below, drawing above, text on top. White, units of pixels, rendered larger and
-/// averaged down, which smooths every edge.
+/// One picture: three-dimensional scenes below, drawing above, text on top. White, units of pixels,
+/// rendered larger and averaged down, which smooths every edge.
 class Page {
  public:
   static constexpr int oversampling = 3;  ///< pixels rendered per pixel written, each way
@@ -39,7 +39,8 @@ class Page {
   /// A filled convex polygon.
   void fill(const std::vector<Point>& corners, const Colour& colour, double opacity = 1);
   void fill(const Box& box, const Colour& colour, double opacity = 1);
-  /// A filled marker of about the given diameter with a white rim; at one place, a smaller one shows on a larger one.
+  /// A filled marker of about the given diameter with a white rim; at one place, a smaller one
+  /// shows on a larger one.
   void marker(Point at, Marker shape, double size, const Colour& colour);
   /// An arrow from one point to another, with a filled head.
   void arrow(Point from, Point to, const Stroke& stroke = {});
@@ -48,10 +49,11 @@ class Page {
   /// Shows a renderer in part of the page.
   void scene(vtkSmartPointer<vtkRenderer> renderer, const Box& where);
 
-  /// What is wrong with the texts, one line: too small, over each other, wider than allowed or off the page
-  /// (layout.hpp).
+  /// What is wrong with the texts, one line: too small, over each other, wider than allowed or off
+  /// the page (layout.hpp).
   std::optional<std::string> layout_fault() const;
-  /// The smallest em on the page, scripts included, in pixels of a picture shown `shown_width` wide (layout.hpp).
+  /// The smallest em on the page, scripts included, in pixels of a picture shown `shown_width` wide
+  /// (layout.hpp).
   double smallest_type() const;
 
   /// Renders and writes a PNG file, whole or not at all. Throws Error where it cannot be written.

@@ -7,7 +7,8 @@ namespace antilock::figures {
 
 enum class Marker { circle, square, diamond, triangle, down_triangle, cross };
 
-/// Corners of a marker of diameter about 2 around the origin; the cross is drawn along its diagonals.
+/// Corners of a marker of diameter about 2 around the origin; the cross is drawn along its
+/// diagonals.
 std::vector<Point> outline(Marker shape);
 
 /// Cuts a line into its dashes; the pattern is drawn, skipped, drawn, ... in pixels.

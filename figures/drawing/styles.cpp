@@ -19,8 +19,8 @@ struct Row {
   Look look;
 };
 
-/// Every meaning, in the order of panels and legends. Vermillion and red stand for what locks or is nearly locked, and
-/// have the widest lines; exact values lie broad and grey below the others.
+/// Every meaning, in the order of panels and legends. Vermillion and red stand for what locks or is
+/// nearly locked, and have the widest lines; exact values lie broad and grey below the others.
 const Row rows[] = {
     {"exact", "exact", "", {grey, circle, 14}},
     // methods: an element, or an element and its mesh
@@ -83,7 +83,8 @@ const Row rows[] = {
     {"cells 64", "$h = 1/64$", "", {indigo, diamond, 9}},
 };
 
-/// An entry as the table above writes it: numbers of epsilon and cells with the column, each in one form.
+/// An entry as the table above writes it: numbers of epsilon and cells with the column, each in one
+/// form.
 std::string key_of(const std::string& column, const std::string& entry) {
   double number = 0;
   const auto [end, error] = std::from_chars(entry.data(), entry.data() + entry.size(), number);

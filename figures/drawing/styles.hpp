@@ -24,17 +24,20 @@ struct Meaning {
   bool known = true;  ///< false: the table of styles.cpp does not have it
 };
 
-/// The meaning of an entry of a table's column, such as ("epsilon", "1e-06"), or of entries of several columns
-/// together, such as element and mesh. Entries that the table of styles.cpp does not have are their own names.
+/// The meaning of an entry of a table's column, such as ("epsilon", "1e-06"), or of entries of
+/// several columns together, such as element and mesh. Entries that the table of styles.cpp does
+/// not have are their own names.
 Meaning meaning_of(const std::vector<std::string>& columns, const std::vector<std::string>& entries);
 
-/// The same for a key of that table, such as "P1 structured"; words behind a colon are added to its name.
+/// The same for a key of that table, such as "P1 structured"; words behind a colon are added to its
+/// name.
 Meaning meaning_of(const std::string& key);
 
 /// Every key of that table, in its order.
 std::vector<std::string> known_keys();
 
-/// Looks for meanings that the table does not have, the n-th of a chart (six, then again from the first).
+/// Looks for meanings that the table does not have, the n-th of a chart (six, then again from the
+/// first).
 Look other_look(std::size_t n);
 
 }  // namespace antilock::figures

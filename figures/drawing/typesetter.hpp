@@ -9,7 +9,10 @@ class vtkImageData;
 
 namespace antilock::figures {
 
-/// Where the given place lies in a text: across from its left (0) to its right end (1), and on its height.
+class Fonts;
+
+/// Where the given place lies in a text: across from its left (0) to its right end (1), and on its
+/// height.
 struct Anchor {
   enum class Height { baseline, middle, top };
   double across = 0;
@@ -31,9 +34,10 @@ struct Extent {
   double width = 0;     ///< along the text
 };
 
-/// Sets text in STIX, as a paper does, and draws it into a finished image (FreeType).
-/// Markup is UTF-8 with mathematics between dollars, as in `the layer $Ω_ε^−$, $u ≥ 0$`: there Latin and small Greek
-/// letters are italic, and `_` and `^` take one character or a {group} below and above the line (both: stacked).
+/// Sets text in STIX, as a paper does, and draws it into a finished image (FreeType). Markup is
+/// UTF-8 with mathematics between dollars, as in `the layer $Ω_ε^−$, $u ≥ 0$`: there Latin and
+/// small Greek letters are italic, and `_` and `^` take one character or a {group} below and above
+/// the line (both: stacked).
 class Typesetter {
  public:
   Typesetter();  ///< throws Error where the fonts cannot be read
@@ -41,7 +45,8 @@ class Typesetter {
   Typesetter(Typesetter&&) noexcept;
   Typesetter& operator=(Typesetter&&) noexcept;
 
-  /// Pixels from the first to the last glyph, at angle 0. Throws Error for broken UTF-8 or unbalanced markup.
+  /// Pixels from the first to the last glyph, at angle 0. Throws Error for broken UTF-8 or
+  /// unbalanced markup.
   double width(const std::string& markup, double size) const;
   /// What the text covers; `at` is the place of its anchor. Throws Error likewise.
   Extent extent(Point at, const std::string& markup, const TextStyle& style) const;
@@ -49,7 +54,6 @@ class Typesetter {
   void draw(vtkImageData& image, Point at, const std::string& markup, const TextStyle& style) const;
 
  private:
-  struct Fonts;
   std::unique_ptr<Fonts> fonts_;
 };
 

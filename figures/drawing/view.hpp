@@ -9,12 +9,12 @@ class vtkCamera;
 
 namespace antilock::figures {
 
-/// A parallel view of a box in space, fitted into a box of the page: what VTK's camera sees, and where a place in space
-/// lies on the page, so that text can be set there.
+/// A parallel view of a box in space, fitted into a box of the page: what VTK's camera sees, and
+/// where a place in space lies on the page, so that text can be set there.
 class View {
  public:
-  /// `azimuth` turns the eye from the front (-y) towards +x, `elevation` lifts it; both in degrees. The scale is that
-  /// at which `fitted` fills the box, so that views of different spaces compare.
+  /// `azimuth` turns the eye from the front (-y) towards +x, `elevation` lifts it; both in degrees.
+  /// The scale is that at which `fitted` fills the box, so that views of different spaces compare.
   View(const Eigen::AlignedBox3d& space, const Eigen::AlignedBox3d& fitted, const Box& page, double azimuth,
        double elevation);
   Point operator()(const Eigen::Vector3d& place) const;

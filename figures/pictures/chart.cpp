@@ -22,7 +22,8 @@ bool drawable(const Sample& s) { return s.x > 0 && s.y > 0 && std::isfinite(s.x)
 /// A run that gave no answer, but has a place on the x axis.
 bool failed(const Sample& s) { return !drawable(s) && s.x > 0 && std::isfinite(s.x); }
 
-/// Panels and curves by meaning, and the points of a curve in the order in which the table brings them.
+/// Panels and curves by meaning, and the points of a curve in the order in which the table brings
+/// them.
 struct Curves {
   Meanings panels, series;
   std::vector<std::string> failing;  ///< names of the series that have failures

@@ -41,8 +41,8 @@ Axis value_axis(const Table& table, const std::vector<std::string>& columns) {
   return Axis::linear(low - room, high + room);
 }
 
-/// The pieces of a curve between its jumps: steps that are three times as high as both of their neighbours, and a
-/// fiftieth of the whole.
+/// The pieces of a curve between its jumps: steps that are three times as high as both of their
+/// neighbours, and a fiftieth of the whole.
 std::vector<std::vector<Point>> pieces(const std::vector<Point>& curve) {
   const auto [low, high] =
       std::minmax_element(curve.begin(), curve.end(), [](const Point& a, const Point& b) { return a.y < b.y; });

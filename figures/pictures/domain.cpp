@@ -1,7 +1,7 @@
-// The labelled domains of Figures 1 and 2, from a table `kind,name,label,x,y`: one row per corner, in the order of
-// painting. Kinds: page (the two corners of the window), fill, line, arrow, dimension (an arrow both ways), obstacle (a
-// hatched edge), label (markup of typesetter.hpp at its place). The first word of the name chooses
-// the colour.
+// The labelled domains of Figures 1 and 2, from a table `kind,name,label,x,y`: one row per corner,
+// in the order of painting. Kinds: page (the two corners of the window), fill, line, arrow,
+// dimension (an arrow both ways), obstacle (a hatched edge), label (markup of typesetter.hpp at its
+// place). The first word of the name chooses the colour.
 #include <fmt/format.h>
 
 #include <map>

@@ -1,4 +1,5 @@
-// A quantity over a plane of two parameters as filled contours, such as the error over (epsilon, h).
+// A quantity over a plane of two parameters as filled contours, such as the error over (epsilon,
+// h).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -9,13 +9,16 @@
 
 namespace antilock::figures {
 
-/// Figures 1 and 2: the labelled domain of a table `kind,name,label,x,y` (drawing.cpp). An empty title: none.
+/// Figures 1 and 2: the labelled domain of a table `kind,name,label,x,y` (drawing.cpp). An empty
+/// title: none.
 Page domain_picture(const std::filesystem::path& outline, const std::string& title);
 
-/// Figures 3 and 6: a mesh file (MSH) with body, layer and boundary groups told apart by colour, and a legend.
+/// Figures 3 and 6: a mesh file (MSH) with body, layer and boundary groups told apart by colour,
+/// and a legend.
 Page mesh_picture(const std::filesystem::path& mesh, const std::string& title);
 
-/// What the surface pictures have in common; equal settings give equal scales and cameras, so that pictures compare.
+/// What the surface pictures have in common; equal settings give equal scales and cameras, so that
+/// pictures compare.
 struct SurfaceStyle {
   Range range{-0.25, 0.25};
   double height_factor = 2;              ///< units of length drawn for one unit of u
@@ -29,8 +32,8 @@ struct Surface {
   std::string title;
 };
 
-/// Figures 4, 5, 7, 8: one solution, or several side by side (up to four two per row, more three per row), as surfaces
-/// of the same scale.
+/// Figures 4, 5, 7, 8: one solution, or several side by side (up to four two per row, more three
+/// per row), as surfaces of the same scale.
 Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style);
 
 /// Solutions seen from above, three per row, in a window of the plane, on one scale of colours.
@@ -40,7 +43,8 @@ struct PlanStyle {
 };
 Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style);
 
-/// Deformed bodies (VTU with cell data pressure) side by side on one scale, coloured by it; dashed: where they were.
+/// Deformed bodies (VTU with cell data pressure) side by side on one scale, coloured by it; dashed:
+/// where they were.
 struct DeformedStyle {
   Range range{0, 1};               ///< of the colours; values outside have two colours of their own
   std::string name = "pressure";   ///< of the colours
@@ -48,9 +52,10 @@ struct DeformedStyle {
 };
 Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& style);
 
-/// A chart on logarithmic scales from a table: one panel per value of the columns `panel_by`, in it one curve per value
-/// of `series_by`, each drawn as styles.cpp says. A column h has ticks at 1/2, 1/4, ... Runs whose y is not finite or
-/// not positive gave no answer: a bar at the top of the panel says where.
+/// A chart on logarithmic scales from a table: one panel per value of the columns `panel_by`, in it
+/// one curve per value of `series_by`, each drawn as styles.cpp says. A column h has ticks at 1/2,
+/// 1/4, ... Runs whose y is not finite or not positive gave no answer: a bar at the top of the
+/// panel says where.
 struct ChartStyle {
   std::string x, y, x_name, y_name;
   std::vector<std::string> panel_by, series_by;
@@ -71,9 +76,9 @@ struct CurvesStyle {
 };
 Page curves_picture(const std::filesystem::path& table, const CurvesStyle& style);
 
-/// Filled contours of log10 z over (x, y), both on logarithmic scales, half a decade per colour (a tenth where z spans
-/// less than two); panels and h as in a chart. Rows whose x, y or z is not positive and finite are left out and leave
-/// holes.
+/// Filled contours of log10 z over (x, y), both on logarithmic scales, half a decade per colour (a
+/// tenth where z spans less than two); panels and h as in a chart. Rows whose x, y or z is not
+/// positive and finite are left out and leave holes.
 struct MapStyle {
   std::string x, y, z, x_name, y_name, z_name;
   std::vector<std::string> panel_by, filters;
@@ -81,8 +86,9 @@ struct MapStyle {
 };
 Page map_picture(const std::filesystem::path& table, const MapStyle& style);
 
-/// A stacked bar for each row: the shares of the columns `parts`, with the total above. Bars are named by the columns
-/// `bar_by`; where the axis has a name, by the bare entry of the first of them.
+/// A stacked bar for each row: the shares of the columns `parts`, with the total above. Bars are
+/// named by the columns `bar_by`; where the axis has a name, by the bare entry of the first of
+/// them.
 struct BarStyle {
   std::vector<std::string> parts, bar_by, filters;
   std::string x_name, unit, title;

@@ -1,4 +1,5 @@
-// Solutions seen from above: for functions of many steps and peaks, which hide each other as surfaces.
+// Solutions seen from above: for functions of many steps and peaks, which hide each other as
+// surfaces.
 #include <fmt/format.h>
 #include <vtkCamera.h>
 

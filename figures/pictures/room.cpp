@@ -117,7 +117,7 @@ void label_room(Page& page, const View& view, const Room& room, const std::strin
   name_edge(page, left, front, full ? Point{-75, -110} : Point{-55, -75}, "$x$");
   name_edge(page, front, right, full ? Point{110, -90} : Point{75, -75}, "$y$");
   const Point top = view({low.x(), low.y(), high.z()});
-  name_edge(page, top, top, {-45, 64}, height);  // above its numbers
+  name_edge(page, top, top, {-45, 76}, height);  // above its numbers
 
   if (room.detail == RoomDetail::least) return;
   const double inset = high.x() - 0.1 * (high.x() - low.x());

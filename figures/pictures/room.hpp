@@ -27,8 +27,9 @@ Room make_room(const vtkBoundingBox& domain, const Range& range, double height, 
 /// Puts floor and walls into a scene, and Sigma on the floor; the eye looks from high x and low y.
 void add_walls(vtkRenderer& renderer, const Room& room);
 
-/// Numbers and names along the front edges of the floor and the front edge of the left wall (`height`: what it
-/// measures), and the names of the domain's parts: the layer's where there is one.
+/// Numbers and names along the front edges of the floor and the front edge of the left wall
+/// (`height`: what it measures), and the names of the domain's parts: the layer's where there is
+/// one.
 void label_room(Page& page, const View& view, const Room& room, const std::string& height);
 
 }  // namespace antilock::figures

@@ -14,7 +14,8 @@ bool selected(const Table& table, std::size_t row, const std::vector<std::string
 /// What the row's entries of these columns mean together.
 Meaning row_meaning(const Table& table, std::size_t row, const std::vector<std::string>& columns);
 
-/// The different meanings of the rows of a table, such as those that make panels, ordered by their ranks.
+/// The different meanings of the rows of a table, such as those that make panels, ordered by their
+/// ranks.
 class Meanings {
  public:
   /// Keeps a meaning unless there is one of that name.

@@ -22,8 +22,9 @@ namespace {
 using Vector = Eigen::Vector3d;
 constexpr double enlargement = Page::oversampling;  // VTK counts line widths in rendered pixels
 
-/// The corners of the steps, each a triangle of points and values: an edge that two triangles share with different
-/// values at its ends is a quadrilateral on end, or two triangles that meet where the values cross.
+/// The corners of the steps, each a triangle of points and values: an edge that two triangles share
+/// with different values at its ends is a quadrilateral on end, or two triangles that meet where
+/// the values cross.
 class Steps {
  public:
   explicit Steps(vtkPolyData& surface) : surface_(surface), values_(*surface.GetPointData()->GetScalars()) {}
@@ -93,7 +94,8 @@ vtkSmartPointer<vtkLookupTable> viridis_table(const Range& range) {
   return table;
 }
 
-/// Dark lines in front of the surface on which they lie; pale ones, so that a fine mesh is no black mass.
+/// Dark lines in front of the surface on which they lie; pale ones, so that a fine mesh is no black
+/// mass.
 void add_lines(vtkRenderer& renderer, vtkAlgorithmOutput* lines, double width, double opacity,
                const Vector& towards_eye) {
   vtkNew<vtkPolyDataMapper> mapper;
@@ -160,7 +162,7 @@ void add_surface(vtkRenderer& renderer, const vtkSmartPointer<vtkPolyData>& surf
   if (grid) return add_grid(renderer, surface, *grid, towards_eye);
   vtkNew<vtkExtractEdges> edges;
   edges->SetInputData(surface);
-  add_lines(renderer, edges->GetOutputPort(), 0.9, 0.3, towards_eye);
+  add_lines(renderer, edges->GetOutputPort(), 0.8, 0.24, towards_eye);
 }
 
 }  // namespace antilock::figures

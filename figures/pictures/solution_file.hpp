@@ -6,13 +6,13 @@
 
 namespace antilock::figures {
 
-/// Reads a VTU file of triangles with point data `u`: a surface in the plane z = 0 whose scalars are u.
-/// Throws Error, naming the file, for one that is missing, malformed, of other cells, or whose u is absent or not
-/// finite.
+/// Reads a VTU file of triangles with point data `u`: a surface in the plane z = 0 whose scalars
+/// are u. Throws Error, naming the file, for one that is missing, malformed, of other cells, or
+/// whose u is absent or not finite.
 vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path);
 
-/// The same for a deformed body: cell data `pressure` are the cells' scalars, point data `displacement` (three
-/// components) say how the points got where they are.
+/// The same for a deformed body: cell data `pressure` are the cells' scalars, point data
+/// `displacement` (three components) say how the points got where they are.
 vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path);
 
 }  // namespace antilock::figures

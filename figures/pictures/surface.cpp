@@ -29,7 +29,7 @@ struct Arrangement {
         bar_aside(count % columns == 0 && !(own_scale && count <= 2)),
         bar_in_cell(count % columns != 0) {
     cell_width = (Page::width - (bar_aside ? bar_room : 0)) / static_cast<double>(columns);
-    cell_height = columns == 1 ? 0.78 * cell_width : 0.92 * cell_width;
+    cell_height = columns == 1 ? 0.78 * cell_width : 0.88 * cell_width;
     head = titled ? 90 : 20;
   }
   double height() const { return static_cast<double>(rows) * (cell_height + head); }
@@ -70,7 +70,10 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
     const Room room = make_room(domain_of(*solutions[i]), range, drawn_height, detail);
     const double left = widest_number(page, room.u) + 65, below = 130;
     const Box inside{cell.x + left, cell.y + below, cell.width - left - 85, cell.height - below - 10};
-    const View view(room.space, make_room(all, range, drawn_height, detail).space, inside, azimuth, elevation);
+    Eigen::AlignedBox3d fitted = make_room(all, range, drawn_height, detail).space;
+    const Eigen::Vector3d edge = 0.01 * fitted.sizes();  // so that the lines on its border are inside
+    fitted = {fitted.min() - edge, fitted.max() + edge};
+    const View view(room.space, fitted, inside, azimuth, elevation);
 
     auto renderer = vtkSmartPointer<vtkRenderer>::New();
     renderer->SetActiveCamera(view.camera());

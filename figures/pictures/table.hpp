@@ -5,7 +5,8 @@
 
 namespace antilock::figures {
 
-/// A CSV file in memory: one header line, then rows of as many fields; a field may stand in double quotes.
+/// A CSV file in memory: one header line, then rows of as many fields; a field may stand in double
+/// quotes.
 class Table {
  public:
   /// Throws Error, naming file and line, for a file that is missing, empty, without rows or ragged.
@@ -14,7 +15,8 @@ class Table {
   std::size_t rows() const { return rows_.size(); }
   /// Throws Error where there is no such column.
   const std::string& text(std::size_t row, const std::string& column) const;
-  /// A number; `nan` and `inf` are accepted and mean a run without an answer. Throws Error for anything else.
+  /// A number; `nan` and `inf` are accepted and mean a run without an answer. Throws Error for
+  /// anything else.
   double number(std::size_t row, const std::string& column) const;
   /// The different entries of a column, in the order in which they come.
   std::vector<std::string> values(const std::string& column) const;

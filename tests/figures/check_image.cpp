@@ -1,5 +1,5 @@
-// check_image: is a PNG what a figure should be? 1800 pixels across at least, a white background, and something drawn
-// on it. Run: check_image IMAGE.png
+// check_image: is a PNG what a figure should be? 1800 pixels across at least, a white background,
+// and something drawn on it. Run: check_image IMAGE.png
 #include <fmt/format.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>

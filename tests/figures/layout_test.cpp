@@ -1,4 +1,5 @@
-// The layout check must see each fault that it is there for, and the table of looks must hold what it promises.
+// The layout check must see each fault that it is there for, and the table of looks must hold what
+// it promises.
 #include <gtest/gtest.h>
 
 #include <algorithm>
