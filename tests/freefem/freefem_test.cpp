@@ -543,9 +543,10 @@ TEST(FreeFemRunner, SaysInOneLineThatFreeFemIsMissingTooOldOrBroken) {
   std::ofstream(folder / "broken") << "#!/bin/sh\necho '-- FreeFem++ v4.11 (date)'\n";  // starts, and solves nothing
   std::filesystem::permissions(folder / "broken", std::filesystem::perms::owner_all);
   const Environment broken("FREEFEM", (folder / "broken").string());
-  EXPECT_EQ(message_of("--check", {}),
-            "freefem/run: " + (folder / "broken").string() +
-                " 4.11 starts, but does not solve a small system by UMFPACK; a complete FreeFEM 4.9 or later is needed");
+  EXPECT_EQ(
+      message_of("--check", {}),
+      "freefem/run: " + (folder / "broken").string() +
+          " 4.11 starts, but does not solve a small system by UMFPACK; a complete FreeFEM 4.9 or later is needed");
 }
 
 TEST(FreeFemRunner, RefusesBadInputInOneLine) {
