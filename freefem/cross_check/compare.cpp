@@ -194,7 +194,8 @@ Line plain_sum(const Method& method, double epsilon, int cells, const std::files
 std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
   std::vector<Line> lines;
   const auto add = [&](const std::string& tutorial, const std::string& what, const freefem::Numbers& n) {
-    lines.push_back({tutorial, what, n.road, n.unknowns, n.difference(), "-", n.seconds, n.freefem_seconds});
+    lines.push_back(
+        {tutorial, what, n.road.empty() ? "-" : n.road, n.unknowns, n.difference(), "-", n.seconds, n.freefem_seconds});
   };
   const std::filesystem::path folder = out / "freefem";
   const int half = std::max(4, cells / 2);

@@ -54,8 +54,8 @@ void Numbers::count(const std::string& name, double ours, double theirs) { all.p
 
 void Numbers::took(const std::string& roads) {
   std::istringstream words(roads);
-  for (std::string word; words >> word;) {
-    word.erase(word.find_last_not_of(';') + 1);
+  for (std::string word; std::getline(words, word, ';');) {
+    word.erase(0, word.find_first_not_of(' '));
     if (road.find(word) == std::string::npos) road += (road.empty() ? "" : ", ") + word;
   }
 }

@@ -323,33 +323,60 @@ INSTANTIATE_TEST_SUITE_P(FreeFem, Elasticity, ::testing::Values(1.0, 1e-4, 1e-8,
 TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> scripts{
       {"00_plain", {}},
-      {"00_string_on_an_obstacle", {"string.csv", "summary.csv"}},
-      {"01_domain", {"mesh.freefem.msh", "before.freefem.msh"}},
-      {"02_meshes", {"structured.csv", "unstructured.csv", "structured.freefem.msh", "unstructured.freefem.msh"}},
-      {"03_by_hand", {"solution.csv", "summary.csv"}},
-      {"03_reference_solution", {"solution.csv", "contact.csv", "summary.csv", "history.csv"}},
-      {"04_p1_structured", {"solution.csv", "contact.csv", "summary.csv"}},
-      {"05_p1_unstructured", {"solution.csv", "contact.csv", "summary.csv"}},
-      {"06_crouzeix_raviart", {"solution.csv", "contact.csv", "summary.csv"}},
-      {"07_convergence", {"results.csv"}},
-      {"09_effects", {"effects.csv"}},
-      {"11_kernel", {"kernel.csv"}},
+      {"00_string_on_an_obstacle", {"string.csv", "summary.csv", "string.eps"}},
+      {"01_domain", {"mesh.freefem.msh", "before.freefem.msh", "figure1.eps", "figure2.eps"}},
+      {"02_meshes",
+       {"structured.csv", "unstructured.csv", "structured.freefem.msh", "unstructured.freefem.msh", "figure3.eps"}},
+      {"03_by_hand", {"solution.csv", "summary.csv", "by_hand.eps"}},
+      {"03_reference_solution", {"solution.csv", "contact.csv", "summary.csv", "history.csv", "figure4.eps"}},
+      {"04_p1_structured", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
+      {"05_p1_unstructured", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
+      {"06_crouzeix_raviart", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
+      {"07_convergence", {"results.csv", "error_against_epsilon.eps"}},
+      {"09_effects", {"effects.csv", "scene1.eps", "scene8.eps"}},
+      {"11_kernel", {"kernel.csv", "ties_structured.eps", "ties_unstructured.eps"}},
       {"12_limits", {"limits.csv"}},
       {"14_uniform", {"uniform.csv"}},
-      {"15_estimates", {"estimates.csv"}},
+      {"15_estimates", {"estimates.csv", "lost.eps"}},
       {"16_energy_bracket", {"results.csv"}},
       {"17_contact_sets", {"results.csv"}},
       {"18_degree", {"results.csv"}},
-      {"19_beam", {"beam.csv", "summary.csv"}},
-      {"20_elasticity", {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv"}},
-      {"21_your_own_problem", {"results.csv"}},
+      {"19_beam", {"beam.csv", "summary.csv", "beam.eps"}},
+      {"20_elasticity",
+       {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv", "P1_deformed.eps"}},
+      {"21_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
     const TemporaryFolder folder;
-    const std::vector<std::string> options{"-cells", "8", "-out", folder.path()};
-    ASSERT_NO_THROW(freefem::run(script, script == "00_plain" ? std::vector<std::string>{} : options)) << script;
+    std::vector<std::string> options{"-cells", "8", "-out", folder.path()};
+    if (script == "00_plain") options.clear();
+    if (std::any_of(files.begin(), files.end(), [](const std::string& f) { return f.find(".eps") != f.npos; }))
+      options.insert(options.end(), {"-plot", "eps"});
+    ASSERT_NO_THROW(freefem::run(script, options)) << script;
     for (const std::string& file : files) EXPECT_TRUE(std::filesystem::exists(folder / file)) << script << " " << file;
   }
+}
+
+// A script reads from top to bottom: one include, of at most 150 lines, and no macro around the program.
+TEST(FreeFemScripts, AreReadWithNoOtherFileThanTheOneInclude) {
+  int scripts = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(ANTILOCK_FREEFEM_FOLDER)) {
+    const std::filesystem::path path = entry.path();
+    if (path.extension() != ".edp" && path.extension() != ".idp") continue;
+    scripts += path.extension() == ".edp";
+    std::ifstream in(path);
+    int lines = 0;
+    for (std::string line; std::getline(in, line); ++lines) {
+      EXPECT_LE(line.size(), 120u) << path << ", line " << lines + 1;
+      EXPECT_EQ(line.find("NewMacro"), std::string::npos) << path;
+      EXPECT_EQ(line.find("load \""), std::string::npos) << path << ": a plugin";
+      if (line.rfind("include", 0) == 0) {
+        EXPECT_EQ(line, "include \"common.idp\"") << path;
+      }
+    }
+    EXPECT_LE(lines, path.filename() == "common.idp" ? 150 : path.filename() == "00_plain.edp" ? 55 : 300) << path;
+  }
+  EXPECT_GE(scripts, 25);
 }
 
 // Body alone, obstacle, Ventcel, layer, layer and obstacle, thin layer and obstacle: the same discrete problems, made
@@ -543,9 +570,10 @@ TEST(FreeFemRunner, SaysInOneLineThatFreeFemIsMissingTooOldOrBroken) {
   std::ofstream(folder / "broken") << "#!/bin/sh\necho '-- FreeFem++ v4.11 (date)'\n";  // starts, and solves nothing
   std::filesystem::permissions(folder / "broken", std::filesystem::perms::owner_all);
   const Environment broken("FREEFEM", (folder / "broken").string());
-  EXPECT_EQ(message_of("--check", {}),
-            "freefem/run: " + (folder / "broken").string() +
-                " 4.11 starts, but does not solve a small system by UMFPACK; a complete FreeFEM 4.9 or later is needed");
+  EXPECT_EQ(
+      message_of("--check", {}),
+      "freefem/run: " + (folder / "broken").string() +
+          " 4.11 starts, but does not solve a small system by UMFPACK; a complete FreeFEM 4.9 or later is needed");
 }
 
 TEST(FreeFemRunner, RefusesBadInputInOneLine) {
@@ -561,6 +589,11 @@ TEST(FreeFemRunner, RefusesBadInputInOneLine) {
   EXPECT_EQ(message_of("04_p1_structured", {"-epsilon"}), "04_p1_structured: option -epsilon needs a value");
   EXPECT_EQ(message_of("06_crouzeix_raviart", {"-stiff", "soft"}),
             "06_crouzeix_raviart: option -stiff soft; accepted: mixed penalty sum");
+  {
+    const Environment nowhere("DISPLAY", "");
+    EXPECT_EQ(message_of("04_p1_structured", {"-plot", "window"}),
+              "freefem/run: -plot window: there is no display (DISPLAY is empty); accepted without one: -plot eps");
+  }
   EXPECT_NE(message_of("99_nothing", {}).find("no script 99_nothing"), std::string::npos);
 }
 
