@@ -28,7 +28,7 @@ double column_width(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& space) : rows_(piece, space) {
+Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& space, bool summed) : rows_(piece, space) {
   together([&] {
     part_ = assemble(scene, space);
     lower_ = Eigen::VectorXd::Constant(rows_.owned(), -std::numeric_limits<double>::infinity());
@@ -43,6 +43,7 @@ Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& spac
   stiff_ = sum(static_cast<long long>(part_.m.size())) > 0;
   const double h = column_width(piece.mesh);
   delta_ = stiff_ ? std::max({part_.compliance, h * h / 256, least_delta}) : 1;
+  if (summed && stiff_) delta_ = part_.compliance;
   // B' M B is the layer's y-derivatives: the same form with weight delta^-1 on the layer is A1 + delta^-1 B' M B
   if (stiff_)
     sum_k(gradient_form(space, {1, 1}, {1, 1 / delta_}));

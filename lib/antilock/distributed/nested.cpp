@@ -81,7 +81,9 @@ std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coar
   Piece piece;
   together([&] {
     check_question(scene, element);
-    piece = piece_of(coarse, strips(coarse, ranks(), options.loop.direct), rank(), ranks());
+    piece =
+        piece_of(coarse, options.share ? options.share(coarse, ranks()) : strips(coarse, ranks(), options.loop.direct),
+                 rank(), ranks());
   });
   std::unique_ptr<Level> level;
   for (int l = 0; l <= options.refinements; ++l) {

@@ -22,7 +22,9 @@ struct Level {
 };
 
 struct NestedOptions {
-  int refinements = 0;              ///< of the coarse mesh
+  int refinements = 0;  ///< of the coarse mesh
+  /// The rank of every triangle of the coarse mesh; empty: strips.hpp. For exhibits of what another share costs.
+  std::function<std::vector<int>(const TriangleMesh&, int ranks)> share;
   LoopOptions loop;                 ///< of the last level
   int first_level = 0;              ///< where to begin to solve: a checkpoint holds the set of the level before
   std::optional<ContactSet> start;  ///< of the first level; empty: no contact
