@@ -100,7 +100,8 @@ TEST(Marking, TakesTheLargestUpToHalfTheSumAndNeverTooFew) {
   EXPECT_TRUE(marked(indicator)[17]);
   EXPECT_EQ(count(marked(indicator)), 5) << "5 % at least";
   indicator(17) = 1;
-  EXPECT_EQ(count(marked(indicator)), 50);
+  EXPECT_EQ(count(marked(indicator)), 100) << "an even error: all";
+  EXPECT_EQ(count(marked(indicator, {.spread = 1})), 50);
   EXPECT_EQ(count(marked(indicator, {.most = 7})), 7);
 }
 
@@ -162,7 +163,7 @@ TEST(SolveTo, CostsNoMoreThanUniformMeshesForASmoothLoad) {
   const double relative = certify(scene, space, problem, active_set(problem)).relative(Quantity::displacement);
   const CertifiedSolution found = solve_to(scene, first_mesh(epsilon), {3e-2});
   const Level& last = found.history.back();
-  EXPECT_LE(last.unknowns * last.relative * last.relative, 1.05 * space.free_count() * relative * relative);
+  EXPECT_LE(last.unknowns * last.relative * last.relative, 1.1 * space.free_count() * relative * relative);
 }
 
 TEST(SolveTo, WorksOnBodiesOtherThanTheSquareAndWithoutALayer) {

@@ -71,6 +71,14 @@ TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangl
       add(t, v(0), v(1), v(2));
       continue;
     }
+    const int m1 = middle[mesh.triangle_edges(t, 1)], m2 = middle[mesh.triangle_edges(t, 2)];
+    if (m1 >= 0 && m2 >= 0) {  // four triangles like the whole, their edges 0 parallel to its own
+      add(t, v(0), m2, m1);
+      add(t, m2, v(1), m);
+      add(t, m1, m, v(2));
+      add(t, m, m1, m2);
+      continue;
+    }
     // the halves (m, v0, v1) and (m, v2, v0), whose edges 0 are the edges 2 and 1 of the whole
     for (const auto& [from, to, edge] : {std::array{v(0), v(1), 2}, std::array{v(2), v(0), 1}}) {
       const int n = middle[mesh.triangle_edges(t, edge)];

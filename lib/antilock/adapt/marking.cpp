@@ -19,13 +19,16 @@ std::vector<bool> marked(const Eigen::VectorXd& indicator, const Marking& markin
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return indicator(a) > indicator(b); });
   const double enough = marking.share * indicator.sum();
   const auto least = static_cast<std::size_t>(std::ceil(marking.fewest * static_cast<double>(order.size())));
-  const std::size_t most = marking.most > 0 ? static_cast<std::size_t>(marking.most) : order.size();
+  const std::size_t most = marking.most > 0 ? static_cast<std::size_t>(marking.most) : order.size() + 1;
   std::vector<bool> marks(indicator.size(), false);
   double sum = 0;
-  for (std::size_t k = 0; k < std::min(most, order.size()) && (sum < enough || k < least); ++k) {
+  std::size_t k = 0;
+  for (; k < std::min(most, order.size()) && (sum < enough || k < least); ++k) {
     marks[order[k]] = true;
     sum += indicator(order[k]);
   }
+  if (most > order.size() && static_cast<double>(k) > marking.spread * static_cast<double>(order.size()))
+    marks.assign(order.size(), true);
   return marks;
 }
 

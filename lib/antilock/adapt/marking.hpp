@@ -11,14 +11,17 @@ namespace antilock {
 /// feature of a thin layer crosses all of it, so that columns are the cheaper mesh for epsilon <= 0.1.
 enum class Growth { bisect, extrude };
 
-/// How much to mark: `share` and `fewest` of marked(), and no more than `most` (0: no limit) of the largest.
+/// How much to mark: the largest indicators that make up `share` of the sum, at least the part `fewest` of their number
+/// (without that, an obstacle of one needle takes twenty levels), and no more than `most` (0: no limit).
 struct Marking {
   double share = 0.5, fewest = 0.05;
   int most = 0;
+  double spread =
+      0.2;  ///< where more than this part of them is needed, the error is spread evenly: all are marked, and
+            ///< the triangles keep their shapes (only where `most` leaves room for all)
 };
 
-/// The largest indicators that make up `share` of their sum (Doerfler 1996), and at least the part `fewest` of their
-/// number: without that, an obstacle of one needle takes twenty levels.
+/// Doerfler's marking (1996): true for those to refine.
 std::vector<bool> marked(const Eigen::VectorXd& indicator, const Marking& marking = {});
 
 /// A mesh and, for Growth::extrude, the body that its layer stands under.

@@ -113,7 +113,8 @@ Marking marking(const std::vector<Level>& history, int marks) {
   const Level& last = history.back();
   if (last.quoted_unknowns == 0 || marks == 0) return marking;
   const double per_mark = double(last.unknowns - history[history.size() - 2].unknowns) / marks;
-  const double missing = 1.1 * last.quoted_unknowns - last.unknowns;  // a tenth more than too little
+  const double missing = 1.1 * last.quoted_unknowns - last.unknowns;    // a tenth more than too little
+  if (4 * last.unknowns <= 1.1 * last.quoted_unknowns) return marking;  // room for all
   marking.most = std::max(1, static_cast<int>(std::min(missing / per_mark, 1e9)));
   return marking;
 }
