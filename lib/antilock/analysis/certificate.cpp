@@ -161,6 +161,7 @@ void check_admissible(const Scene& scene, const Space& space, const VariationalI
 }  // namespace
 
 double Certificate::relative(Quantity of) const {
+  if (bound(of) == 0) return 0;
   const double norm_of_u = std::max(norm - displacement, midpoint_norm - stress);
   return norm_of_u > 0 ? bound(of) / norm_of_u : std::numeric_limits<double>::infinity();
 }

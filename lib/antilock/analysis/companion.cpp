@@ -139,9 +139,9 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
 }
 
 Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                          const Solution& solution, const Field& prescribed) {
+                          const Solution& solution, const Field& prescribed, bool on_mesh) {
   const TriangleMesh& mesh = space.mesh();
-  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
+  const auto* stiff = on_mesh ? nullptr : std::get_if<StiffLayer>(&scene.layer());
   const std::vector<char> held = held_vertices(space, problem);
   Companion companion;
   companion.at_vertices = averages(space, solution, held, prescribed);
@@ -195,7 +195,10 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
   companion.unknowns = strip.free_count();
 
   for (int v = 0; v < cut.vertex_count(); ++v) companion.at_vertices(piece.old_vertex[v]) = answer.u(v);
-  if (stiff == nullptr) return companion;
+  if (stiff == nullptr) {
+    companion.stress = std::move(answer.p);
+    return companion;
+  }
   if (same_layer(mesh, columns)) {
     companion.stress = answer.p;
     const int shift = mesh.triangle_count() - columns.triangle_count();

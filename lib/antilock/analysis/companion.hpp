@@ -27,8 +27,9 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
 /// the mesh's own where it is extruded already: P1 cannot lock on them. A handful of unknowns per column, whatever the
 /// body has. `prescribed`: the function whose values at the vertices are the boundary values (empty: 0). Throws what
 /// active_set throws.
+/// `on_mesh`: no columns of its own, P1 on the layer's triangles as they are, which lock unless epsilon is large.
 Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                          const Solution& solution, const Field& prescribed = {});
+                          const Solution& solution, const Field& prescribed = {}, bool on_mesh = false);
 
 /// A P1 solution on the mesh itself as the companion.
 Companion p1_companion(const Solution& p1_solution);

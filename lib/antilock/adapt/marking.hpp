@@ -1,0 +1,41 @@
+#pragma once
+#include <Eigen/Dense>
+#include <vector>
+
+#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/scene/scene.hpp"
+
+namespace antilock {
+
+/// How a mesh grows: everything is bisected, or the body alone, with the layer's columns extruded anew below it. A
+/// feature of a thin layer crosses all of it, so that columns are the cheaper mesh for epsilon <= 0.1.
+enum class Growth { bisect, extrude };
+
+/// How much to mark: the largest indicators that make up `share` of the sum, at least the part `fewest` of their number
+/// (without that, an obstacle of one needle takes twenty levels), and no more than `most` (0: no limit).
+struct Marking {
+  double share = 0.5, fewest = 0.05;
+  int most = 0;
+  double spread =
+      0.2;  ///< where more than this part of them is needed, the error is spread evenly: all are marked, and
+            ///< the triangles keep their shapes (only where `most` leaves room for all)
+};
+
+/// Doerfler's marking (1996): true for those to refine.
+std::vector<bool> marked(const Eigen::VectorXd& indicator, const Marking& marking = {});
+
+/// A mesh and, for Growth::extrude, the body that its layer stands under.
+struct GrowingMesh {
+  TriangleMesh mesh, body;
+  int marks = 0;  ///< triangles and columns marked on the way to it
+};
+/// The next mesh: refined where the indicators (T) of the last one say so. A column's indicators count together, for
+/// its edge of Sigma.
+GrowingMesh grown(const GrowingMesh& last, Growth growth, double epsilon, const Eigen::VectorXd& indicator,
+                  const Marking& marking = {});
+
+/// Refines the body's triangles where the load varies between the points of the quadrature rule: 64 x 64 samples per
+/// triangle are held against it. Returns what could not be resolved, as a warning, or nothing.
+std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangles);
+
+}  // namespace antilock

@@ -1,0 +1,204 @@
+#include "antilock/adapt/solve_to.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "antilock/adapt/bisection.hpp"
+#include "antilock/adapt/marking.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/mesh/layered.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+
+namespace antilock {
+namespace {
+
+constexpr double thin = 0.1;  // up to this epsilon columns are the cheaper layer
+
+Scene with_layer_to_solve(const Scene& scene) {
+  if (!std::holds_alternative<VentcelLayer>(scene.layer())) return scene;
+  return Scene(scene.body(), StiffLayer{0}, scene.contact());
+}
+
+Growth growth_of(const Scene& scene) {
+  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
+  return stiff != nullptr && stiff->epsilon <= thin ? Growth::extrude : Growth::bisect;
+}
+
+void check_request(const Accuracy& accuracy) {
+  if (!(accuracy.relative > 0 && accuracy.relative < 1))
+    throw Error(fmt::format("accuracy: {} is out of range; accepted: above 0, below 1", accuracy.relative));
+  if (!(accuracy.most_unknowns >= 1))
+    throw Error(
+        fmt::format("accuracy: most_unknowns = {} is out of range; accepted: 1 or more", accuracy.most_unknowns));
+}
+
+/// The body of a mesh as a mesh of its own: Sigma becomes contact.
+TriangleMesh body_of(const TriangleMesh& mesh) {
+  if (std::find(mesh.region.begin(), mesh.region.end(), Region::layer) == mesh.region.end()) return mesh;
+  std::vector<int> number(mesh.vertex_count(), -1);
+  Points points(mesh.vertex_count(), 2);
+  Triples triangles(mesh.triangle_count(), 3);
+  int vertices = 0, count = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != Region::body) continue;
+    for (int i = 0; i < 3; ++i) {
+      int& v = number[mesh.triangles(t, i)];
+      if (v < 0) points.row(v = vertices++) = mesh.vertices.row(mesh.triangles(t, i));
+      triangles(count, i) = v;
+    }
+    ++count;
+  }
+  points.conservativeResize(vertices, 2);
+  triangles.conservativeResize(count, 3);
+  std::vector<TaggedEdge> tagged;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const EdgeTag tag = mesh.edge_tag[e];
+    const bool of_body = mesh.region[mesh.edge_triangles(e, 0)] == Region::body || tag == EdgeTag::sigma;
+    if (!of_body || tag == EdgeTag::interior) continue;
+    tagged.push_back(
+        {number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag == EdgeTag::sigma ? EdgeTag::contact : tag});
+  }
+  return make_triangle_mesh(std::move(points), std::move(triangles), std::vector<Region>(count, Region::body), tagged,
+                            "body");
+}
+
+/// A contact set from one mesh to the next, by x: in contact where the nearest unknowns on both sides are.
+class ContactSet {
+ public:
+  void keep(const Space& space, const Solution& solution) {
+    x_.clear();
+    for (const int i : space.contact()) x_.push_back(space.points()(i, 0));
+    active_ = solution.active;
+  }
+  std::optional<std::vector<bool>> on(const Space& space) const {
+    if (x_.empty() || active_.size() != x_.size()) return std::nullopt;
+    std::vector<bool> start;
+    for (const int i : space.contact()) {
+      const auto right = std::lower_bound(x_.begin(), x_.end(), space.points()(i, 0)) - x_.begin();
+      const auto last = static_cast<std::ptrdiff_t>(x_.size()) - 1;
+      start.push_back(active_[std::min(right, last)] && active_[std::max<std::ptrdiff_t>(right - 1, 0)]);
+    }
+    return start;
+  }
+
+ private:
+  std::vector<double> x_;
+  std::vector<bool> active_;
+};
+
+/// What the levels so far say of the one that will be the last: N grows like relative^(-1/rate), rate 1/2 for a mesh
+/// that is adapted, more while it is still on its way there.
+void quote(std::vector<Level>& history, double asked) {
+  if (history.size() < 3) return;
+  Level& last = history.back();
+  const Level& before = history[history.size() - 2];
+  if (last.relative <= asked) return;
+  const double growth = std::log(double(last.unknowns) / before.unknowns);
+  const double rate = std::clamp(std::log(before.relative / last.relative) / growth, 0.5, 1.5);
+  const double factor = std::pow(last.relative / asked, 1 / rate);
+  last.quoted_unknowns = last.unknowns * (std::isfinite(factor) ? factor : 1e300);
+  const double own =
+      last.seconds - before.seconds;  // a level costs like its unknowns to the power 1.2, all before less
+  last.quoted_seconds = last.seconds + own * std::pow(factor, 1.2) * 2;
+}
+
+/// Doerfler's marking; towards the last level only what the quote asks for, at what a mark has brought so far.
+Marking marking(const std::vector<Level>& history, int marks) {
+  Marking marking;
+  const Level& last = history.back();
+  if (last.quoted_unknowns == 0 || marks == 0) return marking;
+  const double per_mark = double(last.unknowns - history[history.size() - 2].unknowns) / marks;
+  const double missing = 1.1 * last.quoted_unknowns - last.unknowns;    // a tenth more than too little
+  if (4 * last.unknowns <= 1.1 * last.quoted_unknowns) return marking;  // room for all
+  marking.most = std::max(1, static_cast<int>(std::min(missing / per_mark, 1e9)));
+  return marking;
+}
+
+[[noreturn]] void refuse(const Accuracy& accuracy, const std::vector<Level>& history, const std::string& why) {
+  const Level& last = history.back();
+  const double reachable = last.relative * std::sqrt(last.unknowns / accuracy.most_unknowns);
+  throw NotConverged(
+      fmt::format(
+          "accuracy: {:.3g} is not reached within {:.0f} unknowns: {}; proved so far: {:.3g} with {} unknowns in "
+          "{} levels; within the limit about {:.2g} can be reached",
+          accuracy.relative, accuracy.most_unknowns, why, last.relative, last.unknowns, history.size(), reachable),
+      last.relative, static_cast<int>(history.size()));
+}
+
+}  // namespace
+
+CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const Accuracy& accuracy,
+                           const std::function<void(const Level&)>& progress) {
+  check_request(accuracy);
+  Stopwatch watch;
+  double seconds = 0;
+  const Scene scene = with_layer_to_solve(asked);
+  const Growth growth = accuracy.growth.value_or(growth_of(scene));
+  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
+  if (growth == Growth::extrude && stiff == nullptr)
+    throw Error("accuracy: there is no scaled layer to extrude; accepted: growth by bisection");
+  const bool layer_may_lock = stiff != nullptr && stiff->epsilon <= thin;
+  const double epsilon = scene.epsilon().value_or(1);
+  CertifiedSolution result;
+  TriangleMesh body = longest_edge_first(growth == Growth::extrude ? body_of(first) : first);
+  const int most_triangles = static_cast<int>(std::min(accuracy.most_unknowns / 3, 1e9));  // about 3/2 edges each
+  result.warning = resolve_load(body, scene.body().load, most_triangles);
+  GrowingMesh now;
+  now.mesh = growth == Growth::extrude ? extruded(body, epsilon) : body;
+  now.body = std::move(body);
+
+  ContactSet contact_set;
+  std::optional<CorrectionOptions> corrections;
+  while (true) {
+    const Space space(now.mesh, crouzeix_raviart());
+    if (space.free_count() > accuracy.most_unknowns) {
+      if (result.history.empty())
+        throw Error(
+            fmt::format("accuracy: most_unknowns = {:.0f} cannot hold the first mesh, which has {} unknowns; "
+                        "accepted: at least as many, or a coarser first mesh",
+                        accuracy.most_unknowns, space.free_count()));
+      refuse(accuracy, result.history, fmt::format("the next mesh has {}", space.free_count()));
+    }
+    const VariationalInequality problem = assemble(scene, space);
+    PenaltyFactor factor(problem);
+    ActiveSetOptions options;
+    if (scene.contact()) options.start = contact_set.on(space);
+    Companion v;
+    for (double tolerance = 1e-2 * accuracy.relative;; tolerance *= 1e-2) {
+      options.corrections = corrections_to(std::max(tolerance, CorrectionOptions{}.tolerance));
+      result.cr = active_set(problem, factor, options);
+      options.start = result.cr.active;
+      v = strip_companion(scene, space, problem, result.cr, {}, !layer_may_lock);
+      result.certificate = certify(scene, space, problem, result.cr, {.factor = &factor, .companion = &v});
+      const bool enough = result.certificate.imbalance <= 0.1 * result.certificate.mismatch;
+      if (enough || tolerance <= CorrectionOptions{}.tolerance) break;
+    }
+    contact_set.keep(space, result.cr);
+    seconds += watch.lap();
+    const double relative = result.certificate.relative(accuracy.of);
+    result.history.push_back({space.free_count(), result.certificate.bound(accuracy.of), relative, seconds});
+    quote(result.history, accuracy.relative);
+    if (progress) progress(result.history.back());
+    if (relative <= accuracy.relative) {
+      result.companion.solver = "strip";
+      result.companion.u = std::move(v.at_vertices);
+      result.companion.p = std::move(v.stress);
+      if (v.layer)
+        for (int i = 0; i < now.mesh.vertex_count(); ++i)
+          if (now.mesh.vertices(i, 1) < 0) result.companion.u(i) = v.layer->value(now.mesh.vertices.row(i).transpose());
+      result.cr.warning.clear();  // the certificate counts what the corrections left
+      result.mesh = std::move(now.mesh);
+      return result;
+    }
+    if (const double needed = result.history.back().quoted_unknowns; needed > accuracy.most_unknowns)
+      refuse(accuracy, result.history, fmt::format("about {:.2g} are needed", needed));
+    now = grown(now, growth, epsilon, result.certificate.indicator, marking(result.history, now.marks));
+  }
+}
+
+}  // namespace antilock

@@ -1,0 +1,52 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "antilock/adapt/marking.hpp"
+#include "antilock/analysis/certificate.hpp"
+#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/scene/scene.hpp"
+#include "antilock/solve/solution.hpp"
+
+namespace antilock {
+
+/// What is asked: the proved relative error in the energy norm is at most `relative`.
+struct Accuracy {
+  double relative;  ///< in (0, 1)
+  Quantity of =
+      Quantity::displacement;  ///< or the stress field in the middle of the two fluxes: a quarter of the unknowns
+  double most_unknowns = 2e6;  ///< of Crouzeix-Raviart, on the last mesh
+  std::optional<Growth> growth = {};  ///< empty: columns for epsilon <= 0.1, else everything is bisected
+};
+
+/// One mesh on the way.
+struct Level {
+  int unknowns = 0;
+  double bound = 0, relative = 0;                  ///< certified
+  double seconds = 0;                              ///< wall clock since the start, everything in
+  double quoted_unknowns = 0, quoted_seconds = 0;  ///< for the accuracy asked, from the third level on; else 0
+};
+
+/// The answer and its proof.
+struct CertifiedSolution {
+  TriangleMesh mesh;
+  Solution cr;         ///< Crouzeix-Raviart on it
+  Solution companion;  ///< the displacement that is certified: u at the vertices, p per layer triangle; where the layer
+                       ///< is bisected at small epsilon it lives on columns there, u interpolates it and p is empty
+  Certificate certificate;
+  std::vector<Level> history;
+  std::string warning;  ///< empty, or what the certificate cannot see of the load
+};
+
+/// Refines until the certificate says that the accuracy asked is reached, the algebraic error stopped at a tenth of the
+/// bound. For epsilon <= 0.1 the body is bisected and the layer's columns are extruded below it; else everything is
+/// bisected. `first` is the first mesh, of any body; where the layer is extruded, one of the body alone will do, and
+/// the Ventcel layer is the scaled one with epsilon = 0. `progress` is called after every level. Throws Error for an
+/// accuracy outside (0, 1), a limit that cannot hold the first mesh, a scene and a mesh that do not fit; NotConverged
+/// where the accuracy is not to be reached within the limit, with what is.
+CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const Accuracy& accuracy,
+                           const std::function<void(const Level&)>& progress = {});
+
+}  // namespace antilock

@@ -1,0 +1,282 @@
+// Refinement where the certificate says so, and the accuracy that is asked for.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "antilock/adapt/bisection.hpp"
+#include "antilock/adapt/solve_to.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/exact/truth.hpp"
+#include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/msh_file.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "support/bodies.hpp"
+#include "support/exact_errors.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::expect_refused;
+
+double area(const TriangleMesh& mesh, Region region) {
+  double sum = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == region) sum += mesh.area(t);
+  return sum;
+}
+double length(const TriangleMesh& mesh, EdgeTag tag) {
+  double sum = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == tag) sum += mesh.edge_length(e);
+  return sum;
+}
+/// The smallest of twice the area over the square of the longest edge: zero for a flat triangle.
+double flattest(const TriangleMesh& mesh) {
+  double least = 1;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    double longest = 0;
+    for (int i = 0; i < 3; ++i) longest = std::max(longest, mesh.edge_length(mesh.triangle_edges(t, i)));
+    least = std::min(least, mesh.twice_area(t) / (longest * longest));
+  }
+  return least;
+}
+
+std::vector<test::NamedMesh> first_meshes() {
+  return {{"structured", structured_mesh(4)},
+          {"gmsh", unstructured_mesh(4)},
+          {"file", read_msh(ANTILOCK_TEST_DATA "/two_squares_22.msh")},
+          {"L", test::l_shape(4)},
+          {"layer under an L", extruded(test::l_shape(4), 0.3)}};
+}
+
+TEST(Bisection, KeepsAreasTagsVerticesAndShapes) {
+  for (const auto& [name, start] : first_meshes()) {
+    TriangleMesh mesh = longest_edge_first(start);
+    std::mt19937 random(5);
+    for (int level = 0; level < 8; ++level) {
+      std::vector<bool> marks(mesh.triangle_count());
+      for (int t = 0; t < mesh.triangle_count(); ++t) marks[t] = random() % 8 == 0;
+      const TriangleMesh finer = bisected(mesh, marks);  // make_triangle_mesh checks that it conforms
+      EXPECT_EQ(finer.vertices.topRows(mesh.vertex_count()), mesh.vertices) << name;
+      mesh = finer;
+      for (const Region region : {Region::body, Region::layer})
+        EXPECT_NEAR(area(mesh, region), area(start, region), 1e-12) << name;
+      for (const EdgeTag tag : {EdgeTag::sigma, EdgeTag::clamped, EdgeTag::contact})
+        EXPECT_NEAR(length(mesh, tag), length(start, tag), 1e-12) << name;
+    }
+    EXPECT_GT(mesh.triangle_count(), 20 * start.triangle_count()) << name;
+    // four shapes per first triangle (Mitchell 1991); the flattest is at worst a quarter of its father in this measure
+    EXPECT_GE(flattest(mesh), flattest(start) / 4) << name;
+  }
+}
+
+TEST(Bisection, StaysWhereTheMarksAre) {
+  TriangleMesh mesh = longest_edge_first(unstructured_mesh(8));
+  const int before = mesh.triangle_count();
+  for (int level = 0; level < 10; ++level) {
+    std::vector<bool> marks(mesh.triangle_count(), false);
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      for (int i = 0; i < 3; ++i)
+        if (mesh.vertices(mesh.triangles(t, i), 0) == 0 && mesh.vertices(mesh.triangles(t, i), 1) == 1) marks[t] = true;
+    mesh = bisected(mesh, marks);
+  }
+  EXPECT_LT(mesh.triangle_count(), before + 10 * 40);  // a corner: so many per level, not a factor
+  std::vector<bool> edges(mesh.edge_count(), false);
+  edges[3] = true;
+  EXPECT_GT(bisected(mesh, std::vector<bool>(mesh.triangle_count(), false), edges).triangle_count(),
+            mesh.triangle_count());
+  expect_refused([&] { bisected(mesh, {true}); }, "one mark per triangle");
+}
+
+TEST(Marking, TakesTheLargestUpToHalfTheSumAndNeverTooFew) {
+  Eigen::VectorXd indicator = Eigen::VectorXd::Constant(100, 1.0);
+  indicator(17) = 1000;
+  const auto count = [](const std::vector<bool>& m) { return std::count(m.begin(), m.end(), true); };
+  EXPECT_EQ(count(marked(indicator, {.fewest = 0})), 1);
+  EXPECT_TRUE(marked(indicator)[17]);
+  EXPECT_EQ(count(marked(indicator)), 5) << "5 % at least";
+  indicator(17) = 1;
+  EXPECT_EQ(count(marked(indicator)), 100) << "an even error: all";
+  EXPECT_EQ(count(marked(indicator, {.spread = 1})), 50);
+  EXPECT_EQ(count(marked(indicator, {.most = 7})), 7);
+}
+
+const Field bump = [](double x, double y) {
+  return 400 * std::exp(-(std::pow(x - 0.3, 2) + std::pow(y - 0.6, 2)) / (2 * 0.02 * 0.02));
+};
+Scene scene_of(const Field& load, double epsilon, UnilateralContact contact = {}) {
+  return Scene({load}, StiffLayer{epsilon}, std::move(contact));
+}
+TriangleMesh first_mesh(double epsilon) { return unstructured_mesh(8, {epsilon > 0.1 ? 1.0 : 0.0}); }
+
+TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
+  for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0}) {
+    const TruthTable truth{Truth(paper_sine_load(), epsilon)};
+    for (const Quantity of : {Quantity::displacement, Quantity::stress})
+      for (const double asked : {1e-1, 3e-2}) {
+        const Scene scene = scene_of(paper_load, epsilon);
+        const CertifiedSolution found = solve_to(scene, first_mesh(epsilon), {asked, of});
+        const std::string at = fmt::format("epsilon = {:g}, asked {:g}", epsilon, asked);
+        EXPECT_LE(found.certificate.relative(of), asked) << at;
+        EXPECT_GE(found.certificate.relative(of), asked / 2) << at;
+        const Space space(found.mesh, crouzeix_raviart());
+        const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
+        const auto exact =
+            test::exact_errors(found.mesh, equilibrated_flux(scene, space, assemble(scene, space), found.cr), v, truth);
+        EXPECT_LE(exact.displacement, found.certificate.displacement) << at;
+        EXPECT_LE(exact.gradient, found.certificate.gradient) << at;
+        EXPECT_LE(exact.stress, found.certificate.stress) << at;
+        EXPECT_LE(found.certificate.displacement, 1.4 * exact.displacement) << at;
+        const Level& last = found.history.back();
+        EXPECT_EQ(last.unknowns, space.free_count());
+        if (found.history.size() > 3) {
+          const double quoted = found.history[found.history.size() - 2].quoted_unknowns;
+          EXPECT_NEAR(quoted, last.unknowns, 0.3 * last.unknowns) << at;
+        }
+      }
+  }
+}
+
+TEST(SolveTo, IsCheapWhereTheSolutionIsLocal) {
+  const double epsilon = 1e-6;
+  const auto unknowns = [&](const Scene& scene, double asked, std::optional<Growth> growth, bool layer) {
+    const CertifiedSolution found =
+        solve_to(scene, unstructured_mesh(8, {layer ? 1.0 : 0.0}), {asked, Quantity::displacement, 2e6, growth});
+    return found.history.back().unknowns;
+  };
+  EXPECT_LE(unknowns(scene_of(bump, epsilon), 3e-2, std::nullopt, false), 60000);
+  EXPECT_LE(unknowns(scene_of(bump, epsilon), 3e-2, Growth::bisect, true), 90000);
+  const Profile needle = [](double x) { return 0.1 - 0.12 * std::exp(-std::pow((x - 0.3) / 0.004, 2)); };
+  EXPECT_LE(unknowns(scene_of(paper_load, epsilon, {needle}), 1e-1, std::nullopt, false), 5000);
+}
+
+TEST(SolveTo, CostsNoMoreThanUniformMeshesForASmoothLoad) {
+  // unknowns times the square of the error is the price of a mesh family, whatever is asked
+  const double epsilon = 1e-6;
+  const Scene scene = scene_of(paper_load, epsilon);
+  const TriangleMesh mesh = layered_mesh(64, epsilon);
+  const Space space(mesh, crouzeix_raviart());
+  const VariationalInequality problem = assemble(scene, space);
+  const double relative = certify(scene, space, problem, active_set(problem)).relative(Quantity::displacement);
+  const CertifiedSolution found = solve_to(scene, first_mesh(epsilon), {3e-2});
+  const Level& last = found.history.back();
+  EXPECT_LE(last.unknowns * last.relative * last.relative, 1.1 * space.free_count() * relative * relative);
+}
+
+TEST(SolveTo, WorksOnBodiesOtherThanTheSquareAndWithoutALayer) {
+  const auto cost = [](const CertifiedSolution& found) {
+    return found.history.back().unknowns * std::pow(found.history.back().relative, 2);
+  };
+  for (const double epsilon : {1.0, 1e-6, 0.0}) {
+    const Scene scene = scene_of([](double, double) { return -5.0; }, epsilon);
+    const TriangleMesh first = epsilon > 0.1 ? extruded(test::l_shape(8), 1) : test::l_shape(8);
+    const CertifiedSolution found = solve_to(scene, first, {5e-2});
+    EXPECT_LE(found.history.back().relative, 5e-2);
+    // against the same body refined everywhere: the corner makes that dearer
+    const TriangleMesh fine = extruded(test::l_shape(32), epsilon);
+    const Space space(fine, crouzeix_raviart());
+    const VariationalInequality problem = assemble(scene, space);
+    const double uniform = certify(scene, space, problem, active_set(problem)).relative(Quantity::displacement);
+    EXPECT_LT(cost(found), 0.7 * space.free_count() * uniform * uniform) << epsilon;
+  }
+  EXPECT_LE(
+      solve_to(Scene({paper_load}, NoLayer{}, UnilateralContact{}), test::bridge(8), {1e-1}).history.back().relative,
+      1e-1);
+  EXPECT_LE(solve_to(Scene({paper_load}, ThinLayer{0.3}), unstructured_mesh(8, {0.3}), {5e-2}).history.back().relative,
+            5e-2);
+}
+
+TEST(SolveTo, TakesTheVentcelLayerForTheRigidLimit) {
+  const CertifiedSolution ventcel =
+      solve_to(Scene({paper_load}, VentcelLayer{}, UnilateralContact{}), first_mesh(0), {1e-1});
+  const CertifiedSolution rigid = solve_to(scene_of(paper_load, 0), first_mesh(0), {1e-1});
+  EXPECT_EQ(ventcel.history.back().bound, rigid.history.back().bound);
+}
+
+TEST(SolveTo, LooksForASpikeThatTheQuadratureMisses) {
+  const Field spike = [](double x, double y) {
+    return paper_load(x, y) + 20000 * std::exp(-(std::pow(x - 0.31, 2) + std::pow(y - 0.62, 2)) / (0.002 * 0.002));
+  };
+  TriangleMesh mesh = longest_edge_first(first_mesh(0));
+  const int before = mesh.triangle_count();
+  EXPECT_EQ(resolve_load(mesh, spike, 100000), "");
+  EXPECT_GT(mesh.triangle_count(), before);
+  double least = 1;
+  for (int t = 0; t < mesh.triangle_count(); ++t) least = std::min(least, mesh.area(t));
+  EXPECT_LT(least, 1e-4) << "small triangles at the spike";
+  TriangleMesh smooth = longest_edge_first(first_mesh(0));
+  EXPECT_EQ(resolve_load(smooth, paper_load, 100000), "");
+  EXPECT_EQ(smooth.triangle_count(), before) << "nothing to do";
+
+  // too fine for any mesh within the limit: said, not hidden
+  const Field dust = [](double x, double y) { return std::sin(4000 * x) * std::sin(4000 * y) > 0.9 ? 1.0 : 0.0; };
+  EXPECT_NE(resolve_load(smooth, dust, 2 * before).find("as sampled"), std::string::npos);
+}
+
+TEST(SolveTo, RefusesWithASentence) {
+  const Scene scene = scene_of(paper_load, 1e-2);
+  for (const double asked : {0.0, 1.0, -1.0, std::nan("")})
+    expect_refused([&] { solve_to(scene, first_mesh(0), {asked}); }, "above 0, below 1");
+  expect_refused([&] { solve_to(scene, first_mesh(0), {1e-1, Quantity::displacement, 100}); }, "cannot hold the first");
+  expect_refused([&] { solve_to(scene, first_mesh(0), {1e-1, Quantity::displacement, -1}); }, "1 or more");
+  expect_refused(
+      [&] {
+        solve_to(Scene({paper_load}), first_mesh(0), {1e-1, Quantity::displacement, 1e6, Growth::extrude});
+      },
+      "no scaled layer");
+  try {
+    solve_to(scene, first_mesh(0), {1e-3, Quantity::displacement, 20000});
+    ADD_FAILURE() << "1e-3 needs millions of unknowns";
+  } catch (const NotConverged& error) {
+    EXPECT_GT(error.reached, 1e-3);
+    EXPECT_NE(std::string(error.what()).find("can be reached"), std::string::npos) << error.what();
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    EXPECT_LE(error.steps, 6) << "refused by the quote, not by running into the limit";
+  }
+}
+
+// The campaign of the certificate on meshes that were refined by its indicators.
+TEST(SolveTo, BoundsNeverLieOnTheirWay) {
+  std::mt19937 random(11);
+  const auto uniform = [&] { return random() / (std::mt19937::max() + 1.0); };
+  int cases = 0;
+  for (const double epsilon : {1.0, 0.3, 1e-1, 1e-2, 1e-4, 1e-8, 0.0})
+    for (int k = 0; k < 3; ++k) {
+      SineLoad load;
+      for (int modes = 1 + k; modes > 0; --modes)
+        load.modes.push_back({1 + static_cast<int>(4 * uniform()), {20 * uniform() - 10, 20 * uniform() - 10}});
+      const Scene scene = scene_of(load, epsilon);
+      const TruthTable truth(Truth(load, epsilon, true, 13));
+      GrowingMesh now;
+      const Growth growth = epsilon > 0.1 || k == 2 ? Growth::bisect : Growth::extrude;
+      now.body = longest_edge_first(unstructured_mesh(4, {growth == Growth::bisect ? 1.0 : 0.0}));
+      now.mesh = growth == Growth::bisect ? now.body : extruded(now.body, epsilon);
+      for (int level = 0; level < 4; ++level) {
+        const Space space(now.mesh, crouzeix_raviart());
+        const VariationalInequality problem = assemble(scene, space);
+        Solution solution = active_set(problem);
+        if (level == 2) {  // not the answer any more
+          std::vector<char> fixed(space.size(), 0);
+          for (const int i : problem.fixed) fixed[i] = 1;
+          for (int i = 0; i < space.size(); ++i) solution.u(i) += fixed[i] ? 0 : 1e-3 * (uniform() - 0.5);
+        }
+        const Companion v = strip_companion(scene, space, problem, solution);
+        const Certificate found = certify(scene, space, problem, solution, {.companion = &v});
+        const auto exact = test::exact_errors(now.mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
+        EXPECT_GE(found.gradient, exact.gradient) << epsilon << k << level;
+        EXPECT_GE(found.displacement, exact.displacement) << epsilon << k << level;
+        EXPECT_GE(found.stress, exact.stress) << epsilon << k << level;
+        EXPECT_GE(found.indicator.minCoeff(), 0);
+        ++cases;
+        now = grown(now, growth, epsilon, found.indicator);
+      }
+    }
+  EXPECT_EQ(cases, 84);
+}
+
+}  // namespace
+}  // namespace antilock
