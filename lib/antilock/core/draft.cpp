@@ -94,7 +94,9 @@ FolderLock::FolderLock(const fs::path& folder)
 }
 
 FolderLock::~FolderLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ < 0) return;
+  ::flock(descriptor_, LOCK_UN);  // closing would leave it to a process forked meanwhile
+  ::close(descriptor_);
 }
 
 }  // namespace antilock
