@@ -115,6 +115,7 @@ Json summary(const SceneFile& file, const Level& level, const NestedReport& repo
                    {"linear_iterations", report.linear_iterations},
                    {"memory_mb", peak_megabytes()}};
   s["warning"] = report.warning;
+  s["scene"] = Json::parse(question_json(file));
   return s;
 }
 
