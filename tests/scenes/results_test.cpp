@@ -214,7 +214,7 @@ TEST(Warnings, ALoadThatTheQuadratureMissesIsFound) {
 }
 
 TEST(Warnings, AnObstacleBetweenTheContactUnknownsIsFound) {
-  for (const std::string mesh : {structured(8), unstructured(8)}) {
+  for (const std::string& mesh : {structured(8), unstructured(8)}) {
     const SceneRun run(scene(layer("1e-3") + "[contact]\ngap = \"0.01 - exp(-1e8*(x - 0.4567)^2)\"\n", mesh, cr));
     ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
     EXPECT_NE(run.summary()["warning"].get<std::string>().find("contact.gap"), std::string::npos);

@@ -128,9 +128,7 @@ TriangleMesh read_mesh_of(const Scene& scene, const std::string& path) {
   return mesh;
 }
 
-}  // namespace
-
-TriangleMesh make_mesh(const SceneFile& file) {
+TriangleMesh checked_mesh(const SceneFile& file) {
   using Kind = MeshRequest::Kind;
   const Domain domain{file.scene.layer_depth()};
   const int cells = file.mesh.cells;
@@ -148,12 +146,8 @@ TriangleMesh make_mesh(const SceneFile& file) {
     return read_mesh_of(file.scene, file.mesh.file.string());
   };
   try {
-    TriangleMesh mesh = make();
-    if (file.mesh.kind != Kind::file) return mesh;
-    check_on_mesh(file, mesh);
-    return mesh;
+    return make();
   } catch (const Error& error) {
-    if (std::string(error.what()).starts_with(file.name + ": ")) throw;  // an expression has no value on this body
     std::string what = printable(error.what(), 2000);
     if (what.find("accepted") == std::string::npos)
       what +=
@@ -161,6 +155,14 @@ TriangleMesh make_mesh(const SceneFile& file) {
           "triangles proper and connected";
     throw Error(file.name + (file.mesh.kind == Kind::file ? ": mesh.file: " : ": mesh.cells: ") + what);
   }
+}
+
+}  // namespace
+
+TriangleMesh make_mesh(const SceneFile& file) {
+  TriangleMesh mesh = checked_mesh(file);
+  if (file.mesh.kind == MeshRequest::Kind::file) check_on_mesh(file, mesh);
+  return mesh;
 }
 
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh) {
