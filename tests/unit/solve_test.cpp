@@ -10,6 +10,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/anderson.hpp"
 #include "antilock/solve/kkt.hpp"
+#include "antilock/solve/uzawa.hpp"
 #include "support/brute_force.hpp"
 #include "support/scenes.hpp"
 

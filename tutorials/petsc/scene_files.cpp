@@ -11,6 +11,7 @@
 #include "antilock/distributed/kkt_report.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/distributed/whole_files.hpp"
+#include "antilock/io/scene_results.hpp"
 #include "antilock/io/writers.hpp"
 
 namespace antilock::distributed {
