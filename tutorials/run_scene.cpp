@@ -1,19 +1,23 @@
 // run_scene: answers a question asked in a scene file, without a line of C++.
 //
 // Run:    run_scene tutorials/scenes/figure8.toml --out results/figure8
-// Takes:  about a second for 1/h = 64; unstructured meshes above 1/h = 256 take several.
+// Takes:  about a second for 1/h = 64; unstructured meshes of 1/h = 128 take several.
 //
 // The way of the data is that of every tutorial: scene -> mesh -> space -> discrete problem -> solution -> files.
 // What this program promises: an answer with exit status 0, or one line on standard error and no file at all:
 // status 2 for a question that cannot be asked (the line names file and key), 3 for a solve that did not get there.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <new>
 
 #include "antilock/core/result_folder.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/expression.hpp"
+#include "antilock/io/scene_checks.hpp"
 #include "antilock/io/scene_file.hpp"
 #include "antilock/io/scene_results.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -40,16 +44,22 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   [contact]                     # leave out: no obstacle
   gap = "0"                     # how far the obstacle lies below: u >= -gap(x)
   [mesh]                        # required
-  kind = "unstructured"         # "structured" (cells up to 2048), "unstructured" (up to 512) or "file"
-  cells = 64                    # cells a unit side; with kind = "file" instead: file = "my.msh", beside the scene
+  kind = "unstructured"         # "structured" (cells up to 2048), "unstructured" (up to 512), "layered" (up to 512: the
+                                # unstructured body over a scaled layer in columns) or "file"
+  cells = 64                    # cells per unit side; with kind = "file" instead: file = "my.msh", beside the scene
   [method]                      # optional
-  element = "CR"                # "P1" (default) or "CR" (Crouzeix-Raviart)
+  element = "CR"                # "P1" (default), "CR" (Crouzeix-Raviart) or "P2"
   solver = "active-set"         # (default), "uzawa", the paper's, or "petsc": PETSc, alone or under mpiexec
-  tolerance = 1e-10             # relative, on the algebraic error
+  tolerance = 1e-10             # relative, on the algebraic error; at most 1e-3
 
-Written to the results folder: summary.json, solution.csv (x,y,u), contact.csv (x,gap,pressure; with contact only),
-mesh.msh (gmsh and FreeFEM read it), solution.vtu (for ParaView: open it, colour by u).
-In summary.json, h is 1/cells, or the longest edge of a mesh from a file; seconds are wall seconds.
+A mesh from a file has the physical groups body, layer (if the scene has one), clamped and contact. The body may be any
+shape on and above y = 0 with a bottom edge on that line; all of that edge is contact, or has the layer below it.
+
+Written to the results folder: summary.json; solution.csv (x,y,u); contact.csv (x,gap,pressure; with contact only), where
+gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
+solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too).
+In summary.json, h is 1/cells, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
+scene is the question in full; warning says what to doubt: an answer above the trusted error, a load that the mesh misses.
 Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8
 )help";
@@ -71,34 +81,47 @@ void check_solver(const SceneFile& file, bool for_petsc, char** argv) {
                 "built; accepted: a run without mpiexec");
 }
 
-/// Below this no double can be promised, however long one iterates.
-constexpr double finest_tolerance = 1e-14;
+/// A line on the terminal that follows a long solve, from its second second on, and the end of one that takes longer
+/// than it may.
+ProgressHook follower(double most_seconds) {
+  return [watch = Stopwatch(), shown = 1.0, most_seconds](const Progress& now) mutable {
+    const double seconds = watch.seconds();
+    if (seconds > shown + 1 && ::isatty(STDERR_FILENO) != 0) {
+      shown = seconds;
+      fmt::print(stderr, "\r  {:.0f} s, {} {}: relative error about {:.0e}, asked for {:.0e} ", seconds, now.stage,
+                 now.step, now.reached, now.asked);
+    }
+    return seconds <= most_seconds;
+  };
+}
 
-Solution solve(const VariationalInequality& problem, const Method& method) {
-  // A rough answer saves two or three solves of a factored matrix, and could not be certified: none is rougher than
-  // 1e-8.
-  const double tolerance = std::clamp(method.tolerance, finest_tolerance, 1e-8);
+Solution solve(const VariationalInequality& problem, const Method& method, const ProgressHook& follow) {
+  const double tolerance = std::max(method.tolerance, Method::finest_tolerance);
   Solution solution;
   if (method.solver == "uzawa") {
     UzawaOptions options;
     options.tolerance = tolerance;
+    options.progress = follow;
     solution = uzawa(problem, options);
   } else {
     ActiveSetOptions options;
-    options.corrections.tolerance = tolerance;
+    options.corrections = corrections_to(tolerance);
+    options.corrections.progress = follow;
     solution = active_set(problem, options);
   }
-  if (method.tolerance < finest_tolerance)
+  if (method.tolerance < tolerance)
     throw NotConverged(fmt::format("{}: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
                                    "double precision goes no further",
-                                   method.solver, finest_tolerance, solution.counters.corrections, method.tolerance),
-                       finest_tolerance, solution.counters.corrections);
+                                   method.solver, tolerance, solution.counters.corrections, method.tolerance),
+                       tolerance, solution.counters.corrections);
   return solution;
 }
 
+/// Both texts, or the one that is not empty.
+std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : "; ") + b; }
+
 void answer(const std::filesystem::path& scene, const std::filesystem::path& out, tutorial::Report& report,
-            bool for_petsc, char** argv) {
-  const Stopwatch total;
+            bool for_petsc, double most_seconds, char** argv) {
   Stopwatch watch;
   RunSeconds seconds;
   const SceneFile file = read_scene_file(scene);
@@ -108,33 +131,32 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
 
   report.stage("mesh");
-  watch.lap();
   const TriangleMesh mesh = make_mesh(file);
   seconds.mesh = watch.lap();
 
   report.stage(fmt::format("assembly: {} on {} triangles", file.method.element, mesh.triangle_count()));
-  watch.lap();
   const Space space(mesh, element(file.method.element));
   if (space.free_count() == 0)
     throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
   const VariationalInequality problem = assemble(file.scene, space);
+  std::string warning = load_warning(file, space, problem);
   seconds.assemble = watch.lap();
 
   report.stage(fmt::format("solve: {}, {} unknowns", file.method.solver, problem.free_count()));
   Solution solution;
   try {
-    solution = solve(problem, file.method);
+    solution = solve(problem, file.method, follower(most_seconds));
   } catch (const NotConverged& failure) {
     throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
   }
+  warning = joined(joined(solution.warning, warning), gap_warning(file, space, solution));
   seconds.factor = solution.seconds.analyse + solution.seconds.factor;
-  seconds.solve = solution.seconds.contact + solution.seconds.solve;
-  seconds.total = total.seconds();
+  seconds.solve = watch.lap() - seconds.factor;
 
   report.stage("files");
-  write_scene_results(out, file, space, problem, solution, seconds);
+  write_scene_results(out, file, space, problem, solution, seconds, warning);
   report.finish();
-  if (!solution.warning.empty()) fmt::print("  warning: {}\n", solution.warning);
+  if (!warning.empty()) fmt::print("  warning: {}\n", warning);
   fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", solution.u.minCoeff(),
              solution.u.maxCoeff(), solution.counters.contact, solution.counters.corrections, out.string());
 }
@@ -158,6 +180,8 @@ int main(int argc, char** argv) {
   bool restart = false, direct = false;
   app.add_flag("--direct", direct, "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
   app.add_flag("--restart", restart, "with solver = \"petsc\": start from the last level of a run that was ended");
+  double most_seconds = std::numeric_limits<double>::infinity();
+  app.add_option("--most-seconds", most_seconds, "stop a solve that takes longer: status 3, and how far it came");
   app.footer(help);
   try {
     app.parse(argc, argv);
@@ -173,7 +197,7 @@ int main(int argc, char** argv) {
     return fail(message, status);
   };
   try {
-    answer(scene, out, report, restart || direct, argv);
+    answer(scene, out, report, restart || direct, most_seconds, argv);
   } catch (const NotConverged& failure) {
     return failed(failure.what(), 3);
   } catch (const std::bad_alloc&) {

@@ -1,7 +1,14 @@
 # What a user of the library does: install it, find_package it from a project of their own, build, run. The project is
 # the README's, word for word. The prefix is moved after the install: nothing in it may know where it was put.
-# Run: cmake -DSOURCE=... -DBUILD=... -DFLAGS=... -DGENERATOR=... -DCOMPILER=... -P check.cmake
+# Run: cmake -DSOURCE=... -DBUILD=... -DFLAGS=... -DGENERATOR=... -DCOMPILER=... -DEIGEN=... -P check.cmake
 set(work ${BUILD}/tests/package)
+set(HAS_AVX2 FALSE)  # this machine's processor, where it says so: else the tests with its instructions are left out
+if(EXISTS /proc/cpuinfo)
+  file(STRINGS /proc/cpuinfo avx2 REGEX "^flags.* avx2( |$)" LIMIT_COUNT 1)
+  if(avx2)
+    set(HAS_AVX2 TRUE)
+  endif()
+endif()
 function(run what)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(NOT status EQUAL 0)
@@ -36,7 +43,43 @@ foreach(config ${configs})
     message(FATAL_ERROR "${config} knows this machine: ${leaks}")
   endif()
 endforeach()
-run("configure" ${CMAKE_COMMAND} -S ${SOURCE}/tests/package -B ${work}/build -G ${GENERATOR} -DCMAKE_CXX_COMPILER=${COMPILER}
-    -DCMAKE_CXX_FLAGS=${FLAGS} -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${work}/moved)
-run("build" ${CMAKE_COMMAND} --build ${work}/build)
-run("run" ${work}/build/mine)
+# Every header that shows Eigen's types compares its user's memory layout with the library's.
+foreach(header ${headers})
+  file(STRINGS ${work}/moved/include/${header} shows REGEX "#include <Eigen/")
+  if(shows)
+    execute_process(COMMAND ${COMPILER} -std=c++20 -M -I ${work}/moved/include -isystem ${EIGEN} ${work}/moved/include/${header}
+                    OUTPUT_VARIABLE includes ERROR_VARIABLE failure)
+    if(NOT includes MATCHES "core/eigen_memory.hpp")
+      message(FATAL_ERROR "${header} shows Eigen's types without core/eigen_memory.hpp ${failure}")
+    endif()
+  endif()
+endforeach()
+
+# By hand with other flags than the library's: refused by a sentence, which says what to add; with it accepted.
+foreach(flags -mavx2 -march=native "-DEIGEN_MAX_ALIGN_BYTES=0" "-DEIGEN_MALLOC_ALREADY_ALIGNED=0")
+  set(compile ${COMPILER} -std=c++20 -fsyntax-only ${flags} -I ${work}/moved/include -isystem ${EIGEN}
+      ${SOURCE}/tests/package/main.cpp)
+  if(flags MATCHES "^-m" AND NOT HAS_AVX2)
+    continue()
+  endif()
+  execute_process(COMMAND ${compile} RESULT_VARIABLE status ERROR_VARIABLE said)
+  if(status EQUAL 0 OR NOT said MATCHES "add -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1")
+    message(FATAL_ERROR "by hand with ${flags}: not refused by the sentence (${status}):\n${said}")
+  endif()
+  if(flags MATCHES "^-m")
+    run("by hand with ${flags} and what the sentence says" ${compile} -DEIGEN_MAX_ALIGN_BYTES=16
+        -DEIGEN_MALLOC_ALREADY_ALIGNED=1)
+  endif()
+endforeach()
+
+# With the package, a user may have any instruction set.
+foreach(flags "" -mavx -mavx2 -march=native)
+  if(flags MATCHES "avx" AND NOT HAS_AVX2)
+    continue()
+  endif()
+  run("configure ${flags}" ${CMAKE_COMMAND} -S ${SOURCE}/tests/package -B ${work}/build${flags} -G ${GENERATOR}
+      -DCMAKE_CXX_COMPILER=${COMPILER} "-DCMAKE_CXX_FLAGS=${FLAGS} ${flags}" -DCMAKE_BUILD_TYPE=Release
+      -DCMAKE_PREFIX_PATH=${work}/moved)
+  run("build ${flags}" ${CMAKE_COMMAND} --build ${work}/build${flags})
+  run("run ${flags}" ${work}/build${flags}/mine)
+endforeach()

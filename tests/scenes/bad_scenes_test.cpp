@@ -127,6 +127,13 @@ const std::vector<BadScene> bad_scenes = {
     {"ToleranceZero", "method.tolerance", with_method("tolerance = 0")},
     {"ToleranceNegative", "method.tolerance", with_method("tolerance = -1e-10")},
     {"ToleranceOne", "method.tolerance", with_method("tolerance = 1")},
+    {"ToleranceBeyondUse", "method.tolerance", with_method("tolerance = 0.01")},
+    {"P2WithVentcel", "method.element",
+     with_layer("epsilon = 0\nmodel = \"ventcel\"") + "[method]\nelement = \"P2\"\n"},
+    {"LayeredWithoutLayer", "mesh.kind", with_mesh("kind = \"layered\"\ncells = 8")},
+    {"LayeredThin", "mesh.kind",
+     load + "[layer]\nepsilon = 0.1\nmodel = \"thin\"\n[mesh]\nkind = \"layered\"\ncells = 8\n"},
+    {"CellsTooManyLayered", "mesh.cells", load + "[layer]\nepsilon = 0.1\n[mesh]\nkind = \"layered\"\ncells = 513\n"},
     {"ToleranceNan", "method.tolerance", with_method("tolerance = nan")},
     {"ToleranceText", "method.tolerance", with_method("tolerance = \"1e-10\"")},
     {"MethodUnknownKey", "method.order", with_method("order = 2")},
@@ -171,7 +178,7 @@ const std::string square_triangles = "5 2 2 1 1 1 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 
 const std::string square = msh(square_nodes, contact_edge + clamped_edges + square_triangles);
 
 struct BadMesh {
-  std::string name, mesh, layer;
+  std::string name, mesh, effects, key = "mesh.file", f = "1";
 };
 void PrintTo(const BadMesh& bad, std::ostream* out) { *out << bad.name; }
 const std::string scaled_layer = "[layer]\nepsilon = 0.1\n", thin_layer = scaled_layer + "model = \"thin\"\n";
@@ -196,8 +203,16 @@ const std::vector<BadMesh> bad_meshes = {
     {"MissingTriangle",
      msh(square_nodes, contact_edge + clamped_edges + "5 2 2 1 1 1 2 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n"), ""},
     {"Truncated", square.substr(0, square.size() / 2), ""},
-    {"BodyOfAnotherSize",
-     msh("1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 1 0\n", contact_edge + clamped_edges + square_triangles), ""},
+    {"BodyBelowTheLine",
+     msh("1 0 -1 0\n2 1 -1 0\n3 1 1 0\n4 0 1 0\n5 0.5 0.5 0\n", contact_edge + clamped_edges + square_triangles), ""},
+    {"BodyAboveTheLine",
+     msh("1 0 1 0\n2 1 1 0\n3 1 2 0\n4 0 2 0\n5 0.5 1.5 0\n", contact_edge + clamped_edges + square_triangles), ""},
+    {"GapAgainstTheClampOfThisBody",
+     msh("1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 1 0\n", contact_edge + clamped_edges + square_triangles),
+     "[contact]\ngap = \"x < 1.5 ? 0.1 : -0.1\"\n", "contact.gap"},
+    {"LoadWithoutAValueOnThisBody",
+     msh("1 0 0 0\n2 2 0 0\n3 2 2 0\n4 0 2 0\n5 1 1 0\n", contact_edge + clamped_edges + square_triangles), "",
+     "load.f", "1/(x - 2)"},
     {"ContactOnPartOfTheSide",
      msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0.5 0\n6 0.5 0 0\n",
          "1 1 2 5 5 1 6\n9 1 2 4 4 6 2\n" + clamped_edges +
@@ -212,9 +227,9 @@ class BadMeshes : public testing::TestWithParam<BadMesh> {};
 TEST_P(BadMeshes, AreRefusedInOneLineAndNothingIsWritten) {
   const TemporaryFolder folder;
   std::ofstream(folder / "my.msh") << GetParam().mesh;
-  const SceneRun run(load + GetParam().layer + "[mesh]\nkind = \"file\"\nfile = \"" + (folder / "my.msh").string() +
-                     "\"\n");
-  expect_refused(run, "mesh.file");
+  const SceneRun run("[load]\nf = \"" + GetParam().f + "\"\n" + GetParam().effects +
+                     "[mesh]\nkind = \"file\"\nfile = \"" + (folder / "my.msh").string() + "\"\n");
+  expect_refused(run, GetParam().key);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BadMeshes, testing::ValuesIn(bad_meshes),

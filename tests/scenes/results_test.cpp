@@ -2,8 +2,10 @@
 // solution.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/space/space.hpp"
@@ -44,8 +46,8 @@ void expect_interface(const std::filesystem::path& results) {
   const bool has_layer = std::count(effects.begin(), effects.end(), "layer") == 1;
   const bool has_contact = std::count(effects.begin(), effects.end(), "contact") == 1;
   EXPECT_EQ(effects.size(), static_cast<std::size_t>(has_layer + has_contact));
-  Keys top = {"element", "solver", "epsilon", "h",   "dofs",       "effects",
-              "energy",  "u_max",  "u_min",   "kkt", "iterations", "seconds"};
+  Keys top = {"element", "solver", "epsilon", "h",          "dofs",    "effects", "energy",
+              "u_max",   "u_min",  "kkt",     "iterations", "seconds", "warning", "scene"};
   Keys written = {"summary.json", "solution.csv", "mesh.msh", "solution.vtu"};
   if (has_contact) {
     top.insert("contact");
@@ -55,10 +57,14 @@ void expect_interface(const std::filesystem::path& results) {
   EXPECT_EQ(files(results), written);
   EXPECT_EQ(s["epsilon"].is_null(), !has_layer);
   EXPECT_EQ(keys(s["iterations"]), (Keys{"contact", "corrections"}));
-  EXPECT_EQ(keys(s["seconds"]), (Keys{"mesh", "assemble", "factor", "solve", "total"}));
+  EXPECT_EQ(keys(s["seconds"]), (Keys{"mesh", "assemble", "factor", "solve", "files", "total"}));
   double stages = 0;
-  for (const std::string stage : {"mesh", "assemble", "factor", "solve"}) stages += s["seconds"][stage].get<double>();
-  EXPECT_LE(stages, s["seconds"]["total"].get<double>());
+  for (const std::string stage : {"mesh", "assemble", "factor", "solve", "files"}) {
+    EXPECT_GE(s["seconds"][stage].get<double>(), 0) << stage;
+    stages += s["seconds"][stage].get<double>();
+  }
+  EXPECT_NEAR(stages, s["seconds"]["total"].get<double>(), 1e-12);
+  EXPECT_EQ(keys(s["scene"]), (Keys{"title", "load", "layer", "gap", "mesh", "method", "version"}));
   EXPECT_EQ(keys(s["kkt"]),
             has_contact ? (Keys{"min_gap", "min_pressure", "complementarity", "residual"}) : Keys{"residual"});
   EXPECT_LE(s["kkt"]["residual"].get<double>(), 1e-9);
@@ -79,6 +85,10 @@ void expect_interface(const std::filesystem::path& results) {
   const std::string vtu = contents(results / "solution.vtu");
   const int points = s["element"] == "CR" ? 3 * mesh.triangle_count() : mesh.vertex_count();
   EXPECT_NE(vtu.find("NumberOfPoints=\"" + std::to_string(points) + "\""), vtu.npos);
+  EXPECT_NE(vtu.find("Name=\"region_names\""), vtu.npos);
+  const auto& asked = s["scene"]["layer"];
+  EXPECT_EQ(vtu.find("Name=\"p\"") != vtu.npos, !asked.is_null() && asked["model"] == "scaled");
+  EXPECT_EQ(vtu.find("Name=\"pressure\"") != vtu.npos, has_contact);
 
   if (!has_contact) {
     EXPECT_EQ(s["iterations"]["contact"].get<int>(), 0);
@@ -125,19 +135,110 @@ INSTANTIATE_TEST_SUITE_P(All, ExampleScenes, testing::ValuesIn(example_names()),
 TEST(ExampleScenes, AreADozenOrMore) { EXPECT_GE(example_names().size(), 12U); }
 
 // Every layer x contact x mesh x element of the family.
-class EveryCombination : public testing::TestWithParam<std::tuple<int, bool, bool, bool>> {};
+class EveryCombination : public testing::TestWithParam<std::tuple<int, bool, std::string, std::string>> {};
 
 TEST_P(EveryCombination, RunsAndKeepsTheInterface) {
-  const auto [layer_kind, with_contact, regular, nonconforming] = GetParam();
+  const auto [layer_kind, with_contact, mesh, element] = GetParam();
   const std::array<std::string, 5> layers = {"", layer("0.01"), layer("0"), layer("0", "ventcel"),
                                              layer("0.125", "thin")};
-  const SceneRun run(scene(layers[layer_kind] + (with_contact ? contact : ""),
-                           regular ? structured(8) : unstructured(8), nonconforming ? cr : ""));
+  const SceneRun run(scene(layers[layer_kind] + (with_contact ? contact : ""), "kind = \"" + mesh + "\"\ncells = 8",
+                           "element = \"" + element + "\"\n"));
+  const bool scaled = layer_kind == 1 || layer_kind == 2, ventcel = layer_kind == 3;
+  if ((mesh == "layered" && !scaled) || (element == "P2" && ventcel)) {
+    EXPECT_EQ(run.outcome.status, 2) << "no such combination";
+    EXPECT_NE(run.outcome.err.find("accepted"), std::string::npos) << run.outcome.err;
+    return;
+  }
   ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
   expect_interface(run.results);
+  EXPECT_EQ(run.summary()["warning"], "");
 }
 INSTANTIATE_TEST_SUITE_P(All, EveryCombination,
-                         testing::Combine(testing::Range(0, 5), testing::Bool(), testing::Bool(), testing::Bool()));
+                         testing::Combine(testing::Range(0, 5), testing::Bool(),
+                                          testing::Values("structured", "unstructured", "layered"),
+                                          testing::Values("P1", "CR", "P2")));
+
+TEST(Results, NameTheWholeQuestion) {
+  const SceneRun run("title = \"a title\"\n" +
+                     scene(layer("1e-3") + "[contact]\ngap = \"0.01*x\"\n", structured(8), cr + "tolerance = 1e-9\n"));
+  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+  const auto asked = run.summary()["scene"];
+  EXPECT_EQ(asked["title"], "a title");
+  EXPECT_EQ(asked["load"], "10*sin(2*pi*x)");
+  EXPECT_EQ(asked["layer"], (nlohmann::json{{"epsilon", 1e-3}, {"model", "scaled"}}));
+  EXPECT_EQ(asked["gap"], "0.01*x");
+  EXPECT_EQ(asked["mesh"], (nlohmann::json{{"kind", "structured"}, {"cells", 8}}));
+  EXPECT_EQ(asked["method"], (nlohmann::json{{"element", "CR"}, {"solver", "active-set"}, {"tolerance", 1e-9}}));
+  EXPECT_TRUE(std::isdigit(asked["version"].get<std::string>().front()));
+  const SceneRun from_file(scene("", "kind = \"file\"\nfile = \"" + (run.results / "mesh.msh").string() + "\""));
+  EXPECT_EQ(from_file.outcome.status, 2);  // it has a layer
+  const SceneRun plain(scene("", structured(4)));
+  const SceneRun again(scene("", "kind = \"file\"\nfile = \"" + (plain.results / "mesh.msh").string() + "\""));
+  const auto told = again.summary()["scene"];
+  EXPECT_EQ(told["mesh"], (nlohmann::json{{"kind", "file"}, {"file", (plain.results / "mesh.msh").string()}}));
+  EXPECT_TRUE(told["layer"].is_null() && told["gap"].is_null());
+}
+
+TEST(Results, SecondsAddUpToTheWallTime) {
+  const Stopwatch wall;
+  const SceneRun run(scene(layer("1e-3") + contact, unstructured(64), cr));
+  const double seconds = wall.seconds(), total = run.summary()["seconds"]["total"];
+  EXPECT_LE(total, seconds);
+  EXPECT_GE(total, 0.8 * seconds - 0.2) << "of " << seconds;  // the process starts and ends outside of it
+  EXPECT_GT(run.summary()["seconds"]["files"].get<double>(), 0);
+}
+
+TEST(Results, AToleranceIsTakenAtItsWord) {
+  const auto corrections = [](const std::string& tolerance) {
+    const SceneRun run(scene(layer("1e-3") + contact, structured(32), "tolerance = " + tolerance + "\n"));
+    EXPECT_EQ(run.outcome.status, 0) << run.outcome.err;
+    return run.summary()["iterations"]["corrections"].get<int>();
+  };
+  EXPECT_LT(corrections("1e-4"), corrections("1e-8"));  // not made 1e-8 in silence
+}
+
+// A load that lives between the points of the quadrature: u = 0 would be a quiet wrong answer.
+TEST(Warnings, ALoadThatTheQuadratureMissesIsFound) {
+  for (const std::string f :
+       {"1e6*exp(-1e8*(x - 0.4567)^2)", "abs(x - 0.4567) < 1e-4 ? 1e4 : 0",
+        "1e4*exp(-1e5*((x - 0.31)^2 + (y - 0.47)^2))", "1 + (abs(y - 0.4567) < 1e-4 ? 1e4 : 0)"}) {
+    const SceneRun run(scene(layer("1e-3") + contact, structured(8), cr, f));
+    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+    EXPECT_NE(run.summary()["warning"].get<std::string>().find("load.f"), std::string::npos) << f;
+    EXPECT_NE(run.outcome.out.find("warning: load.f"), std::string::npos) << f;
+  }
+  for (const std::string f : {"0", "1", "10*sin(2*pi*x)", "10*sin(2*pi*x)*exp(y)", "x < 0.3 ? 20 : -20"}) {
+    const SceneRun run(scene(layer("1e-3") + contact, structured(8), cr, f));
+    EXPECT_EQ(run.summary()["warning"], "") << f;
+  }
+}
+
+TEST(Warnings, AnObstacleBetweenTheContactUnknownsIsFound) {
+  for (const std::string& mesh : {structured(8), unstructured(8)}) {
+    const SceneRun run(scene(layer("1e-3") + "[contact]\ngap = \"0.01 - exp(-1e8*(x - 0.4567)^2)\"\n", mesh, cr));
+    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+    EXPECT_NE(run.summary()["warning"].get<std::string>().find("contact.gap"), std::string::npos);
+  }
+  for (const std::string element : {"P1", "CR", "P2"}) {
+    const SceneRun run(scene(layer("0.05") + "[contact]\ngap = \"0.02 - 0.1*exp(-50*(x - 0.5)^2)\"\n", structured(32),
+                             "element = \"" + element + "\"\n", "1"));
+    EXPECT_EQ(run.summary()["warning"], "") << element;
+  }
+}
+
+TEST(Results, OfP2AreMoreAccurateThanThoseOfP1) {
+  // the body alone, its bottom side free: -Laplace u = f = cos(pi y/2) sin(pi x)
+  const auto energy = [](const std::string& element, int cells) {
+    return SceneRun(scene("", structured(cells), "element = \"" + element + "\"\n", "cos(pi*y/2)*sin(pi*x)"))
+        .summary()["energy"]
+        .get<double>();
+  };
+  // u = f / (pi^2 + pi^2/4) meets every boundary condition; the energy is -(f, u)/2, and (f, f) = 1/4
+  const double exact = -0.5 * 0.25 / (1.25 * std::numbers::pi * std::numbers::pi);
+  EXPECT_NEAR(energy("P1", 8), exact, 0.03 * std::abs(exact));
+  EXPECT_NEAR(energy("P2", 8), exact, 1e-4 * std::abs(exact));
+  EXPECT_GT(std::abs(energy("P1", 8) - exact), 50 * std::abs(energy("P2", 8) - exact));
+}
 
 TEST(Results, TheContactForceBalancesTheExactOne) {
   // CR, 1/h = 64: the pressure is a density, so its sum over cells of length h is the whole force; the exact pressure
@@ -249,6 +350,16 @@ TEST(Unreachable, ToleranceForUzawa) {
   const SceneRun run(scene(layer("1e-3") + contact, structured(8), "solver = \"uzawa\"\ntolerance = 1e-16\n"));
   EXPECT_EQ(run.outcome.status, 3);
   EXPECT_TRUE(std::filesystem::is_empty(run.output.path()));
+}
+
+TEST(Unreachable, TimeLimitEndsTheSolveAndSaysHowFarItCame) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "scene.toml") << scene(layer("1e-6") + contact, structured(16));
+  const Outcome outcome =
+      run_scene(in_shell(folder / "scene.toml") + " --most-seconds 0 --out " + in_shell(folder / "results"), folder);
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_NE(outcome.err.find("stopped as asked after 1 steps"), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "results"));
 }
 
 TEST(Help, TellsANewcomerEverySectionAndFile) {

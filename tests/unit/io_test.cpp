@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
 #include <charconv>
@@ -11,7 +13,9 @@
 #include <sstream>
 
 #include "antilock/core/atomic_file.hpp"
+#include "antilock/core/draft.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/core/result_folder.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/msh_file.hpp"
@@ -117,6 +121,111 @@ TEST(WriteFile, NumbersOnTheStreamReadBackAsTheSameDouble) {
   const double third = 1.0 / 3;
   write_file(folder / "x", [&](std::ostream& out) { out << third; });
   EXPECT_EQ(numbers(contents(folder / "x")).at(0), third);
+}
+
+// ---- interrupted, or not alone
+
+/// How the child process that runs `act` ended, sent `signal` as soon as it says that it is in the middle (0: never).
+int end_of_child(int signal, const std::function<void(const std::function<void()>& in_the_middle)>& act) {
+  std::array<int, 2> pipe{};
+  EXPECT_EQ(::pipe(pipe.data()), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    try {
+      act([&] {
+        (void)!::write(pipe[1], "x", 1);
+        for (int i = 0; i < 20; ++i) ::usleep(10'000);  // a fifth of a second, in which the signal comes
+      });
+    } catch (const std::exception&) {
+      ::_exit(9);
+    }
+    ::_exit(0);
+  }
+  char byte = 0;
+  if (signal != 0 && ::read(pipe[0], &byte, 1) == 1) ::kill(child, signal);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  ::close(pipe[0]);
+  ::close(pipe[1]);
+  return status;
+}
+
+/// Two files, the middle between them.
+void write_two(const fs::path& folder, const std::function<void()>& in_the_middle) {
+  write_folder(folder, [&](const fs::path& draft) {
+    write_file(draft / "first", [](std::ostream& out) { out << 1; });
+    in_the_middle();
+    write_file(draft / "second", [](std::ostream& out) { out << 2; });
+  });
+}
+
+TEST(Interrupted, AFolderBeingWrittenLeavesNothingAndTheProcessEndsByItsSignal) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TemporaryFolder folder;
+    const int status = end_of_child(signal, [&](const auto& middle) { write_two(folder / "new/results", middle); });
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+  }
+}
+
+TEST(Interrupted, AFileBeingWrittenLeavesTheOldOneAndNothingElse) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const TemporaryFolder folder;
+    write_file(folder / "kept", [](std::ostream& out) { out << "old"; });
+    for (const char* name : {"kept", "deep/new"}) {
+      const int status = end_of_child(signal, [&](const auto& middle) {
+        write_file(folder / name, [&](std::ostream& out) {
+          out << "half" << std::flush;
+          middle();
+        });
+      });
+      EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << status;
+    }
+    EXPECT_EQ(contents(folder / "kept"), "old");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+  }
+}
+
+TEST(Interrupted, ASignalThatTheProgramIgnoresStopsNothing) {
+  const TemporaryFolder folder;
+  const int status = end_of_child(SIGHUP, [&](const auto& middle) {
+    std::signal(SIGHUP, SIG_IGN);  // as under nohup
+    write_two(folder / "results", middle);
+  });
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0) << status;
+  EXPECT_EQ(folder.file_count(), 2);
+}
+
+TEST(Interrupted, DraftsOfOthersAreNeverAdopted) {
+  const TemporaryFolder folder;  // processes of two containers have the same numbers
+  const std::string number = std::to_string(::getpid());
+  write_file(folder / (".draft-" + number + "/stray"), [](std::ostream& out) { out << "another's"; });
+  write_folder(folder.path(),
+               [](const fs::path& draft) { write_file(draft / "mine", [](std::ostream& out) { out << "mine"; }); });
+  EXPECT_FALSE(fs::exists(folder / "stray"));
+  EXPECT_EQ(contents(folder / (".draft-" + number + "/stray")), "another's");
+}
+
+TEST(TwoProcesses, WithOneFolderPlaceTheirFilesOneAfterTheOther) {
+  const TemporaryFolder folder;
+  write_file(folder / "results/first", [](std::ostream& out) { out << "mine"; });
+  pid_t other = 0;
+  {
+    const FolderLock placing(folder / "results");
+    other = ::fork();
+    if (other == 0) {
+      write_two(folder / "results", [] {});
+      ::_exit(0);
+    }
+    for (int i = 0; i < 30; ++i) ::usleep(10'000);
+    EXPECT_EQ(contents(folder / "results/first"), "mine");
+    EXPECT_FALSE(fs::exists(folder / "results/second"));
+  }
+  int status = 0;
+  ::waitpid(other, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_EQ(contents(folder / "results/first"), "1");
+  EXPECT_EQ(contents(folder / "results/second"), "2");
 }
 
 // ---- meshes

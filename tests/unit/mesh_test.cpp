@@ -8,8 +8,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "support/scenes.hpp"
@@ -155,8 +157,7 @@ TEST(Mesh, AThinLayerIsTwoCellsDeepAtLeast) {
   }
 }
 
-TEST(Mesh, UnstructuredTrianglesAreWellShaped) {
-  const TriangleMesh mesh = unstructured_mesh(32);
+double smallest_angle(const TriangleMesh& mesh) {
   double smallest = 10;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) {
@@ -165,7 +166,40 @@ TEST(Mesh, UnstructuredTrianglesAreWellShaped) {
       const Eigen::RowVector2d b = mesh.vertices.row(mesh.triangles(t, (i + 2) % 3)) - corner;
       smallest = std::min(smallest, std::acos(a.dot(b) / a.norm() / b.norm()));
     }
-  EXPECT_GT(smallest, 30 * 3.14159 / 180);  // Frontal-Delaunay: 41 degrees measured at 1/64
+  return smallest * 180 / std::numbers::pi;
+}
+
+TEST(Mesh, UnstructuredTrianglesAreWellShaped) {
+  EXPECT_GT(smallest_angle(unstructured_mesh(32)), 30);  // Frontal-Delaunay: 41 degrees measured at 1/64
+}
+
+// The limit: gmsh itself makes the mesh of 128 cells; beyond, a coarser one is refined.
+TEST(Mesh, BeyondGmshsLimitUnstructuredIsRefinedToTheHAskedFor) {
+  for (const auto& [cells, depth] : {std::pair{129, 0.0}, {200, 0.0}, {161, 1.0}, {512, 0.0}, {150, 0.01}}) {
+    const std::string name = fmt::format("{} cells, depth {}", cells, depth);
+    const Stopwatch watch;
+    const TriangleMesh mesh = unstructured_mesh(cells, {depth});
+    if (cells == 512) EXPECT_LT(watch.seconds(), 10) << name;  // gmsh alone takes a minute
+    EXPECT_GT(smallest_angle(mesh), depth == 0.01 ? 20 : 30) << name;
+    EXPECT_NEAR(area(mesh, Region::body), 1, 1e-11) << name;
+    EXPECT_NEAR(area(mesh, Region::layer), depth, 1e-11) << name;
+    EXPECT_NEAR(length(mesh, EdgeTag::contact), 1, 1e-12) << name;
+    EXPECT_NEAR(length(mesh, EdgeTag::sigma), depth > 0 ? 1 : 0, 1e-12) << name;
+    EXPECT_NEAR(length(mesh, EdgeTag::clamped), 3 + 2 * depth, 1e-12) << name;
+    EXPECT_EQ(depth_of(mesh), depth) << name;
+    // h: on the top side, whose edges gmsh makes equal, as asked or the least that whole numbers allow
+    double top = 0;
+    for (int e = 0; e < mesh.edge_count(); ++e)
+      if (mesh.vertices(mesh.edges(e, 0), 1) == 1 && mesh.vertices(mesh.edges(e, 1), 1) == 1)
+        top = std::max(top, mesh.edge_length(e));
+    EXPECT_LT(top, 1.01 / cells) << name;
+    EXPECT_GT(top, 0.95 / cells) << name;
+    EXPECT_LT(mesh.diameter(), 2.0 / cells) << name;
+    if (depth == 0.01) continue;
+    const double squares = depth > 0 ? 2 : 1;
+    EXPECT_GT(mesh.triangle_count(), squares * 2 * cells * cells) << name;
+    EXPECT_LT(mesh.triangle_count(), squares * 2.6 * cells * cells) << name;
+  }
 }
 
 TEST(Mesh, UnstructuredIsUnstructured) {

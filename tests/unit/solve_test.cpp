@@ -10,6 +10,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/anderson.hpp"
 #include "antilock/solve/kkt.hpp"
+#include "antilock/solve/uzawa.hpp"
 #include "support/brute_force.hpp"
 #include "support/scenes.hpp"
 
@@ -375,6 +376,48 @@ TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
   }
   EXPECT_EQ(factor.factorisations, 3);
   EXPECT_EQ(factor.solves, 2);
+}
+
+TEST(Progress, IsReportedOncePerCorrectionAndStopsTheSolve) {
+  const TriangleMesh mesh = structured_mesh(8);
+  const Space space(mesh, p1());
+  const VariationalInequality problem = test::stiff_problem(space, 1e-6);
+  const Solution alone = active_set(problem);
+  std::vector<Progress> seen;
+  ActiveSetOptions options;
+  options.corrections.progress = [&](const Progress& now) {
+    seen.push_back(now);
+    return true;
+  };
+  const Solution followed = active_set(problem, options);
+  EXPECT_EQ(followed.u, alone.u);
+  ASSERT_EQ(static_cast<int>(seen.size()), followed.counters.corrections);  // the last one is the answer
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    EXPECT_EQ(seen[i].step, static_cast<int>(i) + 1);
+    EXPECT_EQ(seen[i].asked, options.corrections.tolerance);
+  }
+  options.corrections.progress = [](const Progress& now) { return now.step < 2; };
+  try {
+    active_set(problem, options);
+    FAIL() << "not stopped";
+  } catch (const Stopped& stopped) {
+    EXPECT_EQ(stopped.steps, 2);
+    EXPECT_NE(std::string(stopped.what()).find("stopped as asked"), std::string::npos) << stopped.what();
+  }
+}
+
+TEST(Progress, StopsUzawaAmongItsSteps) {
+  const TriangleMesh mesh = structured_mesh(16);
+  const Space space(mesh, p1());
+  const VariationalInequality problem = test::stiff_problem(space, 0.1);
+  UzawaOptions options;
+  options.progress = [](const Progress& now) { return now.stage != "contact"; };
+  try {
+    uzawa(problem, options);
+    FAIL() << "not stopped";
+  } catch (const Stopped& stopped) {
+    EXPECT_EQ(stopped.steps, 256);
+  }
 }
 
 }  // namespace

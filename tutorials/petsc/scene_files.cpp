@@ -11,6 +11,7 @@
 #include "antilock/distributed/kkt_report.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/distributed/whole_files.hpp"
+#include "antilock/io/scene_results.hpp"
 #include "antilock/io/writers.hpp"
 
 namespace antilock::distributed {
@@ -115,6 +116,7 @@ Json summary(const SceneFile& file, const Level& level, const NestedReport& repo
                    {"linear_iterations", report.linear_iterations},
                    {"memory_mb", peak_megabytes()}};
   s["warning"] = report.warning;
+  s["scene"] = Json::parse(question_json(file));
   return s;
 }
 

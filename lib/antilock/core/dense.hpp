@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// Eigen's decompositions of dense matrices behind plain functions. Each one costs seconds of compilation where it is

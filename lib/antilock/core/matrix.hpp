@@ -2,6 +2,8 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 using SparseMatrix = Eigen::SparseMatrix<double>;                ///< by columns

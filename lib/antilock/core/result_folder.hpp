@@ -10,8 +10,9 @@ namespace antilock {
 void check_folder(const std::filesystem::path& folder);
 
 /// Writes the files of one result, all or none: `write` fills a draft folder, whose files then take their places in
-/// `folder`, which is made if absent. Files of `stale` that an earlier result left there go. Throws Error, and leaves
-/// nothing behind, where anything fails before the first file is in place.
+/// `folder`, which is made if absent. They do so under a lock: two processes with one folder do not mix theirs. Files
+/// of `stale` that an earlier result left there go. Throws Error, and leaves nothing behind, where anything fails
+/// before the first file is in place. A signal that ends the process leaves all files or none, and no draft (see Draft).
 void write_folder(const std::filesystem::path& folder, const std::function<void(const std::filesystem::path&)>& write,
                   const std::vector<std::string>& stale = {});
 

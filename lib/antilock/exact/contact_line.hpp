@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Dense>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// The contact problem reduced to Gamma_C, at the points x_j = j / n: values with n + 1 entries, zero at both ends.

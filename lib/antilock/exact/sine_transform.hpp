@@ -2,6 +2,8 @@
 #include <Eigen/Dense>
 #include <memory>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// Fast sums of sines and cosines on the points x_j = j / n (FFTW's DST-I and DCT-I), n a power of two.

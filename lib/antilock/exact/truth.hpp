@@ -4,6 +4,8 @@
 #include <utility>
 #include <vector>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// One term of the load f(x, y) = sum f_k(y) sin(k pi x) on the body: f_k is a polynomial in y.

@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Dense>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// A quadrature rule on a triangle: weights sum to 1, to be multiplied by the area.

@@ -7,7 +7,7 @@ namespace antilock {
 
 void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header, const Eigen::MatrixXd& rows) {
   if (header.empty() || static_cast<Eigen::Index>(header.size()) != rows.cols())
-    throw Error(fmt::format("{}: {} names for {} columns; accepted: one name a column, at least one", path.string(),
+    throw Error(fmt::format("{}: {} names for {} columns; accepted: one name per column, at least one", path.string(),
                             header.size(), rows.cols()));
   for (const std::string& name : header)
     if (name.empty() || name.find_first_of(",\"\n\r") != std::string::npos)

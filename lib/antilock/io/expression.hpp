@@ -16,7 +16,7 @@ class Expression {
   /// that does not parse, that names anything unknown, assigns, or holds more than one value.
   Expression(const std::string& text, const std::vector<std::string>& variables);
 
-  /// The value at one number a variable. Throws Error, with the place, where it is not finite or beyond 1e100.
+  /// The value at one number per variable. Throws Error, with the place, where it is not finite or beyond 1e100.
   double operator()(std::span<const double> values) const;
   double operator()(double x) const { return (*this)(std::span(&x, 1)); }
   double operator()(double x, double y) const;

@@ -9,17 +9,24 @@ namespace antilock {
 
 /// The mesh that a scene file asks for.
 struct MeshRequest {
-  enum class Kind { structured, unstructured, file };
+  enum class Kind { structured, unstructured, layered, file };
   Kind kind = Kind::structured;
-  int cells = 0;               ///< cells a unit side; 0 where kind is file
+  int cells = 0;               ///< cells per unit side; 0 where kind is file
   std::filesystem::path file;  ///< where kind is file: beside the scene file, unless absolute
 };
 
 /// How a scene file wants to be solved.
 struct Method {
-  std::string element = "P1";         ///< "P1" or "CR"
-  std::string solver = "active-set";  ///< "active-set", "uzawa" or "petsc"
-  double tolerance = 1e-10;           ///< relative, on the algebraic error; 0 < tolerance < 1
+  static constexpr double roughest_tolerance = 1e-3;  ///< beyond, the answer says less than any mesh does
+  static constexpr double finest_tolerance = 1e-14;   ///< below, no double can be promised
+  std::string element = "P1";                         ///< "P1", "CR" or "P2"
+  std::string solver = "active-set";                  ///< "active-set", "uzawa" or "petsc"
+  double tolerance = 1e-10;  ///< relative, on the algebraic error; 0 < tolerance <= roughest_tolerance
+};
+
+/// The words of the file, for the summary, which repeats the question; empty where the section is absent.
+struct SceneWords {
+  std::string load, gap, model, mesh, file;
 };
 
 /// A question asked in TOML, sections load, layer, contact, mesh, method (tutorials/scenes holds examples).
@@ -29,6 +36,7 @@ struct SceneFile {
   Scene scene;
   MeshRequest mesh;
   Method method;
+  SceneWords words;
 };
 
 /// Reads and checks everything that can be checked without a mesh. Throws Error, one line `FILE: KEY: what is wrong;
@@ -39,9 +47,10 @@ SceneFile read_scene_file(const std::filesystem::path& path);
 /// The same from a text in memory; `path` is its name in messages, and mesh files are looked for beside it.
 SceneFile read_scene(const std::string& text, const std::filesystem::path& path);
 
-/// The mesh of a scene file: made, or read and compared with the scene: the body must cover (0,1) x (0,1) and the layer
-/// the rectangle of its model, with contact edges on their lower side. Throws Error as above, KEY mesh.cells or
-/// mesh.file.
+/// The mesh of a scene file: made, or read and compared with the scene. From a file the body may be anything on or above
+/// y = 0 with a bottom edge on that line: with a layer all of it is Sigma, and the layer fills the strip below, contact
+/// at its bottom; without one all of it is contact. Throws Error as above, KEY mesh.cells or mesh.file, or load.f and
+/// contact.gap where these have no value on the body of a file.
 TriangleMesh make_mesh(const SceneFile& file);
 
 /// The mesh width to report: 1/cells, or the longest edge of a mesh from a file.

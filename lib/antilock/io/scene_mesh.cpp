@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "antilock/io/expression.hpp"
+#include "antilock/io/scene_checks.hpp"
 #include "antilock/io/scene_file.hpp"
 #include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/msh_file.hpp"
 
 namespace antilock {
@@ -14,31 +16,85 @@ namespace {
 
 constexpr double slack = 1e-6;  // mesh generators place corners to 1e-12, formats with few digits to 1e-8
 
-/// A region must fill its rectangle (0,1) x (bottom, bottom + height): its box and its area say so.
-void check_covers(const TriangleMesh& mesh, Region region, double bottom, double height) {
-  double area = 0;
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = -low;
+struct Box {
+  double left = 1e300, right = -1e300, low = 1e300, high = -1e300, area = 0;
+};
+
+Box box_of(const TriangleMesh& mesh, Region region) {
+  Box box;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != region) continue;
-    area += mesh.area(t);
+    box.area += mesh.area(t);
     for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector2d vertex = mesh.vertices.row(mesh.triangles(t, i));
-      low = low.cwiseMin(vertex);
-      high = high.cwiseMax(vertex);
+      const double x = mesh.vertices(mesh.triangles(t, i), 0), y = mesh.vertices(mesh.triangles(t, i), 1);
+      box.left = std::min(box.left, x);
+      box.right = std::max(box.right, x);
+      box.low = std::min(box.low, y);
+      box.high = std::max(box.high, y);
     }
   }
-  const Eigen::Vector2d low_wanted(0, bottom), high_wanted(1, bottom + height);
-  const bool box =
-      (low - low_wanted).cwiseAbs().maxCoeff() <= slack && (high - high_wanted).cwiseAbs().maxCoeff() <= slack;
-  if (box && std::abs(area - height) <= slack) return;
-  throw Error(fmt::format(
-      "the group {} spans ({:.6g}, {:.6g}) x ({:.6g}, {:.6g}) with area {:.6g}; accepted for this scene: (0, 1) x "
-      "({:.6g}, {:.6g}), filled",
-      region == Region::body ? "body" : "layer", low(0), high(0), low(1), high(1), area, bottom, bottom + height));
+  return box;
 }
 
-/// The contact edges lie on the lower side, all of it: what is not in contact there would be clamped, another problem.
-void check_contact_side(const TriangleMesh& mesh, double bottom) {
+/// The edges on the line y = `height` that `chosen` takes: their length, and its part in the group `tag`.
+struct Side {
+  double length = 0, tagged = 0, left = 1e300, right = -1e300;
+};
+
+template <class Chosen>
+Side side_of(const TriangleMesh& mesh, double height, EdgeTag tag, Chosen&& chosen) {
+  Side side;
+  const auto on_line = [&](int v) { return std::abs(mesh.vertices(v, 1) - height) <= slack; };
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (!on_line(mesh.edges(e, 0)) || !on_line(mesh.edges(e, 1)) || !chosen(e)) continue;
+    side.length += mesh.edge_length(e);
+    if (mesh.edge_tag[e] == tag) side.tagged += mesh.edge_length(e);
+    for (int end = 0; end < 2; ++end) {
+      side.left = std::min(side.left, mesh.vertices(mesh.edges(e, end), 0));
+      side.right = std::max(side.right, mesh.vertices(mesh.edges(e, end), 0));
+    }
+  }
+  return side;
+}
+
+/// The body's edges on the line y = 0, the part of them in the group `tag`: all of it, or the rest would be clamped,
+/// another problem.
+Side check_bottom_edge(const TriangleMesh& mesh, EdgeTag tag) {
+  const Box body = box_of(mesh, Region::body);
+  if (body.low < -slack)
+    throw Error(
+        fmt::format("the group body reaches down to y = {:.6g}; accepted: a body on and above y = 0", body.low));
+  const Side bottom = side_of(mesh, 0, tag, [&](int e) {
+    const int other = mesh.edge_triangles(e, 1);
+    return mesh.region[mesh.edge_triangles(e, 0)] == Region::body || (other >= 0 && mesh.region[other] == Region::body);
+  });
+  if (bottom.length == 0)
+    throw Error(
+        fmt::format("the group body has no edge on the line y = 0 (it spans ({:.6g}, {:.6g}) x ({:.6g}, {:.6g})); "
+                    "accepted: a body above y = 0 with its bottom edge on that line",
+                    body.left, body.right, body.low, body.high));
+  if (std::abs(bottom.tagged - bottom.length) > slack)
+    throw Error(fmt::format("of the body's bottom edge on y = 0, {:.6g} long, {:.6g} are {}; accepted: all of it",
+                            bottom.length, bottom.tagged,
+                            tag == EdgeTag::contact ? "in the group contact" : "above the layer"));
+  return bottom;
+}
+
+/// The layer fills the strip of the given depth below Sigma: its area and its box say so.
+void check_layer(const TriangleMesh& mesh, const Side& sigma, double depth) {
+  const Box layer = box_of(mesh, Region::layer);
+  const double error = std::max({std::abs(layer.left - sigma.left), std::abs(layer.right - sigma.right),
+                                 std::abs(layer.low + depth), std::abs(layer.high)});
+  if (error <= slack && std::abs(layer.area - sigma.length * depth) <= slack * std::max(1.0, sigma.length)) return;
+  throw Error(fmt::format(
+      "the group layer spans ({:.6g}, {:.6g}) x ({:.6g}, {:.6g}) with area {:.6g}; accepted for this scene: the strip "
+      "below the body's bottom edge, ({:.6g}, {:.6g}) x ({:.6g}, 0), filled (area {:.6g})",
+      layer.left, layer.right, layer.low, layer.high, layer.area, sigma.left, sigma.right, -depth,
+      sigma.length * depth));
+}
+
+/// The contact edges lie on the lower side, all of it.
+void check_contact_side(const TriangleMesh& mesh, double bottom, double wanted) {
   double length = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
@@ -48,8 +104,9 @@ void check_contact_side(const TriangleMesh& mesh, double bottom) {
         throw Error(fmt::format("the contact edge at ({:.6g}, {:.6g}) is not on the lower side; accepted: y = {:.6g}",
                                 vertex(0), vertex(1), bottom));
   }
-  if (std::abs(length - 1) > slack)
-    throw Error(fmt::format("the group contact is {:.6g} long; accepted: the whole side y = {:.6g}", length, bottom));
+  if (std::abs(length - wanted) > slack)
+    throw Error(fmt::format("the group contact is {:.6g} long; accepted: the whole side y = {:.6g}, {:.6g} long",
+                            length, bottom, wanted));
 }
 
 TriangleMesh read_mesh_of(const Scene& scene, const std::string& path) {
@@ -60,32 +117,52 @@ TriangleMesh read_mesh_of(const Scene& scene, const std::string& path) {
     if (has_layer && depth == 0)
       throw Error("has a group layer, which this scene has no use for; accepted: a mesh of the body alone");
     if (!has_layer && depth > 0) throw Error("has nothing in the physical group \"layer\", which this scene needs");
-    check_covers(mesh, Region::body, 0, 1);
-    if (has_layer) check_covers(mesh, Region::layer, -depth, depth);
-    check_contact_side(mesh, -depth);
+    const Side sigma = check_bottom_edge(mesh, has_layer ? EdgeTag::sigma : EdgeTag::contact);
+    if (has_layer) check_layer(mesh, sigma, depth);
+    check_contact_side(mesh, -depth, sigma.length);
+    if (std::holds_alternative<VentcelLayer>(scene.layer()) && sigma.right - sigma.left > sigma.length + slack)
+      throw Error("the body's bottom edge is in several pieces; accepted with model = \"ventcel\": one piece");
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
   }
   return mesh;
 }
 
-}  // namespace
-
-TriangleMesh make_mesh(const SceneFile& file) {
+TriangleMesh checked_mesh(const SceneFile& file) {
+  using Kind = MeshRequest::Kind;
   const Domain domain{file.scene.layer_depth()};
-  const bool from_file = file.mesh.kind == MeshRequest::Kind::file;
+  const int cells = file.mesh.cells;
+  const auto make = [&] {
+    switch (file.mesh.kind) {
+      case Kind::structured:
+        return structured_mesh(cells, domain);
+      case Kind::unstructured:
+        return unstructured_mesh(cells, domain);
+      case Kind::layered:
+        return layered_mesh(cells, file.scene.epsilon().value_or(1));
+      case Kind::file:
+        break;
+    }
+    return read_mesh_of(file.scene, file.mesh.file.string());
+  };
   try {
-    if (from_file) return read_mesh_of(file.scene, file.mesh.file.string());
-    if (file.mesh.kind == MeshRequest::Kind::structured) return structured_mesh(file.mesh.cells, domain);
-    return unstructured_mesh(file.mesh.cells, domain);
+    return make();
   } catch (const Error& error) {
     std::string what = printable(error.what(), 2000);
     if (what.find("accepted") == std::string::npos)
       what +=
           "; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), clamped and contact, its "
           "triangles proper and connected";
-    throw Error(file.name + (from_file ? ": mesh.file: " : ": mesh.cells: ") + what);
+    throw Error(file.name + (file.mesh.kind == Kind::file ? ": mesh.file: " : ": mesh.cells: ") + what);
   }
+}
+
+}  // namespace
+
+TriangleMesh make_mesh(const SceneFile& file) {
+  TriangleMesh mesh = checked_mesh(file);
+  if (file.mesh.kind == MeshRequest::Kind::file) check_on_mesh(file, mesh);
+  return mesh;
 }
 
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh) {

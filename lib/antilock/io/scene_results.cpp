@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/result_folder.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/contact_zone.hpp"
@@ -25,8 +27,42 @@ double finite(const char* what, double value) {
   return value;
 }
 
-Json summary(const SceneFile& file, const Space& space, const VariationalInequality& problem, const Solution& solution,
-             const RunSeconds& seconds) {
+/// The question in full: with it and the mesh file anyone can ask it again.
+Json question(const SceneFile& file) {
+  const SceneWords& words = file.words;
+  Json layer, mesh = {{"kind", words.mesh}};
+  if (!words.model.empty()) layer = {{"epsilon", or_null(file.scene.epsilon())}, {"model", words.model}};
+  if (file.mesh.kind == MeshRequest::Kind::file)
+    mesh["file"] = words.file;
+  else
+    mesh["cells"] = file.mesh.cells;
+  return {{"title", file.title},
+          {"load", words.load},
+          {"layer", layer},
+          {"gap", file.scene.contact() ? Json(words.gap) : Json(nullptr)},
+          {"mesh", mesh},
+          {"method",
+           {{"element", file.method.element}, {"solver", file.method.solver}, {"tolerance", file.method.tolerance}}},
+          {"version", ANTILOCK_VERSION}};
+}
+
+/// T values of the layer stress: the mean over the rows of B that stand for a triangle, 0 on the body.
+Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p) {
+  const auto triangles = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
+  if (p.size() == 0 || triangles == 0) return {};
+  const Eigen::Index rows = p.size() / triangles;
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(mesh.triangle_count());
+  Eigen::Index row = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer) {
+      stress(t) = p.segment(row, rows).mean();
+      row += rows;
+    }
+  return stress;
+}
+
+Json summary(const SceneFile& file, const Space& space, const VariationalInequality& problem,
+             const Solution& solution) {
   Json s;
   s["element"] = file.method.element;
   s["solver"] = file.method.solver;
@@ -49,15 +85,12 @@ Json summary(const SceneFile& file, const Space& space, const VariationalInequal
     s["kkt"] = {{"residual", solution.kkt.residual}};
   }
   s["iterations"] = {{"contact", solution.counters.contact}, {"corrections", solution.counters.corrections}};
-  s["seconds"] = {{"mesh", seconds.mesh},
-                  {"assemble", seconds.assemble},
-                  {"factor", seconds.factor},
-                  {"solve", seconds.solve},
-                  {"total", seconds.total}};
   return s;
 }
 
 }  // namespace
+
+std::string question_json(const SceneFile& file) { return question(file).dump(); }
 
 void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file) {
   for (const char* name : {"summary.json", "solution.csv", "contact.csv", "mesh.msh", "solution.vtu"})
@@ -68,19 +101,29 @@ void check_inputs_stay(const std::filesystem::path& folder, const std::filesyste
 }
 
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Space& space,
-                         const VariationalInequality& problem, const Solution& solution, const RunSeconds& seconds) {
-  const Json json = summary(file, space, problem, solution, seconds);
+                         const VariationalInequality& problem, const Solution& solution, const RunSeconds& seconds,
+                         const std::string& warning) {
+  const Stopwatch watch;
+  Json json = summary(file, space, problem, solution);
+  json["warning"] = warning;
+  json["scene"] = question(file);
   const bool contact = file.scene.contact().has_value();
   const auto write = [&](const std::filesystem::path& draft) {
-    write_file(draft / "summary.json", [&](std::ostream& out) { out << json.dump(2) << "\n"; });
     write_solution_csv(draft / "solution.csv", space, solution.u);
+    VtuFields more{layer_stress(space.mesh(), solution.p), {}};
     if (contact) {
       Eigen::MatrixX3d table = contact_table(space, problem, solution);
       table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
       write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
+      more.pressure = table.col(2);
     }
     write_msh(draft / "mesh.msh", space.mesh());
-    write_vtu(draft / "solution.vtu", space, solution.u);
+    write_vtu(draft / "solution.vtu", space, solution.u, more);
+    const auto& [mesh, assemble, factor, solve] = seconds;
+    const double files = watch.seconds();  // the summary itself is the last file
+    json["seconds"] = {{"mesh", mesh},   {"assemble", assemble}, {"factor", factor},
+                       {"solve", solve}, {"files", files},       {"total", mesh + assemble + factor + solve + files}};
+    write_file(draft / "summary.json", [&](std::ostream& out) { out << json.dump(2) << "\n"; });
   };
   write_folder(folder, write, contact ? std::vector<std::string>{} : std::vector<std::string>{"contact.csv"});
 }

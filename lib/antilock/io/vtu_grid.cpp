@@ -22,18 +22,31 @@ void print_arrays(Text& text, const char* section, const std::vector<VtuArray>& 
   text.print("</{}>\n", section);
 }
 
+/// Text in the manner of VTK: the codes of its signs, each text closed by a zero.
+void print_names(Text& text, const std::vector<std::string>& names) {
+  if (names.empty()) return;
+  text.print("<FieldData>\n<DataArray type=\"String\" Name=\"region_names\" NumberOfTuples=\"{}\" format=\"ascii\">\n",
+             names.size());
+  for (const std::string& name : names) {
+    for (const char sign : name) text.print("{} ", static_cast<int>(sign));
+    text.print("0\n");
+  }
+  text.print("</DataArray>\n</FieldData>\n");
+}
+
 }  // namespace
 
 void write_grid(const std::filesystem::path& path, const VtuGrid& grid) {
-  const auto& [points, triangles, point_data, cell_data] = grid;
-  write_file(path, [&, &points = points, &triangles = triangles, &point_data = point_data,
-                    &cell_data = cell_data](std::ostream& out) {
+  const auto& [points, triangles, point_data, cell_data, region_names] = grid;
+  write_file(path, [&, &points = points, &triangles = triangles, &point_data = point_data, &cell_data = cell_data,
+                    &region_names = region_names](std::ostream& out) {
     constexpr int vtk_triangle = 5;
     Text text(out);
     text.print(
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">"
-        "\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n",
-        points.rows(), triangles.rows());
+        "\n<UnstructuredGrid>\n");
+    print_names(text, region_names);
+    text.print("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points.rows(), triangles.rows());
     print_arrays(text, "PointData", point_data);
     print_arrays(text, "CellData", cell_data);
     text.print("<Points>\n<DataArray type=\"Float64\" NumberOfComponents=\"3\" format=\"ascii\">\n");

@@ -19,6 +19,7 @@ struct VtuGrid {
   Points points;
   Triples triangles;
   std::vector<VtuArray> point_data, cell_data;  ///< the first of each is the one that a viewer shows
+  std::vector<std::string> region_names = {};   ///< of the numbers 0, 1, ... in the cell data `region`: field data
 };
 
 /// Throws Error, `path` first, where it cannot be written; no partial file is left.

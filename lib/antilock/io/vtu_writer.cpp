@@ -8,7 +8,7 @@
 namespace antilock {
 namespace {
 
-/// Three points a triangle of their own, so that a field that jumps from triangle to triangle can.
+/// Three points per triangle, so that a field that jumps from triangle to triangle can.
 VtuGrid torn_grid(const TriangleMesh& mesh) {
   const int corners = 3 * mesh.triangle_count();
   VtuGrid grid{Points(corners, 2), Triples(mesh.triangle_count(), 3), {}, {}};
@@ -23,12 +23,33 @@ VtuGrid torn_grid(const TriangleMesh& mesh) {
 /// The values of u at the points of torn_grid (for CR they are m_j + m_k - m_i).
 Eigen::VectorXd corner_values(const Space& space, const Eigen::VectorXd& u) {
   const Element& element = space.element();
-  Eigen::MatrixXd basis(3, element.unknowns());  // a row a corner
+  Eigen::MatrixXd basis(3, element.unknowns());  // a row per corner
   for (int i = 0; i < 3; ++i) basis.row(i) = element.basis(Eigen::Vector3d::Unit(i)).transpose();
   Eigen::VectorXd values(3 * space.mesh().triangle_count());
   for (int t = 0; t < space.mesh().triangle_count(); ++t) {
     const Eigen::VectorXi unknowns = space.unknowns().row(t);
     values.segment<3>(3 * t) = basis * u(unknowns);
+  }
+  return values;
+}
+
+/// The contact pressure at the points of the grid: at a vertex its own, on a Crouzeix-Raviart edge that of the edge.
+Eigen::VectorXd point_pressure(const Space& space, const Eigen::VectorXd& pressure) {
+  const TriangleMesh& mesh = space.mesh();
+  const std::vector<int>& contact = space.contact();
+  if (space.element().per_vertex() > 0) {
+    Eigen::VectorXd values = Eigen::VectorXd::Zero(mesh.vertex_count());
+    for (std::size_t k = 0; k < contact.size(); ++k)
+      if (contact[k] < mesh.vertex_count()) values(contact[k]) = pressure(static_cast<Eigen::Index>(k));
+    return values;
+  }
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.triangle_count()));
+  for (std::size_t k = 0; k < contact.size(); ++k) {
+    const int triangle = mesh.edge_triangles(contact[k], 0);
+    for (int i = 0; i < 3; ++i)
+      if (mesh.triangle_edges(triangle, i) == contact[k])
+        values(3 * triangle + (i + 1) % 3) = values(3 * triangle + (i + 2) % 3) =
+            pressure(static_cast<Eigen::Index>(k));
   }
   return values;
 }
@@ -42,24 +63,30 @@ void check_values(const std::filesystem::path& path, const char* name, const cha
 
 }  // namespace
 
-void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u) {
-  check_values(path, "u", "an unknown", u, space.size());
+void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u, const VtuFields& more) {
+  check_values(path, "u", "per unknown", u, space.size());
   const TriangleMesh& mesh = space.mesh();
+  if (more.p.size() > 0) check_values(path, "p", "per triangle", more.p, mesh.triangle_count());
+  if (more.pressure.size() > 0)
+    check_values(path, "pressure", "per contact unknown", more.pressure, static_cast<int>(space.contact().size()));
   // elements with unknowns at the vertices share them; the others jump there
   const bool shared = space.element().per_vertex() > 0;
   VtuGrid grid = shared ? VtuGrid{mesh.vertices, mesh.triangles, {}, {}} : torn_grid(mesh);
   grid.point_data.push_back({"u", shared ? Eigen::VectorXd(u.head(mesh.vertex_count())) : corner_values(space, u)});
+  if (more.pressure.size() > 0) grid.point_data.push_back({"pressure", point_pressure(space, more.pressure)});
   Eigen::VectorXd region(mesh.triangle_count());
   for (int t = 0; t < mesh.triangle_count(); ++t) region(t) = static_cast<int>(mesh.region[t]);
   grid.cell_data.push_back({"region", region, true});
+  grid.region_names = {"none", "body", "layer"};
+  if (more.p.size() > 0) grid.cell_data.push_back({"p", more.p});
   write_grid(path, grid);
 }
 
 void write_deformed_vtu(const std::filesystem::path& path, const VectorSpace& space, const Eigen::VectorXd& u,
                         const Eigen::VectorXd& pressure) {
   const TriangleMesh& mesh = space.x.mesh();
-  check_values(path, "u", "an unknown", u, space.size());
-  check_values(path, "pressure", "a triangle", pressure, mesh.triangle_count());
+  check_values(path, "u", "per unknown", u, space.size());
+  check_values(path, "pressure", "per triangle", pressure, mesh.triangle_count());
   VtuGrid grid = torn_grid(mesh);
   Eigen::MatrixXd displacement = Eigen::MatrixXd::Zero(grid.points.rows(), 3);
   displacement.col(0) = corner_values(space.x, u.head(space.x.size()));

@@ -18,13 +18,20 @@ void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& m
 /// A table: one header line, then rows, comma separated. Here and below a number is the shortest text that reads back
 /// as the same double (up to 17 digits). Every writer throws Error, `path` first, and leaves no partial file.
 void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header, const Eigen::MatrixXd& rows);
-/// `x,y,u`: one row an unknown.
+/// `x,y,u`: one row per unknown.
 void write_solution_csv(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u);
-/// VTU (ASCII XML) for ParaView and the figures: point data `u`, cell data `region` (1 body, 2 layer). A vertex a
-/// triangle corner, so that Crouzeix-Raviart fields keep their jumps; P1 fields share their vertices.
-void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u);
-/// VTU of a body deformed by u (not magnified): the points where it moved them, three a triangle, point data
-/// `displacement`, cell data `pressure` (one value a triangle).
+/// What a VTU file may hold beside u; an empty vector is left out.
+struct VtuFields {
+  Eigen::VectorXd p = {};         ///< T, the layer stress, one value per triangle (0 on the body)
+  Eigen::VectorXd pressure = {};  ///< C, the contact pressure, a density, one value per contact unknown of the space
+};
+/// VTU (ASCII XML) for ParaView and the figures: point data `u` and `pressure` (0 off Gamma_C), cell data `region`
+/// (1 body, 2 layer: their names are the field data `region_names`) and `p`. A vertex per triangle corner, so that
+/// Crouzeix-Raviart fields keep their jumps; P1 and P2 fields share their vertices, and P2 is shown there alone.
+void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u,
+               const VtuFields& more = {});
+/// VTU of a body deformed by u (not magnified): the points where it moved them, three per triangle, point data
+/// `displacement`, cell data `pressure` (one value per triangle).
 void write_deformed_vtu(const std::filesystem::path& path, const VectorSpace& space, const Eigen::VectorXd& u,
                         const Eigen::VectorXd& pressure);
 

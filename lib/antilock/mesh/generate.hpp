@@ -26,7 +26,9 @@ TriangleMesh structured_mesh(int cells, const Domain& domain = {}, Diagonal diag
 TriangleMesh jittered_mesh(int cells, double amount);
 
 /// The unstructured mesh of Figure 6, by gmsh (Frontal-Delaunay, one thread, fixed seed): the same mesh at every call.
-/// In a thin layer the cells shrink to half its depth. Throws Error unless 1 <= cells <= 512.
+/// In a thin layer the cells shrink to half its depth. Beyond 128 cells gmsh makes the mesh of cells / 2, / 4 or / 8 (the
+/// first that is at most 80, or the last that leaves a layer one cell deep) and every triangle is then cut into four by its midpoints, as often: the angles are those
+/// of the coarse mesh, and inside its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
 TriangleMesh unstructured_mesh(int cells, const Domain& domain = {});
 
 }  // namespace antilock

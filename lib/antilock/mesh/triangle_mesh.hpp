@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// Physical groups of Figure 2; the numbers are those of the MSH and FreeFEM files.

@@ -32,13 +32,13 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact)
     check_epsilon("thin", thin->epsilon, 1e-3, "1e-3 <= epsilon <= 1 (below, use the scaled layer)");
   if (!contact_) return;
   if (!contact_->gap) throw Error("contact: no gap given; accepted: a function gap(x)");
-  for (const double x : {0.0, 1.0}) {
+  for (const double x : contact_->held) {
     const double gap = contact_->gap(x);
     if (!(gap >= -1e-12 * std::max(1.0, std::abs(contact_->gap(0.5)))))  // sin(pi) in double precision is 1.2e-16
       throw Error(
           fmt::format("contact: gap({}) = {}, but u = 0 is prescribed there, so no u >= -gap exists; "
-                      "accepted: gap >= 0 at x = 0 and x = 1",
-                      x, gap));
+                      "accepted: gap >= 0 at x = {}",
+                      x, gap, fmt::join(contact_->held, " and x = ")));
   }
 }
 

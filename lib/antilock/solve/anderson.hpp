@@ -2,6 +2,8 @@
 #include <Eigen/Dense>
 #include <deque>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// Anderson's acceleration of a fixed-point iteration x -> x + g(x): the combination of the last few iterates whose

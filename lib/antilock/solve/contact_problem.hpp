@@ -2,6 +2,8 @@
 #include <Eigen/Dense>
 #include <vector>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// The contact problem condensed on Gamma_C (C unknowns): find v >= lower with

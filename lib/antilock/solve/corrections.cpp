@@ -21,6 +21,7 @@ Solution Corrections::solve(const ContactSolver& contact) {
     rescue();
     const Change change = correct(residual(), contact);
     if (settled(change)) return finished();
+    report(options_.progress, {"corrections", correction_ + 1, error_, options_.tolerance}, s_.solver);
     accelerate(change);
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 
+#include "antilock/core/progress.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/contact_problem.hpp"
 #include "antilock/solve/penalty_factor.hpp"
@@ -17,6 +18,7 @@ struct CorrectionOptions {
                               ///< it on p compliance = B u, row by row, where errors of modes that B nearly misses hide
   double refused = 1e-6;      ///< KKT report above which no answer is returned (see TrustLevels)
   int max_corrections = 100;  ///< reached: NotConverged
+  ProgressHook progress = {};  ///< called after every correction that is not the last
 };
 
 /// The options for a relative error of `asked` at best. Who asks for little gets little, with a warning: the report may

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// How well the conditions of the inequality hold, each relative and scale-free (see kkt.hpp for the scales).

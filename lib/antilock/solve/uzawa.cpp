@@ -42,6 +42,8 @@ class CondensedUzawa {
       ++answer.steps;
       history.push_back(change);
       if (change <= options_.tolerance) break;
+      if (answer.steps % 256 == 0)
+        report(options_.progress, {"contact", static_cast<int>(history.size()), change, options_.tolerance}, "uzawa");
       const bool late = answer.steps % 256 == 0 && watch_.seconds() > options_.max_seconds;
       if (!std::isfinite(change) || late || static_cast<int>(history.size()) >= options_.max_steps)
         throw NotConverged(
@@ -88,8 +90,9 @@ class CondensedUzawa {
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options) {
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
-  const CorrectionOptions corrections =
+  CorrectionOptions corrections =
       corrections_to(std::max({options.tolerance, options.enough ? options.enough->relative : 0, 1e-12}));
+  corrections.progress = options.progress;
   if (problem.contact.empty()) return iterated_penalty(problem, factor, {}, corrections, "uzawa");
   CondensedUzawa contact(factor, options);
   Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");

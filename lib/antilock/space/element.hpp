@@ -2,6 +2,8 @@
 #include <Eigen/Dense>
 #include <string>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// One page says what an element is: where its unknowns sit and its basis in barycentric coordinates lambda.

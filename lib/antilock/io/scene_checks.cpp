@@ -1,0 +1,150 @@
+#include "antilock/io/scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace antilock {
+namespace {
+
+constexpr double telling = 0.05;  // the share from which a difference is no matter of the mesh width
+
+/// The place of point k in a triangle: a sequence of low discrepancy in the unit square (Roberts 2018, the plastic
+/// number), folded to the triangle. No two points of a run have the same x or the same y, so that strips are found
+/// as well as spots.
+Eigen::Vector3d spread_point(double k) {
+  constexpr double plastic = 1.32471795724474602596;
+  double a = std::fmod(0.5 + k / plastic, 1), b = std::fmod(0.5 + k / (plastic * plastic), 1);
+  if (a + b > 1) {
+    a = 1 - a;
+    b = 1 - b;
+  }
+  return {1 - a - b, a, b};
+}
+
+}  // namespace
+
+void sample_load(const Field& f) {
+  for (const int n : {100, 120, 128})
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) f(static_cast<double>(i) / n, static_cast<double>(j) / n);
+}
+
+void sample_gap(const Profile& gap, double from, double to) {
+  for (const int n : {1000, 3840, 4096})
+    for (int i = 0; i <= n; ++i) gap(from + (to - from) * i / n);
+}
+
+void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
+  const Field& f = file.scene.body().load;
+  std::vector<char> clamped(mesh.vertex_count(), 0);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const Eigen::RowVector2d from = mesh.vertices.row(mesh.edges(e, 0)), to = mesh.vertices.row(mesh.edges(e, 1));
+    if (mesh.edge_tag[e] == EdgeTag::clamped) clamped[mesh.edges(e, 0)] = clamped[mesh.edges(e, 1)] = 1;
+    const int first = mesh.edge_triangles(e, 0), second = mesh.edge_triangles(e, 1);
+    const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
+    if (!body(first) && !body(second)) continue;
+    for (const double s : {0.0, 0.5, 1.0}) {
+      const Eigen::RowVector2d x = (1 - s) * from + s * to;
+      f(x(0), x(1));
+    }
+  }
+  if (!file.scene.contact()) return;
+  const Profile& gap = file.scene.contact()->gap;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
+    for (int i = 0; i <= 32; ++i) gap(a + (b - a) * i / 32);
+    for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)})
+      if (const double x = mesh.vertices(v, 0);
+          clamped[v] && gap(x) < -1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))))
+        throw Error(
+            fmt::format("{}: contact.gap: gap({:.6g}) = {:.6g}, but u = 0 is prescribed there, so no u >= -gap "
+                        "exists; accepted: gap >= 0 where Gamma_C meets a clamped edge",
+                        file.name, x, gap(x)));
+  }
+}
+
+std::string load_warning(const SceneFile& file, const Space& space, const VariationalInequality& problem) {
+  const TriangleMesh& mesh = space.mesh();
+  const Field& f = file.scene.body().load;
+  double area = 0;
+  int triangles = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::body) area += mesh.area(t), ++triangles;
+
+  constexpr int points = 1 << 18;
+  Eigen::Vector3d sampled = Eigen::Vector3d::Zero(),
+                  size = sampled;  // integrals of f (1, x, y) and of |f| (1, |x|, |y|)
+  double k = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != Region::body) continue;
+    const int here = std::max(1, static_cast<int>(std::ceil(points * mesh.area(t) / area)));
+    for (int i = 0; i < here; ++i) {
+      const Eigen::Vector2d x = point_in(mesh, t, spread_point(++k));
+      const double part = f(x(0), x(1)) * mesh.area(t) / here;
+      sampled += part * Eigen::Vector3d(1, x(0), x(1));
+      size += std::abs(part) * Eigen::Vector3d(1, std::abs(x(0)), std::abs(x(1)));
+    }
+  }
+  // the basis sums to 1, and with the places of the unknowns as weights to x and to y
+  const Points& at = space.points();
+  const Eigen::Vector3d seen(problem.load.sum(), problem.load.dot(at.col(0)), problem.load.dot(at.col(1)));
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(seen(i) - sampled(i)) > telling * std::max(size(i), std::abs(seen(i))))
+      return fmt::format(
+          "load.f: the quadrature of this mesh misses the load: the integral of {} is {:.3g} by the quadrature, {:.3g} "
+          "by {:.0f} points (that of its absolute value {:.3g}): a finer mesh is needed where the load lives",
+          i == 0   ? "f"
+          : i == 1 ? "x f"
+                   : "y f",
+          seen(i), sampled(i), k, size(i));
+  return "";
+}
+
+std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
+  if (!file.scene.contact()) return "";
+  const TriangleMesh& mesh = space.mesh();
+  std::vector<std::pair<double, double>> line;  // x and u_h at the contact unknowns and at the clamped ends of Gamma_C
+  for (const int i : space.contact()) line.emplace_back(space.points()(i, 0), solution.u(i));
+  std::vector<char> clamped(mesh.vertex_count(), 0);
+  int edges = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    edges += mesh.edge_tag[e] == EdgeTag::contact ? 1 : 0;
+    if (mesh.edge_tag[e] == EdgeTag::clamped) clamped[mesh.edges(e, 0)] = clamped[mesh.edges(e, 1)] = 1;
+  }
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    for (int end = 0; end < 2; ++end)
+      if (const int v = mesh.edges(e, end); mesh.edge_tag[e] == EdgeTag::contact && clamped[v])
+        line.emplace_back(mesh.vertices(v, 0), 0);
+  std::sort(line.begin(), line.end());
+
+  const double size = solution.u.lpNorm<Eigen::Infinity>();
+  const int places = std::max(32, 100'000 / std::max(edges, 1));
+  double deepest = 0, where = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
+    for (int i = 0; i < places; ++i) {
+      const double x = a + (b - a) * (i + 0.5) / places;
+      const auto right = std::upper_bound(line.begin(), line.end(), std::pair(x, 0.0));
+      if (right == line.begin() || right == line.end()) continue;
+      const auto [x0, u0] = *(right - 1);
+      const auto [x1, u1] = *right;
+      const double u = x1 > x0 ? u0 + (u1 - u0) * (x - x0) / (x1 - x0) : u0;
+      if (const double depth = -u - file.scene.contact()->gap(x); depth > deepest) {
+        deepest = depth;
+        where = x;
+      }
+    }
+  }
+  if (deepest <= telling * size || deepest < 1e-12) return "";
+  return fmt::format(
+      "contact.gap: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep into it at x = "
+      "{:.6g} "
+      "(max |u| is {:.3g}): a finer mesh is needed there",
+      deepest, where, size);
+}
+
+}  // namespace antilock

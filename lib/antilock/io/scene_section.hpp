@@ -1,0 +1,86 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "antilock/core/error.hpp"
+#include "antilock/io/expression.hpp"
+
+namespace antilock {
+
+using Names = std::initializer_list<std::string>;
+
+/// A section of the file: gives its values, each checked, and refuses with the name of the file and of the key.
+class Section {
+ public:
+  Section(std::string file, std::string name, const toml::table& table)
+      : file_(std::move(file)), name_(std::move(name)), table_(table) {}
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const { throw Error(where(key) + why); }
+  std::string where(const std::string& key) const {
+    std::string full = name_;
+    if (!full.empty() && !key.empty()) full += '.';
+    return printable(file_, 1000) + ": " + full + printable(key) + ": ";
+  }
+
+  void only(Names accepted) const {
+    for (const auto& [key, value] : table_)
+      if (const std::string name(key.str()); std::find(accepted.begin(), accepted.end(), name) == accepted.end())
+        refuse(name, fmt::format("unknown {}; accepted: {}", name_.empty() ? "key or section" : "key",
+                                 fmt::join(accepted, ", ")));
+  }
+  bool has(const std::string& key) const { return table_.contains(key); }
+
+  std::string text(const std::string& key, const std::string& accepted) const {
+    const auto value = table_[key].value_exact<std::string>();
+    if (!value) refuse(key, what_stands_there(key) + "; accepted: " + accepted);
+    return *value;
+  }
+  std::string one_of(const std::string& key, Names accepted) const {
+    const std::string list = fmt::format("\"{}\"", fmt::join(accepted, "\", \""));
+    const std::string value = text(key, list);
+    if (std::find(accepted.begin(), accepted.end(), value) == accepted.end())
+      refuse(key, fmt::format("\"{}\" is unknown; accepted: {}", printable(value), list));
+    return value;
+  }
+  double number(const std::string& key, const std::string& accepted) const {
+    std::optional<double> value = table_[key].value_exact<double>();
+    if (const auto integer = table_[key].value_exact<std::int64_t>()) value = static_cast<double>(*integer);
+    if (!value) refuse(key, what_stands_there(key) + "; accepted: a number, " + accepted);
+    if (!std::isfinite(*value)) refuse(key, "is not finite; accepted: a number, " + accepted);
+    return *value + 0.0;  // -0.0 becomes 0.0
+  }
+  int count(const std::string& key, int most) const {
+    const std::string accepted = fmt::format("; accepted: a whole number, 1 to {}", most);
+    const auto value = table_[key].value_exact<std::int64_t>();
+    if (!value) refuse(key, what_stands_there(key) + accepted);
+    if (*value < 1 || *value > most) refuse(key, fmt::format("{} is out of range{}", *value, accepted));
+    return static_cast<int>(*value);
+  }
+  std::optional<Section> section(const std::string& key) const {
+    if (!has(key)) return std::nullopt;
+    const toml::table* table = table_[key].as_table();
+    if (table == nullptr) refuse(key, fmt::format("{}; accepted: a section [{}]", what_stands_there(key), key));
+    return Section(file_, key, *table);
+  }
+
+ private:
+  std::string what_stands_there(const std::string& key) const {
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return "is missing";
+    std::ostringstream type;
+    type << node->type();
+    return "is of type " + type.str();
+  }
+
+  std::string file_, name_;
+  const toml::table& table_;
+};
+
+}  // namespace antilock
