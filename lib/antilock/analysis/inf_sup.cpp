@@ -5,6 +5,7 @@
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
 
@@ -35,9 +36,9 @@ Eigen::MatrixXd multiplier_gram(const VariationalInequality& problem, const Spar
 }
 
 double inf_sup(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& norm) {
-  if (norm.llt().info() != Eigen::Success) throw Error("inf-sup: the multipliers' norm is not positive definite");
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> pencil(seen, norm, Eigen::EigenvaluesOnly);
-  const double least = pencil.eigenvalues().minCoeff(), largest = pencil.eigenvalues().maxCoeff();
+  if (!Cholesky(norm).positive_definite()) throw Error("inf-sup: the multipliers' norm is not positive definite");
+  const Eigen::VectorXd squares = generalised_eigenvalues(seen, norm);
+  const double least = squares.minCoeff(), largest = squares.maxCoeff();
   return least > 1e-12 * largest ? std::sqrt(least) : 0;  // a dependent row of B, to round-off
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/SPQRSupport>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock {
@@ -81,10 +82,8 @@ double coercivity(const VariationalInequality& problem, const SparseMatrix& norm
   const Eigen::MatrixXd form = SparseMatrix(places.transpose() * problem.a1 * places).toDense() +
                                SparseMatrix(b.transpose() * problem.m.asDiagonal() * b).toDense();
   const Eigen::MatrixXd gram = SparseMatrix(places.transpose() * norm * places).toDense();
-  if (gram.llt().info() != Eigen::Success) throw Error("coercivity: the norm is not positive definite");
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(form, gram, Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .minCoeff();
+  if (!Cholesky(gram).positive_definite()) throw Error("coercivity: the norm is not positive definite");
+  return generalised_eigenvalues(form, gram).minCoeff();
 }
 
 }  // namespace antilock

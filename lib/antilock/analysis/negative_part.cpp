@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "antilock/analysis/inf_sup.hpp"
+#include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/measure/contact_edges.hpp"
 
@@ -28,8 +29,7 @@ double negative_part_constant(const Space& space, VariationalInequality problem,
   problem.b.setFromTriplets(entries.begin(), entries.end());
   problem.m = Eigen::VectorXd::Ones(problem.b.rows());
   const Eigen::MatrixXd seen = multiplier_gram(problem, norm);  // sup |B v|^2 / |v|_h^2 is its largest eigenvalue
-  return std::sqrt(
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(seen, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+  return std::sqrt(symmetric_eigenvalues(seen).maxCoeff());
 }
 
 }  // namespace antilock

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock {
@@ -15,8 +16,8 @@ namespace {
 std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n) {
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
   for (int k = 1; k < n; ++k) jacobi(k, k - 1) = k / std::sqrt(4.0 * k * k - 1);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(jacobi);  // reads the lower triangle
-  return {(1 + eigen.eigenvalues().array()) / 2, eigen.eigenvectors().row(0).transpose().array().square()};
+  const auto [values, vectors] = symmetric_eigen(jacobi);
+  return {(1 + values.array()) / 2, vectors.row(0).transpose().array().square()};
 }
 
 /// The square folded onto the triangle, (s, t) -> lambda = (s, (1 - s) t, (1 - s)(1 - t)): its area element is (1 - s).

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
 
@@ -34,7 +35,7 @@ Eigen::MatrixXd monomials(const Eigen::MatrixX3d& points, int degree) {
 Eigen::MatrixXd layer_stress_values(const Element& element, const Eigen::MatrixX3d& points) {
   const int degree = element.degree() - 1;
   const Eigen::MatrixXd at_rows = monomials(strain_rule(element).points, degree);
-  return monomials(points, degree) * at_rows.completeOrthogonalDecomposition().pseudoInverse();
+  return monomials(points, degree) * pseudo_inverse(at_rows);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "antilock/solve/anderson.hpp"
 
+#include "antilock/core/dense.hpp"
+
 namespace antilock {
 
 void Anderson::mix(Eigen::VectorXd& reached, const Eigen::VectorXd& g, Eigen::VectorXd& companion) {
@@ -13,10 +15,7 @@ void Anderson::mix(Eigen::VectorXd& reached, const Eigen::VectorXd& g, Eigen::Ve
   const Eigen::VectorXd scale = difference.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
   for (Eigen::Index i = 0; i < others; ++i) difference.col(i) /= scale(i);
   const Eigen::MatrixXd normal = difference.transpose() * difference;
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solver;
-  solver.setThreshold(1e-10);
-  solver.compute(normal);
-  const Eigen::VectorXd gamma = solver.solve(difference.transpose() * g).cwiseQuotient(scale);
+  const Eigen::VectorXd gamma = least_squares(normal, difference.transpose() * g, 1e-10).cwiseQuotient(scale);
   for (Eigen::Index i = 0; i < others; ++i) {
     reached -= gamma(i) * (past_[0].reached - past_[i + 1].reached);
     companion -= gamma(i) * (past_[0].companion - past_[i + 1].companion);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock {
@@ -28,8 +29,8 @@ Noise solve_on(const ContactProblem& p, ContactAnswer& answer) {
   if (!free.empty()) {
     Eigen::VectorXd rhs = p.q(free);
     if (!held.empty()) rhs.noalias() -= p.s(free, held) * p.lower(held);
-    const Eigen::LLT<Eigen::MatrixXd> factor(p.s(free, free));
-    if (factor.info() != Eigen::Success) throw Error("contact: the Schur complement is not positive definite");
+    const Cholesky factor(p.s(free, free));
+    if (!factor.positive_definite()) throw Error("contact: the Schur complement is not positive definite");
     const Eigen::VectorXd inactive = factor.solve(rhs);
     answer.v(free) = inactive;
     // a compliance is positive: forces of the size of their round-off, all of one sign, displace the most
@@ -64,7 +65,7 @@ std::vector<bool> projected_newton_set(const ContactProblem& p, Eigen::VectorXd&
     if (v(i) > p.lower(i) || gradient(i) <= 0) free.push_back(i);
   Eigen::VectorXd direction = Eigen::VectorXd::Zero(v.size());
   if (!free.empty()) {
-    const Eigen::VectorXd step = Eigen::LLT<Eigen::MatrixXd>(p.s(free, free)).solve(Eigen::VectorXd(-gradient(free)));
+    const Eigen::VectorXd step = Cholesky(p.s(free, free)).solve(Eigen::VectorXd(-gradient(free)));
     direction(free) = step;
   }
   ++steps;
@@ -113,10 +114,10 @@ std::vector<bool> nested_start(const ContactProblem& problem, int max_steps) {
   if (fine <= 8) return std::vector<bool>(fine, false);
   const Eigen::Index coarse = fine / 2;
   const auto kept = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
-  const Eigen::LLT<Eigen::MatrixXd> factor(Eigen::MatrixXd(problem.s(others, others)));
-  if (factor.info() != Eigen::Success) throw Error("contact: the Schur complement is not positive definite");
-  const Eigen::MatrixXd half = factor.matrixL().solve(Eigen::MatrixXd(problem.s(others, kept)));
-  const Eigen::VectorXd half_q = factor.matrixL().solve(Eigen::VectorXd(problem.q(others)));
+  const Cholesky factor(problem.s(others, others));
+  if (!factor.positive_definite()) throw Error("contact: the Schur complement is not positive definite");
+  const Eigen::MatrixXd half = factor.half_solve(Eigen::MatrixXd(problem.s(others, kept)));
+  const Eigen::VectorXd half_q = factor.half_solve(Eigen::VectorXd(problem.q(others)));
   const Eigen::MatrixXd s = Eigen::MatrixXd(problem.s(kept, kept)) - half.transpose() * half;
   const Eigen::VectorXd q = Eigen::VectorXd(problem.q(kept)) - half.transpose() * half_q, lower = problem.lower(kept);
   ContactProblem smaller{s, q, lower, problem.u_scale};

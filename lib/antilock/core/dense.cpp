@@ -1,0 +1,56 @@
+#include "antilock/core/dense.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+namespace antilock {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Cholesky::Cholesky(MatrixXd s) : l_(std::move(s)) {
+  const Eigen::LLT<Eigen::Ref<MatrixXd>> in_place(l_);
+  positive_definite_ = in_place.info() == Eigen::Success;
+}
+
+VectorXd Cholesky::half_solve(const VectorXd& right) const { return l_.triangularView<Eigen::Lower>().solve(right); }
+MatrixXd Cholesky::half_solve(const MatrixXd& right) const { return l_.triangularView<Eigen::Lower>().solve(right); }
+
+VectorXd Cholesky::solve(const VectorXd& right) const {
+  VectorXd x = half_solve(right);
+  l_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+  return x;
+}
+
+MatrixXd Cholesky::solve(const MatrixXd& right) const {
+  MatrixXd x = half_solve(right);
+  l_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
+  return x;
+}
+
+SymmetricEigen symmetric_eigen(const MatrixXd& matrix) {
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix);
+  return {eigen.eigenvalues(), eigen.eigenvectors()};
+}
+
+VectorXd symmetric_eigenvalues(const MatrixXd& matrix) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+VectorXd generalised_eigenvalues(const MatrixXd& a, const MatrixXd& b) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(a, b, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+VectorXd least_squares(const MatrixXd& matrix, const VectorXd& right, double threshold) {
+  Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
+  solver.setThreshold(threshold);
+  solver.compute(matrix);
+  return solver.solve(right);
+}
+
+MatrixXd pseudo_inverse(const MatrixXd& matrix) {
+  return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(matrix).pseudoInverse();
+}
+
+}  // namespace antilock
