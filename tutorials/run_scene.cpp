@@ -8,7 +8,6 @@
 // status 2 for a question that cannot be asked (the line names file and key), 3 for a solve that did not get there.
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <limits>
@@ -172,25 +171,21 @@ int fail(const std::string& message, int status) {
 int main(int argc, char** argv) {
   if (tutorial::launched_ranks() > 1)
     tutorial::become("run_scene_petsc", argv);  // which reads the scene on all at once
-  CLI::App app("Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
-               "run_scene");
+  tutorial::CommandLine line(
+      "Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
+      "run_scene");
   std::filesystem::path scene, out;
-  app.add_option("SCENE", scene, "the scene file, in TOML")->required();
-  app.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
   bool restart = false, direct = false;
-  app.add_flag("--direct", direct, "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
-  app.add_flag("--restart", restart, "with solver = \"petsc\": start from the last level of a run that was ended");
   double most_seconds = std::numeric_limits<double>::infinity();
-  app.add_option("--most-seconds", most_seconds, "stop a solve that takes longer: status 3, and how far it came");
-  app.footer(help);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& request) {
-    return app.exit(request);
-  } catch (const CLI::ParseError& error) {
-    return fail(std::string("run_scene: ") + error.what() + "; see run_scene --help", 2);
-  }
-  if (app.count("--out") == 0) out = std::filesystem::path("results") / scene.stem();
+  line.add_required("SCENE", scene, "the scene file, in TOML");
+  line.add("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.add("--direct", direct, "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
+  line.add("--restart", restart, "with solver = \"petsc\": start from the last level of a run that was ended");
+  line.add("--most-seconds", most_seconds, "stop a solve that takes longer: status 3, and how far it came", 0,
+           std::numeric_limits<double>::infinity());
+  line.footer(help);
+  if (const auto status = line.parse(argc, argv)) return *status;
+  if (!line.given("--out")) out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
     report.finish();  // the line of the stage that did not end

@@ -4,10 +4,10 @@
 
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/MatOp/SparseSymShiftSolve.h>
-#include <Spectra/SymEigsShiftSolver.h>
 #include <Spectra/SymEigsSolver.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "antilock/core/error.hpp"
 
@@ -16,8 +16,20 @@ namespace {
 
 constexpr int most_restarts = 1000;
 
-template <class Solver>
-double only_eigenvalue(Solver& solver, Spectra::SortRule wanted, const char* which, double tolerance = 1e-6) {
+/// x -> y of a symmetric matrix, for Spectra: one type for all, so that its solver is compiled once.
+struct Operator {
+  using Scalar = double;
+  Eigen::Index size;
+  std::function<void(const double* x, double* y)> apply;
+  Eigen::Index rows() const { return size; }
+  Eigen::Index cols() const { return size; }
+  void perform_op(const double* x, double* y) const { apply(x, y); }
+};
+
+/// 30 vectors between restarts are enough for the clustered ends of a stiff spectrum.
+double only_eigenvalue(Operator matrix, Spectra::SortRule wanted, const char* which, double tolerance = 1e-6,
+                       Eigen::Index basis = 30) {
+  Spectra::SymEigsSolver<Operator> solver(matrix, 1, std::min(basis, matrix.size));
   solver.init();
   solver.compute(wanted, most_restarts, tolerance);
   if (solver.info() != Spectra::CompInfo::Successful)
@@ -26,41 +38,29 @@ double only_eigenvalue(Solver& solver, Spectra::SortRule wanted, const char* whi
   return solver.eigenvalues()(0);
 }
 
-/// A function as Spectra's matrix.
-struct Product {
-  using Scalar = double;
-  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply;
-  Eigen::Index size;
-  Eigen::Index rows() const { return size; }
-  Eigen::Index cols() const { return size; }
-  void perform_op(const double* x, double* y) const {
-    Eigen::Map<Eigen::VectorXd>(y, size) = apply(Eigen::Map<const Eigen::VectorXd>(x, size));
-  }
-};
-
-/// Vectors kept between restarts: enough for the clustered ends of a stiff spectrum.
-int basis_size(const SparseMatrix& matrix) { return static_cast<int>(std::min<Eigen::Index>(30, matrix.rows())); }
-
 }  // namespace
 
 double largest_eigenvalue(const SparseMatrix& upper) {
-  Spectra::SparseSymMatProd<double, Eigen::Upper> product(upper);
-  Spectra::SymEigsSolver solver(product, 1, basis_size(upper));
-  return only_eigenvalue(solver, Spectra::SortRule::LargestAlge, "largest");
+  const Spectra::SparseSymMatProd<double, Eigen::Upper> product(upper);
+  return only_eigenvalue({upper.rows(), [&](const double* x, double* y) { product.perform_op(x, y); }},
+                         Spectra::SortRule::LargestAlge, "largest");
 }
 
 double largest_eigenvalue(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
                           double tolerance, int basis) {
   if (size == 1) return apply(Eigen::VectorXd::Ones(1))(0);
-  Product product{apply, size};
-  Spectra::SymEigsSolver solver(product, 1, std::min<Eigen::Index>(basis, size));
-  return only_eigenvalue(solver, Spectra::SortRule::LargestAlge, "largest", tolerance);
+  return only_eigenvalue({size,
+                          [&](const double* x, double* y) {
+                            Eigen::Map<Eigen::VectorXd>(y, size) = apply(Eigen::Map<const Eigen::VectorXd>(x, size));
+                          }},
+                         Spectra::SortRule::LargestAlge, "largest", tolerance, basis);
 }
 
 double smallest_eigenvalue(const SparseMatrix& upper) {
   Spectra::SparseSymShiftSolve<double, Eigen::Upper> inverse(upper);
-  Spectra::SymEigsShiftSolver solver(inverse, 1, basis_size(upper), 0.0);
-  return only_eigenvalue(solver, Spectra::SortRule::LargestMagn, "smallest");
+  inverse.set_shift(0);
+  return 1 / only_eigenvalue({upper.rows(), [&](const double* x, double* y) { inverse.perform_op(x, y); }},
+                             Spectra::SortRule::LargestMagn, "smallest");
 }
 
 }  // namespace antilock
