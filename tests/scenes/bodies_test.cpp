@@ -1,6 +1,7 @@
 // Bodies other than the unit square, from mesh files: each answer is known from one of the unit square, or from the
 // library called directly.
 #include "support/bodies.hpp"
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "antilock/io/writers.hpp"

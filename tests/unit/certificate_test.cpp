@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/analysis/certificate.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/form/quadrature.hpp"
@@ -202,7 +203,7 @@ TEST(Certificate, HoldsForUzawaAfterAFewSteps) {
   const auto& free = factor.numbering().unknown;
   const Eigen::MatrixXd& block = factor.contact_block();
   const Eigen::MatrixXd schur = block.triangularView<Eigen::Lower>() * block.transpose();
-  const double step = 2 * Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(schur).eigenvalues().minCoeff();
+  const double step = 2 * symmetric_eigenvalues(schur).minCoeff();
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(run.problem.contact.size()));
   double ratio = 0;
   for (int steps = 0; steps <= 100; ++steps) {
