@@ -13,6 +13,7 @@
 #include <limits>
 #include <new>
 
+#include "antilock/adapt/solve_to.hpp"
 #include "antilock/core/result_folder.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/expression.hpp"
@@ -50,6 +51,10 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   element = "CR"                # "P1" (default), "CR" (Crouzeix-Raviart) or "P2"
   solver = "active-set"         # (default), "uzawa", the paper's, or "petsc": PETSc, alone or under mpiexec
   tolerance = 1e-10             # relative, on the algebraic error; at most 1e-3
+  accuracy = 1e-2               # refine until the proved relative error in the energy norm is at most this: [mesh] is
+                                # the first mesh then, the element is CR, the solver active-set
+  of = "displacement"           # with accuracy: of the displacement (default) or of the "stress"
+  most_unknowns = 2000000       # with accuracy: the limit
 
 A mesh from a file has the physical groups body, layer (if the scene has one), clamped and contact. The body may be any
 shape on and above y = 0 with a bottom edge on that line; all of that edge is contact, or has the layer below it.
@@ -58,7 +63,7 @@ Written to the results folder: summary.json; solution.csv (x,y,u); contact.csv (
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too).
 In summary.json, h is 1/cells, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
-scene is the question in full; warning says what to doubt: an answer above the trusted error, a load that the mesh misses.
+scene is the question in full; certificate, with an accuracy, is what was proved, level by level; warning says what to doubt: an answer above the trusted error, a load that the mesh misses.
 Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8
 )help";
@@ -119,6 +124,46 @@ Solution solve(const VariationalInequality& problem, const Method& method, const
 /// Both texts, or the one that is not empty.
 std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : "; ") + b; }
 
+/// An accuracy is asked for: the mesh is the first one, and every level says how far it came.
+void answer_certified(const SceneFile& file, const TriangleMesh& first, const std::filesystem::path& out,
+                      tutorial::Report& report, double mesh_seconds, double most_seconds) {
+  const Stopwatch watch;
+  const Method& method = file.method;
+  report.stage(fmt::format("solve to a relative error of {:g}", *method.accuracy));
+  double factor = 0;
+  const auto progress = [&](const Level& level) {
+    const std::string quote = level.quoted_unknowns > 0 ? fmt::format(", about {:.0f} unknowns and {:.2g} s in the end",
+                                                                      level.quoted_unknowns, level.quoted_seconds)
+                                                        : "";
+    fmt::print("\n    {} unknowns: proved {:.3g}{}", level.unknowns, level.relative, quote);
+    if (watch.seconds() > most_seconds && level.relative > *method.accuracy)
+      throw NotConverged(fmt::format("stopped after {:.1f} s: proved {:.3g} with {} unknowns, asked for {:g}",
+                                     watch.seconds(), level.relative, level.unknowns, *method.accuracy),
+                         level.relative, 0);
+  };
+  const CertifiedSolution found = [&] {
+    try {
+      const Accuracy accuracy{*method.accuracy, method.of, method.most_unknowns, method.tolerance, {}};
+      return solve_to(file.scene, first, accuracy, progress);
+    } catch (const NotConverged& failure) {
+      throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      throw Error(what.rfind(file.name, 0) == 0 ? what : file.name + ": method.accuracy: " + what);
+    }
+  }();
+  const Space space(found.mesh, crouzeix_raviart());
+  const VariationalInequality problem = assemble(file.scene, space);
+  factor = found.cr.seconds.analyse + found.cr.seconds.factor;
+  const RunSeconds seconds{mesh_seconds, 0, factor, watch.seconds() - factor};
+  report.stage("files");
+  write_scene_results(out, file, space, problem, found.cr, seconds, found.warning, &found);
+  report.finish();
+  if (!found.warning.empty()) fmt::print("  warning: {}\n", found.warning);
+  fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
+             found.certificate.relative(method.of), found.history.size(), space.free_count(), out.string());
+}
+
 void answer(const std::filesystem::path& scene, const std::filesystem::path& out, tutorial::Report& report,
             bool for_petsc, double most_seconds, char** argv) {
   Stopwatch watch;
@@ -132,6 +177,8 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   report.stage("mesh");
   const TriangleMesh mesh = make_mesh(file);
   seconds.mesh = watch.lap();
+
+  if (file.method.accuracy) return answer_certified(file, mesh, out, report, seconds.mesh, most_seconds);
 
   report.stage(fmt::format("assembly: {} on {} triangles", file.method.element, mesh.triangle_count()));
   const Space space(mesh, element(file.method.element));

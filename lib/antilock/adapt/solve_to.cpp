@@ -169,7 +169,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     ActiveSetOptions options;
     if (scene.contact()) options.start = contact_set.on(space);
     Companion v;
-    for (double tolerance = 1e-2 * accuracy.relative;; tolerance *= 1e-2) {
+    for (double tolerance = std::min(1e-2 * accuracy.relative, accuracy.tolerance);; tolerance *= 1e-2) {
       options.corrections = corrections_to(std::max(tolerance, CorrectionOptions{}.tolerance));
       result.cr = active_set(problem, factor, options);
       options.start = result.cr.active;

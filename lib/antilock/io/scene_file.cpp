@@ -113,11 +113,38 @@ MeshRequest read_mesh(const Section& section, const std::filesystem::path& folde
   return {kind, section.count("cells", kind == Kind::structured ? most_structured : most_unstructured), {}};
 }
 
+/// An accuracy and what goes with it: the mesh is found, by Crouzeix-Raviart and the active set.
+void read_accuracy(const Section& section, Method& method) {
+  for (const char* key : {"of", "most_unknowns"})
+    if (section.has(key) && !section.has("accuracy"))
+      section.refuse(key, "goes with an accuracy only; accepted: a key accuracy beside it, or none of the two");
+  if (!section.has("accuracy")) return;
+  const std::string accepted = "above 0 and below 1, as 1e-2";
+  method.accuracy = section.number("accuracy", accepted);
+  if (!(*method.accuracy > 0 && *method.accuracy < 1))
+    section.refuse("accuracy", fmt::format("{} is out of range; accepted: {}", *method.accuracy, accepted));
+  if (section.has("of") && section.one_of("of", {"displacement", "stress"}) == "stress") method.of = Quantity::stress;
+  if (section.has("most_unknowns")) {
+    const std::string whole = "a whole number of unknowns, 1 to 1e9";
+    method.most_unknowns = section.number("most_unknowns", whole);
+    if (!(method.most_unknowns >= 1 && method.most_unknowns <= 1e9))
+      section.refuse("most_unknowns", fmt::format("{} is out of range; accepted: {}", method.most_unknowns, whole));
+  }
+  method.tolerance = std::min(Method::roughest_tolerance, 1e-2 * *method.accuracy);  // unless the scene says less
+  if (!section.has("element")) method.element = "CR";
+  if (method.element != "CR")
+    section.refuse("element",
+                   "\"" + method.element + "\" has no flux to prove an accuracy by; accepted with accuracy: \"CR\"");
+  if (method.solver != "active-set")
+    section.refuse("solver", "\"" + method.solver + "\" does not go with accuracy; accepted: \"active-set\"");
+}
+
 Method read_method(const Section& section) {
-  section.only({"element", "solver", "tolerance"});
+  section.only({"element", "solver", "tolerance", "accuracy", "of", "most_unknowns"});
   Method method;
   if (section.has("element")) method.element = section.one_of("element", {"P1", "CR", "P2"});
   if (section.has("solver")) method.solver = section.one_of("solver", {"active-set", "uzawa", "petsc"});
+  read_accuracy(section, method);
   if (!section.has("tolerance")) return method;
   const std::string accepted = fmt::format("0 < tolerance <= {:g}", Method::roughest_tolerance);
   method.tolerance = section.number("tolerance", accepted);
@@ -132,6 +159,11 @@ void check_together(const Section& root, const Scene& scene, const MeshRequest& 
     root.section("mesh")->refuse("kind",
                                  "\"layered\" is the mesh of the scaled layer, which this scene does not have; "
                                  "accepted: a section [layer] with model = \"scaled\", or \"unstructured\"");
+  if (method.accuracy && std::holds_alternative<VentcelLayer>(scene.layer()))
+    root.section("method")->refuse(
+        "accuracy",
+        "does not go with model = \"ventcel\"; accepted: model = \"scaled\" with epsilon = 0, "
+        "which is the same problem");
   if (method.element == "P2" && method.solver == "petsc")
     root.section("method")->refuse("element", "\"P2\" does not go with solver = \"petsc\"; accepted: \"P1\", \"CR\"");
   if (method.element == "P2" && std::holds_alternative<VentcelLayer>(scene.layer()))

@@ -1,7 +1,9 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
+#include "antilock/analysis/certificate.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
 
@@ -21,7 +23,10 @@ struct Method {
   static constexpr double finest_tolerance = 1e-14;   ///< below, no double can be promised
   std::string element = "P1";                         ///< "P1", "CR" or "P2"
   std::string solver = "active-set";                  ///< "active-set", "uzawa" or "petsc"
-  double tolerance = 1e-10;  ///< relative, on the algebraic error; 0 < tolerance <= roughest_tolerance
+  double tolerance = 1e-10;        ///< relative, on the algebraic error; 0 < tolerance <= roughest_tolerance
+  std::optional<double> accuracy;  ///< proved relative error asked for, in (0, 1); the element is CR then
+  Quantity of = Quantity::displacement;
+  double most_unknowns = 2e6;  ///< with accuracy: the limit
 };
 
 /// The words of the file, for the summary, which repeats the question; empty where the section is absent.
@@ -53,7 +58,7 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
 /// contact.gap where these have no value on the body of a file.
 TriangleMesh make_mesh(const SceneFile& file);
 
-/// The mesh width to report: 1/cells, or the longest edge of a mesh from a file.
+/// The mesh width to report: 1/cells, or the longest edge of a mesh from a file and of one refined to an accuracy.
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh);
 
 }  // namespace antilock

@@ -166,7 +166,7 @@ TriangleMesh make_mesh(const SceneFile& file) {
 }
 
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh) {
-  return file.mesh.kind == MeshRequest::Kind::file ? mesh.diameter() : 1.0 / file.mesh.cells;
+  return file.mesh.kind == MeshRequest::Kind::file || file.method.accuracy ? mesh.diameter() : 1.0 / file.mesh.cells;
 }
 
 }  // namespace antilock

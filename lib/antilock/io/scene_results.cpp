@@ -36,14 +36,35 @@ Json question(const SceneFile& file) {
     mesh["file"] = words.file;
   else
     mesh["cells"] = file.mesh.cells;
+  Json method = {
+      {"element", file.method.element}, {"solver", file.method.solver}, {"tolerance", file.method.tolerance}};
+  if (file.method.accuracy) {
+    method["accuracy"] = *file.method.accuracy;
+    method["of"] = file.method.of == Quantity::stress ? "stress" : "displacement";
+    method["most_unknowns"] = file.method.most_unknowns;
+  }
   return {{"title", file.title},
           {"load", words.load},
           {"layer", layer},
           {"gap", file.scene.contact() ? Json(words.gap) : Json(nullptr)},
           {"mesh", mesh},
-          {"method",
-           {{"element", file.method.element}, {"solver", file.method.solver}, {"tolerance", file.method.tolerance}}},
+          {"method", method},
           {"version", ANTILOCK_VERSION}};
+}
+
+/// What was asked, what is proved, and the way there.
+Json certificate(const SceneFile& file, const CertifiedSolution& certified) {
+  const Certificate& proof = certified.certificate;
+  Json levels = Json::array();
+  for (const Level& level : certified.history)
+    levels.push_back({{"unknowns", level.unknowns}, {"bound", level.bound}, {"seconds", level.seconds}});
+  return {{"asked", *file.method.accuracy},
+          {"of", file.method.of == Quantity::stress ? "stress" : "displacement"},
+          {"relative", finite("the certified error", proof.relative(file.method.of))},
+          {"bound", finite("the certified error", proof.bound(file.method.of))},
+          {"energy_lower", proof.energy_lower},
+          {"energy_upper", proof.energy_upper},
+          {"levels", levels}};
 }
 
 /// T values of the layer stress: the mean over the rows of B that stand for a triangle, 0 on the body.
@@ -102,9 +123,10 @@ void check_inputs_stay(const std::filesystem::path& folder, const std::filesyste
 
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Space& space,
                          const VariationalInequality& problem, const Solution& solution, const RunSeconds& seconds,
-                         const std::string& warning) {
+                         const std::string& warning, const CertifiedSolution* certified) {
   const Stopwatch watch;
   Json json = summary(file, space, problem, solution);
+  if (certified != nullptr) json["certificate"] = certificate(file, *certified);
   json["warning"] = warning;
   json["scene"] = question(file);
   const bool contact = file.scene.contact().has_value();

@@ -1,0 +1,94 @@
+// An accuracy asked for in a scene file: the proof in the summary, and what is refused.
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "antilock/exact/truth.hpp"
+#include "antilock/io/writers.hpp"
+#include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/msh_file.hpp"
+#include "scenes/runner.hpp"
+#include "support/bodies.hpp"
+
+namespace antilock::test {
+namespace {
+
+std::string scene(const std::string& method, const std::string& layer = "epsilon = 1e-6", int cells = 8) {
+  return fmt::format(
+      "[load]\nf = \"10*sin(2*pi*x)\"\n[layer]\n{}\n[contact]\n[mesh]\nkind = \"unstructured\"\ncells = {}\n"
+      "[method]\n{}\n",
+      layer, cells, method);
+}
+
+TEST(Accuracy, OfASceneIsProvedInItsSummary) {
+  for (const double epsilon : {1.0, 1e-6, 0.0})
+    for (const std::string of : {"displacement", "stress"}) {
+      const SceneRun run(scene(fmt::format("accuracy = 0.1\nof = \"{}\"", of), fmt::format("epsilon = {}", epsilon)));
+      ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+      const auto summary = run.summary(), proof = summary["certificate"];
+      EXPECT_EQ(proof["asked"], 0.1);
+      EXPECT_EQ(proof["of"], of);
+      EXPECT_LE(proof["relative"], 0.1);
+      EXPECT_GE(proof["relative"], 0.05);
+      const double exact = Truth(paper_sine_load(), epsilon, true, 14).energy();
+      EXPECT_LE(proof["energy_lower"], exact);
+      EXPECT_GE(proof["energy_upper"], exact);
+      ASSERT_FALSE(proof["levels"].empty());
+      const auto& last = proof["levels"].back();
+      EXPECT_EQ(last["unknowns"], summary["dofs"]);
+      EXPECT_EQ(last["bound"], proof["bound"]);
+      EXPECT_GT(last["seconds"], 0);
+      EXPECT_EQ(summary["element"], "CR");
+      EXPECT_EQ(summary["scene"]["method"]["accuracy"], 0.1);
+      // the answer's files are those of the last mesh
+      const TriangleMesh mesh = read_msh((run.results / "mesh.msh").string());
+      EXPECT_EQ(read_csv(run.results / "solution.csv").rows.rows(), mesh.edge_count());
+      EXPECT_NEAR(summary["h"], mesh.diameter(), 1e-12);
+    }
+}
+
+TEST(Accuracy, IsAbsentWhereNoneIsAsked) {
+  const SceneRun run(scene("element = \"CR\""));
+  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+  EXPECT_FALSE(run.summary().contains("certificate"));
+}
+
+TEST(Accuracy, GoesWithABodyFromAFile) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "l.msh").string();
+  write_msh(path, extruded(l_shape(8), 1));
+  const SceneRun run("[load]\nf = \"-5\"\n[layer]\nepsilon = 1e-3\n[contact]\n[mesh]\nkind = \"file\"\nfile = \"" +
+                     path + "\"\n[method]\naccuracy = 0.1\n");
+  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+  EXPECT_LE(run.summary()["certificate"]["relative"], 0.1);
+}
+
+TEST(Accuracy, OutOfReachIsStatusThreeAndNoFiles) {
+  const SceneRun run(scene("accuracy = 0.001\nmost_unknowns = 20000"));
+  EXPECT_EQ(run.outcome.status, 3);
+  EXPECT_NE(run.outcome.err.find("can be reached"), std::string::npos) << run.outcome.err;
+  EXPECT_EQ(run.output.file_count(), 0);
+}
+
+TEST(Accuracy, RefusesWithTheKey) {
+  const auto refused = [](const std::string& text, const std::string& key) {
+    const SceneRun run(text);
+    EXPECT_EQ(run.outcome.status, 2) << text;
+    EXPECT_NE(run.outcome.err.find(key), std::string::npos) << run.outcome.err;
+    EXPECT_NE(run.outcome.err.find("accepted"), std::string::npos) << run.outcome.err;
+    EXPECT_EQ(run.output.file_count(), 0);
+  };
+  for (const char* value : {"0", "1", "-0.1", "2.5", "nan", "\"1e-2\""})
+    refused(scene(fmt::format("accuracy = {}", value)), "method.accuracy: ");
+  refused(scene("accuracy = 0.1\nof = \"strain\""), "method.of: ");
+  refused(scene("of = \"stress\""), "method.of: ");
+  refused(scene("most_unknowns = 1000"), "method.most_unknowns: ");
+  refused(scene("accuracy = 0.1\nmost_unknowns = 0"), "method.most_unknowns: ");
+  refused(scene("accuracy = 0.1\nmost_unknowns = 50"), "cannot hold the first mesh");
+  refused(scene("accuracy = 0.1\nelement = \"P1\""), "method.element: ");
+  refused(scene("accuracy = 0.1\nsolver = \"uzawa\""), "method.solver: ");
+  refused(scene("accuracy = 0.1", "epsilon = 0\nmodel = \"ventcel\""), "method.accuracy: ");
+}
+
+}  // namespace
+}  // namespace antilock::test
