@@ -189,6 +189,7 @@ void Page::save(const std::filesystem::path& path) const {
 
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
+  writer->SetCompressionLevel(9);
   writer->WriteToMemoryOn();
   writer->Write();
   const vtkUnsignedCharArray* bytes = writer->GetResult();

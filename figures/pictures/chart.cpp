@@ -97,7 +97,9 @@ std::vector<Point> taken_places(const Panel& panel, const Curves& curves, std::s
 }
 
 void draw_curves(Page& page, const Panel& panel, const Curves& curves, std::size_t i) {
-  const auto order = painting_order(curves.series);
+  auto order = painting_order(curves.series);
+  // single points lie above all curves
+  std::stable_partition(order.begin(), order.end(), [&](std::size_t n) { return curves.of(i, n).size() > 1; });
   for (const std::size_t n : order) {
     const Look& look = curves.series[n].look;
     std::vector<Point> points;
@@ -124,7 +126,7 @@ void draw_curves(Page& page, const Panel& panel, const Curves& curves, std::size
 
 Axis x_axis(const ChartStyle& style, double low, double high, double width) {
   return style.x == "h" ? Axis::halving(low, high, 0.07, static_cast<int>(width / 130))
-                        : Axis::logarithmic(low, high, 0.07, static_cast<int>(width / 170));
+                        : Axis::logarithmic(low, high, 0.07, static_cast<int>(width / 150));
 }
 
 }  // namespace
