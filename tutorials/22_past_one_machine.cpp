@@ -87,6 +87,7 @@ void solve(Run& run) {
   } else if (run.what == "free") {  // Crouzeix-Raviart does not lock there; nobody asks whether there are columns
     mesh = unstructured_mesh(run.cells);
     page = &crouzeix_raviart();
+    run.unknowns = Space(mesh, *page).free_count();
     options.refinements = 0;
     options.share = [](const TriangleMesh& m, int) { return std::vector<int>(m.triangle_count(), 0); };
   }
@@ -173,8 +174,8 @@ void write(const std::filesystem::path& path, const std::vector<std::pair<std::s
     out << "study,ranks,cells,epsilon,unknowns,corrections,iterations,most,seconds,megabytes,u_max\n";
     for (const auto& [name, runs] : studies)
       for (const Run& r : runs)
-        out << name << ',' << r.ranks << ',' << r.cells << ',' << r.epsilon << ',' << r.unknowns << ',' << r.corrections
-            << ',' << r.iterations << ',' << r.most << ',' << r.seconds << ',' << r.megabytes << ',' << r.u_max << '\n';
+        out << fmt::format("{},{},{},{},{},{},{},{},{:.4g},{:.4g},{}\n", name, r.ranks, r.cells, r.epsilon, r.unknowns,
+                           r.corrections, r.iterations, r.most, r.seconds, r.megabytes, r.u_max);
   });
 }
 

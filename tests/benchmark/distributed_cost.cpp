@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <ctime>
 
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/nested.hpp"
@@ -17,6 +18,8 @@ using namespace antilock;
 
 namespace {
 
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
 void serial(const Scene& scene, const Element& element, int cells) {
   Stopwatch watch;
   const TriangleMesh mesh = structured_mesh(cells);
@@ -24,10 +27,11 @@ void serial(const Scene& scene, const Element& element, int cells) {
   const Space space(mesh, element);
   const VariationalInequality problem = assemble(scene, space);
   const double assemble_seconds = watch.lap();
+  const double before = cpu_seconds();
   const Solution solution = active_set(problem);
-  fmt::print("serial,{},1,{},{:.3f},{:.3f},{:.3f},{:.3f},,{},,{},{:.0f},{:.1e}\n", element.name(), problem.free_count(),
-             mesh_seconds, assemble_seconds, solution.seconds.analyse + solution.seconds.factor,
-             solution.seconds.contact + solution.seconds.solve, solution.counters.corrections,
+  fmt::print("serial,{},1,{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},0,{},0,{},{:.0f},{:.1e}\n", element.name(),
+             problem.free_count(), mesh_seconds, assemble_seconds, solution.seconds.analyse + solution.seconds.factor,
+             solution.seconds.contact + solution.seconds.solve, cpu_seconds() - before, solution.counters.corrections,
              solution.counters.contact, distributed::peak_megabytes(), solution.kkt.residual);
 }
 
@@ -39,11 +43,13 @@ void petsc(const Scene& scene, const Element& element, int cells, bool levels) {
   distributed::NestedReport report;
   const auto level = distributed::solve_nested(scene, structured_mesh(coarse), element, options, report);
   const double peak = distributed::peak_megabytes();
+  double processor = 0;
+  for (const distributed::LoopReport& loop : report.loops) processor += loop.processor;
   if (distributed::rank() > 0) return;
-  fmt::print("petsc,{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{:.0f},{:.1e}\n", element.name(),
+  fmt::print("petsc,{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{:.0f},{:.1e}\n", element.name(),
              distributed::ranks(), report.unknowns.back(), report.mesh, report.assemble, report.setup, report.solve,
-             report.last.linear_iterations, report.last.corrections, report.last.most_iterations, report.last.sets,
-             peak, report.kkt.residual);
+             processor, report.last.linear_iterations, report.last.corrections, report.last.most_iterations,
+             report.last.sets, peak, report.kkt.residual);
   for (std::size_t l = 0; levels && l < report.loops.size(); ++l)
     fmt::print("  {} unknowns: {} corrections, {} iterations (most {}), {} setups; setup {:.3f} s, solve {:.3f} s\n",
                report.unknowns[l], report.loops[l].corrections, report.loops[l].linear_iterations,
@@ -56,7 +62,7 @@ void petsc(const Scene& scene, const Element& element, int cells, bool levels) {
 int main(int argc, char** argv) {
   CLI::App app(
       "The cost of the distributed road and of the serial one: "
-      "solver,element,ranks,unknowns,mesh,assemble,setup or factor,solve,iterations,corrections,"
+      "solver,element,ranks,unknowns,mesh,assemble,setup or factor,solve,CPU of these two,iterations,corrections,"
       "most iterations,contact sets,peak MB of the largest rank,residual");
   int cells = 256;
   double epsilon = 1e-6;

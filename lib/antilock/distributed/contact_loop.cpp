@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <ctime>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -93,6 +94,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
   HeldSystem system(problem, options.direct);
   LoopReport report;
   Stopwatch watch;
+  const std::clock_t before = std::clock();
   for (int step = 0, since_change = 0;; ++step, ++since_change) {
     const Eigen::VectorXd r1_part = problem.equilibrium(state.u, state.p), r2 = problem.compatibility(state.u, state.p);
     rows.summed(r1_part, r1);
@@ -156,6 +158,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     report.history.push_back(report.change);
     report.seconds_solve += watch.lap();
   }
+  report.processor = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   return report;
 }
 

@@ -31,6 +31,7 @@ struct LoopReport {
   int most_iterations = 0;    ///< the same, of the correction that took most
   double change = 0;          ///< of the last correction, relative
   double seconds_setup = 0, seconds_solve = 0;
+  double processor = 0;  ///< seconds that this rank's processor worked on it: on a shared machine fewer than the wall's
   std::vector<double> history;  ///< relative change per correction
 };
 
