@@ -24,6 +24,7 @@
 #include <cmath>
 
 #include "antilock/analysis/certificate.hpp"
+#include "antilock/core/dense.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -72,7 +73,7 @@ Table stop_uzawa(int cells, const Exact& exact) {
   const auto& free = factor.numbering().unknown;
   const Eigen::MatrixXd& block = factor.contact_block();
   const Eigen::MatrixXd schur = block.triangularView<Eigen::Lower>() * block.transpose();
-  const double step = schur.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
+  const double step = symmetric_eigenvalues(schur).minCoeff();
   Eigen::VectorXd lambda = Eigen::VectorXd::Zero(schur.rows());
   Solution solution = active_set(problem, factor);
   Table rows({"steps", "quantity", "value"});

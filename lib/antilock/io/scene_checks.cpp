@@ -25,17 +25,6 @@ Eigen::Vector3d spread_point(double k) {
 
 }  // namespace
 
-void sample_load(const Field& f) {
-  for (const int n : {100, 120, 128})
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j) f(static_cast<double>(i) / n, static_cast<double>(j) / n);
-}
-
-void sample_gap(const Profile& gap, double from, double to) {
-  for (const int n : {1000, 3840, 4096})
-    for (int i = 0; i <= n; ++i) gap(from + (to - from) * i / n);
-}
-
 void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
   const Field& f = file.scene.body().load;
   std::vector<char> clamped(mesh.vertex_count(), 0);
