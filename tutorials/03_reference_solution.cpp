@@ -76,12 +76,10 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   }
   report.finish();
 
-  tutorial::print_solution(fine.space(), problem, solution);
-  tutorial::print_errors("reference solution", errors);
+  tutorial::present(options.out, fine.space(), problem, solution, "reference solution", errors);
   fmt::print("  Uzawa took {} steps, the active set {}; their answers differ by {:.1e} (relative)\n",
              solution.counters.contact, direct.counters.contact, difference);
   steps.print("Uzawa steps against 1/h");
-  tutorial::write_results(options.out, fine.space(), problem, solution);
   thinned(solution.history).write(options.out / "history.csv");
   steps.write(options.out / "steps.csv");
 

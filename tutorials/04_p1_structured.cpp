@@ -63,10 +63,8 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   }
   report.finish();
 
-  tutorial::print_solution(space, problem, solution);
-  tutorial::print_errors("P1, structured", errors);
+  tutorial::present(options.out, space, problem, solution, "P1, structured", errors);
   sweep.print("error at the unknowns against epsilon");
-  tutorial::write_results(options.out, space, problem, solution);
   sweep.write(options.out / "sweep.csv");
 
   // The verdicts. The cap comes from the interpolation error of the truth, h^2/8 |u''| with |u''|

@@ -65,12 +65,10 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   const double difference = (solution.u - dirichlet.u).cwiseAbs().maxCoeff();
   report.finish();
 
-  tutorial::print_solution(space, problem, solution);
-  tutorial::print_errors("P1, unstructured", errors);
+  tutorial::present(options.out, space, problem, solution, "P1, unstructured", errors);
   fmt::print("  largest |u| on the layer: {:.3e}, truth {:.3e}\n", on_layer, ridge);
   fmt::print("  difference from the Dirichlet-Laplace solution: {:.3e} (largest |u|: {:.3e})\n\n", difference,
              solution.u.cwiseAbs().maxCoeff());
-  tutorial::write_results(options.out, space, problem, solution);
 
   // The verdict. First the law of tutorial 15, at any epsilon > 0: a factor 4 for its constant,
   // which is not derived.

@@ -59,12 +59,10 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
   const double jump = largest_jump(space, solution.u);
   report.finish();
 
-  tutorial::print_solution(space, problem, solution);
   tutorial::print_errors("P1", p1_errors);
-  tutorial::print_errors("Crouzeix-Raviart", errors);
+  tutorial::present(options.out, space, problem, solution, "Crouzeix-Raviart", errors);
   fmt::print("  unknowns: P1 {}, Crouzeix-Raviart {}; largest step between triangles {:.2e}\n\n",
              p1_solution.counters.unknowns, solution.counters.unknowns, jump);
-  tutorial::write_results(options.out, space, problem, solution);
 
   // The verdicts. Interpolation costs h^2/8 |u''| with |u''| <= 10, twice on a nonconforming space;
   // the end of contact, where u'' is not bounded, the rest of 4 h^2. A locked solution at 1/h = 32

@@ -44,4 +44,11 @@ void print_errors(const std::string& what, const Errors& e) {
              e.energy);
 }
 
+void present(const std::filesystem::path& out, const Space& space, const VariationalInequality& problem,
+             const Solution& solution, const std::string& what, const Errors& errors) {
+  print_solution(space, problem, solution);
+  print_errors(what, errors);
+  write_results(out, space, problem, solution);
+}
+
 }  // namespace antilock::tutorial

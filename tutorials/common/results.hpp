@@ -19,6 +19,10 @@ void write_results(const std::filesystem::path& out, const Space& space, const V
 /// by stage.
 void print_solution(const Space& space, const VariationalInequality& problem, const Solution& solution);
 
+/// The three of them for one solved scene: prints how it was solved and its errors, writes its files.
+void present(const std::filesystem::path& out, const Space& space, const VariationalInequality& problem,
+             const Solution& solution, const std::string& what, const Errors& errors);
+
 /// Prints the errors in every norm, absolute.
 void print_errors(const std::string& what, const Errors& errors);
 
