@@ -47,7 +47,7 @@ endforeach()
 foreach(header ${headers})
   file(STRINGS ${work}/moved/include/${header} shows REGEX "#include <Eigen/")
   if(shows)
-    execute_process(COMMAND ${COMPILER} -std=c++20 -M -I ${work}/moved/include -isystem ${EIGEN} ${work}/moved/include/${header}
+    execute_process(COMMAND ${COMPILER} -std=c++20 -M -MG -I ${work}/moved/include -isystem ${EIGEN} ${work}/moved/include/${header}
                     OUTPUT_VARIABLE includes ERROR_VARIABLE failure)
     if(NOT includes MATCHES "core/eigen_memory.hpp")
       message(FATAL_ERROR "${header} shows Eigen's types without core/eigen_memory.hpp ${failure}")

@@ -54,6 +54,7 @@ void expect_interface(const std::filesystem::path& results) {
     top.insert("contact");
     written.insert("contact.csv");
   }
+  if (s["scene"]["method"].contains("accuracy")) top.insert("certificate");
   EXPECT_EQ(keys(s), top);
   EXPECT_EQ(files(results), written);
   EXPECT_EQ(s["epsilon"].is_null(), !has_layer);

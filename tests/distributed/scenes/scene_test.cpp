@@ -22,13 +22,19 @@ std::string scene_text(const std::string& solver, const std::string& kind, const
          "\"\n" + method;
 }
 
+std::string environment() {
+  return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+         "OMPI_MCA_mpi_yield_when_idle=1 OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 ";
+}
+
 /// A scene and its runs, on as many ranks as asked: 0 is without mpiexec.
 class Runs {
  public:
   explicit Runs(const std::string& scene) { std::ofstream(folder / "scene.toml", std::ios::binary) << scene; }
   fs::path results(const std::string& name) const { return folder / name; }
+  /// The variables of Open MPI let root start ranks, and more ranks than there are cores.
   std::string command(int ranks, const std::string& name, const std::string& options = "") const {
-    const std::string launch = ranks > 0 ? MPIEXEC " -n " + std::to_string(ranks) + " " : "";
+    const std::string launch = ranks > 0 ? environment() + MPIEXEC " -n " + std::to_string(ranks) + " " : "";
     return launch + in_shell(RUN_SCENE) + " " + in_shell(folder / "scene.toml") + " --out " +
            in_shell(results(name).string()) + " " + options + " >" + in_shell(folder / "out") + " 2>" +
            in_shell(folder / "err");
