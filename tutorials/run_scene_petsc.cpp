@@ -18,6 +18,7 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/io/expression.hpp"
+#include "antilock/io/scene_checks.hpp"
 #include "antilock/io/scene_results.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -31,8 +32,10 @@ namespace dist = antilock::distributed;
 
 namespace {
 
-/// Below this no double can be promised, however long one iterates.
-constexpr double finest_tolerance = 1e-14;
+struct Choices {
+  bool restart = false, direct = false;
+  double most_seconds = std::numeric_limits<double>::infinity();
+};
 
 /// The mesh to begin with, on every rank, and how often it is refined. A structured mesh is one of few cells, refined:
 /// the same vertices. Others are made as they are asked for.
@@ -96,7 +99,7 @@ void named(const std::string& file, const Work& work) {
   }
 }
 
-void answer(const std::filesystem::path& scene, const std::filesystem::path& out, bool restart, bool direct,
+void answer(const std::filesystem::path& scene, const std::filesystem::path& out, const Choices& choices,
             tutorial::Report& report) {
   const auto say = [&](const std::string& what) {
     if (dist::rank() == 0) report.stage(what);
@@ -117,7 +120,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
     check_folder(out);
     check_inputs_stay(out, scene, *file);
     question = dist::question_of(scene, file->mesh.file);
-    if (!restart) return;
+    if (!choices.restart) return;
     const dist::Checkpoint checkpoint = dist::read_checkpoint(kept, question);
     options.start = checkpoint.set;
     options.first_level = checkpoint.cells;  // cells for now; below the level
@@ -130,9 +133,10 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   dist::together([&] {
     h = hierarchy(*file, dist::ranks());
     check_memory(*file, h, dist::ranks());
-    if (!options.start && file->scene.contact()) options.start = first_guess(file->scene);
+    const bool unit_square = file->mesh.kind != MeshRequest::Kind::file;
+    if (unit_square && !options.start && file->scene.contact()) options.start = first_guess(file->scene);
   });
-  if (restart) {
+  if (choices.restart) {
     const int solved = options.first_level;
     options.first_level = 0;
     while (options.first_level < h.refinements && (h.coarse_cells << options.first_level) <= solved)
@@ -140,8 +144,11 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
     say(fmt::format("restart from the contact set at 1/h = {}", solved));
   }
   options.refinements = h.refinements;
-  options.loop.direct = direct;
-  options.loop.tolerance = std::clamp(file->method.tolerance, finest_tolerance, 1e-8);
+  options.loop.direct = choices.direct;
+  options.loop.progress = [most = choices.most_seconds, since = Stopwatch()](const Progress&) {
+    return since.seconds() <= most;
+  };
+  options.loop.tolerance = std::clamp(file->method.tolerance, Method::finest_tolerance, 1e-8);
   options.stage = say;
   options.checkpoint = [&](int level, const dist::ContactSet& set) {
     dist::together([&] {
@@ -158,27 +165,35 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   try {
     named(file->name, [&] {
       level = dist::solve_nested(file->scene, h.coarse, element(file->method.element), options, solved);
-      if (file->method.tolerance < finest_tolerance)
+      if (file->method.tolerance < Method::finest_tolerance)
         throw NotConverged(
             fmt::format("petsc: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
                         "double precision goes no further",
-                        finest_tolerance, solved.last.corrections, file->method.tolerance),
-            finest_tolerance, solved.last.corrections);
+                        Method::finest_tolerance, solved.last.corrections, file->method.tolerance),
+            Method::finest_tolerance, solved.last.corrections);
     });
   } catch (const Error&) {
     forget();
     throw;
   }
+  std::string warning;  // of the loads and obstacles that a rank sees on its own strip
+  dist::together([&] {
+    Solution here;
+    here.u = level->state.u;
+    warning = load_warning(*file, level->space, level->problem.part());
+    if (warning.empty() && file->scene.contact()) warning = gap_warning(*file, level->space, here);
+  });
+  warning = solved.warning.empty() ? dist::first_said(warning) : solved.warning;
   // what is left of the wall time belongs to the stages in between: files are counted apart
   clock.mesh = before + solved.mesh, clock.assemble = solved.assemble, clock.factor = solved.setup;
   clock.solve = watch.lap() - solved.mesh - solved.assemble - solved.setup;
 
   say("files");
-  dist::write_scene_files(out, *file, *level, solved, h.refinements + 1, clock);
+  dist::write_scene_files(out, *file, *level, solved, h.refinements + 1, warning, clock);
   forget();
   if (dist::rank() > 0) return;
   report.finish();
-  if (!solved.warning.empty()) fmt::print("  warning: {}\n", solved.warning);
+  if (!warning.empty()) fmt::print("  warning: {}\n", warning);
   fmt::print(
       "  {} unknowns; {} corrections and {} iterations of conjugate gradients on the last level; results in {}\n",
       solved.unknowns.back(), solved.last.corrections, solved.last.linear_iterations, out.string());
@@ -193,11 +208,12 @@ int run(int argc, char** argv) {
   CLI::App app("Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.",
                "run_scene");
   std::filesystem::path scene, out;
-  bool restart = false, direct = false;
+  Choices choices;
   app.add_option("SCENE", scene, "the scene file, in TOML")->required();
   app.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  app.add_flag("--restart", restart, "start from the last level of a run to the same folder that was ended");
-  app.add_flag("--direct", direct, "MUMPS in place of multigrid: for layers without columns");
+  app.add_flag("--restart", choices.restart, "start from the last level of a run to the same folder that was ended");
+  app.add_option("--most-seconds", choices.most_seconds, "stop a solve that takes longer: status 3");
+  app.add_flag("--direct", choices.direct, "MUMPS in place of multigrid: for layers without columns");
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp& request) {
@@ -212,7 +228,7 @@ int run(int argc, char** argv) {
     return fail(message, status);
   };
   try {
-    answer(scene, out, restart, direct, report);
+    answer(scene, out, choices, report);
   } catch (const NotConverged& failure) {
     return failed(failure.what(), 3);
   } catch (const Error& error) {

@@ -47,17 +47,28 @@ Eigen::VectorXd contact_lengths_of_all(const Level& level) {
   return level.problem.rows().local(v);
 }
 
-/// One row per contact unknown of all ranks, by x: x, gap, pressure. Certified: what is below zero is round-off.
-Eigen::MatrixX3d contact_table_of_all(const Level& level) {
+/// Per unknown of the piece: the contact pressure, a density; 0 off Gamma_C. Certified: below zero is round-off.
+Eigen::VectorXd pressures(const Level& level) {
   const Rows& rows = level.problem.rows();
   const Eigen::VectorXd lengths = contact_lengths_of_all(level), lambda = contact_forces(level.problem, level.state);
+  Eigen::VectorXd mine = Eigen::VectorXd::Zero(level.space.size());
+  for (int place = 0; place < rows.owned(); ++place)
+    if (!std::isinf(level.problem.lower()(place)))
+      mine(rows.unknown(place)) = std::max(lambda(place) / lengths(rows.unknown(place)), 0.0);
+  const Vector v = rows.vector();
+  rows.owned_part(mine, v);
+  return rows.local(v);
+}
+
+/// One row per contact unknown of all ranks, by x: x, gap, pressure.
+Eigen::MatrixX3d contact_table_of_all(const Level& level, const Eigen::VectorXd& pressure) {
+  const Rows& rows = level.problem.rows();
   std::vector<double> mine;
   for (int place = 0; place < rows.owned(); ++place) {
     const double lower = level.problem.lower()(place);
     if (std::isinf(lower)) continue;
     const int i = rows.unknown(place);
-    mine.insert(mine.end(), {level.space.points()(i, 0), std::max(level.state.u(i) - lower, 0.0),
-                             std::max(lambda(place) / lengths(i), 0.0)});
+    mine.insert(mine.end(), {level.space.points()(i, 0), std::max(level.state.u(i) - lower, 0.0), pressure(i)});
   }
   const std::vector<double> all = gathered(mine);
   std::vector<std::array<double, 3>> sorted(all.size() / 3);
@@ -68,14 +79,26 @@ Eigen::MatrixX3d contact_table_of_all(const Level& level) {
   return table;
 }
 
+/// Layer stress and pressure as a VTU file takes them: per triangle, and per contact unknown of the piece.
+VtuFields fields_of(const Level& level, const Eigen::VectorXd& pressure, bool contact) {
+  const TriangleMesh& mesh = level.piece.mesh;
+  VtuFields fields{Eigen::VectorXd::Zero(mesh.triangle_count()), {}};
+  for (int t = 0, row = 0; t < mesh.triangle_count() && row < level.state.p.size(); ++t)
+    if (mesh.region[t] == Region::layer) fields.p(t) = level.state.p(row++);  // one row of B per layer triangle
+  if (contact) fields.pressure = pressure(level.space.contact());
+  return fields;
+}
+
 std::string piece_name(int rank) { return fmt::format("solution_{}.vtu", rank); }
 
-void write_pvtu(const fs::path& path) {
+void write_pvtu(const fs::path& path, bool contact) {
   write_file(path, [&](std::ostream& out) {
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
            "<PUnstructuredGrid GhostLevel=\"0\">\n"
-           "<PPointData Scalars=\"u\">\n<PDataArray type=\"Float64\" Name=\"u\"/>\n</PPointData>\n"
-           "<PCellData Scalars=\"region\">\n<PDataArray type=\"Int32\" Name=\"region\"/>\n</PCellData>\n"
+           "<PPointData Scalars=\"u\">\n<PDataArray type=\"Float64\" Name=\"u\"/>\n"
+        << (contact ? "<PDataArray type=\"Float64\" Name=\"pressure\"/>\n" : "")
+        << "</PPointData>\n<PCellData Scalars=\"region\">\n<PDataArray type=\"Int32\" Name=\"region\"/>\n"
+           "<PDataArray type=\"Float64\" Name=\"p\"/>\n</PCellData>\n"
            "<PPoints>\n<PDataArray type=\"Float64\" NumberOfComponents=\"3\"/>\n</PPoints>\n";
     for (int r = 0; r < ranks(); ++r) out << "<Piece Source=\"" << piece_name(r) << "\"/>\n";
     out << "</PUnstructuredGrid>\n</VTKFile>\n";
@@ -83,7 +106,8 @@ void write_pvtu(const fs::path& path) {
 }
 
 /// Every number of the summary that all ranks must form together.
-Json summary(const SceneFile& file, const Level& level, const NestedReport& report, int levels) {
+Json summary(const SceneFile& file, const Level& level, const NestedReport& report, int levels,
+             const std::string& warning) {
   const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
   Json s;
   s["element"] = file.method.element;
@@ -115,7 +139,7 @@ Json summary(const SceneFile& file, const Level& level, const NestedReport& repo
                    {"levels", levels},
                    {"linear_iterations", report.linear_iterations},
                    {"memory_mb", peak_megabytes()}};
-  s["warning"] = report.warning;
+  s["warning"] = warning;
   s["scene"] = Json::parse(question_json(file));
   return s;
 }
@@ -123,19 +147,21 @@ Json summary(const SceneFile& file, const Level& level, const NestedReport& repo
 }  // namespace
 
 void write_scene_files(const fs::path& folder, const SceneFile& file, const Level& level, const NestedReport& report,
-                       int levels, const RunClock& clock) {
+                       int levels, const std::string& warning, const RunClock& clock) {
   const bool contact = file.scene.contact().has_value();
   const bool csv = level.problem.rows().total() <= most_csv_unknowns;
-  Json json = summary(file, level, report, levels);
+  Json json = summary(file, level, report, levels, warning);
   const Stopwatch files;
   const auto write = [&](const fs::path& draft) {
     if (csv) write_solution_csv_together(draft / "solution.csv", level.piece, level.space, level.state.u);
     write_msh_together(draft / "mesh.msh", level.piece);
-    const Eigen::MatrixX3d table = contact ? contact_table_of_all(level) : Eigen::MatrixX3d(0, 3);
-    together([&] { write_vtu(draft / piece_name(rank()), level.space, level.state.u); });
+    const Eigen::VectorXd pressure = pressures(level);
+    const Eigen::MatrixX3d table = contact_table_of_all(level, pressure);
+    const VtuFields fields = fields_of(level, pressure, contact);
+    together([&] { write_vtu(draft / piece_name(rank()), level.space, level.state.u, fields); });
     together([&] {
       if (rank() > 0) return;
-      write_pvtu(draft / "solution.pvtu");
+      write_pvtu(draft / "solution.pvtu", contact);
       if (contact) write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
       json["seconds"] = {{"mesh", clock.mesh},   {"assemble", clock.assemble}, {"factor", clock.factor},
                          {"solve", clock.solve}, {"files", files.seconds()},   {"total", clock.total.seconds()}};

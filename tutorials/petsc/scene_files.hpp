@@ -17,9 +17,9 @@ struct RunClock {
 /// contact.csv (with contact), mesh.msh, solution.pvtu with a piece per rank. Columns and keys are those of a run
 /// without MPI. Every rank must call it; throws on every rank alike.
 void write_scene_files(const std::filesystem::path& folder, const SceneFile& file, const Level& level,
-                       const NestedReport& report, int levels, const RunClock& clock);
+                       const NestedReport& report, int levels, const std::string& warning, const RunClock& clock);
 
-/// The names that it may write, for rank 0 to check that no input stands in their place.
+/// Beyond, the text of solution.csv serves nobody.
 constexpr int most_csv_unknowns = 1'000'000;
 
 }  // namespace antilock::distributed

@@ -1,4 +1,5 @@
 #pragma once
+#include "antilock/core/progress.hpp"
 #include "antilock/distributed/inequality.hpp"
 #include "antilock/solve/solution.hpp"
 
@@ -19,6 +20,7 @@ struct LoopOptions {
   int most_iterations = 500;  ///< of conjugate gradients, per correction
   int most_corrections = 60;  ///< since the contact set changed last
   int most_sets = 2000;       ///< contact sets tried
+  ProgressHook progress;      ///< told of each correction on every rank; `false` on any stops all
   bool direct = false;        ///< MUMPS factors the matrix in place of multigrid: for layers without columns
 };
 
@@ -40,7 +42,7 @@ struct LoopReport {
 /// is solved by conjugate gradients with multigrid on the contact set that the last one proposes; the multigrid is set
 /// up anew where the set changed (kept, it takes up to four times the iterations: a released point frees a whole column
 /// of the layer, which the old hierarchy does not know). Residuals are formed from A1, B, M and p, never from K.
-/// Every rank must call it. Throws NotConverged, on every rank, where it does not settle.
+/// Every rank must call it. Throws, on every rank, NotConverged where it does not settle, Stopped where it is told to stop.
 LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptions& options = {});
 
 }  // namespace antilock::distributed

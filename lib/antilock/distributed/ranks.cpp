@@ -138,6 +138,19 @@ std::string from_first(std::string text) {
   return text;
 }
 
+std::string first_said(const std::string& text) {
+  const int mine = text.empty() ? ranks() : rank();
+  int first = 0;
+  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD);
+  if (first == ranks()) return {};
+  std::string said = text;
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, first, PETSC_COMM_WORLD);
+  said.resize(length);
+  MPI_Bcast(said.data(), length, MPI_CHAR, first, PETSC_COMM_WORLD);
+  return said;
+}
+
 double peak_megabytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);

@@ -35,6 +35,8 @@ std::vector<double> gathered(const std::vector<double>& values);  ///< of all ra
 std::vector<long long> each(long long value);                     ///< one value per rank, on every rank
 std::string from_first(std::string text);                         ///< the text of rank 0, on every rank
 
+std::string first_said(const std::string& text);  ///< of the first rank whose text is not empty
+
 double peak_megabytes();  ///< largest resident memory so far, of the rank that has most
 
 }  // namespace antilock::distributed

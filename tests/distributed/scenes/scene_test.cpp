@@ -70,9 +70,9 @@ int lines_about(const std::string& name, const std::string& err) {
 }
 
 TEST(PetscScene, GivesTheFilesOfTheSerialRunOnAnyNumberOfRanks) {
-  for (const std::string element : {"P1", "CR"}) {
-    const Runs serial(scene_text("active-set", "structured", element, 64)),
-        petsc(scene_text("petsc", "structured", element, 64));
+  for (const auto& [kind, element] :
+       {std::pair{"structured", "P1"}, {"structured", "CR"}, {"layered", "P1"}, {"layered", "CR"}}) {
+    const Runs serial(scene_text("active-set", kind, element, 64)), petsc(scene_text("petsc", kind, element, 64));
     ASSERT_EQ(serial.run(0, "serial").status, 0);
     const Eigen::MatrixXd u = sorted(read_csv(serial.results("serial") / "solution.csv").rows);
     const Eigen::MatrixXd contact = read_csv(serial.results("serial") / "contact.csv").rows;
@@ -126,6 +126,7 @@ TEST(PetscScene, ABadQuestionIsRefusedOnEveryRankAlike) {
       {scene_text("petsc", "structured", "P1", 3), "4 ranks for 3 columns", 2},
       {scene_text("active-set", "structured", "P1", 16), "petsc", 2},
       {scene_text("petsc", "structured", "P1", 64, "tolerance = 1e-18\n"), "double precision", 3},
+      {scene_text("petsc", "structured", "P2", 16), "P2", 2},
       {"[load]\nf = \"1/(x - 0.6)\"\n[mesh]\nkind = \"structured\"\ncells = 30\n[method]\nsolver = \"petsc\"\n",
        "not finite", 2},
   };
@@ -138,6 +139,14 @@ TEST(PetscScene, ABadQuestionIsRefusedOnEveryRankAlike) {
     EXPECT_FALSE(fs::exists(runs.results("results")));
     EXPECT_FALSE(fs::exists(runs.results("results").string() + ".checkpoint"));
   }
+}
+
+TEST(PetscScene, ALimitOfTimeEndsItOnEveryRank) {
+  const Runs runs(scene_text("petsc", "structured", "P1", 256));
+  const Outcome outcome = runs.run(2, "results", "--most-seconds 0.001");
+  EXPECT_EQ(outcome.status, 3);
+  EXPECT_EQ(lines_about("stopped as asked", outcome.err), 1) << outcome.err;
+  EXPECT_FALSE(fs::exists(runs.results("results")));
 }
 
 TEST(PetscScene, ALimitOfMemoryIsSeenBeforeItIsMet) {
