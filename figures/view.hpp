@@ -1,7 +1,7 @@
 #pragma once
 #include <vtkSmartPointer.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "geometry.hpp"
 

@@ -24,8 +24,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include <array>
 #include <map>
 
@@ -193,11 +191,9 @@ int main(int argc, char** argv) {
   tutorial::Options options;
   options.takes_epsilon = false;
   options.least_cells = 16;  // the study needs two meshes from 1/8 on
-  options.add = [&](CLI::App& app) {
-    app.add_option("--limit", limit, "seconds after which a run counts as failed")
-        ->capture_default_str()
-        ->check(CLI::Range(1e-3, 3600.0));
-    app.add_option("--freefem", freefem, "the command freefem/run, to measure FreeFEM's script too");
+  options.add = [&](tutorial::CommandLine& line) {
+    line.add("--limit", limit, "seconds after which a run counts as failed", 1e-3, 3600);
+    line.add("--freefem", freefem, "the command freefem/run, to measure FreeFEM's script too");
   };
   return tutorial::run(argc, argv, "10_work_precision", "What accuracy costs in time", options,
                        [&](const tutorial::Options& o, tutorial::Report& r) { study(o, r, limit, freefem); });

@@ -6,7 +6,6 @@
 // The way of the data is that of every tutorial: scene -> mesh -> space -> discrete problem -> solution -> files.
 // What this program promises: an answer with exit status 0, or one line on standard error and no file at all:
 // status 2 for a question that cannot be asked (the line names file and key), 3 for a solve that did not get there.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <new>
@@ -128,20 +127,15 @@ int fail(const std::string& message, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
-               "run_scene");
+  tutorial::CommandLine line(
+      "Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
+      "run_scene");
   std::filesystem::path scene, out;
-  app.add_option("SCENE", scene, "the scene file, in TOML")->required();
-  app.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  app.footer(help);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& request) {
-    return app.exit(request);
-  } catch (const CLI::ParseError& error) {
-    return fail(std::string("run_scene: ") + error.what() + "; see run_scene --help", 2);
-  }
-  if (app.count("--out") == 0) out = std::filesystem::path("results") / scene.stem();
+  line.add_required("SCENE", scene, "the scene file, in TOML");
+  line.add("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.footer(help);
+  if (const auto status = line.parse(argc, argv)) return *status;
+  if (!line.given("--out")) out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
     report.finish();  // the line of the stage that did not end

@@ -9,8 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-#include <optional>
+#include <algorithm>
 
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
@@ -19,6 +18,7 @@
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
+#include "common/command_line.hpp"
 #include "cross_check.hpp"
 #include "lines.hpp"
 #include "numbers.hpp"
@@ -249,16 +249,17 @@ int main(int argc, char** argv) {
   int cells = 32;
   double epsilon = 1e-6;
   std::filesystem::path out = "results/freefem/compare";
-  std::optional<std::filesystem::path> table;
-  CLI::App app("The C++ library against FreeFEM, tutorial by tutorial", "compare");
-  app.add_option("--cells", cells, "cells a unit side, h = 1/cells")->capture_default_str()->check(CLI::Range(4, 128));
-  app.add_option("--epsilon", epsilon, "of the tutorials 03 to 06")->capture_default_str()->check(CLI::Range(0.0, 1.0));
-  app.add_option("--out", out, "folder of the results")->capture_default_str();
-  app.add_option("--table", table, "file of the table for README (default: OUT/results.md)");
-  CLI11_PARSE(app, argc, argv);
+  std::filesystem::path table;
+  tutorial::CommandLine line("The C++ library against FreeFEM, tutorial by tutorial", "compare");
+  line.add("--cells", cells, "cells per unit side, h = 1/cells", 4, 128);
+  line.add("--epsilon", epsilon, "of the tutorials 03 to 06", 0, 1);
+  line.add("--out", out, "folder of the results");
+  line.add("--table", table, "file of the table for README (default: OUT/results.md)");
+  if (const auto status = line.parse(argc, argv)) return *status;
+  if (table.empty()) table = out / "results.md";
   try {
     const std::vector<Line> lines = compare_all(cells, epsilon, out);
-    freefem::write_files(lines, epsilon, out, table.value_or(out / "results.md"));
+    freefem::write_files(lines, epsilon, out, table);
     fmt::print("{}", freefem::markdown(lines, epsilon));
     const bool all = std::all_of(lines.begin(), lines.end(), [](const Line& l) { return l.holds(); });
     fmt::print("VERDICT {}: C++ and FreeFEM agree to {:.0e} on every line\n", all ? "holds" : "FAILS", freefem::bound);

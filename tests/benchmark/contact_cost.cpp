@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 
@@ -16,6 +15,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "benchmark/unconstrained_cholesky.hpp"
+#include "common/command_line.hpp"
 
 namespace antilock {
 namespace {
@@ -182,13 +182,14 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
 }  // namespace antilock
 
 int main(int argc, char** argv) {
-  CLI::App app("The cost of contact over one unconstrained sparse Cholesky solve", "contact_cost");
+  antilock::tutorial::CommandLine line("The cost of contact over one unconstrained sparse Cholesky solve",
+                                       "contact_cost");
   int finest = 512, repeats = 5;
   std::filesystem::path folder = "results/benchmark";
-  app.add_option("--cells", finest, "finest mesh, 1/h")->capture_default_str()->check(CLI::Range(64, 1024));
-  app.add_option("--repeats", repeats, "runs behind each median")->capture_default_str()->check(CLI::Range(1, 1000));
-  app.add_option("--out", folder, "folder of the results")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  line.add("--cells", finest, "finest mesh, 1/h", 64, 1024);
+  line.add("--repeats", repeats, "runs behind each median", 1, 1000);
+  line.add("--out", folder, "folder of the results");
+  if (const auto status = line.parse(argc, argv)) return *status;
   try {
     antilock::benchmark(finest, repeats, folder);
   } catch (const antilock::Error& error) {

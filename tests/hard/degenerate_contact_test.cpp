@@ -6,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/mesh/generate.hpp"
@@ -243,7 +244,7 @@ bool plain_settles(const Eigen::MatrixXd& s, const Eigen::VectorXd& q) {
       if (!active[i]) free.push_back(i);
     Eigen::VectorXd v = Eigen::VectorXd::Zero(q.size());
     if (!free.empty()) {
-      const Eigen::VectorXd x = s(free, free).eval().llt().solve(q(free));
+      const Eigen::VectorXd x = Cholesky(s(free, free)).solve(Eigen::VectorXd(q(free)));
       v(free) = x;
     }
     const Eigen::VectorXd lambda = s * v - q;

@@ -1,6 +1,5 @@
 #pragma once
-#include <Eigen/Dense>
-#include <Eigen/Sparse>
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/multiprecision/eigen.hpp>
 #ifdef __clang__  // has no quadmath.h: the same format in software, slower

@@ -2,6 +2,7 @@
 // the discrete answer against the truth.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/SPQRSupport>
 #include <Eigen/UmfPackSupport>
 #include <array>

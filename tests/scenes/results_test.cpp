@@ -2,6 +2,7 @@
 // solution.
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "antilock/exact/truth.hpp"

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "antilock/analysis/kernel.hpp"
+#include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/plane_strain.hpp"
@@ -112,8 +113,7 @@ int zero_modes(const Spaces& spaces, double jump_weight) {
   for (int i = 0; i < problem.size(); ++i)
     if (!fixed[i]) unknowns.push_back(i);
   const Eigen::MatrixXd a1 = problem.a1.toDense()(unknowns, unknowns);
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(a1, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values = symmetric_eigenvalues(a1);
   return static_cast<int>((values.array() < 1e-10).count());  // the next is at 1e-2
 }
 

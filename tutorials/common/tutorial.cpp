@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
-#include <cmath>
 #include <cstdio>
 
 #include "antilock/core/atomic_file.hpp"
@@ -50,26 +47,14 @@ void Report::claim(bool holds, const std::string& what) {
 
 int run(int argc, char** argv, const std::string& stem, const std::string& what, Options options,
         const std::function<void(const Options&, Report&)>& body) {
-  CLI::App app(what, stem);
+  CommandLine line(what, stem);
   if (options.out.empty()) options.out = std::filesystem::path("results") / stem;
   if (options.takes_epsilon)
-    app.add_option("--epsilon", options.epsilon, "the paper's epsilon; 0 is the rigid limit")
-        ->capture_default_str()
-        ->check(CLI::Range(options.least_epsilon, 1.0));
-  app.add_option("--cells", options.cells, "cells a unit side, h = 1/cells")
-      ->capture_default_str()
-      ->check(CLI::Range(options.least_cells, options.most_cells));
-  app.add_option("--out", options.out, "folder of the results")->capture_default_str();
-  options.add(app);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const CLI::ParseError& error) {
-    return fail(stem, std::string(error.what()) + " (see --help)", 2);
-  }
-  if (std::isnan(options.epsilon))
-    return fail(stem, "--epsilon: nan; accepted: a number to 1 (see --help)", 2);  // in any range
+    line.add("--epsilon", options.epsilon, "the paper's epsilon; 0 is the rigid limit", options.least_epsilon, 1);
+  line.add("--cells", options.cells, "cells per unit side, h = 1/cells", options.least_cells, options.most_cells);
+  line.add("--out", options.out, "folder of the results");
+  options.add(line);
+  if (const auto status = line.parse(argc, argv)) return *status;
   try {
     check_writable(options.out);
     fmt::print("{}: {}\n", stem, what);

@@ -4,10 +4,7 @@
 #include <string>
 
 #include "antilock/core/stopwatch.hpp"
-
-namespace CLI {
-class App;  // CLI11 in full would be compiled into every tutorial
-}
+#include "common/command_line.hpp"
 
 namespace antilock::tutorial {
 
@@ -19,7 +16,7 @@ struct Options {
   int cells = 32;             ///< cells a unit side: h = 1/cells
   int least_cells = 1, most_cells = 2048;  ///< what the study needs, and can afford
   std::filesystem::path out;               ///< folder of the results; default results/STEM
-  std::function<void(CLI::App&)> add = [](CLI::App&) {};
+  std::function<void(CommandLine&)> add = [](CommandLine&) {};
 };
 
 /// What a tutorial says while it runs: stages with their seconds, and the verdict at its end.

@@ -2,10 +2,10 @@
 
 #include <Spectra/MatOp/SparseSymMatProd.h>
 #include <Spectra/MatOp/SparseSymShiftSolve.h>
-#include <Spectra/SymEigsShiftSolver.h>
 #include <Spectra/SymEigsSolver.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "antilock/core/error.hpp"
 
@@ -15,8 +15,19 @@ namespace {
 constexpr int most_restarts = 1000;
 constexpr double tolerance = 1e-6;
 
-template <class Solver>
-double only_eigenvalue(Solver& solver, Spectra::SortRule wanted, const char* which) {
+/// x -> y of a symmetric matrix, for Spectra: one type for all, so that its solver is compiled once.
+struct Operator {
+  using Scalar = double;
+  Eigen::Index size;
+  std::function<void(const double* x, double* y)> apply;
+  Eigen::Index rows() const { return size; }
+  Eigen::Index cols() const { return size; }
+  void perform_op(const double* x, double* y) const { apply(x, y); }
+};
+
+double only_eigenvalue(Operator matrix, Spectra::SortRule wanted, const char* which) {
+  constexpr Eigen::Index kept = 30;  // vectors between restarts: enough for the clustered ends of a stiff spectrum
+  Spectra::SymEigsSolver<Operator> solver(matrix, 1, std::min(kept, matrix.size));
   solver.init();
   solver.compute(wanted, most_restarts, tolerance);
   if (solver.info() != Spectra::CompInfo::Successful)
@@ -25,21 +36,19 @@ double only_eigenvalue(Solver& solver, Spectra::SortRule wanted, const char* whi
   return solver.eigenvalues()(0);
 }
 
-/// Vectors kept between restarts: enough for the clustered ends of a stiff spectrum.
-int basis_size(const SparseMatrix& matrix) { return static_cast<int>(std::min<Eigen::Index>(30, matrix.rows())); }
-
 }  // namespace
 
 double largest_eigenvalue(const SparseMatrix& upper) {
-  Spectra::SparseSymMatProd<double, Eigen::Upper> product(upper);
-  Spectra::SymEigsSolver solver(product, 1, basis_size(upper));
-  return only_eigenvalue(solver, Spectra::SortRule::LargestAlge, "largest");
+  const Spectra::SparseSymMatProd<double, Eigen::Upper> product(upper);
+  return only_eigenvalue({upper.rows(), [&](const double* x, double* y) { product.perform_op(x, y); }},
+                         Spectra::SortRule::LargestAlge, "largest");
 }
 
 double smallest_eigenvalue(const SparseMatrix& upper) {
   Spectra::SparseSymShiftSolve<double, Eigen::Upper> inverse(upper);
-  Spectra::SymEigsShiftSolver solver(inverse, 1, basis_size(upper), 0.0);
-  return only_eigenvalue(solver, Spectra::SortRule::LargestMagn, "smallest");
+  inverse.set_shift(0);
+  return 1 / only_eigenvalue({upper.rows(), [&](const double* x, double* y) { inverse.perform_op(x, y); }},
+                             Spectra::SortRule::LargestMagn, "smallest");
 }
 
 }  // namespace antilock

@@ -1,6 +1,6 @@
 #pragma once
-#include <Eigen/Dense>
-#include <Eigen/Sparse>
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 namespace antilock {
 

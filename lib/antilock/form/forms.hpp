@@ -1,6 +1,6 @@
 #pragma once
-#include <Eigen/Dense>
-#include <Eigen/Sparse>
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 
 #include "antilock/form/factored_form.hpp"
 #include "antilock/form/quadrature.hpp"

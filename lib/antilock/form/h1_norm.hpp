@@ -1,5 +1,5 @@
 #pragma once
-#include <Eigen/Sparse>
+#include <Eigen/SparseCore>
 
 #include "antilock/space/space.hpp"
 

@@ -1,0 +1,46 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace antilock::tutorial {
+
+/// The options of a program. CLI11, which does the work, costs seconds of compilation per source that includes it: it
+/// is included in command_line.cpp alone. Values given beforehand are the defaults that --help shows.
+class CommandLine {
+ public:
+  /// @param what  what the program does, for --help
+  /// @param name  of the program, before every message
+  CommandLine(const std::string& what, std::string name);
+  ~CommandLine();
+
+  /// A number between `least` and `most`, both accepted. NaN is refused.
+  void add(const std::string& option, double& value, const std::string& what, double least, double most);
+  void add(const std::string& option, int& value, const std::string& what, int least, int most);
+  void add(const std::string& option, std::string& value, const std::string& what);
+  void add(const std::string& option, std::filesystem::path& value, const std::string& what);
+  /// An argument without an option's name, which must be given.
+  void add_required(const std::string& name, std::filesystem::path& value, const std::string& what);
+  /// What --help prints below the options.
+  void footer(const std::string& text);
+
+  /// Fills the values. Returns nothing where the program goes on, otherwise the status to exit with: 0 after --help, 2
+  /// after an option that is not accepted, which one line on standard error names.
+  std::optional<int> parse(int argc, char** argv);
+  /// Whether the option stands on the command line.
+  bool given(const std::string& option) const;
+
+ private:
+  std::unique_ptr<CLI::App> app_;
+  std::string name_;
+  std::vector<std::pair<std::string, const double*>> numbers_;
+};
+
+}  // namespace antilock::tutorial
