@@ -19,7 +19,7 @@ if(CLANG_TIDY)
   file(GENERATE OUTPUT ${flags}/compile_flags.txt CONTENT "-std=c++20
 -I${PROJECT_SOURCE_DIR}/lib
 -D$<JOIN:$<TARGET_PROPERTY:antilock,COMPILE_DEFINITIONS>,\n-D>
--isystem$<JOIN:$<FILTER:$<TARGET_PROPERTY:antilock,INCLUDE_DIRECTORIES>,EXCLUDE,/lib$>,\n-isystem>
+-isystem$<JOIN:$<FILTER:$<TARGET_PROPERTY:antilock,INCLUDE_DIRECTORIES>,EXCLUDE,/lib$|^/usr/include$>,\n-isystem>
 ")
   # a room's pages together where they are compiled together, so that headers are read once
   get_target_property(pages antilock SOURCES)

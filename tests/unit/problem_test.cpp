@@ -155,8 +155,8 @@ TEST(Check, RefusesSizesThatDoNotFit) {
   refused([](P& p) { p.load.conservativeResize(p.load.size() - 1); }, "a1 is");
   refused([](P& p) { p.b.conservativeResize(p.b.rows(), p.b.cols() - 1); }, "B is");
   refused([](P& p) { p.m.conservativeResize(p.m.size() - 1); }, "M has");
-  refused([](P& p) { p.fixed.pop_back(); }, "one value a fixed unknown");
-  refused([](P& p) { p.contact.pop_back(); }, "one bound a contact unknown");
+  refused([](P& p) { p.fixed.pop_back(); }, "one value per fixed unknown");
+  refused([](P& p) { p.contact.pop_back(); }, "one bound per contact unknown");
 }
 
 TEST(Check, RefusesEntriesThatAreNotFinite) {
@@ -176,8 +176,8 @@ TEST(Check, RefusesWhatTheClassExcludes) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   refused([](P& p) { p.m(2) = 0; }, "M is not positive");
   refused([](P& p) { p.m(2) = -1; }, "M is not positive");
-  for (const double compliance : {-1e-300, 1.5, nan})
-    refused([=](P& p) { p.compliance = compliance; }, "accepted 0 to 1");
+  for (const double compliance : {-1e-300, -1.0, nan, std::numeric_limits<double>::infinity()})
+    refused([=](P& p) { p.compliance = compliance; }, "accepted: a finite number, 0 or more");
   refused([](P& p) { p.a1.coeffRef(0, 1) *= 1 + 1e-9; }, "not symmetric");
   refused([](P& p) { p.a1.coeffRef(1, 0) = 0; }, "not symmetric");
   // an entry whose partner is not stored, on either side of the diagonal, the stored ones before and after it

@@ -43,7 +43,7 @@ double asymmetry(const SparseMatrix& a) {
 
 }  // namespace
 
-void check(const VariationalInequality& problem) {
+void check_data(const VariationalInequality& problem) {
   const Eigen::Index n = problem.load.size(), rows = problem.b.rows();
   require(n > 0, "no unknowns");
   require(problem.a1.rows() == n && problem.a1.cols() == n,
@@ -57,12 +57,12 @@ void check(const VariationalInequality& problem) {
               problem.fixed_values.allFinite(),
           "an entry is not finite");
   require(rows == 0 || problem.m.minCoeff() > 0, "M is not positive");
-  require(problem.compliance >= 0 && problem.compliance <= 1,
-          fmt::format("compliance = {}; accepted 0 to 1", problem.compliance));
+  require(problem.compliance >= 0 && std::isfinite(problem.compliance),
+          fmt::format("compliance = {}; accepted: a finite number, 0 or more", problem.compliance));
   require(problem.fixed_values.size() == static_cast<Eigen::Index>(problem.fixed.size()),
-          "one value a fixed unknown is needed");
+          "one value per fixed unknown is needed");
   require(problem.lower.size() == static_cast<Eigen::Index>(problem.contact.size()),
-          "one bound a contact unknown is needed");
+          "one bound per contact unknown is needed");
   std::vector<char> taken(n, 0);
   for (const std::vector<int>* list : {&problem.fixed, &problem.contact})
     for (const int i : *list) {
@@ -71,6 +71,10 @@ void check(const VariationalInequality& problem) {
       taken[i] = 1;
     }
   require(problem.free_count() > 0, "every unknown is fixed; accepted: one free unknown or more");
+}
+
+void check(const VariationalInequality& problem) {
+  check_data(problem);
   // Relative to the largest entry: what assembly leaves is round-off of the sums.
   const Eigen::Map<const Eigen::VectorXd> entries(problem.a1.valuePtr(), problem.a1.nonZeros());
   const double largest = entries.size() > 0 ? entries.cwiseAbs().maxCoeff() : 0;

@@ -12,15 +12,19 @@ namespace antilock {
 ///
 /// a0(u, v) = (B u, M B v) stays in factored form: summed into a1 it destroys a1 by round-off. Everything is
 /// dimensionless. N unknowns, R rows of B, C contact unknowns.
+///
+/// M is diagonal. A form whose M has a block per cell fits as well: with block = G G', rows G' B of the cell and M = 1.
+/// No unit is better than another: A1 times s is the same problem at compliance / s, M times s at compliance s, and a
+/// compliance above 1 is taken as it is.
 struct VariationalInequality {
   SparseMatrix a1;         ///< N x N, symmetric; positive definite together with B' M B on the free unknowns
   RowMatrix b;             ///< R x N; R = 0 where nothing is stiff
   Eigen::VectorXd m;       ///< R, the diagonal of M, positive (areas of cells)
-  double compliance = 1;   ///< the class parameter, 0 <= compliance <= 1. In (23) it is epsilon^2: the one place that
-                           ///< says so is `assemble` (models/anti_plane.hpp)
+  double compliance = 1;   ///< the class parameter, 0 or more. In (23) it is epsilon^2: the one place that says so is
+                           ///< `assemble` (models/anti_plane.hpp)
   Eigen::VectorXd load;    ///< N, L(phi_i)
   std::vector<int> fixed;  ///< unknowns with a prescribed value, ascending
-  Eigen::VectorXd fixed_values;  ///< one a fixed unknown
+  Eigen::VectorXd fixed_values;  ///< one per fixed unknown
   std::vector<int> contact;      ///< unknowns bounded from below, in the order of the reports (by x)
   Eigen::VectorXd lower;         ///< C bounds: u >= lower there (= -gap)
 
@@ -31,5 +35,9 @@ struct VariationalInequality {
 /// Throws Error with the first thing that is wrong: sizes that do not fit, entries that are not finite, an a1 that is
 /// not symmetric, M not positive, compliance out of range, indices out of range or named twice, no free unknown.
 void check(const VariationalInequality& problem);
+
+/// The same but for the symmetry of a1, in one walk over the data: what a solver asks at every call, whoever made the
+/// factor. The factor has asked for the symmetry of its matrix.
+void check_data(const VariationalInequality& problem);
 
 }  // namespace antilock

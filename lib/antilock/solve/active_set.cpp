@@ -7,7 +7,9 @@
 
 namespace antilock {
 
-Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
+namespace {
+
+Solution solve(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
   if (options.start && options.start->size() != problem.contact.size())
     throw Error("active set: the start has " + std::to_string(options.start->size()) +
                 " entries; accepted one a contact unknown, " + std::to_string(problem.contact.size()));
@@ -25,10 +27,17 @@ Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor,
   return solution;
 }
 
+}  // namespace
+
+Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
+  factor.check_fits(problem);
+  return solve(problem, factor, options);
+}
+
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options) {
-  check(problem);
+  check_data(problem);  // the factor checks the rest
   PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
-  return active_set(problem, factor, options);
+  return solve(problem, factor, options);
 }
 
 }  // namespace antilock

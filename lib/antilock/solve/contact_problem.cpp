@@ -25,7 +25,9 @@ Noise solve_on(const ContactProblem& p, ContactAnswer& answer) {
   answer.v = p.lower;
   const Eigen::VectorXd from = p.from.size() > 0 ? p.from : Eigen::VectorXd::Zero(p.q.size());
   // each bound by itself: an obstacle far away in one place must not hide contact in another
-  Noise noise{unit * (from + p.lower).cwiseAbs().cwiseMax(p.u_scale), {}};
+  Noise noise{p.noise.size() > 0 ? Eigen::VectorXd(unit * (from + p.lower).cwiseAbs() + p.noise)
+                                 : Eigen::VectorXd(unit * (from + p.lower).cwiseAbs().cwiseMax(p.u_scale)),
+              {}};
   if (!free.empty()) {
     Eigen::VectorXd rhs = p.q(free);
     if (!held.empty()) rhs.noalias() -= p.s(free, held) * p.lower(held);
@@ -122,6 +124,7 @@ std::vector<bool> nested_start(const ContactProblem& problem, int max_steps) {
   const Eigen::VectorXd q = Eigen::VectorXd(problem.q(kept)) - half.transpose() * half_q, lower = problem.lower(kept);
   ContactProblem smaller{s, q, lower, problem.u_scale};
   if (problem.from.size() > 0) smaller.from = problem.from(kept);
+  if (problem.noise.size() > 0) smaller.noise = problem.noise(kept);
   const ContactAnswer answer = solve_contact(smaller, nested_start(smaller, max_steps), max_steps);
   std::vector<bool> active(fine);
   for (Eigen::Index i = 0; i < fine; ++i) {

@@ -14,6 +14,7 @@ struct ContactProblem {
   const Eigen::VectorXd& lower;  ///< C
   double u_scale;                ///< largest |u| of the whole problem: gaps far below it are round-off
   Eigen::VectorXd from = {};     ///< C, where v and lower count from (empty: 0): round-off is that of from + v
+  Eigen::VectorXd noise = {};    ///< C, the round-off of each v where it is known, in place of that of u_scale
 };
 
 struct ContactAnswer {

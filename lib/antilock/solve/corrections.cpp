@@ -7,8 +7,16 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/solve/dependent_rows.hpp"
 
 namespace antilock {
+namespace {
+
+/// A u that falls below this fraction of its size after the first correction is locked: its round-off, 1e-16 of that
+/// size, is what the default tolerance of 1e-10 comes to.
+constexpr double locked = 1e-5;
+
+}  // namespace
 
 Solution Corrections::solve(const ContactSolver& contact) {
   for (;; ++correction_) {
@@ -20,7 +28,7 @@ Solution Corrections::solve(const ContactSolver& contact) {
           std::max(error_, gap_), correction_ - 1);
     rescue();
     const Change change = correct(residual(), contact);
-    if (settled(change)) return finished();
+    if (settled(change) && !hides_a_violation(change, contact)) return finished();
     report(options_.progress, {"corrections", correction_ + 1, error_, options_.tolerance}, s_.solver);
     accelerate(change);
   }
@@ -49,18 +57,23 @@ Corrections::Change Corrections::correct(const SplitResidual& residual, const Co
   return change;
 }
 
-Eigen::VectorXd Corrections::solve_with_factor(const Eigen::VectorXd& r, const ContactSolver& contact) {
+Eigen::VectorXd Corrections::solve_with_factor(Eigen::VectorXd r, const ContactSolver& contact) {
   const auto c = static_cast<Eigen::Index>(problem_.contact.size());
   Stopwatch watch;
+  // what acts on Gamma_C itself stays out of the factor: a great load there, which the obstacle bears, would leave
+  // its round-off on the neighbours
+  const Eigen::VectorXd r_c = r.tail(c);
+  r.tail(c).setZero();
   Eigen::VectorXd y = factor_.forward(r);
   s_.seconds.solve += watch.lap();
   if (c > 0) {
-    // L_C y_C is the residual condensed on Gamma_C; v = du_C counts from u_C, so that no S u_C brings its round-off in
+    // r_c + L_C y_C is the residual condensed on Gamma_C; v = du_C counts from u_C, so that no S u_C brings its
+    // round-off in
     const auto l = factor_.contact_block().triangularView<Eigen::Lower>();
     const Eigen::VectorXd u_c = s_.u(problem_.contact), lower = problem_.lower - u_c;
-    Eigen::VectorXd q = l * y.tail(c);
+    Eigen::VectorXd q = r_c + l * y.tail(c);
     if (contact_.lambda.size() > 0) q -= contact_.lambda;  // r holds them already; contact asks for all
-    contact_ = contact({schur_, q, lower, u_scale_, u_c}, contact_, correction_);
+    contact_ = contact({schur_, q, lower, s_.u.lpNorm<Eigen::Infinity>(), u_c, noise_c_}, contact_, correction_);
     y.tail(c) = l.transpose() * contact_.v;
     s_.seconds.contact += watch.lap();
   }
@@ -74,9 +87,10 @@ Eigen::VectorXd Corrections::solve_with_factor(const Eigen::VectorXd& r, const C
 bool Corrections::settled(const Change& change) {
   const bool stiff = problem_.b.rows() > 0;
   const double before = s_.history.empty() ? 0 : s_.history.back();
-  // a locked u tends to 0, hence the first; one on its way to infinity (an infeasible problem) must not count for long
+  // a locked u tends to 0, and its round-off is that of the first; one on its way to infinity (an infeasible problem)
+  // must not count for long
   if (correction_ == 0) u_first_ = s_.u.lpNorm<Eigen::Infinity>();
-  u_scale_ = std::max(u_first_, s_.u.lpNorm<Eigen::Infinity>());
+  u_scale_ = std::max(locked * u_first_, s_.u.lpNorm<Eigen::Infinity>());
   const double step = u_scale_ > 0 ? change.u.lpNorm<Eigen::Infinity>() / u_scale_ : 0;
   s_.history.push_back(step);
   if (!std::isfinite(step))
@@ -111,6 +125,11 @@ Solution Corrections::finished() {
   s_.active = contact_.active;
   s_.moderate = u_first_;
   certify(problem_, s_, TrustLevels{.refused = options_.refused});
+  const auto apart = problem_.compliance == 0 ? nearly_dependent_rows(problem_) : std::nullopt;
+  if (apart && s_.warning.empty())
+    s_.warning =
+        fmt::format("{}: rows of B are {:.0e} from dependent, trusted 1e-10 and more, or 1e-14 and less (equal)",
+                    s_.solver, *apart);
   return std::move(s_);
 }
 

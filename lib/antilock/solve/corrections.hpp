@@ -35,6 +35,14 @@ class Corrections {
   Change correct(const SplitResidual& r, const ContactSolver& contact);
   /// Whether u is right to the tolerance, judged by the change, and compliance p = B u holds.
   bool settled(const Change& change);
+  /// Whether a bound, or a row of B u = compliance p, is violated by more than the round-off of the forces explains.
+  /// What is large elsewhere hides neither. Asks for a solve only where something looks wrong.
+  bool hides_a_violation(const Change& change, const ContactSolver& contact);
+  /// Throws NotConverged where no u meets the bounds, the prescribed values and B u = 0: the same problem without its
+  /// load, beside which a violation may be less than round-off.
+  void require_an_admissible_u(const ContactSolver& contact);
+  /// What the round-off of the forces, all of one sign, would displace: K^-1 (64 eps (|L| + |A1| |u| + |B'| M |p|)).
+  Eigen::VectorXd round_off();
   /// Anderson's mix of the last corrections: the start of the next.
   void accelerate(const Change& change);
   /// What the counters and the report say of the answer.
@@ -42,7 +50,7 @@ class Corrections {
 
   void refactor(double delta);
   /// du on all unknowns, with the contact problem on Gamma_C solved on the way.
-  Eigen::VectorXd solve_with_factor(const Eigen::VectorXd& r, const ContactSolver& contact);
+  Eigen::VectorXd solve_with_factor(Eigen::VectorXd r, const ContactSolver& contact);
 
   const VariationalInequality& problem_;
   PenaltyFactor& factor_;
@@ -54,6 +62,8 @@ class Corrections {
   int correction_ = 0;
   int since_rescue_ = 0;      ///< corrections with the means as they are
   bool long_double_ = false;  ///< residuals in long double
+  Eigen::VectorXd noise_;     ///< N, the least round_off so far (that of an infeasible problem grows); empty at first
+  Eigen::VectorXd noise_c_;   ///< C, what the contact problem is told of it
   double u_first_ = 0;        ///< max |u| after the first correction: its size before it locks
   double u_scale_ = 0;        ///< what is large for u
   double error_ = 1;          ///< estimated relative error of u left behind

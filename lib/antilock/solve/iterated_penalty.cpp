@@ -15,7 +15,6 @@ CorrectionOptions corrections_to(double asked) {
 
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name) {
-  factor.check_fits(problem);
   return Corrections(problem, factor, options, name).solve(contact);
 }
 

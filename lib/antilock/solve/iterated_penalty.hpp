@@ -19,6 +19,7 @@ struct CorrectionOptions {
   double refused = 1e-6;      ///< KKT report above which no answer is returned (see TrustLevels)
   int max_corrections = 100;  ///< reached: NotConverged
   ProgressHook progress = {};  ///< called after every correction that is not the last
+  double contact = 0;         ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
 };
 
 /// The options for a relative error of `asked` at best. Who asks for little gets little, with a warning: the report may
@@ -32,7 +33,8 @@ CorrectionOptions corrections_to(double asked);
 ///     K du = r1 + delta^-1 B' M r2 + dlambda     dp = (B du - r2) / delta
 /// with the contact conditions solved on Gamma_C in every correction. No digit of A1 is ever added to a large one, so
 /// the answer is right at every compliance down to and including 0, where it solves (7) exactly. Throws NotConverged,
-/// with how far it came, after max_corrections or where B u = 0 cannot be met. Its steps are a page each: the loop is
+/// with how far it came, after max_corrections or where B u = 0 cannot be met. The caller has asked the factor whether
+/// it fits. Its steps are a page each: the loop is
 /// corrections.hpp.
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name);

@@ -15,12 +15,35 @@ double ratio(double value, double scale) {
   return value == 0 ? 0.0 : value / scale;
 }  // 0 / 0 is a condition met exactly
 
-/// The largest displacement that a load would give its unknown if all the others were held: a scale, from below.
-double single_displacement(const VariationalInequality& problem) {
+/// The smaller and the larger one; not a number where one of them is not.
+double least(double a, double b) { return std::isnan(a) || a < b ? a : b; }
+double most(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+
+/// The report is asked of foreign answers too.
+void require_sizes(const VariationalInequality& problem, const Solution& s) {
+  if (s.u.size() == problem.size() && s.p.size() == problem.b.rows() &&
+      s.lambda.size() == static_cast<Eigen::Index>(problem.contact.size()))
+    return;
+  throw Error(fmt::format("kkt: u, p and lambda have {}, {} and {} entries; accepted {}, {} and {}", s.u.size(),
+                          s.p.size(), s.lambda.size(), problem.size(), problem.b.rows(), problem.contact.size()));
+}
+
+/// The largest displacement that a load, as far as neither lambda nor B' M p bears it, would give its unknown if all the
+/// others were held: a scale, from below.
+double single_displacement(const VariationalInequality& problem, const Eigen::VectorXd& p,
+                           const Eigen::VectorXd& lambda) {
+  Eigen::VectorXd forces = problem.load;
+  for (Eigen::Index i = 0; i < lambda.size(); ++i) forces(problem.contact[i]) += lambda(i);
+  if (problem.b.rows() > 0) {
+    const Eigen::VectorXd net = forces - problem.b.transpose() * problem.m.cwiseProduct(p);
+    forces = forces.cwiseAbs().cwiseMin(net.cwiseAbs());
+  }
   const Eigen::VectorXd diagonal = problem.a1.diagonal();
+  std::vector<char> fixed(problem.size(), 0);
+  for (const int i : problem.fixed) fixed[i] = 1;
   double most = 0;
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
-    if (diagonal(i) > 0) most = std::max(most, std::abs(problem.load(i)) / diagonal(i));
+    if (diagonal(i) > 0 && !fixed[i]) most = std::max(most, std::abs(forces(i)) / diagonal(i));
   return most;
 }
 
@@ -63,8 +86,10 @@ Eigen::VectorXd absolute_row_sums(const RowMatrix& b) {
 
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   const Eigen::VectorXd &u = solution.u, &p = solution.p, &lambda = solution.lambda;
+  check_data(problem);
+  require_sizes(problem, solution);
   Kkt kkt;
-  if (!u.allFinite() || !p.allFinite() || !lambda.allFinite()) {  // a maximum may pass over what is not a number
+  if (!u.allFinite() || !p.allFinite() || !lambda.allFinite()) {  // Eigen's maxima may pass over what is not a number
     kkt.residual = std::numeric_limits<double>::infinity();
     return kkt;
   }
@@ -80,7 +105,8 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   if (problem.b.rows() > 0) terms += problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(p.cwiseAbs());
   const Eigen::VectorXd beyond = (r.r1.cwiseAbs() - 8 * std::numeric_limits<double>::epsilon() * terms).cwiseMax(0);
   // a locked u may tend to 0: then its size before, or what the loads would do to one free unknown, tells what is large
-  const double u_scale = std::max({u.lpNorm<Eigen::Infinity>(), solution.moderate, single_displacement(problem)});
+  const double u_scale =
+      std::max({u.lpNorm<Eigen::Infinity>(), 1e-6 * solution.moderate, single_displacement(problem, p, lambda)});
   // a great force somewhere must hide nothing where all forces are small
   Eigen::VectorXd own = problem.a1.diagonal().cwiseAbs();
   if (problem.b.rows() > 0) own += problem.b.cwiseAbs2().transpose() * problem.m;
@@ -88,9 +114,9 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   for (Eigen::Index i = 0; i < lambda.size(); ++i)
     own(problem.contact[i]) = std::max(own(problem.contact[i]), std::abs(lambda(i)));
   for (Eigen::Index i = 0; i < beyond.size(); ++i)
-    kkt.residual = std::max(kkt.residual, ratio(beyond(i), std::min(own(i), std::max(f_scale, reaction))));
+    kkt.residual = most(kkt.residual, ratio(beyond(i), std::min(own(i), std::max(f_scale, reaction))));
   const Eigen::VectorXd strain = r.r2.cwiseQuotient(absolute_row_sums(problem.b));
-  kkt.residual = std::max(kkt.residual, ratio(strain.lpNorm<Eigen::Infinity>(), u_scale));
+  kkt.residual = most(kkt.residual, ratio(strain.lpNorm<Eigen::Infinity>(), u_scale));
   // the prescribed values hold exactly or not at all
   for (std::size_t i = 0; i < problem.fixed.size(); ++i)
     if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
@@ -100,9 +126,9 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   for (Eigen::Index i = 0; i < lambda.size(); ++i) {  // each gap by its own bound: a far obstacle hides no near one
     const double gap = u(problem.contact[i]) - problem.lower(i), scale = std::max(u_scale, std::abs(problem.lower(i)));
     const double force = std::min(own(problem.contact[i]), f_scale);
-    kkt.min_pressure = std::min(kkt.min_pressure, ratio(lambda(i), force));
-    kkt.min_gap = std::min(kkt.min_gap, ratio(gap, scale));
-    kkt.complementarity = std::max(kkt.complementarity, ratio(std::abs(lambda(i) * gap), scale * force));
+    kkt.min_pressure = least(kkt.min_pressure, ratio(lambda(i), force));
+    kkt.min_gap = least(kkt.min_gap, ratio(gap, scale));
+    kkt.complementarity = most(kkt.complementarity, ratio(std::abs(lambda(i) * gap), scale * force));
   }
   return kkt;
 }

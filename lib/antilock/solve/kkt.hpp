@@ -18,14 +18,28 @@ SplitResidual extended_residual(const VariationalInequality& problem, const Eige
 /// What a row of B makes of the largest u = 1: the unit of its strain. 1 for a row without entries.
 Eigen::VectorXd absolute_row_sums(const RowMatrix& b);
 
-/// The report, each number relative to what its condition is made of, so that scaling the load by any factor leaves it
-/// unchanged: each row of r1 against the forces at work, max(|L|, |lambda|, |reactions|), since the terms of A1 u are
-/// larger than these by h^-2 and would hide an error, or against the forces at its own unknown where all of these are
-/// smaller (its terms of r1, its lambda, what a displacement of the size of u meets there in A1 + B' M B), so that a
-/// great force hides nothing elsewhere; each row of r2 against its own sum |B| times the largest of |u| and
-/// the displacement of a single unknown under its load (or `moderate`); gaps against max(|u|, |their bound|), pressures
-/// against max(|L|, |lambda|) or, where smaller, the forces at their own unknown. All zero for the zero solution of a
-/// zero load.
+/// The report. Each number is relative, so that scaling the load by any factor leaves it unchanged:
+///
+/// | row                       | numerator                 | scale               | why                                |
+/// |---------------------------|---------------------------|---------------------|------------------------------------|
+/// | residual, a row i of r1   | |r1_i| - 8 eps t_i        | min(own_i, F)       | the terms of A1 u are larger than  |
+/// |                           |                           |                     | the forces at work by h^-2 and     |
+/// |                           |                           |                     | would hide an error; a great force |
+/// |                           |                           |                     | must hide nothing elsewhere; the   |
+/// |                           |                           |                     | rounding of u and p is no error    |
+/// | residual, a row j of r2   | |r2_j|                    | U sum_k |B_jk|      | a strain has the unit of its row   |
+/// | residual, a fixed unknown | 1 where u is not its value | 1                  | prescribed values hold exactly     |
+/// | min_gap, of contact i     | u_i - lower_i             | max(U, |lower_i|)   | a far obstacle hides no near one   |
+/// | min_pressure, of contact i| lambda_i                  | min(own_i, F_0)     | as for r1                          |
+/// | complementarity           | |lambda_i (u_i - lower_i)| | the two above      |                                    |
+///
+///     U      max(|u|, 1e-6 moderate, the displacement that a load which neither lambda nor B' M p bears gives its
+///            unknown alone): a locked u tends to 0, and its round-off is that of its size before
+///     t      |L| + |A1| |u| + |B'| M |p|, the terms of r1
+///     own    max(t, lambda, U diag(A1 + B' M B)), the forces at one unknown
+///     F_0, F max(|L|, |lambda|), and with the reactions of the fixed unknowns
+///
+/// All zero for the zero solution of a zero load. Throws Error for a malformed problem and for sizes that do not fit.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
 /// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -29,6 +31,30 @@ cholmod_sparse view(SparseMatrix& k) {
   a.dtype = CHOLMOD_DOUBLE;
   a.sorted = a.packed = 1;
   return a;
+}
+
+const VariationalInequality& checked(const VariationalInequality& problem) {
+  check(problem);
+  return problem;
+}
+
+/// Of the bits of A1, B and M (FNV-1a, a double at a time): equal for equal matrices, and for no others in practice.
+std::uint64_t fingerprint(const VariationalInequality& problem) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto add = [&](std::uint64_t bits) { hash = (hash ^ bits) * 0x100000001b3; };
+  const auto add_all = [&](const double* values, Eigen::Index count) {
+    for (Eigen::Index i = 0; i < count; ++i) add(std::bit_cast<std::uint64_t>(values[i]));
+    add(static_cast<std::uint64_t>(count));
+  };
+  add_all(problem.a1.valuePtr(), problem.a1.nonZeros());
+  add_all(problem.b.valuePtr(), problem.b.nonZeros());
+  add_all(problem.m.data(), problem.m.size());
+  const auto places = [&](const int* inner, Eigen::Index count) {
+    for (Eigen::Index i = 0; i < count; ++i) add(static_cast<std::uint64_t>(inner[i]));
+  };
+  places(problem.a1.innerIndexPtr(), problem.a1.nonZeros());
+  places(problem.b.innerIndexPtr(), problem.b.nonZeros());
+  return hash;
 }
 
 }  // namespace
@@ -130,9 +156,8 @@ struct PenaltyFactor::Cholmod {
 };
 
 PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta)
-    : numbering_(problem), delta_(delta), cholmod_(std::make_unique<Cholmod>()) {
-  if (numbering_.unknown.empty()) throw Error("solve: every unknown is fixed; accepted: one free unknown or more");
-  refactor(problem, delta);
+    : numbering_(checked(problem)), matrices_(fingerprint(problem)), cholmod_(std::make_unique<Cholmod>()) {
+  factorise(problem, delta);
 }
 
 PenaltyFactor::PenaltyFactor(const VariationalInequality& problem) : PenaltyFactor(problem, moderate_delta(problem)) {}
@@ -142,6 +167,13 @@ PenaltyFactor::PenaltyFactor(PenaltyFactor&&) noexcept = default;
 PenaltyFactor& PenaltyFactor::operator=(PenaltyFactor&&) noexcept = default;
 
 void PenaltyFactor::check_fits(const VariationalInequality& problem) const {
+  check_data(problem);
+  check_unknowns(problem);
+  if (fingerprint(problem) != matrices_)
+    throw Error("solve: the factor is of another A1, B or M; accepted: the factor of this problem's matrices");
+}
+
+void PenaltyFactor::check_unknowns(const VariationalInequality& problem) const {
   const FreeNumbering other(problem);
   if (other.unknown != numbering_.unknown || other.interior != numbering_.interior)
     throw Error(
@@ -152,6 +184,18 @@ void PenaltyFactor::check_fits(const VariationalInequality& problem) const {
 }
 
 void PenaltyFactor::refactor(const VariationalInequality& problem, double delta) {
+  const std::uint64_t matrices = fingerprint(problem);
+  if (matrices != matrices_) {
+    check(problem);
+    matrices_ = matrices;
+  }
+  check_unknowns(problem);
+  factorise(problem, delta);
+}
+
+void PenaltyFactor::factorise(const VariationalInequality& problem, double delta) {
+  if (!(delta > 0 && std::isfinite(delta)))
+    throw Error(fmt::format("solve: delta = {}; accepted: a positive number", delta));
   delta_ = delta;
   SparseMatrix k = penalised_matrix(problem, numbering_, delta);
   Stopwatch watch;

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 
 #include "antilock/problem/variational_inequality.hpp"
@@ -13,8 +14,8 @@ namespace antilock {
 /// where delta is the same, every compliance of one matrix pair (A1, B).
 class PenaltyFactor {
  public:
-  /// Throws Error if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of
-  /// memory.
+  /// Throws Error for a malformed problem or a delta that is not positive, if K is not positive definite (then
+  /// A1 + B' M B is singular: a piece is held nowhere), or out of memory.
   PenaltyFactor(const VariationalInequality& problem, double delta);
   /// The usual one: delta = moderate_delta(problem), the compliance itself where nothing is gained by less.
   explicit PenaltyFactor(const VariationalInequality& problem);
@@ -22,9 +23,11 @@ class PenaltyFactor {
   PenaltyFactor(PenaltyFactor&&) noexcept;
   PenaltyFactor& operator=(PenaltyFactor&&) noexcept;
 
-  /// Throws Error for a problem with other free or contact unknowns. (That A1 and B are the same is the caller's word.)
+  /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B or
+  /// M than this factor's: one walk over the data, about the cost of a residual.
   void check_fits(const VariationalInequality& problem) const;
-  /// A new numeric factorisation for another delta; the symbolic analysis is kept.
+  /// A new numeric factorisation for another delta; the symbolic analysis is kept. Throws as the constructor does, and
+  /// for a problem with other free or contact unknowns.
   void refactor(const VariationalInequality& problem, double delta);
 
   double delta() const { return delta_; }
@@ -44,8 +47,11 @@ class PenaltyFactor {
 
  private:
   struct Cholmod;
+  void check_unknowns(const VariationalInequality& problem) const;
+  void factorise(const VariationalInequality& problem, double delta);
   FreeNumbering numbering_;
-  double delta_;
+  double delta_ = 0;
+  std::uint64_t matrices_ = 0;  ///< fingerprint of the A1, B and M that it was made of
   std::unique_ptr<Cholmod> cholmod_;
   Eigen::MatrixXd contact_block_;
 };

@@ -30,15 +30,17 @@ class CondensedUzawa {
   ContactAnswer operator()(const ContactProblem& p, const ContactAnswer& before, int) {
     if (factor_.delta() != delta_) condense();  // the corrections may have taken another penalty
     ContactAnswer answer;
-    answer.lambda = before.lambda.size() > 0 ? before.lambda : Eigen::VectorXd::Zero(p.q.size());
-    const Eigen::VectorXd unloaded = compliance_ * p.q;
+    // the step is taken on f = q + lambda >= q: where the obstacle bears a great load, little is left of the two
+    Eigen::VectorXd f = p.q;
+    if (before.lambda.size() > 0) f += before.lambda;
     while (true) {
-      answer.v = unloaded + compliance_ * answer.lambda;
+      answer.v = compliance_ * f;
+      answer.lambda = f - p.q;
       if (options_.enough && answer.steps % 32 == 0 && duality_gap(p, answer) <= options_.enough->energy) break;
-      const Eigen::VectorXd next = (answer.lambda - rho_ * (answer.v - p.lower)).cwiseMax(0.0);
+      const Eigen::VectorXd next = (f - rho_ * (answer.v - p.lower)).cwiseMax(p.q);
       const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), p.u_scale);  // bounds far from v do not count
-      const double change = scale > 0 ? (next - answer.lambda).cwiseAbs().maxCoeff() / rho_ / scale : 0;
-      answer.lambda = next;
+      const double change = scale > 0 ? (next - f).cwiseAbs().maxCoeff() / rho_ / scale : 0;
+      f = next;
       ++answer.steps;
       history.push_back(change);
       if (change <= options_.tolerance) break;
@@ -52,8 +54,9 @@ class CondensedUzawa {
             change, static_cast<int>(history.size()));
     }
     answer.active.resize(p.q.size());
-    for (Eigen::Index i = 0; i < p.q.size(); ++i) answer.active[i] = answer.lambda(i) > 0;
-    answer.v = unloaded + compliance_ * answer.lambda;
+    for (Eigen::Index i = 0; i < p.q.size(); ++i) answer.active[i] = f(i) > p.q(i);
+    answer.lambda = f - p.q;
+    answer.v = compliance_ * f;
     return answer;
   }
 
@@ -88,11 +91,13 @@ class CondensedUzawa {
 }  // namespace
 
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options) {
+  factor.check_fits(problem);
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
   CorrectionOptions corrections =
       corrections_to(std::max({options.tolerance, options.enough ? options.enough->relative : 0, 1e-12}));
   corrections.progress = options.progress;
+  corrections.contact = corrections.tolerance;
   if (problem.contact.empty()) return iterated_penalty(problem, factor, {}, corrections, "uzawa");
   CondensedUzawa contact(factor, options);
   Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");
@@ -102,7 +107,7 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
 }
 
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
-  check(problem);
+  check_data(problem);  // the factor checks the rest
   PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
   return uzawa(problem, factor, options);
 }

@@ -1,0 +1,29 @@
+#include "antilock/solve/dependent_rows.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace antilock {
+
+std::optional<double> nearly_dependent_rows(const VariationalInequality& problem) {
+  constexpr Eigen::Index most = 200;
+  if (problem.b.rows() < 2 || std::min<Eigen::Index>(problem.b.rows(), problem.free_count()) > most ||
+      std::max<Eigen::Index>(problem.b.rows(), problem.size()) > 10 * most)
+    return std::nullopt;
+  Eigen::MatrixXd b = problem.b;
+  for (const int i : problem.fixed) b.col(i).setZero();
+  const Eigen::VectorXd a1 = problem.a1.diagonal().cwiseAbs();
+  for (Eigen::Index j = 0; j < b.cols(); ++j) {
+    const double stiffness = a1(j) + b.col(j).cwiseAbs2().dot(problem.m);
+    if (stiffness > 0) b.col(j) /= std::sqrt(stiffness);
+  }
+  for (Eigen::Index r = 0; r < b.rows(); ++r)
+    if (b.row(r).squaredNorm() > 0) b.row(r).normalize();
+  const Eigen::VectorXd pivots =
+      Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(b.transpose()).matrixR().diagonal().cwiseAbs();
+  for (const double pivot : pivots)
+    if (pivot > 1e-14 * pivots(0) && pivot < 1e-10 * pivots(0)) return pivot / pivots(0);
+  return std::nullopt;
+}
+
+}  // namespace antilock

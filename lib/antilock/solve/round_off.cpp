@@ -1,0 +1,64 @@
+// The last question of the corrections: what in the answer is round-off, and what is a violation that something large
+// elsewhere hides.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "antilock/solve/corrections.hpp"
+
+namespace antilock {
+
+bool Corrections::hides_a_violation(const Change& change, const ContactSolver& contact) {
+  constexpr double digits = 64 * std::numeric_limits<double>::epsilon();
+  const auto c = static_cast<Eigen::Index>(problem_.contact.size());
+  const Eigen::VectorXd u_c = s_.u(problem_.contact), sunk = problem_.lower - u_c;
+  bool suspect = false;
+  if (options_.contact == 0)
+    for (Eigen::Index i = 0; i < c; ++i)
+      suspect = suspect || sunk(i) > digits * std::max(std::abs(u_c(i)), std::abs(problem_.lower(i)));
+  // a row of B is far from compliance p if what is left is no small part of its own terms
+  Eigen::VectorXd left, terms;
+  if (change.p.size() > 0 && problem_.compliance < factor_.delta()) {
+    left = (factor_.delta() - problem_.compliance) * change.p.cwiseAbs();
+    terms = problem_.b.cwiseAbs() * s_.u.cwiseAbs();
+    suspect = suspect || (left.array() > 1e-4 * terms.array()).any();
+  }
+  if (!suspect) return false;
+
+  noise_ = noise_.size() > 0 ? Eigen::VectorXd(noise_.cwiseMin(round_off())) : round_off();
+  Eigen::VectorXd noise = noise_.array() + 10 * options_.contact * s_.u.lpNorm<Eigen::Infinity>();
+  const Eigen::VectorXd noise_c = noise(problem_.contact);
+  for (Eigen::Index i = 0; i < c; ++i)  // a held unknown stands where its bound is
+    if (contact_.active[i]) noise(problem_.contact[i]) = digits * std::abs(problem_.lower(i));
+  noise(problem_.fixed).setZero();
+  const bool row =
+      left.size() > 0 && (left.array() > 1e-4 * terms.array() + (problem_.b.cwiseAbs() * noise).array()).any();
+  const bool gap = options_.contact == 0 && (sunk.array() > noise_c.array()).any();
+  if (gap) noise_c_ = noise_c;  // the contact problem sees finer from now on
+  if (row || gap) return true;
+  if (problem_.compliance == 0 && problem_.b.rows() > 0) require_an_admissible_u(contact);
+  return false;
+}
+
+void Corrections::require_an_admissible_u(const ContactSolver& contact) {
+  const bool zero_is_admissible = problem_.fixed_values.isZero(0) && (problem_.lower.array() <= 0).all();
+  if (zero_is_admissible || problem_.load.isZero(0)) return;
+  VariationalInequality unloaded = problem_;
+  unloaded.load.setZero();
+  Corrections(unloaded, factor_, options_, s_.solver).solve(contact);
+}
+
+Eigen::VectorXd Corrections::round_off() {
+  constexpr double digits = 64 * std::numeric_limits<double>::epsilon();
+  Eigen::VectorXd forces = problem_.load.cwiseAbs() + problem_.a1.cwiseAbs() * s_.u.cwiseAbs();
+  if (problem_.b.rows() > 0) forces += problem_.b.cwiseAbs().transpose() * problem_.m.cwiseProduct(s_.p.cwiseAbs());
+  for (std::size_t i = 0; i < problem_.contact.size(); ++i)  // what the obstacle bears displaces nothing
+    if (contact_.active[i]) forces(problem_.contact[i]) = 0;
+  const Eigen::VectorXd on_free = digits * forces(factor_.numbering().unknown);
+  const Eigen::VectorXd displaced = factor_.backward(factor_.forward(on_free));
+  Eigen::VectorXd noise = Eigen::VectorXd::Zero(problem_.size());
+  noise(factor_.numbering().unknown) = displaced.cwiseAbs();
+  return noise;
+}
+
+}  // namespace antilock

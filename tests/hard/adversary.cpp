@@ -1,0 +1,123 @@
+#include "hard/adversary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "antilock/core/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/uzawa.hpp"
+
+namespace antilock::hard {
+namespace {
+
+class Dice {
+ public:
+  explicit Dice(unsigned seed) : engine_(seed) {}
+  int below(int n) { return static_cast<int>(engine_() % static_cast<unsigned>(n)); }
+  bool one_in(int n) { return below(n) == 0; }
+  /// 0 to 1; the same on every machine, unlike the standard's distributions
+  double uniform() { return engine_() / 4294967296.0; }
+  double symmetric() { return 2 * uniform() - 1; }
+  /// 10^-decades/2 to 10^decades/2
+  double decades(double d) { return std::pow(10.0, d * (uniform() - 0.5)); }
+
+ private:
+  std::mt19937 engine_;
+};
+
+/// A few binary digits: sums and small multiples of such numbers are exact, often zero or equal.
+double few_digits(double x) { return std::round(128 * x) / 128; }
+
+}  // namespace
+
+VariationalInequality random_problem(unsigned seed) {
+  Dice dice(seed);
+  const int n = 1 + dice.below(6), rows = dice.one_in(4) ? 0 : 1 + dice.below(4);
+  const auto spread = [&] { return std::vector{0.0, 0.0, 3.0, 6.0, 12.0}[dice.below(5)]; };
+  const double of_a1 = spread(), of_b = spread(), of_m = spread(), of_load = spread(), of_bounds = spread();
+
+  Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(
+      n, n, [&](auto, auto) { return dice.one_in(3) ? 0.0 : few_digits(dice.symmetric()); });
+  Eigen::MatrixXd a1 = root * root.transpose() + 0.1 * Eigen::MatrixXd::Identity(n, n);
+  const double whole = dice.decades(of_a1);
+  const Eigen::VectorXd unit =
+      Eigen::VectorXd::NullaryExpr(n, [&](auto) { return dice.one_in(2) ? 1.0 : dice.decades(of_a1 / 2); });
+  a1 = whole * (unit.asDiagonal() * a1 * unit.asDiagonal());
+  a1 = a1.triangularView<Eigen::Upper>().toDenseMatrix().selfadjointView<Eigen::Upper>();
+  if (rows > 0 && dice.one_in(5)) {  // held by B alone
+    const int i = dice.below(n);
+    a1.row(i).setZero();
+    a1.col(i).setZero();
+  }
+
+  VariationalInequality problem;
+  problem.a1 = a1.sparseView();
+  Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(
+      rows, n, [&](auto, auto) { return dice.one_in(2) ? 0.0 : few_digits(dice.symmetric()); });
+  for (int r = 0; r < rows; ++r) {
+    if (r > 0 && dice.one_in(4)) b.row(r) = b.row(0) * (1 + dice.below(3));                   // dependent
+    if (r > 1 && dice.one_in(4)) b.row(r) = b.row(0) - 2 * b.row(1);                          // the same, hidden
+    b.row(r) *= dice.one_in(2) ? 1.0 : std::exp2(std::round(std::log2(dice.decades(of_b))));  // stays dependent
+  }
+  problem.b = b.sparseView();
+  problem.m = Eigen::VectorXd::NullaryExpr(rows, [&](auto) { return dice.decades(of_m); });
+  const int kind = dice.below(8);
+  problem.compliance = kind < 3    ? 0
+                       : kind == 3 ? 1
+                       : kind == 4 ? dice.decades(6)
+                                   : std::pow(10.0, -16 * dice.uniform());
+
+  const double size = dice.decades(of_load);
+  problem.load = Eigen::VectorXd::NullaryExpr(n, [&](auto) {
+    return dice.one_in(4) ? 0.0 : dice.symmetric() * size * (dice.one_in(2) ? 1.0 : dice.decades(of_load));
+  });
+  if (dice.one_in(12)) problem.load(dice.below(n)) = -std::pow(10.0, 18 * dice.uniform());
+  const double far = dice.decades(of_bounds);
+  std::vector<double> values, lower;
+  for (int i = 0; i < n; ++i) {
+    const int role = dice.below(6);
+    const double value = few_digits(dice.symmetric()) * far * (dice.one_in(2) ? 1.0 : dice.decades(of_bounds));
+    if (role == 0 && static_cast<int>(problem.fixed.size()) < n - 1) {
+      problem.fixed.push_back(i);
+      values.push_back(dice.one_in(2) ? 0 : value);
+    } else if (role < 4) {
+      problem.contact.push_back(i);
+      lower.push_back(dice.one_in(3) ? 0 : dice.one_in(2) ? -std::abs(value) : value);
+    }
+  }
+  problem.fixed_values = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  problem.lower = Eigen::Map<Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
+  problem.a1.makeCompressed();
+  problem.b.makeCompressed();
+  return problem;
+}
+
+Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& exact, bool by_uzawa) {
+  Judgement judgement;
+  const bool solvable = exact.what == test::Exactly::solved;
+  try {
+    UzawaOptions options;
+    options.max_steps = 20'000;
+    const Solution s = by_uzawa ? uzawa(problem, options) : active_set(problem);
+    judgement.error = std::numeric_limits<double>::infinity();
+    if (solvable) {
+      const double difference = (s.u - exact.u).lpNorm<Eigen::Infinity>();
+      // a locked u tends to 0: then to 1e-15 of its size before it locks
+      judgement.error =
+          difference == 0 ? 0 : difference / std::max(exact.u.lpNorm<Eigen::Infinity>(), 1e-9 * s.moderate);
+    }
+    judgement.reason = s.warning;
+    if (!s.warning.empty())
+      judgement.outcome = Outcome::warned;
+    else
+      judgement.outcome = judgement.error <= 1e-6 ? Outcome::right : Outcome::quietly_wrong;
+  } catch (const Error& error) {
+    judgement.reason = error.what();
+    judgement.outcome = solvable ? Outcome::refused : Outcome::rightly;
+  }
+  return judgement;
+}
+
+}  // namespace antilock::hard

@@ -1,0 +1,30 @@
+#pragma once
+#include <string>
+
+#include "antilock/problem/variational_inequality.hpp"
+#include "support/exact_rational.hpp"
+
+namespace antilock::hard {
+
+/// Problem number `seed` of an endless list: up to six unknowns; stiffnesses, loads, bounds, prescribed values, units
+/// of B and M each over up to twelve decades; dependent rows of B; compliance from 0 to above 1.
+VariationalInequality random_problem(unsigned seed);
+
+enum class Outcome {
+  right,         ///< u to 1e-6 of its largest entry, no warning
+  warned,        ///< answered with a warning
+  refused,       ///< refused though there is an answer
+  rightly,       ///< refused, and there is none
+  quietly_wrong  ///< answered without a warning, and wrong; or answered where there is none
+};
+
+struct Judgement {
+  Outcome outcome = Outcome::right;
+  double error = 0;    ///< of u relative to the largest entry of the exact u
+  std::string reason;  ///< the message of a refusal or a warning
+};
+
+/// Solves by the active set, or by Uzawa, and compares with rational arithmetic.
+Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& exact, bool by_uzawa);
+
+}  // namespace antilock::hard

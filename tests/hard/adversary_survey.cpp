@@ -1,0 +1,42 @@
+// The adversary at length: problems made by chance against rational arithmetic, counted by what became of them.
+//
+// Run: adversary_survey 0 20000            by the active set
+// Run: adversary_survey 0 2000 uzawa       by Uzawa
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "hard/adversary.hpp"
+
+using namespace antilock::hard;
+using antilock::test::Exactly;
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    fmt::print(stderr, "adversary_survey: accepted: FROM TO [uzawa], the numbers of the problems\n");
+    return 2;
+  }
+  const auto from = static_cast<unsigned>(std::atoi(argv[1])), to = static_cast<unsigned>(std::atoi(argv[2]));
+  const bool by_uzawa = argc > 3;
+  const char* const outcomes[] = {"right", "warned", "refused", "rightly refused", "QUIETLY WRONG"};
+  std::map<std::string, int> counts, reasons;
+  for (unsigned seed = from; seed < to; ++seed) {
+    const antilock::VariationalInequality problem = random_problem(seed);
+    const antilock::test::ExactAnswer exact = antilock::test::exact_answer(problem);
+    const Judgement judgement = judge(problem, exact, by_uzawa);
+    const std::string truth = exact.what == Exactly::solved       ? "has an answer"
+                              : exact.what == Exactly::infeasible ? "infeasible"
+                                                                  : "held by nothing";
+    const std::string outcome = outcomes[static_cast<int>(judgement.outcome)];
+    ++counts[truth + ": " + outcome];
+    if (judgement.outcome == Outcome::refused || judgement.outcome == Outcome::warned)
+      ++reasons[outcome + ": " + judgement.reason.substr(0, 45)];
+    if (judgement.outcome == Outcome::quietly_wrong)
+      fmt::print("problem {}: {}, error {:.1e}\n", seed, truth, judgement.error);
+  }
+  for (const auto& [what, count] : counts) fmt::print("{:>7} {}\n", count, what);
+  fmt::print("reasons:\n");
+  for (const auto& [what, count] : reasons) fmt::print("{:>7} {}\n", count, what);
+  return 0;
+}

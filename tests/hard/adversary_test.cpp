@@ -1,0 +1,178 @@
+// The adversary: problems made by chance over twelve decades, each against rational arithmetic. `adversary` (the program)
+// runs thousands; here is a fixed list.
+#include "hard/adversary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+
+#include "antilock/core/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "antilock/solve/uzawa.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock::hard {
+namespace {
+
+using test::expect_refused;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A1 (full), its load, B with M = 1, and bounds of some unknowns.
+VariationalInequality problem_of(const Eigen::MatrixXd& a1, const Eigen::VectorXd& load, const Eigen::MatrixXd& b,
+                                 const std::vector<int>& contact, const Eigen::VectorXd& lower, double compliance) {
+  VariationalInequality problem;
+  problem.a1 = a1.sparseView();
+  problem.b = b.sparseView();
+  problem.a1.makeCompressed();
+  problem.b.makeCompressed();
+  problem.m = Eigen::VectorXd::Ones(b.rows());
+  problem.load = load;
+  problem.contact = contact;
+  problem.lower = lower;
+  problem.compliance = compliance;
+  return problem;
+}
+
+Eigen::Matrix3d chain() {
+  Eigen::Matrix3d a1;
+  a1 << 2, -1, 0, -1, 2, -1, 0, -1, 2;
+  return a1;
+}
+
+TEST(Adversary, NothingIsQuietlyWrong) {
+  int solvable = 0, refused = 0;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    const VariationalInequality problem = random_problem(seed);
+    const test::ExactAnswer exact = test::exact_answer(problem);
+    const Judgement judgement = judge(problem, exact, false);
+    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+    solvable += exact.what == test::Exactly::solved;
+    refused += judgement.outcome == Outcome::refused;
+  }
+  EXPECT_GT(solvable, 340);  // measured over 5000: 91 % have an answer
+  EXPECT_LE(refused, 8);     // measured over 5000: 1 % of them are refused
+}
+
+TEST(Adversary, NothingIsQuietlyWrongByUzawa) {
+  for (unsigned seed = 1000; seed < 1060; ++seed) {
+    const VariationalInequality problem = random_problem(seed);
+    const Judgement judgement = judge(problem, test::exact_answer(problem), true);
+    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+  }
+}
+
+TEST(Doors, AGreatLoadOnAnUnknownInContactHidesNothing) {
+  Eigen::Matrix2d a1;
+  a1 << 14, 4, 4, 6;
+  for (const double load : {1e8, 1e11, 1e14, 1e18, 1e25}) {
+    const VariationalInequality problem =
+        problem_of(a1, Eigen::Vector2d(-load, -7), Eigen::MatrixXd(0, 2), {0, 1}, Eigen::Vector2d(-0.5, -0.1), 1);
+    for (const Solution& s : {active_set(problem), uzawa(problem)})
+      EXPECT_LT((s.u - Eigen::Vector2d(-0.5, -0.1)).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
+  }
+}
+
+TEST(Doors, WhatNoUCanMeetIsRefusedUnderAnyLoad) {
+  // B says u_0 = 0, its bound says 0.05
+  Eigen::MatrixXd b(1, 3);
+  b << 1, 0, 0;
+  for (const double load : {1.0, 1e6, 1e12, 1e14, 1e18, 1e24})
+    for (const double sign : {1.0, -1.0})
+      for (const int at : {0, 1, 2}) {
+        const Eigen::Vector3d force = sign * load * Eigen::Vector3d::Unit(at) + Eigen::Vector3d::Constant(0.1);
+        const VariationalInequality problem = problem_of(chain(), force, b, {0, 2}, Eigen::Vector2d(0.05, -1), 0);
+        EXPECT_THROW(active_set(problem), NotConverged) << sign * load << " at " << at;
+      }
+}
+
+TEST(Doors, RowsThatAreNearlyDependentAreWarnedOf) {
+  // B u = 0 says u_0 = u_1 and, by a second row that differs by `apart`, u_1 = 0: then u = (0, 0, 1.5); else (3, 3, 3)
+  for (const double apart : {1e-3, 1e-6, 1e-9, 1e-11, 1e-12, 1e-13, 4e-14, 1e-15, 2e-16, 0.0}) {
+    Eigen::MatrixXd b(2, 3);
+    b << 1, -1, 0, 1, -1 + apart, 0;
+    const Solution s = active_set(problem_of(chain(), Eigen::Vector3d(1, 2, 3), b, {}, Eigen::VectorXd(), 0));
+    const bool held_apart = (s.u - Eigen::Vector3d(0, 0, 1.5)).lpNorm<Eigen::Infinity>() < 1e-6;
+    const bool equal = (s.u - Eigen::Vector3d::Constant(3)).lpNorm<Eigen::Infinity>() < 1e-6;
+    if (apart >= 1e-9)
+      EXPECT_TRUE(held_apart && s.warning.empty()) << apart << s.warning;
+    else if (apart <= 1e-15)
+      EXPECT_TRUE(equal && s.warning.empty()) << apart << s.warning;
+    else
+      EXPECT_NE(s.warning.find("from dependent"), std::string::npos) << apart;
+  }
+}
+
+TEST(Doors, UnitsAreTheCallersOwn) {
+  // M times s at compliance s, and A1 and the load times s at compliance 1 / s, are the same problem
+  const VariationalInequality one = problem_of(chain(), Eigen::Vector3d(1, -2, 3), Eigen::RowVector3d(1, -1, 0.5), {1},
+                                               Eigen::VectorXd::Constant(1, -0.1), 0.5);
+  const Eigen::VectorXd u = active_set(one).u;
+  for (const double s : {1e-9, 1e-3, 1e3, 1e9}) {
+    VariationalInequality other = one;
+    other.m *= s;
+    other.compliance *= s;
+    EXPECT_LT((active_set(other).u - u).lpNorm<Eigen::Infinity>(), 1e-9) << s;
+    other = one;
+    other.a1 *= s;
+    other.load *= s;
+    other.compliance /= s;
+    EXPECT_LT((active_set(other).u - u).lpNorm<Eigen::Infinity>(), 1e-9) << s;
+  }
+}
+
+// Every overload refuses what the headers say, with a factor made before as well.
+TEST(Doors, AFactorMadeBeforeSkipsNoCheck) {
+  const VariationalInequality good = problem_of(chain(), Eigen::Vector3d(1, -2, 3), Eigen::RowVector3d(1, -1, 0.5),
+                                                {0, 1}, Eigen::Vector2d(-0.1, -0.1), 0.5);
+  const auto refused = [&](const std::function<void(VariationalInequality&)>& spoil, const std::string& words) {
+    PenaltyFactor factor(good);
+    VariationalInequality bad = good;
+    spoil(bad);
+    expect_refused([&] { active_set(bad, factor); }, words);
+    expect_refused([&] { uzawa(bad, factor); }, words);
+    expect_refused([&] { factor.check_fits(bad); }, words);
+  };
+  using P = VariationalInequality;
+  refused([](P& p) { p.lower.conservativeResize(1); }, "one bound per contact unknown");
+  refused([](P& p) { p.lower.resize(0); }, "one bound per contact unknown");
+  refused([](P& p) { p.m.resize(0); }, "M has");
+  refused([](P& p) { p.load.conservativeResize(2); }, "a1 is");
+  refused([](P& p) { p.compliance = -1; }, "compliance");
+  refused([](P& p) { p.m(0) = -1; }, "M is not positive");
+  refused([](P& p) { p.lower(1) = nan; }, "not finite");
+  refused([](P& p) { p.contact[0] = 7; }, "out of range");
+  refused([](P& p) { p.a1.coeffRef(0, 1) = 5; }, "another A1, B or M");
+  refused([](P& p) { p.b.coeffRef(0, 0) = 2; }, "another A1, B or M");
+  refused([](P& p) { p.m(0) = 2; }, "another A1, B or M");
+  VariationalInequality skew = good;
+  skew.a1.coeffRef(0, 1) = 5;
+  expect_refused([&] { PenaltyFactor{skew}; }, "not symmetric");
+  PenaltyFactor factor(good);
+  expect_refused([&] { factor.refactor(skew, 0.1); }, "not symmetric");
+  for (const double delta : {0.0, -1.0, nan}) expect_refused([&] { PenaltyFactor(good, delta); }, "delta");
+}
+
+TEST(Doors, TheReportPassesOverNothing) {
+  const VariationalInequality problem = problem_of(chain(), Eigen::Vector3d(1, -2, 3), Eigen::RowVector3d(1, -1, 0.5),
+                                                   {0, 1}, Eigen::Vector2d(-0.1, -0.1), 0.5);
+  const Solution right = active_set(problem);
+  VariationalInequality unknown = problem;
+  unknown.lower(0) = nan;
+  expect_refused([&] { kkt_report(unknown, right); }, "not finite");
+  Solution wrong = right;
+  wrong.lambda.conservativeResize(1);
+  expect_refused([&] { kkt_report(problem, wrong); }, "kkt: u, p and lambda have");
+  for (const int condition : {0, 1, 2, 3}) {
+    Kkt kkt = right.kkt;
+    (condition == 0   ? kkt.min_gap
+     : condition == 1 ? kkt.min_pressure
+     : condition == 2 ? kkt.complementarity
+                      : kkt.residual) = nan;
+    EXPECT_EQ(worst_violation(kkt), std::numeric_limits<double>::infinity()) << condition;
+  }
+}
+
+}  // namespace
+}  // namespace antilock::hard

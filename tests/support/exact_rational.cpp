@@ -1,0 +1,190 @@
+#include "support/exact_rational.hpp"
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <vector>
+
+namespace antilock::test {
+namespace {
+
+using Number = boost::multiprecision::cpp_rational;
+using Vector = std::vector<Number>;
+using Matrix = std::vector<Vector>;  // rows
+
+Matrix zeros(std::size_t rows, std::size_t columns) { return Matrix(rows, Vector(columns, Number(0))); }
+
+/// Gauss-Jordan on the first `columns` columns: the column of each pivot row; rows beyond have zeros there.
+std::vector<std::size_t> reduce(Matrix& a, std::size_t columns) {
+  std::vector<std::size_t> pivots;
+  for (std::size_t column = 0; column < columns && pivots.size() < a.size(); ++column) {
+    const std::size_t row = pivots.size();
+    std::size_t found = row;
+    while (found < a.size() && a[found][column] == 0) ++found;
+    if (found == a.size()) continue;
+    std::swap(a[row], a[found]);
+    const Number inverse = 1 / a[row][column];
+    for (Number& entry : a[row]) entry *= inverse;
+    for (std::size_t other = 0; other < a.size(); ++other) {
+      if (other == row || a[other][column] == 0) continue;
+      const Number factor = a[other][column];
+      for (std::size_t k = column; k < a[row].size(); ++k) a[other][k] -= factor * a[row][k];
+    }
+    pivots.push_back(column);
+  }
+  return pivots;
+}
+
+/// The solution of a square system; empty where it is singular.
+std::optional<Vector> solve(Matrix a, const Vector& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i].push_back(b[i]);
+  if (reduce(a, b.size()).size() < b.size()) return std::nullopt;
+  Vector x;
+  for (const Vector& row : a) x.push_back(row.back());
+  return x;
+}
+
+bool positive_definite(Matrix a) {
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    if (a[k][k] <= 0) return false;
+    for (std::size_t i = k + 1; i < a.size(); ++i) {
+      const Number factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j < a.size(); ++j) a[i][j] -= factor * a[k][j];
+    }
+  }
+  return true;
+}
+
+/// min z' h z / 2 - g' z  subject to  c z >= bound, by trying contact sets.
+std::optional<Vector> minimise(const Matrix& h, const Vector& g, const Matrix& c, const Vector& bound) {
+  const std::size_t n = g.size();
+  for (std::size_t set = 0; set < (std::size_t{1} << bound.size()); ++set) {
+    std::vector<std::size_t> held;
+    for (std::size_t i = 0; i < bound.size(); ++i)
+      if ((set >> i & 1) != 0) held.push_back(i);
+    if (held.size() > n) continue;
+    Matrix kkt = zeros(n + held.size(), n + held.size());
+    Vector rhs = g;
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) kkt[i][j] = h[i][j];
+    for (std::size_t k = 0; k < held.size(); ++k) {
+      for (std::size_t i = 0; i < n; ++i) {
+        kkt[n + k][i] = c[held[k]][i];
+        kkt[i][n + k] = -c[held[k]][i];
+      }
+      rhs.push_back(bound[held[k]]);
+    }
+    const std::optional<Vector> x = solve(kkt, rhs);
+    if (!x) continue;  // dependent bounds: a smaller set does as well
+    bool right = true;
+    for (std::size_t k = 0; k < held.size(); ++k) right = right && (*x)[n + k] >= 0;
+    for (std::size_t i = 0; right && i < bound.size(); ++i) {
+      Number at = 0;
+      for (std::size_t j = 0; j < n; ++j) at += c[i][j] * (*x)[j];
+      right = at >= bound[i];
+    }
+    if (right) return Vector(x->begin(), x->begin() + static_cast<std::ptrdiff_t>(n));
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+ExactAnswer exact_answer(const VariationalInequality& problem) {
+  const auto size = static_cast<std::size_t>(problem.size());
+  const Eigen::MatrixXd a1 = problem.a1, b = problem.b;
+  std::vector<int> place(size, 0);
+  for (const int i : problem.fixed) place[i] = -1;
+  std::vector<int> free;
+  for (std::size_t i = 0; i < size; ++i)
+    if (place[i] == 0) {
+      place[i] = static_cast<int>(free.size());
+      free.push_back(static_cast<int>(i));
+    }
+  const std::size_t n = free.size(), rows = b.rows();
+  Vector u(size, Number(0));
+  for (std::size_t k = 0; k < problem.fixed.size(); ++k)
+    u[problem.fixed[k]] = Number(problem.fixed_values(static_cast<Eigen::Index>(k)));
+
+  // a = A1 + weight B' M B of all unknowns
+  const auto sum = [&](const Number& weight) {
+    Matrix a = zeros(size, size);
+    for (std::size_t i = 0; i < size; ++i)
+      for (std::size_t j = 0; j < size; ++j) {
+        a[i][j] = Number(a1(i, j));
+        for (std::size_t r = 0; r < rows; ++r)
+          a[i][j] += weight * Number(problem.m(r)) * Number(b(r, i)) * Number(b(r, j));
+      }
+    return a;
+  };
+  const Matrix held = sum(1);
+  Matrix on_free = zeros(n, n);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) on_free[i][j] = held[free[i]][free[j]];
+  ExactAnswer answer;
+  if (!positive_definite(on_free)) return answer;
+  answer.what = Exactly::infeasible;
+
+  // u = start + basis z: all free unknowns, or the solutions of B u = 0
+  Matrix basis = zeros(n, n);
+  Vector start(n, Number(0));
+  for (std::size_t i = 0; i < n; ++i) basis[i][i] = 1;
+  const bool limit = problem.compliance == 0 && rows > 0;
+  if (limit) {
+    Matrix equations = zeros(rows, n + 1);
+    for (std::size_t r = 0; r < rows; ++r) {
+      for (std::size_t i = 0; i < n; ++i) equations[r][i] = Number(b(r, free[i]));
+      for (const int i : problem.fixed) equations[r][n] -= Number(b(r, i)) * u[i];
+    }
+    const std::vector<std::size_t> pivots = reduce(equations, n);
+    for (std::size_t r = pivots.size(); r < rows; ++r)
+      if (equations[r][n] != 0) return answer;
+    std::vector<char> is_pivot(n, 0);
+    for (std::size_t r = 0; r < pivots.size(); ++r) {
+      is_pivot[pivots[r]] = 1;
+      start[pivots[r]] = equations[r][n];
+    }
+    Matrix columns;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (is_pivot[i]) continue;
+      Vector column(n, Number(0));
+      column[i] = 1;
+      for (std::size_t r = 0; r < pivots.size(); ++r) column[pivots[r]] = -equations[r][i];
+      columns.push_back(column);
+    }
+    basis = zeros(n, columns.size());
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      for (std::size_t i = 0; i < n; ++i) basis[i][k] = columns[k][i];
+  }
+  const Matrix a = sum(limit || rows == 0 ? Number(0) : Number(1 / Number(problem.compliance)));
+  for (std::size_t i = 0; i < n; ++i) u[free[i]] = start[i];
+  const std::size_t dimension = basis.empty() ? 0 : basis[0].size();
+  Matrix h = zeros(dimension, dimension), a_basis = zeros(n, dimension);
+  Vector g(dimension, Number(0));
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < dimension; ++k)
+      for (std::size_t j = 0; j < n; ++j) a_basis[i][k] += a[free[i]][free[j]] * basis[j][k];
+  for (std::size_t i = 0; i < n; ++i) {
+    Number force = Number(problem.load(free[i]));
+    for (std::size_t j = 0; j < size; ++j) force -= a[free[i]][j] * u[j];
+    for (std::size_t k = 0; k < dimension; ++k) {
+      g[k] += basis[i][k] * force;
+      for (std::size_t l = 0; l < dimension; ++l) h[k][l] += basis[i][k] * a_basis[i][l];
+    }
+  }
+  Matrix c;
+  Vector bound;
+  for (std::size_t k = 0; k < problem.contact.size(); ++k) {
+    const int i = problem.contact[k];
+    c.push_back(basis[place[i]]);
+    bound.push_back(Number(problem.lower(static_cast<Eigen::Index>(k))) - u[i]);
+  }
+  const std::optional<Vector> z = minimise(h, g, c, bound);
+  if (!z) return answer;
+  answer.what = Exactly::solved;
+  answer.u.resize(problem.size());
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < dimension; ++k) u[free[i]] += basis[i][k] * (*z)[k];
+  for (std::size_t i = 0; i < size; ++i) answer.u(static_cast<Eigen::Index>(i)) = static_cast<double>(u[i]);
+  return answer;
+}
+
+}  // namespace antilock::test
