@@ -18,7 +18,6 @@
 // Adaptivity does not cure locking. It finds it: the terms of a locked P1 solution lie in the layer, and go on lying
 // there. The cure is the columns.
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "antilock/adapt/solve_to.hpp"
@@ -30,6 +29,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/table.hpp"
+#include "common/command_line.hpp"
 #include "common/paper_problem.hpp"
 #include "common/tutorial.hpp"
 
@@ -187,10 +187,8 @@ int main(int argc, char** argv) {
   options.least_cells = 32;
   options.most_cells = 256;
   options.cells = 64;
-  options.add = [](CLI::App& app) {
-    app.add_option("--asked", smallest_asked, "smallest relative accuracy asked for")
-        ->capture_default_str()
-        ->check(CLI::Range(0.005, 0.1));
+  options.add = [](tutorial::CommandLine& line) {
+    line.add("--asked", smallest_asked, "smallest relative accuracy asked for", 0.005, 0.1);
   };
   return tutorial::run(argc, argv, "24_ask_for_an_accuracy", "an accuracy asked for, a mesh found, a proof handed over",
                        options, study);

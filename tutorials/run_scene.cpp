@@ -143,7 +143,7 @@ void answer_certified(const SceneFile& file, const TriangleMesh& first, const st
   };
   const CertifiedSolution found = [&] {
     try {
-      const Accuracy accuracy{*method.accuracy, method.of, method.most_unknowns, method.tolerance, {}};
+      const Accuracy accuracy{*method.accuracy, method.of, method.most_unknowns, {}, method.tolerance};
       return solve_to(file.scene, first, accuracy, progress);
     } catch (const NotConverged& failure) {
       throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);

@@ -18,8 +18,8 @@ struct Accuracy {
   Quantity of =
       Quantity::displacement;  ///< or the stress field in the middle of the two fluxes: a quarter of the unknowns
   double most_unknowns = 2e6;  ///< of Crouzeix-Raviart, on the last mesh
-  double tolerance = 1;        ///< relative, on the algebraic error; no less than the certificate needs
   std::optional<Growth> growth = {};  ///< empty: columns for epsilon <= 0.1, else everything is bisected
+  double tolerance = 1;               ///< relative, on the algebraic error; no less than the certificate needs
 };
 
 /// One mesh on the way.
