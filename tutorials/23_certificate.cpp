@@ -24,7 +24,7 @@
 #include <cmath>
 
 #include "antilock/analysis/certificate.hpp"
-#include "antilock/core/dense.hpp"
+#include "antilock/core/eigenvalues.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -72,9 +72,12 @@ Table stop_uzawa(int cells, const Exact& exact) {
   PenaltyFactor factor(problem, problem.compliance);
   const auto& free = factor.numbering().unknown;
   const Eigen::MatrixXd& block = factor.contact_block();
-  const Eigen::MatrixXd schur = block.triangularView<Eigen::Lower>() * block.transpose();
-  const double step = symmetric_eigenvalues(schur).minCoeff();
-  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(schur.rows());
+  const auto compliance = [&](const Eigen::VectorXd& load) -> Eigen::VectorXd {
+    const Eigen::VectorXd half = block.triangularView<Eigen::Lower>().solve(load);
+    return block.transpose().triangularView<Eigen::Upper>().solve(half);
+  };
+  const double step = 1 / largest_eigenvalue(compliance, block.rows());
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(block.rows());
   Solution solution = active_set(problem, factor);
   Table rows({"steps", "quantity", "value"});
   int next = 1;

@@ -1,5 +1,7 @@
 // What run_scene writes, held to its interface: files, keys, columns, rows, signs, and the numbers of the exact
 // solution.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -36,8 +38,8 @@ std::string scene(const std::string& effects, const std::string& mesh, const std
 std::string layer(const std::string& epsilon, const std::string& model = "scaled") {
   return "[layer]\nepsilon = " + epsilon + "\nmodel = \"" + model + "\"\n";
 }
-std::string structured(int cells) { return "kind = \"structured\"\ncells = " + std::to_string(cells); }
-std::string unstructured(int cells) { return "kind = \"unstructured\"\ncells = " + std::to_string(cells); }
+std::string structured(int cells) { return fmt::format("kind = \"structured\"\ncells = {}", cells); }
+std::string unstructured(int cells) { return fmt::format("kind = \"unstructured\"\ncells = {}", cells); }
 const std::string contact = "[contact]\n", cr = "element = \"CR\"\n";
 
 /// Everything that holds for every answer, whatever the scene.

@@ -11,7 +11,6 @@
 #include <numbers>
 #include <set>
 
-#include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "support/scenes.hpp"
@@ -177,9 +176,7 @@ TEST(Mesh, UnstructuredTrianglesAreWellShaped) {
 TEST(Mesh, BeyondGmshsLimitUnstructuredIsRefinedToTheHAskedFor) {
   for (const auto& [cells, depth] : {std::pair{129, 0.0}, {200, 0.0}, {161, 1.0}, {512, 0.0}, {150, 0.01}}) {
     const std::string name = fmt::format("{} cells, depth {}", cells, depth);
-    const Stopwatch watch;
     const TriangleMesh mesh = unstructured_mesh(cells, {depth});
-    if (cells == 512) EXPECT_LT(watch.seconds(), 10) << name;  // gmsh alone takes a minute
     EXPECT_GT(smallest_angle(mesh), depth == 0.01 ? 20 : 30) << name;
     EXPECT_NEAR(area(mesh, Region::body), 1, 1e-11) << name;
     EXPECT_NEAR(area(mesh, Region::layer), depth, 1e-11) << name;

@@ -33,11 +33,13 @@
 // since lambda_E >= 0 and u + g >= 0. With m = |w - t| = |A grad v - sigma|:
 // - Y = |e - w| = |u - v|_a: (e - t, e - w) = Y^2 + (w - t, e - w), so Y^2 <= (m + q) Y + C.
 // - X = |e - (w + t) / 2|: (e - t, e - w) = X^2 - m^2 / 4 and |e - w| <= X + m / 2, so
-//   (X - q / 2)^2 <= (m + q)^2 / 4 + C. That is the midpoint of the two fluxes; |e| <= X + |w + t| / 2 is the rest.
+//   (X - q / 2)^2 <= (m + q)^2 / 4 + C. That is the midpoint of the two fluxes.
+// - |e| <= X + |w + t| / 2, and |w + t| = m: on each triangle of the body tau has mean zero (means of lambda_i x are
+//   (3 c + P_i) / 12), so that w, constant there, and t = tau are orthogonal; in the layer t = 0.
 //
 //     |u - v|_a                         <= (m + q) / 2 + ((m + q)^2 / 4 + C)^(1/2)
 //     |A grad u - (sigma + A grad v)/2| <= q / 2 + ((m + q)^2 / 4 + C)^(1/2)
-//     |A grad u - S_h|                  <= |sigma + A grad v - 2 S_h| / 2 + q / 2 + ((m + q)^2 / 4 + C)^(1/2)
+//     |A grad u - S_h|                  <= (m + q) / 2 + ((m + q)^2 / 4 + C)^(1/2), the first bound once more
 //
 // 4. No mesh intersection. Expand m^2 and use (a) with v:
 //
@@ -183,31 +185,29 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
   const Companion& companion = options.companion != nullptr ? *options.companion : made;
   const TriangleMesh& mesh = space.mesh();
   const Conforming v(space, flux.law, companion);
-  const Quadrature &fine = radon_rule(), &midpoints = midpoint_rule();
+  const Quadrature& midpoints = midpoint_rule();
 
   Certificate certificate;
   certificate.oscillation = std::sqrt(flux.oscillation2);
   certificate.imbalance = unbalanced(problem, flux, options.factor);
   certificate.indicator = Eigen::VectorXd::Zero(mesh.triangle_count());
   double norm2 = v.layer_norm2(), work = 0;  // |v|_a^2, (f, v)
-  double mismatch2 = 0, spread2 = 0;         // m^2 and |sigma + A grad v - 2 S_h|^2, of the triangles that v shares
+  double mismatch2 = 0;                      // m^2 of the triangles that v shares
   int row = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const FluxCell& here = flux.cell[t];
     const double area = mesh.area(t);
-    double mismatch = 0, spread = 0;
+    double mismatch = 0;
     if (mesh.region[t] == Region::body) {
-      const Eigen::Vector2d gradient = v.flux(t, 0), jump = gradient - here.s;
-      const Eigen::MatrixX2d tau = flux.tau(mesh, t, fine.points);
-      mismatch = area * fine.weights.dot((tau.rowwise() - jump.transpose()).rowwise().squaredNorm());
-      spread = area * fine.weights.dot((tau.rowwise() + jump.transpose()).rowwise().squaredNorm());
+      const Eigen::Vector2d gradient = v.flux(t, 0);
+      mismatch = area * (gradient - here.s).squaredNorm() + here.tau2;  // tau has mean zero on T
       norm2 += area * gradient.squaredNorm();
       for (int i = 0; i < 3; ++i)  // mean(f lambda_i) = (f_i + 3 f_T) / 12
         work += area * (here.f(i) + 3 * here.mean) / 12 * companion.at_vertices(mesh.triangles(t, i));
     } else if (v.on_mesh(t)) {
       const Eigen::Vector2d gradient = v.flux(t, row);
       norm2 += area * flux.law.squared(gradient);
-      mismatch = spread = area * flux.law.squared(gradient - here.s);
+      mismatch = area * flux.law.squared(gradient - here.s);
     } else {  // for the indicator alone
       for (Eigen::Index q = 0; q < midpoints.weights.size(); ++q) {
         const Eigen::Vector2d x =
@@ -217,7 +217,6 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
     }
     if (mesh.region[t] == Region::layer) ++row;
     mismatch2 += mismatch;
-    spread2 += spread;
     certificate.indicator(t) += mismatch / 2 + here.oscillation2;
   }
   certificate.norm = std::sqrt(norm2);
@@ -251,7 +250,6 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
                     "the vertices that agree with the fixed ones, cells far from degenerate",
                     by_identity / scale));
   if (companion.layer) {
-    spread2 += std::max(by_identity - mismatch2, 0.0);  // tau = 0 in the layer: the two squares are one there
     mismatch2 = std::max(by_identity, mismatch2);
   } else if (std::abs(by_identity - mismatch2) > 2 * small_forces + 1e-10 * scale) {
     throw Error(
@@ -266,7 +264,7 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
   const double root = std::sqrt((m + q) * (m + q) / 4 + certificate.contact_work);
   certificate.displacement = (m + q) / 2 + root;
   certificate.stress = q / 2 + root;
-  certificate.gradient = std::sqrt(spread2) / 2 + q / 2 + root;
+  certificate.gradient = certificate.displacement;
   certificate.energy_lower = flux.dual + unbalanced_work - small_forces - q * certificate.displacement;
 
   double layer = 0;

@@ -13,7 +13,7 @@ enum class Quantity { displacement, stress };
 /// is dimensionless, in the energy norm |.|_a of Remark 4. It holds up to round-off, for load and gap as sampled.
 struct Certificate {
   double displacement = 0;  ///< >= |u - v|_a, v the companion
-  double gradient = 0;      ///< >= |A grad u - S_h|, S_h the broken flux of Crouzeix-Raviart
+  double gradient = 0;      ///< >= |A grad u - S_h|, S_h the broken flux of Crouzeix-Raviart: the same number
   double stress = 0;        ///< >= |A grad u - (sigma + A grad v) / 2|
 
   double energy_lower = 0, energy_upper = 0;  ///< J(u) lies between: J = a(u, u) / 2 - L(u)

@@ -170,8 +170,9 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const
       flux.oscillation2 += here.oscillation2;
       for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= area * usual.of_basis(i);
       const Eigen::MatrixX2d tau = flux.tau(mesh, t, square_rule.points);
-      flux.tau2 += area * square_rule.weights.dot(tau.rowwise().squaredNorm());
-      flux.norm2 += area * square_rule.weights.dot((tau.rowwise() + here.s.transpose()).rowwise().squaredNorm());
+      here.tau2 = area * square_rule.weights.dot(tau.rowwise().squaredNorm());
+      flux.tau2 += here.tau2;
+      flux.norm2 += area * here.s.squaredNorm() + here.tau2;  // tau has mean zero on T
     }
     for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= 2 * area * here.s.dot(lambda.row(i));  // grad phi_i
   }

@@ -25,6 +25,7 @@ struct FluxCell {
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();  ///< the mean of f x
   Eigen::Vector3d f = Eigen::Vector3d::Zero();       ///< f_1 at the vertices: f projected on the affine functions
   double oscillation2 = 0;                           ///< (h_T / pi)^2 |f - f_1|_T^2
+  double tau2 = 0;                                   ///< |tau|_T^2
 };
 
 /// A flux in equilibrium with f_1, built from any u and p on the Crouzeix-Raviart space (derivation in

@@ -49,6 +49,10 @@ VectorXd least_squares(const MatrixXd& matrix, const VectorXd& right, double thr
   return solver.solve(right);
 }
 
+VectorXd qr_pivots(const MatrixXd& matrix) {
+  return Eigen::ColPivHouseholderQR<MatrixXd>(matrix).matrixR().diagonal().cwiseAbs();
+}
+
 MatrixXd pseudo_inverse(const MatrixXd& matrix) {
   return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(matrix).pseudoInverse();
 }

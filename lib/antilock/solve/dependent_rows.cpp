@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/dense.hpp"
+
 namespace antilock {
 
 std::optional<double> nearly_dependent_rows(const VariationalInequality& problem) {
@@ -19,8 +21,7 @@ std::optional<double> nearly_dependent_rows(const VariationalInequality& problem
   }
   for (Eigen::Index r = 0; r < b.rows(); ++r)
     if (b.row(r).squaredNorm() > 0) b.row(r).normalize();
-  const Eigen::VectorXd pivots =
-      Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(b.transpose()).matrixR().diagonal().cwiseAbs();
+  const Eigen::VectorXd pivots = qr_pivots(b.transpose());
   for (const double pivot : pivots)
     if (pivot > 1e-14 * pivots(0) && pivot < 1e-10 * pivots(0)) return pivot / pivots(0);
   return std::nullopt;
