@@ -99,8 +99,8 @@ ProgressHook follower(double most_seconds) {
   };
 }
 
-Solution solve(const VariationalInequality& problem, const Method& method, const ProgressHook& follow) {
-  const double tolerance = std::max(method.tolerance, Method::finest_tolerance);
+Solution solve(const VariationalInequality& problem, const MethodRequest& method, const ProgressHook& follow) {
+  const double tolerance = std::max(method.tolerance, MethodRequest::finest_tolerance);
   Solution solution;
   if (method.solver == "uzawa") {
     UzawaOptions options;
@@ -128,7 +128,7 @@ std::string joined(const std::string& a, const std::string& b) { return a + (a.e
 void answer_certified(const SceneFile& file, const TriangleMesh& first, const std::filesystem::path& out,
                       tutorial::Report& report, double mesh_seconds, double most_seconds) {
   const Stopwatch watch;
-  const Method& method = file.method;
+  const MethodRequest& method = file.method;
   report.stage(fmt::format("solve to a relative error of {:g}", *method.accuracy));
   double factor = 0;
   const auto progress = [&](const Level& level) {

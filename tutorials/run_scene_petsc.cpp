@@ -148,7 +148,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   options.loop.progress = [most = choices.most_seconds, since = Stopwatch()](const Progress&) {
     return since.seconds() <= most;
   };
-  options.loop.tolerance = std::clamp(file->method.tolerance, Method::finest_tolerance, 1e-8);
+  options.loop.tolerance = std::clamp(file->method.tolerance, MethodRequest::finest_tolerance, 1e-8);
   options.stage = say;
   options.checkpoint = [&](int level, const dist::ContactSet& set) {
     dist::together([&] {
@@ -165,12 +165,12 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   try {
     named(file->name, [&] {
       level = dist::solve_nested(file->scene, h.coarse, element(file->method.element), options, solved);
-      if (file->method.tolerance < Method::finest_tolerance)
+      if (file->method.tolerance < MethodRequest::finest_tolerance)
         throw NotConverged(
             fmt::format("petsc: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
                         "double precision goes no further",
-                        Method::finest_tolerance, solved.last.corrections, file->method.tolerance),
-            Method::finest_tolerance, solved.last.corrections);
+                        MethodRequest::finest_tolerance, solved.last.corrections, file->method.tolerance),
+            MethodRequest::finest_tolerance, solved.last.corrections);
     });
   } catch (const Error&) {
     forget();

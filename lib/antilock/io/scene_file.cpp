@@ -114,7 +114,7 @@ MeshRequest read_mesh(const Section& section, const std::filesystem::path& folde
 }
 
 /// An accuracy and what goes with it: the mesh is found, by Crouzeix-Raviart and the active set.
-void read_accuracy(const Section& section, Method& method) {
+void read_accuracy(const Section& section, MethodRequest& method) {
   for (const char* key : {"of", "most_unknowns"})
     if (section.has(key) && !section.has("accuracy"))
       section.refuse(key, "goes with an accuracy only; accepted: a key accuracy beside it, or none of the two");
@@ -130,7 +130,8 @@ void read_accuracy(const Section& section, Method& method) {
     if (!(method.most_unknowns >= 1 && method.most_unknowns <= 1e9))
       section.refuse("most_unknowns", fmt::format("{} is out of range; accepted: {}", method.most_unknowns, whole));
   }
-  method.tolerance = std::min(Method::roughest_tolerance, 1e-2 * *method.accuracy);  // unless the scene says less
+  method.tolerance =
+      std::min(MethodRequest::roughest_tolerance, 1e-2 * *method.accuracy);  // unless the scene says less
   if (!section.has("element")) method.element = "CR";
   if (method.element != "CR")
     section.refuse("element",
@@ -139,22 +140,22 @@ void read_accuracy(const Section& section, Method& method) {
     section.refuse("solver", "\"" + method.solver + "\" does not go with accuracy; accepted: \"active-set\"");
 }
 
-Method read_method(const Section& section) {
+MethodRequest read_method(const Section& section) {
   section.only({"element", "solver", "tolerance", "accuracy", "of", "most_unknowns"});
-  Method method;
+  MethodRequest method;
   if (section.has("element")) method.element = section.one_of("element", {"P1", "CR", "P2"});
   if (section.has("solver")) method.solver = section.one_of("solver", {"active-set", "uzawa", "petsc"});
   read_accuracy(section, method);
   if (!section.has("tolerance")) return method;
-  const std::string accepted = fmt::format("0 < tolerance <= {:g}", Method::roughest_tolerance);
+  const std::string accepted = fmt::format("0 < tolerance <= {:g}", MethodRequest::roughest_tolerance);
   method.tolerance = section.number("tolerance", accepted);
-  if (!(method.tolerance > 0 && method.tolerance <= Method::roughest_tolerance))
+  if (!(method.tolerance > 0 && method.tolerance <= MethodRequest::roughest_tolerance))
     section.refuse("tolerance", fmt::format("{} is out of range; accepted: {}", method.tolerance, accepted));
   return method;
 }
 
 /// What one section leaves out because of another.
-void check_together(const Section& root, const Scene& scene, const MeshRequest& mesh, const Method& method) {
+void check_together(const Section& root, const Scene& scene, const MeshRequest& mesh, const MethodRequest& method) {
   if (mesh.kind == MeshRequest::Kind::layered && !std::holds_alternative<StiffLayer>(scene.layer()))
     root.section("mesh")->refuse("kind",
                                  "\"layered\" is the mesh of the scaled layer, which this scene does not have; "
@@ -196,7 +197,7 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   if (contact && unit_square) sample_gap(contact->gap, 0, 1);
   if (contact && !unit_square) contact->held.clear();
   const auto method_section = root.section("method");
-  const Method method = method_section ? read_method(*method_section) : Method{};
+  const MethodRequest method = method_section ? read_method(*method_section) : MethodRequest{};
   const Scene scene = [&] {
     try {
       return Scene(body, layer, contact);

@@ -18,7 +18,7 @@ struct MeshRequest {
 };
 
 /// How a scene file wants to be solved.
-struct Method {
+struct MethodRequest {
   static constexpr double roughest_tolerance = 1e-3;  ///< beyond, the answer says less than any mesh does
   static constexpr double finest_tolerance = 1e-14;   ///< below, no double can be promised
   std::string element = "P1";                         ///< "P1", "CR" or "P2"
@@ -40,7 +40,7 @@ struct SceneFile {
   std::string title;
   Scene scene;
   MeshRequest mesh;
-  Method method;
+  MethodRequest method;
   SceneWords words;
 };
 

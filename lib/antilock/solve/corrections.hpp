@@ -62,6 +62,7 @@ class Corrections {
   int correction_ = 0;
   int since_rescue_ = 0;      ///< corrections with the means as they are
   bool long_double_ = false;  ///< residuals in long double
+  double least_delta_ = 0;    ///< of which a factor is known; a smaller one lost its pivots
   Eigen::VectorXd noise_;     ///< N, the least round_off so far (that of an infeasible problem grows); empty at first
   Eigen::VectorXd noise_c_;   ///< C, what the contact problem is told of it
   double u_first_ = 0;        ///< max |u| after the first correction: its size before it locks

@@ -1,6 +1,7 @@
 // How the corrections start, and the means that they change where those are not enough.
 #include <algorithm>
 
+#include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/corrections.hpp"
@@ -51,17 +52,25 @@ Corrections::Corrections(const VariationalInequality& problem, PenaltyFactor& fa
 // Two things keep corrections from settling, and du tells them apart:
 // - du no longer falls: it drowns in the round-off of the residual, as on slivers. Residuals in long double help.
 // - du falls, but slowly: delta is not small beside sigma, as where cells are far narrower than the mean, or where a
-//   locked element leaves B nearly dependent. A smaller delta helps, until the factor has no digit of A1 left.
+//   locked element leaves B nearly dependent. A smaller delta helps, until the factor has no digit of A1 left. On flat
+//   triangles it may lose its pivots before: then the corrections go on with the delta that they had, in long double.
 void Corrections::rescue() {
   if (since_rescue_++ <= patience) return;
   const double delta = factor_.delta();
   const double smaller =
-      std::max({problem_.compliance, delta / smaller_by, std::min(delta, smallest_penalty(problem_))});
+      std::max({problem_.compliance, delta / smaller_by, std::min(delta, smallest_penalty(problem_)), least_delta_});
   const bool falling = s_.history.back() < 0.5 * s_.history[s_.history.size() - 6];
-  if ((falling || long_double_) && smaller < delta)
-    refactor(smaller);
-  else
+  if (!(falling || long_double_) || smaller >= delta) {
     long_double_ = true;
+  } else {
+    try {
+      refactor(smaller);
+    } catch (const Error&) {
+      least_delta_ = delta;
+      long_double_ = true;
+      refactor(delta);
+    }
+  }
   acceleration_.restart();
   since_rescue_ = 1;
 }

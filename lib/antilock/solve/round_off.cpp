@@ -24,6 +24,8 @@ bool Corrections::hides_a_violation(const Change& change, const ContactSolver& c
     suspect = suspect || (left.array() > 1e-4 * terms.array()).any();
   }
   if (!suspect) return false;
+  // who asks for less than the default gets less, here as in `settled`
+  const bool rough = options_.tolerance > CorrectionOptions{}.tolerance;
 
   noise_ = noise_.size() > 0 ? Eigen::VectorXd(noise_.cwiseMin(round_off())) : round_off();
   Eigen::VectorXd noise = noise_.array() + 10 * options_.contact * s_.u.lpNorm<Eigen::Infinity>();
@@ -31,8 +33,8 @@ bool Corrections::hides_a_violation(const Change& change, const ContactSolver& c
   for (Eigen::Index i = 0; i < c; ++i)  // a held unknown stands where its bound is
     if (contact_.active[i]) noise(problem_.contact[i]) = digits * std::abs(problem_.lower(i));
   noise(problem_.fixed).setZero();
-  const bool row =
-      left.size() > 0 && (left.array() > 1e-4 * terms.array() + (problem_.b.cwiseAbs() * noise).array()).any();
+  const bool row = left.size() > 0 &&
+                   (left.array() > 1e-4 * terms.array() + (problem_.b.cwiseAbs() * noise).array()).any() && !rough;
   const bool gap = options_.contact == 0 && (sunk.array() > noise_c.array()).any();
   if (gap) noise_c_ = noise_c;  // the contact problem sees finer from now on
   if (row || gap) return true;
