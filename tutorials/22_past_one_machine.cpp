@@ -28,8 +28,8 @@
 // The third exhibit is PETSc's own solver for variational inequalities, SNESVI, out of the box on the summed matrix
 // A1 + epsilon^-2 B' M B: below epsilon = 1e-4 round-off in the sum (chapter 8) defeats it.
 //
-// How far on paper. Measured at 2.1 and 8.4 million unknowns of P1 on one rank: 1.0 kB and about 8 processor
-// microseconds per unknown, all levels with mesh and assembly. So 10^8 unknowns ask for 100 GB and 800 core seconds,
+// How far on paper. Measured on one rank with P1: 1.0 kB per unknown at 2.1 and at 8.4 million unknowns, and about 8
+// processor microseconds per unknown at 2.1 million (one run), all levels with mesh and assembly. So 10^8 unknowns ask for 100 GB and 800 core seconds,
 // 10^9 for 1 TB and 8000. What breaks first: Debian's PETSc counts with 32 bits, which this room refuses beyond 134
 // million unknowns (libpetsc64-real-dev goes further); then the strips, of which there are at most as many as coarse
 // columns, each an interface from top to bottom; then the coarse mesh, which every rank holds.
