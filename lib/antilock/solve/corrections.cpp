@@ -28,7 +28,7 @@ Solution Corrections::solve(const ContactSolver& contact) {
           std::max(error_, gap_), correction_ - 1);
     rescue();
     const Change change = correct(residual(), contact);
-    if (settled(change) && !hides_a_violation(change, contact)) return finished();
+    if ((settled(change) || drowned(change)) && !hides_a_violation(change, contact)) return finished();
     report(options_.progress, {"corrections", correction_ + 1, error_, options_.tolerance}, s_.solver);
     accelerate(change);
   }
@@ -124,7 +124,9 @@ Solution Corrections::finished() {
   if (contact_.lambda.size() > 0) s_.lambda = contact_.lambda;
   s_.active = contact_.active;
   s_.moderate = u_first_;
+  const std::string drowned = s_.warning;
   certify(problem_, s_, TrustLevels{.refused = options_.refused});
+  if (s_.warning.empty()) s_.warning = drowned;
   const auto apart = problem_.compliance == 0 ? nearly_dependent_rows(problem_) : std::nullopt;
   if (apart && s_.warning.empty())
     s_.warning =

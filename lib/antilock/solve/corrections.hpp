@@ -41,8 +41,12 @@ class Corrections {
   /// Throws NotConverged where no u meets the bounds, the prescribed values and B u = 0: the same problem without its
   /// load, beside which a violation may be less than round-off.
   void require_an_admissible_u(const ContactSolver& contact);
+  /// Whether a locked u, which tends to 0, has come down to its round-off: du no longer falls, and the round-off of the
+  /// forces explains it. Leaves a warning where u has fewer than nine digits left.
+  bool drowned(const Change& change);
+  bool zero_is_admissible() const;
   /// What the round-off of the forces, all of one sign, would displace: K^-1 (64 eps (|L| + |A1| |u| + |B'| M |p|)).
-  Eigen::VectorXd round_off();
+  void note_round_off();
   /// Anderson's mix of the last corrections: the start of the next.
   void accelerate(const Change& change);
   /// What the counters and the report say of the answer.
@@ -63,7 +67,7 @@ class Corrections {
   int since_rescue_ = 0;      ///< corrections with the means as they are
   bool long_double_ = false;  ///< residuals in long double
   double least_delta_ = 0;    ///< of which a factor is known; a smaller one lost its pivots
-  Eigen::VectorXd noise_;     ///< N, the least round_off so far (that of an infeasible problem grows); empty at first
+  Eigen::VectorXd noise_;     ///< N, the least round-off noted so far (that of an infeasible problem grows); empty at first
   Eigen::VectorXd noise_c_;   ///< C, what the contact problem is told of it
   double u_first_ = 0;        ///< max |u| after the first correction: its size before it locks
   double u_scale_ = 0;        ///< what is large for u

@@ -1,5 +1,7 @@
 // The last question of the corrections: what in the answer is round-off, and what is a violation that something large
 // elsewhere hides.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,27 +9,35 @@
 #include "antilock/solve/corrections.hpp"
 
 namespace antilock {
+namespace {
+
+constexpr double digits = 64 * std::numeric_limits<double>::epsilon();
+
+}  // namespace
 
 bool Corrections::hides_a_violation(const Change& change, const ContactSolver& contact) {
-  constexpr double digits = 64 * std::numeric_limits<double>::epsilon();
   const auto c = static_cast<Eigen::Index>(problem_.contact.size());
   const Eigen::VectorXd u_c = s_.u(problem_.contact), sunk = problem_.lower - u_c;
+  // where u = 0 is admissible there is an answer, and the round-off of the largest u is none too large; else it may hide
+  // that there is none
+  const bool may_be_infeasible = problem_.compliance == 0 && problem_.b.rows() > 0 && !zero_is_admissible();
+  const double plain = may_be_infeasible ? 0 : digits * s_.u.lpNorm<Eigen::Infinity>();
   bool suspect = false;
   if (options_.contact == 0)
     for (Eigen::Index i = 0; i < c; ++i)
-      suspect = suspect || sunk(i) > digits * std::max(std::abs(u_c(i)), std::abs(problem_.lower(i)));
+      suspect = suspect || sunk(i) > plain + digits * std::max(std::abs(u_c(i)), std::abs(problem_.lower(i)));
   // a row of B is far from compliance p if what is left is no small part of its own terms
   Eigen::VectorXd left, terms;
   if (change.p.size() > 0 && problem_.compliance < factor_.delta()) {
     left = (factor_.delta() - problem_.compliance) * change.p.cwiseAbs();
     terms = problem_.b.cwiseAbs() * s_.u.cwiseAbs();
-    suspect = suspect || (left.array() > 1e-4 * terms.array()).any();
+    suspect = suspect || (left.array() > 1e-4 * terms.array() + plain * absolute_row_sums(problem_.b).array()).any();
   }
   if (!suspect) return false;
   // who asks for less than the default gets less, here as in `settled`
   const bool rough = options_.tolerance > CorrectionOptions{}.tolerance;
 
-  noise_ = noise_.size() > 0 ? Eigen::VectorXd(noise_.cwiseMin(round_off())) : round_off();
+  note_round_off();
   Eigen::VectorXd noise = noise_.array() + 10 * options_.contact * s_.u.lpNorm<Eigen::Infinity>();
   const Eigen::VectorXd noise_c = noise(problem_.contact);
   for (Eigen::Index i = 0; i < c; ++i)  // a held unknown stands where its bound is
@@ -38,20 +48,36 @@ bool Corrections::hides_a_violation(const Change& change, const ContactSolver& c
   const bool gap = options_.contact == 0 && (sunk.array() > noise_c.array()).any();
   if (gap) noise_c_ = noise_c;  // the contact problem sees finer from now on
   if (row || gap) return true;
-  if (problem_.compliance == 0 && problem_.b.rows() > 0) require_an_admissible_u(contact);
+  if (may_be_infeasible) require_an_admissible_u(contact);
   return false;
 }
 
+bool Corrections::drowned(const Change& change) {
+  const std::size_t n = s_.history.size();
+  const double u_now = s_.u.lpNorm<Eigen::Infinity>(), step = change.u.lpNorm<Eigen::Infinity>();
+  if (n < 3 || u_now >= u_scale_ || s_.history[n - 1] < 0.5 * s_.history[n - 2]) return false;
+  note_round_off();
+  const double noise = noise_.lpNorm<Eigen::Infinity>();
+  if (!(step <= noise && gap_ * u_scale_ <= noise)) return false;
+  if (u_now > noise && step > 1e-9 * u_now)
+    s_.warning =
+        fmt::format("{}: u is locked, {:.0e} of its size before; corrections move it by {:.0e} of itself still",
+                    s_.solver, u_now / u_first_, step / u_now);
+  return true;
+}
+
+bool Corrections::zero_is_admissible() const {
+  return problem_.fixed_values.isZero(0) && (problem_.lower.array() <= 0).all();
+}
+
 void Corrections::require_an_admissible_u(const ContactSolver& contact) {
-  const bool zero_is_admissible = problem_.fixed_values.isZero(0) && (problem_.lower.array() <= 0).all();
-  if (zero_is_admissible || problem_.load.isZero(0)) return;
+  if (problem_.load.isZero(0)) return;
   VariationalInequality unloaded = problem_;
   unloaded.load.setZero();
   Corrections(unloaded, factor_, options_, s_.solver).solve(contact);
 }
 
-Eigen::VectorXd Corrections::round_off() {
-  constexpr double digits = 64 * std::numeric_limits<double>::epsilon();
+void Corrections::note_round_off() {
   Eigen::VectorXd forces = problem_.load.cwiseAbs() + problem_.a1.cwiseAbs() * s_.u.cwiseAbs();
   if (problem_.b.rows() > 0) forces += problem_.b.cwiseAbs().transpose() * problem_.m.cwiseProduct(s_.p.cwiseAbs());
   for (std::size_t i = 0; i < problem_.contact.size(); ++i)  // what the obstacle bears displaces nothing
@@ -60,7 +86,7 @@ Eigen::VectorXd Corrections::round_off() {
   const Eigen::VectorXd displaced = factor_.backward(factor_.forward(on_free));
   Eigen::VectorXd noise = Eigen::VectorXd::Zero(problem_.size());
   noise(factor_.numbering().unknown) = displaced.cwiseAbs();
-  return noise;
+  noise_ = noise_.size() > 0 ? Eigen::VectorXd(noise_.cwiseMin(noise)) : noise;
 }
 
 }  // namespace antilock
