@@ -158,7 +158,7 @@ TEST(PetscScene, ALimitOfMemoryIsSeenBeforeItIsMet) {
 }
 
 TEST(PetscScene, AKilledRunLeavesACheckpointFromWhichAnotherStarts) {
-  const Runs runs(scene_text("petsc", "structured", "P1", 256));
+  const Runs runs(scene_text("petsc", "structured", "P1", 512));
   const fs::path checkpoint = runs.results("results").string() + ".checkpoint";
   EXPECT_EQ(runs.run(2, "results", "--restart").status, 2);  // there is none yet
   const pid_t child = ::fork();
