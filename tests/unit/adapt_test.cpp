@@ -15,25 +15,16 @@
 #include "antilock/solve/active_set.hpp"
 #include "support/bodies.hpp"
 #include "support/exact_errors.hpp"
+#include "support/measures.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
 namespace {
 
+using test::area;
 using test::expect_refused;
+using test::length;
 
-double area(const TriangleMesh& mesh, Region region) {
-  double sum = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == region) sum += mesh.area(t);
-  return sum;
-}
-double length(const TriangleMesh& mesh, EdgeTag tag) {
-  double sum = 0;
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] == tag) sum += mesh.edge_length(e);
-  return sum;
-}
 /// The smallest of twice the area over the square of the longest edge: zero for a flat triangle.
 double flattest(const TriangleMesh& mesh) {
   double least = 1;

@@ -12,26 +12,17 @@
 #include "antilock/mesh/layered.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "support/bodies.hpp"
+#include "support/measures.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
 namespace {
 
+using test::area;
 using test::expect_refused;
+using test::length;
 using test::NamedMesh;
 
-double area(const TriangleMesh& mesh, Region region) {
-  double sum = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == region) sum += mesh.area(t);
-  return sum;
-}
-double length(const TriangleMesh& mesh, EdgeTag tag) {
-  double sum = 0;
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] == tag) sum += mesh.edge_length(e);
-  return sum;
-}
 int count(const TriangleMesh& mesh, EdgeTag tag) {
   return static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), tag));
 }

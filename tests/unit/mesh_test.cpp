@@ -13,27 +13,16 @@
 
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/refine.hpp"
+#include "support/measures.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
 namespace {
 
+using test::area;
 using test::expect_refused;
+using test::length;
 using test::NamedMesh;
-
-double area(const TriangleMesh& mesh, Region region) {
-  double sum = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == region) sum += mesh.area(t);
-  return sum;
-}
-
-double length(const TriangleMesh& mesh, EdgeTag tag) {
-  double sum = 0;
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] == tag) sum += mesh.edge_length(e);
-  return sum;
-}
 
 std::vector<NamedMesh> all_meshes() {
   std::vector<NamedMesh> meshes;
