@@ -16,7 +16,7 @@
 // layer }. On the layer, its functions are one per line inside: on the unstructured mesh every
 // function of G_h, and of K_0h = K_h n G_h, vanishes on the layer. (In the body G_h asks nothing:
 // every function is left there.) In the limit epsilon = 0 the discrete solution must vanish on the
-// layer. That is locking, seen before anything is solved (Figure 7, tutorial 05).
+// layer. That is locking, seen before anything is solved (Figure 7, tutorial 06).
 
 #include <algorithm>
 #include <cmath>
@@ -94,7 +94,7 @@ int normal_lines(const TriangleMesh& mesh) {
 // - --cells 2, 3, 4: even the coarsest meshes of gmsh have no line across inside the layer.
 // - structured({}, Diagonal::left) in `meshes`: every number stays as it is.
 // - jitter the vertices inside the layer of the structured mesh by 1e-9: how many lines are left?
-//   (Tutorial 05: what that does to the solution.)
+//   (Tutorial 06: what that does to the solution.)
 int main(int argc, char** argv) {
   tutorial::Options options;
   options.takes_epsilon = false;

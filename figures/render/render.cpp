@@ -1,7 +1,7 @@
 // render: one picture from files that the tutorials wrote.
 //
-// Run: render surface results/04_p1_structured/solution.vtu --out figure5.png
-// Run: render convergence results/07_convergence/results.csv --out figure9.png
+// Run: render surface results/05_p1_structured/solution.vtu --out figure5.png
+// Run: render convergence results/09_convergence/results.csv --out figure9.png
 #include <fmt/format.h>
 #include <vtkObject.h>
 

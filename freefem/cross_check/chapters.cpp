@@ -118,7 +118,7 @@ Numbers by_hand(int cells, double epsilon, const std::filesystem::path& folder) 
 Numbers kernels(int cells, const std::filesystem::path& folder) {
   const TriangleMesh unstructured = unstructured_mesh(4);
   write_freefem_mesh(folder / "mesh.freefem.msh", unstructured);
-  run("11_kernel", {"-cells", std::to_string(cells), "-mesh", folder / "mesh.freefem.msh", "-out", folder});
+  run("07_kernel", {"-cells", std::to_string(cells), "-mesh", folder / "mesh.freefem.msh", "-out", folder});
   const Table table = read_table(folder / "kernel.csv", 1);
   Numbers numbers;
   const Scene scene(Body{paper_load}, StiffLayer{0});
@@ -145,7 +145,7 @@ Numbers kernels(int cells, const std::filesystem::path& folder) {
 Numbers estimates(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
   write_freefem_mesh(folder / "mesh.freefem.msh", mesh);
-  run("15_estimates", {"-mesh", folder / "mesh.freefem.msh", "-out", folder});
+  run("13_estimates", {"-mesh", folder / "mesh.freefem.msh", "-out", folder});
   const Table table = read_table(folder / "estimates.csv", 1);
   const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
   const Space conforming(mesh, p1()), broken(mesh, crouzeix_raviart());
@@ -174,7 +174,7 @@ Numbers estimates(int cells, const std::filesystem::path& folder) {
 
 Numbers glued_strings(int cells, const std::filesystem::path& folder) {
   constexpr double load = 32, gap = 0.5;
-  run("21_your_own_problem", {"-cells", std::to_string(cells), "-out", folder});
+  run("25_your_own_problem", {"-cells", std::to_string(cells), "-out", folder});
   const Table table = read_table(folder / "results.csv", 2);
   if (table.rows.rows() != 26) throw Error(fmt::format("results.csv: {} rows; accepted 26", table.rows.rows()));
   Numbers numbers;

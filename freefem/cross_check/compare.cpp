@@ -38,8 +38,8 @@ struct Method {
   bool structured;
   std::string name() const { return element + (structured ? " structured" : " unstructured"); }
   std::string script() const {
-    if (element == "CR") return "06_crouzeix_raviart";
-    return structured ? "04_p1_structured" : "05_p1_unstructured";
+    if (element == "CR") return "08_crouzeix_raviart";
+    return structured ? "05_p1_structured" : "06_p1_unstructured";
   }
 };
 
@@ -102,7 +102,7 @@ Line meshes(int cells, const std::filesystem::path& out) {
 
 /// The convergence study: one method, every epsilon and mesh; the worst difference and the seconds together.
 Line study(const Method& method, int cells, const std::filesystem::path& out) {
-  Line all{"07_convergence", "", ""};
+  Line all{"09_convergence", "", ""};
   int meshes = 0;
   for (int n = std::max(4, cells / 4); n <= cells; n *= 2) {
     ++meshes;
@@ -130,7 +130,7 @@ std::string same_set(const Solution& ours, const Eigen::VectorXd& force) {
 
 /// The beam, both integrations, at epsilon = 1e-4.
 std::vector<Line> beams(int cells, const std::filesystem::path& out) {
-  freefem::run("19_beam", {"-cells", std::to_string(cells), "-epsilon", "1e-4", "-out", out / "freefem"});
+  freefem::run("22_beam", {"-cells", std::to_string(cells), "-epsilon", "1e-4", "-out", out / "freefem"});
   const freefem::Table nodes = freefem::read_table(out / "freefem" / "beam.csv"),
                        summary = freefem::read_table(out / "freefem" / "summary.csv", 1);
   std::vector<Line> lines;
@@ -141,7 +141,7 @@ std::vector<Line> beams(int cells, const std::filesystem::path& out) {
     const Solution ours = active_set(assemble(beam));
     const std::string name = full ? "full" : "reduced";
     const Eigen::VectorXd w = ours.u(Eigen::seqN(0, cells + 1, 2));
-    lines.push_back({"19_beam", fmt::format("{} integration, {} cells, epsilon = {:g}", name, cells, beam.epsilon),
+    lines.push_back({"22_beam", fmt::format("{} integration, {} cells, epsilon = {:g}", name, cells, beam.epsilon),
                      summary.names.at(full ? 1 : 0), static_cast<int>(ours.u.size()),
                      (w - nodes.column("w_" + name)).cwiseAbs().maxCoeff() / w.cwiseAbs().maxCoeff(),
                      same_set(ours, nodes.column("force_" + name).segment(1, cells - 1)), ours.seconds.total(),
@@ -162,7 +162,7 @@ std::vector<Line> elasticity(int cells, const std::filesystem::path& out) {
     scene.jump_weight = name == "P1nc" ? 1 : 0;
     const Solution ours = active_set(assemble(scene, {x, y}));
     const freefem::ElasticAnswer theirs = freefem::elastic_answer(out / "freefem", name, {x, y});
-    lines.push_back({"20_elasticity", fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon),
+    lines.push_back({"23_elasticity", fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon),
                      theirs.road, static_cast<int>(ours.u.size()),
                      (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff(),
                      same_set(ours, theirs.force), ours.seconds.total(), theirs.seconds});
@@ -203,32 +203,32 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
       freefem::string_on_an_obstacle(cells, folder));
   add("03_by_hand", "P1 structured, h = 1/8, no varf: u, energy", freefem::by_hand(8, 1e-6, folder));
   for (const char* e : {"P1", "CR"})
-    add("08_roundoff", fmt::format("{} structured, h = 1/{}, 17 epsilons to 1e-16: energy, largest u", e, half),
+    add("16_roundoff", fmt::format("{} structured, h = 1/{}, 17 epsilons to 1e-16: energy, largest u", e, half),
         freefem::roundoff(e, half, folder));
-  add("09_effects",
+  add("20_effects",
       fmt::format("eight scenes, h = 1/{}, epsilon = 0.01: energy, least and largest u, how many in contact", cells),
       freefem::effects(cells, 1e-2, folder));
-  add("11_kernel", fmt::format("P1 by ties to h = 1/{}; P1 and CR by rank at h = 1/4: dimensions", half),
+  add("07_kernel", fmt::format("P1 by ties to h = 1/{}; P1 and CR by rank at h = 1/4: dimensions", half),
       freefem::kernels(half, folder));
-  add("12_limits", fmt::format("P1, CR, both meshes, h = 1/{}, 9 epsilons: distance to the limit", half),
+  add("10_limits", fmt::format("P1, CR, both meshes, h = 1/{}, 9 epsilons: distance to the limit", half),
       freefem::limits(half, folder));
   const std::vector<freefem::Numbers> errors = freefem::worst_errors(folder);
   for (const int i : {0, 1})
-    add("14_uniform",
+    add("12_uniform",
         fmt::format("{} structured, h = 1/8, 6 epsilons: worst H1 error against P1 on h = 1/32", i == 0 ? "P1" : "CR"),
         errors[i]);
-  add("15_estimates", fmt::format("P1 and CR unstructured, h = 1/{}, 13 epsilons to 1e-6: largest u on Gamma_C", half),
+  add("13_estimates", fmt::format("P1 and CR unstructured, h = 1/{}, 13 epsilons to 1e-6: largest u on Gamma_C", half),
       freefem::estimates(half, folder));
-  add("16_energy_bracket", fmt::format("P1 and CR unstructured, h = 1/{}, 5 epsilons: both bounds, energy", half),
+  add("17_energy_bracket", fmt::format("P1 and CR unstructured, h = 1/{}, 5 epsilons: both bounds, energy", half),
       freefem::energy_bracket(half, folder));
-  add("17_contact_sets", "P1 structured, h = 1/8: distances to K_h and K_0h of a solution on h = 1/32",
+  add("11_contact_sets", "P1 structured, h = 1/8: distances to K_h and K_0h of a solution on h = 1/32",
       freefem::contact_sets(folder));
   const std::vector<freefem::Numbers> degrees = freefem::degrees(half, folder);
   for (const int i : {0, 1})
-    add("18_degree",
+    add("14_degree",
         fmt::format("P{} unstructured, h = 1/{}, epsilon = 0.01: cost of a ridge, ridge, energy", i + 1, half),
         degrees[i]);
-  add("21_your_own_problem",
+  add("25_your_own_problem",
       fmt::format("two glued strings, {} and {} cells, 13 epsilons to 1e-12: energy, largest u, contact force", cells,
                   cells + 1),
       freefem::glued_strings(cells, folder));
@@ -248,7 +248,7 @@ Line uzawa_steps(double epsilon, double rho, const std::filesystem::path& out) {
   if (theirs.change.size() != steps) throw Error("history.csv: other steps than the library's");
   const Eigen::VectorXd difference = theirs.change - Eigen::Map<const Eigen::VectorXd>(ours.history.data(), steps);
   return {
-      "03_reference_solution",
+      "04_reference_solution",
       fmt::format("P1 structured, h = 1/16, epsilon = {:g}, the paper's Uzawa: every one of {} steps", epsilon, steps),
       theirs.road,
       space.size(),
@@ -276,7 +276,7 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
   {
     const TriangleMesh mesh = structured_mesh(2 * cells);
     const Space space(mesh, p1());
-    Line line = solve_both("03_reference_solution", "03_reference_solution", space, epsilon, out,
+    Line line = solve_both("04_reference_solution", "04_reference_solution", space, epsilon, out,
                            {"-solver", "condensed"}, true)
                     .line;
     line.what = fmt::format("P1 structured, h = 1/{}, condensed Uzawa", 2 * cells);
@@ -318,7 +318,7 @@ int main(int argc, char** argv) {
   std::filesystem::path table;
   tutorial::CommandLine line("The C++ library against FreeFEM, tutorial by tutorial", "compare");
   line.add("--cells", cells, "cells per unit side, h = 1/cells", 4, 128);
-  line.add("--epsilon", epsilon, "of the tutorials 03 to 06", 1e-7, 1);
+  line.add("--epsilon", epsilon, "of the tutorials 04 to 08", 1e-7, 1);
   line.add("--out", out, "folder of the results");
   line.add("--table", table, "file of the table for README (default: OUT/results.md)");
   if (const auto status = line.parse(argc, argv)) return *status;

@@ -123,7 +123,7 @@ Answer solve(const std::string& script, const Space& space, double epsilon, cons
 }
 
 History uzawa_history(const Space& space, double epsilon, double rho, int steps, const std::filesystem::path& folder) {
-  run("03_reference_solution",
+  run("04_reference_solution",
       {"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-solver", "uzawa", "-rho",
        fmt::format("{}", rho), "-steps", std::to_string(steps), "-out", folder});
   const Table history = read_table(folder / "history.csv"), summary = read_table(folder / "summary.csv", 1);
@@ -134,7 +134,7 @@ void run_elasticity(const TriangleMesh& mesh, double epsilon, const std::filesys
   const auto file = folder / "mesh.freefem.msh";
   write_freefem_mesh(file, mesh);
   // 16 cells: of Taylor-Hood's own, graded mesh; its force is right to 0.03 %
-  run("20_elasticity", {"-mesh", file, "-epsilon", fmt::format("{}", epsilon), "-cells", "16", "-out", folder});
+  run("23_elasticity", {"-mesh", file, "-epsilon", fmt::format("{}", epsilon), "-cells", "16", "-out", folder});
 }
 
 ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space) {

@@ -35,11 +35,11 @@ struct Answer {
   double seconds = 0;        ///< of the solve alone
   int steps = 0;             ///< of the contact loop
 };
-/// Writes the mesh of `space` into `folder`, runs `script` (of 03 to 06) on it and reads its files.
+/// Writes the mesh of `space` into `folder`, runs `script` (of 04 to 08) on it and reads its files.
 Answer solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
              const std::vector<std::string>& options = {});
 
-/// The paper's Uzawa in FreeFEM, LinearCG in each step: what 03_reference_solution.edp writes with -solver uzawa.
+/// The paper's Uzawa in FreeFEM, LinearCG in each step: what 04_reference_solution.edp writes with -solver uzawa.
 struct History {
   std::string road;
   Eigen::VectorXd change;  ///< per step, |lambda^{k+1} - lambda^k| / rho / |u^k|, maximum norms
@@ -48,14 +48,14 @@ struct History {
 /// Runs it from lambda = 0 with the step `rho` for at most `steps` steps, P1 on the mesh of `space`.
 History uzawa_history(const Space& space, double epsilon, double rho, int steps, const std::filesystem::path& folder);
 
-/// What 20_elasticity.edp found with one of its elements.
+/// What 23_elasticity.edp found with one of its elements.
 struct ElasticAnswer {
   std::string road;
   Eigen::VectorXd u;      ///< u_x, then u_y, as the space numbers them
   Eigen::VectorXd force;  ///< C, by x
   double energy = 0, residual = 0, seconds = 0;
 };
-/// Runs 20_elasticity.edp on a mesh of the unit square with free sides; its files are in `folder` then.
+/// Runs 23_elasticity.edp on a mesh of the unit square with free sides; its files are in `folder` then.
 void run_elasticity(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
 /// Reads what it left there for the element `name`: P1, P1nc (with jumps) or KS.
 ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space);

@@ -68,7 +68,7 @@ void Numbers::solved(const Space& space, const Solution& solution) {
 Numbers roundoff(const std::string& element, int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = structured_mesh(cells);
   const Space space(mesh, antilock::element(element));
-  run("08_roundoff", {"-mesh", written(mesh, folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
+  run("16_roundoff", {"-mesh", written(mesh, folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
   const Table table = results(folder / "results.csv", 17, 1);
   SceneSweep sweep(contact_scene(1), space);
   Numbers numbers;
@@ -98,7 +98,7 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
                           Scene(body, StiffLayer{0}, obstacle),
                           Scene(body, VentcelLayer{}, obstacle),
                           Scene(body, ThinLayer{epsilon}, obstacle)};
-  run("09_effects", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+  run("20_effects", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
   const Table table = results(folder / "effects.csv", 8, 1);
   Numbers numbers;
   for (int i = 0; i < 8; ++i) {
@@ -123,7 +123,7 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
 
 Numbers limits(int cells, const std::filesystem::path& folder) {
   const TriangleMesh structured = structured_mesh(cells), unstructured = unstructured_mesh(cells);
-  run("12_limits", {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
+  run("10_limits", {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
   const Table table = results(folder / "limits.csv", 36, 2);
   const Reference zero{[](double, double) { return 0.0; },
                        [](double, double) { return Eigen::Vector2d::Zero().eval(); },
@@ -160,7 +160,7 @@ Numbers limits(int cells, const std::filesystem::path& folder) {
 
 Numbers energy_bracket(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
-  run("16_energy_bracket", {"-mesh", written(mesh, folder), "-out", folder});
+  run("17_energy_bracket", {"-mesh", written(mesh, folder), "-out", folder});
   const Table table = results(folder / "results.csv", 5, 1);
   const Space above(mesh, p1()), below(mesh, crouzeix_raviart());
   SceneSweep upper(contact_scene(1), above), lower(contact_scene(1), below);
@@ -186,7 +186,7 @@ Numbers energy_bracket(int cells, const std::filesystem::path& folder) {
 
 std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
-  run("18_degree", {"-mesh", written(mesh, folder), "-epsilon", "1e-2", "-out", folder});
+  run("14_degree", {"-mesh", written(mesh, folder), "-epsilon", "1e-2", "-out", folder});
   const Table table = results(folder / "results.csv", 2, 1);
   std::vector<Numbers> both(2);
   for (int i = 0; i < 2; ++i) {

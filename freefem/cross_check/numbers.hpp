@@ -35,28 +35,28 @@ struct Numbers {
 Numbers string_on_an_obstacle(int cells, const std::filesystem::path& folder);
 /// 03_by_hand: u at every vertex, the number in contact, energy; P1 on the structured mesh.
 Numbers by_hand(int cells, double epsilon, const std::filesystem::path& folder);
-/// 08: the split form on a structured mesh, epsilon from 1 to 1e-16: energy and largest u. `element`: P1 or CR.
+/// 16: the split form on a structured mesh, epsilon from 1 to 1e-16: energy and largest u. `element`: P1 or CR.
 Numbers roundoff(const std::string& element, int cells, const std::filesystem::path& folder);
-/// 09: the eight scenes: energy, least and largest u (relative to the largest |u|), how many unknowns are in contact.
+/// 20: the eight scenes: energy, least and largest u (relative to the largest |u|), how many unknowns are in contact.
 Numbers effects(int cells, double epsilon, const std::filesystem::path& folder);
-/// 11: kernel of P1 by ties, structured meshes from 1/h = 4 to `cells`; kernels of P1 and CR by rank at 1/h = 4, both
+/// 07: kernel of P1 by ties, structured meshes from 1/h = 4 to `cells`; kernels of P1 and CR by rank at 1/h = 4, both
 /// meshes; rank of B for CR.
 Numbers kernels(int cells, const std::filesystem::path& folder);
-/// 12: |u_h^epsilon - u_h^0| in the broken H1 norm, both elements and meshes, epsilon from 1 to 1e-4. A distance falls
+/// 10: |u_h^epsilon - u_h^0| in the broken H1 norm, both elements and meshes, epsilon from 1 to 1e-4. A distance falls
 /// like epsilon^2, while each side knows u to a fixed share of |u|: relative to the distance at epsilon = 1.
 Numbers limits(int cells, const std::filesystem::path& folder);
-/// 14: the worst broken H1 error over epsilon on the structured mesh of 1/h = 8, against P1 on one four times finer.
+/// 12: the worst broken H1 error over epsilon on the structured mesh of 1/h = 8, against P1 on one four times finer.
 /// P1, then CR.
 std::vector<Numbers> worst_errors(const std::filesystem::path& folder);
-/// 15: largest u on Gamma_C, P1 and CR on an unstructured mesh, epsilon from 1 to 1e-6 (relative to the largest).
+/// 13: largest u on Gamma_C, P1 and CR on an unstructured mesh, epsilon from 1 to 1e-6 (relative to the largest).
 Numbers estimates(int cells, const std::filesystem::path& folder);
-/// 17: distances of a fine mesh's u to K_h and of its u^0 to K_0h, P1 on the structured mesh of 1/h = 8.
+/// 11: distances of a fine mesh's u to K_h and of its u^0 to K_0h, P1 on the structured mesh of 1/h = 8.
 Numbers contact_sets(const std::filesystem::path& folder);
-/// 16: both bounds of the energy and that of Crouzeix-Raviart, one unstructured mesh, five epsilons.
+/// 17: both bounds of the energy and that of Crouzeix-Raviart, one unstructured mesh, five epsilons.
 Numbers energy_bracket(int cells, const std::filesystem::path& folder);
-/// 18: cost of a ridge, ridge and energy on an unstructured mesh, epsilon = 1e-2. P1, then P2.
+/// 14: cost of a ridge, ridge and energy on an unstructured mesh, epsilon = 1e-2. P1, then P2.
 std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder);
-/// 21: two glued strings, both glues, epsilon from 1 to 1e-12: energy, largest |u|, contact force.
+/// 25: two glued strings, both glues, epsilon from 1 to 1e-12: energy, largest |u|, contact force.
 Numbers glued_strings(int cells, const std::filesystem::path& folder);
 
 }  // namespace antilock::freefem

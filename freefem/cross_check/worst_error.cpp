@@ -1,4 +1,4 @@
-// 14 and 17: errors and distances, for which FreeFEM knows only its own fine mesh in place of the truth; so the same is
+// 12 and 11: errors and distances, for which FreeFEM knows only its own fine mesh in place of the truth; so the same is
 // done here, and not with the sine series.
 #include <fmt/format.h>
 
@@ -61,7 +61,7 @@ class ByPlace {
 
 std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
   const int cells = 8;
-  run("14_uniform", {"-cells", std::to_string(cells), "-out", folder});
+  run("12_uniform", {"-cells", std::to_string(cells), "-out", folder});
   const Table table = read_table(folder / "uniform.csv", 4);
   const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
   const Space fine_space(fine, p1());
@@ -101,7 +101,7 @@ std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
 Numbers contact_sets(const std::filesystem::path& folder) {
   const int cells = 8;
   const double epsilon = 1e-6;
-  run("17_contact_sets", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+  run("11_contact_sets", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
   const Table table = read_table(folder / "results.csv", 3);
   const auto row = std::find_if(table.names.begin(), table.names.end(),
                                 [](const std::string& n) { return n.find("P1 structured") != std::string::npos; }) -

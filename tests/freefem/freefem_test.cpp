@@ -35,8 +35,8 @@ struct Setting {
   std::string name() const { return std::string(element) + (structured ? "Structured" : "Unstructured"); }
   TriangleMesh mesh(int cells) const { return structured ? structured_mesh(cells) : unstructured_mesh(cells); }
   const char* script() const {
-    if (std::string(element) == "CR") return "06_crouzeix_raviart";
-    return structured ? "04_p1_structured" : "05_p1_unstructured";
+    if (std::string(element) == "CR") return "08_crouzeix_raviart";
+    return structured ? "05_p1_structured" : "06_p1_unstructured";
   }
   bool locks() const { return std::string(element) == "P1" && !structured; }
 };
@@ -173,7 +173,7 @@ void expect_same(const freefem::Numbers& numbers, double bound) {
     EXPECT_LE(n.difference(), bound) << n.name << ", here " << n.ours << ", there " << n.theirs;
 }
 
-// 08_roundoff: UMFPACK adds no tolerance of its own, so the drift follows the digits that the sum has lost, a small
+// 16_roundoff: UMFPACK adds no tolerance of its own, so the drift follows the digits that the sum has lost, a small
 // multiple of 1e-16 epsilon^-2, until nothing is left at 1e-8; the split form, the cure, does not see epsilon at all.
 TEST(PlainSum, LosesTheDigitsThatTheSplitFormKeeps) {
   for (const char* element : {"P1", "CR"}) {
@@ -201,7 +201,7 @@ TEST(PlainSum, LosesTheDigitsThatTheSplitFormKeeps) {
 
 TEST(PlainSum, IsRefusedAtEpsilon0) {
   const TemporaryFolder folder;
-  EXPECT_THROW(freefem::run("04_p1_structured", {"-stiff", "sum", "-epsilon", "0", "-out", folder.path()}), Error);
+  EXPECT_THROW(freefem::run("05_p1_structured", {"-stiff", "sum", "-epsilon", "0", "-out", folder.path()}), Error);
 }
 
 // Both roads on the other side: the saddle point as it stands, and corrections of a penalised problem.
@@ -226,7 +226,7 @@ TEST(FreeFemUzawa, CondensedFindsTheActiveSetsSolution) {
   const Space space(mesh, p1());
   const VariationalInequality problem = assemble(contact_scene(1e-6), space);
   const TemporaryFolder folder;
-  const auto theirs = freefem::solve("03_reference_solution", space, 1e-6, folder.path(), {"-solver", "condensed"});
+  const auto theirs = freefem::solve("04_reference_solution", space, 1e-6, folder.path(), {"-solver", "condensed"});
   const auto comparison = freefem::compare(space, problem, active_set(problem), theirs);
   EXPECT_LE(comparison.difference, 1e-8);
   EXPECT_EQ(comparison.contact_disagree, 0);
@@ -261,7 +261,7 @@ class Beams : public ::testing::TestWithParam<double> {};
 // contact sets are equal, forces agree to what the condition number of 32 cells leaves.
 TEST_P(Beams, AgreeInDeflectionForceAndEnergyForBothIntegrations) {
   const TemporaryFolder folder;
-  freefem::run("19_beam", {"-cells", "32", "-epsilon", std::to_string(GetParam()), "-out", folder.path()});
+  freefem::run("22_beam", {"-cells", "32", "-epsilon", std::to_string(GetParam()), "-out", folder.path()});
   const freefem::Table nodes = freefem::read_table(folder / "beam.csv"),
                        summary = freefem::read_table(folder / "summary.csv", 1);
   for (const bool full : {false, true}) {
@@ -328,23 +328,23 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"02_meshes",
        {"structured.csv", "unstructured.csv", "structured.freefem.msh", "unstructured.freefem.msh", "figure3.eps"}},
       {"03_by_hand", {"solution.csv", "summary.csv", "by_hand.eps"}},
-      {"03_reference_solution", {"solution.csv", "contact.csv", "summary.csv", "history.csv", "figure4.eps"}},
-      {"04_p1_structured", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
-      {"05_p1_unstructured", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
-      {"06_crouzeix_raviart", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
-      {"07_convergence", {"results.csv", "error_against_epsilon.eps"}},
-      {"09_effects", {"effects.csv", "scene1.eps", "scene8.eps"}},
-      {"11_kernel", {"kernel.csv", "ties_structured.eps", "ties_unstructured.eps"}},
-      {"12_limits", {"limits.csv"}},
-      {"14_uniform", {"uniform.csv"}},
-      {"15_estimates", {"estimates.csv", "lost.eps"}},
-      {"16_energy_bracket", {"results.csv"}},
-      {"17_contact_sets", {"results.csv"}},
-      {"18_degree", {"results.csv"}},
-      {"19_beam", {"beam.csv", "summary.csv", "beam.eps"}},
-      {"20_elasticity",
+      {"04_reference_solution", {"solution.csv", "contact.csv", "summary.csv", "history.csv", "figure4.eps"}},
+      {"05_p1_structured", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
+      {"06_p1_unstructured", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
+      {"08_crouzeix_raviart", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
+      {"09_convergence", {"results.csv", "error_against_epsilon.eps"}},
+      {"20_effects", {"effects.csv", "scene1.eps", "scene8.eps"}},
+      {"07_kernel", {"kernel.csv", "ties_structured.eps", "ties_unstructured.eps"}},
+      {"10_limits", {"limits.csv"}},
+      {"12_uniform", {"uniform.csv"}},
+      {"13_estimates", {"estimates.csv", "lost.eps"}},
+      {"17_energy_bracket", {"results.csv"}},
+      {"11_contact_sets", {"results.csv"}},
+      {"14_degree", {"results.csv"}},
+      {"22_beam", {"beam.csv", "summary.csv", "beam.eps"}},
+      {"23_elasticity",
        {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv", "P1_deformed.eps"}},
-      {"21_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
+      {"25_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
     const TemporaryFolder folder;
@@ -490,7 +490,7 @@ TEST(ModelCheck, SeesALoadInTheLayerAMissingStiffnessAndAnObstacleOnTheWrongSide
 // integration is O(h) in the force (it sits at nodes) and O(h^2) in the energy.
 TEST(ModelCheck, TheBeamsLimitIsTheClosedForm) {
   const TemporaryFolder folder;
-  freefem::run("19_beam", {"-cells", "192", "-epsilon", "1e-10", "-out", folder.path()});
+  freefem::run("22_beam", {"-cells", "192", "-epsilon", "1e-10", "-out", folder.path()});
   const freefem::Table summary = freefem::read_table(folder / "summary.csv", 1);
   EXPECT_NEAR(summary.column("force")(0), 5 * 5832.0 / 9, 0.01 * 3240);
   EXPECT_NEAR(summary.column("energy")(0), -3758.4, 0.001 * 3758.4);
@@ -526,9 +526,9 @@ TEST(FreeFemScripts, ShowTheLockingOnTheirOwnMeshes) {
     freefem::run(script, {"-cells", "16", "-epsilon", "1e-6", "-out", folder.path()});
     return freefem::read_table(folder / "contact.csv").column("gap").maxCoeff();
   };
-  EXPECT_LE(largest_on_gamma_c("05_p1_unstructured"), 1e-8);
-  EXPECT_NEAR(largest_on_gamma_c("06_crouzeix_raviart"), 0.0457, 0.005);
-  EXPECT_NEAR(largest_on_gamma_c("04_p1_structured"), 0.0457, 0.005);
+  EXPECT_LE(largest_on_gamma_c("06_p1_unstructured"), 1e-8);
+  EXPECT_NEAR(largest_on_gamma_c("08_crouzeix_raviart"), 0.0457, 0.005);
+  EXPECT_NEAR(largest_on_gamma_c("05_p1_structured"), 0.0457, 0.005);
 }
 
 /// A variable of the environment for the time of a test.
@@ -577,21 +577,21 @@ TEST(FreeFemRunner, SaysInOneLineThatFreeFemIsMissingTooOldOrBroken) {
 }
 
 TEST(FreeFemRunner, RefusesBadInputInOneLine) {
-  EXPECT_EQ(message_of("04_p1_structured", {"-mesh", "/no/such.msh"}),
-            "04_p1_structured: mesh /no/such.msh cannot be read");
-  EXPECT_EQ(message_of("04_p1_structured", {"-epsilon", "2"}),
-            "04_p1_structured: option -epsilon 2; accepted: a number from 0 to 1");
-  EXPECT_EQ(message_of("04_p1_structured", {"-epsilon", "small"}),
-            "04_p1_structured: option -epsilon small; accepted: a number from 0 to 1");
-  EXPECT_EQ(message_of("04_p1_structured", {"-epsilonn", "1"}),
-            "04_p1_structured: option -epsilonn means nothing to this script; accepted: -epsilon -cells -mesh -out "
+  EXPECT_EQ(message_of("05_p1_structured", {"-mesh", "/no/such.msh"}),
+            "05_p1_structured: mesh /no/such.msh cannot be read");
+  EXPECT_EQ(message_of("05_p1_structured", {"-epsilon", "2"}),
+            "05_p1_structured: option -epsilon 2; accepted: a number from 0 to 1");
+  EXPECT_EQ(message_of("05_p1_structured", {"-epsilon", "small"}),
+            "05_p1_structured: option -epsilon small; accepted: a number from 0 to 1");
+  EXPECT_EQ(message_of("05_p1_structured", {"-epsilonn", "1"}),
+            "05_p1_structured: option -epsilonn means nothing to this script; accepted: -epsilon -cells -mesh -out "
             "-stiff -contact -plot");
-  EXPECT_EQ(message_of("04_p1_structured", {"-epsilon"}), "04_p1_structured: option -epsilon needs a value");
-  EXPECT_EQ(message_of("06_crouzeix_raviart", {"-stiff", "soft"}),
-            "06_crouzeix_raviart: option -stiff soft; accepted: mixed penalty sum");
+  EXPECT_EQ(message_of("05_p1_structured", {"-epsilon"}), "05_p1_structured: option -epsilon needs a value");
+  EXPECT_EQ(message_of("08_crouzeix_raviart", {"-stiff", "soft"}),
+            "08_crouzeix_raviart: option -stiff soft; accepted: mixed penalty sum");
   {
     const Environment nowhere("DISPLAY", "");
-    EXPECT_EQ(message_of("04_p1_structured", {"-plot", "window"}),
+    EXPECT_EQ(message_of("05_p1_structured", {"-plot", "window"}),
               "freefem/run: -plot window: there is no display (DISPLAY is empty); accepted without one: -plot eps");
   }
   EXPECT_NE(message_of("99_nothing", {}).find("no script 99_nothing"), std::string::npos);

@@ -211,7 +211,7 @@ TEST(EnergyBracket, BoundsTheEnergyErrorOfP1) {
           measure_errors(space, active_set(stiff_problem(space, epsilon)), epsilon, reference(truth)).energy;
       const EnergyBracket found = energy_bracket(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), mesh);
       EXPECT_LE(error, found.error_bound()) << name << epsilon;
-      EXPECT_GT(error, 0.5 * found.error_bound()) << name << epsilon;  // tutorial 16: 0.71 to 0.99 of it
+      EXPECT_GT(error, 0.5 * found.error_bound()) << name << epsilon;  // tutorial 17: 0.71 to 0.99 of it
     }
   }
 }

@@ -83,7 +83,7 @@ void time_freefem(TimedRun& run, const std::string& command, const Space& space,
   // what stands before the script's own clock, forms and all, may take a while, too
   const std::string line = fmt::format(
       "timeout {} '{}' {} -mesh '{}' -out '{}' -epsilon {} -stiff sum > /dev/null 2>&1", limit + 5, command,
-      run.element == "P1" ? "04_p1_structured" : "06_crouzeix_raviart", mesh.string(), folder.string(), run.epsilon);
+      run.element == "P1" ? "05_p1_structured" : "08_crouzeix_raviart", mesh.string(), folder.string(), run.epsilon);
   std::vector<double> seconds;
   for (int i = 0; i < repeats; ++i) {
     const auto taken = script_seconds(line, folder / "summary.csv");

@@ -21,7 +21,7 @@ namespace antilock {
 ///
 /// Corrections measured with contact, the most over compliance 1e-2 to 0: layer, 1/h = 8 to 128: P1 3, CR 4 (locked P1
 /// 10); rubber, n = 8 to 32: crossed, CR, Kouhia-Stenberg 2 (locked P1 5); beam, n = 2 to 128: 3, 256: 4, 512: 6
-/// (locked, where all of u tends to 0: 6); strings and glue (tutorial 21), n = 8 to 128: 2 (locked 7, 17 on 8 cells).
+/// (locked, where all of u tends to 0: 6); strings and glue (tutorial 25), n = 8 to 128: 2 (locked 7, 17 on 8 cells).
 double choose_penalty(const VariationalInequality& problem);
 
 /// The smallest penalty of which a factor of K keeps digits enough of A1 to contract at all: 1e-13 r^(1/3) R^(2/3).

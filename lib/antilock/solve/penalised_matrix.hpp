@@ -14,7 +14,7 @@ struct FreeNumbering {
 };
 
 /// Upper triangle (F x F, in the places of FreeNumbering) of K = A1 + delta^-1 B' M B on the free unknowns.
-/// Only the factorisation may see this sum: in it A1 has lost digits to delta^-1 (tutorial 08: the round-off trap).
+/// Only the factorisation may see this sum: in it A1 has lost digits to delta^-1 (tutorial 16: the round-off trap).
 SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering, double delta);
 
 }  // namespace antilock

@@ -1,0 +1,214 @@
+// Effects: a scene is made of those that it calls for, and an absent effect costs nothing.
+//
+// Run: 20_effects   five scenes, three models, a change of variable; two seconds
+// Run: 20_effects --cells 64 --epsilon 0.1
+//
+// What the picture shows. One body under one load, five times: alone; resting on an obstacle; held
+// by a stiff layer that is not meshed; with the layer meshed below it; with layer and obstacle.
+// Glue a layer that is rigid across its thickness under the body, and its lower side, which moved
+// freely by 0.2, moves by 0.045: it has become a stretched string.
+//
+// The inequality and its parts. With every effect present it is (23),
+//
+//     u in K:   a+(u, v-u)  +  a_x^-(u, v-u) + epsilon^-2 a_y^-(u, v-u)  >=  (f, v-u)   for all v in K
+//               body           layer
+//
+// - no contact:  K is a space, >= becomes =, and one linear solve is the answer;
+// - no layer:    a+ alone, on the body's mesh alone;
+// - epsilon = 0: (24), the layer can only follow Sigma: u(x, y) = u(x, 0) there;
+// - and then it need not be meshed at all: what is left of it is a_x^- on functions of x, one term
+//   on Sigma,
+//                int_Sigma d/dx u d/dx v      the condition of Ventcel, (25);
+// - before the change of variable y -> epsilon y, the layer is (0,1) x (-epsilon,0) and 1/epsilon
+//   times as stiff: (22).
+//
+// Each of these is a type (scene/scene.hpp), so that what a scene lacks cannot cost anything: there
+// is no code to skip.
+//
+// Load chosen here, f = 10 sin(2 pi x); the paper gives none.
+
+#include <algorithm>
+
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/study/method.hpp"
+#include "antilock/study/scene_sweep.hpp"
+#include "antilock/study/table.hpp"
+#include "common/paper_problem.hpp"
+#include "common/results.hpp"
+#include "common/tutorial.hpp"
+
+using namespace antilock;
+
+const Body body{paper_load};
+const UnilateralContact obstacle{};
+
+// A scene from question to answer, and what each step cost.
+struct Run {
+  Run(const Scene& scene, TriangleMesh mesh);
+  Discretisation on;
+  VariationalInequality problem;
+  Solution solution;
+  double energy = 0, contact_from = 1, assemble_seconds = 0, solve_seconds = 0;
+};
+
+// 1. The five scenes, from plain Laplace to a stiff layer with contact, each on a mesh as large as
+// it needs: layer_depth is 0 where no layer is meshed.
+void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::Report& report) {
+  const std::vector<std::pair<std::string, Scene>> scenes{
+      {"1_body", Scene(body)},
+      {"2_body_contact", Scene(body, NoLayer{}, obstacle)},
+      {"3_ventcel", Scene(body, VentcelLayer{})},
+      {"4_layer", Scene(body, StiffLayer{options.epsilon})},
+      {"5_layer_contact", Scene(body, StiffLayer{options.epsilon}, obstacle)}};
+  Table table({"scene", "triangles", "unknowns", "factorisations", "solves", "contact", "corrections", "assemble_s",
+               "solve_s", "u_min", "u_max"});
+  for (const auto& [name, scene] : scenes) {
+    const Run run(scene, unstructured_mesh(options.cells, {scene.layer_depth()}));
+    const Counters& c = run.solution.counters;
+    table.add({name, run.on.mesh().triangle_count(), c.unknowns, c.factorisations, c.solves, c.contact, c.corrections,
+               run.assemble_seconds, run.solve_seconds, run.solution.u.minCoeff(), run.solution.u.maxCoeff()});
+    tutorial::write_results(options.out / name, run.on.space(), run.problem, run.solution);
+  }
+  table.print("what each scene costs", 3);
+  table.write(options.out / "results.csv");
+  const Table alone = table.where("scene", "1_body"), ventcel = table.where("scene", "3_ventcel");
+  report.claim(alone.number("solves") == 1 && alone.number("contact") == 0 && alone.number("corrections") == 0,
+               "the body alone is one linear solve");
+  bool same = true;
+  for (const std::string cost : {"triangles", "unknowns", "factorisations", "solves"})
+    same = same && ventcel.number(cost) == alone.number(cost);
+  report.claim(same, "a Ventcel layer costs what the body alone costs: no triangle, no unknown, no solve more");
+}
+
+// 2. One question, three models of the layer: (23) at a small epsilon, (24) on the layer's mesh,
+// (25) without one. All are held against the truth at that epsilon, so the last two show the error
+// of their model as well.
+void three_models(const tutorial::Options& options, tutorial::Report& report) {
+  report.stage("truth at epsilon and at 0: sine series");
+  const tutorial::Exact exact(options.epsilon, 14), limit(0, 14);
+  double model_error = 0;
+  for (int i = 1; i < 64; ++i)
+    model_error = std::max(model_error, std::abs(exact.truth.value(i / 64.0, -1) - limit.truth.value(i / 64.0, -1)));
+  report.finish();
+
+  const std::vector<std::pair<std::string, Scene>> models{
+      {"scaled", Scene(body, StiffLayer{options.epsilon}, obstacle)},
+      {"limit", Scene(body, StiffLayer{0}, obstacle)},
+      {"ventcel", Scene(body, VentcelLayer{}, obstacle)}};
+  const double h = 1.0 / options.cells, truth = exact.truth.energy();
+  const double energy_error = std::abs(truth - limit.truth.energy());
+  Table table({"model", "unknowns", "mesh_s", "assemble_s", "solve_s", "error_on_contact", "energy", "contact_from"});
+  for (const auto& [name, scene] : models) {
+    Stopwatch watch;
+    TriangleMesh mesh = unstructured_mesh(options.cells, {scene.layer_depth()});
+    const double mesh_seconds = watch.lap();
+    const Run run(scene, std::move(mesh));
+    double error = 0;  // of u at the contact unknowns: gap = u where the obstacle is flat
+    const Eigen::MatrixX3d points = contact_table(run.on.space(), run.problem, run.solution);
+    for (const auto& point : points.rowwise())
+      error = std::max(error, std::abs(point(1) - exact.truth.value(point(0), -1)));
+    table.add({name, run.solution.counters.unknowns, mesh_seconds, run.assemble_seconds, run.solve_seconds, error,
+               run.energy, run.contact_from});
+  }
+  table.print(fmt::format("truth: contact from x = {:.4f}, J = {:.6f}; the limit differs by {:.1e} in u on Gamma_C",
+                          exact.contact_from(), truth, model_error));
+  table.write(options.out / "models.csv");
+  // h^2 / 2 in energy and up to 1.6 h^2 in u on Gamma_C were measured; the end of contact falls
+  // into a cell or the next
+  const auto within = [&](const std::string& column, double wanted, double room) {
+    return std::max(table.most(column) - wanted, wanted - table.least(column)) <= room;
+  };
+  report.claim(table.most("error_on_contact") <= 2 * h * h + model_error &&
+                   within("energy", truth, h * h + energy_error) &&
+                   within("contact_from", exact.contact_from(), 2 * h + model_error),
+               "three models, one answer: each within 2 h^2 + {:.1e} of the truth on Gamma_C, the second number the "
+               "model's own error",
+               model_error);
+  const Table ventcel = table.where("model", "ventcel"), scaled = table.where("model", "scaled");
+  report.claim(ventcel.number("error_on_contact") <= scaled.number("error_on_contact") + model_error,
+               "Ventcel loses nothing with its {} unknowns against {}: error {:.1e}, of the meshed layer {:.1e}",
+               ventcel.number("unknowns"), scaled.number("unknowns"), ventcel.number("error_on_contact"),
+               scaled.number("error_on_contact"));
+}
+
+// 3. The change of variable y -> epsilon y takes (22) to (23). On a mesh whose layer is pressed
+// flat by the same map it does so term by term: the same matrices, the same answer. On a mesh made
+// for the thin layer, up to discretisation.
+void change_of_variable(const tutorial::Options& options, tutorial::Report& report) {
+  Table table({"epsilon", "energy_thin", "energy_scaled", "from_thin", "from_scaled", "difference_on_pressed_mesh"});
+  double energy = 0, from = 0;
+  for (const double epsilon : {1e-1, 1e-2, 1e-3}) {
+    const Scene thin(body, ThinLayer{epsilon}, obstacle), scaled(body, StiffLayer{epsilon}, obstacle);
+    TriangleMesh pressed = structured_mesh(options.cells);
+    for (auto vertex : pressed.vertices.rowwise())
+      if (vertex(1) < 0) vertex(1) *= epsilon;
+    const Run a(thin, structured_mesh(options.cells, {epsilon})), b(scaled, structured_mesh(options.cells));
+    const Run c(thin, std::move(pressed));
+    table.add({epsilon, a.energy, b.energy, a.contact_from, b.contact_from,
+               (c.solution.u - b.solution.u).cwiseAbs().maxCoeff()});
+    energy = std::max(energy, std::abs(a.energy - b.energy));
+    from = std::max(from, std::abs(a.contact_from - b.contact_from));
+  }
+  table.print("(22) on the thin layer, (23) on the unit layer", 6);
+  table.write(options.out / "change_of_variable.csv");
+  const double h = 1.0 / options.cells, pressed = table.most("difference_on_pressed_mesh");
+  // round-off times the condition of (22), epsilon^-2 h^-2
+  report.claim(pressed <= 1e-16 / (1e-6 * h * h),
+               "(22) is (23), term by term: u differs by {:.1e} on corresponding meshes", pressed);
+  report.claim(energy <= h * h && from <= 1.5 * h,
+               "and up to discretisation on others: energy within {:.1e}, contact within {:.3f}", energy, from);
+}
+
+// 4. Only what is needed holds for many questions, too: the forms of (23) do not contain epsilon,
+// and every epsilon below a fraction of h is solved with one and the same factorisation.
+void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
+  const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
+  const Discretisation on = Method{&crouzeix_raviart(), unstructured()}.on(options.cells);
+  report.stage(fmt::format("{} epsilons, one by one", epsilons.size()));
+  Stopwatch watch;
+  for (const double epsilon : epsilons) active_set(assemble(tutorial::paper_scene(epsilon), on.space()));
+  const double apart = watch.lap();
+  report.stage("the same in one sweep");
+  watch.lap();
+  SceneSweep sweep(tutorial::paper_scene(epsilons.front()), on.space());
+  for (const double epsilon : epsilons) {
+    sweep.set_epsilon(epsilon);
+    sweep.solve();
+  }
+  const double together = watch.lap(), delta = sweep.factor().delta();
+  const auto above = std::count_if(epsilons.begin(), epsilons.end(), [&](double e) { return e * e > delta; });
+  report.claim(sweep.total().factorisations == above + 1,
+               "{} epsilons cost one assembly and {} factorisations ({:.3f} s; one by one {:.3f} s)", epsilons.size(),
+               sweep.total().factorisations, together, apart);
+}
+
+void effects(const tutorial::Options& options, tutorial::Report& report) {
+  each_scene_costs_what_it_holds(options, report);
+  three_models(options, report);
+  change_of_variable(options, report);
+  sweep_over_epsilon(options, report);
+}
+
+// Three things to try:
+// - UnilateralContact{[](double) { return 1.0; }} as `obstacle`: out of reach; one solve and a look
+//   at the signs.
+// - --epsilon 0.3: the limit is no longer a model of the layer; its own error fills the column
+//   error_on_contact.
+// - p1() for crouzeix_raviart() in Run: the scaled layer locks on its unstructured mesh, Ventcel
+//   has nothing to lock.
+int main(int argc, char** argv) {
+  tutorial::Options options;
+  options.epsilon = 1e-2;
+  return tutorial::run(argc, argv, "20_effects", "Effects: a scene costs what it calls for", options, effects);
+}
+
+Run::Run(const Scene& scene, TriangleMesh mesh) : on(std::move(mesh), crouzeix_raviart()) {
+  Stopwatch watch;
+  problem = assemble(scene, on.space());
+  assemble_seconds = watch.lap();
+  solution = active_set(problem);
+  solve_seconds = watch.lap();
+  contact_from = contact_zone(on.space(), problem, solution).from.value_or(1);
+  energy = antilock::energy(problem, solution);
+}
