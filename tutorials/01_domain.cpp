@@ -1,43 +1,61 @@
-// Figures 1 and 2. The domain, and the change of variable that makes a thin layer thick.
+// # The domain and its thin layer
 //
-// Run: 01_domain   the layer drawn with thickness 0.15; a moment
+// Run: 01_domain                  the layer drawn with thickness 0.15; a moment
 // Run: 01_domain --epsilon 0.3
+// Run: 01_domain --exercise 1
 //
-// What the pictures show. An elastic body Omega+ = (0,1) x (0,1), clamped on Gamma+ (both sides and
-// the top). A thin stiff layer Omega_epsilon^- = (0,1) x (-epsilon,0) is grafted onto its lower
-// side Sigma. The layer is clamped on its two ends Gamma_D,epsilon^- and may touch a rigid obstacle
-// on Gamma_C,epsilon. The thinner the layer, the stiffer it is: its Lame coefficients are those of
-// the body divided by epsilon. The displacement u is out of the plane of the drawing (anti-plane
-// elasticity). The obstacle is a stop for that displacement, u >= 0 on Gamma_C,epsilon; the picture
-// draws it below Gamma_C and apart from it, in the problem there is no distance between them.
+// Needs: [00](00_string_on_an_obstacle.cpp) (variational inequality, cone, complementarity).
 //
-// The equations, (21):
+// **The picture.** An elastic body `Ω⁺ = (0,1) × (0,1)` is clamped on `Γ⁺`, both sides and the top. A thin stiff layer
+// `Ω_ε⁻ = (0,1) × (-ε,0)` is grafted onto its lower side `Σ`, clamped at its two ends, and may touch a rigid obstacle on
+// `Γ_{C,ε}`. *The second picture is the first one after the change of variable `y ↦ y/ε`: the thickness has left the
+// domain.* Both draw the obstacle apart from `Γ_C`, to be seen. In the problem there is no distance between them.
 //
-//     -Delta u = f in the body,   -epsilon^-1 Delta u = 0 in the layer,   u = 0 on Gamma_D,epsilon,
-//     on Sigma, between body (+) and layer (-):   u+ = u-,   d_n u+ = epsilon^-1 d_n u-,
-//     on Gamma_C,epsilon:   u >= 0,   d_n u >= 0,   u d_n u = 0   (gap or pressure, never both)
+// **What `u` is.** *Anti-plane* elasticity: the displacement `u(x, y)` points out of the plane of the drawing. The body
+// is sheared, as a pack of cards is. The obstacle is a stop for this displacement: `u ≥ 0` on `Γ_{C,ε}`.
 //
-// From (21) to (22). Take v in K_epsilon = { v = 0 on Gamma_D,epsilon, v >= 0 on Gamma_C,epsilon },
-// multiply by v - u, integrate by parts on both parts. The terms on Sigma cancel, by the second
-// condition there. What is left on the boundary is
+// **Predict.** (a) The layer becomes thinner, and its stiffness grows like `1/ε`. Does it cost more or less energy to
+// bend it along `x`? (b) To let the displacement vary across it?
 //
-//     epsilon^-1 int_Gamma_C d_n u (v - u)  =  epsilon^-1 int_Gamma_C (d_n u) v  >=  0,
+// ## The equations
 //
-// since u d_n u = 0 and neither d_n u nor v is negative. This is the term that makes an inequality
-// of the equation: with mu_epsilon = 1 in the body and 1/epsilon in the layer,
+// $∂_n$ is the derivative along the outward normal $n$, of the body on $Σ$ and of the layer on $Γ_{C,ε}$. The paper's
+// first problem is
 //
-//     u in K_epsilon,   int mu_epsilon grad u . grad (v - u) >= int f (v - u),  all v in K_epsilon  (22)
+// $$ -Δu = f in Ω^+,   -ε^{-1} Δu = 0 in Ω_ε^-,   u = 0 on Γ_{D,ε} = Γ^+ ∪ Γ_{D,ε}^-, $$
+// $$ u^+ = u^-,   ∂_n u^+ = ε^{-1} ∂_n u^-   on Σ, $$
+// $$ u ≥ 0,   ∂_n u ≥ 0,   u ∂_n u = 0   on Γ_{C,ε}. \tag{21} $$
 //
-// From (22) to (23). Two difficulties come at once: the domain degenerates and the coefficient
-// explodes. The change of variable y~ = y/epsilon in the layer removes the first. There dy =
-// epsilon dy~ and d/dy = epsilon^-1 d/dy~, so that
+// The last line is chapter 00's complementarity: $ε^{-1} ∂_n u$ is the pressure of the obstacle.
 //
-//     int_{thin} 1/epsilon |grad u|^2 = int_{unit} |d/dx u|^2 + epsilon^-2 |d/dy~ u|^2         (23)
+// **From (21) to (22).** Let $K_ε = \{ v : v = 0 on Γ_{D,ε}, v ≥ 0 on Γ_{C,ε} \}$, and $v ∈ K_ε$. Multiply the first line by
+// $v - u$ and integrate by parts on both parts. On $Σ$ the boundary terms cancel, by the second line. On the clamped parts
+// $v - u = 0$. On $Γ_{C,ε}$ stays the term that makes an inequality of the equation, since $u ∂_n u = 0$:
 //
-// What is left of the thickness is one factor in front of one form, on a domain that does not
-// change (Figure 2).
+// $$ ε^{-1} ∫_{Γ_{C,ε}} ∂_n u (v - u) = ε^{-1} ∫_{Γ_{C,ε}} (∂_n u) v ≥ 0. $$
+//
+// With $μ_ε = 1$ in the body and $μ_ε = 1/ε$ in the layer, and no load in the layer,
+//
+// $$ u ∈ K_ε,   ∫_{Ω_ε} μ_ε ∇u·∇(v - u) ≥ ∫_{Ω^+} f (v - u)   for all v ∈ K_ε. \tag{22} $$
+//
+// **From (22) to (23).** As $ε → 0$ the domain degenerates and the coefficient explodes. Put $\tilde y = y/ε$ in the
+// layer: $dy = ε d\tilde y$ and $∂_y = ε^{-1} ∂_{\tilde y}$. Hence, with $Ω^- = (0,1) × (-1,0)$,
+//
+// $$ ∫_{Ω_ε^-} ε^{-1} |∇u|² = ∫_{Ω^-} |∂_x u|² + ε^{-2} |∂_{\tilde y} u|². $$
+//
+// Write $y$ for $\tilde y$ again, and give the three integrals names:
+//
+// $$ a^+(u,v) = ∫_{Ω^+} ∇u·∇v,   a_x^-(u,v) = ∫_{Ω^-} ∂_x u ∂_x v,   a_y^-(u,v) = ∫_{Ω^-} ∂_y u ∂_y v. $$
+//
+// Then the problem of this whole course reads, with $K = \{ v : v = 0 on Γ_D, v ≥ 0 on Γ_C \}$,
+//
+// $$ u ∈ K,   a^+(u, v-u) + a_x^-(u, v-u) + ε^{-2} a_y^-(u, v-u) ≥ (f, v-u)   for all v ∈ K. \tag{23} $$
+//
+// One factor $ε^{-2}$ in front of one form is left. The form behind it is called *stiff*: $a_0 = a_y^-$. The rest is the
+// *moderate* form, $a_1 = a^+ + a_x^-$. The load is $f = 10 \sin 2πx$, chosen here: the paper gives none.
 
 #include <cmath>
+#include <numbers>
 
 #include "antilock/core/error.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -58,22 +76,24 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
   if (!(epsilon >= 0.05 && epsilon <= 0.6))
     throw Error(fmt::format("--epsilon {}: a layer to look at; accepted 0.05 to 0.6", epsilon));
 
-  // 1. The two drawings.
+  // ### Output
   tutorial::write_drawing(options.out / "figure1.csv", epsilon, {"$Ω_ε^−$", "$Γ_{D,ε}^−$", "$Γ_{C,ε}$", "$ε$", ""});
   tutorial::write_drawing(options.out / "figure2.csv", 1, {"$Ω^−$", "$Γ_D^−$", "$Γ_C$", "1", "$y ↦ y/ε$"});
 
-  // 2. Both problems on the same triangles: (22) on the thin layer, (23) on the unit layer.
+  // ### Mesh
+  // The same triangles twice: thin for (22), unit for (23).
   report.stage("assemble and solve (22) and (23)");
   const TriangleMesh unit = unstructured_mesh(options.cells), thin = squashed(unit, epsilon);
   const Space unit_space(unit, p1()), thin_space(thin, p1());
+  // ### Forms
   const auto original = assemble(Scene(Body{paper_load}, ThinLayer{epsilon}, UnilateralContact{}), thin_space);
   const auto scaled = assemble(Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}), unit_space);
 
-  // 3. The same function on both: its nodal values do not change, only the places of the vertices.
+  // The same function on both: only the places of the vertices change.
   const Eigen::VectorXd v = test_function(unit_space);
   const double before = energy_form(original, v), after = energy_form(scaled, v);
 
-  // 4. And the same solution of the inequality.
+  // ### Solve
   const Eigen::VectorXd u_thin = active_set(original).u, u_unit = active_set(scaled).u;
   const double apart = (u_thin - u_unit).lpNorm<Eigen::Infinity>(), size = u_unit.lpNorm<Eigen::Infinity>();
   report.finish();
@@ -89,17 +109,41 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
   report.claim(solution <= 1e-8, "and the solution: (22) and (23) agree to {:.0e}", solution);
 }
 
-// Three things to try:
-// - --epsilon 0.05: the triangles of the thin layer become needles, 20 times as long as high; those
-//   of Figure 2 do not.
-// - replace v by a function of x alone: after the change of variable epsilon^-2 multiplies nothing.
-// - write (21) on the unit layer: which normal derivative carries the epsilon^-2 on Sigma and on
-//   Gamma_C?
+// ## What came out
+//
+// The form and the solution are the same on both domains, to round-off. (a) Neither: for a function of $x$ alone the
+// factors $ε$ of the thickness and $1/ε$ of the stiffness cancel. (b) More, like $ε^{-2}$. So as $ε → 0$ the displacement
+// may not vary across the layer: this is what the stiff form enforces, and what a discretisation must be able to do.
+//
+// ## Exercises
+//
+// 1. `--exercise 1`: two shapes of the layer, and three thicknesses.
+// 2. On paper: which condition of (21) would have to change for an obstacle at distance $g$? Which term of the derivation?
+// 3. On paper: write (21) on the unit layer. (In it $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$; $∂_n u^+ = ε^{-2} ∂_n u^-$ on $Σ$.)
+const std::vector<tutorial::Exercise> exercises{
+    {"Which costs more energy when the layer is made thinner: sin(pi x), or sin(pi x) y~ in the layer?",
+     "the first costs the same at every thickness; the second grows, and by the factor 4 per halving in the end",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const TriangleMesh unit = structured_mesh(16);  // unstructured: the first grows too, and chapter 06 says why
+       const Space at(unit, p1());
+       const auto x = at.points().col(0).array(), y = at.points().col(1).array();
+       const Eigen::VectorXd along = (std::numbers::pi * x).sin(), across = along.array() * y.min(0);
+       Table table({"epsilon", "along", "across"});
+       for (const double epsilon : {0.4, 0.2, 0.1, 0.05}) {
+         const TriangleMesh thin = squashed(unit, epsilon);
+         const Space space(thin, p1());
+         const auto problem = assemble(Scene(Body{paper_load}, ThinLayer{epsilon}, UnilateralContact{}), space);
+         table.add({epsilon, energy_form(problem, along), energy_form(problem, across)});
+       }
+       table.print("a(v, v) on the thin layer");
+       report.claim_within(table.most("along") / table.least("along") - 1, 0, 1e-12, "along: largest / smallest - 1:");
+       const auto grown = table.numbers("across");
+       report.claim_within(grown[3] / grown[2], 3.5, 4, "across: last factor");
+     }}};
+
 int main(int argc, char** argv) {
-  tutorial::Options options;
-  options.epsilon = 0.15;
-  return tutorial::run(argc, argv, "01_domain", "Figures 1 and 2: the domain and the change of variable", options,
-                       domain);
+  return tutorial::run(argc, argv, "01_domain", "Figures 1 and 2: the domain and the change of variable",
+                       {.epsilon = 0.15, .exercises = exercises}, domain);
 }
 
 // The mesh of Figure 1: that of Figure 2 with its layer squashed to the thickness epsilon.

@@ -44,8 +44,8 @@ void write_projection(const std::filesystem::path& path) {
   };
   for (const Eigen::Vector2d& corner : {Eigen::Vector2d(-0.16, -0.46), {0.64, 0.2}}) add("page", "", corner);
   for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 0), {0.6, 0}, {0.6, 0.16}, {0, 0.16}}) add("fill", "body", corner);
-  level("axis half", 0.5);
-  level("axis more", 1.3);
+  level("axis half", 0.62);
+  level("axis more", 1.25);
   level("sigma", 1);
   for (const Eigen::Vector2d& end : {Eigen::Vector2d(-0.14, 0), {0.6, 0}}) add("arrow", "axis u1", end);
   for (const Eigen::Vector2d& end : {Eigen::Vector2d(0, -0.42), {0, 0.18}}) add("arrow", "axis u2", end);
