@@ -1,136 +1,127 @@
-// Figures 3 and 6. Two meshes of the same domain, and the one property that decides between them.
+// # Meshes that lock, and others
 //
-// Run: 02_meshes   16 cells per unit side, as drawn; a moment
+// Run: 02_meshes                  16 cells per unit side, as drawn; a moment
 // Run: 02_meshes --cells 64
+// Run: 02_meshes --exercise 1
+// Run: 02_meshes --exercise 2
 //
-// What the pictures show. Figure 3: squares cut by a diagonal. Figure 6: an arbitrary triangulation
-// of about the same size, by gmsh. Both are conforming, both respect the interface Sigma (no
-// triangle lies on both sides), and both have good angles. By every rule of thumb they are equally
-// good.
+// Needs: [01](01_domain.cpp) (problem (23), the stiff form $a_y^-$).
 //
-// What differs. As epsilon -> 0 the layer may only carry functions with d/dy v = 0. A P1 function
-// with this property is constant along the normal in every triangle. It can bend only where a
-// straight line of mesh edges crosses the whole layer along the normal, from Sigma to Gamma_C. So
-// count these lines. The structured mesh has cells + 1; the unstructured mesh has two, the ends of
-// the layer, where v = 0 is prescribed. The kernel of a0 is G_h = { v in V_h : d/dy v = 0 in the
-// layer }. On the layer, its functions are one per line inside: on the unstructured mesh every
-// function of G_h, and of K_0h = K_h n G_h, vanishes on the layer. (In the body G_h asks nothing:
-// every function is left there.) In the limit epsilon = 0 the discrete solution must vanish on the
-// layer. That is locking, seen before anything is solved (Figure 7, tutorial 06).
+// **The pictures.** Figure 3: squares cut by a diagonal. Figure 6: an arbitrary triangulation of about the same size, by
+// gmsh. Both fit the interface `Σ`, both have good angles. The third picture shows four layers. Triangles that share an
+// edge which is not vertical have the same colour. *On the structured mesh every column has a colour of its own. On the
+// unstructured mesh there is one colour, and this is why P1 locks on it.*
+//
+// **Predict.** (a) Shift every second row of vertices of the structured mesh by half a cell (*staggered*): how many
+// colours? (b) Make the layer of columns, under a body of any triangles (*layered*): how many?
+//
+// ## What the layer may do
+//
+// As $ε → 0$ the factor $ε^{-2}$ in (23) forces $a_y^-(u, u) → 0$: in the limit only displacements with $∂_y u = 0$ in the
+// layer are left. Let $V_h$ be the P1 functions on a mesh, affine on each triangle, continuous, 0 on $Γ_D$. Those that
+// the stiff form does not see are its *kernel*:
+//
+// $$ G_h = \{ v ∈ V_h : ∂_y v = 0 on every triangle of the layer \}. $$
+//
+// On one triangle such a function is $v = a + b x$: two numbers. Let two triangles share an edge from $x = x_1$ to
+// $x = x_2$. On it both functions agree, so $a + b x = a' + b' x$ at $x_1$ and at $x_2$. If $x_1 ≠ x_2$, the edge is not
+// vertical, and $a = a'$, $b = b'$: the triangles are *tied together*. If the edge is vertical, only the value there is
+// shared, and the slope $b$ may change. Hence one pair $(a, b)$ per group of tied triangles.
+//
+// **Structured.** Each column is a group, since its triangles share horizontal and diagonal edges. The function may bend at
+// each vertical line: $n$ columns, 0 at both ends, leave $n - 1$ functions, the hat functions in $x$.
+//
+// **Unstructured.** Inside the layer almost no edge is exactly vertical, so all triangles are in one group. One pair
+// $(a, b)$, and $v = 0$ at $x = 0$ and at $x = 1$: $a = b = 0$. Every function of $G_h$ vanishes on the layer. In the
+// limit $ε = 0$ the discrete layer cannot move at all, whatever the load. That is *locking*, seen before anything is
+// solved. (In the body the kernel asks nothing: every P1 function of the body that is 0 on $Σ$ is in $G_h$.)
 
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numbers>
-
+#include "antilock/analysis/kernel.hpp"
 #include "antilock/io/writers.hpp"
+#include "antilock/mesh/layered.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/study/method.hpp"
 #include "antilock/study/table.hpp"
+#include "common/ties.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;
 
-int normal_lines(const TriangleMesh& mesh);
-std::map<std::string, double> facts(const TriangleMesh& mesh);  // what a reader wants to know of a mesh, by name
+// The dimension of the kernel on the layer, by the rank of a matrix whose rows are $∂_y$ on each triangle (chapter 07).
+int kernel_on_layer(const TriangleMesh& mesh) {
+  return layer_kernel_dimension(assemble(Scene(Body{paper_load}, StiffLayer{0}, UnilateralContact{}), Space(mesh, p1())));
+}
 
 void meshes(const tutorial::Options& options, tutorial::Report& report) {
-  report.stage("structured mesh");
-  const TriangleMesh regular = structured().mesh(options.cells);
-  report.stage("unstructured mesh, by gmsh, twice");
-  const TriangleMesh arbitrary = unstructured().mesh(options.cells), again = unstructured().mesh(options.cells);
-  report.stage("write files");  // MSH for this library and others, FreeFEM's own format beside it
-  write_msh(options.out / "structured.msh", regular);
-  write_msh(options.out / "unstructured.msh", arbitrary);
-  write_freefem_mesh(options.out / "structured.freefem.msh", regular);
-  write_freefem_mesh(options.out / "unstructured.freefem.msh", arbitrary);
-  report.finish();
+  // ### Mesh
+  const int n = options.cells;
+  const std::vector<std::pair<std::string, TriangleMesh>> four{{"structured", structured_mesh(n)},
+                                                               {"unstructured", unstructured_mesh(n)},
+                                                               {"staggered", tutorial::staggered_mesh(n)},
+                                                               {"layered", layered_mesh(n)}};
+  // ### Solve
+  Table table({"mesh", "triangles", "smallest angle", "groups", "kernel"});
+  for (const auto& [name, mesh] : four)
+    table.add({name, mesh.triangle_count(), tutorial::smallest_angle(mesh), tutorial::ties(mesh).groups,
+               kernel_on_layer(mesh)});
+  // ### Output
+  table.print("four meshes of the same domain");
+  table.write(options.out / "meshes.csv");
+  tutorial::draw_ties(options.out / "ties.csv", four);
+  for (const auto& [name, mesh] : four) {  // MSH for this library and others, FreeFEM's own format beside it
+    write_msh(options.out / (name + ".msh"), mesh);
+    write_freefem_mesh(options.out / (name + ".freefem.msh"), mesh);
+  }
 
-  Table table({"", "structured", "unstructured"});
-  const auto of_regular = facts(regular), of_arbitrary = facts(arbitrary);
-  for (const auto& [name, value] : of_regular) table.add({name, value, of_arbitrary.at(name)});
-  table.print("", 5);
-
-  // 1e-10: sums of some thousand areas and lengths. 25 degrees: the angles of a regular family stay
-  // away from 0.
-  const std::map<std::string, double> figure2{{"area of the body", 1},  {"area of the layer", 1},
-                                              {"length of Sigma", 1},   {"length of Gamma_D", 5},
-                                              {"length of Gamma_C", 1}, {"triangles on both sides of Sigma", 0}};
-  double off = 0;
-  for (const auto& [name, wanted] : figure2)
-    off = std::max({off, std::abs(of_regular.at(name) - wanted), std::abs(of_arbitrary.at(name) - wanted)});
-  const double angle = std::min(of_regular.at("smallest angle (degrees)"), of_arbitrary.at("smallest angle (degrees)"));
-  report.claim(off < 1e-10, "both meshes cover Figure 2: areas, boundary parts, and no triangle across Sigma");
-  report.claim(angle > 25, "both are regular: no angle below {:.0f} degrees", std::floor(angle));
-  report.claim(arbitrary.vertices == again.vertices && arbitrary.triangles == again.triangles,
+  report.claim(table.least("smallest angle") > 25, "all four are regular: no angle below 25 degrees");
+  report.claim(table.numbers("groups") == std::vector<double>{1.0 * n, 1, 1, 1.0 * n},
+               "groups: one per column where there are columns, one in all where there are none");
+  bool one_less = true;
+  for (const Table& row : table.rows()) one_less = one_less && row.number("kernel") == row.number("groups") - 1;
+  report.claim(one_less, "the kernel on the layer has one function less than there are groups");
+  const TriangleMesh again = unstructured_mesh(n);
+  report.claim(four[1].second.vertices == again.vertices && four[1].second.triangles == again.triangles,
                "the unstructured mesh is the same at every run, to the last bit");
-  report.claim(normal_lines(regular) == options.cells + 1 && normal_lines(arbitrary) == 2,
-               "lines across the layer: {} = cells + 1 on the structured mesh, {} on the unstructured one (its clamped "
-               "ends)",
-               normal_lines(regular), normal_lines(arbitrary));
 }
 
-// Lines of mesh edges that cross the whole layer along the normal: climb from each vertex of
-// Gamma_C, edge by edge.
-int normal_lines(const TriangleMesh& mesh) {
-  constexpr double straight = 1e-12;  // of coordinates that are rounded once
-  std::map<int, int> above;           // the vertex straight above another, where an edge leads there
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    int low = mesh.edges(e, 0), high = mesh.edges(e, 1);
-    if (std::abs(mesh.vertices(low, 0) - mesh.vertices(high, 0)) > straight) continue;
-    if (mesh.vertices(low, 1) > mesh.vertices(high, 1)) std::swap(low, high);
-    above[low] = high;
-  }
-  int lines = 0;
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (mesh.vertices(v, 1) != -1) continue;
-    int top = v;
-    while (mesh.vertices(top, 1) < 0 && above.contains(top)) top = above[top];
-    lines += mesh.vertices(top, 1) >= 0;
-  }
-  return lines;
+// ## What came out
+//
+// (a) One colour: no edge inside its layer is vertical. The mesh is as regular as a mesh can be, and P1 locks on it:
+// regularity is not what decides. (b) One per column. The body's triangles do not matter.
+//
+// ## Exercises
+//
+// 1. and 2.: `--exercise N`. 3. On paper: on the unstructured mesh, which *one* function more would be in $G_h$ if the
+// layer were free at its ends? (Two: $1$ and $x$.) 4. On paper: quadratic functions with $∂_y v = 0$, on one group: how
+// many are 0 at both ends? (One, $x(1 - x)$; chapter 14.)
+TriangleMesh with_lines(int n, int lines) {  // jittered inside, but for this many vertical lines
+  const TriangleMesh straight = structured_mesh(n);
+  TriangleMesh mesh = jittered_mesh(n, 0.1);
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    for (int k = 1; k <= lines; ++k)
+      if (std::abs(straight.vertices(v, 0) - k / (lines + 1.0)) < 1e-9) mesh.vertices.row(v) = straight.vertices.row(v);
+  for (int v = 0; v < mesh.vertex_count(); ++v)  // Sigma and Gamma_C stay as they are but for their own points
+    if (straight.vertices(v, 1) == 0 || straight.vertices(v, 1) == -1) mesh.vertices.row(v) = straight.vertices.row(v);
+  return mesh;
 }
 
-// Three things to try:
-// - --cells 2, 3, 4: even the coarsest meshes of gmsh have no line across inside the layer.
-// - structured({}, Diagonal::left) in `meshes`: every number stays as it is.
-// - jitter the vertices inside the layer of the structured mesh by 1e-9: how many lines are left?
-//   (Tutorial 06: what that does to the solution.)
+const std::vector<tutorial::Exercise> exercises{
+    {"All inner vertices of a structured mesh are moved a little, but for those on 3 vertical lines. Groups? Kernel?",
+     "4 groups, one per strip between the lines; exactly 3 kernel functions, one per line",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const TriangleMesh mesh = with_lines(16, 3);
+       report.claim_within(tutorial::ties(mesh).groups, 4, 4, "groups:");
+       report.claim_within(kernel_on_layer(mesh), 3, 3, "dimension of the kernel on the layer:");
+     }},
+    {"Turn the diagonals of the structured mesh (left), or draw both (crossed). How many groups?",
+     "one per column, as before: diagonals tie within a column, vertical lines part the columns",
+     [](const tutorial::Options& options, tutorial::Report& report) {
+       for (const Diagonal diagonal : {Diagonal::left, Diagonal::crossed})
+         report.claim_within(tutorial::ties(structured_mesh(options.cells, {}, diagonal)).groups, options.cells,
+                             options.cells, "groups:");
+     }}};
+
 int main(int argc, char** argv) {
-  tutorial::Options options;
-  options.takes_epsilon = false;
-  options.cells = 16;
-  return tutorial::run(argc, argv, "02_meshes", "Figures 3 and 6: the structured and the unstructured mesh", options,
-                       meshes);
-}
-
-double smallest_angle(const TriangleMesh& mesh) {
-  double smallest = std::numbers::pi;
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const Eigen::RowVector2d at = mesh.vertices.row(mesh.triangles(t, i));
-      const Eigen::RowVector2d a = mesh.vertices.row(mesh.triangles(t, (i + 1) % 3)) - at;
-      const Eigen::RowVector2d b = mesh.vertices.row(mesh.triangles(t, (i + 2) % 3)) - at;
-      smallest = std::min(smallest, std::acos(a.dot(b) / (a.norm() * b.norm())));
-    }
-  return smallest * 180 / std::numbers::pi;
-}
-
-std::map<std::string, double> facts(const TriangleMesh& mesh) {
-  std::map<std::string, double> facts{{"triangles", mesh.triangle_count()},
-                                      {"vertices", mesh.vertex_count()},
-                                      {"longest edge h", mesh.diameter()},
-                                      {"smallest angle (degrees)", smallest_angle(mesh)},
-                                      {"lines of edges across the layer, both ends in", normal_lines(mesh)}};
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    facts[mesh.region[t] == Region::body ? "area of the body" : "area of the layer"] += mesh.area(t);
-    Eigen::Array3d y;
-    for (int i = 0; i < 3; ++i) y(i) = mesh.vertices(mesh.triangles(t, i), 1);
-    facts["triangles on both sides of Sigma"] += y.minCoeff() < 0 && y.maxCoeff() > 0;
-  }
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] == EdgeTag::sigma) facts["length of Sigma"] += mesh.edge_length(e);
-    if (mesh.edge_tag[e] == EdgeTag::clamped) facts["length of Gamma_D"] += mesh.edge_length(e);
-    if (mesh.edge_tag[e] == EdgeTag::contact) facts["length of Gamma_C"] += mesh.edge_length(e);
-  }
-  return facts;
+  return tutorial::run(argc, argv, "02_meshes", "Figures 3 and 6: the structured and the unstructured mesh",
+                       {.takes_epsilon = false, .cells = 16, .least_cells = 2, .exercises = exercises}, meshes);
 }

@@ -1,19 +1,29 @@
 // # The computation by hand
 //
 // Run: 03_by_hand                     1/h = 8, epsilon = 1e-6; a moment
-// Run: 03_by_hand --epsilon 0         the rigid limit (24): the same lines, no division by epsilon
+// Run: 03_by_hand --epsilon 0         the rigid limit: the same lines, no division by epsilon
+// Run: 03_by_hand --exercise 1
+// Run: 03_by_hand --exercise 2
 //
-// What the picture shows. Figure 5 of the paper on a coarse mesh: the displacement of body and layer, computed in this
-// file without the library's elements, forms and solvers. At the end the library is asked too: the same u to 1e-12.
+// Needs: [00](00_string_on_an_obstacle.cpp) (active set), [01](01_domain.cpp) ((23)), [02](02_meshes.cpp) (P1, kernel).
 //
-// Predict. (a) How many entries different from 0 has a row of B? (b) Does the layer stress p grow as epsilon tends to 0?
+// **The picture.** The displacement `u` of body and layer on a coarse mesh, drawn as a height. *Everything in it is
+// computed in this file, without the library's elements, forms and solvers; at the end the library finds the same `u`.*
 //
-// The problem, (23): with a1 = a+ + a_x^- and a0 = a_y^-,
+// **Predict.** (a) How many entries that are not 0 has the row of the stiff form that belongs to one triangle? (b) The
+// factor `ε⁻²` goes to infinity as `ε → 0`. Does the *layer stress* `p = ε⁻² ∂_y u` go there too?
 //
-//     u in K,   a1(u, v - u) + epsilon^-2 a0(u, v - u) >= L(v - u)   for all v in K = { v >= 0 on Gamma_C, v = 0 on Gamma_D }
+// ## From (23) to matrices
 //
-// P1 elements on Figure 3's mesh turn functions into vectors u, one number per vertex, and forms into matrices:
-// a1(u, v) = v' A1 u and a0(u, v) = v' B' M B u. A row of B is d/dy u on one triangle of the layer, M its area.
+// Let $φ_i$ be the hat function of vertex $i$ and $u = ∑ u_i φ_i$. Put P1 functions into (23): the discrete problem (26).
+// The moderate form becomes a matrix, $(A_1)_{ij} = a^+(φ_i, φ_j) + a_x^-(φ_i, φ_j)$. The stiff form keeps its factors.
+// On a triangle $T$ of the layer $∂_y u$ is a number; let row $T$ of $B$ compute it from $u$, and let $M$ be the diagonal
+// matrix of the areas. Then
+//
+// $$ a_y^-(u, v) = ∑_T |T| ∂_y u ∂_y v = v^T B^T M B u. $$
+//
+// This is the *split form*: $A_1$ and the factors $B$, $M$, never summed. $A_1 + ε^{-2} B^T M B$ would add numbers near 1 to
+// numbers near $10^{12}$, and round their digits away (chapter 16).
 
 #include <Eigen/Dense>
 
@@ -33,16 +43,15 @@ using namespace antilock;
 using Eigen::MatrixXd, Eigen::VectorXd;
 
 struct ByHand {
-  MatrixXd a1, b;         // N x N, R x N
+  MatrixXd a1, b;         // N x N for N vertices, R x N for R triangles of the layer
   VectorXd m, load;       // R, N
   std::vector<int> free;  // vertices that are not clamped
   std::vector<char> contact;
 };
-ByHand assemble_by_hand(const TriangleMesh& mesh);
 
-// ### Element matrix
-// On a triangle with corners x_0, x_1, x_2 the hat function phi_i is affine: 1 at x_i, 0 at the two others. Its gradient
-// stands on the opposite edge and has the length 1 / height: turn that edge by 90 degrees, divide by twice the area.
+// ### Forms
+// **Element matrix.** On a triangle with corners $x_0, x_1, x_2$ the function $φ_i$ is affine: 1 at $x_i$, 0 at the others.
+// Its gradient stands on the opposite edge and has the length 1/height: turn that edge by 90°, divide by twice the area.
 Eigen::Matrix<double, 3, 2> hat_gradients(const std::array<Eigen::Vector2d, 3>& x, double area) {
   Eigen::Matrix<double, 3, 2> gradient;
   for (int i = 0; i < 3; ++i) {
@@ -52,7 +61,7 @@ Eigen::Matrix<double, 3, 2> hat_gradients(const std::array<Eigen::Vector2d, 3>& 
   return gradient;
 }
 
-// ### Assembly
+// **Assembly.** One triangle after the other; what falls on the same place adds up.
 ByHand assemble_by_hand(const TriangleMesh& mesh) {
   const int n = mesh.vertex_count(), triangles = mesh.triangle_count();
   ByHand p{
@@ -91,20 +100,27 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
   return p;
 }
 
-// ### The split form
-// Summing A1 + epsilon^-2 B'MB would lose A1's digits (chapter 08). So the layer stress p = epsilon^-2 B u is kept as an
-// unknown of its own, and only K = A1 + delta^-1 B'MB with a moderate delta is factored. What is then wrong is
+// ### Solve
+// The layer stress $p = ε^{-2} B u$ is kept as an unknown of its own, beside $u$ and the contact force $λ$:
 //
-//     r1 = L - A1 u - B'M p + lambda,     r2 = epsilon^2 p - B u,
+// $$ A_1 u + B^T M p = L + λ,   B u = ε² p. $$
 //
-// and one correction solves  K du = r1 + delta^-1 B'M r2,  dp = (B du - r2) / delta.  When r1 and r2 are zero, u and p
-// solve (23), whatever delta was. This is the iterated penalty method; each correction makes the error smaller by about
-// (delta - epsilon^2) / (delta + h^2).
+// No large number is left. One matrix is factored, with a moderate number $δ$ in place of $ε²$: $K = A_1 + δ^{-1} B^T M B$.
+// Given $u$ and $p$, what is wrong with the two equations is
 //
-// ### The contact loop
-// In each correction: guess which vertices of Gamma_C touch, solve with u = 0 there, and look at the signs (chapter 00).
-VectorXd solve_by_hand(const ByHand& p, double epsilon, Table& history) {
-  const double delta = std::max(epsilon * epsilon, 1e-4);  // never below epsilon^2, which is stiff enough
+// $$ r_1 = L - A_1 u - B^T M p + λ,   r_2 = ε² p - B u. $$
+//
+// One *correction* solves $K du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$; insert both to see that with
+// $δ = ε²$ nothing would be left wrong. When $r_1 = r_2 = 0$, $u$ and $p$ solve (23), whatever $δ$ was. This is the
+// *iterated penalty* method. A part of the stress behind which there is the stiffness $σ$ shrinks per correction by
+// $(δ - ε²)/(δ + σ)$: a small $δ$ is fast, but too small a $δ$ rounds the digits of $A_1$ away again.
+//
+// **The contact loop**, in each correction: guess which vertices of $Γ_C$ touch, solve, look at the signs (chapter 00).
+struct Answer {
+  VectorXd u, stress;
+};
+Answer solve_by_hand(const ByHand& p, double epsilon, double delta, Table& history) {
+  delta = std::max(epsilon * epsilon, delta);  // never below epsilon^2, which is stiff enough
   const MatrixXd k = p.a1 + p.b.transpose() * p.m.asDiagonal() * p.b / delta;
   VectorXd u = VectorXd::Zero(p.load.size()), stress = VectorXd::Zero(p.m.size());
   std::vector<char> touches(p.load.size(), 0);
@@ -134,23 +150,24 @@ VectorXd solve_by_hand(const ByHand& p, double epsilon, Table& history) {
       history.add({correction, step, size});
       break;
     }
-    if (correction == 50) throw NotConverged("by hand: 50 corrections", size, correction);
+    if (correction == 500) throw NotConverged("by hand: 500 corrections", size, correction);
   }
-  return u;
+  return {u, stress};
 }
 
 void by_hand(const tutorial::Options& options, tutorial::Report& report) {
+  // ### Mesh
   const TriangleMesh mesh = structured_mesh(options.cells);
   const ByHand problem = assemble_by_hand(mesh);
   Table history({"correction", "contact steps", "du"});
-  const VectorXd u = solve_by_hand(problem, options.epsilon, history);
+  const VectorXd u = solve_by_hand(problem, options.epsilon, 1e-4, history).u;
+
+  // ### Output
   history.print("The corrections");
   history.write(options.out / "corrections.csv");
-
-  // The library, from the scene to the answer, in four lines.
+  // The library, from the scene to the answer.
   const Space space(mesh, p1());
-  const VariationalInequality same =
-      assemble(Scene(Body{paper_load}, StiffLayer{options.epsilon}, UnilateralContact{}), space);
+  const auto same = assemble(Scene(Body{paper_load}, StiffLayer{options.epsilon}, UnilateralContact{}), space);
   const Solution solution = active_set(same);
   tutorial::write_results(options.out, space, same, solution);
   const double matrices = (MatrixXd(same.a1) - problem.a1).cwiseAbs().maxCoeff();
@@ -160,18 +177,43 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
   report.claim(apart <= 1e-12, "u is the library's to {:.0e}, relative", apart);
 }
 
-// Answers to the predictions. (a) On Figure 3's mesh two: the triangle has one vertical edge, and d/dy u is the
-// difference along it. Vertical edges tie the layer together column by column, and nothing else does. (b) No: p tends to
-// the stress of the rigid limit; only its two factors, epsilon^-2 and B u, go to infinity and to 0.
+// ## What came out
 //
-// Three things to try:
-// - delta = 1e-2 in solve_by_hand: the same u, more corrections. delta = 1e-12: fewer digits.
-// - count the contact steps: why is there one per correction from the second correction on?
-// - move one vertex of the layer sideways: how many entries have the rows of B around it then?
+// (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference along it. These are chapter
+// 02's columns again. (b) No. $p$ tends to the stress of the rigid limit; only its factors $ε^{-2}$ and $B u$ go to
+// infinity and to 0. The `du` of the corrections fall by a constant factor, and after the first correction the contact set
+// hardly moves: one contact step is enough.
+//
+// ## Exercises
+//
+// 1. and 2.: `--exercise N`. 3. On paper: show by the two equations that $r_1$ is 0 after each correction. Which of the
+// two residuals is the one that the iteration has to bring down?
+const std::vector<tutorial::Exercise> exercises{
+    {"delta = 1e-2 in place of 1e-4. The same u? As many corrections?",
+     "the same u; more corrections, since (delta - epsilon^2) / (delta + sigma) is nearer to 1",
+     [](const tutorial::Options& options, tutorial::Report& report) {
+       const ByHand problem = assemble_by_hand(structured_mesh(options.cells));
+       Table small({"correction", "contact steps", "du"}), large = small;
+       const Answer fast = solve_by_hand(problem, options.epsilon, 1e-4, small);
+       const Answer slow = solve_by_hand(problem, options.epsilon, 1e-2, large);
+       fmt::print("  corrections: {} and {}\n", small.size(), large.size());
+       report.claim_within((fast.u - slow.u).norm() / fast.u.norm(), 0, 1e-11, "difference of u, relative:");
+       report.claim(large.size() >= 2 * small.size(), "at least twice as many corrections");
+     }},
+    {"Move one inner vertex of the layer sideways by h/10. Six triangles meet there. How many entries have their rows of B?",
+     "four rows have three entries; the two whose opposite edge is still vertical keep two",
+     [](const tutorial::Options& options, tutorial::Report& report) {
+       TriangleMesh mesh = structured_mesh(options.cells);
+       const int vertex = (options.cells + 1) + options.cells / 2;  // in the first row above Gamma_C
+       mesh.vertices(vertex, 0) += 0.1 / options.cells;
+       const ByHand problem = assemble_by_hand(mesh);
+       int three = 0;
+       for (Eigen::Index row = 0; row < problem.b.rows(); ++row)
+         three += (problem.b.row(row).array().abs() > 1e-9).count() == 3;
+       report.claim_within(three, 4, 4, "rows of three entries:");
+     }}};
+
 int main(int argc, char** argv) {
-  tutorial::Options options;
-  options.cells = 8;
-  options.least_cells = 2;
-  options.most_cells = 16;  // dense matrices
-  return tutorial::run(argc, argv, "03_by_hand", "Figure 5 on a coarse mesh, every step written out", options, by_hand);
+  return tutorial::run(argc, argv, "03_by_hand", "Figure 5 on a coarse mesh, every step written out",
+                       {.cells = 8, .least_cells = 2, .most_cells = 16, .exercises = exercises}, by_hand);  // dense matrices
 }

@@ -1,7 +1,7 @@
 // The labelled domains of Figures 1 and 2, from a table `kind,name,label,x,y`: one row per corner,
 // in the order of painting. Kinds: page (the two corners of the window), fill, line, arrow,
 // dimension (an arrow both ways), obstacle (a hatched edge), label (markup of typesetter.hpp at its
-// place). The first word of the name chooses the colour.
+// place). The first word of the name chooses the colour; tied0 to tied5 are six pale ones.
 #include <fmt/format.h>
 
 #include <map>
@@ -18,11 +18,20 @@ struct Part {
   std::vector<Point> corners;  // pixels
 };
 
+/// Half way to white: a fill on which lines show.
+Colour tint(const Colour& colour) {
+  Colour lighter;
+  for (int i = 0; i < 3; ++i) lighter[i] = 0.45 * colour[i] + 0.55;
+  return lighter;
+}
+
 Colour colour_of(const std::string& name) {
   static const std::map<std::string, Colour> colours{
       {"body", palette::body},     {"layer", palette::layer},        {"sigma", palette::green},
       {"clamped", palette::ink},   {"layer_clamped", palette::blue}, {"contact", palette::vermillion},
       {"obstacle", palette::grey}, {"axis", palette::grey},
+      {"tied0", tint(palette::blue)},   {"tied1", tint(palette::vermillion)}, {"tied2", tint(palette::green)},
+      {"tied3", tint(palette::purple)}, {"tied4", tint(palette::olive)},      {"tied5", tint(palette::indigo)},
   };
   const auto found = colours.find(name.substr(0, name.find(' ')));
   return found == colours.end() ? palette::ink : found->second;
