@@ -5,6 +5,7 @@
 
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
+#include "antilock/analysis/locking.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
@@ -91,6 +92,48 @@ TEST(Locking, IsTheDimensionOfTheKernelOfA0) {
     EXPECT_EQ(kernel_dimension(Space(mesh, crouzeix_raviart())), layer / 2);
     EXPECT_EQ(layer % 2, 0);
   }
+}
+
+LockingDiagnosis diagnosis_of(const Element& element, bool in_columns) {
+  const auto mesh = [&](int cells) { return in_columns ? structured_mesh(cells) : unstructured_mesh(cells); };
+  const TriangleMesh coarse = mesh(4), fine = mesh(8);
+  return diagnose_locking(stiff_problem(Space(coarse, element), 0), stiff_problem(Space(fine, element), 0));
+}
+
+TEST(LockingDiagnosis, TellsThePapersOwnProblemRight) {
+  // the kernel of a0 on all unknowns, the body's included, is large in every case and tells nothing
+  const TriangleMesh mesh = unstructured_mesh(8);
+  EXPECT_GT(antilock::kernel_dimension(stiff_problem(Space(mesh, p1()), 0)), 50);
+  EXPECT_FALSE(diagnosis_of(p1(), true).locks());
+  EXPECT_TRUE(diagnosis_of(p1(), false).locks());
+  EXPECT_FALSE(diagnosis_of(p2(), true).locks());
+  EXPECT_TRUE(diagnosis_of(p2(), false).locks());  // one parabola is left on every mesh: not 0, but no more with h
+  EXPECT_FALSE(diagnosis_of(crouzeix_raviart(), true).locks());
+  EXPECT_FALSE(diagnosis_of(crouzeix_raviart(), false).locks());
+}
+
+TEST(LockingDiagnosis, CountsAndOrders) {
+  const LockingDiagnosis p1_columns = diagnosis_of(p1(), true), p2_anywhere = diagnosis_of(p2(), false);
+  EXPECT_EQ(p1_columns.coarse, 3);
+  EXPECT_EQ(p1_columns.fine, 7);
+  EXPECT_EQ(p1_columns.coarse_unknowns, 15);  // 3 inner columns of 5 vertices
+  EXPECT_EQ(p2_anywhere.coarse, 1);
+  EXPECT_EQ(p2_anywhere.fine, 1);
+  EXPECT_EQ(p2_anywhere.order(), 0);
+  EXPECT_NEAR(p1_columns.order(), 0.5, 0.1);                           // one function per column
+  EXPECT_NEAR(diagnosis_of(crouzeix_raviart(), false).order(), 1, 0.1);  // half a function per triangle
+  EXPECT_NE(diagnosis_of(p1(), false).text().find("locks completely"), std::string::npos);
+}
+
+TEST(LockingDiagnosis, RefusesWhatItCannotTell) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  const VariationalInequality problem = stiff_problem(space, 0);
+  test::expect_refused([&] { diagnose_locking(problem, problem); }, "accepted: more on the second mesh");
+  VariationalInequality soft = problem;
+  soft.b.resize(0, soft.size());
+  soft.m.resize(0);
+  test::expect_refused([&] { diagnose_locking(problem, soft); }, "B has no rows");
 }
 
 TEST(Locking, OfDegreePLeavesOnePolynomialMoreADegreeOnAnUnstructuredMesh) {

@@ -9,8 +9,8 @@ namespace antilock {
 /// in h is seen by asking on two meshes.
 struct Hypotheses {
   double coercivity = 0;  ///< (H1), (H1nc): smallest (a1 + a0)(v, v) / norm(v, v); the theory wants it >= beta > 0
-  int kernel = 0;         ///< (H2): dim G_h, G_h the kernel of a0 on the free unknowns (all that a0 does not see is in
-                          ///< it); 0: complete locking
+  int kernel = 0;         ///< (H2): dim G_h, G_h the kernel of a0 on the free unknowns. All that a0 does not see is in it
+                          ///< (in (23) the whole body), so that its size does not tell locking: locking.hpp does
   int free = 0;           ///< free unknowns: free - kernel conditions are asked
   double distance = 0;    ///< of K_h from G_h (distance_to_kernel); the theory wants K_h and G_h to meet
 
