@@ -1,96 +1,99 @@
-// Why P1 locks: the kernel of a0 on V_h, counted, drawn, and emptied by moving vertices.
+// # Why P1 locks: the kernel
 //
-// Run: 07_kernel   counts to 1/h = 32; a few seconds
+// Run: 07_kernel                counts to 1/h = 32; some seconds
 // Run: 07_kernel --cells 16
+// Run: 07_kernel --exercise 1
+// Run: 07_kernel --exercise 2
 //
-// --epsilon is not asked for here: the kernel does not depend on it.
+// Needs: [02](02_meshes.cpp) (kernel, ties), [03](03_by_hand.cpp) (B), [05](05_p1_structured.cpp) (Theorem 4),
+// [06](06_p1_unstructured.cpp) (locking).
 //
-// The idea. As epsilon -> 0 the answer must lie in G_h = { v in V_h : d/dy v = 0 in the layer },
-// (2) and (7). Uniform convergence asks, besides K_h approaching K, that K_0h = K_h n G_h approach
-// K_0 (Theorem 4). So count G_h first, before anything is solved. In the body G_h asks nothing, so
-// every unknown of the body is in it: what decides is how many functions of the kernel live on the
-// layer, and whether their number grows under refinement. There are
+// **The pictures.** One function of the kernel, and what is left of `sin πx` in it, for three methods. *The kernel of P1 on
+// the unstructured mesh is 0 on the layer: the picture is empty.* The last picture leads from one mesh to the other: the
+// vertices of the structured mesh are moved by `t h`, and the displacement is lost little by little.
 //
-//   P1, structured     n - 1    one hat per column of vertices: functions of x, affine in between
-//   P1, unstructured   0        v = a + b x on one triangle, the same a, b on all, 0 at the sides
-//   CR, any mesh       N_T / 2  3/2 edges per layer triangle, one condition d/dy v = 0 each
+// **Predict.** (a) P2, quadratic functions, on the unstructured mesh: is its kernel 0 on the layer, too? (b) Move every
+// vertex of the structured mesh by a millionth of `h`: does P1 lock?
 //
-// A large kernel is not yet a good one. Lemma 2 needs more: the interpolation I_h that keeps the
-// mean over each edge satisfies, by Green's formula, grad I_h v = mean of grad v on each triangle,
-// so it maps K_0 into K_0h. The same formula gives Fortin's property of I_h, which the paper does
-// not use: for every multiplier q, constant on triangles,
+// ## What decides
 //
-//   sup_{v in V_h} (q, d/dy v) / |v|_{1,h}  >=  sup_{v in V} (q, d/dy v) / |v|_1 ,
+// In the limit the answer lies in $G_h = \{ v ∈ V_h : ∂_y v = 0 \text{ in the layer} \}$. It holds all functions of the body
+// that are 0 on $Σ$, on every mesh: its full dimension tells nothing. What decides is **the kernel on the layer**, and
+// **whether it grows under refinement**: $K_{0h}$ must approach $K_0$ (Theorem 4), and $K_0$ holds infinitely many functions
+// of $x$. Count it by linear algebra: the columns of $B$ that belong to free unknowns of the layer, less their rank.
 //
-// that is, the discrete inf-sup constant of B is at least 1 in the dual norm of V, on every mesh (V
-// here: P1 on a mesh refined twice). In L2 there is no such bound: d/dy from H1 to L2 has no closed
-// range, and the constant falls like h. For P1 the rows of B depend on each other and the constant
-// is 0, on the structured mesh too, where nothing locks: the condition is sufficient, not
-// necessary.
+// | method | dimension on the layer | why |
+// |---|---|---|
+// | P1, structured, $1/h = n$ | $n - 1$ | one hat per inner vertical line |
+// | P1, unstructured | 0 | one group of tied triangles, 0 at both ends |
+// | P2, unstructured | 1 | $∂_y v = 0$ leaves $v = a + b x + c x^2$: $x(1 - x)$, on every mesh |
+// | CR, any mesh | $N_T/2$ | 3/2 edges per layer triangle, one condition $∂_y v = 0$ each |
 //
-// At last, from Figure 3 to Figure 6: every vertex is moved by t h at random. The kernel on the
-// layer is empty at the first t > 0. But a function of x is only missed by t h, at the price
-// epsilon^-2 (t h)^2: at fixed h the error rises like (t h / epsilon)^2, until all is lost. Locking
-// is a matter of degree, its cause is not.
+// CR, the element of Crouzeix and Raviart, is affine on each triangle and continuous at the midpoints of the edges only:
+// one unknown per edge ([08](08_crouzeix_raviart.cpp) draws it). $N_T$ is the number of triangles of the layer.
 //
-// Load chosen here, f = 10 sin(2 pi x); the paper gives none.
-
-#include <numbers>
+// **A second question: which stresses are seen?** The *inf-sup constant* of $B$ is the largest $β$ with
+// $\max_v (q, ∂_y v)/|v|_{1,h} ≥ β ‖q‖$ for every stress $q$, constant on triangles; $|v|_{1,h}$ is the norm of $∇v$, taken
+// triangle by triangle. With $‖q‖$ the same maximum over *all* displacements (the *dual norm*), $β = 1$ says: whatever stress
+// some displacement sees, a discrete one sees as well. For CR $β ≥ 1$ on every mesh: the interpolation of chapter 08 keeps
+// $(q, ∂_y v)$ and does not enlarge $|v|_1$ (a property that carries Fortin's name). For P1 the rows of $B$ depend on each
+// other (chapter 03: two triangles share each vertical edge), some stress is not seen at all, and $β = 0$: on the
+// structured mesh too, where nothing locks. So $β > 0$ is sufficient, not necessary.
 
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
+#include "antilock/analysis/locking.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/io/writers.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "antilock/study/table.hpp"
+#include "common/kernel_pictures.hpp"
 #include "common/paper_problem.hpp"
+#include "common/ties.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;
 
 const Scene scene = tutorial::paper_scene(0);
+const Method p1_columns{&p1(), structured()}, p1_any{&p1(), unstructured()}, p2_any{&p2(), unstructured()},
+    cr_columns{&crouzeix_raviart(), structured()}, cr_any{&crouzeix_raviart(), unstructured()};
+const std::vector<Method> all{p1_columns, p1_any, p2_any, cr_columns, cr_any};
 
-// 1. Count: dim G_h on the layer alone, beside N_T, the layer's triangles.
+// ### Solve
+// What the table above predicts, and what the rank says.
 Table count_kernels(int finest) {
-  Table counts({"cells", "method", "triangles", "kernel", "predicted"});
+  Table counts({"cells", "method", "kernel", "predicted"});
   for (int n = 4; n <= finest; n *= 2)
-    for (const Method& method : methods()) {
+    for (const Method& method : all) {
       const Discretisation on = method.on(n);
       const auto triangles = std::count(on.mesh().region.begin(), on.mesh().region.end(), Region::layer);
-      const bool is_p1 = method.element->conforming();
-      const double predicted = !is_p1                               ? 0.5 * static_cast<double>(triangles)
-                               : method.family.name == "structured" ? n - 1
-                                                                    : 0;
-      counts.add({n, method.name(), triangles, layer_kernel_dimension(assemble(scene, on.space())), predicted});
+      const int p = method.element->degree();
+      const double predicted = !method.element->conforming()         ? 0.5 * static_cast<double>(triangles)
+                               : method.family.name == "structured" ? n * p - 1
+                                                                    : p - 1;
+      counts.add({n, method.name(), layer_kernel_dimension(assemble(scene, on.space())), predicted});
     }
   return counts;
 }
 
-// 2. Draw: the orthogonal projection onto G_h of one unknown in the middle of the layer, and of
-// sin(pi x). What is not in the kernel cannot survive epsilon -> 0.
-void draw_kernel(const std::filesystem::path& out, const std::string& name, const Space& space);
-
-// 3. The inf-sup constant of B, |v|_{1,h} the broken H1 seminorm: in the dual norm of V, and in L2.
-Table inf_sup_constants() {
-  const auto seminorm = [](const Space& space) { return gradient_form(space, {1, 1}, {1, 1}); };
-  Table constants({"cells", "method", "dual", "l2"});
-  for (const int n : {4, 8, 16})
-    for (const Method& method : methods()) {
-      if (method.name() == "P1 unstructured") continue;
-      const Discretisation on = method.on(n), almost_all(refined(refined(on.mesh())), p1());
-      const VariationalInequality problem = assemble(scene, on.space());
-      const Eigen::MatrixXd seen = multiplier_gram(problem, seminorm(on.space()));
-      const Eigen::MatrixXd dual =
-          multiplier_gram(assemble(scene, almost_all.space()), seminorm(almost_all.space()), 16);
-      constants.add({n, method.name(), inf_sup(seen, dual), inf_sup(seen, problem.m.asDiagonal())});
-    }
-  return constants;
+// The library's diagnosis: the kernel on the stiff part of two meshes.
+LockingDiagnosis diagnose(const Method& method) {
+  return diagnose_locking(assemble(scene, method.on(4).space()), assemble(scene, method.on(8).space()));
 }
 
-// 4. Jitter: the largest error at the unknowns, as a share of the displacement of the layer.
+// The inf-sup constant; "all displacements" are P1 on a mesh refined twice.
+double inf_sup_constant(const Method& method, int n) {
+  const auto seminorm = [](const Space& space) { return gradient_form(space, {1, 1}, {1, 1}); };
+  const Discretisation on = method.on(n), almost_all(refined(refined(on.mesh())), p1());
+  const Eigen::MatrixXd dual = multiplier_gram(assemble(scene, almost_all.space()), seminorm(almost_all.space()), 16);
+  return inf_sup(multiplier_gram(assemble(scene, on.space()), seminorm(on.space())), dual);
+}
+
+// From Figure 3 to Figure 6: every inner vertex is moved by up to $t h$, at random. The kernel on the layer is 0 at the first
+// $t > 0$. But a function of $x$ is only missed by a slope of order $t h$, at the price $ε^{-2} (t h)^2$: the error rises
+// like $(t h/ε)^2$, until all is lost. Locking is a matter of degree; its cause is not.
 Table jitter_study(int n) {
   Table table({"t", "epsilon", "kernel", "lost", "lost_to_kept"});
   ActiveSetOptions patient;  // functions that are almost in the kernel are corrected slowly
@@ -101,97 +104,70 @@ Table jitter_study(int n) {
       const Discretisation on(jittered_mesh(n, t), p1());
       SceneSweep sweep(scene, on.space());
       sweep.set_epsilon(epsilon);
-      const Errors errors = exact.errors(on.space(), sweep.solve(patient));
-      const double lost = errors.max_at_unknowns / exact.truth.max_on_contact();
+      const double lost = exact.errors(on.space(), sweep.solve(patient)).max_at_unknowns / exact.truth.max_on_contact();
       table.add({t, epsilon, layer_kernel_dimension(sweep.problem()), lost, lost / (1 - lost)});
     }
   }
   return table;
 }
 
-// Where half of the layer's displacement is lost: the amount t, and the slope of log(lost / kept)
-// there, both between the two nearest.
-struct Half {
-  double t, slope;
-};
-Half half_lost(const Table& jitter, double epsilon) {
-  const Table own = jitter.where("epsilon", epsilon);
-  const Table before = own.where_number("lost_to_kept", [](double x) { return x < 1; });
-  const Table after = own.where_number("lost_to_kept", [](double x) { return x >= 1; });
-  const double x = after.first("lost_to_kept");
-  const double slope = std::log(x / before.last("lost_to_kept")) / std::log(after.first("t") / before.last("t"));
-  return {after.first("t") * std::pow(x, -1 / slope), slope};
-}
-
 void explain(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("count the kernels (sparse QR)");
   const Table counts = count_kernels(options.cells);
-  report.stage("draw their functions");
-  draw_kernel(options.out, "p1_structured", Method{&p1(), structured()}.on(8).space());
-  draw_kernel(options.out, "p1_unstructured", Method{&p1(), unstructured()}.on(8).space());
-  draw_kernel(options.out, "cr_unstructured", Method{&crouzeix_raviart(), unstructured()}.on(8).space());
-  report.stage("inf-sup constants (dense eigenvalues)");
-  const Table constants = inf_sup_constants();
+  report.stage("draw, and find the inf-sup constants");
+  for (const Method& method : {p1_columns, p1_any, cr_any}) tutorial::draw_kernel(options.out, method.on(8).space(), method.name());
+  const double p1_seen = inf_sup_constant(p1_columns, 8), cr_seen = inf_sup_constant(cr_any, 8);
+  report.stage("move the vertices of P1's structured mesh");
   constexpr int n = 16;
-  report.stage(fmt::format("move the vertices of P1's structured mesh, 1/h = {}", n));
   const Table jitter = jitter_study(n);
+  // ### Output
   report.finish();
-  counts.pivot("cells", "method", "kernel").print("dim G_h on the layer");
-  counts.pivot("cells", "method", "triangles").print("N_T, the layer's triangles");
-  constants.pivot("cells", "method", "dual").print("inf-sup constant of B, dual norm of V");
-  constants.pivot("cells", "method", "l2").print("the same in L2");
-  jitter.pivot("t", "epsilon", "lost")
-      .print("moved by t h: share of the layer's displacement that is lost, by epsilon");
+  counts.pivot("cells", "method", "kernel").print("dimension of the kernel on the layer");
+  jitter.pivot("t", "epsilon", "lost").print("moved by t h: share of the layer's displacement that is lost, by epsilon");
   jitter.write(options.out / "jitter.csv");
+  for (const Method& method : all) fmt::print("  {:<16} {}\n", method.name(), diagnose(method).text());
 
-  report.claim(counts.numbers("kernel") == counts.numbers("predicted"),
-               "dim G_h on {} meshes: n - 1 for P1 structured, 0 for P1 unstructured, N_T / 2 for CR on both",
-               counts.different("cells").size());
-  const Table cr_s = constants.where("method", "CR structured"), cr_u = constants.where("method", "CR unstructured");
-  report.claim(
-      std::min(cr_s.least("dual"), cr_u.least("dual")) > 1 - 1e-9,
-      "by Fortin's property of the interpolation of Lemma 2, the inf-sup constant of CR is at least 1: {:.3f} and "
-      "{:.3f} at 1/h = {}",
-      cr_s.last("dual"), cr_u.last("dual"), cr_s.last("cells"));
-  report.claim(constants.where("method", "P1 structured").most("dual") == 0,
-               "P1 has dependent rows of B: its constant is 0 even where it does not lock");
-  report.claim(jitter.most("kernel") == 0, "the kernel on the layer is empty at the first t = 1e-6");
-  const Half at_3 = half_lost(jitter, 1e-3), at_4 = half_lost(jitter, 1e-4), at_5 = half_lost(jitter, 1e-5);
-  report.claim(std::abs(at_3.t / at_4.t - 10) < 2 && std::abs(at_4.t / at_5.t - 10) < 2,
-               "the error grows only gradually: half is lost at t = {:.1e}, {:.1e}, {:.1e} for epsilon = 1e-3, 1e-4, "
-               "1e-5: t h = {:.1f} epsilon",
-               at_3.t, at_4.t, at_5.t, at_4.t / n / 1e-4);
-  report.claim(std::abs(at_3.slope - 2) < 0.2 && std::abs(at_4.slope - 2) < 0.2 && std::abs(at_5.slope - 2) < 0.2,
-               "lost / kept rises like (t h / epsilon)^2: slopes {:.2f}, {:.2f}, {:.2f}", at_3.slope, at_4.slope,
-               at_5.slope);
+  report.claim(counts.numbers("kernel") == counts.numbers("predicted"), "every count is the predicted one");
+  report.claim(diagnose(p1_any).locks() && diagnose(p2_any).locks() && !diagnose(p1_columns).locks() &&
+                   !diagnose(cr_columns).locks() && !diagnose(cr_any).locks(),
+               "the kernel on the layer does not grow for P1 and P2 unstructured, and grows for the others");
+  report.claim(cr_seen > 1 - 1e-9 && p1_seen == 0, "inf-sup constants: {:.4f} for CR (at least 1), {} for P1", cr_seen, p1_seen);
+  report.claim(jitter.most("kernel") == 0, "the kernel on the layer is 0 at the first t = 1e-6");
+  for (const double epsilon : {1e-3, 1e-4, 1e-5}) {  // the order in t where more than round-off and less than all is lost
+    const Table some = jitter.where("epsilon", epsilon).where_number("lost_to_kept", [](double x) { return x > 0.1 && x < 10; });
+    report.claim_within(some.order("lost_to_kept", "t"), 1.8, 2.05, fmt::format("epsilon = {}: lost / kept grows like t to the", epsilon));
+  }
 }
 
-// Three things to try:
-// - epsilon = 0 in `jitter_study`: all is lost at the first t; a limit has no degrees.
-// - draw the other functions of a kernel: the columns of kernel_basis, write_vtu.
-// - methods({&p2()}) in `count_kernels`: on an unstructured mesh one function is left, a parabola
-//   in x.
+// ## What came out
+//
+// (a) No, one parabola is left; but it is one on every mesh, and P2 locks too, unless $u^0$ happens to be that parabola.
+// (b) The kernel is gone, at every $ε$ all is lost in the limit; but at $ε = 10^{-3}$ a millionth of $h$ costs nothing yet.
+//
+// ## Exercises
+//
+// 1. and 2.: `--exercise N`. 3. On paper: P3 on one group of tied triangles: which functions of $x$ are left?
+const std::vector<tutorial::Exercise> exercises{
+    {"The staggered mesh of chapter 02 is as regular as a mesh can be. The kernel on its layer, for P1 and for CR?",
+     "P1: 0. CR: N_T / 2, on this mesh as on any",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const TriangleMesh mesh = tutorial::staggered_mesh(8);
+       const auto triangles = static_cast<double>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
+       report.claim_within(layer_kernel_dimension(assemble(scene, Space(mesh, p1()))), 0, 0, "P1:");
+       report.claim_within(layer_kernel_dimension(assemble(scene, Space(mesh, crouzeix_raviart()))) / triangles, 0.5, 0.5,
+                           "CR, per triangle:");
+     }},
+    {"epsilon = 0 and vertices moved by a millionth of h. How much of the displacement is lost?",
+     "all: a limit knows no degrees",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const Discretisation on(jittered_mesh(8, 1e-6), p1());
+       ActiveSetOptions patient;
+       patient.corrections.max_corrections = 100000;
+       const Solution solution = active_set(assemble(scene, on.space()), patient);
+       report.claim_within(solution.u(on.space().contact()).maxCoeff() / 0.0457160, 0, 1e-3, "share that is kept:");
+     }}};
+
 int main(int argc, char** argv) {
-  tutorial::Options options;
-  options.takes_epsilon = false;
-  options.least_cells = 4;
-  options.most_cells = 64;  // sparse QR on the layer
-  return tutorial::run(argc, argv, "07_kernel", "Why P1 locks: the kernel of a0, counted, drawn and emptied", options,
-                       explain);
-}
-
-void draw_kernel(const std::filesystem::path& out, const std::string& name, const Space& space) {
-  const Eigen::MatrixXd basis = kernel_basis(assemble(scene, space));
-  const auto projection = [&](const Eigen::VectorXd& v) { return Eigen::VectorXd(basis * (basis.transpose() * v)); };
-  Eigen::Index middle = 0;
-  (space.points().rowwise() - Eigen::RowVector2d(0.5, -0.5)).rowwise().squaredNorm().minCoeff(&middle);
-  Eigen::VectorXd local = projection(Eigen::VectorXd::Unit(space.size(), middle));
-  double highest = 1e-8;  // over the corners of the triangles, where CR jumps
-  for (int t = 0; t < space.mesh().triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i)
-      highest = std::max(highest, space.element().basis(Eigen::Vector3d::Unit(i)).dot(local(space.unknowns().row(t))));
-  local /= highest;
-  const auto x = space.points().col(0).array(), y = space.points().col(1).array();
-  write_vtu(out / (name + "_local.vtu"), space, local);
-  write_vtu(out / (name + "_sine.vtu"), space, projection((std::numbers::pi * x).sin() * (1 - y.max(0.0))));
+  return tutorial::run(argc, argv, "07_kernel", "Why P1 locks: the kernel of a0, counted, drawn and emptied",
+                       {.takes_epsilon = false, .least_cells = 4, .most_cells = 64, .exercises = exercises}, explain);
 }
