@@ -64,7 +64,7 @@ const Row rows[] = {
     {"third term", "$‖u_h^0 − u_h^ε‖_h$", "", {green, diamond, 5}},
     // the interval from epsilon_0 to 1 over which the worst error is taken
     {"from 1", "$ε_0 = 1$", "", {grey, circle, 5}},
-    {"from 0.1", "$ε_0 = 10^{−1}$", "", {sky, square, 6}},
+    {"from 0.1", "$ε_0 = 10^{−1}$", "", {sky, square, 13}},
     {"from 0.01", "$ε_0 = 10^{−2}$", "", {green, diamond, 7}},
     {"from 0.001", "$ε_0 = 10^{−3}$", "", {olive, down_triangle, 7.5}},
     {"from 0", "all $ε$", "", {vermillion, square, 10}},
