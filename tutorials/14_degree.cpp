@@ -1,152 +1,160 @@
-// What else cures locking: the degree. P1, P2, P3, P4 at a small epsilon, on a mesh made for the
-// layer and on one that is not.
+// # The degree as a cure
 //
-// Run: 14_degree               epsilon = 1e-4, h from 1/4 to 1/32; a few seconds
+// Run: 14_degree               ε = 1e-4, h from 1/4 to 1/32, P1 to P4; a few seconds
 // Run: 14_degree --epsilon 1e-2
 // Run: 14_degree --epsilon 1   nothing is stiff: neither mesh is better than the other
+// Run: 14_degree --exercise 1
 //
-// The introduction names "p and hp methods [2]" among the cures (Babuska and Suri). Two numbers say
-// what a degree does.
+// Needs: [07](07_kernel.cpp) for $G_h$ and its dimension, [11](11_contact_sets.cpp) for $K_h ⊄ K$,
+// [13](13_estimates.cpp) for the wall.
 //
-// How many functions cost nothing: dim G_h on the layer. Those with d/dy v = 0 in the layer are
-// functions of x, and polynomials of degree p on a triangle. On an unstructured mesh neighbours
-// share values of x, so all triangles carry the same polynomial, x (1 - x) times one of degree p -
-// 2: **p - 1 functions**, however fine the mesh (P1: none, P2: one). A number that does not grow
-// under refinement does not approach K_0: every degree locks in the limit epsilon =
-// 0. On the structured mesh of n columns there are n p - 1.
+// **The picture.** Error against unknowns for the degrees 1 to 4 at ε = 1e-4. *On the structured mesh every degree
+// converges at once. On the unstructured mesh the error of degree $p$ stays until $h^p$ is below ε: a higher degree
+// locks less, and every degree locks.*
 //
-// What the others cost. A smooth ridge w(x), interpolated on an unstructured mesh, gets a slope
-// d/dy of size h^p at most. In (26) it is charged epsilon^-2 times its square, which is small once
-// **h^p << epsilon**. On the meshes of gmsh, nearly all triangles nearly equilateral, leading
-// errors cancel and about h^(p + 1/2) is measured. So at epsilon = 1e-4 P1 keeps half of the ridge
-// near h = epsilon^(2/3) = 1/460, P2 near h = epsilon^(2/5) = 1/40. Less locking with every degree,
-// and none where the mesh holds w in its kernel.
+// **Predict.** On an unstructured mesh, how many functions $v$ on the layer of degree $p$ per triangle have
+// $∂_y v = 0$ everywhere and are 0 at both ends: (a) for $p = 1$? (b) for $p = 3$, and how many more on a mesh of
+// half the width?
 //
-// Contact. K_h = { v in V_h : v >= 0 at the unknowns on Gamma_C }: vertices and the p - 1 points
-// between two of them. For p = 1 it is a part of K. For p >= 2 a polynomial that is nonnegative at
-// p + 1 points may dip below 0 in between: V_h is part of V but K_h is not part of K, and
-// Definition 1 is needed in full, as for Crouzeix-Raviart. Where contact ends u has a jump in its
-// second derivative as epsilon -> 0 (worse before): in the H1 norm no degree beats h^(3/2) for
-// good.
+// ## Which functions cost nothing
 //
-// Load chosen here, f = 10 sin(2 pi x); the paper gives none. The elements: space/p1.cpp, p2.cpp,
-// lagrange.cpp.
-
-#include <cmath>
-#include <numbers>
+// The introduction of the paper names "p and hp methods [2]" among the cures. Take continuous functions that are
+// polynomials of degree $p$ on each triangle, with unknowns at the points that cut each edge into $p$ equal parts
+// (and inside): the element $P_p$. If $∂_y v = 0$ then $v$ is a polynomial of degree $p$ in $x$ on each triangle. Two
+// neighbours that share an interval of $x$ share the polynomial, unless the edge between them is vertical. On an
+// unstructured mesh no edge is, so all triangles have the same one, and it is 0 at $x = 0$ and $x = 1$: $x (1 - x)$
+// times a polynomial of degree $p - 2$. So
+//
+// $$ \dim G_h = p - 1 \text{ on the layer, however fine the mesh;} $$
+//
+// P1 has none, P2 has one. A number that does not grow under refinement does not approach $K_0$: every degree locks
+// in the limit ε = 0. On the structured mesh of $n$ columns $v$ is any continuous function of $x$ of degree $p$ per
+// column: $n p - 1$.
+//
+// ## What the others cost
+//
+// Interpolate a smooth ridge $w(x)$, constant across the layer, on an unstructured mesh. Its slope is wrong by $h^p$,
+// so $∂_y I_h w$ is of size $h^p$ where it should be 0. (26) charges $ε^{-2}$ times the square: it is nothing once
+// $h^p ≪ ε$. On the meshes of gmsh nearly all triangles are nearly equilateral, leading errors of neighbours cancel,
+// and about $h^{p + 1/2}$ is measured. Half of the ridge is lost where that equals ε: at ε = 1e-4 near
+// $h = ε^{2/3} = 1/460$ for P1 and near $h = ε^{2/5} = 1/40$ for P2.
+//
+// Contact is asked at the unknowns on $Γ_C$. For $p ≥ 2$ a polynomial may dip below 0 between them: $V_h ⊂ V$, but
+// $K_h ⊄ K$. And where contact ends the second derivative of $u$ jumps, so that no degree beats $h^{3/2}$ in $H^1$
+// for good.
 
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/study/method.hpp"
-#include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
-#include "common/tutorial.hpp"
+#include "common/study.hpp"
 
 using namespace antilock;
-using tutorial::Exact;
+using std::numbers::pi, tutorial::Exact;
 
-// cost: |d/dy I_h w| in L2 of the layer, w = sin(2 pi x); ridge: largest u_h on Gamma_C, at the
-// unknowns; kernel: dim G_h on the layer, without a word where it is not counted.
-const std::vector<std::string> columns{"element", "mesh", "cells",  "h",     "unknowns", "cost",
-                                       "max",     "h1",   "energy", "ridge", "degree",   "kernel"};
+// `cost`: $|∂_y I_h w|$ in $L^2$ of the layer, $w = \sin 2πx$. `ridge`: the largest $u_h$ on $Γ_C$. `kernel`:
+// $\dim G_h$ on the layer, counted on the coarsest mesh (a rank has no meaning where $B$ nearly misses many
+// functions).
+const std::vector<std::string> columns{"element",  "degree", "mesh", "cells", "h",
+                                       "unknowns", "kernel", "cost", "h1",    "ridge"};
 
-// 1. What the stiff form charges for a ridge that is constant across the layer: a0(I_h w, I_h
-// w)^(1/2).
-double ridge_cost(const Space& space, const VariationalInequality& problem) {
-  const Eigen::VectorXd w = (2 * std::numbers::pi * space.points().col(0).array()).sin();
-  const Eigen::VectorXd slope = problem.b * w;
-  return std::sqrt(slope.dot(problem.m.cwiseProduct(slope)));
-}
-
-// 2. One element on one mesh: the same lines for every degree.
-Table solve(const Method& method, const TriangleMesh& mesh, int cells, const Exact& exact) {
-  const Space space = method.space(mesh);
-  const VariationalInequality problem = assemble(tutorial::paper_scene(exact.epsilon), space);
-  // Factor at the true epsilon: of the functions that B nearly misses (a0 falls like h^(2p)) a
-  // larger delta would need hundreds of corrections. Below epsilon = 1e-4 that costs too many
-  // digits; the solver says so, and refuses.
+Table solve(const Method& method, int cells, double epsilon, const Field& load, const Exact& exact) {
+  // ### Mesh
+  const Discretisation on = method.on(cells);
+  // ### Forms
+  // The same lines for every degree. $B$ has one row per point of a quadrature that is exact for $(∂_y v)^2$.
+  const Scene scene(Body{load}, StiffLayer{epsilon}, UnilateralContact{});
+  const VariationalInequality problem = assemble(scene, on.space());
+  const Eigen::VectorXd slope = problem.b * (2 * pi * on.space().points().col(0).array()).sin().matrix();
+  // ### Solve
+  // Factored at the true ε: functions that $B$ nearly misses would need hundreds of corrections with a larger penalty ([chapter 16](16_roundoff.cpp)). Below ε = 1e-4 that costs too many digits; the solver says so, and refuses.
   PenaltyFactor factor(problem, problem.compliance);
   const Solution solution = active_set(problem, factor);
-  const Errors errors = exact.errors(space, solution);
-  // on fine meshes B nearly misses so many functions that a rank has no meaning in double precision
-  const Entry kernel = cells <= 4 ? Entry(layer_kernel_dimension(problem)) : Entry("");
   Table row(columns);
-  row.add({method.element->name(), method.family.name, cells, 1.0 / cells, solution.counters.unknowns,
-           ridge_cost(space, problem), errors.max, errors.h1, errors.energy, solution.u(space.contact()).maxCoeff(),
-           method.element->degree(), kernel});
+  row.add({method.element->name(), method.element->degree(), method.family.name, cells, 1.0 / cells,
+           on.space().free_count(), cells <= 4 ? Entry(layer_kernel_dimension(problem)) : Entry(""),
+           std::sqrt(slope.dot(problem.m.cwiseProduct(slope))), exact.errors(on.space(), solution).h1,
+           solution.u(on.space().contact()).maxCoeff()});
   return row;
 }
 
 void verdicts(const Table& results, const Exact& exact, tutorial::Report& report);
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
-  report.stage("truth");
   const Exact exact(options.epsilon);
   Table results(columns);
-  for (const MeshFamily& family : {structured(), unstructured()})
-    for (int n = 4; n <= options.cells; n *= 2) {
-      report.stage(fmt::format("{} mesh, 1/h = {}: P1 to P4", family.name, n));
-      const TriangleMesh mesh = family.mesh(n);
-      for (const Element* element : {&p1(), &p2(), &p3(), &p4()}) results.add(solve({element, family}, mesh, n, exact));
-    }
-  report.finish();
-  results.select({"mesh", "element", "cells", "unknowns", "kernel", "cost", "max", "h1", "energy", "ridge"})
-      .print("degrees 1 to 4; cost: d/dy I_h w", 3);
-  results.select({"element", "mesh", "cells", "h", "unknowns", "cost", "max", "h1", "energy", "ridge"})
+  for (const Method& method : methods({&p1(), &p2(), &p3(), &p4()}))
+    for (int n = 4; n <= options.cells; n *= 2) results.add(solve(method, n, options.epsilon, paper_load, exact));
+  // ### Output
+  results.print("degrees 1 to 4; cost: |d/dy I_h w|", 3);
+  results.select({"element", "mesh", "cells", "h", "unknowns", "cost", "h1", "ridge"})
       .write(options.out / "results.csv");
   verdicts(results, exact, report);
 }
 
 void verdicts(const Table& results, const Exact& exact, tutorial::Report& report) {
-  bool counted = true;
   for (const Table& row : results.where("cells", 4).rows()) {
-    const double degree = row.number("degree");
-    counted = counted && row.number("kernel") == (row.entry("mesh") == "structured" ? 4 * degree - 1 : degree - 1);
+    const double p = row.number("degree"), expected = row.entry("mesh") == "structured" ? 4 * p - 1 : p - 1;
+    report.claim(row.number("kernel") == expected, "{} {}, 1/h = 4: dim G_h = {} ({})", row.entry("element").text(),
+                 row.entry("mesh").text(), row.number("kernel"), expected);
   }
-  report.claim(counted,
-               "1/h = 4: dim G_h is n p - 1 on the structured mesh and p - 1 on the unstructured one, p = 1 to 4");
-  report.claim(results.where("mesh", "structured").most("cost") < 1e-9,  // round-off
-               "structured: d/dy I_h w = 0 for every degree, any ridge is free of charge");
+  const Table aligned = results.where("mesh", "structured"), any = results.where("mesh", "unstructured");
+  report.claim(aligned.most("cost") < 1e-9, "structured: d/dy I_h w = 0 for every degree, up to round-off");
   const double finest = results.most("cells");
-  for (const Entry& element : results.different("element")) {
-    const Table own = results.where("element", element), any = own.where("mesh", "unstructured");
-    const double degree = own.first("degree"), order = any.order("cost", "h");
-    report.claim(order > degree - 0.1 && order < degree + 0.8,
-                 "{} unstructured: d/dy I_h w falls like h^{:.2f} (at least h^{})", element.text(), order, degree);
-    if (finest < 32) {
-      report.not_judged("how much of the ridge is kept: the thresholds are for 1/h = 32 and finer");
-      continue;
-    }
-    // how much of the ridge is left; h^p / epsilon decides: 312, 9.8, 0.31, 0.0095 at 1/h = 32,
-    // epsilon = 1e-4
-    const Table last = any.where("cells", finest), aligned = own.where("mesh", "structured").where("cells", finest);
-    const double ratio = std::pow(1 / finest, degree) / exact.epsilon;
-    const double left = last.number("ridge") / exact.truth.max_on_contact();
-    const bool locks = ratio > 30, fine = ratio < 0.5;
-    report.claim(
-        locks  ? left < 0.1
-        : fine ? left > 0.99
-               : left > 0.1 && left < 0.99,
-        "{} unstructured, h^p / epsilon = {:.2g}: {:.1f} % of the ridge is kept; H1 error {:.1f} times that of "
-        "the structured mesh",
-        element.text(), ratio, 100 * left, last.number("h1") / aligned.number("h1"));
+  for (const Entry& element : any.different("element")) {
+    const Table own = any.where("element", element);
+    const double p = own.first("degree"), order = own.order("cost", "h");
+    report.claim(order > p - 0.1 && order < p + 0.8, "{} unstructured: d/dy I_h w falls like h^{:.2f} (at least h^{})",
+                 element.text(), order, p);
+    // What is lost over what is kept is the square of h^p / ε times a number near 1: 1e3 and more, or 1/4 and less, decide.
+    const double ratio = std::pow(1 / finest, p) / exact.epsilon,
+                 kept = own.last("ridge") / exact.truth.max_on_contact();
+    const auto say = [&](bool holds) {
+      report.claim(holds,
+                   "{} unstructured, h^p / epsilon = {:.2g}: {:.1f} % of the ridge is kept, H1 error {:.1f} times that "
+                   "of the structured mesh",
+                   element.text(), ratio, 100 * kept, own.last("h1") / aligned.where("element", element).last("h1"));
+    };
+    if (finest >= 32 && ratio > 30)
+      say(kept < 0.1);
+    else if (finest >= 32 && ratio < 0.5)
+      say(kept > 0.99);
+    else
+      report.not_judged(fmt::format(
+          "{}: h^p / epsilon = {:.2g} (30 and more, or 0.5 and less, on 1/32 or finer decides); {:.1f} % is kept",
+          element.text(), ratio, 100 * kept));
   }
 }
 
-// Three things to try:
-// - P2 at epsilon = 1e-4, 1e-3, 1e-2: the knee of its line moves to the h where h^2 = epsilon, or
-//   so.
-// - draw `cost` against h: straight lines of slope p + 1/2 or so.
-// - add 5 sin(pi x) to the load: x (1 - x), the one kernel function of P2, gets its share. Under
-//   sin(2 pi x), odd about the middle, it gets nothing, and P2 locks as P1 does once h^2 >>
-//   epsilon.
+// ## What came out
+//
+// (a) None. (b) Two on every unstructured mesh: $\dim G_h$ at 1/h = 4 is 0, 1, 2, 3 for the degrees 1 to 4, and 3, 7,
+// 11, 15 on the structured mesh. At ε = 1e-4 and 1/h = 32 the degrees 1 to 4 keep 0, 66, 99.9 and 100 % of the ridge.
+// Even then the $H^1$ errors of P3 and P4 are 22 and 5 times those of the structured mesh. The slope of $I_h w$ falls
+// like $h^{1.39}$, $h^{2.40}$, $h^{3.41}$, $h^{4.41}$.
+//
+// ## Exercises
+//
+// Predict, then run `--exercise 1`. On paper: a mesh of the layer on which P1 has exactly 3 kernel functions
+// (vertical mesh lines at three inner $x$, anything between them).
 int main(int argc, char** argv) {
-  tutorial::Options options;
-  options.least_epsilon = 1e-4;  // below, P3 and P4 leave functions that B nearly misses: the solver has no digits
-  options.least_cells = 8;
-  options.most_cells = 64;  // an order needs two meshes from 1/4 on
-  options.epsilon = 1e-4;
-  return tutorial::run(argc, argv, "14_degree", "degrees 1 to 4 on both meshes: less locking, not none", options,
-                       study);
+  const std::vector<tutorial::Exercise> exercises{
+      {"A coarse unstructured mesh (1/h = 4) and epsilon = 1e-4: P1 and P2 both lock under sin(2 pi x). And under 10 "
+       "sin(pi x)?",
+       "P1 loses all, P2 keeps nearly all: its one kernel function x (1 - x) is near the ridge, under sin(2 pi x) it "
+       "is odd about it",
+       [](const tutorial::Options&, tutorial::Report& report) {
+         const SineLoad one_hump{{{1, {10}}}};
+         for (const auto& [load, name, low, high] :
+              {std::tuple{paper_sine_load(), "sin(2 pi x)", 0.0, 0.1}, {one_hump, "sin(pi x)", 0.9, 1.1}}) {
+           const Exact exact(Truth(load, 1e-4, true, 15));
+           for (const Element* element : {&p1(), &p2()}) {
+             const Table row = solve({element, unstructured()}, 4, 1e-4, load, exact);
+             const bool p1_used = element == &p1();
+             report.claim_within(row.number("ridge") / exact.truth.max_on_contact(), p1_used ? 0 : low,
+                                 p1_used ? 0.1 : high,
+                                 element->name() + " under " + name + ": share of the ridge that is kept");
+           }
+         }
+       }}};
+  return tutorial::run(
+      argc, argv, "14_degree", "degrees 1 to 4 on both meshes: less locking, not none",
+      {.epsilon = 1e-4, .least_epsilon = 1e-4, .least_cells = 8, .most_cells = 64, .exercises = exercises}, study);
 }

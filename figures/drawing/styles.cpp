@@ -57,6 +57,20 @@ const Row rows[] = {
     {"error of the iterate", "error", "", {blue, circle, 6}},
     {"its algebraic part", "its algebraic part", "", {olive, diamond, 5}},
     {"accurate enough: stop", "Uzawa stops here", "", {vermillion, square, 9}},
+    // (18), term by term; three models of the layer
+    {"left side", "$‖u^ε − u_h^ε‖_h$", "", {grey, circle, 13}},
+    {"first term", "$‖u^ε − u^0‖$", "", {blue, circle, 5}},
+    {"second term", "$‖u^0 − u_h^0‖_h$", "", {vermillion, square, 7}},
+    {"third term", "$‖u_h^0 − u_h^ε‖_h$", "", {green, diamond, 5}},
+    // the interval from epsilon_0 to 1 over which the worst error is taken
+    {"from 1", "$ε_0 = 1$", "", {grey, circle, 5}},
+    {"from 0.1", "$ε_0 = 10^{−1}$", "", {sky, square, 13}},
+    {"from 0.01", "$ε_0 = 10^{−2}$", "", {green, diamond, 7}},
+    {"from 0.001", "$ε_0 = 10^{−3}$", "", {olive, down_triangle, 7.5}},
+    {"from 0", "all $ε$", "", {vermillion, square, 10}},
+    {"thin layer (22)", "thin layer (22)", "", {sky, circle, 10}},
+    {"scaled layer (23)", "scaled layer (23)", "", {indigo, circle, 4}},
+    {"no layer (25)", "no layer (25)", "", {vermillion, circle, 4}},
     // estimates and what they estimate
     {"estimate $h = 1/8$", "estimate, $h = 1/8$", "", {vermillion, square, 9}},
     {"estimate $h = 1/32$", "estimate, $h = 1/32$", "", {olive, down_triangle, 5}},

@@ -7,6 +7,8 @@ Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{ep
 Exact::Exact(double epsilon, int log2_points)
     : epsilon(epsilon), truth(paper_sine_load(), epsilon, true, log2_points), table(truth) {}
 
+Exact::Exact(Truth exact) : epsilon(exact.epsilon()), truth(std::move(exact)), table(truth) {}
+
 Errors Exact::errors(const Space& space, const Solution& solution) const {
   return measure_errors(space, solution, epsilon, reference());
 }

@@ -23,6 +23,8 @@ Scene paper_scene(double epsilon);
 struct Exact {
   /// The series has 2^log2_points points; 14 give gradients to 1e-6.
   explicit Exact(double epsilon, int log2_points = 17);
+  /// Under another load.
+  explicit Exact(Truth exact);
 
   Errors errors(const Space& space, const Solution& solution) const;
   Reference reference() const { return antilock::reference(table); }

@@ -62,4 +62,8 @@ double h2_norm(const Truth& truth) {
          std::sqrt(integral([&](double t) { return row_square_2(layer_row(data, t - 1), scale); }));
 }
 
+double stress_norm(const Truth& truth) {
+  return std::sqrt(integral([&](double t) { return 0.5 * layer_row(truth.data(), t - 1).p.squaredNorm(); }));
+}
+
 }  // namespace antilock

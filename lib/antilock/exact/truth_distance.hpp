@@ -11,4 +11,8 @@ double h1_distance(const Truth& a, const Truth& b);
 /// integral of u^2 + |grad u|^2 + u_xx^2 + 2 u_xy^2 + u_yy^2.
 double h2_norm(const Truth& truth);
 
+/// |p| in L2 of the layer, p = epsilon^-2 d/dy u (its limit at epsilon = 0), by the same rule. The stiff part of (5) is
+/// epsilon^2 |p|^2.
+double stress_norm(const Truth& truth);
+
 }  // namespace antilock

@@ -26,8 +26,8 @@ FactoredForm layer_strain(const Space& space);
 /// for degree 1, the edge midpoints for degree 2.
 const Quadrature& strain_rule(const Element& element);
 
-/// N values of (f, phi_i) over the body, by load_rule.
-Eigen::VectorXd load_vector(const Space& space, const Field& f);
+/// N values of (f, phi_i) over the body, or over the layer, by load_rule.
+Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region = Region::body);
 
 /// Of degree 5, or 2 k for an element of degree k > 2: what it leaves out is smaller than the error of the element.
 const Quadrature& load_rule(const Element& element);

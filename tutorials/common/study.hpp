@@ -1,0 +1,14 @@
+#pragma once
+/// What a chapter that studies problem (23) over methods, meshes and epsilons includes: Method, SceneSweep, Table, the
+/// exact solutions, the program around it.
+#include <cmath>
+#include <numbers>
+
+#include "antilock/form/forms.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/study/method.hpp"
+#include "antilock/study/scene_sweep.hpp"
+#include "antilock/study/table.hpp"
+#include "common/paper_problem.hpp"
+#include "common/tutorial.hpp"
