@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "antilock/core/error.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -91,6 +92,66 @@ VariationalInequality random_problem(unsigned seed) {
   problem.lower = Eigen::Map<Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
   problem.a1.makeCompressed();
   problem.b.makeCompressed();
+  return problem;
+}
+
+VariationalInequality random_bounds(unsigned seed) {
+  VariationalInequality problem = random_problem(seed);
+  Dice dice(seed ^ 0x5bd1e995u);
+  const int n = problem.size();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const double scale = problem.lower.size() > 0 ? std::max(problem.lower.cwiseAbs().maxCoeff(), 1e-3) : 1.0;
+  std::vector<double> lower(problem.lower.begin(), problem.lower.end()), upper(lower.size(), infinity);
+  // a handful of bounds in all: rational arithmetic tries every set of them
+  const int most = 6 - static_cast<int>(problem.contact.size());
+  const int rows = problem.free_count() > 0 && !dice.one_in(4) ? std::min(most, dice.below(3)) : 0;
+  // most rows keep an unknown to themselves
+  for (int row = 0; row < rows && !dice.one_in(10); ++row)
+    if (std::ssize(problem.contact) + std::ssize(problem.fixed) + row >= n && !problem.contact.empty()) {
+      problem.contact.pop_back();
+      lower.erase(lower.begin() + std::ssize(problem.contact));
+      upper.pop_back();
+    }
+  std::set<int> loose;  // neither fixed nor bounded
+  for (int j = 0; j < n; ++j) loose.insert(j);
+  for (const std::vector<int>* list : {&problem.fixed, &problem.contact})
+    for (const int j : *list) loose.erase(j);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int row = 0; row < rows; ++row) {
+    const double unit = dice.one_in(2) ? 1 : dice.decades(6);
+    const bool again = row > 0 && dice.one_in(20);  // depends on the row before
+    const std::vector<Eigen::Triplet<double>> before = entries;
+    if (again) {
+      for (const auto& entry : before)
+        if (entry.row() == row - 1) entries.emplace_back(row, entry.col(), -2 * entry.value());
+    } else {
+      std::vector<char> named(n, 0);
+      for (int k = 0, count = 1 + dice.below(4); k < count || entries.size() == before.size(); ++k) {
+        int j = dice.below(n);
+        while (k == 0 && !loose.empty() && loose.count(j) == 0) j = dice.below(n);
+        const double value = dice.one_in(3) ? (dice.one_in(2) ? 1 : -1) : few_digits(dice.symmetric());
+        if (value != 0 && named[j]++ == 0) entries.emplace_back(row, j, value * unit);
+      }
+    }
+    const double value = few_digits(dice.symmetric()) * scale * unit;
+    lower.push_back(dice.one_in(3) ? 0 : dice.one_in(2) ? -std::abs(value) : value);
+    upper.push_back(infinity);
+  }
+  problem.combinations.resize(rows, n);
+  problem.combinations.setFromTriplets(entries.begin(), entries.end());
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    const double size = lower[i] != 0 ? std::abs(lower[i]) : scale;
+    const int kind = dice.below(6);
+    if (kind == 0 || kind == 1) {  // from above alone
+      upper[i] = lower[i];
+      lower[i] = -infinity;
+    } else if (kind == 2 || kind == 3) {
+      upper[i] = lower[i] + (dice.one_in(6) ? 0 : size * few_digits(dice.uniform()) * (dice.one_in(4) ? 1e-8 : 1));
+    }
+  }
+  problem.lower = Eigen::Map<Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
+  if (!dice.one_in(8) || std::count(upper.begin(), upper.end(), infinity) != static_cast<int>(upper.size()))
+    problem.upper = Eigen::Map<Eigen::VectorXd>(upper.data(), static_cast<Eigen::Index>(upper.size()));
   return problem;
 }
 

@@ -10,6 +10,11 @@ namespace antilock::hard {
 /// of B and M each over up to twelve decades; dependent rows of B; compliance from 0 to above 1.
 VariationalInequality random_problem(unsigned seed);
 
+/// Problem number `seed` of a second list: a problem of the first with bounds of other shapes. Upper bounds; two-sided
+/// ones, some so narrow that both sides touch, some equations; combinations of two to four unknowns in units of their
+/// own, some through fixed and bounded unknowns, a few dependent on other bounds.
+VariationalInequality random_bounds(unsigned seed);
+
 enum class Outcome {
   right,         ///< u to 1e-6 of its largest entry, no warning
   warned,        ///< answered with a warning

@@ -63,6 +63,32 @@ TEST(Adversary, NothingIsQuietlyWrongByUzawa) {
   }
 }
 
+TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrong) {
+  int solvable = 0, refused = 0, two_sided = 0, combined = 0;
+  for (unsigned seed = 0; seed < 250; ++seed) {
+    const VariationalInequality problem = random_bounds(seed);
+    const test::ExactAnswer exact = test::exact_answer(problem);
+    const Judgement judgement = judge(problem, exact, false);
+    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+    solvable += exact.what == test::Exactly::solved;
+    refused += judgement.outcome == Outcome::refused && judgement.reason.find("combination") == std::string::npos;
+    two_sided += problem.upper.size() > 0;
+    combined += problem.combinations.rows() > 0;
+  }
+  EXPECT_GT(solvable, 150);
+  EXPECT_GT(two_sided, 150);
+  EXPECT_GT(combined, 80);
+  EXPECT_LE(refused, 5);  // but for rows that depend on other bounds
+}
+
+TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrongByUzawa) {
+  for (unsigned seed = 1000; seed < 1060; ++seed) {
+    const VariationalInequality problem = random_bounds(seed);
+    const Judgement judgement = judge(problem, test::exact_answer(problem), true);
+    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+  }
+}
+
 TEST(Doors, AGreatLoadOnAnUnknownInContactHidesNothing) {
   Eigen::Matrix2d a1;
   a1 << 14, 4, 4, 6;

@@ -4,12 +4,27 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <vector>
 
 namespace antilock::test {
 namespace {
 
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
+
+/// The next of all sets of bounds that hold; false after the last. An infinite bound holds nowhere.
+bool next_set(std::vector<int>& set, const LongVector& lower, const LongVector& upper) {
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    do ++set[i];
+    while ((set[i] == 1 && std::isinf(lower(k))) || (set[i] == 2 && std::isinf(upper(k))));
+    if (set[i] < 3) return true;
+    set[i] = 0;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -39,40 +54,50 @@ BruteForce brute_force(const VariationalInequality& problem) {
   if (!basis.isZero(0))
     response = basis * LongMatrix(basis.transpose() * k(free, free) * basis).ldlt().solve(basis.transpose());
 
-  const auto c = static_cast<Eigen::Index>(problem.contact.size());
-  std::vector<int> place(problem.size(), -1), at;
-  for (Eigen::Index i = 0; i < n; ++i) place[free[i]] = static_cast<int>(i);
-  for (const int i : problem.contact) at.push_back(place[i]);
-  const LongVector unloaded = response * force;
-  const LongMatrix compliance = response(at, at);
+  const int c = problem.bound_count(), contact = static_cast<int>(problem.contact.size());
+  LongMatrix rows = LongMatrix::Zero(c, problem.size());  // what is bounded
+  for (int i = 0; i < contact; ++i) rows(i, problem.contact[i]) = 1;
+  if (c > contact) rows.bottomRows(c - contact) = Eigen::MatrixXd(problem.combinations).cast<long double>();
+  const LongMatrix on_free = rows(Eigen::all, free);
+  const LongVector unloaded = rows * u_fixed + on_free * (response * force);
+  const LongMatrix compliance = on_free * response * on_free.transpose();
   const LongVector lower = problem.lower.cast<long double>();
+  const LongVector upper = problem.upper.size() > 0
+                               ? LongVector(problem.upper.cast<long double>())
+                               : LongVector(LongVector::Constant(c, std::numeric_limits<long double>::infinity()));
   constexpr long double slack = 1e-14L;  // of a sign: far above the round-off of 64-bit mantissas, far below any gap
   BruteForce best;
-  for (unsigned set = 0; set < (1U << c); ++set) {
+  // 0: free, 1: at the lower bound, 2: at the upper one
+  std::vector<int> set(c, 0);
+  do {
     std::vector<int> held;
-    for (int i = 0; i < c; ++i)
-      if ((set >> i) & 1U) held.push_back(i);
+    LongVector bound = lower;
+    for (int i = 0; i < c; ++i) {
+      if (set[i] != 0) held.push_back(i);
+      if (set[i] == 2) bound(i) = upper(i);
+    }
     LongVector lambda = LongVector::Zero(c);
     if (!held.empty()) {
-      const LongVector push = (lower - unloaded(at))(held);
+      const LongVector push = (bound - unloaded)(held);
       const LongVector reaction = LongMatrix(compliance(held, held)).ldlt().solve(push);
       lambda(held) = reaction;
     }
-    const LongVector v = unloaded(at) + compliance * lambda;
-    if (lambda.size() > 0 && (lambda.minCoeff() < -slack || (v - lower).minCoeff() < -slack || !lambda.allFinite()))
-      continue;
+    const LongVector v = unloaded + compliance * lambda;
+    bool right = lambda.allFinite();
+    for (int i = 0; i < c; ++i)
+      right = right && (set[i] == 2 ? -lambda(i) : lambda(i)) >= -slack && v(i) - lower(i) >= -slack &&
+              upper(i) - v(i) >= -slack;
+    if (!right) continue;
     ++best.answers;
-    LongVector total = force;
-    for (Eigen::Index i = 0; i < c; ++i) total(at[i]) += lambda(i);
-    const LongVector x = response * total;
+    const LongVector x = response * (force + on_free.transpose() * lambda);
     best.u = u_fixed.cast<double>();
     for (Eigen::Index i = 0; i < n; ++i) best.u(free[i]) = static_cast<double>(x(i));
     best.lambda = lambda.cast<double>();
     best.active.assign(c, false);
     for (const int i : held) best.active[i] = true;
-  }
+  } while (next_set(set, lower, upper));
   EXPECT_EQ(best.answers, 1) << "contact sets that satisfy every condition";
   return best;
-}
+}  // namespace
 
 }  // namespace antilock::test

@@ -1,6 +1,7 @@
 #include "support/exact_rational.hpp"
 
 #include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
 #include <vector>
 
 namespace antilock::test {
@@ -53,14 +54,23 @@ bool positive_definite(Matrix a) {
   return true;
 }
 
-/// min z' h z / 2 - g' z  subject to  c z >= bound, by trying contact sets.
-std::optional<Vector> minimise(const Matrix& h, const Vector& g, const Matrix& c, const Vector& bound) {
+/// Whether `held` names two sides of one bound; side[i] is the number of the bound that row i is a side of.
+bool both_sides(const std::vector<int>& side, const std::vector<std::size_t>& held) {
+  for (std::size_t k = 1; k < held.size(); ++k)
+    if (side[held[k]] == side[held[k - 1]]) return true;
+  return false;
+}
+
+/// min z' h z / 2 - g' z  subject to  c z >= bound, by trying contact sets. Two rows of one sign each are a bound on
+/// both sides; where both hold they depend on each other.
+std::optional<Vector> minimise(const Matrix& h, const Vector& g, const Matrix& c, const Vector& bound,
+                               const std::vector<int>& side) {
   const std::size_t n = g.size();
   for (std::size_t set = 0; set < (std::size_t{1} << bound.size()); ++set) {
     std::vector<std::size_t> held;
     for (std::size_t i = 0; i < bound.size(); ++i)
       if ((set >> i & 1) != 0) held.push_back(i);
-    if (held.size() > n) continue;
+    if (held.size() > n || both_sides(side, held)) continue;
     Matrix kkt = zeros(n + held.size(), n + held.size());
     Vector rhs = g;
     for (std::size_t i = 0; i < n; ++i)
@@ -172,12 +182,31 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
   }
   Matrix c;
   Vector bound;
-  for (std::size_t k = 0; k < problem.contact.size(); ++k) {
-    const int i = problem.contact[k];
-    c.push_back(basis[place[i]]);
-    bound.push_back(Number(problem.lower(static_cast<Eigen::Index>(k))) - u[i]);
+  std::vector<int> side;
+  const Eigen::MatrixXd combinations = problem.combinations;
+  for (int k = 0; k < problem.bound_count(); ++k) {
+    const int contact = static_cast<int>(problem.contact.size());
+    Vector row(dimension, Number(0));
+    Number start_value = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Number entry =
+          k < contact ? Number(static_cast<int>(i) == problem.contact[k]) : Number(combinations(k - contact, i));
+      if (entry == 0) continue;
+      start_value += entry * u[i];
+      if (place[i] < 0) continue;
+      for (std::size_t l = 0; l < dimension; ++l) row[l] += entry * basis[place[i]][l];
+    }
+    const auto add = [&](int sign, double value) {
+      if (std::isinf(value)) return;
+      c.push_back(row);
+      for (Number& entry : c.back()) entry *= sign;
+      bound.push_back(sign * (Number(value) - start_value));
+      side.push_back(k);
+    };
+    add(1, problem.lower(k));
+    if (problem.upper.size() > 0) add(-1, problem.upper(k));
   }
-  const std::optional<Vector> z = minimise(h, g, c, bound);
+  const std::optional<Vector> z = minimise(h, g, c, bound, side);
   if (!z) return answer;
   answer.what = Exactly::solved;
   answer.u.resize(problem.size());

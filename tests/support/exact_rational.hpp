@@ -19,7 +19,8 @@ struct ExactAnswer {
 };
 
 /// The inequality without any rounding: every double is a rational number. In coordinates of the kernel of B
-/// (compliance = 0), or of all free unknowns, every contact set with independent bounds is tried until one meets every
+/// (compliance = 0), or of all free unknowns, every contact set with independent bounds (on either side, and on
+/// combinations) is tried until one meets every
 /// condition; where none does, no u is admissible. Exponential in the contact unknowns and cubic in bits: up to six
 /// unknowns or so.
 ExactAnswer exact_answer(const VariationalInequality& problem);

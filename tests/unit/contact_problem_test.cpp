@@ -210,7 +210,7 @@ TEST(ContactProblem, NestedStartServesABeamToo) {
 TEST(ContactProblem, NestedStartTakesEverySize) {
   for (int n = 1; n < 40; ++n) {
     const Random r = obstacle(n);
-    const std::vector<bool> start = nested_start(r.problem(), 1000);
+    const std::vector<bool> start = nested_start(r.problem(), 1000).active;
     ASSERT_EQ(static_cast<int>(start.size()), n);
     EXPECT_EQ(solve_contact(r.problem(), start, 1000).active,
               solve_contact(r.problem(), std::vector<bool>(n, false), 1000).active);

@@ -9,12 +9,14 @@
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/models/anti_plane.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 namespace {
 
 void check_request(const Scene& scene, const Space& space, const VariationalInequality& problem,
                    const Solution& solution) {
+  require_lower_bounds(problem, "certificate");
   if (space.element().name() != "CR")
     throw Error("certificate: element " + space.element().name() + " has no flux in equilibrium; accepted: CR");
   if (std::holds_alternative<VentcelLayer>(scene.layer()))

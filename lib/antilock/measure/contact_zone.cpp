@@ -3,10 +3,12 @@
 #include <algorithm>
 
 #include "antilock/measure/contact_edges.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 
 ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution) {
+  require_bounds_on_unknowns(problem, "contact zone");
   ContactZone zone;
   zone.points = static_cast<int>(problem.contact.size());
   for (int i = 0; i < zone.points; ++i) {
@@ -33,10 +35,11 @@ Eigen::VectorXd contact_lengths(const Space& space) {
 }
 
 Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& problem, const Solution& solution) {
+  require_bounds_on_unknowns(problem, "contact table");
   const auto count = static_cast<Eigen::Index>(problem.contact.size());
   Eigen::MatrixX3d table(count, 3);
   table.col(0) = space.points().col(0)(problem.contact);
-  table.col(1) = solution.u(problem.contact) - problem.lower;
+  table.col(1) = slack(problem, solution.u);
   table.col(2) = solution.lambda.cwiseQuotient(contact_lengths(space));
   return table;
 }

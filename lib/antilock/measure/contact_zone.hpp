@@ -20,7 +20,8 @@ ContactZone contact_zone(const Space& space, const VariationalInequality& proble
 /// is the contact pressure as a density (force a unit length).
 Eigen::VectorXd contact_lengths(const Space& space);
 
-/// One row a contact unknown: x, gap u - lower >= 0, pressure (density) >= 0. C x 3.
+/// One row per contact unknown: x, gap >= 0 (to the nearer bound), pressure (density) >= 0, <= 0 at an upper bound.
+/// C x 3. Throws Error for bounds on combinations, as contact_zone does: they have no point.
 Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& problem, const Solution& solution);
 
 }  // namespace antilock

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "antilock/core/error.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 namespace {
@@ -53,16 +54,13 @@ void check_data(const VariationalInequality& problem) {
                       problem.m.size(), n));
   require(problem.a1.isCompressed() && problem.b.isCompressed(), "a1 and B are accepted compressed only");
   require(finite(problem.a1.valuePtr(), problem.a1.nonZeros()) && finite(problem.b.valuePtr(), problem.b.nonZeros()) &&
-              problem.m.allFinite() && problem.load.allFinite() && problem.lower.allFinite() &&
-              problem.fixed_values.allFinite(),
+              problem.m.allFinite() && problem.load.allFinite() && problem.fixed_values.allFinite(),
           "an entry is not finite");
   require(rows == 0 || problem.m.minCoeff() > 0, "M is not positive");
   require(problem.compliance >= 0 && std::isfinite(problem.compliance),
           fmt::format("compliance = {}; accepted: a finite number, 0 or more", problem.compliance));
   require(problem.fixed_values.size() == static_cast<Eigen::Index>(problem.fixed.size()),
           "one value per fixed unknown is needed");
-  require(problem.lower.size() == static_cast<Eigen::Index>(problem.contact.size()),
-          "one bound per contact unknown is needed");
   std::vector<char> taken(n, 0);
   for (const std::vector<int>* list : {&problem.fixed, &problem.contact})
     for (const int i : *list) {
@@ -70,6 +68,7 @@ void check_data(const VariationalInequality& problem) {
       require(!taken[i], fmt::format("unknown {} is fixed or bounded twice", i));
       taken[i] = 1;
     }
+  check_bounds(problem);
   require(problem.free_count() > 0, "every unknown is fixed; accepted: one free unknown or more");
 }
 

@@ -8,10 +8,12 @@ namespace antilock {
 /// The discrete problem of the paper's whole class, (6), and (7) where compliance = 0:
 ///
 ///     u in K_h:  a1(u, v - u) + compliance^-1 a0(u, v - u) >= L(v - u)   for all v in K_h
-///     K_h = { v : v = fixed_values on the fixed unknowns, v >= lower on the contact unknowns }
+///     K_h = { v : v = fixed_values on the fixed unknowns, lower <= v <= upper on the contact unknowns,
+///                 lower <= combinations v <= upper }
 ///
 /// a0(u, v) = (B u, M B v) stays in factored form: summed into a1 it destroys a1 by round-off. Everything is
-/// dimensionless. N unknowns, R rows of B, C contact unknowns.
+/// dimensionless. N unknowns, R rows of B, C bounds: those on unknowns and then those on combinations, in lower, in
+/// upper and in the answer's lambda. lambda >= 0 at a lower bound, <= 0 at an upper one.
 ///
 /// M is diagonal. A form whose M has a block per cell fits as well: with block = G G', rows G' B of the cell and M = 1.
 /// No unit is better than another: A1 times s is the same problem at compliance / s, M times s at compliance s, and a
@@ -25,15 +27,20 @@ struct VariationalInequality {
   Eigen::VectorXd load;    ///< N, L(phi_i)
   std::vector<int> fixed;  ///< unknowns with a prescribed value, ascending
   Eigen::VectorXd fixed_values;  ///< one per fixed unknown
-  std::vector<int> contact;      ///< unknowns bounded from below, in the order of the reports (by x)
-  Eigen::VectorXd lower;         ///< C bounds: u >= lower there (= -gap)
+  std::vector<int> contact;      ///< bounded unknowns, in the order of the reports (by x)
+  Eigen::VectorXd lower;         ///< C: lower <= u there (= -gap). -infinity: no bound from below
+  Eigen::VectorXd upper = {};    ///< C, or empty: none. +infinity: no bound from above; = lower: an equation
+  RowMatrix combinations = {};   ///< x N, or empty: a row c bounds c . u, such as the normal displacement on a slope or
+                                 ///< the gap between two bodies (bounded_unknowns.hpp says which rows are accepted)
 
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(fixed.size()); }
+  int bound_count() const { return static_cast<int>(contact.size()) + static_cast<int>(combinations.rows()); }
 };
 
 /// Throws Error with the first thing that is wrong: sizes that do not fit, entries that are not finite, an a1 that is
-/// not symmetric, M not positive, compliance out of range, indices out of range or named twice, no free unknown.
+/// not symmetric, M not positive, compliance out of range, indices out of range or named twice, no free unknown, a bound
+/// without a finite side or with its lower side above its upper one.
 void check(const VariationalInequality& problem);
 
 /// The same but for the symmetry of a1, in one walk over the data: what a solver asks at every call, whoever made the

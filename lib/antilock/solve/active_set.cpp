@@ -3,19 +3,24 @@
 #include <algorithm>
 
 #include "antilock/core/error.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/handed_back.hpp"
 
 namespace antilock {
 
 namespace {
 
 Solution solve(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
-  if (options.start && options.start->size() != problem.contact.size())
-    throw Error("active set: the start has " + std::to_string(options.start->size()) +
-                " entries; accepted one a contact unknown, " + std::to_string(problem.contact.size()));
+  if (options.start && options.start->active.size() != problem.contact.size())
+    throw Error("active set: the start has " + std::to_string(options.start->active.size()) +
+                " entries; accepted one per contact unknown, " + std::to_string(problem.contact.size()));
+  if (options.start && !options.start->above.empty() && options.start->above.size() != problem.contact.size())
+    throw Error("active set: the start has " + std::to_string(options.start->above.size()) +
+                " entries for upper bounds; accepted none, or one per contact unknown");
   int steps = 0, most = 0;
   const ContactSolver contact = [&](const ContactProblem& p, const ContactAnswer& before, int correction) {
-    std::vector<bool> start = before.active;
+    HeldBounds start(before.active, before.above);
     if (correction == 0) start = options.start ? *options.start : nested_start(p, options.max_steps);
     ContactAnswer answer = solve_contact(p, std::move(start), options.max_steps);
     steps += answer.steps;
@@ -30,12 +35,18 @@ Solution solve(const VariationalInequality& problem, PenaltyFactor& factor, cons
 }  // namespace
 
 Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
+  require_bounds_on_unknowns(problem, "active set with a factor made before");
   factor.check_fits(problem);
   return solve(problem, factor, options);
 }
 
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options) {
   check_data(problem);  // the factor checks the rest
+  if (problem.combinations.rows() > 0) {
+    const BoundedUnknowns basis(problem);
+    return handed_back(problem, basis, active_set(basis.problem, options),
+                       TrustLevels{.refused = options.corrections.refused});
+  }
   PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
   return solve(problem, factor, options);
 }

@@ -6,32 +6,43 @@
 
 namespace antilock {
 
-/// The contact problem condensed on Gamma_C (C unknowns): find v >= lower with
-///     lambda = S v - q >= 0  and  lambda (v - lower) = 0,   S symmetric positive definite, dense.
+/// The contact problem condensed on Gamma_C (C unknowns): find lower <= v <= upper with lambda = S v - q
+///     >= 0 where v = lower,  <= 0 where v = upper,  = 0 between,   S symmetric positive definite, dense.
 struct ContactProblem {
   const Eigen::MatrixXd& s;      ///< C x C
   const Eigen::VectorXd& q;      ///< C
-  const Eigen::VectorXd& lower;  ///< C
+  const Eigen::VectorXd& lower;  ///< C; -infinity: none
   double u_scale;                ///< largest |u| of the whole problem: gaps far below it are round-off
   Eigen::VectorXd from = {};     ///< C, where v and lower count from (empty: 0): round-off is that of from + v
   Eigen::VectorXd noise = {};    ///< C, the round-off of each v where it is known, in place of that of u_scale
+  Eigen::VectorXd upper = {};    ///< C, or empty: none; +infinity: none here
+};
+
+/// Which bounds hold.
+struct HeldBounds {
+  HeldBounds() = default;
+  HeldBounds(std::vector<bool> active, std::vector<bool> above = {})
+      : active(std::move(active)), above(std::move(above)) {}
+  std::vector<bool> active;  ///< C: at the lower bound, or at the upper one
+  std::vector<bool> above;   ///< C, or empty (nowhere): of these, the ones at the upper bound
 };
 
 struct ContactAnswer {
   Eigen::VectorXd v, lambda;  ///< C each
-  std::vector<bool> active;   ///< C: v = lower
+  std::vector<bool> active;   ///< C: v is at a bound
   int steps = 0;              ///< linear systems solved
+  std::vector<bool> above;    ///< C, or empty where nothing has an upper bound: v = upper
 };
 
 /// Primal-dual active set from a given start. Where the number of violated conditions stops falling, projected Newton
-/// steps (Bertsekas 1982) propose the sets: they lower the energy, so nothing can cycle. Throws NotConverged after
-/// max_steps linear systems.
-ContactAnswer solve_contact(const ContactProblem& problem, std::vector<bool> active, int max_steps);
+/// steps (Bertsekas 1982) propose the sets: they lower the energy, so nothing can cycle. A start on the wrong side of a
+/// two-sided bound costs a step. Throws NotConverged after max_steps linear systems.
+ContactAnswer solve_contact(const ContactProblem& problem, HeldBounds start, int max_steps);
 
 /// A start for solve_contact that makes its steps independent of h: the same problem, bounded on every second unknown
 /// only (the others are free and eliminated), solved the same way down to a handful, gives the contact set by
 /// interpolation. Elimination keeps every order of S right; interpolated functions (P' S P) would be far too stiff for
 /// a beam, whose bending energy does not take their corners.
-std::vector<bool> nested_start(const ContactProblem& problem, int max_steps);
+HeldBounds nested_start(const ContactProblem& problem, int max_steps);
 
 }  // namespace antilock

@@ -45,7 +45,7 @@ Corrections::Change Corrections::correct(const SplitResidual& residual, const Co
   const bool stiff = problem_.b.rows() > 0;
   Eigen::VectorXd rhs = residual.r1;
   if (stiff) rhs += problem_.b.transpose() * problem_.m.cwiseProduct(residual.r2) / delta;
-  const std::vector<bool> active_before = contact_.active;
+  const std::vector<bool> active_before = contact_.active, above_before = contact_.above;
   Change change;
   change.u = solve_with_factor(rhs(factor_.numbering().unknown), contact);
   s_.u += change.u;
@@ -53,7 +53,7 @@ Corrections::Change Corrections::correct(const SplitResidual& residual, const Co
     change.p = (problem_.b * change.u - residual.r2) / delta;
     s_.p += change.p;
   }
-  change.same_contact = contact_.active == active_before;
+  change.same_contact = contact_.active == active_before && contact_.above == above_before;
   return change;
 }
 
@@ -71,9 +71,10 @@ Eigen::VectorXd Corrections::solve_with_factor(Eigen::VectorXd r, const ContactS
     // round-off in
     const auto l = factor_.contact_block().triangularView<Eigen::Lower>();
     const Eigen::VectorXd u_c = s_.u(problem_.contact), lower = problem_.lower - u_c;
+    const Eigen::VectorXd upper = problem_.upper.size() > 0 ? Eigen::VectorXd(problem_.upper - u_c) : Eigen::VectorXd();
     Eigen::VectorXd q = r_c + l * y.tail(c);
     if (contact_.lambda.size() > 0) q -= contact_.lambda;  // r holds them already; contact asks for all
-    contact_ = contact({schur_, q, lower, s_.u.lpNorm<Eigen::Infinity>(), u_c, noise_c_}, contact_, correction_);
+    contact_ = contact({schur_, q, lower, s_.u.lpNorm<Eigen::Infinity>(), u_c, noise_c_, upper}, contact_, correction_);
     y.tail(c) = l.transpose() * contact_.v;
     s_.seconds.contact += watch.lap();
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/corrections.hpp"
 
 namespace antilock {
@@ -15,6 +16,7 @@ CorrectionOptions corrections_to(double asked) {
 
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name) {
+  require_bounds_on_unknowns(problem, name);
   return Corrections(problem, factor, options, name).solve(contact);
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "antilock/core/error.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 namespace {
@@ -21,19 +22,17 @@ double most(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 /// The report is asked of foreign answers too.
 void require_sizes(const VariationalInequality& problem, const Solution& s) {
-  if (s.u.size() == problem.size() && s.p.size() == problem.b.rows() &&
-      s.lambda.size() == static_cast<Eigen::Index>(problem.contact.size()))
+  if (s.u.size() == problem.size() && s.p.size() == problem.b.rows() && s.lambda.size() == problem.bound_count())
     return;
   throw Error(fmt::format("kkt: u, p and lambda have {}, {} and {} entries; accepted {}, {} and {}", s.u.size(),
-                          s.p.size(), s.lambda.size(), problem.size(), problem.b.rows(), problem.contact.size()));
+                          s.p.size(), s.lambda.size(), problem.size(), problem.b.rows(), problem.bound_count()));
 }
 
 /// The largest displacement that a load, as far as neither lambda nor B' M p bears it, would give its unknown if all the
 /// others were held: a scale, from below.
 double single_displacement(const VariationalInequality& problem, const Eigen::VectorXd& p,
                            const Eigen::VectorXd& lambda) {
-  Eigen::VectorXd forces = problem.load;
-  for (Eigen::Index i = 0; i < lambda.size(); ++i) forces(problem.contact[i]) += lambda(i);
+  Eigen::VectorXd forces = problem.load + bound_forces(problem, lambda);
   if (problem.b.rows() > 0) {
     const Eigen::VectorXd net = forces - problem.b.transpose() * problem.m.cwiseProduct(p);
     forces = forces.cwiseAbs().cwiseMin(net.cwiseAbs());
@@ -59,10 +58,63 @@ SplitResidual residual_in(const VariationalInequality& problem, const Eigen::Vec
     const Vector stress = problem.m.cast<Scalar>().cwiseProduct(wide_p);
     r1 -= problem.b.cast<Scalar>().transpose() * stress;
   }
-  for (Eigen::Index i = 0; i < lambda.size(); ++i) r1(problem.contact[i]) += lambda(i);
+  if (lambda.size() > 0) {
+    for (std::size_t i = 0; i < problem.contact.size(); ++i)
+      r1(problem.contact[i]) += lambda(static_cast<Eigen::Index>(i));
+    const Eigen::Index rows = problem.combinations.rows();
+    if (rows > 0) r1 += problem.combinations.cast<Scalar>().transpose() * lambda.tail(rows).template cast<Scalar>();
+  }
   Vector r2 = static_cast<Scalar>(problem.compliance) * wide_p;
   r2 -= problem.b.cast<Scalar>() * wide_u;
   return {r1.template cast<double>(), r2.template cast<double>()};
+}
+
+/// The largest force of a single bound on each unknown, N.
+Eigen::VectorXd largest_bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(problem.size());
+  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
+  for (Eigen::Index i = 0; i < contact; ++i) largest(problem.contact[i]) = std::abs(lambda(i));
+  for (Eigen::Index row = 0; row < problem.combinations.rows(); ++row)
+    for (RowMatrix::InnerIterator c(problem.combinations, row); c; ++c)
+      largest(c.col()) = std::max(largest(c.col()), std::abs(c.value() * lambda(contact + row)));
+  return largest;
+}
+
+/// The units that a bound is judged in.
+struct BoundUnits {
+  double strain;  ///< what the bounded value is at most where no |u| is above 1
+  double force;   ///< a lambda that no unknown in the bound would overlook
+};
+BoundUnits bound_units(const VariationalInequality& problem, Eigen::Index bound, const Eigen::VectorXd& forces) {
+  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
+  if (bound < contact) return {1, forces(problem.contact[bound])};
+  BoundUnits units{0, std::numeric_limits<double>::infinity()};
+  for (RowMatrix::InnerIterator c(problem.combinations, bound - contact); c; ++c) {
+    if (c.value() == 0) continue;
+    units.strain += std::abs(c.value());
+    units.force = std::min(units.force, forces(c.col()) / std::abs(c.value()));
+  }
+  return units;
+}
+
+/// The rows of the report for bound i, whose value is `value`.
+void note_bound(Kkt& kkt, const VariationalInequality& problem, Eigen::Index i, double value, double lambda,
+                double u_scale, double force) {
+  const double lower = problem.lower(i);
+  const double upper = problem.upper.size() > 0 ? problem.upper(i) : std::numeric_limits<double>::infinity();
+  // between two bounds either sign of lambda is right, and each side answers for its own
+  const bool two = std::isfinite(lower) && std::isfinite(upper);
+  const double up = two ? std::max(lambda, 0.0) : lambda, down = two ? std::max(-lambda, 0.0) : -lambda;
+  const auto side = [&](double bound, double gap, double pressure) {
+    if (!std::isfinite(bound)) return;
+    const double scale = std::max(u_scale, std::abs(bound));
+    if (!two) kkt.min_pressure = least(kkt.min_pressure, ratio(pressure, force));
+    kkt.min_gap = least(kkt.min_gap, ratio(gap, scale));
+    kkt.complementarity = most(kkt.complementarity, ratio(std::abs(pressure * gap), scale * force));
+  };
+  if (two) kkt.min_pressure = least(kkt.min_pressure, ratio(std::abs(lambda), force));
+  side(lower, value - lower, up);
+  side(upper, upper - value, down);
 }
 
 }  // namespace
@@ -99,7 +151,8 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
     reaction = std::max(reaction, std::abs(r.r1(i)));
     r.r1(i) = 0;
   }
-  const double f_scale = std::max(problem.load.lpNorm<Eigen::Infinity>(), lambda.lpNorm<Eigen::Infinity>());
+  const Eigen::VectorXd borne = largest_bound_forces(problem, lambda);
+  const double f_scale = std::max(problem.load.lpNorm<Eigen::Infinity>(), borne.lpNorm<Eigen::Infinity>());
   // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
   Eigen::VectorXd terms = problem.a1.cwiseAbs() * u.cwiseAbs() + problem.load.cwiseAbs();
   if (problem.b.rows() > 0) terms += problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(p.cwiseAbs());
@@ -110,9 +163,7 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   // a great force somewhere must hide nothing where all forces are small
   Eigen::VectorXd own = problem.a1.diagonal().cwiseAbs();
   if (problem.b.rows() > 0) own += problem.b.cwiseAbs2().transpose() * problem.m;
-  own = terms.cwiseMax(u_scale * own);
-  for (Eigen::Index i = 0; i < lambda.size(); ++i)
-    own(problem.contact[i]) = std::max(own(problem.contact[i]), std::abs(lambda(i)));
+  own = terms.cwiseMax(u_scale * own).cwiseMax(borne);
   for (Eigen::Index i = 0; i < beyond.size(); ++i)
     kkt.residual = most(kkt.residual, ratio(beyond(i), std::min(own(i), std::max(f_scale, reaction))));
   const Eigen::VectorXd strain = r.r2.cwiseQuotient(absolute_row_sums(problem.b));
@@ -121,14 +172,14 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   for (std::size_t i = 0; i < problem.fixed.size(); ++i)
     if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
       kkt.residual = std::max(kkt.residual, 1.0);
-  if (problem.contact.empty()) return kkt;
+  if (problem.bound_count() == 0) return kkt;
   kkt.min_gap = kkt.min_pressure = std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd values = bounded_values(problem, u);
+  Eigen::VectorXd forces = own.cwiseMin(f_scale);
+  for (const int i : problem.fixed) forces(i) = std::numeric_limits<double>::infinity();  // the clamp bears any
   for (Eigen::Index i = 0; i < lambda.size(); ++i) {  // each gap by its own bound: a far obstacle hides no near one
-    const double gap = u(problem.contact[i]) - problem.lower(i), scale = std::max(u_scale, std::abs(problem.lower(i)));
-    const double force = std::min(own(problem.contact[i]), f_scale);
-    kkt.min_pressure = least(kkt.min_pressure, ratio(lambda(i), force));
-    kkt.min_gap = least(kkt.min_gap, ratio(gap, scale));
-    kkt.complementarity = most(kkt.complementarity, ratio(std::abs(lambda(i) * gap), scale * force));
+    const BoundUnits units = bound_units(problem, i, forces);
+    note_bound(kkt, problem, i, values(i), lambda(i), u_scale * units.strain, units.force);
   }
   return kkt;
 }

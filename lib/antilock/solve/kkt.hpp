@@ -4,8 +4,9 @@
 
 namespace antilock {
 
-/// What the equations in split form leave over, on all N unknowns and R rows:
-///     r1 = L + lambda - A1 u - B' M p   (on fixed unknowns: minus the reaction)      r2 = compliance p - B u
+/// What the equations in split form leave over, on all N unknowns and R rows, E' lambda the forces of the bounds
+/// (bound_forces; none where lambda is empty):
+///     r1 = L + E' lambda - A1 u - B' M p   (on fixed unknowns: minus the reaction)      r2 = compliance p - B u
 struct SplitResidual {
   Eigen::VectorXd r1, r2;
 };
@@ -29,15 +30,22 @@ Eigen::VectorXd absolute_row_sums(const RowMatrix& b);
 /// |                           |                           |                     | rounding of u and p is no error    |
 /// | residual, a row j of r2   | |r2_j|                    | U sum_k |B_jk|      | a strain has the unit of its row   |
 /// | residual, a fixed unknown | 1 where u is not its value | 1                  | prescribed values hold exactly     |
-/// | min_gap, of contact i     | u_i - lower_i             | max(U, |lower_i|)   | a far obstacle hides no near one   |
-/// | min_pressure, of contact i| lambda_i                  | min(own_i, F_0)     | as for r1                          |
-/// | complementarity           | |lambda_i (u_i - lower_i)| | the two above      |                                    |
+/// | min_gap, of bound i       | s_i - lower_i             | max(U c_i, |lower_i|) | a far obstacle hides no near one |
+/// |                           | upper_i - s_i             | max(U c_i, |upper_i|) | each side by itself              |
+/// | min_pressure, of bound i  | lambda_i at a lower bound | force_i             | as for r1                          |
+/// |                           | -lambda_i at an upper one | force_i             |                                    |
+/// |                           | |lambda_i| between two    | force_i             | either sign is right               |
+/// | complementarity           | |lambda_i gap|, the part of lambda_i that a side bears times its gap | gap's scale  |
+/// |                           |                           | times force_i       |                                    |
 ///
+///     s_i    the bounded value: u_k of a contact unknown k, c . u of a row c of combinations
+///     c_i    what s_i is at most where no |u| is above 1: 1, and sum_k |c_k|
+///     force_i  min(own_k, F_0), and its smallest value over |c_k| on the free unknowns of a combination
 ///     U      max(|u|, 1e-6 moderate, the displacement that a load which neither lambda nor B' M p bears gives its
 ///            unknown alone): a locked u tends to 0, and its round-off is that of its size before
 ///     t      |L| + |A1| |u| + |B'| M |p|, the terms of r1
-///     own    max(t, lambda, U diag(A1 + B' M B)), the forces at one unknown
-///     F_0, F max(|L|, |lambda|), and with the reactions of the fixed unknowns
+///     own    max(t, |c_k lambda|, U diag(A1 + B' M B)), the forces at one unknown
+///     F_0, F max(|L|, |c_k lambda|), and with the reactions of the fixed unknowns
 ///
 /// All zero for the zero solution of a zero load. Throws Error for a malformed problem and for sizes that do not fit.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/corrections.hpp"
 
 namespace antilock {
@@ -17,15 +18,14 @@ constexpr double digits = 64 * std::numeric_limits<double>::epsilon();
 
 bool Corrections::hides_a_violation(const Change& change, const ContactSolver& contact) {
   const auto c = static_cast<Eigen::Index>(problem_.contact.size());
-  const Eigen::VectorXd u_c = s_.u(problem_.contact), sunk = problem_.lower - u_c;
+  const Eigen::VectorXd u_c = s_.u(problem_.contact), sunk = -slack(problem_, s_.u);
   // where u = 0 is admissible there is an answer, and the round-off of the largest u is none too large; else it may hide
   // that there is none
   const bool may_be_infeasible = problem_.compliance == 0 && problem_.b.rows() > 0 && !zero_is_admissible();
   const double plain = may_be_infeasible ? 0 : digits * s_.u.lpNorm<Eigen::Infinity>();
   bool suspect = false;
   if (options_.contact == 0)
-    for (Eigen::Index i = 0; i < c; ++i)
-      suspect = suspect || sunk(i) > plain + digits * std::max(std::abs(u_c(i)), std::abs(problem_.lower(i)));
+    for (Eigen::Index i = 0; i < c; ++i) suspect = suspect || sunk(i) > plain + digits * std::abs(u_c(i));
   // a row of B is far from compliance p if what is left is no small part of its own terms
   Eigen::VectorXd left, terms;
   if (change.p.size() > 0 && problem_.compliance < factor_.delta()) {
@@ -41,7 +41,7 @@ bool Corrections::hides_a_violation(const Change& change, const ContactSolver& c
   Eigen::VectorXd noise = noise_.array() + 10 * options_.contact * s_.u.lpNorm<Eigen::Infinity>();
   const Eigen::VectorXd noise_c = noise(problem_.contact);
   for (Eigen::Index i = 0; i < c; ++i)  // a held unknown stands where its bound is
-    if (contact_.active[i]) noise(problem_.contact[i]) = digits * std::abs(problem_.lower(i));
+    if (contact_.active[i]) noise(problem_.contact[i]) = digits * std::abs(u_c(i));
   noise(problem_.fixed).setZero();
   const bool row = left.size() > 0 &&
                    (left.array() > 1e-4 * terms.array() + (problem_.b.cwiseAbs() * noise).array()).any() && !rough;
@@ -67,7 +67,8 @@ bool Corrections::drowned(const Change& change) {
 }
 
 bool Corrections::zero_is_admissible() const {
-  return problem_.fixed_values.isZero(0) && (problem_.lower.array() <= 0).all();
+  return problem_.fixed_values.isZero(0) &&
+         (slack(problem_, Eigen::VectorXd::Zero(problem_.size())).array() >= 0).all();
 }
 
 void Corrections::require_an_admissible_u(const ContactSolver& contact) {

@@ -9,9 +9,9 @@ namespace antilock {
 
 /// How well the conditions of the inequality hold, each relative and scale-free (see kkt.hpp for the scales).
 struct Kkt {
-  double min_gap = 0;          ///< smallest u - lower over the contact unknowns / scale of u; >= 0 up to round-off
-  double min_pressure = 0;     ///< smallest lambda / scale of the forces; >= 0 up to round-off
-  double complementarity = 0;  ///< largest |lambda (u - lower)| / (the two scales)
+  double min_gap = 0;          ///< smallest distance from a bound / scale of u; >= 0 up to round-off
+  double min_pressure = 0;     ///< smallest push of a bound / scale of the forces; >= 0 up to round-off
+  double complementarity = 0;  ///< largest |push times distance| / (the two scales)
   double residual = 0;  ///< split form: A1 u + B' M p - L - lambda = 0 and compliance p = B u, the larger of the two
 };
 
@@ -32,10 +32,11 @@ struct SolveSeconds {
 /// The answer of every solver.
 struct Solution {
   std::string solver;
-  Eigen::VectorXd u;       ///< N, every unknown, the fixed ones too
-  Eigen::VectorXd p;       ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
-  Eigen::VectorXd lambda;  ///< C contact forces, one a contact unknown, >= 0 (a force; measure/ turns it to a density)
-  std::vector<bool> active;  ///< C: in contact
+  Eigen::VectorXd u;         ///< N, every unknown, the fixed ones too
+  Eigen::VectorXd p;         ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
+  Eigen::VectorXd lambda;    ///< C contact forces, one per bound (a force; measure/ turns it to a density): >= 0 at a
+                             ///< lower bound, <= 0 at an upper one
+  std::vector<bool> active;  ///< C: in contact, with either bound
   double moderate = 0;       ///< largest |u| with the moderate penalty in place of the compliance: the size of u before
                              ///< it locks, where it is known (0: it is not)
   Kkt kkt;

@@ -8,18 +8,30 @@
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/handed_back.hpp"
 #include "antilock/solve/iterated_penalty.hpp"
 
 namespace antilock {
 namespace {
 
-/// An upper bound of J(v+) - J(u_h) on Gamma_C, v+ = max(v, lower), for v = S^-1 (q + lambda) and any lambda >= 0: the
-/// energy of v+ less the dual energy of lambda, -(q + lambda) S^-1 (q + lambda) / 2 + lambda lower, which simplifies to
-///     lambda (v+ - lower) + d S d / 2,   d = v+ - v >= 0 what v sinks in.
+/// The nearest x to the bounds [low, high]: x itself between them. Entries of high may be infinite; empty: all are.
+Eigen::VectorXd between(const Eigen::VectorXd& low, const Eigen::VectorXd& x, const Eigen::VectorXd& high) {
+  return low.cwiseMax(high.size() > 0 ? Eigen::VectorXd(x.cwiseMin(high)) : x);
+}
+
+/// An upper bound of J(v+) - J(u_h) on Gamma_C, v+ = v moved to the nearest bound where it is beyond, for v = S^-1 (q +
+/// lambda) and any lambda of the right signs: the energy of v+ less the dual energy of lambda, -(q + lambda) S^-1 (q +
+/// lambda) / 2 + lambda bound (the lower one where lambda > 0, the upper one where lambda < 0), which simplifies to
+///     lambda (v+ - bound) + d S d / 2,   d = v+ - v what v sinks in.
 double duality_gap(const ContactProblem& p, const ContactAnswer& answer) {
-  const Eigen::VectorXd above = answer.v.cwiseMax(p.lower), d = above - answer.v;
-  return answer.lambda.dot(above - p.lower) + 0.5 * d.dot(p.s * d);
+  const Eigen::VectorXd inside = between(p.lower, answer.v, p.upper), d = inside - answer.v;
+  double work = 0;
+  for (Eigen::Index i = 0; i < d.size(); ++i)
+    if (const double lambda = answer.lambda(i); lambda != 0)
+      work += lambda * (inside(i) - (lambda > 0 ? p.lower(i) : p.upper(i)));
+  return work + 0.5 * d.dot(p.s * d);
 }
 
 /// Uzawa on Gamma_C alone. The compliance C = S^-1 maps contact forces to displacements.
@@ -37,7 +49,7 @@ class CondensedUzawa {
       answer.v = compliance_ * f;
       answer.lambda = f - p.q;
       if (options_.enough && answer.steps % 32 == 0 && duality_gap(p, answer) <= options_.enough->energy) break;
-      const Eigen::VectorXd next = (f - rho_ * (answer.v - p.lower)).cwiseMax(p.q);
+      const Eigen::VectorXd next = projected_step(p, f, answer.v);
       const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), p.u_scale);  // bounds far from v do not count
       const double change = scale > 0 ? (next - f).cwiseAbs().maxCoeff() / rho_ / scale : 0;
       f = next;
@@ -54,7 +66,7 @@ class CondensedUzawa {
             change, static_cast<int>(history.size()));
     }
     answer.active.resize(p.q.size());
-    for (Eigen::Index i = 0; i < p.q.size(); ++i) answer.active[i] = f(i) > p.q(i);
+    for (Eigen::Index i = 0; i < p.q.size(); ++i) answer.active[i] = f(i) != p.q(i);
     answer.lambda = f - p.q;
     answer.v = compliance_ * f;
     return answer;
@@ -63,6 +75,13 @@ class CondensedUzawa {
   std::vector<double> history;
 
  private:
+  /// lambda <- max(0, lambda - rho (v - lower)) + min(0, lambda - rho (v - upper)): of the two terms one is zero. In f
+  /// that is q, moved up to f - rho (v - lower) or down to f - rho (v - upper).
+  Eigen::VectorXd projected_step(const ContactProblem& p, const Eigen::VectorXd& f, const Eigen::VectorXd& v) const {
+    const Eigen::VectorXd up = f - rho_ * (v - p.lower);
+    return between(up, p.q, p.upper.size() > 0 ? Eigen::VectorXd(f - rho_ * (v - p.upper)) : Eigen::VectorXd());
+  }
+
   void condense() {
     const auto& l = factor_.contact_block();
     const Eigen::MatrixXd inverse =
@@ -88,14 +107,18 @@ class CondensedUzawa {
   Stopwatch watch_;
 };
 
+CorrectionOptions asked_of_corrections(const UzawaOptions& options) {
+  return corrections_to(std::max({options.tolerance, options.enough ? options.enough->relative : 0, 1e-12}));
+}
+
 }  // namespace
 
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options) {
+  require_bounds_on_unknowns(problem, "uzawa with a factor made before");
   factor.check_fits(problem);
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
-  CorrectionOptions corrections =
-      corrections_to(std::max({options.tolerance, options.enough ? options.enough->relative : 0, 1e-12}));
+  CorrectionOptions corrections = asked_of_corrections(options);
   corrections.progress = options.progress;
   corrections.contact = corrections.tolerance;
   if (problem.contact.empty()) return iterated_penalty(problem, factor, {}, corrections, "uzawa");
@@ -108,6 +131,11 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
 
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
   check_data(problem);  // the factor checks the rest
+  if (problem.combinations.rows() > 0) {
+    const BoundedUnknowns basis(problem);
+    return handed_back(problem, basis, uzawa(basis.problem, options),
+                       TrustLevels{.refused = asked_of_corrections(options).refused});
+  }
   PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
   return uzawa(problem, factor, options);
 }

@@ -3,13 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <tuple>
 
 #include "antilock/core/error.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 
 namespace antilock {
 
-Sweep::Sweep(VariationalInequality problem) : problem_(std::move(problem)) { check(problem_); }
+Sweep::Sweep(VariationalInequality problem) : problem_(std::move(problem)) {
+  check(problem_);
+  require_bounds_on_unknowns(problem_, "sweep");
+}
 
 void Sweep::set_compliance(double compliance) {
   if (problem_.b.rows() == 0)
@@ -26,12 +31,20 @@ void Sweep::set_load(Eigen::VectorXd load) {
   problem_.load = std::move(load);
 }
 
-void Sweep::set_bounds(Eigen::VectorXd lower) {
+void Sweep::set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper) {
   if (problem_.contact.empty()) throw Error("sweep: no unknown is bounded; accepted: a problem with contact");
-  if (lower.size() != problem_.lower.size() || !lower.allFinite())
-    throw Error(fmt::format("sweep: {} bounds; accepted: {} finite ones, one per contact unknown", lower.size(),
+  if (lower.size() != problem_.lower.size())
+    throw Error(fmt::format("sweep: {} bounds; accepted: {}, one per contact unknown", lower.size(),
                             problem_.lower.size()));
+  const auto before = std::pair(problem_.lower, problem_.upper);
   problem_.lower = std::move(lower);
+  if (upper) problem_.upper = std::move(*upper);
+  try {
+    check_bounds(problem_);
+  } catch (const Error&) {
+    std::tie(problem_.lower, problem_.upper) = before;
+    throw;
+  }
 }
 
 const PenaltyFactor& Sweep::factor() const {
@@ -49,7 +62,9 @@ Solution Sweep::solve(ActiveSetOptions options) {
   if (!options.start) options.start = contact_set_;
 
   Solution solution = active_set(problem_, *factor_, options);
-  contact_set_ = solution.active;
+  contact_set_.emplace(solution.active, std::vector<bool>(problem_.upper.size()));
+  for (Eigen::Index i = 0; i < problem_.upper.size(); ++i)
+    contact_set_->above[i] = solution.active[i] && solution.lambda(i) < 0;
   solution.counters.factorisations = factor_->factorisations - factorisations_before;
   if (solution.counters.factorisations == 0) solution.seconds.factor = 0;
   if (factorisations_before > 0) solution.seconds.analyse = 0;

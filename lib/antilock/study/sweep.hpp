@@ -18,7 +18,7 @@ namespace antilock {
 /// it for a scene.
 class Sweep {
  public:
-  /// Throws Error as `check` does.
+  /// Throws Error as `check` does, and for bounds on combinations (solve/handed_back.hpp).
   explicit Sweep(VariationalInequality problem);
 
   /// Another value of the class parameter, 0 to 1. Throws Error where nothing is stiff (B has no
@@ -26,8 +26,9 @@ class Sweep {
   void set_compliance(double compliance);
   /// N entries, one per unknown.
   void set_load(Eigen::VectorXd load);
-  /// C entries, one per contact unknown. Throws Error where there is no contact.
-  void set_bounds(Eigen::VectorXd lower);
+  /// C entries, one per contact unknown; `upper` as in the problem, empty: as it was. Throws Error where there is no
+  /// contact, and as `check` does.
+  void set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper = {});
 
   /// The answer, its counters saying what this question cost beyond the ones before.
   Solution solve(ActiveSetOptions options = {});
@@ -42,7 +43,7 @@ class Sweep {
 
  private:
   std::optional<PenaltyFactor> factor_;
-  std::optional<std::vector<bool>> contact_set_;
+  std::optional<HeldBounds> contact_set_;
   Counters total_;
 };
 

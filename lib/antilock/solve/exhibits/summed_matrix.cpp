@@ -6,6 +6,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
 
@@ -61,6 +62,7 @@ std::string to_string(NaiveEnd end) {
 
 NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps) {
   check(problem);
+  require_lower_bounds(problem, "naive");
   if (problem.b.rows() > 0 && problem.compliance == 0)
     throw Error(
         "naive: the summed matrix does not exist at epsilon = 0; accepted epsilon > 0, or the solver active_set");

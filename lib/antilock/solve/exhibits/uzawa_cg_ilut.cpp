@@ -8,6 +8,7 @@
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
 
@@ -52,6 +53,7 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   check(problem);
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa, CG + ILUT: step = {}; accepted: a positive number", *options.step));
+  require_lower_bounds(problem, "uzawa, CG + ILUT");
   if (options.enough)
     throw Error(
         "uzawa, CG + ILUT: options.enough asks for the condensed matrix; accepted: tolerance, or the solver uzawa");

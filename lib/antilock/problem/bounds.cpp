@@ -1,0 +1,93 @@
+#include "antilock/problem/bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "antilock/core/error.hpp"
+
+namespace antilock {
+namespace {
+
+void require_bound(bool holds, const std::string& what) {
+  if (!holds) throw Error("variational inequality: " + what);
+}
+
+void check_combinations(const VariationalInequality& problem) {
+  const RowMatrix& rows = problem.combinations;
+  if (rows.rows() == 0) return;
+  require_bound(rows.cols() == problem.size(),
+                fmt::format("combinations have {} columns; accepted {}, one per unknown", rows.cols(), problem.size()));
+  require_bound(rows.isCompressed(), "combinations are accepted compressed only");
+  require_bound(Eigen::Map<const Eigen::VectorXd>(rows.valuePtr(), rows.nonZeros()).allFinite(),
+                "an entry of combinations is not finite");
+  std::vector<char> fixed(problem.size(), 0);
+  for (const int i : problem.fixed) fixed[i] = 1;
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    bool free = false;
+    for (RowMatrix::InnerIterator c(rows, row); c; ++c) free = free || (c.value() != 0 && fixed[c.col()] == 0);
+    require_bound(free, fmt::format("combination {} holds no free unknown; accepted: one or more", row));
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd bounded_values(const VariationalInequality& problem, const Eigen::VectorXd& u) {
+  Eigen::VectorXd values(problem.bound_count());
+  values.head(static_cast<Eigen::Index>(problem.contact.size())) = u(problem.contact);
+  if (problem.combinations.rows() > 0) values.tail(problem.combinations.rows()) = problem.combinations * u;
+  return values;
+}
+
+Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda) {
+  const auto on_unknowns = static_cast<Eigen::Index>(problem.contact.size());
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(problem.size());
+  if (problem.combinations.rows() > 0)
+    forces = problem.combinations.transpose() * lambda.tail(problem.combinations.rows());
+  for (Eigen::Index i = 0; i < on_unknowns; ++i) forces(problem.contact[i]) += lambda(i);
+  return forces;
+}
+
+Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorXd& u) {
+  const Eigen::VectorXd values = bounded_values(problem, u), above = values - problem.lower;
+  return problem.upper.size() > 0 ? Eigen::VectorXd(above.cwiseMin(problem.upper - values)) : above;
+}
+
+void check_bounds(const VariationalInequality& problem) {
+  check_combinations(problem);
+  const Eigen::VectorXd &lower = problem.lower, &upper = problem.upper;
+  const int bounds = problem.bound_count();
+  require_bound(lower.size() == bounds,
+                fmt::format("lower has {} entries; accepted {}: one bound per contact unknown and per combination",
+                            lower.size(), bounds));
+  require_bound(upper.size() == 0 || upper.size() == bounds,
+                fmt::format("upper has {} entries; accepted none, or {} as in lower", upper.size(), bounds));
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < bounds; ++i) {
+    const double low = lower(i), high = upper.size() > 0 ? upper(i) : infinity;
+    require_bound(
+        (std::isfinite(low) || low == -infinity) && (std::isfinite(high) || high == infinity) &&
+            (std::isfinite(low) || std::isfinite(high)),
+        fmt::format("bound {} is not finite: from {} to {}; accepted: one finite side or two, -infinity below "
+                    "or infinity above for none",
+                    i, low, high));
+    require_bound(low <= high, fmt::format("bound {} is from {} to {}; accepted: lower <= upper, equal for an equation",
+                                           i, low, high));
+  }
+}
+
+void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who) {
+  if (problem.combinations.rows() > 0)
+    throw Error(who +
+                ": bounds on combinations are not known here; accepted: bounds on unknowns, as BoundedUnknowns "
+                "(problem/bounded_unknowns.hpp) makes of them");
+}
+
+void require_lower_bounds(const VariationalInequality& problem, const std::string& who) {
+  if (problem.combinations.rows() > 0 || problem.upper.size() > 0)
+    throw Error(who +
+                ": upper bounds and bounds on combinations are not known here; accepted: lower bounds on unknowns");
+}
+
+}  // namespace antilock

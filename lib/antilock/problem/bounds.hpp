@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+
+#include "antilock/problem/variational_inequality.hpp"
+
+namespace antilock {
+
+/// What is bounded, for any u of N entries: the contact unknowns, then the combinations. C entries.
+Eigen::VectorXd bounded_values(const VariationalInequality& problem, const Eigen::VectorXd& u);
+
+/// The N forces on the unknowns of C forces lambda at the bounds: the transpose of bounded_values.
+Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda);
+
+/// The distance of each bounded value from the nearer of its bounds, negative where it lies outside. C entries.
+Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorXd& u);
+
+/// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of combinations
+/// without a free unknown. Throws Error.
+void check_bounds(const VariationalInequality& problem);
+
+/// Throws Error where `who` takes bounds on unknowns alone and the problem has combinations.
+void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who);
+
+/// Throws Error where `who` takes lower bounds on unknowns alone and the problem has others.
+void require_lower_bounds(const VariationalInequality& problem, const std::string& who);
+
+}  // namespace antilock
