@@ -1,14 +1,20 @@
-# Gmsh::Gmsh: gmsh's C++ API (Debian ships no CMake config for it).
-find_path(Gmsh_INCLUDE_DIR gmsh.h)
+# Gmsh::Gmsh: gmsh's C functions (Debian ships no CMake config for it). The library is not linked: what includes gmshc.h
+# loads it by the name Gmsh_SONAME when it makes its first mesh.
+find_path(Gmsh_INCLUDE_DIR gmshc.h)
 find_library(Gmsh_LIBRARY gmsh)
 if(Gmsh_INCLUDE_DIR)
-  file(STRINGS ${Gmsh_INCLUDE_DIR}/gmsh.h version_line REGEX "define GMSH_API_VERSION +\"")
+  file(STRINGS ${Gmsh_INCLUDE_DIR}/gmshc.h version_line REGEX "define GMSH_API_VERSION +\"")
   string(REGEX MATCH "[0-9.]+" Gmsh_VERSION "${version_line}")
+endif()
+if(Gmsh_LIBRARY)
+  # libgmsh.so -> libgmsh.so.4.8.4, known to the loader as libgmsh.so.4.8
+  file(REAL_PATH ${Gmsh_LIBRARY} real_path)
+  cmake_path(GET real_path FILENAME real_name)
+  string(REGEX REPLACE "([.]so[.][0-9]+[.][0-9]+)[.].*" "\\1" Gmsh_SONAME ${real_name})
 endif()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(Gmsh REQUIRED_VARS Gmsh_LIBRARY Gmsh_INCLUDE_DIR VERSION_VAR Gmsh_VERSION)
 if(Gmsh_FOUND AND NOT TARGET Gmsh::Gmsh)
-  add_library(Gmsh::Gmsh UNKNOWN IMPORTED)
-  set_target_properties(Gmsh::Gmsh PROPERTIES IMPORTED_LOCATION ${Gmsh_LIBRARY}
-                        INTERFACE_INCLUDE_DIRECTORIES ${Gmsh_INCLUDE_DIR})
+  add_library(Gmsh::Gmsh INTERFACE IMPORTED)
+  set_target_properties(Gmsh::Gmsh PROPERTIES INTERFACE_INCLUDE_DIRECTORIES ${Gmsh_INCLUDE_DIR})
 endif()

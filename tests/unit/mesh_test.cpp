@@ -1,6 +1,6 @@
 // Invariants of the meshes of Figures 3 and 6, and of their variants.
 #include <fmt/format.h>
-#include <gmsh.h>
+#include <gmshc.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +12,7 @@
 #include <set>
 
 #include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/gmsh_session.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
@@ -214,39 +215,33 @@ std::pair<long, long> rounded(double x, double y) { return {std::lround(x * 1e9)
 
 /// Figure 3 by gmsh's own transfinite mesher.
 Shape transfinite(int cells, const std::string& arrangement) {
-  gmsh::initialize(0, nullptr, false);
-  gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::model::add("transfinite");
-  namespace geo = gmsh::model::geo;
-  const int p[] = {geo::addPoint(0, -1, 0), geo::addPoint(1, -1, 0), geo::addPoint(0, 0, 0),
-                   geo::addPoint(1, 0, 0),  geo::addPoint(0, 1, 0),  geo::addPoint(1, 1, 0)};
-  const int bottom = geo::addLine(p[0], p[1]), sigma = geo::addLine(p[2], p[3]), top = geo::addLine(p[4], p[5]);
-  const int left_low = geo::addLine(p[0], p[2]), right_low = geo::addLine(p[1], p[3]);
-  const int left_up = geo::addLine(p[2], p[4]), right_up = geo::addLine(p[3], p[5]);
-  const int body = geo::addPlaneSurface({geo::addCurveLoop({sigma, right_up, -top, -left_up})});
-  const int layer = geo::addPlaneSurface({geo::addCurveLoop({bottom, right_low, -sigma, -left_low})});
+  const GmshSession gmsh;
+  const int p[] = {gmsh.add_point(0, -1), gmsh.add_point(1, -1), gmsh.add_point(0, 0),
+                   gmsh.add_point(1, 0),  gmsh.add_point(0, 1),  gmsh.add_point(1, 1)};
+  const int bottom = gmsh.add_line(p[0], p[1]), sigma = gmsh.add_line(p[2], p[3]), top = gmsh.add_line(p[4], p[5]);
+  const int left_low = gmsh.add_line(p[0], p[2]), right_low = gmsh.add_line(p[1], p[3]);
+  const int left_up = gmsh.add_line(p[2], p[4]), right_up = gmsh.add_line(p[3], p[5]);
+  const int body = gmsh.add_surface({sigma, right_up, -top, -left_up});
+  const int layer = gmsh.add_surface({bottom, right_low, -sigma, -left_low});
   for (const int line : {bottom, sigma, top, left_low, right_low, left_up, right_up})
-    geo::mesh::setTransfiniteCurve(line, cells + 1);
-  for (const int surface : {body, layer}) geo::mesh::setTransfiniteSurface(surface, arrangement);
-  geo::synchronize();
-  gmsh::model::mesh::generate(2);
-  std::vector<std::size_t> tags;
-  std::vector<double> xyz, ignored;
-  gmsh::model::mesh::getNodes(tags, xyz, ignored);
+    gmsh.call<decltype(gmshModelGeoMeshSetTransfiniteCurve)>("gmshModelGeoMeshSetTransfiniteCurve", line, cells + 1,
+                                                             "Progression", 1.0);
+  for (const int surface : {body, layer})
+    gmsh.call<decltype(gmshModelGeoMeshSetTransfiniteSurface)>("gmshModelGeoMeshSetTransfiniteSurface", surface,
+                                                               arrangement.c_str(), nullptr, 0);
+  gmsh.generate();
+  const auto [tags, xyz] = gmsh.nodes();
   std::map<std::size_t, std::pair<long, long>> place;
   for (std::size_t i = 0; i < tags.size(); ++i) place[tags[i]] = rounded(xyz[3 * i], xyz[3 * i + 1]);
   Shape shape;
   for (const auto& [surface, region] : {std::pair{body, Region::body}, std::pair{layer, Region::layer}}) {
-    std::vector<int> types;
-    std::vector<std::vector<std::size_t>> elements, nodes;
-    gmsh::model::mesh::getElements(types, elements, nodes, 2, surface);
-    for (std::size_t i = 0; i + 2 < nodes.at(0).size(); i += 3) {
-      std::array corners{place[nodes[0][i]], place[nodes[0][i + 1]], place[nodes[0][i + 2]]};
+    const std::vector<std::size_t> nodes = gmsh.elements_of(2, surface);
+    for (std::size_t i = 0; i + 2 < nodes.size(); i += 3) {
+      std::array corners{place[nodes[i]], place[nodes[i + 1]], place[nodes[i + 2]]};
       std::sort(corners.begin(), corners.end());
       shape[corners] = static_cast<int>(region);
     }
   }
-  gmsh::finalize();
   return shape;
 }
 

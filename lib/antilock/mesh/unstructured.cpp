@@ -1,33 +1,16 @@
 // Figure 6: an arbitrary triangulation, compatible with the decomposition into body and layer; gmsh makes it.
-#include <gmsh.h>
-
 #include <algorithm>
 #include <map>
 #include <unordered_map>
 
 #include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/gmsh_session.hpp"
 #include "antilock/mesh/refine.hpp"
 
 namespace antilock {
 
 namespace {
-
-/// gmsh keeps one global model: a session opens and closes it, whatever is thrown in between.
-struct GmshSession {
-  GmshSession() {
-    gmsh::initialize(0, nullptr, /*readConfigFiles=*/false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::option::setNumber("General.NumThreads", 1);  // the mesh depends on the number of threads
-    gmsh::option::setNumber("Mesh.RandomSeed", 1);
-    gmsh::option::setNumber("Mesh.Algorithm", 6);  // Frontal-Delaunay
-    gmsh::option::setNumber("Mesh.MeshSizeExtendFromBoundary", 1);
-    gmsh::model::add("antilock");
-  }
-  ~GmshSession() { gmsh::finalize(); }
-  GmshSession(const GmshSession&) = delete;
-  GmshSession& operator=(const GmshSession&) = delete;
-};
 
 struct Curves {
   std::vector<int> clamped, contact, sigma;
@@ -35,26 +18,24 @@ struct Curves {
 };
 
 /// The outline of Figure 2: corners from the bottom up, the layer (if any) below the body.
-Curves add_geometry(double depth, double h_body, double h_layer) {
-  namespace geo = gmsh::model::geo;
+Curves add_geometry(const GmshSession& gmsh, double depth, double h_body, double h_layer) {
   Curves c;
-  const int a = geo::addPoint(0, 0, 0, h_layer), b = geo::addPoint(1, 0, 0, h_layer);
-  const int top_left = geo::addPoint(0, 1, 0, h_body), top_right = geo::addPoint(1, 1, 0, h_body);
-  const int interface = geo::addLine(a, b), right = geo::addLine(b, top_right);
-  const int top = geo::addLine(top_right, top_left), left = geo::addLine(top_left, a);
-  c.body = geo::addPlaneSurface({geo::addCurveLoop({interface, right, top, left})});
+  const int a = gmsh.add_point(0, 0, h_layer), b = gmsh.add_point(1, 0, h_layer);
+  const int top_left = gmsh.add_point(0, 1, h_body), top_right = gmsh.add_point(1, 1, h_body);
+  const int interface = gmsh.add_line(a, b), right = gmsh.add_line(b, top_right);
+  const int top = gmsh.add_line(top_right, top_left), left = gmsh.add_line(top_left, a);
+  c.body = gmsh.add_surface({interface, right, top, left});
   c.clamped = {right, top, left};
   if (depth > 0) {
-    const int d = geo::addPoint(0, -depth, 0, h_layer), e = geo::addPoint(1, -depth, 0, h_layer);
-    const int bottom = geo::addLine(d, e), up = geo::addLine(e, b), down = geo::addLine(a, d);
-    c.layer = geo::addPlaneSurface({geo::addCurveLoop({bottom, up, -interface, down})});
+    const int d = gmsh.add_point(0, -depth, h_layer), e = gmsh.add_point(1, -depth, h_layer);
+    const int bottom = gmsh.add_line(d, e), up = gmsh.add_line(e, b), down = gmsh.add_line(a, d);
+    c.layer = gmsh.add_surface({bottom, up, -interface, down});
     c.clamped.insert(c.clamped.end(), {up, down});
     c.contact = {bottom};
     c.sigma = {interface};
   } else {
     c.contact = {interface};
   }
-  geo::synchronize();
   return c;
 }
 
@@ -63,10 +44,8 @@ struct Vertices {
   std::unordered_map<std::size_t, int> of_tag;
 };
 
-Vertices read_vertices(double depth) {
-  std::vector<std::size_t> tags;
-  std::vector<double> xyz, parameters;
-  gmsh::model::mesh::getNodes(tags, xyz, parameters);
+Vertices read_vertices(const GmshSession& gmsh, double depth) {
+  const auto [tags, xyz] = gmsh.nodes();
   Vertices v;
   v.points.resize(static_cast<Eigen::Index>(tags.size()), 2);
   // gmsh places points of the outline to about 1e-12: put them exactly on it
@@ -82,29 +61,25 @@ Vertices read_vertices(double depth) {
   return v;
 }
 
-/// The elements of one geometric entity: `size` vertices each.
-std::vector<int> elements_of(int dimension, int entity, const Vertices& vertices) {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> tags, nodes;
-  gmsh::model::mesh::getElements(types, tags, nodes, dimension, entity);
+/// The elements of one line (dimension 1) or surface (2): two or three vertices each.
+std::vector<int> elements_of(const GmshSession& gmsh, int dimension, int entity, const Vertices& vertices) {
   std::vector<int> all;
-  for (const auto& some : nodes)
-    for (const std::size_t node : some) all.push_back(vertices.of_tag.at(node));
+  for (const std::size_t node : gmsh.elements_of(dimension, entity)) all.push_back(vertices.of_tag.at(node));
   return all;
 }
 
 /// gmsh's mesh with edges of about h in the body and h_layer along and below Sigma.
 TriangleMesh by_gmsh(double depth, double h, double h_layer) {
-  const GmshSession session;
-  const Curves curves = add_geometry(depth, h, h_layer);
-  gmsh::model::mesh::generate(2);
+  const GmshSession gmsh;
+  const Curves curves = add_geometry(gmsh, depth, h, h_layer);
+  gmsh.generate();
 
-  const Vertices vertices = read_vertices(depth);
+  const Vertices vertices = read_vertices(gmsh, depth);
   std::vector<int> corners;
   std::vector<Region> region;
   for (const auto& [surface, name] : {std::pair{curves.body, Region::body}, std::pair{curves.layer, Region::layer}}) {
     if (surface == 0) continue;
-    const auto some = elements_of(2, surface, vertices);
+    const auto some = elements_of(gmsh, 2, surface, vertices);
     corners.insert(corners.end(), some.begin(), some.end());
     region.resize(corners.size() / 3, name);
   }
@@ -113,7 +88,7 @@ TriangleMesh by_gmsh(double depth, double h, double h_layer) {
        {std::pair{curves.clamped, EdgeTag::clamped}, std::pair{curves.contact, EdgeTag::contact},
         std::pair{curves.sigma, EdgeTag::sigma}})
     for (const int line : lines) {
-      const auto ends = elements_of(1, line, vertices);
+      const auto ends = elements_of(gmsh, 1, line, vertices);
       for (std::size_t i = 0; i < ends.size(); i += 2) tagged.push_back({ends[i], ends[i + 1], tag});
     }
   Triples triangles = Eigen::Map<Triples>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);

@@ -1,0 +1,60 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace antilock {
+
+/// gmsh's one global model, from its initialisation to its end, whatever is thrown in between. The library of gmsh is
+/// loaded when the first session starts, not when a program does: with all that it needs (93 libraries) that takes 0.1 s,
+/// and most programs never ask for an unstructured mesh. Its C functions are called, which have no mangled names.
+class GmshSession {
+ public:
+  /// Throws Error where gmsh's library cannot be loaded.
+  GmshSession();
+  ~GmshSession();
+  GmshSession(const GmshSession&) = delete;
+  GmshSession& operator=(const GmshSession&) = delete;
+
+  /// Calls one of gmshc.h's functions by its type and its name, with all its arguments but the last one (int* ierr):
+  /// `gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2)`. Throws Error where gmsh reports a failure.
+  template <class Function, class... Arguments>
+  auto call(const char* name, Arguments... arguments) const {
+    auto* const function = reinterpret_cast<Function*>(symbol(name));
+    int failed = 0;
+    if constexpr (std::is_void_v<decltype(function(arguments..., &failed))>) {
+      function(arguments..., &failed);
+      check(failed, name);
+    } else {
+      const auto result = function(arguments..., &failed);
+      check(failed, name);
+      return result;
+    }
+  }
+
+  void set(const char* option, double value) const;
+  /// A point at (x, y) around which edges are `size` long (0: gmsh's default); its tag.
+  int add_point(double x, double y, double size = 0) const;
+  /// A line between two points; its tag.
+  int add_line(int from, int to) const;
+  /// A plane surface inside four lines that follow each other, -line for one that is run through backwards; its tag.
+  int add_surface(std::array<int, 4> lines) const;
+  /// Hands the geometry to the mesher and makes triangles.
+  void generate() const;
+
+  struct Nodes {
+    std::vector<std::size_t> tags;
+    std::vector<double> xyz;  ///< three per node
+  };
+  Nodes nodes() const;
+  /// The nodes of the elements of one line (dimension 1: two per element) or surface (2: three per element).
+  std::vector<std::size_t> elements_of(int dimension, int entity) const;
+
+ private:
+  static void* symbol(const char* name);
+  void check(int failed, const char* name) const;
+};
+
+}  // namespace antilock
