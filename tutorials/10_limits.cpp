@@ -49,8 +49,8 @@
 //
 // ## Remark 5: the limit is a string on $Σ$
 //
-// A function of $K_0$ is one on the body: below $Σ$ it goes on as its trace $w(x)$. So $a_x^-(u, v) = ∫_Σ u' w'$, and
-// by parts (2) becomes $∫_Σ r (w - u) ≥ 0$ for all $w ≥ 0$, with
+// A function of $K_0$ is one on the body: below $Σ$ it goes on as its values $w(x)$ on $Σ$, its *trace*. So
+// $a_x^-(u, v) = ∫_Σ u' w'$, and by parts (2) becomes $∫_Σ r (w - u) ≥ 0$ for all $w ≥ 0$, with
 //
 // $$ -Δu = f,   u ≥ 0,   r = ∂_n u - u_{xx} ≥ 0,   u r = 0 \text{ on } Σ. \tag{25} $$
 //

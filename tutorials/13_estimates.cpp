@@ -17,7 +17,8 @@
 //
 // ## Theorem 2, derived
 //
-// Let $a$ have the constants $|a(u, v)| ≤ M ‖u‖_h ‖v‖_h$ and $a(v_h, v_h) ≥ α ‖v_h‖_h^2$, and call
+// Let $a$ be *continuous* with a constant $M$ and *coercive* with a constant $α$: $|a(u, v)| ≤ M ‖u‖_h ‖v‖_h$ and
+// $a(v_h, v_h) ≥ α ‖v_h‖_h^2$. Call
 //
 // $$ R(v) = a(u, v) - f(v). $$
 //
