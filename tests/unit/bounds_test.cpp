@@ -203,6 +203,21 @@ TEST(StringBetweenFloorAndCeiling, AsCombinationsIsTheSame) {
   EXPECT_LT(relative_difference(s.lambda, -string.lambda / 3), 1e-13);
 }
 
+TEST(StringBetweenFloorAndCeiling, TheDualityGapOfUzawaBoundsWhatIsLeft) {
+  const String string;
+  UzawaOptions options;
+  int steps = 0;
+  for (const double energy : {1e-4, 1e-6, 1e-8}) {
+    options.enough = {energy, 1e-2};
+    const Solution s = uzawa(string.problem, options);
+    const Eigen::VectorXd e = s.u - string.u;
+    EXPECT_LE(0.5 * e.dot(string.problem.a1 * e), energy);
+    EXPECT_GT(s.counters.contact, steps) << "more asked, more steps";
+    steps = s.counters.contact;
+  }
+  EXPECT_LT(2 * steps, uzawa(string.problem).counters.contact);
+}
+
 TEST(StringBetweenFloorAndCeiling, TheNestedStartKnowsTheSides) {
   const String string;
   Eigen::MatrixXd s = Eigen::MatrixXd(string.problem.a1).block(1, 1, string.n - 1, string.n - 1);
@@ -632,6 +647,41 @@ TEST(Bounds, ThatNoUCanMeetAreRefusedUnderAnyLoad) {
         EXPECT_NO_THROW(active_set(problem)) << load << ", shape " << shape;
       }
     }
+}
+
+TEST(Bounds, FromAboveThatNoUCanMeetAreRefusedUnderAnyLoad) {
+  // B says u_0 = 0, its bound -0.05 or less; a great load on any of three springs in a chain hides it from no solver
+  for (const double load : {1.0, 1e6, 1e12, 1e14, 1e18, 1e24})
+    for (const double sign : {1.0, -1.0})
+      for (const int at : {0, 1, 2}) {
+        VariationalInequality problem = springs(Eigen::MatrixXd(0, 3), sign * load * Eigen::Vector3d::Unit(at));
+        problem.load.array() -= 0.1;
+        Eigen::Matrix3d chain;
+        chain << 2, -1, 0, -1, 2, -1, 0, -1, 2;
+        problem.a1 = chain.sparseView();
+        problem.b = rows_of(Eigen::RowVector3d(1, 0, 0));
+        problem.m = Eigen::VectorXd::Ones(1);
+        problem.compliance = 0;
+        problem.contact = {0, 2};
+        problem.lower = Eigen::Vector2d(-infinity, -infinity);
+        problem.upper = Eigen::Vector2d(-0.05, 1);
+        EXPECT_THROW(active_set(problem), NotConverged) << sign * load << " at " << at;
+      }
+}
+
+TEST(Bounds, AGreatLoadHidesNoNeighbourThatSinksIn) {
+  // two unknowns pushed to their upper bounds, one by a great force: the answer is the bounds
+  Eigen::Matrix2d a1;
+  a1 << 14, 4, 4, 6;
+  for (const double load : {1e8, 1e11, 1e14, 1e18, 1e25}) {
+    VariationalInequality problem = springs(Eigen::MatrixXd(0, 2), Eigen::Vector2d(load, 7));
+    problem.a1 = a1.sparseView();
+    problem.contact = {0, 1};
+    problem.lower = Eigen::Vector2d(-1, -infinity);
+    problem.upper = Eigen::Vector2d(0.5, 0.1);
+    for (const Solution& s : {active_set(problem), uzawa(problem)})
+      EXPECT_LT((s.u - problem.upper).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
+  }
 }
 
 TEST(Kkt, ReportsEachSideOfABoundByItself) {
