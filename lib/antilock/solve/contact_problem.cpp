@@ -136,7 +136,8 @@ ContactAnswer solve_contact(const ContactProblem& problem, HeldBounds start, int
   for (int i = 0; i < problem.q.size(); ++i) {  // a start asks for bounds that there are; an equation always holds
     const bool low = std::isfinite(problem.lower(i)), high = std::isfinite(upper_bound(problem, i));
     if (is_equation(problem, i)) answer.active[i] = true;
-    if (high) answer.above[i] = answer.active[i] && (answer.above[i] || !low);
+    if (problem.upper.size() > 0) answer.above[i] = answer.active[i] && high && (answer.above[i] || !low);
+    answer.active[i] = answer.active[i] && (low || high);
   }
   std::size_t fewest = problem.q.size() + 1;
   int patience = 5;  // exchanges of whole sets allowed without progress before the energy is asked

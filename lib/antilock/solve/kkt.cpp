@@ -8,17 +8,13 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
+#include "antilock/solve/kkt_bounds.hpp"
 
 namespace antilock {
 namespace {
 
-double ratio(double value, double scale) {
-  return value == 0 ? 0.0 : value / scale;
-}  // 0 / 0 is a condition met exactly
-
-/// The smaller and the larger one; not a number where one of them is not.
-double least(double a, double b) { return std::isnan(a) || a < b ? a : b; }
-double most(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+using scale_free::most;
+using scale_free::ratio;
 
 /// The report is asked of foreign answers too.
 void require_sizes(const VariationalInequality& problem, const Solution& s) {
@@ -67,54 +63,6 @@ SplitResidual residual_in(const VariationalInequality& problem, const Eigen::Vec
   Vector r2 = static_cast<Scalar>(problem.compliance) * wide_p;
   r2 -= problem.b.cast<Scalar>() * wide_u;
   return {r1.template cast<double>(), r2.template cast<double>()};
-}
-
-/// The largest force of a single bound on each unknown, N.
-Eigen::VectorXd largest_bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda) {
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(problem.size());
-  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
-  for (Eigen::Index i = 0; i < contact; ++i) largest(problem.contact[i]) = std::abs(lambda(i));
-  for (Eigen::Index row = 0; row < problem.combinations.rows(); ++row)
-    for (RowMatrix::InnerIterator c(problem.combinations, row); c; ++c)
-      largest(c.col()) = std::max(largest(c.col()), std::abs(c.value() * lambda(contact + row)));
-  return largest;
-}
-
-/// The units that a bound is judged in.
-struct BoundUnits {
-  double strain;  ///< what the bounded value is at most where no |u| is above 1
-  double force;   ///< a lambda that no unknown in the bound would overlook
-};
-BoundUnits bound_units(const VariationalInequality& problem, Eigen::Index bound, const Eigen::VectorXd& forces) {
-  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
-  if (bound < contact) return {1, forces(problem.contact[bound])};
-  BoundUnits units{0, std::numeric_limits<double>::infinity()};
-  for (RowMatrix::InnerIterator c(problem.combinations, bound - contact); c; ++c) {
-    if (c.value() == 0) continue;
-    units.strain += std::abs(c.value());
-    units.force = std::min(units.force, forces(c.col()) / std::abs(c.value()));
-  }
-  return units;
-}
-
-/// The rows of the report for bound i, whose value is `value`.
-void note_bound(Kkt& kkt, const VariationalInequality& problem, Eigen::Index i, double value, double lambda,
-                double u_scale, double force) {
-  const double lower = problem.lower(i);
-  const double upper = problem.upper.size() > 0 ? problem.upper(i) : std::numeric_limits<double>::infinity();
-  // between two bounds either sign of lambda is right, and each side answers for its own
-  const bool two = std::isfinite(lower) && std::isfinite(upper);
-  const double up = two ? std::max(lambda, 0.0) : lambda, down = two ? std::max(-lambda, 0.0) : -lambda;
-  const auto side = [&](double bound, double gap, double pressure) {
-    if (!std::isfinite(bound)) return;
-    const double scale = std::max(u_scale, std::abs(bound));
-    if (!two) kkt.min_pressure = least(kkt.min_pressure, ratio(pressure, force));
-    kkt.min_gap = least(kkt.min_gap, ratio(gap, scale));
-    kkt.complementarity = most(kkt.complementarity, ratio(std::abs(pressure * gap), scale * force));
-  };
-  if (two) kkt.min_pressure = least(kkt.min_pressure, ratio(std::abs(lambda), force));
-  side(lower, value - lower, up);
-  side(upper, upper - value, down);
 }
 
 }  // namespace
@@ -172,15 +120,7 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   for (std::size_t i = 0; i < problem.fixed.size(); ++i)
     if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
       kkt.residual = std::max(kkt.residual, 1.0);
-  if (problem.bound_count() == 0) return kkt;
-  kkt.min_gap = kkt.min_pressure = std::numeric_limits<double>::infinity();
-  const Eigen::VectorXd values = bounded_values(problem, u);
-  Eigen::VectorXd forces = own.cwiseMin(f_scale);
-  for (const int i : problem.fixed) forces(i) = std::numeric_limits<double>::infinity();  // the clamp bears any
-  for (Eigen::Index i = 0; i < lambda.size(); ++i) {  // each gap by its own bound: a far obstacle hides no near one
-    const BoundUnits units = bound_units(problem, i, forces);
-    note_bound(kkt, problem, i, values(i), lambda(i), u_scale * units.strain, units.force);
-  }
+  report_bounds(kkt, problem, solution, u_scale, own.cwiseMin(f_scale));
   return kkt;
 }
 

@@ -1,0 +1,801 @@
+// Bounds of other shapes: from above, from both sides, on combinations of unknowns. The same solvers, the same report.
+#include "antilock/problem/bounds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "antilock/analysis/certificate.hpp"
+#include "antilock/form/elasticity_forms.hpp"
+#include "antilock/measure/contact_zone.hpp"
+#include "antilock/models/plane_strain.hpp"
+#include "antilock/problem/bounded_unknowns.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/contact_problem.hpp"
+#include "antilock/solve/exhibits/summed_matrix.hpp"
+#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
+#include "antilock/solve/handed_back.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "antilock/solve/uzawa.hpp"
+#include "antilock/study/sweep.hpp"
+#include "support/brute_force.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::expect_refused;
+using test::relative_difference;
+using test::stiff_problem;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+RowMatrix rows_of(const Eigen::MatrixXd& rows) {
+  RowMatrix sparse = rows.sparseView();
+  sparse.makeCompressed();
+  return sparse;
+}
+
+// ---- The contact problem on Gamma_C, between two bounds.
+
+struct Box {
+  Eigen::MatrixXd s;
+  Eigen::VectorXd q, lower, upper;
+  ContactProblem problem() const { return {s, q, lower, 1, {}, {}, upper}; }
+};
+
+/// S = A A' + I / 100; a third of the bounds from below alone, a sixth from above alone, a few equations.
+Box random_box(int size, unsigned seed, int rank = 0) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal;
+  Box box;
+  const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(size, rank > 0 ? rank : size, [&] { return normal(engine); });
+  box.s = a * a.transpose() + 1e-2 * Eigen::MatrixXd::Identity(size, size);
+  box.q = Eigen::VectorXd::NullaryExpr(size, [&] { return normal(engine); });
+  box.lower = Eigen::VectorXd::NullaryExpr(size, [&] { return 0.3 * normal(engine); });
+  box.upper = box.lower;
+  for (int i = 0; i < size; ++i) {
+    const unsigned kind = engine() % 6;
+    if (kind < 2) box.upper(i) = infinity;
+    if (kind == 2) box.lower(i) = -infinity;
+    if (kind > 2) box.upper(i) += engine() % 5 == 0 ? 0 : 0.3 * std::abs(normal(engine));
+  }
+  return box;
+}
+
+/// The conditions of the box, each with an absolute tolerance.
+void expect_right(const Box& box, const ContactAnswer& answer, double tolerance) {
+  const Eigen::VectorXd lambda = box.s * answer.v - box.q;
+  EXPECT_LT((lambda - answer.lambda).lpNorm<Eigen::Infinity>(), tolerance);
+  for (int i = 0; i < box.q.size(); ++i) {
+    const bool low = answer.active[i] && !answer.above[i], high = answer.active[i] && answer.above[i];
+    EXPECT_GE(answer.v(i), box.lower(i) - tolerance);
+    EXPECT_LE(answer.v(i), box.upper(i) + tolerance);
+    if (low) {
+      EXPECT_EQ(answer.v(i), box.lower(i));
+    }
+    if (high) {
+      EXPECT_EQ(answer.v(i), box.upper(i));
+    }
+    if (box.lower(i) == box.upper(i)) continue;  // an equation: a force of either sign
+    if (!high) {
+      EXPECT_GE(lambda(i), -tolerance);
+    }
+    if (!low) {
+      EXPECT_LE(lambda(i), tolerance);
+    }
+  }
+}
+
+TEST(Box, EveryStartLeadsToTheOneAnswer) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Box box = random_box(5, seed);
+    Eigen::VectorXd v;
+    for (int start = 0; start < 243; start += 7) {  // of 3^5
+      HeldBounds held(std::vector<bool>(5), std::vector<bool>(5));
+      for (int i = 0, digits = start; i < 5; ++i, digits /= 3) {
+        held.active[i] = digits % 3 > 0;
+        held.above[i] = digits % 3 == 2;
+      }
+      const ContactAnswer answer = solve_contact(box.problem(), held, 1000);
+      expect_right(box, answer, 1e-11);  // strictly convex: what meets the conditions is the answer
+      if (v.size() > 0) {
+        EXPECT_LT((answer.v - v).lpNorm<Eigen::Infinity>(), 1e-11) << seed;
+      }
+      v = answer.v;
+    }
+  }
+}
+
+TEST(Box, BadlyConditionedOnesDoNotCycle) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const Box box = random_box(12, seed, 4);
+    expect_right(box, solve_contact(box.problem(), std::vector<bool>(12, false), 200), 1e-8);
+    expect_right(box, solve_contact(box.problem(), nested_start(box.problem(), 200), 200), 1e-8);
+  }
+}
+
+TEST(Box, AWrongSideCostsOneStep) {
+  Box box;
+  box.s = Eigen::MatrixXd::Identity(9, 9);
+  box.q = Eigen::VectorXd::Constant(9, 5);
+  box.lower = Eigen::VectorXd::Constant(9, -1);
+  box.upper = Eigen::VectorXd::Constant(9, 1);
+  const ContactAnswer answer = solve_contact(box.problem(), std::vector<bool>(9, true), 10);
+  EXPECT_EQ(answer.steps, 2);
+  EXPECT_EQ(answer.v, box.upper);
+  EXPECT_EQ(answer.above, std::vector<bool>(9, true));
+  EXPECT_EQ(solve_contact(box.problem(), {answer.active, answer.above}, 10).steps, 1);
+}
+
+// ---- A string between a floor and a ceiling.
+
+/// -u'' = f on (0, 1), u = 0 at the ends, f = Q on the left half and -Q on the right one, -floor <= u <= ceiling. A
+/// parabola of curvature Q leaves each bound with slope 0. From the clamp to the ceiling it takes c_1, from the floor to
+/// the clamp c_2 and from the middle to either s:
+///     ceiling = Q c_1^2 / 2,   floor = Q c_2^2 / 2,   ceiling + floor = Q s^2.
+/// With c_1 = 7 h, c_2 = h, s = 5 h the ends of contact are nodes, and P1 is exact at the nodes, forces included.
+struct String {
+  int n = 32;
+  double h = 1.0 / 32, load = 3, ceiling = load * 49 * h * h / 2, floor = load * h * h / 2;
+  VariationalInequality problem;
+  Eigen::VectorXd u, lambda;  ///< the truth at all nodes and at the bounded ones
+
+  String() {
+    std::vector<Eigen::Triplet<double>> a1;
+    for (int cell = 0; cell < n; ++cell)
+      for (const auto& [i, j] : {std::pair{0, 0}, {0, 1}, {1, 0}, {1, 1}})
+        a1.emplace_back(cell + i, cell + j, (i == j ? 1 : -1) / h);
+    problem.a1.resize(n + 1, n + 1);
+    problem.a1.setFromTriplets(a1.begin(), a1.end());
+    problem.b.resize(0, n + 1);
+    problem.load.resize(n + 1);
+    for (int i = 0; i <= n; ++i) problem.load(i) = i == n / 2 ? 0 : i < n / 2 ? load * h : -load * h;
+    problem.fixed = {0, n};
+    problem.fixed_values = Eigen::Vector2d::Zero();
+    for (int i = 1; i < n; ++i) problem.contact.push_back(i);
+    problem.lower = Eigen::VectorXd::Constant(n - 1, -floor);
+    problem.upper = Eigen::VectorXd::Constant(n - 1, ceiling);
+    u.setZero(n + 1);
+    lambda.setZero(n - 1);
+    const int on = 7, off = n / 2 - 5, down = n / 2 + 5, up = n - 1;
+    for (int i = 1; i < n; ++i) {
+      const auto parabola = [&](int from) { return load * h * h * (i - from) * (i - from) / 2; };
+      u(i) = i < on       ? ceiling - parabola(on)
+             : i <= off   ? ceiling
+             : i <= n / 2 ? ceiling - parabola(off)
+             : i < down   ? parabola(down) - floor
+             : i <= up    ? -floor
+                          : parabola(up) - floor;
+      if (i >= on && i <= off) lambda(i - 1) = -load * h * (i == on || i == off ? 0.5 : 1);
+      if (i >= down && i <= up) lambda(i - 1) = load * h * (i == down || i == up ? 0.5 : 1);
+    }
+  }
+};
+
+TEST(StringBetweenFloorAndCeiling, IsTheClosedForm) {
+  const String string;
+  for (const Solution& s : {active_set(string.problem), uzawa(string.problem)}) {
+    const double round_off = s.solver == "uzawa" ? 1e-7 : 1e-13;
+    EXPECT_LT(relative_difference(s.u, string.u), round_off) << s.solver;
+    EXPECT_LT(relative_difference(s.lambda, string.lambda), round_off) << s.solver;
+    EXPECT_EQ(s.warning, "") << s.solver;
+    for (std::size_t i = 0; i < s.active.size(); ++i)
+      EXPECT_EQ(s.active[i], string.lambda(static_cast<Eigen::Index>(i)) != 0) << s.solver << i;
+  }
+}
+
+TEST(StringBetweenFloorAndCeiling, AsCombinationsIsTheSame) {
+  // each bounded value is minus three times an unknown: floor and ceiling change places
+  String string;
+  VariationalInequality& problem = string.problem;
+  const int bounds = problem.bound_count();
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(bounds, problem.size());
+  for (int k = 0; k < bounds; ++k) rows(k, problem.contact[k]) = -3;
+  problem.contact.clear();
+  problem.combinations = rows_of(rows);
+  problem.lower = Eigen::VectorXd::Constant(bounds, -3 * string.ceiling);
+  problem.upper = Eigen::VectorXd::Constant(bounds, 3 * string.floor);
+  const Solution s = active_set(problem);
+  EXPECT_LT(relative_difference(s.u, string.u), 1e-13);
+  EXPECT_LT(relative_difference(s.lambda, -string.lambda / 3), 1e-13);
+}
+
+TEST(StringBetweenFloorAndCeiling, TheDualityGapOfUzawaBoundsWhatIsLeft) {
+  const String string;
+  UzawaOptions options;
+  int steps = 0;
+  for (const double energy : {1e-4, 1e-6, 1e-8}) {
+    options.enough = {energy, 1e-2};
+    const Solution s = uzawa(string.problem, options);
+    const Eigen::VectorXd e = s.u - string.u;
+    EXPECT_LE(0.5 * e.dot(string.problem.a1 * e), energy);
+    EXPECT_GT(s.counters.contact, steps) << "more asked, more steps";
+    steps = s.counters.contact;
+  }
+  EXPECT_LT(2 * steps, uzawa(string.problem).counters.contact);
+}
+
+TEST(StringBetweenFloorAndCeiling, TheNestedStartKnowsTheSides) {
+  const String string;
+  Eigen::MatrixXd s = Eigen::MatrixXd(string.problem.a1).block(1, 1, string.n - 1, string.n - 1);
+  const Eigen::VectorXd q = string.problem.load.segment(1, string.n - 1);
+  const ContactProblem p{s, q, string.problem.lower, 1, {}, {}, string.problem.upper};
+  EXPECT_LE(solve_contact(p, nested_start(p, 100), 100).steps, 3);
+}
+
+TEST(StringBetweenFloorAndCeiling, ASweepKeepsTheSides) {
+  const String string;
+  Sweep sweep(string.problem);
+  sweep.solve();
+  EXPECT_EQ(sweep.solve().counters.contact, 1) << "the same question again";
+  sweep.set_bounds(string.problem.lower, Eigen::VectorXd::Constant(string.n - 1, infinity));
+  VariationalInequality from_below = string.problem;
+  from_below.upper.resize(0);
+  EXPECT_LT(relative_difference(sweep.solve().u, active_set(from_below).u), 1e-13);
+  expect_refused([&] { sweep.set_bounds(string.problem.upper, string.problem.lower); }, "accepted: lower <= upper");
+  EXPECT_EQ(sweep.problem().upper(0), infinity) << "as before";
+}
+
+// ---- Signs and equations.
+
+TEST(UpperBounds, AreLowerBoundsOfMinusU) {
+  const TriangleMesh mesh = unstructured_mesh(6);
+  const Space space(mesh, crouzeix_raviart());
+  for (const double epsilon : {1.0, 1e-3, 0.0}) {
+    const VariationalInequality below =
+        stiff_problem(space, epsilon, {[](double x) { return x * (x - 0.4) * (1 - x); }});
+    VariationalInequality above = below;
+    above.load *= -1;
+    above.upper = -below.lower;
+    above.lower.setConstant(-infinity);
+    const Solution one = active_set(below), other = active_set(above);
+    EXPECT_GT(std::count(one.active.begin(), one.active.end(), true), 0);
+    EXPECT_EQ(other.u, -one.u) << epsilon;  // bit by bit
+    EXPECT_EQ(other.lambda, -one.lambda) << epsilon;
+    EXPECT_EQ(other.active, one.active) << epsilon;
+    EXPECT_EQ(other.kkt.min_gap, one.kkt.min_gap);
+    EXPECT_EQ(other.kkt.min_pressure, one.kkt.min_pressure);
+    EXPECT_EQ(other.kkt.complementarity, one.kkt.complementarity);
+    const Solution slow = uzawa(above);
+    EXPECT_EQ(slow.u, -uzawa(below).u) << epsilon;
+  }
+}
+
+TEST(Equations, ArePrescribedValuesWithTheirReaction) {
+  const TriangleMesh mesh = structured_mesh(6);
+  const Space space(mesh, p1());
+  for (const double epsilon : {1.0, 1e-3, 0.0}) {
+    VariationalInequality held = stiff_problem(space, epsilon);
+    for (Eigen::Index i = 0; i < held.lower.size(); ++i) held.lower(i) = i % 2 == 0 ? 0.01 : -0.01;
+    held.upper = held.lower;
+    held.upper(0) = infinity;  // one bound beside them
+    const Solution s = active_set(held);
+    for (std::size_t i = 1; i < held.contact.size(); ++i)
+      EXPECT_EQ(s.u(held.contact[i]), held.lower(static_cast<Eigen::Index>(i)));
+    VariationalInequality fixed = held;
+    fixed.fixed.insert(fixed.fixed.end(), held.contact.begin() + 1, held.contact.end());
+    fixed.fixed_values.conservativeResize(static_cast<Eigen::Index>(fixed.fixed.size()));
+    fixed.fixed_values.tail(held.lower.size() - 1) = held.lower.tail(held.lower.size() - 1);
+    fixed.contact.resize(1);
+    fixed.lower.conservativeResize(1);
+    fixed.upper.conservativeResize(1);
+    const Solution truth = active_set(fixed);
+    EXPECT_LT(relative_difference(s.u, truth.u), 1e-9) << epsilon;
+    const Eigen::VectorXd reaction = -split_residual(fixed, truth.u, truth.p, truth.lambda).r1;
+    for (std::size_t i = 1; i < held.contact.size(); ++i)
+      EXPECT_NEAR(s.lambda(static_cast<Eigen::Index>(i)), reaction(held.contact[i]), 1e-9) << epsilon;
+    EXPECT_LT(s.lambda.minCoeff() * s.lambda.maxCoeff(), 0) << "reactions of both signs: the test means something";
+    EXPECT_EQ(s.warning, "");
+  }
+}
+
+// ---- Against all sets of bounds.
+
+/// Two layers with their bodies on top of each other, their lines Gamma_C facing one another: u^1 - u^2 >= -gap there.
+VariationalInequality two_bodies(const VariationalInequality& one, const VariationalInequality& other, double gap) {
+  VariationalInequality both;
+  const int shift = one.size(), rows = static_cast<int>(one.b.rows()), pairs = static_cast<int>(one.contact.size());
+  std::vector<Eigen::Triplet<double>> a1, b, gaps;
+  for (const auto& [part, at, row] : {std::tuple{&one, 0, 0}, {&other, shift, rows}}) {
+    for (Eigen::Index j = 0; j < part->size(); ++j)
+      for (SparseMatrix::InnerIterator a(part->a1, j); a; ++a) a1.emplace_back(at + a.row(), at + j, a.value());
+    for (Eigen::Index r = 0; r < part->b.rows(); ++r)
+      for (RowMatrix::InnerIterator entry(part->b, r); entry; ++entry)
+        b.emplace_back(row + r, at + entry.col(), entry.value());
+    for (const int i : part->fixed) both.fixed.push_back(at + i);
+  }
+  both.a1.resize(shift + other.size(), shift + other.size());
+  both.a1.setFromTriplets(a1.begin(), a1.end());
+  both.b.resize(rows + other.b.rows(), both.a1.cols());
+  both.b.setFromTriplets(b.begin(), b.end());
+  both.m.resize(both.b.rows());
+  both.m << one.m, other.m;
+  both.load.resize(both.a1.cols());
+  both.load << one.load, other.load;
+  both.fixed_values.resize(one.fixed_values.size() + other.fixed_values.size());
+  both.fixed_values << one.fixed_values, other.fixed_values;
+  both.compliance = one.compliance;
+  for (int k = 0; k < pairs; ++k) {
+    gaps.emplace_back(k, one.contact[k], 1);
+    gaps.emplace_back(k, shift + other.contact[k], -1);
+  }
+  both.combinations.resize(pairs, both.a1.cols());
+  both.combinations.setFromTriplets(gaps.begin(), gaps.end());
+  both.lower = Eigen::VectorXd::Constant(pairs, -gap);
+  return both;
+}
+
+TEST(TwoBodies, OfEqualShapeMeetHalfWay) {
+  // the second body is the image of the first in the plane between them: each sees an obstacle at half the gap
+  for (const auto& [name, mesh] : test::two_square_meshes(8))
+    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+      const Space space(mesh, *element);
+      if (element == &p1() && name == "unstructured") continue;  // locks: lambda has no bound
+      for (const double compliance : {1.0, 1e-6, 0.0}) {
+        SCOPED_TRACE(name + element->name() + std::to_string(compliance));
+        constexpr double gap = 1e-5;
+        const VariationalInequality one = stiff_problem(space, std::sqrt(compliance), {[](double) { return gap / 2; }});
+        VariationalInequality image = one;
+        image.load *= -1;
+        const Solution half = active_set(one);
+        const VariationalInequality problem = two_bodies(one, image, gap);
+        EXPECT_GT(std::count(half.active.begin(), half.active.end(), true), 1);
+        for (const Solution& s : {active_set(problem), uzawa(problem)}) {
+          const double within = s.solver == "uzawa" ? 1e-7 : 1e-9;
+          EXPECT_LT(relative_difference(s.u.head(one.size()), half.u), within) << s.solver;
+          EXPECT_LT(relative_difference(s.u.tail(one.size()), -half.u), within) << s.solver;
+          EXPECT_LT(relative_difference(s.lambda, half.lambda), 10 * within) << s.solver;
+          EXPECT_EQ(s.active, half.active) << s.solver;
+          EXPECT_EQ(s.warning, "") << s.solver;
+        }
+      }
+    }
+}
+
+TEST(TwoBodies, PushEachOtherWithEqualForces) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  for (const double compliance : {1.0, 1e-6, 0.0})
+    for (const double gap : {0.0, 1e-3}) {
+      const VariationalInequality one = stiff_problem(space, std::sqrt(compliance));
+      VariationalInequality other = one;  // softer, and loaded by nothing
+      other.a1 *= 0.5;
+      other.load.setZero();
+      const VariationalInequality problem = two_bodies(one, other, gap);
+      const Solution s = active_set(problem);
+      const test::BruteForce truth = test::brute_force(problem);
+      EXPECT_LT(relative_difference(s.u, truth.u), 1e-9) << compliance << ", gap " << gap;
+      EXPECT_LT(relative_difference(s.lambda, truth.lambda), 1e-8) << compliance << ", gap " << gap;
+      EXPECT_GT(s.lambda.maxCoeff(), 1e-4);
+      // what the equilibrium of each body alone says of the force on it
+      const Eigen::VectorXd force = -split_residual(problem, s.u, s.p, Eigen::VectorXd()).r1;
+      for (std::size_t k = 0; k < one.contact.size(); ++k) {
+        const double on_one = force(one.contact[k]), on_other = force(one.size() + other.contact[k]);
+        EXPECT_NEAR(on_one, -on_other, 1e-9);
+        EXPECT_NEAR(on_one, s.lambda(static_cast<Eigen::Index>(k)), 1e-9);
+      }
+    }
+}
+
+TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
+  // a layer with its first contact unknown between two bounds, the second from above, the third in a combination with the
+  // unknown over it and a clamped one, whose value is not zero
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  for (const double epsilon : {1.0, 1e-2, 1e-4})
+    for (const double load : {1.0, -1.0, 0.1}) {
+      VariationalInequality problem = stiff_problem(space, epsilon);
+      problem.load *= load;
+      problem.fixed_values(0) = 0.02;
+      std::vector<char> taken(problem.size(), 0);
+      for (const int i : problem.fixed) taken[i] = 1;
+      for (const int i : problem.contact) taken[i] = 1;
+      Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, problem.size());
+      const int third = problem.contact[2];
+      problem.contact.pop_back();
+      const int beside = static_cast<int>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
+      rows(0, third) = 1;
+      rows(0, beside) = -0.3;
+      rows(0, problem.fixed[0]) = 0.7;
+      rows(1, beside) = 1e3;
+      rows(1, problem.contact[0]) = -2e3;  // bounded by itself
+      problem.combinations = rows_of(rows);
+      problem.lower = Eigen::Vector4d(-0.001, -infinity, 0, -0.5);
+      problem.upper = Eigen::Vector4d(0.002, 0.001, infinity, 0.5);
+      const test::BruteForce truth = test::brute_force(problem);
+      for (const Solution& s : {active_set(problem), uzawa(problem)}) {
+        const double within = s.solver == "uzawa" ? 1e-7 : 1e-9;
+        EXPECT_LT(relative_difference(s.u, truth.u), within) << s.solver << epsilon << ", load " << load;
+        EXPECT_LT(relative_difference(s.lambda, truth.lambda), 10 * within) << s.solver << epsilon << ", load " << load;
+        EXPECT_EQ(s.active, truth.active) << s.solver << epsilon << ", load " << load;
+        EXPECT_EQ(s.u(problem.fixed[0]), 0.02);
+      }
+    }
+}
+
+// ---- A block on a slope.
+
+/// The platen of plane strain, turned by `angle`: clamped above and pushed 0.1 into an obstacle below.
+struct Turned {
+  TriangleMesh mesh;
+  Space x, y;
+  VariationalInequality problem;
+
+  Turned(TriangleMesh flat, double angle, const Element& element, double epsilon)
+      : mesh(turned(std::move(flat), angle)), x(mesh, element), y(mesh, element) {
+    PlaneStrain scene;
+    scene.epsilon = epsilon;
+    scene.jump_weight = element.name() == "CR" ? 1 : 0;
+    problem = assemble(scene, {x, y});
+    // the clamped edges move along the turned axis; the bounds are on the turned normal
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+      problem.fixed_values(static_cast<Eigen::Index>(i)) = problem.fixed[i] < x.size() ? 0.1 * s : -0.1 * c;
+    const auto contact = static_cast<Eigen::Index>(problem.contact.size());
+    const auto along = [&](int i) { return c * x.points()(i, 0) + s * x.points()(i, 1); };
+    std::sort(problem.contact.begin(), problem.contact.end(),
+              [&](int i, int j) { return along(i - x.size()) < along(j - x.size()); });  // as on the flat one
+    std::vector<Eigen::Triplet<double>> normal;
+    for (Eigen::Index k = 0; k < contact; ++k) {
+      const int i = problem.contact[k] - x.size();
+      problem.lower(k) = -std::pow(along(i) - 0.5, 2);
+      normal.emplace_back(k, i, -s);
+      normal.emplace_back(k, x.size() + i, c);
+    }
+    problem.contact.clear();
+    problem.combinations.resize(contact, problem.size());
+    problem.combinations.setFromTriplets(normal.begin(), normal.end());
+  }
+
+  static TriangleMesh turned(TriangleMesh mesh, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+      const double px = mesh.vertices(v, 0), py = mesh.vertices(v, 1);
+      mesh.vertices(v, 0) = c * px - s * py;
+      mesh.vertices(v, 1) = s * px + c * py;
+    }
+    return mesh;
+  }
+};
+
+TEST(BlockOnASlope, IsTheFlatOneTurned) {
+  const TriangleMesh crossed = with_free_sides(structured_mesh(8, Domain{0}, Diagonal::crossed)),
+                     right = with_free_sides(structured_mesh(8, Domain{0}));
+  for (const auto& [mesh, element] : {std::pair{&crossed, &p1()}, {&right, &crouzeix_raviart()}})
+    for (const double epsilon : {1.0, 1e-6, 0.0}) {
+      const Space x(*mesh, *element), y(*mesh, *element);
+      PlaneStrain scene;
+      scene.epsilon = epsilon;
+      scene.jump_weight = element == &p1() ? 0 : 1;
+      scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
+      const Solution flat = active_set(assemble(scene, {x, y}));
+      EXPECT_GT(std::count(flat.active.begin(), flat.active.end(), true), 2);
+      EXPECT_GT(std::count(flat.active.begin(), flat.active.end(), false), 2);
+      for (const double angle : {0.5, 2.2, -1.5707963267948966}) {
+        SCOPED_TRACE(element->name() + ", epsilon " + std::to_string(epsilon) + ", angle " + std::to_string(angle));
+        const Turned slope(*mesh, angle, *element, epsilon);
+        const Solution s = active_set(slope.problem);
+        const double c = std::cos(angle), t = std::sin(angle);
+        const auto n = x.size();
+        Eigen::VectorXd back(2 * n);
+        back.head(n) = c * s.u.head(n) + t * s.u.tail(n);
+        back.tail(n) = -t * s.u.head(n) + c * s.u.tail(n);
+        EXPECT_LT(relative_difference(back, flat.u), 1e-10);
+        EXPECT_LT(relative_difference(s.lambda, flat.lambda), 1e-9);
+        EXPECT_EQ(s.active, flat.active);
+        EXPECT_EQ(s.warning, "");
+        EXPECT_LT(worst_violation(s.kkt), 1e-9);
+        // the equations are as sparse as before: the slope couples the two displacements of a point
+        const BoundedUnknowns basis(slope.problem);
+        EXPECT_LT(basis.problem.a1.nonZeros(), 1.1 * static_cast<double>(slope.problem.a1.nonZeros()));
+      }
+    }
+}
+
+// ---- The change of unknowns.
+
+/// Three points (u_x, u_y) on springs.
+VariationalInequality springs(const Eigen::MatrixXd& rows, const Eigen::VectorXd& load) {
+  VariationalInequality problem;
+  const auto n = load.size();
+  problem.a1.resize(n, n);
+  problem.a1.setIdentity();
+  problem.b.resize(0, n);
+  problem.load = load;
+  problem.combinations = rows_of(rows);
+  problem.lower = Eigen::VectorXd::Zero(rows.rows());
+  return problem;
+}
+
+TEST(BoundedUnknowns, APointInAGrooveStandsOnBothWalls) {
+  // walls of normals (sin a, cos a) and (-sin a, cos a): no unknown is one wall's alone. Pressed into the edge u = 0.
+  const double a = 0.7;
+  Eigen::MatrixXd walls(2, 2);
+  walls << std::sin(a), std::cos(a), -std::sin(a), std::cos(a);
+  const Eigen::Vector2d load(0.3, -1);
+  const Solution s = active_set(springs(walls, load));
+  EXPECT_LT(s.u.norm(), 1e-15);
+  const Eigen::Vector2d truth = walls.transpose().inverse() * -load;
+  EXPECT_GT(truth.minCoeff(), 0);
+  EXPECT_LT((s.lambda - truth).norm(), 1e-15);
+  // pulled up along one wall and into it, it slides there, held by this wall alone
+  const Eigen::Vector2d up(-std::cos(a), std::sin(a));
+  const Solution t = active_set(springs(walls, up - 0.1 * walls.row(0).transpose()));
+  EXPECT_LT((t.u - up).norm(), 1e-15);
+  EXPECT_LT((t.lambda - Eigen::Vector2d(0.1, 0)).norm(), 1e-15);
+}
+
+TEST(BoundedUnknowns, AreTheSameProblem) {
+  // a chain of differences, two rows that share their unknowns, units from 1e-6 to 1e6
+  std::mt19937 engine(5);
+  std::normal_distribution<double> normal;
+  const int n = 9;
+  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(5, n);
+  rows(0, 1) = rows(1, 2) = rows(2, 3) = 1;
+  rows(0, 0) = rows(1, 1) = rows(2, 2) = -1;
+  rows(3, 5) = rows(4, 5) = 0.6;
+  rows(3, 6) = 0.8;
+  rows(4, 6) = -0.8;
+  rows(4, 8) = 0.25;
+  for (int k = 0; k < 5; ++k) rows.row(k) *= std::pow(10, 3 * (k - 2));
+  VariationalInequality problem = springs(rows, Eigen::VectorXd::NullaryExpr(n, [&] { return normal(engine); }));
+  problem.a1 = Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n) * 3 + Eigen::MatrixXd::Ones(n, n)).sparseView();
+  problem.b = rows_of(Eigen::MatrixXd::NullaryExpr(3, n, [&] { return normal(engine); }));
+  problem.m = Eigen::Vector3d(1, 2, 3);
+  problem.fixed = {8};
+  problem.fixed_values = Eigen::VectorXd::Constant(1, 0.5);
+  problem.contact = {4};
+  problem.lower = Eigen::VectorXd::NullaryExpr(6, [&] { return normal(engine); });
+  const BoundedUnknowns basis(problem);
+  ASSERT_EQ(basis.problem.contact.size(), 6U);
+  EXPECT_EQ(basis.problem.combinations.rows(), 0);
+  EXPECT_NO_THROW(check(basis.problem));
+  for (int trial = 0; trial < 5; ++trial) {
+    Eigen::VectorXd w = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(engine); });
+    w(8) = 0.5;
+    const Eigen::VectorXd u = basis.t * w;
+    EXPECT_EQ(u(8), 0.5);
+    const Eigen::VectorXd slack_u = slack(problem, u).cwiseProduct(basis.scale), slack_w = slack(basis.problem, w);
+    EXPECT_LT((slack_u - slack_w).lpNorm<Eigen::Infinity>(), 1e-13 * slack_w.lpNorm<Eigen::Infinity>());
+    EXPECT_NEAR(u.dot(problem.a1 * u), w.dot(basis.problem.a1 * w), 1e-12 * u.squaredNorm());
+    EXPECT_LT((problem.b * u - basis.problem.b * w).norm(), 1e-13 * u.norm() * 10);
+    EXPECT_NEAR(problem.load.dot(u), basis.problem.load.dot(w), 1e-12 * u.norm());
+  }
+  EXPECT_LT((basis.scale.array().log2() - basis.scale.array().log2().round()).abs().maxCoeff(), 1e-15);
+}
+
+TEST(BoundedUnknowns, RowsThatDependOnEachOtherAreRefused) {
+  const Eigen::Vector4d load(1, 2, 3, 4);
+  const std::string words = "has no unknown of its own";
+  Eigen::MatrixXd rows(3, 4);
+  rows << 1, -1, 0, 0, 0, 1, -1, 0, 1, 0, -1, 0;  // the third is the sum of the others
+  expect_refused([&] { active_set(springs(rows, load)); }, words);
+  expect_refused([&] { uzawa(springs(rows, load)); }, words);
+  rows(2, 2) = -1 + 1e-3;
+  EXPECT_NO_THROW(active_set(springs(rows, load)));
+  rows(2, 2) = -1 + 1e-13;
+  expect_refused([&] { active_set(springs(rows, load)); }, words);
+  // all unknowns of a row are bounded by themselves, or fixed
+  VariationalInequality problem = springs(rows.topRows(1), load);
+  problem.contact = {0, 1};
+  problem.lower.setZero(3);
+  expect_refused([&] { active_set(problem); }, words);
+  problem.contact = {0};
+  problem.lower.setZero(2);
+  problem.fixed = {1};
+  problem.fixed_values = Eigen::VectorXd::Zero(1);
+  expect_refused([&] { active_set(problem); }, words);
+  problem.contact.clear();
+  problem.lower.setZero(1);
+  EXPECT_NO_THROW(active_set(problem));
+  problem.fixed = {0, 1};
+  problem.fixed_values.setZero(2);
+  expect_refused([&] { active_set(problem); }, "holds no free unknown");
+  // more rows than unknowns
+  expect_refused([&] { active_set(springs(Eigen::MatrixXd::Random(5, 4), load)); }, words);
+}
+
+TEST(BoundedUnknowns, TheUnitOfARowDoesNotMatter) {
+  Eigen::MatrixXd rows(2, 4);
+  rows << 1, -0.5, 0, 0, 0, 0.3, 1, 1;
+  VariationalInequality problem = springs(rows, Eigen::Vector4d(-1, 2, -3, 0.5));
+  problem.lower << -0.1, -0.2;
+  problem.upper = Eigen::Vector2d(0.1, infinity);
+  const Solution one = active_set(problem);
+  EXPECT_EQ(std::count(one.active.begin(), one.active.end(), true), 2);
+  for (const double unit : {0x1p-60, 0x1p60}) {
+    VariationalInequality other = problem;
+    other.combinations *= unit;
+    other.lower *= unit;
+    other.upper *= unit;
+    const Solution s = active_set(other);
+    EXPECT_EQ(s.u, one.u);  // powers of two: bit by bit
+    EXPECT_EQ(s.lambda, one.lambda / unit);
+    EXPECT_EQ(s.kkt.min_gap, one.kkt.min_gap);
+    EXPECT_EQ(s.kkt.complementarity, one.kkt.complementarity);
+    EXPECT_EQ(s.kkt.min_pressure, one.kkt.min_pressure);
+  }
+}
+
+// ---- What cannot be met, and what is refused.
+
+TEST(Bounds, ThatNoUCanMeetAreRefusedUnderAnyLoad) {
+  // compliance 0 and B: u_0 - u_1 = 0; the bounds ask for u_0 - u_1 >= 0.05, in three shapes
+  for (const double load : {1.0, 1e6, 1e12, 1e18})
+    for (const int shape : {0, 1, 2}) {
+      VariationalInequality problem = springs(Eigen::MatrixXd(0, 3), load * Eigen::Vector3d(1, 2, -3));
+      problem.b = rows_of(Eigen::RowVector3d(1, -1, 0));
+      problem.m = Eigen::VectorXd::Ones(1);
+      problem.compliance = 0;
+      if (shape == 0) {
+        problem.combinations = rows_of(Eigen::RowVector3d(1, -1, 0));
+        problem.lower = Eigen::VectorXd::Constant(1, 0.05);
+      } else {
+        problem.combinations.resize(0, 0);
+        problem.contact = {0, 1};
+        problem.lower = Eigen::Vector2d(0.05, shape == 1 ? -1 : -infinity);
+        problem.upper = Eigen::Vector2d(infinity, 0);
+      }
+      EXPECT_THROW(active_set(problem), NotConverged) << load << ", shape " << shape;
+      problem.upper = Eigen::VectorXd::Constant(problem.bound_count(), infinity);
+      problem.lower(0) = -0.05;
+      if (shape > 0) problem.upper(1) = 0;
+      if (load < 1e12) {
+        EXPECT_NO_THROW(active_set(problem)) << load << ", shape " << shape;
+      }
+    }
+}
+
+TEST(Bounds, FromAboveThatNoUCanMeetAreRefusedUnderAnyLoad) {
+  // B says u_0 = 0, its bound -0.05 or less; a great load on any of three springs in a chain hides it from no solver
+  for (const double load : {1.0, 1e6, 1e12, 1e14, 1e18, 1e24})
+    for (const double sign : {1.0, -1.0})
+      for (const int at : {0, 1, 2}) {
+        VariationalInequality problem = springs(Eigen::MatrixXd(0, 3), sign * load * Eigen::Vector3d::Unit(at));
+        problem.load.array() -= 0.1;
+        Eigen::Matrix3d chain;
+        chain << 2, -1, 0, -1, 2, -1, 0, -1, 2;
+        problem.a1 = chain.sparseView();
+        problem.b = rows_of(Eigen::RowVector3d(1, 0, 0));
+        problem.m = Eigen::VectorXd::Ones(1);
+        problem.compliance = 0;
+        problem.contact = {0, 2};
+        problem.lower = Eigen::Vector2d(-infinity, -infinity);
+        problem.upper = Eigen::Vector2d(-0.05, 1);
+        EXPECT_THROW(active_set(problem), NotConverged) << sign * load << " at " << at;
+      }
+}
+
+TEST(Bounds, AGreatLoadHidesNoNeighbourThatSinksIn) {
+  // two unknowns pushed to their upper bounds, one by a great force: the answer is the bounds
+  Eigen::Matrix2d a1;
+  a1 << 14, 4, 4, 6;
+  for (const double load : {1e8, 1e11, 1e14, 1e18, 1e25}) {
+    VariationalInequality problem = springs(Eigen::MatrixXd(0, 2), Eigen::Vector2d(load, 7));
+    problem.a1 = a1.sparseView();
+    problem.contact = {0, 1};
+    problem.lower = Eigen::Vector2d(-1, -infinity);
+    problem.upper = Eigen::Vector2d(0.5, 0.1);
+    for (const Solution& s : {active_set(problem), uzawa(problem)})
+      EXPECT_LT((s.u - problem.upper).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
+  }
+}
+
+TEST(Kkt, ReportsEachSideOfABoundByItself) {
+  const String string;
+  const Solution right = active_set(string.problem);
+  const double u = right.u.lpNorm<Eigen::Infinity>(), f = right.lambda.lpNorm<Eigen::Infinity>();
+  const int top = 8, bottom = 24, between = 15;  // nodes; the bound of node i is i - 1
+  Solution wrong = right;
+  wrong.u(top) = string.ceiling + 0.1 * u;  // the largest u now
+  EXPECT_NEAR(kkt_report(string.problem, wrong).min_gap, -0.1 / 1.1, 1e-12);
+  wrong = right;
+  wrong.u(bottom) = -string.floor - 0.1 * u;
+  EXPECT_NEAR(kkt_report(string.problem, wrong).min_gap, -0.1, 1e-12);
+  // a force that is right at one side is none at the other: the gap times the force tells
+  wrong = right;
+  wrong.lambda(top - 1) *= -1;
+  EXPECT_NEAR(kkt_report(string.problem, wrong).complementarity, (string.ceiling + string.floor) / u, 1e-12);
+  wrong = right;
+  wrong.lambda(between - 1) = 0.1 * f;
+  EXPECT_NEAR(kkt_report(string.problem, wrong).complementarity, 0.1 * (right.u(between) + string.floor) / u, 1e-12);
+  // from above alone, a push from below is wrong whatever the gap
+  VariationalInequality above = string.problem;
+  above.lower.setConstant(-infinity);
+  wrong = active_set(above);
+  wrong.lambda(top - 1) = 0.1 * wrong.lambda.lpNorm<Eigen::Infinity>();
+  EXPECT_LT(kkt_report(above, wrong).min_pressure, -0.05);
+  EXPECT_THROW(certify(above, wrong), NotConverged);
+}
+
+TEST(Kkt, ReportsCombinationsInTheirOwnUnits) {
+  Eigen::MatrixXd rows(1, 3);
+  rows << 1e3, -1e3, 0;
+  VariationalInequality problem = springs(rows, Eigen::Vector3d(-1, 1, 5));
+  const Solution right = active_set(problem);
+  EXPECT_NEAR(right.lambda(0), 1e-3, 1e-15);
+  const double u = right.u.lpNorm<Eigen::Infinity>();
+  EXPECT_EQ(u, 5);
+  Solution wrong = right;
+  wrong.u(0) -= 0.1 * u;
+  EXPECT_NEAR(kkt_report(problem, wrong).min_gap, -0.05, 1e-12);  // of 1e3 (u_0 - u_1), at most 2e3 |u|
+  wrong = right;
+  wrong.lambda(0) = -1e-4;
+  EXPECT_LT(kkt_report(problem, wrong).min_pressure, -0.01) << "a pull on two soft unknowns beside a great load";
+  EXPECT_GT(kkt_report(problem, wrong).residual, 0.01);
+}
+
+TEST(Check, RefusesBoundsThatAreNone) {
+  const String string;
+  const auto refused = [&](const std::function<void(VariationalInequality&)>& spoil, const std::string& words) {
+    VariationalInequality bad = string.problem;
+    spoil(bad);
+    expect_refused([&] { check(bad); }, words);
+    expect_refused([&] { active_set(bad); }, words);
+    expect_refused([&] { uzawa(bad); }, words);
+    expect_refused([&] { kkt_report(bad, Solution{}); }, words);
+  };
+  using P = VariationalInequality;
+  const double nan = std::nan("");
+  refused([](P& p) { p.lower(3) = p.upper(3) + 1e-9; }, "accepted: lower <= upper");
+  refused([](P& p) { p.lower(3) = -infinity, p.upper(3) = infinity; }, "bound 3 is not finite");
+  refused([](P& p) { p.lower(3) = infinity; }, "bound 3 is not finite");
+  refused([](P& p) { p.upper(3) = -infinity; }, "bound 3 is not finite");
+  refused([nan](P& p) { p.upper(3) = nan; }, "not finite");
+  refused([](P& p) { p.upper.conservativeResize(5); }, "upper has 5 entries");
+  refused([](P& p) { p.combinations.resize(1, 3); }, "combinations have 3 columns");
+  const auto with_row = [nan](P& p, double value) {
+    p.contact.pop_back();
+    Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, p.size());
+    row(0, p.size() - 2) = 1;
+    p.combinations = rows_of(row);
+    p.combinations.valuePtr()[0] = value;
+  };
+  refused([&](P& p) { with_row(p, nan); }, "an entry of combinations is not finite");
+  refused([&](P& p) { with_row(p, 0); }, "combination 0 holds no free unknown");
+  refused([&](P& p) { with_row(p, 1), p.lower.conservativeResize(3); }, "one bound per contact unknown and per");
+  refused([&](P& p) { with_row(p, 1), p.combinations.uncompress(); }, "compressed");
+}
+
+TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, crouzeix_raviart());
+  const Scene scene = test::stiff_scene(1);
+  VariationalInequality above = assemble(scene, space), combined = above;
+  above.upper = Eigen::VectorXd::Constant(above.lower.size(), 1.0);
+  Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, combined.size());
+  row(0, combined.contact.back()) = 1;
+  combined.contact.pop_back();
+  combined.combinations = rows_of(row);
+  for (const VariationalInequality* problem : {&above, &combined}) {
+    const Solution s = active_set(*problem);
+    const std::string words = "accepted: lower bounds on unknowns";
+    expect_refused([&] { certify(scene, space, *problem, s, CertificateOptions{}); }, words);
+    expect_refused([&] { uzawa_cg_ilut(*problem); }, words);
+    expect_refused([&] { naive_summed_solve(*problem, SummedFactor::cholesky); }, words);
+  }
+  const Solution s = active_set(above);
+  const Eigen::MatrixX3d table = contact_table(space, above, s);
+  EXPECT_GE(table.col(1).minCoeff(), -1e-15);
+  EXPECT_EQ(contact_zone(space, above, s).active, std::count(s.active.begin(), s.active.end(), true));
+  const std::string words = "accepted: bounds on unknowns";
+  const Solution c = active_set(combined);
+  PenaltyFactor factor(combined);
+  expect_refused([&] { active_set(combined, factor); }, words);
+  expect_refused([&] { uzawa(combined, factor); }, words);
+  expect_refused([&] { Sweep{combined}; }, words);
+  expect_refused([&] { contact_table(space, combined, c); }, words);
+  expect_refused([&] { contact_zone(space, combined, c); }, words);
+  // and the way that is named there
+  const BoundedUnknowns basis(combined);
+  PenaltyFactor of_basis(basis.problem);
+  EXPECT_EQ(handed_back(combined, basis, active_set(basis.problem, of_basis)).u, c.u);
+  expect_refused([&] { handed_back(String().problem, basis, active_set(basis.problem, of_basis)); },
+                 "of another problem");
+}
+
+}  // namespace
+}  // namespace antilock
