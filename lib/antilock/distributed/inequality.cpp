@@ -46,8 +46,8 @@ Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& spac
       lower_(place) = -gap;
     }
   });
-  part_.compliance = largest(part_.compliance);
   stiff_ = sum(static_cast<long long>(part_.m.size())) > 0;
+  if (stiff_) part_.compliance = largest(part_.m.size() > 0 ? part_.compliance : 0);
   const double h = column_width(piece.mesh);
   delta_ = stiff_ ? std::max({part_.compliance, h * h / 256, least_delta}) : 1;
   if (summed && stiff_) delta_ = part_.compliance;
