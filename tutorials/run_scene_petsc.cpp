@@ -37,22 +37,23 @@ struct Choices {
   double most_seconds = std::numeric_limits<double>::infinity();
 };
 
-/// The mesh to begin with, on every rank, and how often it is refined. A structured mesh is one of few cells, refined:
-/// the same vertices. Others are made as they are asked for.
+/// The mesh to begin with, on every rank, and how often it is refined: as often as the scene says. A structured mesh is
+/// one of few cells, refined: the same vertices.
 struct Hierarchy {
   TriangleMesh coarse;
-  int refinements = 0, coarse_cells = 0;
+  int refinements = 0, coarse_cells = 1;  // per unit side; 1 where a file does not say
 };
 
 Hierarchy hierarchy(const SceneFile& file, int ranks) {
   Hierarchy h;
   SceneFile first = file;
+  std::swap(h.refinements, first.mesh.refinements);
   const bool halves = file.mesh.kind == MeshRequest::Kind::structured &&
                       !std::holds_alternative<ThinLayer>(file.scene.layer());  // its rows do not halve with the cells
   const int least = std::max(16, 8 * ranks);
   while (halves && first.mesh.cells % 2 == 0 && first.mesh.cells / 2 >= least) first.mesh.cells /= 2, ++h.refinements;
   h.coarse = make_mesh(first);
-  h.coarse_cells = first.mesh.cells;
+  h.coarse_cells = std::max(first.mesh.cells, 1);
   return h;
 }
 
@@ -118,7 +119,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
           fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; accepted: \"petsc\"",
                       file->name, file->method.solver, dist::ranks()));
     check_folder(out);
-    check_inputs_stay(out, scene, *file);
+    check_inputs_stay(out, scene, *file, dist::piece_files(out));
     question = dist::question_of(scene, file->mesh.file);
     if (!choices.restart) return;
     const dist::Checkpoint checkpoint = dist::read_checkpoint(kept, question);
@@ -148,7 +149,8 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   options.loop.progress = [most = choices.most_seconds, since = Stopwatch()](const Progress&) {
     return since.seconds() <= most;
   };
-  options.loop.tolerance = std::clamp(file->method.tolerance, MethodRequest::finest_tolerance, 1e-8);
+  options.loop.tolerance = std::max(file->method.tolerance, MethodRequest::finest_tolerance);
+  options.loop.residual = std::max(options.loop.residual, options.loop.tolerance);
   options.stage = say;
   options.checkpoint = [&](int level, const dist::ContactSet& set) {
     dist::together([&] {

@@ -1,4 +1,5 @@
 // The distributed room gives the serial library's answer, on any number of ranks.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,6 +15,7 @@
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "support/bodies.hpp"
 
 namespace antilock::distributed {
 namespace {
@@ -32,12 +34,9 @@ struct Case {
 
 class Agreement : public ::testing::TestWithParam<Case> {};
 
-TEST_P(Agreement, WithTheSerialLibrary) {
-  const auto [layered, name, epsilon] = GetParam();
-  const Element& page = element(name);
-  const Scene scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
-  const TriangleMesh coarse = layered ? layered_mesh(coarse_cells) : structured_mesh(coarse_cells);
-
+/// The serial answer on `coarse`, refined, and that of all ranks: the same u and the same contact set.
+void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Element& page, int refinements,
+                      const std::string& name) {
   TriangleMesh mesh = coarse;
   for (int i = 0; i < refinements; ++i) mesh = antilock::refined(mesh);
   const Space space(mesh, page);
@@ -75,9 +74,25 @@ TEST_P(Agreement, WithTheSerialLibrary) {
   EXPECT_LE(report.last.corrections, 8);
   EXPECT_LE(report.last.most_iterations, 15);
   if (rank() == 0)
-    std::printf("%s %s %g: difference %.1e, residual %.1e, %d corrections, %d iterations (most %d), %d setups\n",
-                layered ? "layered" : "structured", name, epsilon, worst, report.kkt.residual, report.last.corrections,
-                report.last.linear_iterations, report.last.most_iterations, report.last.setups);
+    std::printf("%s: difference %.1e, residual %.1e, %d corrections, %d iterations (most %d), %d setups\n",
+                name.c_str(), worst, report.kkt.residual, report.last.corrections, report.last.linear_iterations,
+                report.last.most_iterations, report.last.setups);
+}
+
+TEST_P(Agreement, WithTheSerialLibrary) {
+  const auto [layered, name, epsilon] = GetParam();
+  expect_agreement(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}),
+                   layered ? layered_mesh(coarse_cells) : structured_mesh(coarse_cells), element(name), refinements,
+                   fmt::format("{} {} {:g}", layered ? "layered" : "structured", name, epsilon));
+}
+
+TEST(Bodies, OverALayerInColumnsAgreeToo) {  // under a bridge a rank may hold no part of the layer
+  for (const double epsilon : {1e-2, 1e-6})
+    for (const char* name : {"P1", "CR"})
+      for (const bool feet : {false, true})
+        expect_agreement(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}),
+                         extruded(feet ? test::bridge(8) : test::l_shape(8), epsilon), element(name), 2,
+                         fmt::format("{} {} {:g}", feet ? "bridge" : "L", name, epsilon));
 }
 
 std::vector<Case> cases() {

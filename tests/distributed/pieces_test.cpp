@@ -10,6 +10,7 @@
 #include "antilock/distributed/kkt_report.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
+#include "antilock/distributed/snesvi.hpp"
 #include "antilock/distributed/strips.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"
@@ -186,7 +187,7 @@ TEST(Report, IsTheSerialOneOfTheSameNumbers) {
   EXPECT_NEAR(ours.min_pressure, theirs.min_pressure, 0.01 * std::abs(theirs.min_pressure) + 1e-9);
   EXPECT_NEAR(ours.complementarity, theirs.complementarity, 0.01 * theirs.complementarity + 1e-12);
   std::string warning;
-  EXPECT_THROW(certified(level->problem, level->state, warning), NotConverged);
+  EXPECT_THROW(certified(level->problem, level->state, 1e-10, warning), NotConverged);
 }
 
 TEST(Direct, SolvesALayerWithoutColumns) {
@@ -201,6 +202,29 @@ TEST(Direct, SolvesALayerWithoutColumns) {
   EXPECT_NEAR(-largest(-level->state.u.minCoeff()), serial.u.minCoeff(), 1e-9 * serial.u.maxCoeff());
   EXPECT_EQ(level->contact_set().count(), std::count(serial.active.begin(), serial.active.end(), true));
   EXPECT_LE(report.last.most_iterations, 3);
+}
+
+TEST(Snesvi, LosesTheSummedMatrixAndSolvesTheSplitForm) {
+  const TriangleMesh mesh = structured_mesh(32);
+  const Space whole(mesh, p1());
+  for (const double epsilon : {1e-2, 1e-6, 0.0}) {
+    const Scene question({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+    const Solution serial = active_set(assemble(question, whole));
+    const Piece piece = piece_of(mesh, strips(mesh, ranks()), rank(), ranks());
+    const Space space(piece.mesh, p1());
+    if (epsilon > 0) {
+      const SnesviEnd end = snesvi(Inequality(question, piece, space, true));
+      EXPECT_EQ(end.converged, epsilon == 1e-2) << end.reason;
+    }
+    const Inequality problem(question, piece, space);
+    State state = zero_state(problem);
+    const SnesviEnd end = snesvi_split(problem, state);
+    EXPECT_TRUE(end.converged) << end.reason;
+    EXPECT_LE(end.corrections, 6);
+    EXPECT_NEAR(largest(state.u.maxCoeff()), serial.u.maxCoeff(), 1e-9 * serial.u.maxCoeff());
+    EXPECT_NEAR(-largest(-state.u.minCoeff()), serial.u.minCoeff(), 1e-9 * serial.u.maxCoeff());
+    EXPECT_LE(kkt_report(problem, state).residual, 1e-9);
+  }
 }
 
 TEST(ContactSets, BetweenTwoPointsInContactIsContact) {

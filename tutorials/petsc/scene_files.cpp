@@ -114,7 +114,7 @@ Json summary(const SceneFile& file, const Level& level, const NestedReport& repo
   s["solver"] = file.method.solver;
   s["epsilon"] = or_null(file.scene.epsilon());
   const bool from_file = file.mesh.kind == MeshRequest::Kind::file;
-  s["h"] = from_file ? largest(level.piece.mesh.diameter()) : 1.0 / file.mesh.cells;
+  s["h"] = from_file ? largest(level.piece.mesh.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
   s["dofs"] = level.problem.rows().total();
   s["effects"] = file.scene.effects();
   s["energy"] = finite("the energy", energy_of_all(level));
@@ -146,6 +146,13 @@ Json summary(const SceneFile& file, const Level& level, const NestedReport& repo
 
 }  // namespace
 
+std::vector<std::string> piece_files(const fs::path& folder) {
+  std::vector<std::string> names = {"solution.pvtu"};
+  std::error_code none;
+  for (int r = 0; r < ranks() || fs::exists(folder / piece_name(r), none); ++r) names.push_back(piece_name(r));
+  return names;
+}
+
 void write_scene_files(const fs::path& folder, const SceneFile& file, const Level& level, const NestedReport& report,
                        int levels, const std::string& warning, const RunClock& clock) {
   const bool contact = file.scene.contact().has_value();
@@ -171,8 +178,8 @@ void write_scene_files(const fs::path& folder, const SceneFile& file, const Leve
   std::vector<std::string> stale = {"solution.vtu"};
   if (!contact) stale.emplace_back("contact.csv");
   if (!csv) stale.emplace_back("solution.csv");
-  std::error_code none;
-  for (int r = ranks(); fs::exists(folder / piece_name(r), none); ++r) stale.push_back(piece_name(r));
+  const std::vector<std::string> pieces = piece_files(folder);
+  stale.insert(stale.end(), pieces.begin() + 1 + ranks(), pieces.end());
   write_folder_together(folder, write, stale);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/nested.hpp"
@@ -18,6 +20,9 @@ struct RunClock {
 /// without MPI. Every rank must call it; throws on every rank alike.
 void write_scene_files(const std::filesystem::path& folder, const SceneFile& file, const Level& level,
                        const NestedReport& report, int levels, const std::string& warning, const RunClock& clock);
+
+/// solution.pvtu and its pieces: those that write_scene_files writes to the folder and those there that it removes.
+std::vector<std::string> piece_files(const std::filesystem::path& folder);
 
 /// Beyond, the text of solution.csv serves nobody.
 constexpr int most_csv_unknowns = 1'000'000;

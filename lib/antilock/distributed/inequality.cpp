@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,11 +27,16 @@ double column_width(const TriangleMesh& mesh) {
   return edges > 0 ? sum(length) / static_cast<double>(edges) : 1;
 }
 
+long long layer_triangles(const TriangleMesh& mesh) {
+  return std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
+}
+
 }  // namespace
 
 Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& space, bool summed) : rows_(piece, space) {
-  together([&] {
-    part_ = assemble(scene, space);
+  const bool here = layer_triangles(piece.mesh) > 0, somewhere = sum(layer_triangles(piece.mesh)) > 0;
+  together([&] {  // a strip without a part of the layer (between the two feet of a body) has the body's part of the forms
+    part_ = assemble(here || !somewhere ? scene : Scene(scene.body(), NoLayer{}, scene.contact()), space);
     lower_ = Eigen::VectorXd::Constant(rows_.owned(), -std::numeric_limits<double>::infinity());
     if (!scene.contact()) return;
     for (int place = 0; place < rows_.owned(); ++place) {
@@ -41,6 +47,7 @@ Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& spac
     }
   });
   stiff_ = sum(static_cast<long long>(part_.m.size())) > 0;
+  if (stiff_) part_.compliance = largest(part_.m.size() > 0 ? part_.compliance : 0);
   const double h = column_width(piece.mesh);
   delta_ = stiff_ ? std::max({part_.compliance, h * h / 256, least_delta}) : 1;
   if (summed && stiff_) delta_ = part_.compliance;

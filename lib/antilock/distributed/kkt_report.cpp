@@ -83,10 +83,11 @@ Kkt kkt_report(const Inequality& problem, const State& state) {
   return kkt;
 }
 
-Kkt certified(const Inequality& problem, const State& state, std::string& warning) {
+Kkt certified(const Inequality& problem, const State& state, double tolerance, std::string& warning) {
   const Kkt kkt = kkt_report(problem, state);
   const double worst = worst_violation(kkt);
-  const TrustLevels levels;
+  TrustLevels levels;
+  levels.refused = std::max(levels.refused, 10 * tolerance);
   const std::string report =
       fmt::format("smallest gap {:.1e}, smallest pressure {:.1e}, complementarity {:.1e}, residual {:.1e}", kkt.min_gap,
                   kkt.min_pressure, kkt.complementarity, kkt.residual);

@@ -92,9 +92,19 @@ Layer read_layer(const Section& section, SceneWords& words) {
 
 constexpr int most_structured = 2048, most_unstructured = 512;
 
+/// Absent: 0. With `cells` per unit side, those of the refined mesh are at most as many as a structured mesh may have.
+int read_refinements(const Section& section, int cells) {
+  if (!section.has("refinements")) return 0;
+  const int refinements = section.count("refinements", 10);
+  if (cells << refinements > most_structured)
+    section.refuse("refinements", fmt::format("{} refinements of {} cells per unit side make {}; accepted: up to {}",
+                                              refinements, cells, cells << refinements, most_structured));
+  return refinements;
+}
+
 MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder, SceneWords& words) {
   using Kind = MeshRequest::Kind;
-  section.only({"kind", "cells", "file"});
+  section.only({"kind", "cells", "file", "refinements"});
   words.mesh = section.one_of("kind", {"structured", "unstructured", "layered", "file"});
   if (words.mesh == "file") {
     if (section.has("cells")) section.refuse("cells", "does not go with kind = \"file\"; accepted: file alone");
@@ -102,7 +112,7 @@ MeshRequest read_mesh(const Section& section, const std::filesystem::path& folde
     words.file = section.text("file", accepted);
     if (words.file.empty() || words.file.find('\0') != words.file.npos)
       section.refuse("file", "is no path; accepted: " + accepted);
-    return {Kind::file, 0, folder / words.file};
+    return {Kind::file, 0, folder / words.file, read_refinements(section, 0)};
   }
   if (section.has("file"))
     section.refuse("file",
@@ -110,7 +120,8 @@ MeshRequest read_mesh(const Section& section, const std::filesystem::path& folde
   const Kind kind = words.mesh == "structured"     ? Kind::structured
                     : words.mesh == "unstructured" ? Kind::unstructured
                                                    : Kind::layered;
-  return {kind, section.count("cells", kind == Kind::structured ? most_structured : most_unstructured), {}};
+  const int cells = section.count("cells", kind == Kind::structured ? most_structured : most_unstructured);
+  return {kind, cells, {}, read_refinements(section, cells)};
 }
 
 /// An accuracy and what goes with it: the mesh is found, by Crouzeix-Raviart and the active set.

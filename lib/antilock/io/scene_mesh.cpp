@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "antilock/io/expression.hpp"
 #include "antilock/io/scene_checks.hpp"
@@ -10,6 +11,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/msh_file.hpp"
+#include "antilock/mesh/refine.hpp"
 
 namespace antilock {
 namespace {
@@ -160,13 +162,21 @@ TriangleMesh checked_mesh(const SceneFile& file) {
 }  // namespace
 
 TriangleMesh make_mesh(const SceneFile& file) {
+  constexpr std::int64_t most_triangles = 1 << 25;
   TriangleMesh mesh = checked_mesh(file);
   if (file.mesh.kind == MeshRequest::Kind::file) check_on_mesh(file, mesh);
+  const std::int64_t triangles = static_cast<std::int64_t>(mesh.triangle_count()) << (2 * file.mesh.refinements);
+  if (triangles > most_triangles)
+    throw Error(fmt::format("{}: mesh.refinements: {} refinements of {} triangles make {}; accepted: up to {}",
+                            file.name, file.mesh.refinements, mesh.triangle_count(), triangles, most_triangles));
+  for (int i = 0; i < file.mesh.refinements; ++i) mesh = refined(mesh);
   return mesh;
 }
 
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh) {
-  return file.mesh.kind == MeshRequest::Kind::file || file.method.accuracy ? mesh.diameter() : 1.0 / file.mesh.cells;
+  return file.mesh.kind == MeshRequest::Kind::file || file.method.accuracy
+             ? mesh.diameter()
+             : 1.0 / (file.mesh.cells << file.mesh.refinements);
 }
 
 }  // namespace antilock

@@ -36,6 +36,7 @@ Json question(const SceneFile& file) {
     mesh["file"] = words.file;
   else
     mesh["cells"] = file.mesh.cells;
+  if (file.mesh.refinements > 0) mesh["refinements"] = file.mesh.refinements;
   Json method = {
       {"element", file.method.element}, {"solver", file.method.solver}, {"tolerance", file.method.tolerance}};
   if (file.method.accuracy) {
@@ -113,8 +114,10 @@ Json summary(const SceneFile& file, const Space& space, const VariationalInequal
 
 std::string question_json(const SceneFile& file) { return question(file).dump(); }
 
-void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file) {
-  for (const char* name : {"summary.json", "solution.csv", "contact.csv", "mesh.msh", "solution.vtu"})
+void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
+                       std::vector<std::string> more) {
+  more.insert(more.end(), {"summary.json", "solution.csv", "contact.csv", "mesh.msh", "solution.vtu"});
+  for (const std::string& name : more)
     for (const std::filesystem::path& input : {scene, file.mesh.file})
       if (std::error_code absent; !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
         throw Error(fmt::format("{}: --out: the result {} would replace {}; accepted: another folder", file.name, name,

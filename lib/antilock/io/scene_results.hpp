@@ -15,8 +15,10 @@ struct RunSeconds {
   double mesh = 0, assemble = 0, factor = 0, solve = 0;
 };
 
-/// Throws Error where the results in `folder` would replace the scene or its mesh file. Touches nothing.
-void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file);
+/// Throws Error where the results in `folder`, or a file there with a name among `more`, would replace the scene or its
+/// mesh file. Touches nothing.
+void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
+                       std::vector<std::string> more = {});
 
 /// The question in full, as JSON: title, load, layer, gap, mesh, method, version.
 std::string question_json(const SceneFile& file);

@@ -8,7 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "antilock/io/writers.hpp"
+#include "antilock/mesh/layered.hpp"
 #include "scenes/runner.hpp"
+#include "support/bodies.hpp"
 
 namespace antilock::test {
 namespace {
@@ -16,15 +19,19 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string scene_text(const std::string& solver, const std::string& kind, const std::string& element, int cells,
-                       const std::string& method = "") {
+                       const std::string& method = "", int refinements = 0) {
   return "[load]\nf = \"10*sin(2*pi*x)\"\n[layer]\nepsilon = 1e-6\n[contact]\n[mesh]\nkind = \"" + kind +
-         "\"\ncells = " + std::to_string(cells) + "\n[method]\nelement = \"" + element + "\"\nsolver = \"" + solver +
-         "\"\n" + method;
+         "\"\ncells = " + std::to_string(cells) +
+         (refinements > 0 ? "\nrefinements = " + std::to_string(refinements) : "") + "\n[method]\nelement = \"" +
+         element + "\"\nsolver = \"" + solver + "\"\n" + method;
 }
 
+/// Root may start ranks, and more of them than there are cores. One machine: no network is looked for, and nobody waits
+/// a second for ranks that have ended.
 std::string environment() {
   return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-         "OMPI_MCA_mpi_yield_when_idle=1 OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 ";
+         "OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_odls_base_sigkill_timeout=0 "
+         "OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 ";
 }
 
 /// A scene and its runs, on as many ranks as asked: 0 is without mpiexec.
@@ -32,7 +39,6 @@ class Runs {
  public:
   explicit Runs(const std::string& scene) { std::ofstream(folder / "scene.toml", std::ios::binary) << scene; }
   fs::path results(const std::string& name) const { return folder / name; }
-  /// The variables of Open MPI let root start ranks, and more ranks than there are cores.
   std::string command(int ranks, const std::string& name, const std::string& options = "") const {
     const std::string launch = ranks > 0 ? environment() + MPIEXEC " -n " + std::to_string(ranks) + " " : "";
     return launch + in_shell(RUN_SCENE) + " " + in_shell(folder / "scene.toml") + " --out " +
@@ -69,37 +75,92 @@ int lines_about(const std::string& name, const std::string& err) {
   return count;
 }
 
+/// The same question, serially and on each number of ranks: the same files, on as many levels as said.
+void expect_the_files_of_the_serial_run(const Runs& serial, const Runs& petsc, const std::vector<int>& all_ranks,
+                                        int levels) {
+  ASSERT_EQ(serial.run(0, "serial").status, 0) << contents(serial.folder / "err");
+  const Eigen::MatrixXd u = sorted(read_csv(serial.results("serial") / "solution.csv").rows);
+  const Eigen::MatrixXd contact = read_csv(serial.results("serial") / "contact.csv").rows;
+  for (const int ranks : all_ranks) {
+    const std::string name = std::to_string(ranks);
+    const Outcome outcome = petsc.run(ranks, name);
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const Csv mine = read_csv(petsc.results(name) / "solution.csv"),
+              table = read_csv(petsc.results(name) / "contact.csv");
+    EXPECT_EQ(mine.header, "x,y,u");
+    EXPECT_EQ(table.header, "x,gap,pressure");
+    ASSERT_EQ(mine.rows.rows(), u.rows());
+    EXPECT_LE((sorted(mine.rows) - u).cwiseAbs().maxCoeff(), 1e-9 * u.col(2).cwiseAbs().maxCoeff());
+    ASSERT_EQ(table.rows.rows(), contact.rows());
+    EXPECT_LE((table.rows - contact).leftCols<2>().cwiseAbs().maxCoeff(), 1e-9);
+    EXPECT_LE((table.rows - contact).col(2).cwiseAbs().maxCoeff(), 1e-6 * contact.col(2).maxCoeff());
+    const nlohmann::json ours = petsc.summary(name), theirs = serial.summary("serial");
+    for (const char* key : {"dofs", "contact"}) EXPECT_EQ(ours[key], theirs[key]);
+    EXPECT_NEAR(ours["h"].get<double>(), theirs["h"].get<double>(), 1e-12);
+    EXPECT_NEAR(ours["energy"].get<double>(), theirs["energy"].get<double>(), 1e-9);
+    EXPECT_LE(ours["kkt"]["residual"].get<double>(), 1e-9);
+    EXPECT_EQ(ours["parallel"]["ranks"], std::max(ranks, 1));
+    EXPECT_EQ(ours["parallel"]["levels"], levels);
+    for (int r = 0; r < std::max(ranks, 1); ++r)
+      EXPECT_TRUE(fs::exists(petsc.results(name) / ("solution_" + std::to_string(r) + ".vtu")));
+    EXPECT_NE(contents(petsc.results(name) / "solution.pvtu").find("solution_0.vtu"), std::string::npos);
+    EXPECT_FALSE(fs::exists(petsc.results(name).string() + ".checkpoint"));
+  }
+}
+
 TEST(PetscScene, GivesTheFilesOfTheSerialRunOnAnyNumberOfRanks) {
-  for (const auto& [kind, element] :
-       {std::pair{"structured", "P1"}, {"structured", "CR"}, {"layered", "P1"}, {"layered", "CR"}}) {
-    const Runs serial(scene_text("active-set", kind, element, 64)), petsc(scene_text("petsc", kind, element, 64));
-    ASSERT_EQ(serial.run(0, "serial").status, 0);
-    const Eigen::MatrixXd u = sorted(read_csv(serial.results("serial") / "solution.csv").rows);
-    const Eigen::MatrixXd contact = read_csv(serial.results("serial") / "contact.csv").rows;
-    for (const int ranks : {0, 1, 2, 4}) {
-      const std::string name = std::to_string(ranks);
-      const Outcome outcome = petsc.run(ranks, name);
-      ASSERT_EQ(outcome.status, 0) << outcome.err;
-      const Csv mine = read_csv(petsc.results(name) / "solution.csv"),
-                table = read_csv(petsc.results(name) / "contact.csv");
-      EXPECT_EQ(mine.header, "x,y,u");
-      EXPECT_EQ(table.header, "x,gap,pressure");
-      ASSERT_EQ(mine.rows.rows(), u.rows());
-      EXPECT_LE((sorted(mine.rows) - u).cwiseAbs().maxCoeff(), 1e-9 * u.col(2).cwiseAbs().maxCoeff());
-      ASSERT_EQ(table.rows.rows(), contact.rows());
-      EXPECT_LE((table.rows - contact).leftCols<2>().cwiseAbs().maxCoeff(), 1e-9);
-      EXPECT_LE((table.rows - contact).col(2).cwiseAbs().maxCoeff(), 1e-6 * contact.col(2).maxCoeff());
-      const nlohmann::json ours = petsc.summary(name), theirs = serial.summary("serial");
-      EXPECT_EQ(ours["dofs"], theirs["dofs"]);
-      EXPECT_EQ(ours["contact"], theirs["contact"]);
-      EXPECT_NEAR(ours["energy"].get<double>(), theirs["energy"].get<double>(), 1e-9);
-      EXPECT_LE(ours["kkt"]["residual"].get<double>(), 1e-9);
-      EXPECT_EQ(ours["parallel"]["ranks"], std::max(ranks, 1));
-      for (int r = 0; r < std::max(ranks, 1); ++r)
-        EXPECT_TRUE(fs::exists(petsc.results(name) / ("solution_" + std::to_string(r) + ".vtu")));
-      EXPECT_NE(contents(petsc.results(name) / "solution.pvtu").find("solution_0.vtu"), std::string::npos);
-      EXPECT_FALSE(fs::exists(petsc.results(name).string() + ".checkpoint"));
-    }
+  const struct {
+    const char *kind, *element;
+    int cells, refinements, levels;
+    std::vector<int> ranks;
+  } cases[] = {{"structured", "P1", 64, 0, 3, {0, 1}}, {"structured", "P1", 64, 0, 2, {4}},
+               {"structured", "CR", 32, 0, 2, {2}},    {"structured", "P1", 16, 1, 2, {2}},
+               {"layered", "P1", 9, 2, 3, {3}},        {"layered", "CR", 9, 2, 3, {4}}};
+  for (const auto& [kind, element, cells, refinements, levels, ranks] : cases)
+    expect_the_files_of_the_serial_run(Runs(scene_text("active-set", kind, element, cells, "", refinements)),
+                                       Runs(scene_text("petsc", kind, element, cells, "", refinements)), ranks, levels);
+}
+
+TEST(PetscScene, RefinesABodyFromAFileOverALayerInColumns) {  // an L, and a bridge whose Sigma is in two pieces
+  for (const bool pieces : {false, true}) {
+    const TemporaryFolder folder;
+    const std::string path = (folder / "body.msh").string();
+    write_msh(path, extruded(pieces ? bridge(8) : l_shape(8), 1e-3));
+    const auto text = [&](const std::string& solver) {
+      std::string all = scene_text(solver, "file", pieces ? "CR" : "P1", 0, "", 2);
+      return all.replace(all.find("cells = 0"), 9, "file = \"" + path + "\"");
+    };
+    expect_the_files_of_the_serial_run(Runs(text("active-set")), Runs(text("petsc")), {pieces ? 3 : 2}, 3);
+  }
+}
+
+TEST(PetscScene, IsNoMoreExactThanAsked) {
+  const Runs rough(scene_text("petsc", "structured", "P1", 64, "tolerance = 1e-3\n")),
+      fine(scene_text("petsc", "structured", "P1", 64));
+  ASSERT_EQ(rough.run(0, "results").status, 0);
+  ASSERT_EQ(fine.run(0, "results").status, 0);
+  const Eigen::VectorXd u = read_csv(fine.results("results") / "solution.csv").rows.col(2);
+  const Eigen::VectorXd v = read_csv(rough.results("results") / "solution.csv").rows.col(2);
+  EXPECT_LE((u - v).lpNorm<Eigen::Infinity>(), 1e-3 * u.lpNorm<Eigen::Infinity>());
+  EXPECT_LT(rough.summary("results")["iterations"]["corrections"],
+            fine.summary("results")["iterations"]["corrections"]);
+}
+
+TEST(PetscScene, ResultsNeverReplaceTheMeshTheyCameFrom) {
+  const TemporaryFolder folder;
+  for (const std::string name : {"solution.pvtu", "solution_0.vtu", "solution_1.vtu", "solution_2.vtu"}) {
+    write_msh((folder / name).string(), structured_mesh(4));
+    std::ofstream(folder / "solution_1.vtu", std::ios::app);  // pieces of an earlier run, without a gap
+    std::ofstream(folder / "solution_0.vtu", std::ios::app);
+    std::string text = scene_text("petsc", "file", "P1", 0);
+    text.replace(text.find("cells = 0"), 9, "file = \"" + (folder / name).string() + "\"");
+    const Runs runs(text);
+    fs::create_directory_symlink(folder.path(), runs.results("results"));
+    const std::string before = contents(folder / name);
+    const Outcome outcome = runs.run(0, "results");
+    EXPECT_EQ(outcome.status, 2) << name;
+    EXPECT_NE(outcome.err.find("would replace"), std::string::npos) << outcome.err;
+    EXPECT_EQ(contents(folder / name), before);
   }
 }
 
@@ -125,14 +186,15 @@ TEST(PetscScene, ABadQuestionIsRefusedOnEveryRankAlike) {
       {scene_text("petsc", "unstructured", "CR", 16), "layered", 2},
       {scene_text("petsc", "structured", "P1", 3), "4 ranks for 3 columns", 2},
       {scene_text("active-set", "structured", "P1", 16), "petsc", 2},
-      {scene_text("petsc", "structured", "P1", 64, "tolerance = 1e-18\n"), "double precision", 3},
+      {scene_text("petsc", "structured", "P1", 32, "tolerance = 1e-18\n"), "double precision", 3},
+      {scene_text("petsc", "layered", "P1", 16, "", 8), "refinements", 2},
       {scene_text("petsc", "structured", "P2", 16), "P2", 2},
       {"[load]\nf = \"1/(x - 0.6)\"\n[mesh]\nkind = \"structured\"\ncells = 30\n[method]\nsolver = \"petsc\"\n",
        "not finite", 2},
   };
   for (const auto& [scene, says, status] : cases) {
     const Runs runs(scene);
-    const Outcome outcome = runs.run(4, "results");
+    const Outcome outcome = runs.run(scene.find("cells = 3\n") != scene.npos ? 4 : 2, "results");
     EXPECT_EQ(outcome.status, status) << outcome.err;
     EXPECT_EQ(lines_about("scene.toml: ", outcome.err), 1) << outcome.err;
     EXPECT_NE(outcome.err.find(says), std::string::npos) << outcome.err;
@@ -142,7 +204,7 @@ TEST(PetscScene, ABadQuestionIsRefusedOnEveryRankAlike) {
 }
 
 TEST(PetscScene, ALimitOfTimeEndsItOnEveryRank) {
-  const Runs runs(scene_text("petsc", "structured", "P1", 256));
+  const Runs runs(scene_text("petsc", "structured", "P1", 64));
   const Outcome outcome = runs.run(2, "results", "--most-seconds 0.001");
   EXPECT_EQ(outcome.status, 3);
   EXPECT_EQ(lines_about("stopped as asked", outcome.err), 1) << outcome.err;
@@ -158,16 +220,17 @@ TEST(PetscScene, ALimitOfMemoryIsSeenBeforeItIsMet) {
 }
 
 TEST(PetscScene, AKilledRunLeavesACheckpointFromWhichAnotherStarts) {
-  const Runs runs(scene_text("petsc", "structured", "P1", 512));
+  const Runs runs(scene_text("petsc", "structured", "P1", 256));
   const fs::path checkpoint = runs.results("results").string() + ".checkpoint";
   EXPECT_EQ(runs.run(2, "results", "--restart").status, 2);  // there is none yet
   const pid_t child = ::fork();
   if (child == 0) {
     ::setpgid(0, 0);
+    ::setenv("PETSC_OPTIONS", "-pc_type bjacobi -sub_pc_type icc", 1);  // slow, so that no machine ends it too soon
     ::execl("/bin/sh", "sh", "-c", ("exec " + runs.command(2, "results")).c_str(), nullptr);
     ::_exit(127);
   }
-  for (int i = 0; i < 3000 && !fs::exists(checkpoint); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (int i = 0; i < 15000 && !fs::exists(checkpoint); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(2));
   ::kill(child, SIGTERM);
   int status = 0;
   ::waitpid(child, &status, 0);
