@@ -23,6 +23,20 @@ void check_writable(const std::filesystem::path& folder) {
   std::filesystem::remove(probe);
 }
 
+/// What --help says about the exercises.
+std::string list(const std::vector<Exercise>& exercises) {
+  std::string text = exercises.empty() ? "" : "Exercises:\n";
+  for (std::size_t i = 0; i < exercises.size(); ++i)
+    text += fmt::format("  {}. {}\n", i + 1, exercises[i].question);
+  return text;
+}
+
+/// The question, what is to be predicted, and the outcome.
+void run_exercise(const Exercise& exercise, const Options& options, Report& report) {
+  fmt::print("QUESTION: {}\nPREDICTION: {}\n", exercise.question, exercise.prediction);
+  exercise.outcome(options, report);
+}
+
 }  // namespace
 
 void Report::stage(const std::string& what) {
@@ -62,16 +76,25 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
     line.add("--epsilon", options.epsilon, options.epsilon_is, options.least_epsilon, 1);
   line.add("--cells", options.cells, "cells per unit side, h = 1/cells", options.least_cells, options.most_cells);
   line.add("--out", options.out, "folder of the results");
+  int exercise = 0;
+  if (const int count = static_cast<int>(options.exercises.size()); count > 0) {
+    line.add("--exercise", exercise, "a variation, predicted and checked", 1, count);
+    line.footer(list(options.exercises));
+  }
   options.add(line);
   if (const auto status = line.parse(argc, argv)) return *status;
+  if (exercise > 0 && !line.given("--out")) options.out.clear();  // an exercise leaves nothing behind unless asked
   try {
-    check_writable(options.out);
-    fmt::print("{}: {}\n", stem, what);
+    if (!options.out.empty()) check_writable(options.out);
+    fmt::print("{}: {}\n", stem, exercise > 0 ? fmt::format("exercise {}", exercise) : what);
     const Stopwatch watch;
     Report report;
-    body(options, report);
+    if (exercise > 0)
+      run_exercise(options.exercises.at(static_cast<std::size_t>(exercise - 1)), options, report);
+    else
+      body(options, report);
     report.finish();
-    fmt::print("{} in {:.2f} s; results in {}\n", stem, watch.seconds(), options.out.string());
+    fmt::print("{} in {:.2f} s{}\n", stem, watch.seconds(), options.out.empty() ? "" : "; results in " + options.out.string());
     return report.all_hold() ? 0 : 1;
   } catch (const NotConverged& failure) {
     return fail(stem, failure.what(), 3);
