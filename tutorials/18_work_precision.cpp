@@ -20,7 +20,7 @@
 // the discretisation error |u_h - u| stays. Once the first is below the second, more steps do not
 // bring u_k nearer to u. Neither error is known, since neither u nor u_h is. Two computable numbers
 // stand for them. The duality gap, the energy of u_k pushed out of the obstacle less the dual
-// energy of lambda_k, is above |u_k - u_h|_a^2 / 2. The energy bracket (17_energy_bracket) holds
+// energy of lambda_k, is above |u_k - u_h|_a^2 / 2. The energy bracket (17_certificate) holds
 // J(u), its width is of order h^2, and a mesh twice as coarse gives it at a quarter of the price.
 // See analysis/accurate_enough.hpp.
 //

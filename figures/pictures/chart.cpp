@@ -1,4 +1,4 @@
-// Curves on logarithmic scales, as in Figure 9.
+// Curves on logarithmic scales, as in Figure 9; y on a straight one where that is asked for.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -129,6 +129,14 @@ Axis x_axis(const ChartStyle& style, double low, double high, double width) {
                         : Axis::logarithmic(low, high, 0.07, static_cast<int>(width / 150));
 }
 
+/// `room`: the share of the panel above the curves, for the failures.
+Axis y_axis(const ChartStyle& style, double low, double high, double room, double height) {
+  const int most = static_cast<int>(height / 90);
+  if (!style.linear_y) return Axis::logarithmic(low, high * std::pow(high / low, 1.1 * room / (1 - room)), 0.07, most);
+  const double more = 0.07 * (high > low ? high - low : high);
+  return Axis::linear(low - more, high + more + (high - low) * room / (1 - room), most);
+}
+
 }  // namespace
 
 Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
@@ -140,6 +148,8 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
       if (drawable(s) || failed(s)) low.x = std::min(low.x, s.x), high.x = std::max(high.x, s.x);
       if (drawable(s)) low.y = std::min(low.y, s.y), high.y = std::max(high.y, s.y);
     }
+  if (style.linear_y && !style.slopes.empty())
+    throw Error("a chart with --linear-y has no lines of a slope; accepted: one of --slope and --linear-y");
   if (high.y == 0) throw Error(fmt::format("{}: no row to draw: {} against {}", file.string(), style.y, style.x));
 
   const std::size_t count = curves.panels.size(), columns = panel_columns(count), rows = panel_rows(count);
@@ -158,10 +168,7 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
   const double rows_height = static_cast<double>(rows) * panel_height + static_cast<double>(rows - 1) * gap_y;
   Page page(rows_height + head + foot);
 
-  // room above the curves for the failures
-  const double share = strip_height(curves.failing.size()) / panel_height;
-  const double room = std::pow(high.y / low.y, 1.1 * share / (1 - share));
-  const Axis y = Axis::logarithmic(low.y, high.y * room, 0.07, static_cast<int>(panel_height / 90));
+  const Axis y = y_axis(style, low.y, high.y, strip_height(curves.failing.size()) / panel_height, panel_height);
   const double left = left_margin(page, y);
   const Box area{left, foot, Page::width - left - 50, rows_height};
   const auto boxes = arrange_panels(count, area, gap_x, gap_y);

@@ -39,6 +39,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
 /// Solutions seen from above, three per row, in a window of the plane, on one scale of colours.
 struct PlanStyle {
   Range range{-0.25, 0.25}, x{0, 1}, y{-1, 1};
+  std::string name = "$u$";  ///< of the colours
   std::vector<std::string> row_titles;
 };
 Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style);
@@ -61,7 +62,8 @@ struct ChartStyle {
   std::vector<std::string> panel_by, series_by;
   std::vector<std::string> filters;  ///< `column=value`: only these rows
   std::vector<double> slopes;        ///< lines of these orders in every panel
-  std::string title;
+  std::string title = {};
+  bool linear_y = false;  ///< y on a straight scale
 };
 Page chart_picture(const std::filesystem::path& table, const ChartStyle& style);
 

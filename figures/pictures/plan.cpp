@@ -16,12 +16,13 @@ namespace antilock::figures {
 
 Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style) {
   for (const Range& range : {style.range, style.x, style.y}) check(range);
-  constexpr std::size_t columns = 3;
-  const std::size_t count = surfaces.size(), rows = (count + columns - 1) / columns;
+  const std::size_t count = surfaces.size(), columns = std::min<std::size_t>(count, 3),
+                    rows = (count + columns - 1) / columns;
   const Axis x = Axis::linear(style.x.low, style.x.high, 2), y = Axis::linear(style.y.low, style.y.high, 3);
   const double bar_room = 230, gap = 90, row_head = style.row_titles.empty() ? 0 : 90, foot = foot_margin;
   const double left = left_margin(Page(1), y);
-  const double width = (Page::width - left - bar_room - (columns - 1) * gap) / columns,
+  const double across = static_cast<double>(columns),
+               width = (Page::width - left - bar_room - (across - 1) * gap) / across,
                height = width * (style.y.high - style.y.low) / (style.x.high - style.x.low);
   if (!(height < 4000))
     throw Error(
@@ -45,11 +46,11 @@ Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style) 
       page.line({panel(style.x.low, 0), panel(style.x.high, 0)}, {6, palette::white});
     draw_frame(page, panel, {surfaces[i].title, row + 1 == rows ? "$x$" : "", column == 0 ? "$y$" : ""});
     if (column == 0 && row < style.row_titles.size())
-      page.text({left + 0.5 * (columns * width + (columns - 1) * gap), box.top() + head_margin + 24},
+      page.text({left + 0.5 * (across * width + (across - 1) * gap), box.top() + head_margin + 24},
                 style.row_titles[row], {name_size, {0.5}});
   }
   const double all = page.height() - foot - row_head - head_margin;
-  draw_colour_bar(page, {Page::width - bar_room + 40, foot + 0.2 * all, 56, 0.6 * all}, style.range, "$u$");
+  draw_colour_bar(page, {Page::width - bar_room + 40, foot + 0.2 * all, 56, 0.6 * all}, style.range, style.name);
   return page;
 }
 

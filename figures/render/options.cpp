@@ -61,6 +61,7 @@ void add_pictures(CLI::App& app, Request& request) {
   plan->add_option("--title", request.titles, "one title per solution");
   plan->add_option("--row-title", request.plan.row_titles, "one title per row");
   plan->add_option("--range", request.range, "smallest and largest u of the colours")->expected(2)->required();
+  plan->add_option("--name", request.plan.name, "what the colours are")->capture_default_str();
   plan->add_option("--window", request.window, "x from and to, y from and to")->expected(4);
   plan->callback([&] {
     request.draw = [&] {
@@ -91,6 +92,7 @@ void add_pictures(CLI::App& app, Request& request) {
   chart->add_option("--panel-by", request.chart.panel_by, "columns whose values make panels")->delimiter(',');
   chart->add_option("--series-by", request.chart.series_by, "columns whose values make curves")->delimiter(',');
   chart->add_option("--only", request.chart.filters, "column=value: only these rows");
+  chart->add_flag("--linear-y", request.chart.linear_y, "y on a straight scale");
   chart->add_option("--slope", request.chart.slopes, "lines of these slopes")->delimiter(',');
   chart->add_option("--title", request.chart.title);
   chart->callback([&] {

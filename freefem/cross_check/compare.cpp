@@ -219,8 +219,8 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
         errors[i]);
   add("13_estimates", fmt::format("P1 and CR unstructured, h = 1/{}, 13 epsilons to 1e-6: largest u on Gamma_C", half),
       freefem::estimates(half, folder));
-  add("17_energy_bracket", fmt::format("P1 and CR unstructured, h = 1/{}, 5 epsilons: both bounds, energy", half),
-      freefem::energy_bracket(half, folder));
+  add("17_certificate", fmt::format("P1 and CR unstructured, h = 1/{}, 5 epsilons: bracket, certified bound", half),
+      freefem::certificate(half, folder));
   add("11_contact_sets", "P1 structured, h = 1/8: distances to K_h and K_0h of a solution on h = 1/32",
       freefem::contact_sets(folder));
   const std::vector<freefem::Numbers> degrees = freefem::degrees(half, folder);

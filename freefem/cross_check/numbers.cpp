@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "antilock/analysis/energy_bracket.hpp"
+#include "antilock/analysis/certificate.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
@@ -158,9 +158,9 @@ Numbers limits(int cells, const std::filesystem::path& folder) {
   return numbers;
 }
 
-Numbers energy_bracket(int cells, const std::filesystem::path& folder) {
+Numbers certificate(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
-  run("17_energy_bracket", {"-mesh", written(mesh, folder), "-out", folder});
+  run("17_certificate", {"-mesh", written(mesh, folder), "-out", folder});
   const Table table = results(folder / "results.csv", 5, 1);
   const Space above(mesh, p1()), below(mesh, crouzeix_raviart());
   SceneSweep upper(contact_scene(1), above), lower(contact_scene(1), below);
@@ -174,11 +174,14 @@ Numbers energy_bracket(int cells, const std::filesystem::path& folder) {
     const Solution high = upper.solve(), low = lower.solve();
     numbers.solved(above, high);
     numbers.solved(below, low);
+    const Companion v = p1_companion(high);
+    const Certificate found = certify(contact_scene(epsilons[i]), below, lower.problem(), low, {.companion = &v});
     numbers.count(at + "epsilon", epsilons[i], table.column("epsilon")(i));
     numbers.relative(at + "upper", energy(upper.problem(), high), table.column("upper")(i));
     numbers.relative(at + "cr", energy(lower.problem(), low), table.column("cr")(i));
-    numbers.relative(at + "lower", energy_lower_bound(contact_scene(epsilons[i]), below, lower.problem(), low),
-                     table.column("lower")(i));
+    numbers.relative(at + "lower", found.energy_lower, table.column("lower")(i));
+    numbers.relative(at + "bound", found.displacement, table.column("bound")(i));
+    numbers.relative(at + "in the layer", found.layer_share, table.column("in_layer")(i));
   }
   numbers.freefem_seconds = table.column("seconds").sum();
   return numbers;

@@ -52,8 +52,9 @@ std::vector<Numbers> worst_errors(const std::filesystem::path& folder);
 Numbers estimates(int cells, const std::filesystem::path& folder);
 /// 11: distances of a fine mesh's u to K_h and of its u^0 to K_0h, P1 on the structured mesh of 1/h = 8.
 Numbers contact_sets(const std::filesystem::path& folder);
-/// 17: both bounds of the energy and that of Crouzeix-Raviart, one unstructured mesh, five epsilons.
-Numbers energy_bracket(int cells, const std::filesystem::path& folder);
+/// 17: the energy bracket, the energy of Crouzeix-Raviart, the certificate of P1 and its share in the layer, one
+/// unstructured mesh, five epsilons.
+Numbers certificate(int cells, const std::filesystem::path& folder);
 /// 14: cost of a ridge, ridge and energy on an unstructured mesh, epsilon = 1e-2. P1, then P2.
 std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder);
 /// 25: two glued strings, both glues, epsilon from 1 to 1e-12: energy, largest |u|, contact force.

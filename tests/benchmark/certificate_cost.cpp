@@ -1,16 +1,21 @@
-// What a certificate costs over the solve that it certifies, and what an adapted mesh saves, all levels paid for:
-// ratios within one run, the least of three, since machines differ and their ratios hardly do.
+// What a certificate costs over the solve that it certifies, and what an adapted mesh saves, all levels paid for: ratios
+// within one run, since machines differ and their ratios hardly do. Each is the ratio of the medians of some repeats.
 //
-// Run: certificate_cost                      half a minute on two cores
+// Run: certificate_cost                               1/h = 128, three repeats; half a minute
+// Run: certificate_cost --cells 64 --repeats 1
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
 
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/study/table.hpp"
 
 namespace antilock {
 namespace {
@@ -19,71 +24,93 @@ double bump(double x, double y) {
   return 400 * std::exp(-(std::pow(x - 0.3, 2) + std::pow(y - 0.6, 2)) / (2 * 0.02 * 0.02));
 }
 
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
+  return values[values.size() / 2];
+}
+
 struct Seconds {
-  double solve, flux, strip, certificate;
+  std::vector<double> solve, flux, strip, rest;
+
+  void measure(const Scene& scene, const TriangleMesh& mesh) {
+    const Space space(mesh, crouzeix_raviart());
+    Stopwatch watch;
+    const VariationalInequality problem = assemble(scene, space);
+    PenaltyFactor factor(problem);
+    const Solution solution = active_set(problem, factor);
+    solve.push_back(watch.lap());
+    equilibrated_flux(scene, space, problem, solution);
+    flux.push_back(watch.lap());
+    const Companion v = strip_companion(scene, space, problem, solution);
+    strip.push_back(watch.lap());
+    certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});  // makes the flux once more
+    rest.push_back(watch.lap());
+  }
 };
 
-Seconds once(const Scene& scene, const TriangleMesh& mesh) {
-  const Space space(mesh, crouzeix_raviart());
-  Stopwatch watch;
-  const VariationalInequality problem = assemble(scene, space);
-  PenaltyFactor factor(problem);
-  const Solution solution = active_set(problem, factor);
-  Seconds seconds{};
-  seconds.solve = watch.lap();
-  equilibrated_flux(scene, space, problem, solution);
-  seconds.flux = watch.lap();
-  const Companion v = strip_companion(scene, space, problem, solution);
-  seconds.strip = watch.lap();
-  certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});
-  seconds.certificate = seconds.strip + watch.lap();
-  return seconds;
+/// A row as soon as it is measured, into a pipe or a file as well.
+void row(Table& table, const std::string& what, double asked, double measured) {
+  fmt::print("{}: asked {:g}, measured {:.3f}\n", what, asked, measured);
+  std::fflush(stdout);
+  table.add({what, asked, std::round(1e4 * measured) / 1e4});
 }
 
-void certificate_over_solve() {
-  fmt::print("{:>5} {:>8} {:>10} {:>16} {:>12}\n", "1/h", "epsilon", "solve, s", "flux + strip, %", "in all, %");
-  for (const int cells : {128, 256})
-    for (const double epsilon : {1e-2, 1e-6, 0.0}) {
-      const TriangleMesh mesh = unstructured_mesh(cells);
-      Seconds least{1e9, 1e9, 1e9, 1e9};
-      for (int repeat = 0; repeat < 3; ++repeat) {
-        const Seconds now = once(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), mesh);
-        least = {std::min(least.solve, now.solve), std::min(least.flux, now.flux), std::min(least.strip, now.strip),
-                 std::min(least.certificate, now.certificate)};
-      }
-      fmt::print("{:>5} {:>8g} {:>10.3f} {:>16.1f} {:>12.1f}\n", cells, epsilon, least.solve,
-                 100 * (least.flux + least.strip) / least.solve, 100 * least.certificate / least.solve);
-    }
-}
-
-/// Bump at 3 %: solve_to against the coarsest uniform mesh that is proved as good, gmsh's time not counted.
-void adapted_over_uniform() {
-  const Scene scene({bump}, StiffLayer{1e-6}, UnilateralContact{});
-  double adapted = 1e9;
-  int unknowns = 0;
-  for (int repeat = 0; repeat < 3; ++repeat) {
-    const CertifiedSolution found = solve_to(scene, unstructured_mesh(8, {0}), {3e-2});
-    adapted = std::min(adapted, found.history.back().seconds);
-    unknowns = found.history.back().unknowns;
+void certificate_over_solve(Table& table, int cells, int repeats) {
+  const TriangleMesh mesh = unstructured_mesh(cells);
+  for (const double epsilon : {1e-2, 1e-6, 0.0}) {
+    Seconds seconds;
+    for (int k = 0; k < repeats; ++k)
+      seconds.measure(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), mesh);
+    const double solve = median(seconds.solve), flux = median(seconds.flux), strip = median(seconds.strip);
+    const std::string at = fmt::format("1/h = {}; epsilon = {:g}", cells, epsilon);
+    row(table, "flux and strip over the CR solve; " + at, 0.1, (flux + strip) / solve);
+    fmt::print("  the whole certificate over the CR solve: {:.3f}; the solve: {:.3f} s\n",
+               (strip + median(seconds.rest)) / solve, solve);
   }
-  const TriangleMesh mesh = unstructured_mesh(256);
-  const Space space(mesh, crouzeix_raviart());
-  Stopwatch watch;
-  const VariationalInequality problem = assemble(scene, space);
-  PenaltyFactor factor(problem);
-  const Solution solution = active_set(problem, factor);
-  const double relative =
-      certify(scene, space, problem, solution, {.factor = &factor}).relative(Quantity::displacement);
-  const double uniform = watch.seconds() * std::pow(relative / 3e-2, 2);  // the seconds grow at least like the unknowns
-  fmt::print(
-      "bump, 3 %: adapted {} unknowns, {:.2f} s in all; uniform about {:.0f} unknowns, {:.2f} s: a share of {:.2f}\n",
-      unknowns, adapted, space.free_count() * std::pow(relative / 3e-2, 2), uniform, adapted / uniform);
+}
+
+/// Bump at 3 %: solve_to against a uniform mesh that is proved as good, gmsh's time not counted. The uniform mesh's
+/// seconds are those of 2 `cells`, extrapolated by its unknowns: they grow at least like that.
+void adapted_over_uniform(Table& table, int cells, int repeats) {
+  constexpr double asked = 3e-2;
+  const Scene scene({bump}, StiffLayer{1e-6}, UnilateralContact{});
+  std::vector<double> adapted, uniform;
+  int unknowns = 0, uniform_unknowns = 0;
+  const TriangleMesh mesh = unstructured_mesh(2 * cells);
+  for (int k = 0; k < repeats; ++k) {
+    const CertifiedSolution found = solve_to(scene, unstructured_mesh(8, {0}), {asked});
+    adapted.push_back(found.history.back().seconds);
+    unknowns = found.history.back().unknowns;
+    const Space space(mesh, crouzeix_raviart());
+    Stopwatch watch;
+    const VariationalInequality problem = assemble(scene, space);
+    PenaltyFactor factor(problem);
+    const Solution solution = active_set(problem, factor);
+    const double relative =
+        certify(scene, space, problem, solution, {.factor = &factor}).relative(Quantity::displacement);
+    const double times = std::pow(relative / asked, 2);
+    uniform.push_back(watch.lap() * times);
+    uniform_unknowns = static_cast<int>(space.free_count() * times);
+  }
+  row(table, "seconds to a proved 3 % of the concentrated load; adapted over uniform", 0.25,
+      median(adapted) / median(uniform));
+  fmt::print("  adapted: {} unknowns, {:.2f} s in all; uniform: about {} unknowns, {:.2f} s\n", unknowns,
+             median(adapted), uniform_unknowns, median(uniform));
 }
 
 }  // namespace
 }  // namespace antilock
 
-int main() {
-  antilock::certificate_over_solve();
-  antilock::adapted_over_uniform();
+int main(int argc, char** argv) {
+  int cells = 128, repeats = 3;
+  std::filesystem::path out;
+  CLI::App app("what a certificate costs, and what an adapted mesh saves");
+  app.add_option("--cells", cells, "1/h of the uniform mesh")->check(CLI::Range(16, 256))->capture_default_str();
+  app.add_option("--repeats", repeats)->check(CLI::Range(1, 100))->capture_default_str();
+  app.add_option("--out", out, "a table of what was asked and measured, CSV");
+  CLI11_PARSE(app, argc, argv);
+  antilock::Table table({"what", "asked", "measured"});
+  antilock::certificate_over_solve(table, cells, repeats);
+  antilock::adapted_over_uniform(table, cells, repeats);
+  if (!out.empty()) table.write(out);
 }

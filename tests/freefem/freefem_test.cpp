@@ -338,7 +338,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"10_limits", {"limits.csv"}},
       {"12_uniform", {"uniform.csv"}},
       {"13_estimates", {"estimates.csv", "lost.eps"}},
-      {"17_energy_bracket", {"results.csv"}},
+      {"17_certificate", {"results.csv"}},
       {"11_contact_sets", {"results.csv"}},
       {"14_degree", {"results.csv"}},
       {"22_beam", {"beam.csv", "summary.csv", "beam.eps"}},
@@ -386,9 +386,9 @@ TEST(FreeFemScripts, EveryEffectHasTheSameEnergy) {
   expect_same(freefem::effects(16, 1e-2, folder.path()), 1e-10);
 }
 
-TEST(FreeFemScripts, TheEnergyBracketIsTheSame) {
+TEST(FreeFemScripts, TheEnergyBracketAndTheCertificateAreTheSame) {
   const TemporaryFolder folder;
-  expect_same(freefem::energy_bracket(8, folder.path()), 1e-10);
+  expect_same(freefem::certificate(8, folder.path()), 1e-10);
 }
 
 // ||u_h^epsilon - u_h^0||_h of Proposition 1. Each side knows u to 1e-10 of its largest value, and so both terms.

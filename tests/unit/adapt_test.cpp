@@ -13,8 +13,8 @@
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "common/exact_errors.hpp"
 #include "support/bodies.hpp"
-#include "support/exact_errors.hpp"
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 
@@ -116,8 +116,8 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
         EXPECT_GE(found.certificate.relative(of), asked / 2) << at;
         const Space space(found.mesh, crouzeix_raviart());
         const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
-        const auto exact =
-            test::exact_errors(found.mesh, equilibrated_flux(scene, space, assemble(scene, space), found.cr), v, truth);
+        const auto exact = tutorial::exact_errors(
+            found.mesh, equilibrated_flux(scene, space, assemble(scene, space), found.cr), v, truth);
         EXPECT_LE(exact.displacement, found.certificate.displacement) << at;
         EXPECT_LE(exact.gradient, found.certificate.gradient) << at;
         EXPECT_LE(exact.stress, found.certificate.stress) << at;
@@ -141,21 +141,37 @@ TEST(SolveTo, IsCheapWhereTheSolutionIsLocal) {
   };
   EXPECT_LE(unknowns(scene_of(bump, epsilon), 3e-2, std::nullopt, false), 60000);
   EXPECT_LE(unknowns(scene_of(bump, epsilon), 3e-2, Growth::bisect, true), 90000);
-  const Profile needle = [](double x) { return 0.1 - 0.12 * std::exp(-std::pow((x - 0.3) / 0.004, 2)); };
-  EXPECT_LE(unknowns(scene_of(paper_load, epsilon, {needle}), 1e-1, std::nullopt, false), 5000);
+  // a needle under the valley, where the load presses: two unknowns touch it; uniform meshes prove 29 % with 14,401
+  const Profile needle = [](double x) { return 0.1 - 0.12 * std::exp(-std::pow((x - 0.75) / 0.004, 2)); };
+  const CertifiedSolution on_needle = solve_to(scene_of(paper_load, epsilon, {needle}), first_mesh(epsilon), {1e-1});
+  EXPECT_LE(on_needle.history.back().unknowns, 5000);
+  EXPECT_TRUE(std::find(on_needle.cr.active.begin(), on_needle.cr.active.end(), true) != on_needle.cr.active.end());
 }
 
+// Unknowns times the square of the error is the price of a family of meshes, whatever is asked. Adapted meshes are held
+// to 5 % of their own first mesh refined uniformly. gmsh's fine mesh is cheaper than that: gmsh's triangles at 1/h = 8
+// are 6 % dearer, 1 % at 1/h = 16, and refinement inherits their shapes.
 TEST(SolveTo, CostsNoMoreThanUniformMeshesForASmoothLoad) {
-  // unknowns times the square of the error is the price of a mesh family, whatever is asked
   const double epsilon = 1e-6;
   const Scene scene = scene_of(paper_load, epsilon);
-  const TriangleMesh mesh = layered_mesh(64, epsilon);
-  const Space space(mesh, crouzeix_raviart());
-  const VariationalInequality problem = assemble(scene, space);
-  const double relative = certify(scene, space, problem, active_set(problem)).relative(Quantity::displacement);
-  const CertifiedSolution found = solve_to(scene, first_mesh(epsilon), {3e-2});
-  const Level& last = found.history.back();
-  EXPECT_LE(last.unknowns * last.relative * last.relative, 1.1 * space.free_count() * relative * relative);
+  const auto price = [&](const TriangleMesh& mesh) {
+    const Space space(mesh, crouzeix_raviart());
+    const VariationalInequality problem = assemble(scene, space);
+    const double relative = certify(scene, space, problem, active_set(problem)).relative(Quantity::displacement);
+    return space.free_count() * relative * relative;
+  };
+  const double gmsh = price(layered_mesh(64, epsilon));
+  for (const int first : {8, 16}) {
+    TriangleMesh body = longest_edge_first(unstructured_mesh(first, {0}));
+    for (int cells = first; cells < 64; cells *= 2)
+      body = bisected(body, std::vector<bool>(body.triangle_count(), true));
+    const double uniform = price(extruded(body, epsilon));
+    EXPECT_LE(uniform, (first == 8 ? 1.07 : 1.02) * gmsh) << first;
+    const Level last = solve_to(scene, unstructured_mesh(first, {0}), {3e-2}).history.back();
+    const double adapted = last.unknowns * last.relative * last.relative;
+    EXPECT_LE(adapted, 1.05 * uniform) << first;
+    EXPECT_LE(adapted, (first == 8 ? 1.1 : 1.05) * gmsh) << first;
+  }
 }
 
 TEST(SolveTo, WorksOnBodiesOtherThanTheSquareAndWithoutALayer) {
@@ -257,7 +273,8 @@ TEST(SolveTo, BoundsNeverLieOnTheirWay) {
         }
         const Companion v = strip_companion(scene, space, problem, solution);
         const Certificate found = certify(scene, space, problem, solution, {.companion = &v});
-        const auto exact = test::exact_errors(now.mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
+        const auto exact =
+            tutorial::exact_errors(now.mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
         EXPECT_GE(found.gradient, exact.gradient) << epsilon << k << level;
         EXPECT_GE(found.displacement, exact.displacement) << epsilon << k << level;
         EXPECT_GE(found.stress, exact.stress) << epsilon << k << level;

@@ -7,22 +7,23 @@
 #include <random>
 
 #include "antilock/analysis/certificate.hpp"
+#include "antilock/analysis/energy_bracket.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "common/exact_errors.hpp"
 #include "support/bodies.hpp"
-#include "support/exact_errors.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
 namespace {
 
-using test::exact_errors;
-using test::ExactErrors;
 using test::expect_refused;
+using tutorial::exact_errors;
+using tutorial::ExactErrors;
 
 /// One question with its answer, and room for what a test does to it.
 struct Answered {
@@ -99,8 +100,9 @@ TEST(Certificate, IsCloseToTheErrorAndFlatInEpsilon) {
     }
 }
 
-/// The left side of the identity, m^2 / 2 + C, summed over elements and edges by itself.
-double left_side(const Answered& run, const EquilibratedFlux& flux, const Companion& v, const Profile& gap) {
+/// |q|^2 of a combination q of A grad v and sigma, summed over the elements by itself.
+template <class Combination>
+double flux_norm2(const Answered& run, const EquilibratedFlux& flux, const Companion& v, Combination combination) {
   const Quadrature& rule = triangle_rule(6);
   double sum = 0;
   int row = 0;
@@ -112,10 +114,17 @@ double left_side(const Answered& run, const EquilibratedFlux& flux, const Compan
     if (layer) gradient(1) = v.stress(row++);
     const Eigen::MatrixX2d tau = flux.tau(run.mesh, t, rule.points);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::Vector2d d = gradient - flux.cell[t].s - (layer ? Eigen::Vector2d(0, 0) : tau.row(q).transpose());
-      sum += run.mesh.area(t) * rule.weights(q) * (layer ? flux.law.squared(d) : d.squaredNorm()) / 2;
+      const Eigen::Vector2d sigma = flux.cell[t].s + (layer ? Eigen::Vector2d(0, 0) : tau.row(q).transpose());
+      const Eigen::Vector2d d = combination(gradient, sigma);
+      sum += run.mesh.area(t) * rule.weights(q) * (layer ? flux.law.squared(d) : d.squaredNorm());
     }
   }
+  return sum;
+}
+
+/// The left side of the identity, m^2 / 2 + C, summed over elements and edges by itself.
+double left_side(const Answered& run, const EquilibratedFlux& flux, const Companion& v, const Profile& gap) {
+  double sum = flux_norm2(run, flux, v, [](const auto& a, const auto& b) -> Eigen::Vector2d { return a - b; }) / 2;
   for (std::size_t i = 0; i < run.problem.contact.size(); ++i) {
     const auto ends = run.mesh.edges.row(run.problem.contact[i]);
     for (const auto& [theta, weight] : {std::pair{0.0, 1.0 / 6}, {0.5, 4.0 / 6}, {1.0, 1.0 / 6}}) {  // a cubic gap
@@ -151,6 +160,16 @@ TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
       const double left = left_side(run, flux, v, gap);
       EXPECT_GT(flux.lambda.sum(), 0.1);
       EXPECT_NEAR(found.mismatch * found.mismatch / 2 + found.contact_work, left, 1e-10);
+      const double middle =
+          flux_norm2(run, flux, v, [](const auto& a, const auto& b) -> Eigen::Vector2d { return (a + b) / 2; });
+      EXPECT_NEAR(found.midpoint_norm * found.midpoint_norm, middle, 1e-10);
+      // Y^2 = (m + q) Y + C and (X - q / 2)^2 = (m + q)^2 / 4 + C
+      const double q = found.oscillation + found.imbalance, both = found.mismatch + q, y = found.displacement;
+      EXPECT_GT(found.contact_work, 1e-4);
+      EXPECT_GT(y, both);
+      EXPECT_NEAR(y * y, both * y + found.contact_work, 1e-12);
+      EXPECT_NEAR(std::pow(found.stress - q / 2, 2), both * both / 4 + found.contact_work, 1e-12);
+      EXPECT_EQ(found.imbalance > 1e-3, amount > 0);
       double balance = 0;  // R(v)
       for (int e = 0; e < run.mesh.edge_count(); ++e)
         balance += flux.imbalance(e) * (v.at_vertices(run.mesh.edges(e, 0)) + v.at_vertices(run.mesh.edges(e, 1))) / 2;
@@ -168,6 +187,38 @@ TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
       EXPECT_NEAR(other.energy_lower, found.energy_lower, 1e-10);
       EXPECT_NEAR((other.indicator - found.indicator).lpNorm<Eigen::Infinity>(), 0, 1e-10);
     }
+}
+
+// Too little or too much of everything: r1 is along A u, so that R(v) is far larger than what the width forgives.
+TEST(Certificate, BoundsTheEnergyOfAScaledSolution) {
+  const double epsilon = 1e-2, energy = Truth(paper_sine_load(), epsilon, true, 14).energy();
+  for (const double factor : {0.98, 1.02}) {
+    Answered run(unstructured_mesh(32), test::stiff_scene(epsilon));
+    run.solution.u *= factor;
+    run.solution.p *= factor;
+    const Certificate found = run.certified();
+    EXPECT_GT(found.imbalance, 0.015);
+    for (const double lower :
+         {found.energy_lower, energy_lower_bound(run.scene, run.space, run.problem, run.solution)}) {
+      EXPECT_LE(lower, energy) << factor;
+      EXPECT_GE(lower, 1.03 * energy) << factor << ": J is a minimum, so the scaling costs little";
+    }
+    EXPECT_GE(found.energy_upper, energy) << factor;
+  }
+}
+
+// |u|_a >= |v|_a - |u - v|_a, and the same with the midpoint: the larger of the two is in the denominator.
+TEST(Certificate, IsRelativeToWhatIsProvedOfTheNorm) {
+  Certificate found;
+  found.displacement = 1;
+  found.stress = 0.5;
+  found.norm = 3;
+  EXPECT_EQ(found.relative(Quantity::displacement), 1 / 2.0);
+  found.midpoint_norm = 3;
+  EXPECT_EQ(found.relative(Quantity::displacement), 1 / 2.5);
+  EXPECT_EQ(found.relative(Quantity::stress), 0.5 / 2.5);
+  found.norm = found.midpoint_norm = 0.4;
+  EXPECT_TRUE(std::isinf(found.relative(Quantity::displacement))) << "u = 0 cannot be excluded";
 }
 
 TEST(ColumnFunction, IsTheP1FunctionAnywhereAndItsMeansAreExact) {

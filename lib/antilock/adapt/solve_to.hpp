@@ -44,9 +44,10 @@ struct CertifiedSolution {
 /// Refines until the certificate says that the accuracy asked is reached, the algebraic error stopped at a tenth of the
 /// bound. For epsilon <= 0.1 the body is bisected and the layer's columns are extruded below it; else everything is
 /// bisected. `first` is the first mesh, of any body; where the layer is extruded, one of the body alone will do, and
-/// the Ventcel layer is the scaled one with epsilon = 0. `progress` is called after every level. Throws Error for an
-/// accuracy outside (0, 1), a limit that cannot hold the first mesh, a scene and a mesh that do not fit; NotConverged
-/// where the accuracy is not to be reached within the limit, with what is.
+/// the Ventcel layer is the scaled one with epsilon = 0. Refinement inherits its triangles' shapes: gmsh's at 1/h = 8
+/// cost 6 % more unknowns than a fine mesh of gmsh's own, those at 1/h = 16 1 %. `progress` is called after every level.
+/// Throws Error for an accuracy outside (0, 1), a limit that cannot hold the first mesh, a scene and a mesh that do not
+/// fit; NotConverged where the accuracy is not to be reached within the limit, with what is.
 CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const Accuracy& accuracy,
                            const std::function<void(const Level&)>& progress = {});
 

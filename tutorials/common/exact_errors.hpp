@@ -3,7 +3,7 @@
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/quadrature.hpp"
 
-namespace antilock::test {
+namespace antilock::tutorial {
 
 /// The errors that a certificate bounds, by a rule of degree 8 against the truth of the scaled layer.
 struct ExactErrors {
@@ -57,4 +57,4 @@ inline ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux
   return {std::sqrt(cr), std::sqrt(conforming), v.layer ? 0 : std::sqrt(middle)};
 }
 
-}  // namespace antilock::test
+}  // namespace antilock::tutorial
