@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "antilock/core/error.hpp"
-#include "antilock/problem/choose_penalty.hpp"
 
 namespace antilock {
 
@@ -35,8 +34,7 @@ Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor,
 }
 
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options) {
-  check_data(problem);  // the factor checks the rest
-  PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
+  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty);
   return solve(problem, factor, options);
 }
 

@@ -8,7 +8,6 @@
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/iterated_penalty.hpp"
 
 namespace antilock {
@@ -107,8 +106,7 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
 }
 
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
-  check_data(problem);  // the factor checks the rest
-  PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
+  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty);
   return uzawa(problem, factor, options);
 }
 
