@@ -1,7 +1,7 @@
 // What contact costs over one unconstrained sparse Cholesky solve of the same mesh: ratios within one run, medians,
 // since machines differ and their ratios hardly do. P1 structured at every size, CR at 1/h = 256; epsilon = 1e-6.
 //
-// Run: contact_cost --out results/benchmark      about a minute and a half on two cores
+// Run: contact_cost --out results/benchmark      two minutes on two cores
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -49,12 +49,14 @@ Run run_once(const std::string& element_name, int cells, double epsilon, bool wi
   return run;
 }
 
-double median(const std::vector<Run>& runs, const std::function<double(const Run&)>& value) {
+/// The value below which `part` of the runs lie: 0.5 is the median, 0.25 and 0.75 the quartiles.
+double quantile(const std::vector<Run>& runs, double part, const std::function<double(const Run&)>& value) {
   std::vector<double> values;
   for (const Run& run : runs) values.push_back(value(run));
   std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
+  const double place = part * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place), above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
 }
 
 double peak_megabytes() {
@@ -67,12 +69,12 @@ struct Row {
   std::string element;
   int cells, unknowns, corrections, contact;
   double mesh, space, assembly, sum, analyse, factor, contact_seconds, corrections_seconds, rest, solution, cholesky;
-  double cost, outside;
+  double cost, cost_low, cost_high, outside;  // the median of the ratio and its quartiles
   double total() const { return mesh + space + assembly + solution; }
 };
 
 Row summary(const std::string& element_name, int cells, const std::vector<Run>& runs) {
-  const auto of = [&](const std::function<double(const Run&)>& value) { return median(runs, value); };
+  const auto of = [&](const std::function<double(const Run&)>& value) { return quantile(runs, 0.5, value); };
   Row row{};
   row.element = element_name;
   row.cells = cells;
@@ -90,7 +92,10 @@ Row summary(const std::string& element_name, int cells, const std::vector<Run>& 
   row.solution = of([](const Run& r) { return r.solution; });
   row.cholesky = of([](const Run& r) { return r.cholesky.total(); });
   // ratios within each pair of runs, then the median: a slow moment of the machine slows both
-  row.cost = of([](const Run& r) { return r.solution / r.cholesky.total(); });
+  const auto cost = [](const Run& r) { return r.solution / r.cholesky.total(); };
+  row.cost = quantile(runs, 0.5, cost);
+  row.cost_low = quantile(runs, 0.25, cost);
+  row.cost_high = quantile(runs, 0.75, cost);
   row.outside = of([](const Run& r) {
     const double factorisation = r.stages.analyse + r.stages.factor;
     return (r.mesh + r.space + r.assembly + r.solution - factorisation) / factorisation;
@@ -101,23 +106,27 @@ Row summary(const std::string& element_name, int cells, const std::vector<Run>& 
 void print(const Row& r) {
   fmt::print(
       "{:>2} 1/h={:<4} {:>7} unknowns: mesh {:.3f} space {:.3f} assembly {:.3f} | analyse {:.3f} factor {:.3f} contact "
-      "{:.3f} solves {:.3f} rest {:.3f} = {:.3f} s | Cholesky {:.3f} s | contact costs x{:.2f}, outside the "
+      "{:.3f} solves {:.3f} rest {:.3f} = {:.3f} s | Cholesky {:.3f} s | contact costs x{:.2f} ({:.2f} to {:.2f}), "
+      "outside the "
       "factorisation x{:.2f}; {} corrections, {} contact steps\n",
       r.element, r.cells, r.unknowns, r.mesh, r.space, r.assembly, r.analyse, r.factor, r.contact_seconds,
-      r.corrections_seconds, r.rest, r.solution, r.cholesky, r.cost, r.outside, r.corrections, r.contact);
+      r.corrections_seconds, r.rest, r.solution, r.cholesky, r.cost, r.cost_low, r.cost_high, r.outside, r.corrections,
+      r.contact);
   std::fflush(stdout);
 }
 
 void write(const std::filesystem::path& path, const std::vector<Row>& rows) {
   write_file(path, [&](std::ostream& out) {
-    out << "element,cells,unknowns,mesh,space,assembly,analyse,factor,contact,solves,rest,solution,cholesky,cost,"
-           "outside,corrections,contact_steps\n";
+    out << "element,cells,unknowns,mesh,space,assembly,analyse,factor,contact,solves,rest,solution,cholesky,cost,cost_"
+           "low,"
+           "cost_high,outside,corrections,contact_steps\n";
     for (const Row& r : rows)
       out << fmt::format(
           "{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{:.4g},"
-          "{},{}\n",
+          "{:.4g},{:.4g},{},{}\n",
           r.element, r.cells, r.unknowns, r.mesh, r.space, r.assembly, r.analyse, r.factor, r.contact_seconds,
-          r.corrections_seconds, r.rest, r.solution, r.cholesky, r.cost, r.outside, r.corrections, r.contact);
+          r.corrections_seconds, r.rest, r.solution, r.cholesky, r.cost, r.cost_low, r.cost_high, r.outside,
+          r.corrections, r.contact);
   });
 }
 
@@ -150,18 +159,21 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0})
       most_steps = std::max(most_steps, run_once("P1", n, epsilon, false).contact);
 
-  double cost = 0, outside = 0;
+  double outside = 0;
+  bool cheap = true;
   std::string costs;
   std::vector<Row> p1;
   for (const Row& r : rows) {
-    cost = std::max(cost, r.cost);
-    costs += fmt::format("{}{} {}: {:.2f}", costs.empty() ? "" : " / ", r.element, r.cells, r.cost);
+    cheap = cheap && r.cost <= (r.cells < 128 ? 1.4 : 1.2);
+    costs += fmt::format("{}{} {}: {:.2f} ({:.2f} to {:.2f})", costs.empty() ? "" : " / ", r.element, r.cells, r.cost,
+                         r.cost_low, r.cost_high);
     if (r.cells >= std::min(256, finest)) outside = std::max(outside, r.outside);
     if (r.element == "P1") p1.push_back(r);
   }
   const Row &small = p1.front(), &large = p1.back();
   Targets targets;
-  targets.add("contact solution over one unconstrained Cholesky solve at epsilon = 1e-6", "<= 1.5", costs, cost <= 1.5);
+  targets.add("contact solution over one unconstrained Cholesky solve at epsilon = 1e-6 (and the quartiles)",
+              "<= 1.4 at 1/h = 64; <= 1.2 from 128 on", costs, cheap);
   targets.add(fmt::format("contact steps at the finest level; 1/h = 32 to {}; epsilon = 1 to 0", finest), "<= 4",
               fmt::format("{}", most_steps), most_steps <= 4);
   targets.add("seconds outside the factorisation over those in it; 1/h >= 256", "< 1", fmt::format("{:.2f}", outside),
@@ -184,7 +196,7 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
 int main(int argc, char** argv) {
   antilock::tutorial::CommandLine line("The cost of contact over one unconstrained sparse Cholesky solve",
                                        "contact_cost");
-  int finest = 512, repeats = 5;
+  int finest = 512, repeats = 9;
   std::filesystem::path folder = "results/benchmark";
   line.add("--cells", finest, "finest mesh, 1/h", 64, 1024);
   line.add("--repeats", repeats, "runs behind each median", 1, 1000);

@@ -4,7 +4,6 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/handed_back.hpp"
 
 namespace antilock {
@@ -41,13 +40,13 @@ Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor,
 }
 
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options) {
-  check_data(problem);  // the factor checks the rest
   if (problem.combinations.rows() > 0) {
+    check_data(problem);
     const BoundedUnknowns basis(problem);
     return handed_back(problem, basis, active_set(basis.problem, options),
                        TrustLevels{.refused = options.corrections.refused});
   }
-  PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
+  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty);
   return solve(problem, factor, options);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -40,17 +41,18 @@ SplitResidual Corrections::residual() const {
                       : split_residual(problem_, s_.u, s_.p, contact_.lambda);
 }
 
-Corrections::Change Corrections::correct(const SplitResidual& residual, const ContactSolver& contact) {
+Corrections::Change Corrections::correct(SplitResidual r, const ContactSolver& contact) {
   const double delta = factor_.delta();
   const bool stiff = problem_.b.rows() > 0;
-  Eigen::VectorXd rhs = residual.r1;
-  if (stiff) rhs += problem_.b.transpose() * problem_.m.cwiseProduct(residual.r2) / delta;
+  if (stiff) r.r1.noalias() += problem_.b.transpose() * (problem_.m.cwiseProduct(r.r2) / delta);
   const std::vector<bool> active_before = contact_.active, above_before = contact_.above;
   Change change;
-  change.u = solve_with_factor(rhs(factor_.numbering().unknown), contact);
+  change.u = solve_with_factor(r.r1(factor_.numbering().unknown), contact);
   s_.u += change.u;
   if (stiff) {
-    change.p = (problem_.b * change.u - residual.r2) / delta;
+    change.p = -r.r2;
+    change.p.noalias() += problem_.b * change.u;
+    change.p /= delta;
     s_.p += change.p;
   }
   change.same_contact = contact_.active == active_before && contact_.above == above_before;
@@ -78,7 +80,7 @@ Eigen::VectorXd Corrections::solve_with_factor(Eigen::VectorXd r, const ContactS
     y.tail(c) = l.transpose() * contact_.v;
     s_.seconds.contact += watch.lap();
   }
-  const Eigen::VectorXd x = factor_.backward(y);
+  const Eigen::VectorXd x = factor_.backward(std::move(y));
   Eigen::VectorXd du = Eigen::VectorXd::Zero(problem_.size());
   du(factor_.numbering().unknown) = x;
   s_.seconds.solve += watch.lap();
@@ -98,8 +100,8 @@ bool Corrections::settled(const Change& change) {
     throw NotConverged(s_.solver + ": the iterated penalty broke down (not a number)", step, correction_);
   if (u_scale_ == 0 || (!stiff && !long_double_)) return true;  // without B, K is A1: the first solve is the answer
   // what compliance p - B u comes to now: where no u meets the bounds and B u = 0, u settles and this does not
-  gap_ = std::abs(problem_.compliance - factor_.delta()) *
-         change.p.cwiseQuotient(absolute_row_sums(problem_.b)).lpNorm<Eigen::Infinity>() / u_scale_;
+  gap_ = std::abs(problem_.compliance - factor_.delta()) * change.p.cwiseQuotient(row_sums_).lpNorm<Eigen::Infinity>() /
+         u_scale_;
   if (!change.same_contact) acceleration_.restart();
   if (stiff) acceleration_.note(s_.p, change.p, s_.u);
   if (correction_ == 0) return false;
@@ -126,7 +128,8 @@ Solution Corrections::finished() {
   s_.active = contact_.active;
   s_.moderate = u_first_;
   const std::string drowned = s_.warning;
-  certify(problem_, s_, TrustLevels{.refused = options_.refused});
+  s_.kkt = kkt_report_unchecked(problem_, s_);
+  require_trusted(s_, TrustLevels{.refused = options_.refused});
   if (s_.warning.empty()) s_.warning = drowned;
   const auto apart = problem_.compliance == 0 ? nearly_dependent_rows(problem_) : std::nullopt;
   if (apart && s_.warning.empty())

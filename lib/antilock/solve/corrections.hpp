@@ -32,7 +32,7 @@ class Corrections {
   /// r1, r2 with the forces known so far, in double, or in long double where that has been found necessary.
   SplitResidual residual() const;
   /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp; u, p and the contact forces follow.
-  Change correct(const SplitResidual& r, const ContactSolver& contact);
+  Change correct(SplitResidual r, const ContactSolver& contact);
   /// Whether u is right to the tolerance, judged by the change, and compliance p = B u holds.
   bool settled(const Change& change);
   /// Whether a bound, or a row of B u = compliance p, is violated by more than the round-off of the forces explains.
@@ -59,20 +59,22 @@ class Corrections {
   const VariationalInequality& problem_;
   PenaltyFactor& factor_;
   const CorrectionOptions options_;
-  Solution s_;                ///< u, p and what is counted
-  ContactAnswer contact_;     ///< of the last correction: forces, contact set
-  Eigen::MatrixXd schur_;     ///< C x C, S = L_C L_C', of the factor as it is now
-  Anderson acceleration_{6};  ///< the past that the mix and the contraction are read from
+  Solution s_;                      ///< u, p and what is counted
+  ContactAnswer contact_;           ///< of the last correction: forces, contact set
+  const Eigen::VectorXd row_sums_;  ///< R, absolute_row_sums of B
+  Eigen::MatrixXd schur_;           ///< C x C, S = L_C L_C', of the factor as it is now
+  Anderson acceleration_{6};        ///< the past that the mix and the contraction are read from
   int correction_ = 0;
   int since_rescue_ = 0;      ///< corrections with the means as they are
   bool long_double_ = false;  ///< residuals in long double
   double least_delta_ = 0;    ///< of which a factor is known; a smaller one lost its pivots
-  Eigen::VectorXd noise_;     ///< N, the least round-off noted so far (that of an infeasible problem grows); empty at first
-  Eigen::VectorXd noise_c_;   ///< C, what the contact problem is told of it
-  double u_first_ = 0;        ///< max |u| after the first correction: its size before it locks
-  double u_scale_ = 0;        ///< what is large for u
-  double error_ = 1;          ///< estimated relative error of u left behind
-  double gap_ = 1;            ///< to which compliance p = B u holds, in units of strain
+  Eigen::VectorXd
+      noise_;  ///< N, the least round-off noted so far (that of an infeasible problem grows); empty at first
+  Eigen::VectorXd noise_c_;  ///< C, what the contact problem is told of it
+  double u_first_ = 0;       ///< max |u| after the first correction: its size before it locks
+  double u_scale_ = 0;       ///< what is large for u
+  double error_ = 1;         ///< estimated relative error of u left behind
+  double gap_ = 1;           ///< to which compliance p = B u holds, in units of strain
 };
 
 }  // namespace antilock

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+#include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
@@ -24,35 +26,22 @@ void require_sizes(const VariationalInequality& problem, const Solution& s) {
                           s.p.size(), s.lambda.size(), problem.size(), problem.b.rows(), problem.bound_count()));
 }
 
-/// The largest displacement that a load, as far as neither lambda nor B' M p bears it, would give its unknown if all the
-/// others were held: a scale, from below.
-double single_displacement(const VariationalInequality& problem, const Eigen::VectorXd& p,
-                           const Eigen::VectorXd& lambda) {
-  Eigen::VectorXd forces = problem.load + bound_forces(problem, lambda);
-  if (problem.b.rows() > 0) {
-    const Eigen::VectorXd net = forces - problem.b.transpose() * problem.m.cwiseProduct(p);
-    forces = forces.cwiseAbs().cwiseMin(net.cwiseAbs());
-  }
-  const Eigen::VectorXd diagonal = problem.a1.diagonal();
-  std::vector<char> fixed(problem.size(), 0);
-  for (const int i : problem.fixed) fixed[i] = 1;
-  double most = 0;
-  for (Eigen::Index i = 0; i < diagonal.size(); ++i)
-    if (diagonal(i) > 0 && !fixed[i]) most = std::max(most, std::abs(forces(i)) / diagonal(i));
-  return most;
-}
-
-/// The residual with every product and sum in Scalar, rounded once at the end.
+/// The residual with every product and sum in Scalar, rounded once at the end: one walk over A1 and one over B.
 template <class Scalar>
 SplitResidual residual_in(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
                           const Eigen::VectorXd& lambda) {
-  using Vector = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
-  const Vector wide_u = u.cast<Scalar>(), wide_p = p.cast<Scalar>();
-  Vector r1 = problem.load.cast<Scalar>();
-  r1 -= problem.a1.cast<Scalar>() * wide_u;
-  if (problem.b.rows() > 0) {
-    const Vector stress = problem.m.cast<Scalar>().cwiseProduct(wide_p);
-    r1 -= problem.b.cast<Scalar>().transpose() * stress;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> r1 = problem.load.cast<Scalar>();
+  for (Eigen::Index j = 0; j < problem.a1.cols(); ++j)
+    for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) r1(a.row()) -= static_cast<Scalar>(a.value()) * u(j);
+  Eigen::VectorXd r2(problem.b.rows());
+  for (Eigen::Index row = 0; row < problem.b.rows(); ++row) {
+    const Scalar stress = static_cast<Scalar>(problem.m(row)) * p(row);
+    Scalar strain = 0;
+    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) {
+      strain += static_cast<Scalar>(b.value()) * u(b.col());
+      r1(b.col()) -= b.value() * stress;
+    }
+    r2(row) = static_cast<double>(static_cast<Scalar>(problem.compliance) * p(row) - strain);
   }
   if (lambda.size() > 0) {
     for (std::size_t i = 0; i < problem.contact.size(); ++i)
@@ -60,9 +49,63 @@ SplitResidual residual_in(const VariationalInequality& problem, const Eigen::Vec
     const Eigen::Index rows = problem.combinations.rows();
     if (rows > 0) r1 += problem.combinations.cast<Scalar>().transpose() * lambda.tail(rows).template cast<Scalar>();
   }
-  Vector r2 = static_cast<Scalar>(problem.compliance) * wide_p;
-  r2 -= problem.b.cast<Scalar>() * wide_u;
-  return {r1.template cast<double>(), r2.template cast<double>()};
+  if constexpr (std::is_same_v<Scalar, double>)
+    return {std::move(r1), std::move(r2)};
+  else
+    return {r1.template cast<double>(), std::move(r2)};
+}
+
+/// What the report compares, found in one walk over A1 and one over B.
+struct Parts {
+  Eigen::VectorXd r1;        ///< N, the residual of the forces
+  Eigen::VectorXd terms;     ///< N, the sum of the absolute values of its terms but lambda
+  Eigen::VectorXd borne;     ///< N, (B' M p)_i
+  Eigen::VectorXd diagonal;  ///< N, of A1
+  Eigen::VectorXd stiff;     ///< N, the diagonal of B' M B
+  double strain = 0;         ///< the largest |r2| in units of its row
+};
+
+Parts parts(const VariationalInequality& problem, const Solution& s) {
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem.size());
+  Parts parts{problem.load, problem.load.cwiseAbs(), zero, zero, zero};
+  for (Eigen::Index j = 0; j < problem.a1.cols(); ++j)
+    for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) {
+      const double term = a.value() * s.u(j);
+      parts.r1(a.row()) -= term;
+      parts.terms(a.row()) += std::abs(term);
+      if (a.row() == j) parts.diagonal(j) = a.value();
+    }
+  for (Eigen::Index row = 0; row < problem.b.rows(); ++row) {
+    const double m = problem.m(row), stress = m * s.p(row);
+    double strain = 0, unit = 0;
+    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) {
+      const double term = b.value() * stress;
+      strain += b.value() * s.u(b.col());
+      unit += std::abs(b.value());
+      parts.borne(b.col()) += term;
+      parts.terms(b.col()) += std::abs(term);
+      parts.stiff(b.col()) += b.value() * b.value() * m;
+    }
+    const double r2 = std::abs(problem.compliance * s.p(row) - strain);
+    parts.strain = most(parts.strain, unit == 0 ? r2 : r2 / unit);
+  }
+  parts.r1 -= parts.borne;
+  if (s.lambda.size() > 0) parts.r1 += bound_forces(problem, s.lambda);
+  return parts;
+}
+
+/// The largest displacement that a load, as far as neither lambda nor B' M p bears it, would give its unknown if all the
+/// others were held: a scale, from below.
+double single_displacement(const VariationalInequality& problem, const Parts& parts, const Eigen::VectorXd& lambda) {
+  Eigen::VectorXd forces = problem.load;
+  if (lambda.size() > 0) forces += bound_forces(problem, lambda);
+  for (const int i : problem.fixed) forces(i) = 0;
+  double largest = 0;
+  for (Eigen::Index i = 0; i < forces.size(); ++i)
+    if (parts.diagonal(i) > 0)
+      largest =
+          std::max(largest, std::min(std::abs(forces(i)), std::abs(forces(i) - parts.borne(i))) / parts.diagonal(i));
+  return largest;
 }
 
 }  // namespace
@@ -85,37 +128,37 @@ Eigen::VectorXd absolute_row_sums(const RowMatrix& b) {
 }
 
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
-  const Eigen::VectorXd &u = solution.u, &p = solution.p, &lambda = solution.lambda;
   check_data(problem);
   require_sizes(problem, solution);
+  return kkt_report_unchecked(problem, solution);
+}
+
+Kkt kkt_report_unchecked(const VariationalInequality& problem, const Solution& solution) {
+  const Eigen::VectorXd &u = solution.u, &p = solution.p, &lambda = solution.lambda;
   Kkt kkt;
   if (!u.allFinite() || !p.allFinite() || !lambda.allFinite()) {  // Eigen's maxima may pass over what is not a number
     kkt.residual = std::numeric_limits<double>::infinity();
     return kkt;
   }
-  SplitResidual r = split_residual(problem, u, p, lambda);
+  Parts part = parts(problem, solution);
   double reaction = 0;
   for (const int i : problem.fixed) {  // what the clamp bears: a force, not an error
-    reaction = std::max(reaction, std::abs(r.r1(i)));
-    r.r1(i) = 0;
+    reaction = std::max(reaction, std::abs(part.r1(i)));
+    part.r1(i) = 0;
   }
   const Eigen::VectorXd borne = largest_bound_forces(problem, lambda);
   const double f_scale = std::max(problem.load.lpNorm<Eigen::Infinity>(), borne.lpNorm<Eigen::Infinity>());
-  // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
-  Eigen::VectorXd terms = problem.a1.cwiseAbs() * u.cwiseAbs() + problem.load.cwiseAbs();
-  if (problem.b.rows() > 0) terms += problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(p.cwiseAbs());
-  const Eigen::VectorXd beyond = (r.r1.cwiseAbs() - 8 * std::numeric_limits<double>::epsilon() * terms).cwiseMax(0);
   // a locked u may tend to 0: then its size before, or what the loads would do to one free unknown, tells what is large
   const double u_scale =
-      std::max({u.lpNorm<Eigen::Infinity>(), 1e-6 * solution.moderate, single_displacement(problem, p, lambda)});
+      std::max({u.lpNorm<Eigen::Infinity>(), 1e-6 * solution.moderate, single_displacement(problem, part, lambda)});
   // a great force somewhere must hide nothing where all forces are small
-  Eigen::VectorXd own = problem.a1.diagonal().cwiseAbs();
-  if (problem.b.rows() > 0) own += problem.b.cwiseAbs2().transpose() * problem.m;
-  own = terms.cwiseMax(u_scale * own).cwiseMax(borne);
-  for (Eigen::Index i = 0; i < beyond.size(); ++i)
-    kkt.residual = most(kkt.residual, ratio(beyond(i), std::min(own(i), std::max(f_scale, reaction))));
-  const Eigen::VectorXd strain = r.r2.cwiseQuotient(absolute_row_sums(problem.b));
-  kkt.residual = most(kkt.residual, ratio(strain.lpNorm<Eigen::Infinity>(), u_scale));
+  Eigen::VectorXd own = part.terms.cwiseMax(u_scale * (part.diagonal.cwiseAbs() + part.stiff)).cwiseMax(borne);
+  for (Eigen::Index i = 0; i < own.size(); ++i) {
+    // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
+    const double beyond = most(std::abs(part.r1(i)) - 8 * std::numeric_limits<double>::epsilon() * part.terms(i), 0);
+    kkt.residual = most(kkt.residual, ratio(beyond, std::min(own(i), std::max(f_scale, reaction))));
+  }
+  kkt.residual = most(kkt.residual, ratio(part.strain, u_scale));
   // the prescribed values hold exactly or not at all
   for (std::size_t i = 0; i < problem.fixed.size(); ++i)
     if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
@@ -132,6 +175,10 @@ double worst_violation(const Kkt& kkt) {
 
 void certify(const VariationalInequality& problem, Solution& solution, const TrustLevels& levels) {
   solution.kkt = kkt_report(problem, solution);
+  require_trusted(solution, levels);
+}
+
+void require_trusted(Solution& solution, const TrustLevels& levels) {
   const double worst = worst_violation(solution.kkt);
   const Kkt& k = solution.kkt;
   const std::string report =

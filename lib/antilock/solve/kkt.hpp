@@ -49,6 +49,9 @@ Eigen::VectorXd absolute_row_sums(const RowMatrix& b);
 ///
 /// All zero for the zero solution of a zero load. Throws Error for a malformed problem and for sizes that do not fit.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
+/// The same for a solver that has checked the problem and made the solution itself: the second look costs as much as a
+/// residual.
+Kkt kkt_report_unchecked(const VariationalInequality& problem, const Solution& solution);
 
 /// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above
 /// `refused` no solver of this library returns it.
@@ -60,5 +63,7 @@ double worst_violation(const Kkt& kkt);
 
 /// Fills solution.kkt and solution.warning; throws NotConverged where the report is above `refused` or not finite.
 void certify(const VariationalInequality& problem, Solution& solution, const TrustLevels& levels = {});
+/// The second half of it: judges the report that the solution carries.
+void require_trusted(Solution& solution, const TrustLevels& levels = {});
 
 }  // namespace antilock

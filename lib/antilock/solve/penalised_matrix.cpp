@@ -24,12 +24,10 @@ SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNu
   const int size = static_cast<int>(numbering.unknown.size());
   const SparseMatrix b_by_column = problem.b;
   SparseMatrix k(size, size);
-  std::vector<int> inner, touched;
-  std::vector<double> values, sum(size, 0.0);
+  k.reserve((problem.a1.nonZeros() + size) / 2 + b_by_column.nonZeros() / 2);
+  std::vector<int> touched;
+  std::vector<double> sum(size, 0.0);
   std::vector<char> seen(size, 0);
-  inner.reserve(problem.a1.nonZeros());
-  values.reserve(problem.a1.nonZeros());
-  int* const outer = k.outerIndexPtr();
   // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator.
   for (int column = 0; column < size; ++column) {
     const int j = numbering.unknown[column];
@@ -49,17 +47,14 @@ SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNu
       for (RowMatrix::InnerIterator b(problem.b, r.row()); b; ++b) add(static_cast<int>(b.col()), weight * b.value());
     }
     std::sort(touched.begin(), touched.end());
+    k.startVec(column);
     for (const int row : touched) {
-      inner.push_back(row);
-      values.push_back(sum[row]);
+      k.insertBackByOuterInner(column, row) = sum[row];
       sum[row] = 0;
       seen[row] = 0;
     }
-    outer[column + 1] = static_cast<int>(inner.size());
   }
-  k.resizeNonZeros(static_cast<Eigen::Index>(inner.size()));
-  std::copy(inner.begin(), inner.end(), k.innerIndexPtr());
-  std::copy(values.begin(), values.end(), k.valuePtr());
+  k.finalize();
   return k;
 }
 

@@ -4,15 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/supernodes.hpp"
 
 namespace antilock {
 namespace {
@@ -38,23 +39,28 @@ const VariationalInequality& checked(const VariationalInequality& problem) {
   return problem;
 }
 
-/// Of the bits of A1, B and M (FNV-1a, a double at a time): equal for equal matrices, and for no others in practice.
+/// Of the bits of A1, B and M (FNV-1a, an entry at a time): equal for equal matrices, and for no others in practice. Four
+/// hashes side by side, each of every fourth entry: a multiplication need not wait for the one before.
 std::uint64_t fingerprint(const VariationalInequality& problem) {
-  std::uint64_t hash = 0xcbf29ce484222325;
-  const auto add = [&](std::uint64_t bits) { hash = (hash ^ bits) * 0x100000001b3; };
-  const auto add_all = [&](const double* values, Eigen::Index count) {
-    for (Eigen::Index i = 0; i < count; ++i) add(std::bit_cast<std::uint64_t>(values[i]));
-    add(static_cast<std::uint64_t>(count));
+  std::array<std::uint64_t, 4> hash;
+  hash.fill(0xcbf29ce484222325);
+  const auto add = [](std::uint64_t& lane, std::uint64_t bits) { lane = (lane ^ bits) * 0x100000001b3; };
+  const auto add_all = [&](const auto* entries, Eigen::Index count, const auto& bits) {
+    Eigen::Index i = 0;
+    for (; i + 4 <= count; i += 4)
+      for (int lane = 0; lane < 4; ++lane) add(hash[lane], bits(entries[i + lane]));
+    for (; i < count; ++i) add(hash[0], bits(entries[i]));
+    add(hash[0], static_cast<std::uint64_t>(count));
   };
-  add_all(problem.a1.valuePtr(), problem.a1.nonZeros());
-  add_all(problem.b.valuePtr(), problem.b.nonZeros());
-  add_all(problem.m.data(), problem.m.size());
-  const auto places = [&](const int* inner, Eigen::Index count) {
-    for (Eigen::Index i = 0; i < count; ++i) add(static_cast<std::uint64_t>(inner[i]));
-  };
-  places(problem.a1.innerIndexPtr(), problem.a1.nonZeros());
-  places(problem.b.innerIndexPtr(), problem.b.nonZeros());
-  return hash;
+  const auto of_value = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  const auto of_place = [](int place) { return static_cast<std::uint64_t>(place); };
+  add_all(problem.a1.valuePtr(), problem.a1.nonZeros(), of_value);
+  add_all(problem.b.valuePtr(), problem.b.nonZeros(), of_value);
+  add_all(problem.m.data(), problem.m.size(), of_value);
+  add_all(problem.a1.innerIndexPtr(), problem.a1.nonZeros(), of_place);
+  add_all(problem.b.innerIndexPtr(), problem.b.nonZeros(), of_place);
+  for (int lane = 1; lane < 4; ++lane) add(hash[0], hash[lane]);
+  return hash[0];
 }
 
 }  // namespace
@@ -62,7 +68,6 @@ std::uint64_t fingerprint(const VariationalInequality& problem) {
 struct PenaltyFactor::Cholmod {
   cholmod_common common{};
   cholmod_factor* l = nullptr;
-  cholmod_dense *x = nullptr, *y = nullptr, *e = nullptr;  // work space of the solves
 
   Cholmod() {
     cholmod_start(&common);
@@ -72,9 +77,6 @@ struct PenaltyFactor::Cholmod {
   }
   ~Cholmod() {
     cholmod_free_factor(&l, &common);
-    cholmod_free_dense(&x, &common);
-    cholmod_free_dense(&y, &common);
-    cholmod_free_dense(&e, &common);
     cholmod_finish(&common);
   }
   Cholmod(const Cholmod&) = delete;
@@ -104,63 +106,36 @@ struct PenaltyFactor::Cholmod {
     throw Error("solve: the contact unknowns did not come last in the sparse factor");
   }
 
-  Eigen::VectorXd solve(int system, const Eigen::VectorXd& b) {
-    cholmod_dense rhs{};
-    rhs.nrow = rhs.nzmax = rhs.d = static_cast<std::size_t>(b.size());
-    rhs.ncol = 1;
-    rhs.x = const_cast<double*>(b.data());  // CHOLMOD reads it only
-    rhs.xtype = CHOLMOD_REAL;
-    rhs.dtype = CHOLMOD_DOUBLE;
-    if (!cholmod_solve2(system, l, &rhs, nullptr, &x, nullptr, &y, &e, &common))
-      throw Error("solve: a triangular solve failed: out of memory");
-    return Eigen::Map<const Eigen::VectorXd>(static_cast<double*>(x->x), b.size());
+  Supernodes supernodes() const {
+    return {.size = static_cast<int>(l->n),
+            .count = static_cast<int>(l->nsuper),
+            .start = static_cast<const int*>(l->super),
+            .row_start = static_cast<const int*>(l->pi),
+            .block_start = static_cast<const int*>(l->px),
+            .row = static_cast<const int*>(l->s),
+            .value = static_cast<const double*>(l->x)};
   }
 
-  /// The column of L whose pivot is nothing but the round-off of its diagonal entry of K: K is singular, though the
-  /// factor came to an end. Empty: there is none. Sound problems stay above 1e-11, on meshes and layers of every kind.
-  std::optional<int> lost_pivot(const Eigen::VectorXd& diagonal) const {
-    constexpr double lost = 64 * std::numeric_limits<double>::epsilon();
-    const auto* perm = static_cast<const int*>(l->Perm);
-    const auto* super = static_cast<const int*>(l->super);
-    const auto* pi = static_cast<const int*>(l->pi);
-    const auto* px = static_cast<const int*>(l->px);
-    const auto* values = static_cast<const double*>(l->x);
-    for (std::size_t s = 0; s < l->nsuper; ++s)
-      for (int column = super[s]; column < super[s + 1]; ++column) {
-        const auto inside = static_cast<std::ptrdiff_t>(column - super[s]);
-        const double root = values[px[s] + inside * (pi[s + 1] - pi[s]) + inside];
-        if (!(root * root > lost * diagonal(perm[column]))) return column;
-      }
-    return std::nullopt;
-  }
-
-  /// The trailing block of L from `first` on, out of CHOLMOD's supernodes.
-  Eigen::MatrixXd trailing_block(int first) const {
-    const int size = static_cast<int>(l->n);
-    Eigen::MatrixXd block = Eigen::MatrixXd::Zero(size - first, size - first);
-    const auto* super = static_cast<const int*>(l->super);
-    const auto* pi = static_cast<const int*>(l->pi);
-    const auto* px = static_cast<const int*>(l->px);
-    const auto* rows = static_cast<const int*>(l->s);
-    const auto* values = static_cast<const double*>(l->x);
-    for (std::size_t s = 0; s < l->nsuper; ++s) {
-      if (super[s + 1] <= first) continue;
-      const int height = pi[s + 1] - pi[s];
-      for (int column = std::max(super[s], first); column < super[s + 1]; ++column)
-        for (int k = column - super[s]; k < height; ++k)  // above its diagonal a supernode holds no factor entries
-          block(rows[pi[s] + k] - first, column - first) =
-              values[px[s] + static_cast<std::ptrdiff_t>(column - super[s]) * height + k];
-    }
-    return block;
+  /// The order of the columns of L: place -> row of K.
+  Eigen::Map<const Eigen::VectorXi> order() const {
+    return {static_cast<const int*>(l->Perm), static_cast<Eigen::Index>(l->n)};
   }
 };
 
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta)
-    : numbering_(checked(problem)), matrices_(fingerprint(problem)), cholmod_(std::make_unique<Cholmod>()) {
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, Checked)
+    : numbering_(problem), matrices_(fingerprint(problem)), cholmod_(std::make_unique<Cholmod>()) {
   factorise(problem, delta);
 }
 
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem) : PenaltyFactor(problem, moderate_delta(problem)) {}
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta)
+    : PenaltyFactor(checked(problem), delta, Checked{}) {}
+
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem)
+    : PenaltyFactor(problem, moderate_delta(checked(problem)), Checked{}) {}
+
+PenaltyFactor PenaltyFactor::moderate(const VariationalInequality& problem, std::optional<double> penalty) {
+  return {problem, moderate_delta(checked(problem), penalty), Checked{}};
+}
 
 PenaltyFactor::~PenaltyFactor() = default;
 PenaltyFactor::PenaltyFactor(PenaltyFactor&&) noexcept = default;
@@ -210,16 +185,16 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
   if (cholmod_->common.status == CHOLMOD_NOT_POSDEF)
     column = static_cast<int>(cholmod_->l->minor);
   else
-    column = cholmod_->lost_pivot(k.diagonal());
+    column = cholmod_->supernodes().lost_pivot(k.diagonal()(cholmod_->order()));
   if (column) {
-    const int unknown = numbering_.unknown[static_cast<int*>(cholmod_->l->Perm)[*column]];
+    const int unknown = numbering_.unknown[cholmod_->order()(*column)];
     throw Error(fmt::format(
         "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
         "by nothing, a cell is too flat for double precision, or A1 and B are in units far apart; accepted: enough "
         "fixed unknowns, cells, entries of A1 and B' M B of like size",
         delta, unknown));
   }
-  contact_block_ = cholmod_->trailing_block(numbering_.interior);
+  contact_block_ = cholmod_->supernodes().trailing_block(numbering_.interior);
   factor_seconds = watch.lap();
   ++factorisations;
 }
@@ -227,17 +202,15 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
 double PenaltyFactor::rcond() { return cholmod_rcond(cholmod_->l, &cholmod_->common); }
 
 Eigen::VectorXd PenaltyFactor::forward(const Eigen::VectorXd& r) {
-  const auto* perm = static_cast<const int*>(cholmod_->l->Perm);
-  Eigen::VectorXd permuted(r.size());
-  for (Eigen::Index i = 0; i < r.size(); ++i) permuted(i) = r(perm[i]);
-  return cholmod_->solve(CHOLMOD_L, permuted);
+  Eigen::VectorXd y = r(cholmod_->order());
+  cholmod_->supernodes().forward(y);
+  return y;
 }
 
-Eigen::VectorXd PenaltyFactor::backward(const Eigen::VectorXd& y) {
-  const auto* perm = static_cast<const int*>(cholmod_->l->Perm);
-  const Eigen::VectorXd permuted = cholmod_->solve(CHOLMOD_Lt, y);
+Eigen::VectorXd PenaltyFactor::backward(Eigen::VectorXd y) {
+  cholmod_->supernodes().backward(y);
   Eigen::VectorXd x(y.size());
-  for (Eigen::Index i = 0; i < y.size(); ++i) x(perm[i]) = permuted(i);
+  x(cholmod_->order()) = y;
   ++solves;
   return x;
 }

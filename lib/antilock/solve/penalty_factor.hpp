@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
@@ -19,6 +20,8 @@ class PenaltyFactor {
   PenaltyFactor(const VariationalInequality& problem, double delta);
   /// The usual one: delta = moderate_delta(problem), the compliance itself where nothing is gained by less.
   explicit PenaltyFactor(const VariationalInequality& problem);
+  /// The same with the penalty chosen by the caller, where there is one.
+  static PenaltyFactor moderate(const VariationalInequality& problem, std::optional<double> penalty);
   ~PenaltyFactor();
   PenaltyFactor(PenaltyFactor&&) noexcept;
   PenaltyFactor& operator=(PenaltyFactor&&) noexcept;
@@ -37,7 +40,7 @@ class PenaltyFactor {
   /// y = L^-1 P r for r on the F free places; the last C entries of y belong to the contact unknowns, in their order.
   Eigen::VectorXd forward(const Eigen::VectorXd& r);
   /// x = P' L'^-1 y.
-  Eigen::VectorXd backward(const Eigen::VectorXd& y);
+  Eigen::VectorXd backward(Eigen::VectorXd y);
   /// C x C lower triangular trailing block of L.
   const Eigen::MatrixXd& contact_block() const { return contact_block_; }
 
@@ -47,6 +50,8 @@ class PenaltyFactor {
 
  private:
   struct Cholmod;
+  struct Checked {};  ///< the problem has passed `check`
+  PenaltyFactor(const VariationalInequality& problem, double delta, Checked);
   void check_unknowns(const VariationalInequality& problem) const;
   void factorise(const VariationalInequality& problem, double delta);
   FreeNumbering numbering_;

@@ -20,10 +20,8 @@ constexpr double smaller_by = 64;
 /// (of A1 alone the pivots tell; those of a penalised K lie apart by nature). Then long double: three digits more.
 bool needs_long_double(const VariationalInequality& problem, PenaltyFactor& factor) {
   if (problem.b.rows() == 0 && factor.rcond() < 1e-6) return true;
-  Eigen::VectorXd stiffness = problem.a1.diagonal();
-  const auto middle = stiffness.begin() + stiffness.size() / 2;
-  std::nth_element(stiffness.begin(), middle, stiffness.end());
-  return *std::max_element(middle, stiffness.end()) > 1e3 * *middle;
+  const Eigen::VectorXd stiffness = problem.a1.diagonal();
+  return 2 * (1e3 * stiffness.array() < stiffness.maxCoeff()).count() > stiffness.size();
 }
 
 /// S = L_C L_C', C x C.
@@ -37,7 +35,11 @@ Eigen::MatrixXd contact_schur(const PenaltyFactor& factor) {
 
 Corrections::Corrections(const VariationalInequality& problem, PenaltyFactor& factor, const CorrectionOptions& options,
                          std::string name)
-    : problem_(problem), factor_(factor), options_(options), long_double_(needs_long_double(problem, factor)) {
+    : problem_(problem),
+      factor_(factor),
+      options_(options),
+      row_sums_(absolute_row_sums(problem.b)),
+      long_double_(needs_long_double(problem, factor)) {
   s_.solver = std::move(name);
   s_.u = Eigen::VectorXd::Zero(problem.size());
   s_.u(problem.fixed) = problem.fixed_values;

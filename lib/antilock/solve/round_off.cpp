@@ -31,7 +31,7 @@ bool Corrections::hides_a_violation(const Change& change, const ContactSolver& c
   if (change.p.size() > 0 && problem_.compliance < factor_.delta()) {
     left = (factor_.delta() - problem_.compliance) * change.p.cwiseAbs();
     terms = problem_.b.cwiseAbs() * s_.u.cwiseAbs();
-    suspect = suspect || (left.array() > 1e-4 * terms.array() + plain * absolute_row_sums(problem_.b).array()).any();
+    suspect = suspect || (left.array() > 1e-4 * terms.array() + plain * row_sums_.array()).any();
   }
   if (!suspect) return false;
   // who asks for less than the default gets less, here as in `settled`

@@ -9,7 +9,6 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/handed_back.hpp"
 #include "antilock/solve/iterated_penalty.hpp"
 
@@ -130,13 +129,13 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
 }
 
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
-  check_data(problem);  // the factor checks the rest
   if (problem.combinations.rows() > 0) {
+    check_data(problem);
     const BoundedUnknowns basis(problem);
     return handed_back(problem, basis, uzawa(basis.problem, options),
                        TrustLevels{.refused = asked_of_corrections(options).refused});
   }
-  PenaltyFactor factor(problem, moderate_delta(problem, options.penalty));
+  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty);
   return uzawa(problem, factor, options);
 }
 
