@@ -1,25 +1,35 @@
-// Your own problem in the paper's class: fill A1, B, M, the load and the bounds, then ask whether
-// it will lock.
+// # A problem of your own
 //
-// Run: 25_your_own_problem                          two strings glued together, epsilon = 1e-10
+// Run: 25_your_own_problem                          two strings glued together, ε = 1e-10
 // Run: 25_your_own_problem --epsilon 0 --cells 64   a rigid glue
+// Run: 25_your_own_problem --exercise 1
 //
-// What the table shows. Nothing here is known to the library: two strings, one above the other,
-// bonded by a thin glue of compliance epsilon, the upper one loaded by q downwards, the lower one
-// over an obstacle at -gap. Each string is meshed for itself, one with n cells and one with n + 1.
-// The same problem is written with two choices of B. One of them locks: as the glue hardens, its
-// strings stop moving. The library says so before anything is solved, by one number. Here epsilon
-// is the parameter of the class, (1), not its square as in (23).
+// Needs: [00](00_string_on_an_obstacle.cpp) for strings, [07](07_kernel.cpp) for kernels, [10](10_limits.cpp) for the
+// class (1), [13](13_estimates.cpp) for coercivity. **Here ε is the parameter of the class itself**, not its square
+// as in (23).
 //
-// Why. The energy is  int u'^2/2 + int w'^2/2 + (1/(2 epsilon)) int (u - w)^2 + q int u,  so
-//     a1 = int u' v' + int w' z',   a0 = int (u - w)(v - z),     L = -q int v,     K = { w >= -gap }.
-// (u - w) = 0 at every point leaves no pair of broken lines: their corners are at different places.
-// Asked at every point the condition is too much. Asked only against the hat functions of the lower
-// string (a mortar: one condition per hat function, int (u - w) hat = 0), it makes w a projection
-// of u, and u stays free. The mortar changes a0 itself, so Theorem 4, which compares spaces for one
-// a0, does not cover it; the kernel decides all the same. At epsilon = 0 the truth is one string of
-// tension 2: with c = 2 sqrt(gap/q), contact on [c, 1 - c], contact force q (1 - 2c), energy q^2
-// c^3/3 - q gap.
+// **The picture.** The energy that two glued strings release, against the compliance ε of the glue. *One choice of
+// $B$ locks: as the glue hardens its strings stop moving. The other does not. One number, the dimension of the
+// kernel, says so before anything is solved.*
+//
+// **Predict.** Two strings, one above the other, have corners at different places: one has $n$ cells, the other
+// $n + 1$. (a) How many pairs of broken lines are equal everywhere and 0 at the ends? (b) If $u - w$ need only be
+// orthogonal to the $n - 1$ hat functions of the lower string, how many pairs are left?
+//
+// ## Two strings and a glue
+//
+// Nothing here is known to the library. The upper string $u$ is loaded by $q$ downwards, the lower one $w$ lies over
+// an obstacle at $-g$, and a thin glue bonds them:
+//
+// $$ a_1 = ∫ u' v' + ∫ w' z',   a_0 = ∫ (u - w)(v - z),   L = -q ∫ v,   K = \{ w ≥ -g \}. $$
+//
+// $u = w$ at every point leaves no pair: a broken line may bend at its own corners only, and they share none. Asked
+// only against the hat functions of the lower string (a *mortar*, a condition on mean values: $∫ (u - w) φ_i = 0$),
+// it makes $w$ a projection of $u$: $n$ values of $u$ stay free. The mortar changes $a_0$ itself, so Theorem 4, which
+// compares spaces for one $a_0$, does not cover it; the kernel decides all the same.
+//
+// **The truth** at ε = 0 is one string of tension 2: it lies on the obstacle over $[c, 1 - c]$ with
+// $c = 2 (g/q)^{1/2}$, presses with $q (1 - 2c)$, and has the energy $q^2 c^3 / 3 - q g$.
 
 #include <algorithm>
 #include <cmath>
@@ -38,28 +48,30 @@ constexpr double load = 32, gap = 0.5;
 const double free_part = 2 * std::sqrt(gap / load);  // c: contact on [c, 1 - c] where the glue is rigid
 enum class Glue { pointwise, mortar };
 
-// Where the unknowns are: u_0 .. u_{n+1} of the upper string (n + 1 cells), then w_0 .. w_n of the
-// lower one.
+// ### Mesh
+// The unknowns: those of the upper string ($n + 1$ cells; $n$ in the exercise), then $w_0 ... w_n$ of the lower one.
 struct Strings {
-  int cells;
+  int cells, more = 1;
+  int upper_cells() const { return cells + more; }
   int upper(int i) const { return i; }
-  int lower(int i) const { return cells + 2 + i; }
-  int size() const { return 2 * cells + 3; }
+  int lower(int i) const { return upper_cells() + 1 + i; }
+  int size() const { return upper_cells() + cells + 2; }
 };
 
-SparseMatrix sum_over_cells(const Strings& s, double of_derivatives, double of_values);  // 1. below
-void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem);             // 2. below
+SparseMatrix sum_over_cells(const Strings& s, double of_derivatives, double of_values);
+void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem);
 
-// 3. The rest: load, what is held, what is bounded from below. That is all that the solver ever
-// sees.
+// ### Forms
+// $A_1$, $B$ and $M$ by the two helpers at the end; load, what is held, what is bounded from below. That is all that
+// the solver ever sees.
 VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) {
   VariationalInequality problem;
   problem.a1 = sum_over_cells(s, 1, 0);
   fill_glue(s, glue, problem);
   problem.compliance = epsilon;
   problem.load = Eigen::VectorXd::Zero(s.size());
-  for (int i = 1; i <= s.cells; ++i) problem.load(s.upper(i)) = -load / (s.cells + 1);
-  problem.fixed = {s.upper(0), s.upper(s.cells + 1), s.lower(0), s.lower(s.cells)};
+  for (int i = 1; i < s.upper_cells(); ++i) problem.load(s.upper(i)) = -load / s.upper_cells();
+  problem.fixed = {s.upper(0), s.upper(s.upper_cells()), s.lower(0), s.lower(s.cells)};
   problem.fixed_values = Eigen::VectorXd::Zero(4);
   for (int i = 1; i < s.cells; ++i) problem.contact.push_back(s.lower(i));
   problem.lower = Eigen::VectorXd::Constant(s.cells - 1, -gap);
@@ -77,12 +89,11 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
     const std::string name = glue == Glue::pointwise ? "glue at every point" : "glue against hat functions";
     const VariationalInequality problem = make_problem(strings, glue, options.epsilon);
 
-    // 4. The hypotheses, on two meshes: coercive with one constant, a kernel that grows, K and G
-    // meet.
+    // The hypotheses, on two meshes: coercive with one constant, a kernel that grows, $K$ and $G$ meet.
     const Hypotheses h = check_hypotheses(problem, sum_over_cells(strings, 1, 1));
     const int finer_kernel = kernel_dimension(make_problem(finer, glue, options.epsilon));
 
-    // 5. The diagnosis: the energy as the glue hardens.
+    // The diagnosis: the energy as the glue hardens.
     const Table rows = diagnosis(problem);
     rows.print(
         fmt::format("{}: (H1) coercivity {:.3f}; (H2) kernel {} of {} unknowns ({} on the mesh twice as fine); K "
@@ -91,7 +102,8 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
     for (const Table& row : rows.rows())
       energies.add({name, row.number("epsilon"), -row.number("energy"), row.number("corrections")});
 
-    // 6. The solution at the epsilon asked for, with its report.
+    // ### Solve
+    // At the ε asked for, with its KKT report: how well the conditions of the inequality hold ([chapter 00](00_string_on_an_obstacle.cpp)), named after Karush, Kuhn and Tucker.
     const Solution solution = active_set(problem);
     const Kkt& k = solution.kkt;
     fmt::print(
@@ -100,6 +112,7 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
         solution.lambda.sum(), load * (1 - 2 * free_part), k.min_gap, k.min_pressure, k.complementarity, k.residual);
     judge(glue, h, finer_kernel, options.cells, rows, report);
   }
+  // ### Output
   energies.write(options.out / "energies.csv");
   refuse_the_impossible(strings, report);
 }
@@ -121,8 +134,7 @@ void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Ta
   report.claim(rigid.number("corrections") <= 5, "and {} corrections are enough", rigid.number("corrections"));
 }
 
-// 7. A problem that has no solution at epsilon = 0: one end raised, K and G do not meet. It is
-// refused.
+// A problem that has no solution at ε = 0: one end raised, $K$ and $G$ do not meet. It is refused.
 void refuse_the_impossible(const Strings& strings, tutorial::Report& report) {
   VariationalInequality impossible = make_problem(strings, Glue::pointwise, 0);
   impossible.fixed_values(0) = 0.1;
@@ -137,20 +149,34 @@ void refuse_the_impossible(const Strings& strings, tutorial::Report& report) {
                "strings held 0.1 apart: K and G are {:.2g} from meeting; the solver says: {}", distance, refusal);
 }
 
-// Three things to try:
-// - the same number of cells in both strings: the corners coincide, and pointwise glue leaves n - 1
-//   functions free.
-// - fewer rows: the mean of u - w over each cell of the lower string. Kernel n - 1; look at the
-//   corrections.
-// - a problem of your own: replace steps 1 to 3; the checks of steps 4 and 5 need no truth.
+// ## What came out
+//
+// (a) None, on any mesh: the energy is 0 in place of -10.667. (b) $n$, and $2n$ on the finer mesh. The truth is met
+// up to the energy that P1 misses, $q^2 h^2/24$. Strings held 0.1 apart have no solution at ε = 0: the solver
+// refuses, and says why.
+//
+// ## Exercises
+//
+// Predict, then run `--exercise 1`. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need
+// no truth.
 int main(int argc, char** argv) {
-  tutorial::Options options;
-  options.least_cells = 4;
-  options.most_cells = 128;
-  options.epsilon = 1e-10;
-  options.epsilon_is = "the class parameter of (1), the compliance of the glue; 0 is a rigid glue";
+  const std::vector<tutorial::Exercise> exercises{
+      {"Give both strings n cells. Does the glue at every point still lock?",
+       "no: the corners coincide, the n - 1 inner values are free, and the energy is the truth's up to q^2 h^2 / 24",
+       [](const tutorial::Options& options, tutorial::Report& report) {
+         const VariationalInequality problem = make_problem({options.cells, 0}, Glue::pointwise, 0);
+         const double truth = load * load * std::pow(free_part, 3) / 3 - load * gap, n = options.cells;
+         report.claim(kernel_dimension(problem) == options.cells - 1, "kernel {}", kernel_dimension(problem));
+         report.claim_within(energy(problem, active_set(problem)) - truth, 0, load * load / (24 * n * n),
+                             "energy - truth");
+       }}};
   return tutorial::run(argc, argv, "25_your_own_problem", "Your own problem in the class: two strings and a stiff glue",
-                       options, own);
+                       {.epsilon = 1e-10,
+                        .epsilon_is = "the class parameter of (1), the compliance of the glue; 0 is a rigid glue",
+                        .least_cells = 4,
+                        .most_cells = 128,
+                        .exercises = exercises},
+                       own);
 }
 
 // The two hat functions that are not zero at x, on a string of `cells` cells, with their values.
@@ -163,8 +189,7 @@ Hats hats(int cells, double x) {
   return {left, left + 1 - x * cells, x * cells - left};
 }
 
-// 1. A1, a matrix of sums of int u' v', and the Gram matrix of the H1 norm, which only the check of
-// (H1) needs.
+// $A_1$, a matrix of sums of $∫ u' v'$, and the Gram matrix of the H1 norm, which only the check of (H1) needs.
 SparseMatrix sum_over_cells(const Strings& s, double of_derivatives, double of_values) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int cells, auto&& unknown) {
@@ -175,27 +200,28 @@ SparseMatrix sum_over_cells(const Strings& s, double of_derivatives, double of_v
           entries.emplace_back(unknown(j), unknown(k),
                                of_derivatives * (j == k ? 1 : -1) / h + of_values * h * (j == k ? 2 : 1) / 6);
   };
-  add(s.cells + 1, [&](int i) { return s.upper(i); });
+  add(s.upper_cells(), [&](int i) { return s.upper(i); });
   add(s.cells, [&](int i) { return s.lower(i); });
   SparseMatrix sum(s.size(), s.size());
   sum.setFromTriplets(entries.begin(), entries.end());
   return sum;
 }
 
-// 2. B and M: a0(u, v) = (B u)' M (B v). Both choices walk over the pieces between all corners, two
-// Gauss points each.
+// $B$ and $M$: $a_0(u, v) = (B u)^T M (B v)$. Both choices walk over the pieces between all corners, two Gauss points
+// each.
 void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem) {
   std::vector<double> corners;
   for (int i = 0; i <= s.cells; ++i) corners.push_back(static_cast<double>(i) / s.cells);
-  for (int i = 1; i <= s.cells; ++i) corners.push_back(static_cast<double>(i) / (s.cells + 1));
+  for (int i = 1; i < s.upper_cells(); ++i) corners.push_back(static_cast<double>(i) / s.upper_cells());
   std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
   std::vector<Eigen::Triplet<double>> b;
   std::vector<double> m;
   for (std::size_t piece = 0; piece + 1 < corners.size(); ++piece)
     for (const double sign : {-1.0, 1.0}) {
       const double length = corners[piece + 1] - corners[piece], weight = 0.5 * length;
       const double x = corners[piece] + 0.5 * length * (1 + sign / std::sqrt(3.0));
-      const Hats up = hats(s.cells + 1, x), low = hats(s.cells, x);
+      const Hats up = hats(s.upper_cells(), x), low = hats(s.cells, x);
       const auto row = [&](int r, double factor) {  // adds factor (u - w)(x) to the row
         b.emplace_back(r, s.upper(up.left), factor * up.at_left);
         b.emplace_back(r, s.upper(up.left + 1), factor * up.at_right);
