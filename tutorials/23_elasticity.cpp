@@ -1,33 +1,44 @@
-// Nearly incompressible elasticity on a rigid obstacle: the same inequality, the same solver, five
-// discretisations.
+// # Rubber on an obstacle
 //
-// Run: 23_elasticity                          epsilon = 1/lambda = 1e-8, 32 cells
+// Run: 23_elasticity                          ε = 1/λ = 1e-8, 32 cells, five discretisations
 // Run: 23_elasticity --epsilon 0 --cells 16   incompressible
+// Run: 23_elasticity --exercise 1
+// Run: 23_elasticity --exercise 2
 //
-// Here epsilon is the parameter of the class, (1): epsilon = 1/lambda, not its square as in (23).
+// Needs: [06](06_p1_unstructured.cpp) for locking, [07](07_kernel.cpp) for kernels, [08](08_crouzeix_raviart.cpp) for
+// Crouzeix–Raviart (CR). **Here ε is the parameter of the class (1) itself**, $ε = 1/λ$, not its square as in (23).
 //
-// What the picture shows. A block of rubber hangs under a rigid plate, its sides free, and is
-// pushed by 0.1 on the obstacle y = -(x - 1/2)^2. Rubber keeps its volume, so the block bulges to
-// both sides. P1 triangles cut by parallel diagonals hardly can: the left side does not move at
-// all, the pressure is noise, and the contact force is nearly three times the true one.
-// Crouzeix-Raviart on the very same triangles bulges evenly.
+// **The picture.** A block of rubber hangs under a rigid plate, its sides free, and is pushed by 0.1 on the obstacle
+// $y = -(x - 1/2)^2$. *P1 on parallel triangles hardly bulges, its left side not at all; its pressure is noise and
+// its contact force nearly three times the true one. CR on the very same triangles bulges evenly.*
 //
-// Why. In plane strain with mu = 1 the energy is int eps(u):eps(u) + (lambda/2) int (div u)^2: the
-// paper's class with a0 = int div u div v and epsilon = 1/lambda. As lambda grows, div u = 0 is
-// asked of every triangle, on which div u is constant: one condition per triangle. P1 has one
-// unknown per triangle; 2n functions are left, too few. Three cures:
-//   - crossed triangles: in every square one of the four conditions follows from the other three;
-//   - Crouzeix-Raviart, three unknowns per triangle. With the symmetric gradient it has zero modes
-//     that are not rigid (no Korn inequality); the jumps over edges, penalised with weight 1,
-//     remove them (Hansbo and Larson 2003);
-//   - Kouhia and Stenberg (1995): P1 for one component, Crouzeix-Raviart for the other. It needs no
-//     jumps.
-// Reference for the contact force: Taylor-Hood (P2-P1) on graded meshes, freefem/23_elasticity.edp.
+// **Predict.** Rubber keeps its volume: in the limit $\operatorname{div} u = 0$ is asked of every triangle. Count on
+// $n × n$ squares cut in two: (a) how many conditions, and how many unknowns has P1? (b) And CR?
+//
+// ## Rubber in the class
+//
+// In plane strain (no displacement out of the plane) with shear modulus $μ = 1$ and strain $ε(u) = ½ (∇u + ∇u^T)$ the
+// energy is
+//
+// $$ ∫ ε(u) : ε(u) + \frac{λ}{2} ∫ (\operatorname{div} u)^2, $$
+//
+// the paper's class with $a_0 = ∫ \operatorname{div} u \operatorname{div} v$ and the class parameter $1/λ$. On a P1
+// or CR triangle $\operatorname{div} u$ is constant: one row of $B$ per triangle, $2n^2$ conditions. P1 has two
+// unknowns per vertex, about one per triangle: about $2n$ functions are left, too few. Three cures:
+//
+// - *crossed triangles*: each square is cut by both diagonals, and one of its four conditions follows from the other three;
+// - *CR*, three unknowns per triangle. With $ε(u)$ in place of $∇u$ it has motions without energy that are not rigid; the jumps over edges, penalised with weight 1, remove them (Hansbo and Larson 2003);
+// - *Kouhia–Stenberg* (1995): P1 for one component, CR for the other. It needs no jumps.
+//
+// Two checks need no reference: a *patch test* (a uniform strain must come out exactly on any mesh) and the number of
+// motions without energy. The reference of the contact force is Taylor–Hood, P2 with a continuous P1 pressure, on
+// graded meshes (`freefem/23_elasticity.edp`).
 
 #include <cmath>
 #include <map>
 
 #include "antilock/analysis/kernel.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/study/method.hpp"
@@ -37,8 +48,8 @@
 
 using namespace antilock;
 
-// A discretisation: triangles, an element per component, and whether edges need their jumps
-// penalised.
+// ### Mesh
+// A discretisation: triangles, an element per component, and whether edges need their jumps penalised.
 struct Rubber {
   std::string name, file;
   TriangleMesh mesh;
@@ -59,8 +70,9 @@ std::vector<Rubber> make_methods(int cells) {
 
 double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the obstacle below y = 0
 
-// The problem: u = (0, -0.1) on top, u_y >= -gap below. It fills a1, B, M and the bounds; the rest
-// is the scalar problem.
+// ### Forms
+// $u = (0, -0.1)$ on top, $u_y ≥ -$gap below. It fills $A_1$, $B$, $M$ and the bounds; the rest is the scalar
+// problem's.
 VariationalInequality pushed(const Rubber& rubber, const VectorSpace& space, double jump_weight) {
   PlaneStrain scene;
   scene.gap = gap;
@@ -86,8 +98,8 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
     const VectorSpace space{x, y};
     const VariationalInequality problem = pushed(rubber, space, 1);
 
-    // 1. The contact force at every lambda; its error in % where the reference is known. The forms
-    //    do not hold lambda, and all large lambda share one factorisation.
+    // ### Solve
+    // The contact force at every λ; its error in % where the reference is known. The forms do not hold λ, and all large λ share one factorisation.
     Sweep sweep(problem);
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0}) {
       sweep.set_compliance(epsilon);
@@ -98,13 +110,14 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
         errors.add({rubber.name, 1 / epsilon, epsilon, 100 * (force / known->second - 1), rubber.locks});
     }
 
-    // 2. The deformed block at the epsilon asked for.
+    // ### Output
+    // The deformed block at the ε asked for.
     sweep.set_compliance(options.epsilon);
     const Solution solution = sweep.solve();
     write_deformed_vtu(options.out / (rubber.file + ".vtu"), space, solution.u, pressure(rubber, solution));
     if (rubber.file == "p1_right") write_freefem_mesh(options.out / "mesh.freefem.msh", rubber.mesh);
 
-    // 3. The checks that need no reference: what B leaves free, patch test, zero modes.
+    // The checks that need no reference: what $B$ leaves free, patch test, motions without energy.
     checks.add({rubber.name, problem.free_count(), kernel_dimension(problem),
                 std::max(patch_error(rubber, 1), patch_error(rubber, options.epsilon)), zero_modes(problem),
                 rubber.jumps ? Entry(zero_modes(pushed(rubber, space, 0))) : Entry(""), bulge(x, solution.u, 0),
@@ -141,23 +154,65 @@ void judge(const Table& checks, const Table& forces, const Table& errors, int ce
   report.claim(worst < 16.0 / cells, "the other three are off by {:.2f} % at most, at any lambda of the table", worst);
 }
 
-// Three things to try:
-// - the pressure of P1 (p1_right.vtu in ParaView): up to 46, in stripes, where the true one stays
-//   below 0.7.
-// - 2 int grad u : grad v for 2 int eps(u) : eps(v) needs no jumps and is 39 % off: other
-//   conditions on the free sides.
-// - jump weights from 0.1 to 10 (PlaneStrain::jump_weight): the force moves by one per cent.
+// ## What came out
+//
+// (a) $2n^2$ conditions and about as many unknowns. (b) Three times as many. Where nothing locks the force is right
+// to 16/n per cent at every λ, in at most 5 corrections; P1 on parallel or arbitrary triangles is more than 100 %
+// off. The pressure of P1 reaches 46 in stripes, where the true one stays below 0.7.
+//
+// ## Exercises
+//
+// Predict, then run `--exercise N`. On paper: in a crossed square, why does the fourth condition follow from three?
+// (Sum up $± \operatorname{div} u$ around the centre.)
 int main(int argc, char** argv) {
-  tutorial::Options options;
-  options.least_cells = 2;  // below, no vertex of the obstacle is free in x
-  options.epsilon = 1e-8;
-  options.epsilon_is = "the class parameter of (1), 1/lambda; 0 is incompressible";
+  const auto named = [](const std::string& name, int cells) {
+    for (const Rubber& rubber : make_methods(cells))
+      if (rubber.name == name) return rubber;
+    throw Error("no method " + name);
+  };
+  const std::vector<tutorial::Exercise> exercises{
+      {"CR penalises its jumps with weight 1. Between weight 0.1 and 10, how much does the contact force change, on 8 "
+       "and on 16 cells?",
+       "by some per cent, and half as much on half the width: the jumps of the solution vanish with h, and the weight "
+       "with them",
+       [=](const tutorial::Options&, tutorial::Report& report) {
+         const auto spread = [&](int cells) {
+           const Rubber cr = named("Crouzeix-Raviart with jumps", cells);
+           const Space x(cr.mesh, cr.in_x), y(cr.mesh, cr.in_y);
+           const auto force = [&](double weight) {
+             VariationalInequality problem = pushed(cr, {x, y}, weight);
+             problem.compliance = 1e-8;
+             return active_set(problem).lambda.sum();
+           };
+           return force(10) / force(0.1) - 1;
+         };
+         const double coarse = spread(8), fine = spread(16);
+         report.claim(coarse < 0.2 && fine < 0.65 * coarse,
+                      "weights 0.1 and 10 differ by {:.1f} % on 8 cells, {:.1f} % on 16", 100 * coarse, 100 * fine);
+       }},
+      {"Count what is left at 1/h = 4 and 8: does dim G_h of P1 grow like the unknowns under refinement? And of CR?",
+       "P1 on parallel diagonals: like n, a vanishing share of 2 n^2 unknowns; CR: like n^2",
+       [=](const tutorial::Options&, tutorial::Report& report) {
+         const auto kernel = [&](const std::string& name, int cells) {
+           const Rubber rubber = named(name, cells);
+           const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
+           return kernel_dimension(pushed(rubber, {x, y}, 1));
+         };
+         const int coarse = kernel("P1 right diagonals", 4), fine = kernel("P1 right diagonals", 8);
+         const int coarse_cr = kernel("Crouzeix-Raviart with jumps", 4),
+                   fine_cr = kernel("Crouzeix-Raviart with jumps", 8);
+         report.claim(coarse == 8 && fine == 16, "P1: 2n = {}, {}", coarse, fine);
+         report.claim(fine_cr > 3.5 * coarse_cr, "CR: {}, {}", coarse_cr, fine_cr);
+       }}};
   return tutorial::run(argc, argv, "23_elasticity", "Nearly incompressible elasticity in contact: five discretisations",
-                       options, push);
+                       {.epsilon = 1e-8,
+                        .epsilon_is = "the class parameter of (1), 1/lambda; 0 is incompressible",
+                        .least_cells = 2,  // below, no vertex of the obstacle is free in x
+                        .exercises = exercises},
+                       push);
 }
 
-// Patch test: a uniform strain, u = (.1/(1 + 2 epsilon) x, -.1 y), is in every space and must come
-// out exactly.
+// Patch test: a uniform strain, u = (.1/(1 + 2 epsilon) x, -.1 y), is in every space and must come out exactly.
 double patch_error(const Rubber& rubber, double epsilon) {
   const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
   PlaneStrain scene;  // flat obstacle, touching
@@ -176,8 +231,8 @@ int zero_modes(VariationalInequality problem) {
   return kernel_dimension(problem);
 }
 
-// How far a side moves outwards, on average (the mean of an affine function over an edge is its
-// value at the midpoint).
+// How far a side moves outwards, on average (the mean of an affine function over an edge is its value at the
+// midpoint).
 double bulge(const Space& space, const Eigen::VectorXd& u, double side) {
   const TriangleMesh& mesh = space.mesh();
   double mean = 0;
@@ -193,8 +248,7 @@ double bulge(const Space& space, const Eigen::VectorXd& u, double side) {
   return side == 0 ? -mean : mean;
 }
 
-// The pressure -lambda div u. Crossed triangles carry a checkerboard in every square, which its
-// mean removes.
+// The pressure -lambda div u. Crossed triangles carry a checkerboard in every square, which its mean removes.
 Eigen::VectorXd pressure(const Rubber& rubber, const Solution& solution) {
   Eigen::VectorXd p = -solution.p;
   if (rubber.file == "p1_crossed")
