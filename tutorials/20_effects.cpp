@@ -1,31 +1,36 @@
-// Effects: a scene is made of those that it calls for, and an absent effect costs nothing.
+// # A scene costs what it holds
 //
 // Run: 20_effects   five scenes, three models, a change of variable; two seconds
 // Run: 20_effects --cells 64 --epsilon 0.1
+// Run: 20_effects --exercise 1
+// Run: 20_effects --exercise 2
 //
-// What the picture shows. One body under one load, five times: alone; resting on an obstacle; held
-// by a stiff layer that is not meshed; with the layer meshed below it; with layer and obstacle.
-// Glue a layer that is rigid across its thickness under the body, and its lower side, which moved
-// freely by 0.2, moves by 0.045: it has become a stretched string.
+// Needs: [01](01_domain.cpp) for (22) and (23), [03](03_by_hand.cpp) for corrections and the factor,
+// [10](10_limits.cpp) for (25).
 //
-// The inequality and its parts. With every effect present it is (23),
+// **The picture.** One body under one load, five times: alone; on an obstacle; held by a stiff layer that is not
+// meshed; with the layer meshed below it; with layer and obstacle. *Glue a layer that is rigid across its thickness
+// under the body, and its lower side, which moved freely by 0.2, moves by 0.045: it has become a stretched string.*
 //
-//     u in K:   a+(u, v-u)  +  a_x^-(u, v-u) + epsilon^-2 a_y^-(u, v-u)  >=  (f, v-u)   for all v in K
-//               body           layer
+// **Predict.** (a) The layer of (25) is one term on $Σ$. How many triangles, unknowns and linear solves does it cost
+// more than the body alone? (b) Seven values of ε on one mesh: how many factorisations, if those below a fraction of
+// $h$ share one?
 //
-// - no contact:  K is a space, >= becomes =, and one linear solve is the answer;
-// - no layer:    a+ alone, on the body's mesh alone;
-// - epsilon = 0: (24), the layer can only follow Sigma: u(x, y) = u(x, 0) there;
-// - and then it need not be meshed at all: what is left of it is a_x^- on functions of x, one term
-//   on Sigma,
-//                int_Sigma d/dx u d/dx v      the condition of Ventcel, (25);
-// - before the change of variable y -> epsilon y, the layer is (0,1) x (-epsilon,0) and 1/epsilon
-//   times as stiff: (22).
+// ## The parts of the inequality
 //
-// Each of these is a type (scene/scene.hpp), so that what a scene lacks cannot cost anything: there
-// is no code to skip.
+// With every effect present it is (23):
 //
-// Load chosen here, f = 10 sin(2 pi x); the paper gives none.
+// $$ u ∈ K:   \underbrace{a^+(u, v-u)}_{\text{body}} + \underbrace{a_x^-(u, v-u) + ε^{-2} a_y^-(u, v-u)}_{\text{layer}} ≥ (f, v-u)   ∀ v ∈ K. $$
+//
+// - no contact: $K$ is a space. Put $v = u + w$ and $v = u - w$ into the inequality: $≥$ becomes $=$, one linear solve;
+// - no layer: $a^+$ alone, on the body's mesh alone;
+// - ε = 0: (24), the layer can only follow $Σ$: $u(x, y) = u(x, 0)$ there;
+// - and then it need not be meshed: $a_x^-$ on functions of $x$ is one term on $Σ$, $∫_Σ ∂_x u ∂_x v$, the condition of Ventcel, (25);
+// - before the change of variable $y → y/ε$ the layer is $(0,1) × (-ε,0)$ and $1/ε$ times as stiff: (22).
+//
+// Each of these is a type (`scene/scene.hpp`), so that what a scene lacks cannot cost anything: there is no code to
+// skip. Contact has a *gap*, the distance between undeformed body and obstacle at $x$: $u ≥ -$gap. Load chosen here,
+// $f = 10 \sin 2πx$; the paper gives none.
 
 #include <algorithm>
 
@@ -52,8 +57,7 @@ struct Run {
   double energy = 0, contact_from = 1, assemble_seconds = 0, solve_seconds = 0;
 };
 
-// 1. The five scenes, from plain Laplace to a stiff layer with contact, each on a mesh as large as
-// it needs: layer_depth is 0 where no layer is meshed.
+// **Five scenes**, from plain Laplace to a stiff layer with contact.
 void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<std::pair<std::string, Scene>> scenes{
       {"1_body", Scene(body)},
@@ -64,12 +68,15 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
   Table table({"scene", "triangles", "unknowns", "factorisations", "solves", "contact", "corrections", "assemble_s",
                "solve_s", "u_min", "u_max"});
   for (const auto& [name, scene] : scenes) {
+    // ### Mesh
+    // As large as the scene needs: its layer_depth is 0 where no layer is meshed.
     const Run run(scene, unstructured_mesh(options.cells, {scene.layer_depth()}));
     const Counters& c = run.solution.counters;
     table.add({name, run.on.mesh().triangle_count(), c.unknowns, c.factorisations, c.solves, c.contact, c.corrections,
                run.assemble_seconds, run.solve_seconds, run.solution.u.minCoeff(), run.solution.u.maxCoeff()});
     tutorial::write_results(options.out / name, run.on.space(), run.problem, run.solution);
   }
+  // ### Output
   table.print("what each scene costs", 3);
   table.write(options.out / "results.csv");
   const Table alone = table.where("scene", "1_body"), ventcel = table.where("scene", "3_ventcel");
@@ -81,9 +88,8 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
   report.claim(same, "a Ventcel layer costs what the body alone costs: no triangle, no unknown, no solve more");
 }
 
-// 2. One question, three models of the layer: (23) at a small epsilon, (24) on the layer's mesh,
-// (25) without one. All are held against the truth at that epsilon, so the last two show the error
-// of their model as well.
+// **One question, three models of the layer**: (23) at a small ε, (24) on the layer's mesh, (25) without one. All are
+// held against the truth at that ε, so the last two show the error of their model as well.
 void three_models(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("truth at epsilon and at 0: sine series");
   const tutorial::Exact exact(options.epsilon, 14), limit(0, 14);
@@ -132,9 +138,8 @@ void three_models(const tutorial::Options& options, tutorial::Report& report) {
                scaled.number("error_on_contact"));
 }
 
-// 3. The change of variable y -> epsilon y takes (22) to (23). On a mesh whose layer is pressed
-// flat by the same map it does so term by term: the same matrices, the same answer. On a mesh made
-// for the thin layer, up to discretisation.
+// **The change of variable** takes (22) to (23). On a mesh whose layer is pressed flat by the same map it does so
+// term by term: the same matrices, the same answer. On a mesh made for the thin layer, up to discretisation.
 void change_of_variable(const tutorial::Options& options, tutorial::Report& report) {
   Table table({"epsilon", "energy_thin", "energy_scaled", "from_thin", "from_scaled", "difference_on_pressed_mesh"});
   double energy = 0, from = 0;
@@ -160,8 +165,8 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
                "and up to discretisation on others: energy within {:.1e}, contact within {:.3f}", energy, from);
 }
 
-// 4. Only what is needed holds for many questions, too: the forms of (23) do not contain epsilon,
-// and every epsilon below a fraction of h is solved with one and the same factorisation.
+// **Many questions.** The forms of (23) do not contain ε, and every ε below a fraction of $h$ is solved with one and
+// the same factorisation.
 void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
   const Discretisation on = Method{&crouzeix_raviart(), unstructured()}.on(options.cells);
@@ -190,23 +195,53 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
   sweep_over_epsilon(options, report);
 }
 
-// Three things to try:
-// - UnilateralContact{[](double) { return 1.0; }} as `obstacle`: out of reach; one solve and a look
-//   at the signs.
-// - --epsilon 0.3: the limit is no longer a model of the layer; its own error fills the column
-//   error_on_contact.
-// - p1() for crouzeix_raviart() in Run: the scaled layer locks on its unstructured mesh, Ventcel
-//   has nothing to lock.
+// ## What came out
+//
+// (a) None, none and none: a Ventcel layer costs what the body alone costs, and answers within the error of the
+// meshed layer. (b) Those above the penalty δ, about $h^2/16$, one each, and one for all others. On corresponding
+// meshes (22) and (23) differ by round-off.
+//
+// ## Exercises
+//
+// Predict, then run `--exercise N`. On paper: which of the five scenes may lock, with P1 on this mesh?
 int main(int argc, char** argv) {
-  tutorial::Options options;
-  options.epsilon = 1e-2;
-  return tutorial::run(argc, argv, "20_effects", "Effects: a scene costs what it calls for", options, effects);
+  const std::vector<tutorial::Exercise> exercises{
+      {"Move the obstacle out of reach, gap = 1. What does the scene with layer and contact cost, and what does it "
+       "answer?",
+       "the answer of the scene without contact, for the same factorisation: one look at the signs is all that is "
+       "added",
+       [](const tutorial::Options& options, tutorial::Report& report) {
+         const auto on = [&] { return unstructured_mesh(options.cells); };
+         const Run far(Scene(body, StiffLayer{1e-2}, UnilateralContact{[](double) { return 1.0; }}), on()),
+             none(Scene(body, StiffLayer{1e-2}), on());
+         report.claim_within((far.solution.u - none.solution.u).cwiseAbs().maxCoeff(), 0, 1e-9, "difference of u");
+         report.claim(far.solution.counters.contact <= 1 &&
+                          far.solution.counters.factorisations == none.solution.counters.factorisations,
+                      "{} contact step(s), {} factorisation(s)", far.solution.counters.contact,
+                      far.solution.counters.factorisations);
+       }},
+      {"Take P1 for Crouzeix-Raviart on this unstructured mesh. Which models of the layer lock: (23), (24), (25)?",
+       "(23) and (24), whose layer is meshed; (25) has no layer to lock",
+       [](const tutorial::Options& options, tutorial::Report& report) {
+         const auto largest = [&](const Layer& layer) {
+           const Scene scene(body, layer, obstacle);
+           const Discretisation on(unstructured_mesh(options.cells, {scene.layer_depth()}), p1());
+           return active_set(assemble(scene, on.space())).u(on.space().contact()).maxCoeff();
+         };
+         report.claim_within(largest(StiffLayer{1e-6}), 0, 1e-3, "(23) at 1e-6: largest u on Gamma_C");
+         report.claim_within(largest(StiffLayer{0}), 0, 1e-9, "(24): largest u on Gamma_C");
+         report.claim_within(largest(VentcelLayer{}), 0.044, 0.048, "(25): largest u on Sigma (truth 0.0457)");
+       }}};
+  return tutorial::run(argc, argv, "20_effects", "Effects: a scene costs what it calls for",
+                       {.epsilon = 1e-2, .exercises = exercises}, effects);
 }
 
 Run::Run(const Scene& scene, TriangleMesh mesh) : on(std::move(mesh), crouzeix_raviart()) {
   Stopwatch watch;
+  // ### Forms
   problem = assemble(scene, on.space());
   assemble_seconds = watch.lap();
+  // ### Solve
   solution = active_set(problem);
   solve_seconds = watch.lap();
   contact_from = contact_zone(on.space(), problem, solution).from.value_or(1);
