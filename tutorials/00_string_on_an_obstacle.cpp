@@ -46,7 +46,8 @@
 // $$ u_i ≥ 0,   λ_i ≥ 0,   λ_i u_i = 0,   A u = b + λ. $$
 //
 // The string is not below the floor; the floor only pushes; it pushes only where it is touched. Two numbers that are
-// not negative and have the product 0 are called *complementary*. Both programs below look for this pair $(u, λ)$.
+// not negative and have the product 0 are called *complementary*. The four together are the *KKT conditions* of
+// Karush, Kuhn and Tucker. Both programs below look for this pair $(u, λ)$.
 
 #include <numbers>
 
@@ -113,11 +114,11 @@ Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
 
 // **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor,
 // push more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$. The maximum is the
-// projection onto the cone $λ ≥ 0$. This is a gradient method whose operator is $A^{-1}$, the *compliance*: force in,
-// displacement out. $A$ has the eigenvalues $4 \sin^2(kπh/2)/h$, so that those of $A^{-1}$ lie between about $h/4$
-// and $1/(π² h)$, and a step $ρ < 2π² h$ is safe. It makes the slowest part of the error smaller by the factor
-// $1 - ρ h/4 ≈ 1 - π² h²/2$. So halve $h$, and there are four times as many steps; the ratio of the two eigenvalues,
-// the *condition number* $κ$, says it in one number.
+// projection onto the cone $λ ≥ 0$. This is a *projected gradient* method, and its operator is $A^{-1}$, the
+// *compliance*: force in, displacement out. $A$ has the eigenvalues $4 \sin^2(kπh/2)/h$, so that those of $A^{-1}$
+// lie between about $h/4$ and $1/(π² h)$, and a step $ρ < 2π² h$ is safe. It makes the slowest part of the error
+// smaller by the factor $1 - ρ h/4 ≈ 1 - π² h²/2$. So halve $h$, and there are four times as many steps; the ratio of
+// the two eigenvalues, the *condition number* $κ$, says it in one number.
 Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
   const Cholesky factor(s.a);
   Answer answer{s.b, 0 * s.b};

@@ -32,9 +32,10 @@
 // The last line is chapter 00's complementarity: $ε^{-1} ∂_n u$ is the pressure of the obstacle.
 //
 // **From (21) to (22).** Let $K_ε = \{ v : v = 0 on Γ_{D,ε}, v ≥ 0 on Γ_{C,ε} \}$, and $v ∈ K_ε$. Multiply the first
-// line by $v - u$ and integrate by parts on both parts. On $Σ$ the boundary terms cancel, by the second line. On the
-// clamped parts $v - u = 0$. On $Γ_{C,ε}$ stays the term that makes an inequality of the equation, since
-// $u ∂_n u = 0$:
+// line by $v - u$ and integrate by parts on both parts. On $Σ$ the body leaves $∂_n u^+ (v - u)$ and the layer, whose
+// outward normal is $-n$, leaves $-ε^{-1} ∂_n u^- (v - u)$: they cancel, by the second line. On the clamped parts
+// $v - u = 0$. On $Γ_{C,ε}$ stays the term that makes an inequality of the equation. It is added to the load, and it
+// is not negative, since $u ∂_n u = 0$:
 //
 // $$ ε^{-1} ∫_{Γ_{C,ε}} ∂_n u (v - u) = ε^{-1} ∫_{Γ_{C,ε}} (∂_n u) v ≥ 0. $$
 //
@@ -51,7 +52,8 @@
 //
 // $$ a^+(u,v) = ∫_{Ω^+} ∇u·∇v,   a_x^-(u,v) = ∫_{Ω^-} ∂_x u ∂_x v,   a_y^-(u,v) = ∫_{Ω^-} ∂_y u ∂_y v. $$
 //
-// Then the problem of this whole course reads, with $K = \{ v : v = 0 on Γ_D, v ≥ 0 on Γ_C \}$,
+// Let $V$ be the displacements that are 0 on $Γ_D$, and $K = \{ v ∈ V : v ≥ 0 on Γ_C \}$. Then the problem of this
+// whole course reads
 //
 // $$ u ∈ K,   a^+(u, v-u) + a_x^-(u, v-u) + ε^{-2} a_y^-(u, v-u) ≥ (f, v-u)   for all v ∈ K. \tag{23} $$
 //

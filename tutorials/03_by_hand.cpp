@@ -104,14 +104,15 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
 // $$ A_1 u + B^T M p = L + λ,   B u = ε² p. $$
 //
 // No large number is left. One matrix is factored, with a moderate number $δ$ in place of $ε²$:
-// $K = A_1 + δ^{-1} B^T M B$. Given $u$ and $p$, what is wrong with the two equations is
+// $K = A_1 + δ^{-1} B^T M B$. Given $u$ and $p$, what the two equations leave over, their *residuals*, is
 //
 // $$ r_1 = L - A_1 u - B^T M p + λ,   r_2 = ε² p - B u. $$
 //
 // One *correction* solves $K du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$; insert both to see that
-// with $δ = ε²$ nothing would be left wrong. When $r_1 = r_2 = 0$, $u$ and $p$ solve (23), whatever $δ$ was. This is
-// the *iterated penalty* method. A part of the stress behind which there is the stiffness $σ$ shrinks per correction
-// by $(δ - ε²)/(δ + σ)$: a small $δ$ is fast, but too small a $δ$ rounds the digits of $A_1$ away again.
+// then $r_1 = 0$ and $r_2 = (ε² - δ) dp$: with $δ = ε²$ nothing would be left over. When $r_1 = r_2 = 0$, $u$ and $p$
+// solve (23), whatever $δ$ was. This is the *iterated penalty* method. If $r_2$ is an eigenvector of
+// $B A_1^{-1} B^T M$ with the eigenvalue $σ$, a correction makes it smaller by $(δ - ε²)/(δ + σ)$: a small $δ$ is
+// fast, but too small a $δ$ rounds the digits of $A_1$ away again.
 //
 // **The contact loop**, in each correction: guess which vertices of $Γ_C$ touch, solve, look at the signs (chapter
 // 00).
@@ -190,7 +191,7 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 // 1. $δ = 10^{-2}$ in place of $10^{-4}$. The same $u$? As many corrections?
 // 2. Move one inner vertex of the layer sideways by $h/10$. Six triangles meet there. How many entries have their rows
 //    of $B$ now?
-// 3. On paper: show that $r_1 = 0$ after each correction. Which residual is left for the iteration to bring down?
+// 3. On paper: derive the factor $(δ - ε²)/(δ + σ)$. (Without contact; write $du$ by $r_2$ alone.)
 
 #include "answers/03_by_hand.hpp"
 

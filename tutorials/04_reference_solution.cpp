@@ -10,8 +10,8 @@
 // **The pictures.** Figure 4: a hill over the left half of the body, where the load lifts it, and a valley over the
 // right half, where it presses the body on the obstacle. On the layer "its value along the normal to Σ is constant
 // and nonnegative over Ω⁻" (Section 4.1). *The solution on the layer is a ridge: a function of `x` alone, 0 from
-// `x = 0.702` on, where it touches.* The other pictures show how Uzawa came to it: step by step, and how many steps
-// on which mesh.
+// `x = 0.702` on, where it touches, the *contact zone*.* The other pictures show how Uzawa came to it: step by step,
+// and how many steps on which mesh.
 //
 // **Predict.** (a) For the string, halving `h` cost four times as many steps. Here the contact boundary carries a
 // body that is 1 thick. At `ε = 1`, does halving `h` cost as much? (b) And at `ε = 10⁻⁶`, where the layer is rigid

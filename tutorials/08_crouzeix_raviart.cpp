@@ -22,9 +22,9 @@
 //
 // $V_h^{nc}$ are the functions that are affine on each triangle, continuous at the midpoints of the edges, and 0 at
 // those on $Γ_D$: one unknown per edge, three halves per triangle (P1: half a vertex per triangle). Such a function
-// jumps, so it is not in $V$: the method is *nonconforming*. Integrals and norms are taken triangle by triangle
-// (*broken*), and contact is asked at midpoints: $K_h^{nc} = \{ v ≥ 0 \text{ at the midpoints on } Γ_C \}$. With
-// that, (23) becomes (29), and (27) becomes (30).
+// jumps, so it is not in $V$: the method is *nonconforming*, while P1 is *conforming*. Integrals and norms are taken
+// triangle by triangle (*broken*), and contact is asked at midpoints:
+// $K_h^{nc} = \{ v ≥ 0 \text{ at the midpoints on } Γ_C \}$. With that, (23) becomes (29), and (27) becomes (30).
 //
 // **The interpolation** $I_h$ gives each midpoint the mean of $v$ over its edge. For an affine function the mean over
 // an edge is the value at its midpoint, so on each triangle $T$ with outward normal $n$, by Green's formula,
