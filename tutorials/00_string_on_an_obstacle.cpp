@@ -10,6 +10,7 @@
 //
 // **The picture.** A string is held at both ends. The load `f(x) = 10 sin(2πx)` lifts its left half and presses its
 // right half on a floor at height 0. *The string touches the floor in one piece, and the floor pushes exactly there.*
+// The next picture shows how the active set below finds that piece, the last one the same with two nodes only.
 //
 // **Predict, before you read on.** (a) The load points down from `x = 1/2` on. Does the string touch the floor from
 // there on? (b) How large is the pressure of the floor where the string lies on it?
@@ -24,23 +25,29 @@
 // shapes stays in it. It is even a *cone*: with $v$ it contains $t v$ for every $t ≥ 0$.
 //
 // **Why $v - u$ and not $v$.** Let $u$ be the minimiser and $v$ any shape in $K$. Then $u + t(v - u)$ lies in $K$ for
-// $0 ≤ t ≤ 1$, so that $J(u + t(v - u)) ≥ J(u)$. Both sides are polynomials in $t$: subtract, divide by $t$, let
-// $t → 0$. What is left is a *variational inequality*:
+// $0 ≤ t ≤ 1$, and its energy is not below that of $u$:
+//
+// $$ 0 ≤ J(u + t(v - u)) - J(u) = t (a(u, v - u) - L(v - u)) + ½ t^2 a(v - u, v - u). $$
+//
+// Divide by $t$ and let $t → 0$. What is left is a *variational inequality*:
 //
 // $$ u ∈ K,   a(u, v - u) ≥ L(v - u)   for all v ∈ K. $$
 //
 // Without the floor one may go in the direction $v - u$ and back, and $≥$ becomes $=$. Where the string touches the
-// floor, only the way up is allowed. Geometrically, $u$ is the *projection* of the free string onto $K$, its nearest
-// element in the distance $a(·,·)^{1/2}$: no $v$ in $K$ makes an acute angle with the way to the free string.
+// floor, only the way up is allowed. Geometrically: let $w$ be the string without a floor, $L(v) = a(w, v)$. Then
+// $a(w - u, v - u) ≤ 0$: seen from $u$, the way to $w$ makes no acute angle with the way to any $v$ in $K$. So $u$ is
+// the *projection* of $w$ onto $K$, its nearest element when lengths are measured by $a(v, v)^{1/2}$ (last picture).
 //
-// **The multiplier is the contact force.** Take nodes $x_i = i h$, hat functions $φ_i$, the matrix $A_{ij} = a(φ_i, φ_j)$
-// and the vector $b_i = L(φ_i)$, and call $λ = A u - b$. It is the force that is missing for equilibrium: the force of
-// the floor. Put $v = u + φ_i$, $v = 0$ and $v = 2u$ into the inequality. It then says for every inner node:
+// **The multiplier is the contact force.** Take nodes $x_i = i h$, hat functions $φ_i$, the matrix
+// $A_{ij} = a(φ_i, φ_j)$ and the vector $b_i = L(φ_i)$, and call $λ = A u - b$. It is the force that is missing for
+// equilibrium: the force of the floor. Put $v = u + φ_i$ into the inequality: $λ_i ≥ 0$. Put $v = 0$ and $v = 2u$:
+// $λ^T u = 0$, a sum of terms none of which is negative. So for every inner node
 //
 // $$ u_i ≥ 0,   λ_i ≥ 0,   λ_i u_i = 0,   A u = b + λ. $$
 //
 // The string is not below the floor; the floor only pushes; it pushes only where it is touched. Two numbers that are
-// not negative and have the product 0 are called *complementary*. Both programs below look for this pair $(u, λ)$.
+// not negative and have the product 0 are called *complementary*. The four together are the *KKT conditions* of
+// Karush, Kuhn and Tucker. Both programs below look for this pair $(u, λ)$.
 
 #include <numbers>
 
@@ -58,7 +65,8 @@ struct String {
   VectorXd b;  // at the inner nodes
 };
 // ### Forms
-// $A$ has $2/h$ on its diagonal and $-1/h$ beside it; $∫ \sin(2πx) φ_i = \sin(2πx_i) (2 - 2\cos 2πh)/(4π² h)$, exactly.
+// $A$ has $2/h$ on its diagonal and $-1/h$ beside it; $∫ \sin(2πx) φ_i = \sin(2πx_i) (2 - 2\cos 2πh)/(4π² h)$,
+// exactly.
 String hang(int cells, double load = 10, double floor = 0) {
   const int n = cells - 1;
   const double h = 1.0 / cells, factor = load * (2 - 2 * std::cos(2 * pi * h)) / (4 * pi * pi * h);
@@ -77,9 +85,9 @@ struct Answer {
 };
 
 // ### Solve
-// **Active set.** Guess which nodes touch. There $u_i = $ floor; elsewhere $λ_i = 0$, and the equation gives $u$. Then
-// look at the signs: a node that sank below the floor should have touched; a node that the floor would have to pull
-// should not. When the guess repeats itself, all signs are right. The guess is called the *active set*.
+// **Active set.** Guess which nodes touch. There $u_i = $ floor; elsewhere $λ_i = 0$, and the equation gives $u$.
+// Then look at the signs: a node that sank below the floor should have touched; a node that the floor would have to
+// pull should not. When the guess repeats itself, all signs are right. The guess is called the *active set*.
 Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
   std::vector<bool> touches(n, false);
@@ -104,12 +112,13 @@ Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   }
 }
 
-// **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor, push
-// more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$. The maximum is the
-// projection onto the cone $λ ≥ 0$. This is a gradient method whose operator is $A^{-1}$, the *compliance*: force in,
-// displacement out. Its smallest eigenvalue is about $h/4$, its largest $1/(π² h)$, and a step $ρ < 2π² h$ is safe. A
-// step makes the slowest part of the error smaller by the factor $1 - ρ h/4 ≈ 1 - π² h²/2$. So halve $h$, and there are
-// four times as many steps; the ratio of the two eigenvalues, the *condition number* $κ$, says it in one number.
+// **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor,
+// push more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$. The maximum is the
+// projection onto the cone $λ ≥ 0$. This is a *projected gradient* method, and its operator is $A^{-1}$, the
+// *compliance*: force in, displacement out. $A$ has the eigenvalues $4 \sin^2(kπh/2)/h$, so that those of $A^{-1}$
+// lie between about $h/4$ and $1/(π² h)$, and a step $ρ < 2π² h$ is safe. It makes the slowest part of the error
+// smaller by the factor $1 - ρ h/4 ≈ 1 - π² h²/2$. So halve $h$, and there are four times as many steps; the ratio of
+// the two eigenvalues, the *condition number* $κ$, says it in one number.
 Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
   const Cholesky factor(s.a);
   Answer answer{s.b, 0 * s.b};
@@ -123,8 +132,9 @@ Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
 }
 
 // ### Output
-// **The truth.** Where the string is free $-u'' = f$, so $u = α \sin 2πx + s x$ with $α = 10/4π²$. It leaves the floor
-// without a kink: $u(c) = 0$ and $u'(c) = 0$. Both together say $\tan z = z$ for $z = 2πc$, so $c = 0.715148...$
+// **The truth.** Where the string is free $-u'' = f$, so $u = α \sin 2πx + s x$ with $α = 10/4π²$. It leaves the
+// floor without a kink, which would need a force at one point: $u(c) = 0$ and $u'(c) = 0$. Both together say
+// $\tan z = z$ for $z = 2πc$, so $c = 0.715148...$
 double touches_from(const String& s, const VectorXd& lambda) {
   for (int i = 0; i < lambda.size(); ++i)
     if (lambda(i) > 0) return (i + 1) * s.h;
@@ -155,43 +165,20 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 
 // ## What came out
 //
-// The active set needs fewer than ten linear solves, Uzawa 2,737, for the same string. (a) No: contact starts at 0.7151, since the
-// lifted half pulls its neighbour up. (b) Where the string lies flat $u'' = 0$, so the pressure is $-f$ there.
+// The active set needs fewer than ten linear solves, Uzawa 2,737, for the same string. (a) No: contact starts at
+// 0.7151, since the lifted half pulls its neighbour up. (b) Where the string lies flat $u'' = 0$, so the pressure is
+// $-f$ there.
 //
 // ## Exercises
 //
-// Predict, then run `--exercise N`. For the third: where the string is free $λ = 0$, so only the compliance of the
-// touching nodes counts. Its largest eigenvalue is $1/k²$ with $\tan(k(1 - c)) = -k c$, and $k = 2π$ solves that.
-// A fourth, on paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Why is neither allowed in exercise 2?
-std::vector<tutorial::Exercise> exercises() {
-  const auto solve = [](const String& s) {
-    std::vector<VectorXd> guesses;
-    return active_set_by_hand(s, guesses);
-  };
-  return {{"Double the load. What happens to u, to the forces, to the contact set?",
-           "u and the forces double, the set stays: K is a cone, and with u it holds 2 u",
-           [=](const tutorial::Options& options, tutorial::Report& report) {
-             const Answer once = solve(hang(options.cells)), twice = solve(hang(options.cells, 20));
-             report.claim_within((twice.u - 2 * once.u).norm() / once.u.norm(), 0, 1e-13, "u(2 f) - 2 u(f), relative:");
-             report.claim((twice.lambda.array() > 0).matrix() == (once.lambda.array() > 0).matrix(), "same contact set");
-           }},
-          {"Lower the floor to -0.05. Where does contact start? Does it reach x = 1?",
-           "later, at c with sin z - z cos z = -0.05/alpha, z = 2 pi c; and it ends before x = 1, where the string is held",
-           [=](const tutorial::Options& options, tutorial::Report& report) {
-             const String s = hang(options.cells, 10, -0.05);
-             const Answer low = solve(s);
-             report.claim_within(touches_from(s, low.lambda) - tutorial::string_touches_from(0.05), -s.h, s.h, "start - c:");
-             report.claim(low.lambda(low.lambda.size() - 1) == 0, "the last node is free");
-           }},
-          {"Uzawa with rho = 4 pi^2 h, twice the safe step. Does it diverge?",
-           "no: it takes steps up to 8 pi^2 h, and needs fewer of them",
-           [](const tutorial::Options& options, tutorial::Report& report) {
-             const String s = hang(options.cells);
-             const int safe = uzawa_by_hand(s, 1.9 * pi * pi * s.h, 1e-10).solves;
-             const int bold = uzawa_by_hand(s, 4 * pi * pi * s.h, 1e-10).solves;
-             report.claim_within(static_cast<double>(safe) / bold, 4 / 1.9 * 0.9, 4 / 1.9 * 1.1, "steps saved, a factor");
-           }}};
-}
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Double the load. What happens to $u$, to the forces, to the contact set?
+// 2. Lower the floor to $-0.05$. $K$ is no cone any more. Where does contact start? Does it reach $x = 1$?
+// 3. Uzawa with $ρ = 4π² h$, twice the safe step. Does it diverge? (Where does $λ$ live?)
+// 4. On paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Why is neither allowed in exercise 2?
+
+#include "answers/00_string_on_an_obstacle.hpp"
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "00_string_on_an_obstacle", "what a variational inequality is, by hand",

@@ -6,13 +6,14 @@
 //
 // Needs: [00](00_string_on_an_obstacle.cpp) (variational inequality, cone, complementarity).
 //
-// **The picture.** An elastic body `Ω⁺ = (0,1) × (0,1)` is clamped on `Γ⁺`, both sides and the top. A thin stiff layer
-// `Ω_ε⁻ = (0,1) × (-ε,0)` is grafted onto its lower side `Σ`, clamped at its two ends, and may touch a rigid obstacle on
-// `Γ_{C,ε}`. *The second picture is the first one after the change of variable `y ↦ y/ε`: the thickness has left the
-// domain.* Both draw the obstacle apart from `Γ_C`, to be seen. In the problem there is no distance between them.
+// **The picture.** An elastic body `Ω⁺ = (0,1) × (0,1)` is clamped on `Γ⁺`, both sides and the top. A thin stiff
+// layer `Ω_ε⁻ = (0,1) × (-ε,0)` is grafted onto its lower side `Σ`, clamped at its two ends, and may touch a rigid
+// obstacle on `Γ_{C,ε}`. *The second picture is the first one after the change of variable `y ↦ y/ε`: the thickness
+// has left the domain.* Both draw the obstacle apart from `Γ_C`, to be seen. In the problem there is no distance
+// between them.
 //
-// **What `u` is.** *Anti-plane* elasticity: the displacement `u(x, y)` points out of the plane of the drawing. The body
-// is sheared, as a pack of cards is. The obstacle is a stop for this displacement: `u ≥ 0` on `Γ_{C,ε}`.
+// **What `u` is.** *Anti-plane* elasticity: the displacement `u(x, y)` points out of the plane of the drawing. The
+// body is sheared, as a pack of cards is. The obstacle is a stop for this displacement: `u ≥ 0` on `Γ_{C,ε}`.
 //
 // **Predict.** (a) The layer becomes thinner, and its stiffness grows like `1/ε`. Does it cost more or less energy to
 // bend it along `x`? (b) To let the displacement vary across it?
@@ -23,14 +24,18 @@
 // first problem is
 //
 // $$ -Δu = f in Ω^+,   -ε^{-1} Δu = 0 in Ω_ε^-,   u = 0 on Γ_{D,ε} = Γ^+ ∪ Γ_{D,ε}^-, $$
+//
 // $$ u^+ = u^-,   ∂_n u^+ = ε^{-1} ∂_n u^-   on Σ, $$
+//
 // $$ u ≥ 0,   ∂_n u ≥ 0,   u ∂_n u = 0   on Γ_{C,ε}. \tag{21} $$
 //
 // The last line is chapter 00's complementarity: $ε^{-1} ∂_n u$ is the pressure of the obstacle.
 //
-// **From (21) to (22).** Let $K_ε = \{ v : v = 0 on Γ_{D,ε}, v ≥ 0 on Γ_{C,ε} \}$, and $v ∈ K_ε$. Multiply the first line by
-// $v - u$ and integrate by parts on both parts. On $Σ$ the boundary terms cancel, by the second line. On the clamped parts
-// $v - u = 0$. On $Γ_{C,ε}$ stays the term that makes an inequality of the equation, since $u ∂_n u = 0$:
+// **From (21) to (22).** Let $K_ε = \{ v : v = 0 on Γ_{D,ε}, v ≥ 0 on Γ_{C,ε} \}$, and $v ∈ K_ε$. Multiply the first
+// line by $v - u$ and integrate by parts on both parts. On $Σ$ the body leaves $∂_n u^+ (v - u)$ and the layer, whose
+// outward normal is $-n$, leaves $-ε^{-1} ∂_n u^- (v - u)$: they cancel, by the second line. On the clamped parts
+// $v - u = 0$. On $Γ_{C,ε}$ stays the term that makes an inequality of the equation. It is added to the load, and it
+// is not negative, since $u ∂_n u = 0$:
 //
 // $$ ε^{-1} ∫_{Γ_{C,ε}} ∂_n u (v - u) = ε^{-1} ∫_{Γ_{C,ε}} (∂_n u) v ≥ 0. $$
 //
@@ -47,23 +52,17 @@
 //
 // $$ a^+(u,v) = ∫_{Ω^+} ∇u·∇v,   a_x^-(u,v) = ∫_{Ω^-} ∂_x u ∂_x v,   a_y^-(u,v) = ∫_{Ω^-} ∂_y u ∂_y v. $$
 //
-// Then the problem of this whole course reads, with $K = \{ v : v = 0 on Γ_D, v ≥ 0 on Γ_C \}$,
+// Let $V$ be the displacements that are 0 on $Γ_D$, and $K = \{ v ∈ V : v ≥ 0 on Γ_C \}$. Then the problem of this
+// whole course reads
 //
 // $$ u ∈ K,   a^+(u, v-u) + a_x^-(u, v-u) + ε^{-2} a_y^-(u, v-u) ≥ (f, v-u)   for all v ∈ K. \tag{23} $$
 //
-// One factor $ε^{-2}$ in front of one form is left. The form behind it is called *stiff*: $a_0 = a_y^-$. The rest is the
-// *moderate* form, $a_1 = a^+ + a_x^-$. The load is $f = 10 \sin 2πx$, chosen here: the paper gives none.
-
-#include <cmath>
-#include <numbers>
+// One factor $ε^{-2}$ in front of one form is left. The form behind it is called *stiff*: $a_0 = a_y^-$. The rest is
+// the *moderate* form, $a_1 = a^+ + a_x^-$. The load is $f = 10 \sin 2πx$, chosen here: the paper gives none.
 
 #include "antilock/core/error.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/study/method.hpp"
-#include "antilock/study/table.hpp"
+#include "common/course.hpp"
 #include "common/drawing.hpp"
-#include "common/tutorial.hpp"
 
 using namespace antilock;
 
@@ -82,7 +81,6 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 
   // ### Mesh
   // The same triangles twice: thin for (22), unit for (23).
-  report.stage("assemble and solve (22) and (23)");
   const TriangleMesh unit = unstructured_mesh(options.cells), thin = squashed(unit, epsilon);
   const Space unit_space(unit, p1()), thin_space(thin, p1());
   // ### Forms
@@ -96,7 +94,6 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
   // ### Solve
   const Eigen::VectorXd u_thin = active_set(original).u, u_unit = active_set(scaled).u;
   const double apart = (u_thin - u_unit).lpNorm<Eigen::Infinity>(), size = u_unit.lpNorm<Eigen::Infinity>();
-  report.finish();
 
   Table table({"", "thin, (22)", "unit, (23)", "difference"});
   table.add({"a(v, v) of a test function", before, after, after - before});
@@ -112,34 +109,19 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 // ## What came out
 //
 // The form and the solution are the same on both domains, to round-off. (a) Neither: for a function of $x$ alone the
-// factors $ε$ of the thickness and $1/ε$ of the stiffness cancel. (b) More, like $ε^{-2}$. So as $ε → 0$ the displacement
-// may not vary across the layer: this is what the stiff form enforces, and what a discretisation must be able to do.
+// factors $ε$ of the thickness and $1/ε$ of the stiffness cancel. (b) More, like $ε^{-2}$. So as $ε → 0$ the
+// displacement may not vary across the layer: this is what the stiff form enforces, and what a discretisation must be
+// able to do.
 //
 // ## Exercises
 //
-// 1. `--exercise 1`: two shapes of the layer, and three thicknesses.
-// 2. On paper: which condition of (21) would have to change for an obstacle at distance $g$? Which term of the derivation?
-// 3. On paper: write (21) on the unit layer. (In it $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$; $∂_n u^+ = ε^{-2} ∂_n u^-$ on $Σ$.)
-const std::vector<tutorial::Exercise> exercises{
-    {"Which costs more energy when the layer is made thinner: sin(pi x), or sin(pi x) y~ in the layer?",
-     "the first costs the same at every thickness; the second grows, and by the factor 4 per halving in the end",
-     [](const tutorial::Options&, tutorial::Report& report) {
-       const TriangleMesh unit = structured_mesh(16);  // unstructured: the first grows too, and chapter 06 says why
-       const Space at(unit, p1());
-       const auto x = at.points().col(0).array(), y = at.points().col(1).array();
-       const Eigen::VectorXd along = (std::numbers::pi * x).sin(), across = along.array() * y.min(0);
-       Table table({"epsilon", "along", "across"});
-       for (const double epsilon : {0.4, 0.2, 0.1, 0.05}) {
-         const TriangleMesh thin = squashed(unit, epsilon);
-         const Space space(thin, p1());
-         const auto problem = assemble(Scene(Body{paper_load}, ThinLayer{epsilon}, UnilateralContact{}), space);
-         table.add({epsilon, energy_form(problem, along), energy_form(problem, across)});
-       }
-       table.print("a(v, v) on the thin layer");
-       report.claim_within(table.most("along") / table.least("along") - 1, 0, 1e-12, "along: largest / smallest - 1:");
-       const auto grown = table.numbers("across");
-       report.claim_within(grown[3] / grown[2], 3.5, 4, "across: last factor");
-     }}};
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Which costs more energy when the layer is made thinner: $\sin πx$, or $\tilde y \sin πx$ in the layer?
+// 2. On paper: which condition of (21) changes for an obstacle at distance $g$? Which term of the derivation?
+// 3. On paper: write (21) on the unit layer. (There $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$; on $Σ$ $∂_n u^+ = ε^{-2} ∂_n u^-$.)
+
+#include "answers/01_domain.hpp"
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "01_domain", "Figures 1 and 2: the domain and the change of variable",

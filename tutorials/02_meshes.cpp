@@ -7,29 +7,29 @@
 //
 // Needs: [01](01_domain.cpp) (problem (23), the stiff form $a_y^-$).
 //
-// **The pictures.** Figure 3: squares cut by a diagonal. Figure 6: an arbitrary triangulation of about the same size, by
-// gmsh. Both fit the interface `Σ`, both have good angles. The third picture shows four layers. Triangles that share an
-// edge which is not vertical have the same colour. *On the structured mesh every column has a colour of its own. On the
-// unstructured mesh there is one colour, and this is why P1 locks on it.*
+// **The pictures.** Figure 3: squares cut by a diagonal. Figure 6: an arbitrary triangulation of about the same size,
+// by gmsh. Both fit the interface `Σ`, both have good angles. The third picture shows four layers. Triangles that
+// share an edge which is not vertical have the same colour. *On the structured mesh every column has a colour of its
+// own. On the unstructured mesh there is one colour, and this is why P1 locks on it.*
 //
 // **Predict.** (a) Shift every second row of vertices of the structured mesh by half a cell (*staggered*): how many
 // colours? (b) Make the layer of columns, under a body of any triangles (*layered*): how many?
 //
 // ## What the layer may do
 //
-// As $ε → 0$ the factor $ε^{-2}$ in (23) forces $a_y^-(u, u) → 0$: in the limit only displacements with $∂_y u = 0$ in the
-// layer are left. Let $V_h$ be the P1 functions on a mesh, affine on each triangle, continuous, 0 on $Γ_D$. Those that
-// the stiff form does not see are its *kernel*:
+// As $ε → 0$ the factor $ε^{-2}$ in (23) forces $a_y^-(u, u) → 0$: in the limit only displacements with $∂_y u = 0$
+// in the layer are left. Let $V_h$ be the P1 functions on a mesh, affine on each triangle, continuous, 0 on $Γ_D$.
+// Those that the stiff form does not see are its *kernel*:
 //
-// $$ G_h = \{ v ∈ V_h : ∂_y v = 0 on every triangle of the layer \}. $$
+// $$ G_h = \{ v ∈ V_h : ∂_y v = 0 \text{ on every triangle of the layer} \}. $$
 //
 // On one triangle such a function is $v = a + b x$: two numbers. Let two triangles share an edge from $x = x_1$ to
-// $x = x_2$. On it both functions agree, so $a + b x = a' + b' x$ at $x_1$ and at $x_2$. If $x_1 ≠ x_2$, the edge is not
-// vertical, and $a = a'$, $b = b'$: the triangles are *tied together*. If the edge is vertical, only the value there is
-// shared, and the slope $b$ may change. Hence one pair $(a, b)$ per group of tied triangles.
+// $x = x_2$. On it both functions agree, so $a + b x = a' + b' x$ at $x_1$ and at $x_2$. If $x_1 ≠ x_2$, the edge is
+// not vertical, and $a = a'$, $b = b'$: the triangles are *tied together*. If the edge is vertical, only the value
+// there is shared, and the slope $b$ may change. Hence one pair $(a, b)$ per group of tied triangles.
 //
-// **Structured.** Each column is a group, since its triangles share horizontal and diagonal edges. The function may bend at
-// each vertical line: $n$ columns, 0 at both ends, leave $n - 1$ functions, the hat functions in $x$.
+// **Structured.** Each column is a group, since its triangles share horizontal and diagonal edges. The function may
+// bend at each vertical line: $n$ columns, 0 at both ends, leave $n - 1$ functions, the hat functions in $x$.
 //
 // **Unstructured.** Inside the layer almost no edge is exactly vertical, so all triangles are in one group. One pair
 // $(a, b)$, and $v = 0$ at $x = 0$ and at $x = 1$: $a = b = 0$. Every function of $G_h$ vanishes on the layer. In the
@@ -39,17 +39,16 @@
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/layered.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/study/method.hpp"
-#include "antilock/study/table.hpp"
+#include "common/course.hpp"
 #include "common/ties.hpp"
-#include "common/tutorial.hpp"
 
 using namespace antilock;
 
-// The dimension of the kernel on the layer, by the rank of a matrix whose rows are $∂_y$ on each triangle (chapter 07).
+// The dimension of the kernel on the layer, by the rank of a matrix whose rows are $∂_y$ on each triangle (chapter
+// 07).
 int kernel_on_layer(const TriangleMesh& mesh) {
-  return layer_kernel_dimension(assemble(Scene(Body{paper_load}, StiffLayer{0}, UnilateralContact{}), Space(mesh, p1())));
+  return layer_kernel_dimension(
+      assemble(Scene(Body{paper_load}, StiffLayer{0}, UnilateralContact{}), Space(mesh, p1())));
 }
 
 void meshes(const tutorial::Options& options, tutorial::Report& report) {
@@ -91,35 +90,14 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// 1. and 2.: `--exercise N`. 3. On paper: on the unstructured mesh, which *one* function more would be in $G_h$ if the
-// layer were free at its ends? (Two: $1$ and $x$.) 4. On paper: quadratic functions with $∂_y v = 0$, on one group: how
-// many are 0 at both ends? (One, $x(1 - x)$; chapter 14.)
-TriangleMesh with_lines(int n, int lines) {  // jittered inside, but for this many vertical lines
-  const TriangleMesh straight = structured_mesh(n);
-  TriangleMesh mesh = jittered_mesh(n, 0.1);
-  for (int v = 0; v < mesh.vertex_count(); ++v)
-    for (int k = 1; k <= lines; ++k)
-      if (std::abs(straight.vertices(v, 0) - k / (lines + 1.0)) < 1e-9) mesh.vertices.row(v) = straight.vertices.row(v);
-  for (int v = 0; v < mesh.vertex_count(); ++v)  // Sigma and Gamma_C stay as they are but for their own points
-    if (straight.vertices(v, 1) == 0 || straight.vertices(v, 1) == -1) mesh.vertices.row(v) = straight.vertices.row(v);
-  return mesh;
-}
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. All inner vertices of a structured mesh are moved a little, but for those on 3 vertical lines. Groups? Kernel?
+// 2. Turn the diagonals of the structured mesh (left), or draw both (crossed). How many groups?
+// 3. On paper: let the layer be free at its ends. Which functions are in $G_h$ on the unstructured mesh? (1 and $x$.)
+// 4. On paper: quadratic functions with $∂_y v = 0$ on one group: how many are 0 at both ends? (One, $x(1 - x)$.)
 
-const std::vector<tutorial::Exercise> exercises{
-    {"All inner vertices of a structured mesh are moved a little, but for those on 3 vertical lines. Groups? Kernel?",
-     "4 groups, one per strip between the lines; exactly 3 kernel functions, one per line",
-     [](const tutorial::Options&, tutorial::Report& report) {
-       const TriangleMesh mesh = with_lines(16, 3);
-       report.claim_within(tutorial::ties(mesh).groups, 4, 4, "groups:");
-       report.claim_within(kernel_on_layer(mesh), 3, 3, "dimension of the kernel on the layer:");
-     }},
-    {"Turn the diagonals of the structured mesh (left), or draw both (crossed). How many groups?",
-     "one per column, as before: diagonals tie within a column, vertical lines part the columns",
-     [](const tutorial::Options& options, tutorial::Report& report) {
-       for (const Diagonal diagonal : {Diagonal::left, Diagonal::crossed})
-         report.claim_within(tutorial::ties(structured_mesh(options.cells, {}, diagonal)).groups, options.cells,
-                             options.cells, "groups:");
-     }}};
+#include "answers/02_meshes.hpp"
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "02_meshes", "Figures 3 and 6: the structured and the unstructured mesh",

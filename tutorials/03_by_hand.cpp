@@ -5,25 +5,27 @@
 // Run: 03_by_hand --exercise 1
 // Run: 03_by_hand --exercise 2
 //
-// Needs: [00](00_string_on_an_obstacle.cpp) (active set), [01](01_domain.cpp) ((23)), [02](02_meshes.cpp) (P1, kernel).
+// Needs: [00](00_string_on_an_obstacle.cpp) (active set), [01](01_domain.cpp) ((23)), [02](02_meshes.cpp) (P1,
+// kernel).
 //
 // **The picture.** The displacement `u` of body and layer on a coarse mesh, drawn as a height. *Everything in it is
-// computed in this file, without the library's elements, forms and solvers; at the end the library finds the same `u`.*
+// computed in this file, without the library's elements, forms and solvers; at the end the library finds the same
+// `u`.*
 //
-// **Predict.** (a) How many entries that are not 0 has the row of the stiff form that belongs to one triangle? (b) The
-// factor `ε⁻²` goes to infinity as `ε → 0`. Does the *layer stress* `p = ε⁻² ∂_y u` go there too?
+// **Predict.** (a) How many entries that are not 0 has the row of the stiff form that belongs to one triangle? (b)
+// The factor `ε⁻²` goes to infinity as `ε → 0`. Does the *layer stress* `p = ε⁻² ∂_y u` go there too?
 //
 // ## From (23) to matrices
 //
-// Let $φ_i$ be the hat function of vertex $i$ and $u = ∑ u_i φ_i$. Put P1 functions into (23): the discrete problem (26).
-// The moderate form becomes a matrix, $(A_1)_{ij} = a^+(φ_i, φ_j) + a_x^-(φ_i, φ_j)$. The stiff form keeps its factors.
-// On a triangle $T$ of the layer $∂_y u$ is a number; let row $T$ of $B$ compute it from $u$, and let $M$ be the diagonal
-// matrix of the areas. Then
+// Let $φ_i$ be the hat function of vertex $i$ and $u = ∑ u_i φ_i$. Put P1 functions into (23) and its $K$: the
+// discrete problem (26), with the set $K_h$ and the solution $u_h$. The moderate form becomes a matrix,
+// $(A_1)_{ij} = a^+(φ_i, φ_j) + a_x^-(φ_i, φ_j)$. The stiff form keeps its factors. On a triangle $T$ of the layer
+// $∂_y u$ is a number; let row $T$ of $B$ compute it from $u$, and let $M$ be the diagonal matrix of the areas. Then
 //
 // $$ a_y^-(u, v) = ∑_T |T| ∂_y u ∂_y v = v^T B^T M B u. $$
 //
-// This is the *split form*: $A_1$ and the factors $B$, $M$, never summed. $A_1 + ε^{-2} B^T M B$ would add numbers near 1 to
-// numbers near $10^{12}$, and round their digits away (chapter 16).
+// This is the *split form*: $A_1$ and the factors $B$, $M$, never summed. $A_1 + ε^{-2} B^T M B$ would add numbers
+// near 1 to numbers near $10^{12}$, and round their digits away (chapter 16).
 
 #include <Eigen/Dense>
 
@@ -32,12 +34,7 @@
 #include <numbers>
 
 #include "antilock/form/quadrature.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/study/table.hpp"
-#include "common/results.hpp"
-#include "common/tutorial.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using Eigen::MatrixXd, Eigen::VectorXd;
@@ -50,8 +47,9 @@ struct ByHand {
 };
 
 // ### Forms
-// **Element matrix.** On a triangle with corners $x_0, x_1, x_2$ the function $φ_i$ is affine: 1 at $x_i$, 0 at the others.
-// Its gradient stands on the opposite edge and has the length 1/height: turn that edge by 90°, divide by twice the area.
+// **Element matrix.** On a triangle with corners $x_0, x_1, x_2$ the function $φ_i$ is affine: 1 at $x_i$, 0 at the
+// others. Its gradient stands on the opposite edge and has the length 1/height: turn that edge by 90°, divide by
+// twice the area.
 Eigen::Matrix<double, 3, 2> hat_gradients(const std::array<Eigen::Vector2d, 3>& x, double area) {
   Eigen::Matrix<double, 3, 2> gradient;
   for (int i = 0; i < 3; ++i) {
@@ -105,17 +103,19 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
 //
 // $$ A_1 u + B^T M p = L + λ,   B u = ε² p. $$
 //
-// No large number is left. One matrix is factored, with a moderate number $δ$ in place of $ε²$: $K = A_1 + δ^{-1} B^T M B$.
-// Given $u$ and $p$, what is wrong with the two equations is
+// No large number is left. One matrix is factored, with a moderate number $δ$ in place of $ε²$:
+// $K = A_1 + δ^{-1} B^T M B$. Given $u$ and $p$, what the two equations leave over, their *residuals*, is
 //
 // $$ r_1 = L - A_1 u - B^T M p + λ,   r_2 = ε² p - B u. $$
 //
-// One *correction* solves $K du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$; insert both to see that with
-// $δ = ε²$ nothing would be left wrong. When $r_1 = r_2 = 0$, $u$ and $p$ solve (23), whatever $δ$ was. This is the
-// *iterated penalty* method. A part of the stress behind which there is the stiffness $σ$ shrinks per correction by
-// $(δ - ε²)/(δ + σ)$: a small $δ$ is fast, but too small a $δ$ rounds the digits of $A_1$ away again.
+// One *correction* solves $K du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$; insert both to see that
+// then $r_1 = 0$ and $r_2 = (ε² - δ) dp$: with $δ = ε²$ nothing would be left over. When $r_1 = r_2 = 0$, $u$ and $p$
+// solve (23), whatever $δ$ was. This is the *iterated penalty* method. If $r_2$ is an eigenvector of
+// $B A_1^{-1} B^T M$ with the eigenvalue $σ$, a correction makes it smaller by $(δ - ε²)/(δ + σ)$: a small $δ$ is
+// fast, but too small a $δ$ rounds the digits of $A_1$ away again.
 //
-// **The contact loop**, in each correction: guess which vertices of $Γ_C$ touch, solve, look at the signs (chapter 00).
+// **The contact loop**, in each correction: guess which vertices of $Γ_C$ touch, solve, look at the signs (chapter
+// 00).
 struct Answer {
   VectorXd u, stress;
 };
@@ -179,41 +179,24 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference along it. These are chapter
-// 02's columns again. (b) No. $p$ tends to the stress of the rigid limit; only its factors $ε^{-2}$ and $B u$ go to
-// infinity and to 0. The `du` of the corrections fall by a constant factor, and after the first correction the contact set
-// hardly moves: one contact step is enough.
+// (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference along it. These are
+// chapter 02's columns again. (b) No. $p$ tends to the stress of the rigid limit; only its factors $ε^{-2}$ and $B u$
+// go to infinity and to 0. The `du` of the corrections fall by a constant factor, and after the first correction the
+// contact set hardly moves: one contact step is enough.
 //
 // ## Exercises
 //
-// 1. and 2.: `--exercise N`. 3. On paper: show by the two equations that $r_1$ is 0 after each correction. Which of the
-// two residuals is the one that the iteration has to bring down?
-const std::vector<tutorial::Exercise> exercises{
-    {"delta = 1e-2 in place of 1e-4. The same u? As many corrections?",
-     "the same u; more corrections, since (delta - epsilon^2) / (delta + sigma) is nearer to 1",
-     [](const tutorial::Options& options, tutorial::Report& report) {
-       const ByHand problem = assemble_by_hand(structured_mesh(options.cells));
-       Table small({"correction", "contact steps", "du"}), large = small;
-       const Answer fast = solve_by_hand(problem, options.epsilon, 1e-4, small);
-       const Answer slow = solve_by_hand(problem, options.epsilon, 1e-2, large);
-       fmt::print("  corrections: {} and {}\n", small.size(), large.size());
-       report.claim_within((fast.u - slow.u).norm() / fast.u.norm(), 0, 1e-11, "difference of u, relative:");
-       report.claim(large.size() >= 2 * small.size(), "at least twice as many corrections");
-     }},
-    {"Move one inner vertex of the layer sideways by h/10. Six triangles meet there. How many entries have their rows of B?",
-     "four rows have three entries; the two whose opposite edge is still vertical keep two",
-     [](const tutorial::Options& options, tutorial::Report& report) {
-       TriangleMesh mesh = structured_mesh(options.cells);
-       const int vertex = (options.cells + 1) + options.cells / 2;  // in the first row above Gamma_C
-       mesh.vertices(vertex, 0) += 0.1 / options.cells;
-       const ByHand problem = assemble_by_hand(mesh);
-       int three = 0;
-       for (Eigen::Index row = 0; row < problem.b.rows(); ++row)
-         three += (problem.b.row(row).array().abs() > 1e-9).count() == 3;
-       report.claim_within(three, 4, 4, "rows of three entries:");
-     }}};
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. $δ = 10^{-2}$ in place of $10^{-4}$. The same $u$? As many corrections?
+// 2. Move one inner vertex of the layer sideways by $h/10$. Six triangles meet there. How many entries have their rows
+//    of $B$ now?
+// 3. On paper: derive the factor $(δ - ε²)/(δ + σ)$. (Without contact; write $du$ by $r_2$ alone.)
+
+#include "answers/03_by_hand.hpp"
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "03_by_hand", "Figure 5 on a coarse mesh, every step written out",
-                       {.cells = 8, .least_cells = 2, .most_cells = 16, .exercises = exercises}, by_hand);  // dense matrices
+                       {.cells = 8, .least_cells = 2, .most_cells = 16, .exercises = exercises},
+                       by_hand);  // dense matrices
 }

@@ -7,44 +7,40 @@
 //
 // Needs: [00](00_string_on_an_obstacle.cpp) (Uzawa, compliance, condition number), [03](03_by_hand.cpp) (split form).
 //
-// **The pictures.** Figure 4: a hill over the left half of the body, where the load lifts it, and a valley over the right
-// half, where it presses the body on the obstacle. On the layer "its value along the normal to Σ is constant and
-// nonnegative over Ω⁻" (Section 4.1). *The solution on the layer is a ridge: a function of `x` alone, 0 from
-// `x = 0.702` on, where it touches.* The other pictures show how Uzawa came to it: step by step, and how many steps on
-// which mesh.
+// **The pictures.** Figure 4: a hill over the left half of the body, where the load lifts it, and a valley over the
+// right half, where it presses the body on the obstacle. On the layer "its value along the normal to Σ is constant
+// and nonnegative over Ω⁻" (Section 4.1). *The solution on the layer is a ridge: a function of `x` alone, 0 from
+// `x = 0.702` on, where it touches, the *contact zone*.* The other pictures show how Uzawa came to it: step by step,
+// and how many steps on which mesh.
 //
-// **Predict.** (a) For the string, halving `h` cost four times as many steps. Here the contact boundary carries a body
-// that is 1 thick. At `ε = 1`, does halving `h` cost as much? (b) And at `ε = 10⁻⁶`, where the layer is rigid across?
+// **Predict.** (a) For the string, halving `h` cost four times as many steps. Here the contact boundary carries a
+// body that is 1 thick. At `ε = 1`, does halving `h` cost as much? (b) And at `ε = 10⁻⁶`, where the layer is rigid
+// across?
 //
 // ## How the paper computes it
 //
-// "Unilateral contact problems generally do not admit analytical solution" (Section 4.1), so the paper takes P1 on a very
-// fine uniform mesh, and Uzawa's algorithm: guess the contact pressure $λ ≥ 0$ on $Γ_C$, and repeat
+// "Unilateral contact problems generally do not admit analytical solution" (Section 4.1), so the paper takes P1 on a
+// very fine uniform mesh, and Uzawa's algorithm: guess the contact pressure $λ ≥ 0$ on $Γ_C$, and repeat
 //
 // $$ a(u^k, v) = (f, v) + (λ^k, v)_{Γ_C} for all v,   λ^{k+1} = \max(0, λ^k - ρ u^k). $$
 //
-// This is chapter 00's loop. The operator behind it is the *compliance* of $Γ_C$: pressure in, displacement there out. Its
-// inverse is the *Schur complement* of $Γ_C$: what the matrix says about these unknowns when all others are eliminated.
-// Here it is formed once, so that a step costs next to nothing; the paper solves the whole system in each step.
-// With the best $ρ$ the error falls by $(κ - 1)/(κ + 1)$ per step, $κ$ the condition number. An error of $tol$ takes about
-// $(κ/2) \ln(1/tol)$ steps.
+// This is chapter 00's loop. The operator behind it is the *compliance* of $Γ_C$: pressure in, displacement there
+// out. Its inverse is the *Schur complement* of $Γ_C$: what the matrix says about these unknowns when all others are
+// eliminated. Here it is formed once, so that a step costs next to nothing; the paper solves the whole system in each
+// step. With the best $ρ$ the error falls by $(κ - 1)/(κ + 1)$ per step, $κ$ the condition number. An error of $tol$
+// takes about $(κ/2) \ln(1/tol)$ steps.
 //
-// **How large is $κ$?** Press with $\sin kπx$, $k$ waves. At $ε = 1$ the answer goes into the depth only as far as a wave is
-// long: stiffness $≈ kπ$, by which $κ$ = largest / smallest = number of waves on the mesh $~ 1/h$. As $ε → 0$ the
-// layer cannot vary across, and its own bending $a_x^-$ decides: stiffness $≈ (kπ)^2$, and $κ ~ 1/h^2$, as for a string.
+// **How large is $κ$?** Press with $\sin kπx$, $k$ waves. At $ε = 1$ the answer goes into the depth only as far as a
+// wave is long: stiffness $≈ kπ$, by which $κ$ = largest / smallest = number of waves on the mesh $~ 1/h$. As $ε → 0$
+// the layer cannot vary across, and its own bending $a_x^-$ decides: stiffness $≈ (kπ)^2$, and $κ ~ 1/h^2$, as for a
+// string.
 //
-// **The truth.** $u = 0$ at $x = 0$ and $x = 1$ in body and layer, so that sine series in $x$ solve (23) up to the contact,
-// and leave one complementarity problem in $x$. `lib/antilock/exact` solves it to 8 digits. No mesh is involved: against
-// it every discrete solution of this course is measured, the reference solution too.
+// **The truth.** $u = 0$ at $x = 0$ and $x = 1$ in body and layer, so that sine series in $x$ solve (23) up to the
+// contact, and leave one complementarity problem in $x$. `lib/antilock/exact` solves it to 8 digits. No mesh is
+// involved: against it every discrete solution of this course is measured, the reference solution too.
 
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
-#include "antilock/study/method.hpp"
-#include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
-#include "common/results.hpp"
-#include "common/tutorial.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 
@@ -61,22 +57,19 @@ int uzawa_steps(double epsilon, int cells, double tolerance) {
 
 void reference_solution(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
-  report.stage("mesh and assembly, 1/h = " + std::to_string(options.cells));
   const Discretisation fine = p1_structured.on(options.cells);
   // ### Forms
   const VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), fine.space());
 
   // ### Solve
   // The tolerance is far below the error of the mesh.
-  report.stage("factor, and Uzawa");
+  report.stage("Uzawa, 1/h = " + std::to_string(options.cells));
   PenaltyFactor factor(problem);
   UzawaOptions uzawa_options;
   uzawa_options.tolerance = 1e-8;
   const Solution solution = uzawa(problem, factor, uzawa_options);
-  report.stage("the same by the active set");
   const Solution direct = active_set(problem, factor);
   const double difference = (solution.u - direct.u).cwiseAbs().maxCoeff() / direct.u.cwiseAbs().maxCoeff();
-  report.stage("truth: sine series, and the errors");
   const Errors errors = tutorial::Exact(options.epsilon).errors(fine.space(), solution);
   report.stage("Uzawa on coarser meshes, soft and stiff");
   Table steps({"epsilon", "cells", "h", "steps"}), history({"epsilon", "step", "change"});
@@ -88,6 +81,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   }
 
   // ### Output
+  report.finish();
   tutorial::present(options.out, fine.space(), problem, solution, "reference solution", errors);
   fmt::print("  Uzawa took {} steps, the active set {}\n", solution.counters.contact, direct.counters.contact);
   steps.print("Uzawa steps against 1/h");
@@ -100,41 +94,33 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   report.claim_within(difference, 0, 10 * uzawa_options.tolerance, "Uzawa and the active set differ by (relative)");
   report.claim(lowest >= -1e-7, "nonnegative on Gamma_C (smallest value {:.1e})", lowest);
   if (options.cells < 64) return report.not_judged("how the steps grow: three meshes from 1/h = 16 on tell");
-  // kappa ~ h^-1 and h^-2. The logarithm takes 0.25 off the second: the slowest wave is as long as a cell, and its share
+  // kappa ~ h^-1 and h^-2. The logarithm takes 0.25 off the second: the slowest wave is as long as a cell, and its
+  // share
   // of the error falls itself, like h^(7/2). The rest is room for three meshes.
-  report.claim_within(-steps.where("epsilon", 1.0).order("steps", "h"), 0.8, 1.1, "epsilon = 1: steps grow like 1/h to the");
+  report.claim_within(-steps.where("epsilon", 1.0).order("steps", "h"), 0.8, 1.1,
+                      "epsilon = 1: steps grow like 1/h to the");
   report.claim_within(-steps.where("epsilon", 1e-6).order("steps", "h"), 1.6, 2, "epsilon = 1e-6: like 1/h to the");
 }
 
 // ## What came out
 //
-// (a) No: at $ε = 1$ halving $h$ doubles the steps. (b) At $ε = 10^{-6}$ it makes them 3.4 times as many, almost four:
-// 48,303 steps on the finest mesh, where the active set needs a handful. Uzawa restarts with each correction of chapter
-// 03: the teeth in the picture of its history.
+// (a) No: at $ε = 1$ halving $h$ doubles the steps. (b) At $ε = 10^{-6}$ it makes them 3.4 times as many, almost
+// four: 48,303 steps on the finest mesh, where the active set needs a handful. Uzawa restarts with each correction of
+// chapter 03: the teeth in the picture of its history.
 //
 // ## Exercises
 //
-// 1. and 2.: `--exercise N`. 3. Replace `uzawa` by `uzawa_cg_ilut` (`solve/exhibits`): the paper's own linear solver,
-// conjugate gradients with an incomplete factorisation (ILUT, chapter 16). Try `--epsilon 1 --cells 16`, then `1e-6`.
-const std::vector<tutorial::Exercise> exercises{
-    {"At epsilon = 1, 1/h = 64: what do two further digits cost, from 1e-8 to 1e-10, and from 1e-10 to 1e-12?",
-     "both times the same number of steps, (kappa / 2) ln(100)",
-     [](const tutorial::Options&, tutorial::Report& report) {
-       const int first = uzawa_steps(1, 64, 1e-8), second = uzawa_steps(1, 64, 1e-10), third = uzawa_steps(1, 64, 1e-12);
-       fmt::print("  {} steps to 1e-8, {} more to 1e-10, {} more to 1e-12\n", first, second - first, third - second);
-       report.claim_within(static_cast<double>(third - second) / (second - first), 0.9, 1.1, "second price / first:");
-     }},
-    {"At epsilon = 1, 1/h = 32 the steps are known. How many at 1/h = 64? And at epsilon = 1e-6?",
-     "twice as many; and a little less than four times as many",
-     [](const tutorial::Options&, tutorial::Report& report) {
-       const auto grown = [](double epsilon) {
-         return static_cast<double>(uzawa_steps(epsilon, 64, 1e-12)) / uzawa_steps(epsilon, 32, 1e-12);
-       };
-       report.claim_within(grown(1), 1.7, 2.4, "factor at epsilon = 1:");
-       report.claim_within(grown(1e-6), 3, 4, "factor at epsilon = 1e-6:");
-     }}};
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. At $ε = 1$, $1/h = 64$: what do two further digits cost, from $10^{-8}$ to $10^{-10}$, and to $10^{-12}$?
+// 2. The steps on $1/h = 32$ are known, at $ε = 1$ and at $10^{-6}$. How many on $1/h = 64$?
+// 3. Replace `uzawa` by `uzawa_cg_ilut` (`solve/exhibits`): the paper's own linear solver, conjugate gradients with an
+//    incomplete factorisation (ILUT, chapter 16). Try `--epsilon 1 --cells 16`, then `1e-6`.
+
+#include "answers/04_reference_solution.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "04_reference_solution", "Figure 4: the reference solution by Uzawa on a very fine mesh",
+  return tutorial::run(argc, argv, "04_reference_solution",
+                       "Figure 4: the reference solution by Uzawa on a very fine mesh",
                        {.cells = 256, .exercises = exercises}, reference_solution);
 }

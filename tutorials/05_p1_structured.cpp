@@ -9,43 +9,38 @@
 // Needs: [02](02_meshes.cpp) (kernel, structured mesh), [03](03_by_hand.cpp) (split form, layer stress),
 // [04](04_reference_solution.cpp) (the truth).
 //
-// **The pictures.** Figure 5, on the mesh of Figure 3: the hill, the valley and the ridge of the reference solution. *P1 on
-// the structured mesh does not lock.* The second picture shows `u` and the contact pressure on `Γ_C` for four `ε`: the
-// thinner the layer, the less changes. The third shows the layer stress `p = ε⁻² ∂_y u` at three depths.
+// **The pictures.** Figure 5, on the mesh of Figure 3: the hill, the valley and the ridge of the reference solution.
+// *P1 on the structured mesh does not lock.* The second picture shows `u` and the contact pressure on `Γ_C` for four
+// `ε`: the thinner the layer, the less changes. The third shows the layer stress `p = ε⁻² ∂_y u` at three depths.
 //
-// **Predict.** (a) The same mesh serves `ε = 1` and `ε = 10⁻¹²`. By what factor do the errors differ? (b) `∂_y u → 0` in
-// the layer. What does the layer do, then, to bring the pull of the body down to the obstacle?
+// **Predict.** (a) The same mesh serves `ε = 1` and `ε = 10⁻¹²`. By what factor do the errors differ? (b) `∂_y u → 0`
+// in the layer. What does the layer do, then, to bring the pull of the body down to the obstacle?
 //
 // ## Why it works
 //
-// Vertical mesh lines leave one hat function of $x$ per inner line in the kernel $G_h$ (chapter 02). The limit of (23) is
-// the problem on $K_0 = K ∩ G$, the displacements of $K$ with $∂_y v = 0$ in the layer; that of the discrete problem is
+// Vertical mesh lines leave one hat function of $x$ per inner line in the kernel $G_h$ (chapter 02). The limit of
+// (23) is the problem on $K_0 = K ∩ G$, the displacements of $K$ with $∂_y v = 0$ in the layer; that of the discrete
+// problem is
 //
 // $$ u_h^0 ∈ K_{0h} = K_h ∩ G_h,   a_1(u_h^0, w_h - u_h^0) ≥ (f, w_h - u_h^0)   for all w_h ∈ K_{0h}. \tag{27} $$
 //
-// **Theorem 4** of the paper: *if $K_h$ approaches $K$ and $K_{0h}$ approaches $K_0$, the error tends to 0 uniformly in
-// $ε$.* "Approaches" means here: every element of $K$ is a limit of elements of $K_h$, and no weak limit falls outside
-// (Definition 1; chapter 11 measures it). P1 has the first on every regular mesh. The second needs $K_{0h}$ to contain
-// approximations of every function of $x$ that is nonnegative: the hat functions of the vertical lines are. Hence
+// **Theorem 4** of the paper: *if $K_h$ approaches $K$ and $K_{0h}$ approaches $K_0$, the error tends to 0 uniformly
+// in $ε$.* "Approaches" means here: every element of $K$ is a limit of elements of $K_h$, and no weak limit falls
+// outside (Definition 1; chapter 11 measures it). P1 has the first on every regular mesh. The second needs $K_{0h}$
+// to contain approximations of every function of $x$ that is nonnegative: the hat functions of the vertical lines
+// are. Hence
 //
-// $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^ε‖_{1,Ω} = 0.   (Theorem 5) $$
+// $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^ε‖_{1,Ω} = 0.   \text{(Theorem 5)} $$
 //
-// **The layer stress.** Put a function that lives in the layer into (23): $∂_y p = -∂_{xx} u$ there. For small $ε$, $u$ is
-// a function of $x$, so $p$ is a straight line in $y$: from the pull of the body at the top, $p = ∂_y u^+$ on $Σ$, to the
-// pressure of the obstacle at the bottom, $p = -λ$ on $Γ_C$. The stress is what keeps $∂_y u$ at 0. It stays finite.
+// **The layer stress.** Put a function that lives in the layer into (23): $∂_y p = -∂_{xx} u$ there. For small $ε$,
+// $u$ is a function of $x$, so $p$ is a straight line in $y$: from the pull of the body at the top, $p = ∂_y u^+$ on
+// $Σ$, to the pressure of the obstacle at the bottom, $p = -λ$ on $Γ_C$. The stress is what keeps $∂_y u$ at 0. It
+// stays finite.
 
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/study/method.hpp"
-#include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
-#include "common/results.hpp"
-#include "common/tutorial.hpp"
+#include "common/course.hpp"
+#include "common/layer_curves.hpp"
 
 using namespace antilock;
-
-Table on_contact(const std::vector<double>& epsilons, const Space& space);
-Table stress_by_depth(const Space& space, const Solution& solution);
 
 // Theorem 5 in one column: the largest error at the unknowns of one mesh, for one epsilon after the other.
 Table sweep_epsilon(const Space& space) {
@@ -67,14 +62,14 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   const Solution solution = active_set(problem);
   const tutorial::Exact exact(options.epsilon);
   const Errors errors = exact.errors(space, solution);
-  const Table sweep = sweep_epsilon(space), stress = stress_by_depth(space, solution);
+  const Table sweep = sweep_epsilon(space), stress = tutorial::stress_by_depth(space, solution);
 
   // ### Output
   tutorial::present(options.out, space, problem, solution, "P1, structured", errors);
   sweep.print("error at the unknowns against epsilon");
   sweep.write(options.out / "sweep.csv");
   stress.write(options.out / "stress.csv");
-  on_contact({1.0, 1e-1, 1e-2, 0.0}, space).write(options.out / "contact_by_epsilon.csv");
+  tutorial::on_contact({1.0, 1e-1, 1e-2, 0.0}, space).write(options.out / "contact_by_epsilon.csv");
 
   // The cap is the interpolation error of the truth, h^2 / 8 |u''| with |u''| <= 10, rounded down to h^2.
   const double h = 1.0 / options.cells, worst = sweep.most("error");
@@ -85,7 +80,8 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   report.claim_within(small.most("error") / small.least("error") - 1, 0, 0.05, "spread of the errors below 1e-2:");
   const double from = contact_zone(space, problem, solution).from.value_or(1);
   report.claim_within((from - exact.contact_from()) / h, -1, 1, "start of contact - truth, in cells:");
-  if (options.epsilon > 0.01) return report.not_judged("the stress as a straight line in y: it is one for small epsilon");
+  if (options.epsilon > 0.01)
+    return report.not_judged("the stress as a straight line in y: it is one for small epsilon");
   // middle - mean of top and bottom, all at the centres of cells; h: they are half a cell away from the boundary
   double bent = 0, size = 0;
   for (const Table& row : stress.rows()) {
@@ -97,78 +93,21 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
 
 // ## What came out
 //
-// (a) By a factor 2 between $ε = 1$ and $10^{-2}$, and not at all below: one mesh serves all. (b) It transmits the pull by
-// the stress $p$, which is *not* small. In the picture the bottom curve is $-λ$, and 0 where nothing touches.
+// (a) By a factor 2 between $ε = 1$ and $10^{-2}$, and not at all below: one mesh serves all. (b) It transmits the
+// pull by the stress $p$, which is *not* small. In the picture the bottom curve is $-λ$, and 0 where nothing touches.
 //
 // ## Exercises
 //
-// 1. and 2.: `--exercise N`. 3. On paper: integrate $∂_y p = -u''(x)$ over the layer to get $λ = -∂_y u^+ - u''$ on $Σ$: the
-// boundary condition that is left of the layer. (Chapter 10 calls it Ventcel's.)
-const std::vector<tutorial::Exercise> exercises{
-    {"Turn the diagonals of the mesh to the left. Does P1 lock, or lose digits?",
-     "neither: vertical lines matter, diagonals do not; the error changes by less than half of itself",
-     [](const tutorial::Options& options, tutorial::Report& report) {
-       const auto error = [&](Diagonal diagonal) {
-         const Discretisation on = Method{&p1(), structured({}, diagonal)}.on(options.cells);
-         const Solution solution = active_set(assemble(tutorial::paper_scene(1e-6), on.space()));
-         return tutorial::Exact(1e-6).errors(on.space(), solution).max_at_unknowns;
-       };
-       report.claim_within(error(Diagonal::left) / error(Diagonal::right), 0.5, 1.5, "error left / error right:");
-     }},
-    {"Double the load. Does the contact zone grow? Does the pressure double?",
-     "the zone stays, u and the pressure double: K is a cone (chapter 00)",
-     [](const tutorial::Options& options, tutorial::Report& report) {
-       const Discretisation on = Method{&p1(), structured()}.on(options.cells);
-       VariationalInequality problem = assemble(tutorial::paper_scene(1e-6), on.space());
-       const Solution once = active_set(problem);
-       problem.load *= 2;
-       const Solution twice = active_set(problem);
-       report.claim(twice.active == once.active, "the same contact set");
-       report.claim_within((twice.lambda - 2 * once.lambda).norm() / once.lambda.norm(), 0, 1e-8, "lambda - 2 lambda:");
-     }}};
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Turn the diagonals of the mesh to the left. Does P1 lock?
+// 2. Double the load. Does the contact zone grow? Does the pressure double?
+// 3. On paper: integrate $∂_y p = -u''(x)$ over the layer to get $λ = -∂_y u^+ - u''$ on $Σ$, the condition that is left of
+//    the layer. (Chapter 10 calls it Ventcel's.)
+
+#include "answers/05_p1_structured.hpp"
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "05_p1_structured", "Figure 5: P1 on a structured mesh does not lock",
                        {.least_cells = 2, .exercises = exercises}, structured_study);
-}
-
-// u and the contact pressure on Gamma_C, one pair of columns per epsilon.
-Table on_contact(const std::vector<double>& epsilons, const Space& space) {
-  std::vector<std::string> columns{"x"};
-  for (const char* kind : {"u", "pressure"})
-    for (std::size_t k = 0; k < epsilons.size(); ++k) columns.push_back(fmt::format("{}{}", kind, k));
-  std::vector<Eigen::MatrixX3d> found;
-  for (const double epsilon : epsilons) {
-    const VariationalInequality problem = assemble(tutorial::paper_scene(epsilon), space);
-    found.push_back(contact_table(space, problem, active_set(problem)));
-  }
-  Table table(columns);
-  for (Eigen::Index i = 0; i < found[0].rows(); ++i) {
-    std::vector<Entry> row{found[0](i, 0)};
-    for (const int column : {1, 2})
-      for (const auto& one : found) row.emplace_back(one(i, column));
-    table.add(row);
-  }
-  return table;
-}
-
-// The layer stress in the top, the middle and the bottom row of cells: of the triangle left of each vertical line.
-Table stress_by_depth(const Space& space, const Solution& solution) {
-  const TriangleMesh& mesh = space.mesh();
-  const int n = static_cast<int>(std::lround(std::sqrt(solution.p.size() / 2.0)));  // n x n cells, two triangles each
-  Eigen::MatrixXd p = Eigen::MatrixXd::Zero(n, n);
-  for (int t = 0, row = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.region[t] == Region::body) continue;
-    const double px = solution.p(row++);
-    double x = 0, y = 0, left = 1;
-    for (int i = 0; i < 3; ++i) {
-      x += mesh.vertices(mesh.triangles(t, i), 0) / 3, y += mesh.vertices(mesh.triangles(t, i), 1) / 3;
-      left = std::min(left, mesh.vertices(mesh.triangles(t, i), 0));
-    }
-    if (x - left > 0.5 / n) p(static_cast<int>((y + 1) * n), static_cast<int>(x * n)) = px;  // its vertical edge: right
-  }
-  Table table({"x", "top", "middle", "bottom"});
-  for (int i = 0; i + 1 < n; ++i)
-    table.add({(i + 1.0) / n, p(n - 1, i), 0.5 * (p(n / 2, i) + p((n - 1) / 2, i)), p(0, i)});
-  return table;
 }

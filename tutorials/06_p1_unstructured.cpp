@@ -5,43 +5,39 @@
 // Run: 06_p1_unstructured --exercise 1
 // Run: 06_p1_unstructured --exercise 2
 //
-// Needs: [02](02_meshes.cpp) (kernel, tied triangles), [05](05_p1_structured.cpp) (the limit problem (27), Theorem 4).
+// Needs: [02](02_meshes.cpp) (kernel, tied triangles), [05](05_p1_structured.cpp) (the limit problem (27), Theorem
+// 4).
 //
-// **The picture.** Figure 7: the same problem, the same element, about as many triangles as in Figure 5, but the mesh of
-// Figure 6. *The ridge on the layer is gone: the solution is flat zero there.* It does not oscillate, it does not blow up,
-// it looks perfectly reasonable, and it is wrong by 0.0457, the whole height of the ridge.
+// **The picture.** Figure 7: the same problem, the same element, about as many triangles as in Figure 5, but the mesh
+// of Figure 6. *The ridge on the layer is gone: the solution is flat zero there.* It does not oscillate, it does not
+// blow up, it looks perfectly reasonable, and it is wrong by 0.0457, the whole height of the ridge.
 //
-// **Predict.** (a) Refine: `h = 1/64` in place of `1/32`. How much smaller is the error at `ε = 10⁻⁶`? (b) The body does
-// not know that its layer has locked. Which problem does it solve, then?
+// **Predict.** (a) Refine: `h = 1/64` in place of `1/32`. How much smaller is the error at `ε = 10⁻⁶`? (b) The body
+// does not know that its layer has locked. Which problem does it solve, then?
 //
 // ## Why it locks
 //
-// The limit $ε → 0$ of the discrete problem at fixed $h$ is (27), the problem on $K_{0h} = K_h ∩ G_h$ (Proposition 1). On
-// this mesh all triangles of the layer are tied together, and every function of $G_h$ is 0 there (chapter 02). So
+// The limit $ε → 0$ of the discrete problem at fixed $h$ is (27), the problem on $K_{0h} = K_h ∩ G_h$ (Proposition
+// 1). On this mesh all triangles of the layer are tied together, and every function of $G_h$ is 0 there (chapter 02).
+// So
 //
-// $$ u_h^ε → 0   on the layer, as ε → 0 with h fixed. $$
+// $$ u_h^ε → 0   \text{on the layer, as } ε → 0 \text{ with } h \text{ fixed.} $$
 //
-// How fast? Write the discrete problem with its stress (chapter 03): $B u = ε² p$. On this mesh $B u = 0$ only for $u = 0$
-// in the layer, so $u$ there is at most a constant (which depends on $h$) times $ε² |p|$, and the stress $p$ is bounded. What
-// is kept of the ridge falls like $ε²$. Chapter 13 measures how the constant depends on $h$: of the ridge about
+// How fast? Write the discrete problem with its stress (chapter 03): $B u = ε² p$. On this mesh $B u = 0$ only for
+// $u = 0$ in the layer, so $u$ there is at most a constant (which depends on $h$) times $ε² |p|$, and the stress $p$
+// is bounded. What is kept of the ridge falls like $ε²$. Chapter 13 measures how the constant depends on $h$: of the
+// ridge about
 //
 // $$ 1/(1 + x),   x = (h^{3/2}/ε)^2 $$
 //
 // is kept. All is well while $ε$ is large against $h^{3/2}$. Refining moves this boundary to smaller $ε$; it never
 // disappears. So the supremum over $ε$ of the error does not tend to 0: this is what *locking* means.
 //
-// What is left for the body? On $Σ$ it must fit to a layer that is 0. It is "the solution to a standard Laplace problem
-// with an homogeneous Dirichlet boundary condition, without any connection to Problem (25)" (Section 4.1; (25) is what
-// (23) tends to, chapter 10).
+// What is left for the body? On $Σ$ it must fit to a layer that is 0. It is "the solution to a standard Laplace
+// problem with an homogeneous Dirichlet boundary condition, without any connection to Problem (25)" (Section 4.1;
+// (25) is what (23) tends to, chapter 10).
 
-#include "antilock/mesh/layered.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/study/method.hpp"
-#include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
-#include "common/results.hpp"
-#include "common/tutorial.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 
@@ -50,8 +46,8 @@ double largest_on_layer(const Space& space, const Eigen::VectorXd& u) {
   return (space.points().col(1).array() <= 0).select(u.array().abs(), 0).maxCoeff();
 }
 
-// The problem that the paper says the locked solution solves, with the same matrices: every unknown of the layer is fixed
-// to zero, and nothing is left to touch the obstacle.
+// The problem that the paper says the locked solution solves, with the same matrices: every unknown of the layer is
+// fixed to zero, and nothing is left to touch the obstacle.
 VariationalInequality dirichlet_laplace(VariationalInequality problem, const Space& space) {
   problem.fixed.clear();
   for (int i = 0; i < space.size(); ++i) {
@@ -73,7 +69,8 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   // ### Forms
   VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), space);
   // ### Solve
-  // Nothing is wrong with the solver: the conditions of the inequality hold to round-off. The discrete problem itself has
+  // Nothing is wrong with the solver: the conditions of the inequality hold to round-off. The discrete problem
+  // itself has
   // the wrong solution.
   const Solution solution = active_set(problem);
   const Solution dirichlet = active_set(dirichlet_laplace(problem, space));
@@ -111,36 +108,21 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) Not at all: the error is 4.57e-2 on both meshes, and on every mesh that fits a computer. (b) The body as if it were
-// clamped on $Σ$: the layer has become a wall. Neither the solver nor a look at the picture would tell.
+// (a) Not at all: the error is 4.57e-2 on both meshes, and on every mesh that fits a computer. (b) The body as if it
+// were clamped on $Σ$: the layer has become a wall. Neither the solver nor a look at the picture would tell.
 //
 // ## Exercises
 //
-// 1. and 2.: `--exercise N`. 3. `--epsilon 1e-2`: the method "locks already" there (caption of Figure 9). Predict by the law
-// what is kept at `--cells 16` and at `--cells 64`, and check. 4. On paper: for which loads is nothing lost on this mesh?
-// (Those whose $u^0$ is 0 on the layer. Whether a method locks is a question about all loads.)
-const std::vector<tutorial::Exercise> exercises{
-    {"Refine from 1/h = 32 to 64 at epsilon = 1e-6. What happens to the error, what to the small rest of the ridge?",
-     "the error stays within 1 %; the rest grows like h^-3, eight times (a factor 2 for the mesh)",
-     [](const tutorial::Options&, tutorial::Report& report) {
-       const tutorial::Exact exact(1e-6);
-       double error[2], rest[2];
-       for (const int k : {0, 1}) {
-         const Discretisation on = Method{&p1(), unstructured()}.on(32 << k);
-         const Solution solution = active_set(assemble(tutorial::paper_scene(1e-6), on.space()));
-         error[k] = exact.errors(on.space(), solution).max_at_unknowns, rest[k] = solution.u(on.space().contact()).maxCoeff();
-       }
-       report.claim_within(error[1] / error[0], 0.99, 1.01, "error on 1/64 / error on 1/32:");
-       report.claim_within(rest[1] / rest[0], 4, 16, "rest of the ridge, 1/64 / 1/32:");
-     }},
-    {"Keep the body's triangles, and put the layer into columns (the layered mesh of chapter 02). Does it lock?",
-     "no: the kernel on the layer has its hat functions again; the error is below 4 h^2",
-     [](const tutorial::Options& options, tutorial::Report& report) {
-       const Discretisation on(layered_mesh(options.cells), p1());
-       const Solution solution = active_set(assemble(tutorial::paper_scene(1e-6), on.space()));
-       const double h = 1.0 / options.cells, error = tutorial::Exact(1e-6).errors(on.space(), solution).max_at_unknowns;
-       report.claim_within(error / (h * h), 0, 4, "error / h^2:");
-     }}};
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Refine from $1/h = 32$ to 64 at $ε = 10^{-6}$. What happens to the error, what to the small rest of the ridge?
+// 2. Keep the body's triangles, and put the layer into columns (the layered mesh of chapter 02). Does it lock?
+// 3. `--epsilon 1e-2`: the method "locks already" there (caption of Figure 9). Predict by the law what is kept at
+//    `--cells 16` and at `--cells 64`, and check.
+// 4. On paper: for which loads is nothing lost on this mesh? (Those whose $u^0$ is 0 on the layer. Whether a method locks
+//    is a question about all loads.)
+
+#include "answers/06_p1_unstructured.hpp"
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "06_p1_unstructured", "Figure 7: P1 on an unstructured mesh locks",

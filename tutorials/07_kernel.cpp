@@ -8,19 +8,20 @@
 // Needs: [02](02_meshes.cpp) (kernel, ties), [03](03_by_hand.cpp) (B), [05](05_p1_structured.cpp) (Theorem 4),
 // [06](06_p1_unstructured.cpp) (locking).
 //
-// **The pictures.** One function of the kernel, and what is left of `sin πx` in it, for three methods. *The kernel of P1 on
-// the unstructured mesh is 0 on the layer: the picture is empty.* The last picture leads from one mesh to the other: the
-// vertices of the structured mesh are moved by `t h`, and the displacement is lost little by little.
+// **The pictures.** One function of the kernel, and what is left of `sin πx` in it, for three methods. *The kernel of
+// P1 on the unstructured mesh is 0 on the layer: the picture is empty.* The last picture leads from one mesh to the
+// other: the vertices of the structured mesh are moved by `t h`, and the displacement is lost little by little.
 //
-// **Predict.** (a) P2, quadratic functions, on the unstructured mesh: is its kernel 0 on the layer, too? (b) Move every
-// vertex of the structured mesh by a millionth of `h`: does P1 lock?
+// **Predict.** (a) P2, quadratic functions, on the unstructured mesh: is its kernel 0 on the layer, too? (b) Move
+// every vertex of the structured mesh by a millionth of `h`: does P1 lock?
 //
 // ## What decides
 //
-// In the limit the answer lies in $G_h = \{ v ∈ V_h : ∂_y v = 0 \text{ in the layer} \}$. It holds all functions of the body
-// that are 0 on $Σ$, on every mesh: its full dimension tells nothing. What decides is **the kernel on the layer**, and
-// **whether it grows under refinement**: $K_{0h}$ must approach $K_0$ (Theorem 4), and $K_0$ holds infinitely many functions
-// of $x$. Count it by linear algebra: the columns of $B$ that belong to free unknowns of the layer, less their rank.
+// In the limit the answer lies in $G_h = \{ v ∈ V_h : ∂_y v = 0 \text{ in the layer} \}$. It holds all functions of
+// the body that are 0 on $Σ$, on every mesh: its full dimension tells nothing. What decides is **the kernel on the
+// layer**, and **whether it grows under refinement**: $K_{0h}$ must approach $K_0$ (Theorem 4), and $K_0$ holds
+// infinitely many functions of $x$. Count it by linear algebra: the columns of $B$ that belong to free unknowns of
+// the layer, less their rank.
 //
 // | method | dimension on the layer | why |
 // |---|---|---|
@@ -29,30 +30,26 @@
 // | P2, unstructured | 1 | $∂_y v = 0$ leaves $v = a + b x + c x^2$: $x(1 - x)$, on every mesh |
 // | CR, any mesh | $N_T/2$ | 3/2 edges per layer triangle, one condition $∂_y v = 0$ each |
 //
-// CR, the element of Crouzeix and Raviart, is affine on each triangle and continuous at the midpoints of the edges only:
-// one unknown per edge ([08](08_crouzeix_raviart.cpp) draws it). $N_T$ is the number of triangles of the layer.
+// CR, the element of Crouzeix and Raviart, is affine on each triangle and continuous at the midpoints of the edges
+// only: one unknown per edge ([08](08_crouzeix_raviart.cpp) draws it). $N_T$ is the number of triangles of the layer.
 //
 // **A second question: which stresses are seen?** The *inf-sup constant* of $B$ is the largest $β$ with
-// $\max_v (q, ∂_y v)/|v|_{1,h} ≥ β ‖q‖$ for every stress $q$, constant on triangles; $|v|_{1,h}$ is the norm of $∇v$, taken
-// triangle by triangle. With $‖q‖$ the same maximum over *all* displacements (the *dual norm*), $β = 1$ says: whatever stress
-// some displacement sees, a discrete one sees as well. For CR $β ≥ 1$ on every mesh: the interpolation of chapter 08 keeps
-// $(q, ∂_y v)$ and does not enlarge $|v|_1$ (a property that carries Fortin's name). For P1 the rows of $B$ depend on each
-// other (chapter 03: two triangles share each vertical edge), some stress is not seen at all, and $β = 0$: on the
-// structured mesh too, where nothing locks. So $β > 0$ is sufficient, not necessary.
+// $\max_v (q, ∂_y v)/|v|_{1,h} ≥ β ‖q‖$ for every stress $q$, constant on triangles; $|v|_{1,h}$ is the norm of $∇v$,
+// taken triangle by triangle. With $‖q‖$ the same maximum over *all* displacements (the *dual norm*), $β = 1$ says:
+// whatever stress some displacement sees, a discrete one sees as well. For CR $β ≥ 1$ on every mesh: the
+// interpolation of chapter 08 keeps $(q, ∂_y v)$ and does not enlarge $|v|_1$ (a property that carries Fortin's
+// name). For P1 the rows of $B$ depend on each other (chapter 03: two triangles share each vertical edge), some
+// stress is not seen at all, and $β = 0$: on the structured mesh too, where nothing locks. So $β > 0$ is sufficient,
+// not necessary.
 
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/locking.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/mesh/refine.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
-#include "antilock/study/table.hpp"
+#include "common/course.hpp"
 #include "common/kernel_pictures.hpp"
-#include "common/paper_problem.hpp"
-#include "common/ties.hpp"
-#include "common/tutorial.hpp"
 
 using namespace antilock;
 
@@ -70,7 +67,7 @@ Table count_kernels(int finest) {
       const Discretisation on = method.on(n);
       const auto triangles = std::count(on.mesh().region.begin(), on.mesh().region.end(), Region::layer);
       const int p = method.element->degree();
-      const double predicted = !method.element->conforming()         ? 0.5 * static_cast<double>(triangles)
+      const double predicted = !method.element->conforming()        ? 0.5 * static_cast<double>(triangles)
                                : method.family.name == "structured" ? n * p - 1
                                                                     : p - 1;
       counts.add({n, method.name(), layer_kernel_dimension(assemble(scene, on.space())), predicted});
@@ -91,9 +88,9 @@ double inf_sup_constant(const Method& method, int n) {
   return inf_sup(multiplier_gram(assemble(scene, on.space()), seminorm(on.space())), dual);
 }
 
-// From Figure 3 to Figure 6: every inner vertex is moved by up to $t h$, at random. The kernel on the layer is 0 at the first
-// $t > 0$. But a function of $x$ is only missed by a slope of order $t h$, at the price $ε^{-2} (t h)^2$: the error rises
-// like $(t h/ε)^2$, until all is lost. Locking is a matter of degree; its cause is not.
+// From Figure 3 to Figure 6: every inner vertex is moved by up to $t h$, at random. The kernel on the layer is 0 at
+// the first $t > 0$. But a function of $x$ is only missed by a slope of order $t h$, at the price $ε^{-2} (t h)^2$:
+// the error rises like $(t h/ε)^2$, until all is lost. Locking is a matter of degree; its cause is not.
 Table jitter_study(int n) {
   Table table({"t", "epsilon", "kernel", "lost", "lost_to_kept"});
   ActiveSetOptions patient;  // functions that are almost in the kernel are corrected slowly
@@ -115,7 +112,8 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("count the kernels (sparse QR)");
   const Table counts = count_kernels(options.cells);
   report.stage("draw, and find the inf-sup constants");
-  for (const Method& method : {p1_columns, p1_any, cr_any}) tutorial::draw_kernel(options.out, method.on(8).space(), method.name());
+  for (const Method& method : {p1_columns, p1_any, cr_any})
+    tutorial::draw_kernel(options.out, method.on(8).space(), method.name());
   const double p1_seen = inf_sup_constant(p1_columns, 8), cr_seen = inf_sup_constant(cr_any, 8);
   report.stage("move the vertices of P1's structured mesh");
   constexpr int n = 16;
@@ -123,7 +121,8 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
   // ### Output
   report.finish();
   counts.pivot("cells", "method", "kernel").print("dimension of the kernel on the layer");
-  jitter.pivot("t", "epsilon", "lost").print("moved by t h: share of the layer's displacement that is lost, by epsilon");
+  jitter.pivot("t", "epsilon", "lost")
+      .print("moved by t h: share of the layer's displacement that is lost, by epsilon");
   jitter.write(options.out / "jitter.csv");
   for (const Method& method : all) fmt::print("  {:<16} {}\n", method.name(), diagnose(method).text());
 
@@ -131,41 +130,33 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
   report.claim(diagnose(p1_any).locks() && diagnose(p2_any).locks() && !diagnose(p1_columns).locks() &&
                    !diagnose(cr_columns).locks() && !diagnose(cr_any).locks(),
                "the kernel on the layer does not grow for P1 and P2 unstructured, and grows for the others");
-  report.claim(cr_seen > 1 - 1e-9 && p1_seen == 0, "inf-sup constants: {:.4f} for CR (at least 1), {} for P1", cr_seen, p1_seen);
+  report.claim(cr_seen > 1 - 1e-9 && p1_seen == 0, "inf-sup constants: {:.4f} for CR (at least 1), {} for P1", cr_seen,
+               p1_seen);
   report.claim(jitter.most("kernel") == 0, "the kernel on the layer is 0 at the first t = 1e-6");
-  for (const double epsilon : {1e-3, 1e-4, 1e-5}) {  // the order in t where more than round-off and less than all is lost
-    const Table some = jitter.where("epsilon", epsilon).where_number("lost_to_kept", [](double x) { return x > 0.1 && x < 10; });
-    report.claim_within(some.order("lost_to_kept", "t"), 1.8, 2.05, fmt::format("epsilon = {}: lost / kept grows like t to the", epsilon));
+  for (const double epsilon :
+       {1e-3, 1e-4, 1e-5}) {  // the order in t where more than round-off and less than all is lost
+    const Table some =
+        jitter.where("epsilon", epsilon).where_number("lost_to_kept", [](double x) { return x > 0.1 && x < 10; });
+    report.claim_within(some.order("lost_to_kept", "t"), 1.8, 2.05,
+                        fmt::format("epsilon = {}: lost / kept grows like t to the", epsilon));
   }
 }
 
 // ## What came out
 //
-// (a) No, one parabola is left; but it is one on every mesh, and P2 locks too, unless $u^0$ happens to be that parabola.
-// (b) The kernel is gone, at every $ε$ all is lost in the limit; but at $ε = 10^{-3}$ a millionth of $h$ costs nothing yet.
+// (a) No, one parabola is left; but it is one on every mesh, and P2 locks too, unless $u^0$ happens to be that
+// parabola. (b) The kernel is gone, at every $ε$ all is lost in the limit; but at $ε = 10^{-3}$ a millionth of $h$
+// costs nothing yet.
 //
 // ## Exercises
 //
-// 1. and 2.: `--exercise N`. 3. On paper: P3 on one group of tied triangles: which functions of $x$ are left?
-const std::vector<tutorial::Exercise> exercises{
-    {"The staggered mesh of chapter 02 is as regular as a mesh can be. The kernel on its layer, for P1 and for CR?",
-     "P1: 0. CR: N_T / 2, on this mesh as on any",
-     [](const tutorial::Options&, tutorial::Report& report) {
-       const TriangleMesh mesh = tutorial::staggered_mesh(8);
-       const auto triangles = static_cast<double>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
-       report.claim_within(layer_kernel_dimension(assemble(scene, Space(mesh, p1()))), 0, 0, "P1:");
-       report.claim_within(layer_kernel_dimension(assemble(scene, Space(mesh, crouzeix_raviart()))) / triangles, 0.5, 0.5,
-                           "CR, per triangle:");
-     }},
-    {"epsilon = 0 and vertices moved by a millionth of h. How much of the displacement is lost?",
-     "all: a limit knows no degrees",
-     [](const tutorial::Options&, tutorial::Report& report) {
-       const Discretisation on(jittered_mesh(8, 1e-6), p1());
-       ActiveSetOptions patient;
-       patient.corrections.max_corrections = 100000;
-       const Solution solution = active_set(assemble(scene, on.space()), patient);
-       report.claim_within(solution.u(on.space().contact()).maxCoeff() / 0.0457160, 0, 1e-3, "share that is kept:");
-     }}};
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. The staggered mesh of chapter 02 is as regular as a mesh can be. The kernel on its layer, for P1 and for CR?
+// 2. $ε = 0$, and vertices moved by a millionth of $h$. How much of the displacement is lost?
+// 3. On paper: P3 on one group of tied triangles: which functions of $x$ are left?
+
+#include "answers/07_kernel.hpp"
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "07_kernel", "Why P1 locks: the kernel of a0, counted, drawn and emptied",

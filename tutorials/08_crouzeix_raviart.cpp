@@ -5,57 +5,49 @@
 // Run: 08_crouzeix_raviart --exercise 1
 // Run: 08_crouzeix_raviart --exercise 2
 //
-// Needs: [05](05_p1_structured.cpp) ((27), Theorem 4), [06](06_p1_unstructured.cpp) (locking), [07](07_kernel.cpp) (kernel).
+// Needs: [05](05_p1_structured.cpp) ((27), Theorem 4), [06](06_p1_unstructured.cpp) (locking), [07](07_kernel.cpp)
+// (kernel).
 //
-// **The pictures.** Figure 8: the mesh of Figure 6, on which P1 locks, and the ridge is there. *Crouzeix-Raviart does not
-// lock on any mesh.* Look closely: the triangles do not quite meet. The second picture shows why they may: one basis
-// function, 1 at the midpoint of its edge, 0 at all other midpoints, with jumps in between.
+// **The pictures.** Figure 8: the mesh of Figure 6, on which P1 locks, and the ridge is there. *Crouzeix-Raviart does
+// not lock on any mesh.* Look closely: the triangles do not quite meet. The second picture shows why they may: one
+// basis function, 1 at the midpoint of its edge, 0 at all other midpoints, with jumps in between.
 //
 // :live: mesh=unstructured
 //
-// **Predict.** (a) The mean of a function over each edge: which affine function on a triangle has the same three means, and
-// what do the two gradients have to do with each other? (b) `u ≥ 0` holds for the truth, everywhere. Does it hold for
-// that function, everywhere?
+// **Predict.** (a) The mean of a function over each edge: which affine function on a triangle has the same three
+// means, and what do the two gradients have to do with each other? (b) `u ≥ 0` holds for the truth, everywhere. Does
+// it hold for that function, everywhere?
 //
 // ## The element, and the interpolation that makes it work
 //
-// $V_h^{nc}$ are the functions that are affine on each triangle, continuous at the midpoints of the edges, and 0 at those on
-// $Γ_D$: one unknown per edge, three halves per triangle (P1: half a vertex per triangle). Such a function jumps, so it is not
-// in $V$: the method is *nonconforming*. Integrals and norms are taken triangle by triangle (*broken*), and contact is asked
-// at midpoints: $K_h^{nc} = \{ v ≥ 0 \text{ at the midpoints on } Γ_C \}$. With that, (23) becomes (29), and (27) becomes (30).
+// $V_h^{nc}$ are the functions that are affine on each triangle, continuous at the midpoints of the edges, and 0 at
+// those on $Γ_D$: one unknown per edge, three halves per triangle (P1: half a vertex per triangle). Such a function
+// jumps, so it is not in $V$: the method is *nonconforming*, while P1 is *conforming*. Integrals and norms are taken
+// triangle by triangle (*broken*), and contact is asked at midpoints:
+// $K_h^{nc} = \{ v ≥ 0 \text{ at the midpoints on } Γ_C \}$. With that, (23) becomes (29), and (27) becomes (30).
 //
-// **The interpolation** $I_h$ gives each midpoint the mean of $v$ over its edge. For an affine function the mean over an edge is
-// the value at its midpoint, so on each triangle $T$ with outward normal $n$, by Green's formula,
+// **The interpolation** $I_h$ gives each midpoint the mean of $v$ over its edge. For an affine function the mean over
+// an edge is the value at its midpoint, so on each triangle $T$ with outward normal $n$, by Green's formula,
 //
 // $$ ∫_T ∇ I_h v = ∑_{E ⊂ ∂T} n_E ∫_E I_h v = ∑_{E ⊂ ∂T} n_E ∫_E v = ∫_T ∇ v. $$
 //
 // *The gradient of $I_h v$ is the mean of the gradient of $v$.* Three consequences are **Lemma 2**, in essence:
 //
-// - $v ∈ K_0$, that is $∂_y v = 0$ in the layer: then $∂_y I_h v = 0$ there, on every triangle of every mesh: $B I_h v = 0$.
-// - $v ≥ 0$ on $Γ_C$: means are nonnegative, $I_h v ≥ 0$ at the midpoints. Together: $I_h$ maps $K_0$ into $K_{0h}^{nc}$.
+// - If $v ∈ K_0$, then $∂_y v = 0$ in the layer, and so $∂_y I_h v = 0$ on its triangles, on every mesh: $B I_h v = 0$.
+// - If $v ≥ 0$ on $Γ_C$, so are its means: $I_h v ≥ 0$ at the midpoints. Hence $I_h$ maps $K_0$ into $K_{0h}^{nc}$.
 // - $I_h v$ is near $v$, if $v$ is smooth in the body and in the layer ($|v|_2$: the size of its second derivatives):
 //
 // $$ ‖v - I_h v‖_{1,Ω_h} ≤ C h (|v|_{2,Ω^+} + |v|_{2,Ω^-}). \tag{32} $$
 //
 // So both hypotheses of Theorem 4 hold, with no condition on the mesh beyond good angles:
 //
-// $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^{nc,ε}‖_{1,Ω_h} = 0.   (Theorem 7) $$
+// $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^{nc,ε}‖_{1,Ω_h} = 0.   \text{(Theorem 7)} $$
 
-#include "antilock/analysis/kernel.hpp"
-#include "antilock/io/writers.hpp"
 #include "antilock/measure/residual.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/study/method.hpp"
-#include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
-#include "common/results.hpp"
-#include "common/tutorial.hpp"
+#include "common/course.hpp"
+#include "common/crouzeix_raviart.hpp"
 
 using namespace antilock;
-
-double largest_jump(const Space& space, const Eigen::VectorXd& u);
-void draw_basis_function(const std::filesystem::path& path);
 
 // $I_h v$: the mean over each edge, by Gauss's rule of three points on 16 parts of it.
 Eigen::VectorXd edge_means(const Space& space, const Field& v) {
@@ -63,15 +55,18 @@ Eigen::VectorXd edge_means(const Space& space, const Field& v) {
   Eigen::VectorXd means = Eigen::VectorXd::Zero(space.size());
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (int part = 0; part < 16; ++part)
-      for (const auto& [place, weight] : {std::pair{0.5 - std::sqrt(0.15), 5.0}, {0.5, 8.0}, {0.5 + std::sqrt(0.15), 5.0}}) {
+      for (const auto& [place, weight] :
+           {std::pair{0.5 - std::sqrt(0.15), 5.0}, {0.5, 8.0}, {0.5 + std::sqrt(0.15), 5.0}}) {
         const double t = (part + place) / 16;
-        const Eigen::RowVector2d at = (1 - t) * mesh.vertices.row(mesh.edges(e, 0)) + t * mesh.vertices.row(mesh.edges(e, 1));
+        const Eigen::RowVector2d at =
+            (1 - t) * mesh.vertices.row(mesh.edges(e, 0)) + t * mesh.vertices.row(mesh.edges(e, 1));
         means(e) += weight / (18 * 16) * v(at.x(), at.y());
       }
   return means;
 }
 
-// Lemma 2 in numbers, for the truth: the strain and the smallest value on $Γ_C$ of $I_h u^0$, and its distance from $u^0$.
+// Lemma 2 in numbers, for the truth: the strain and the smallest value on $Γ_C$ of $I_h u^0$, and its distance from
+// $u^0$.
 Table interpolate(const std::vector<int>& cells, const Element& element) {
   const tutorial::Exact limit(0);
   Table table({"cells", "h", "strain", "smallest", "distance"});
@@ -109,21 +104,25 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
   tutorial::present(options.out, space, problem, solution, "Crouzeix-Raviart", errors);
   lemma.print("Lemma 2: the interpolant of u^0 on unstructured meshes");
   lemma.write(options.out / "interpolant.csv");
-  draw_basis_function(options.out / "basis.vtu");
+  tutorial::draw_basis_function(options.out / "basis.vtu");
 
-  const double h = 1.0 / options.cells, jump = largest_jump(space, solution.u);
+  const double h = 1.0 / options.cells, jump = tutorial::largest_jump(space, solution.u);
   // 6e-9 of the truth's table and (h/16)^3 of Gauss's rule where u'' jumps, both over an edge h = 1/8 ... 1/64
   report.claim_within(lemma.most("strain"), 0, 5e-6, "Lemma 2: largest |B I_h u^0|:");
-  report.claim(lemma.least("smallest") >= -1e-8, "Lemma 2: I_h u^0 >= 0 on Gamma_C (smallest {:.1e})", lemma.least("smallest"));
+  report.claim(lemma.least("smallest") >= -1e-8, "Lemma 2: I_h u^0 >= 0 on Gamma_C (smallest {:.1e})",
+               lemma.least("smallest"));
   report.claim_within(lemma.order("distance", "h"), 0.9, 1.1, "(32): |u^0 - I_h u^0| falls like h to the");
-  // Interpolation: h^2 / 8 |u''| with |u''| <= 10, twice on a nonconforming space; the end of contact: the rest of 4 h^2.
+  // Interpolation: h^2 / 8 |u''| with |u''| <= 10, twice on a nonconforming space; the end of contact: the rest of 4
+  // h^2.
   report.claim_within(errors.max_at_unknowns / (h * h), 0, 4, "Figure 8 matches the truth; error / h^2:");
-  // A step is h/2 times a jump of the gradient, which is like r^(1/2) at the end of contact: the largest falls like h^(3/2).
+  // A step is h/2 times a jump of the gradient, which is like r^(1/2) at the end of contact: the largest falls like
+  // h^(3/2).
   report.claim_within(jump / (h * std::sqrt(h)), 0, 1.5, "largest step between triangles / h^(3/2):");
   // on fewer cells Crouzeix-Raviart itself is off by a tenth of what P1 loses
   if (options.epsilon <= 0.01 * h && options.cells >= 16)
-    report.claim(p1_errors.max_at_unknowns > 10 * errors.max_at_unknowns, "P1 locks ({:.2e}), Crouzeix-Raviart does not ({:.2e})",
-                 p1_errors.max_at_unknowns, errors.max_at_unknowns);
+    report.claim(p1_errors.max_at_unknowns > 10 * errors.max_at_unknowns,
+                 "P1 locks ({:.2e}), Crouzeix-Raviart does not ({:.2e})", p1_errors.max_at_unknowns,
+                 errors.max_at_unknowns);
   else
     report.not_judged("P1 against Crouzeix-Raviart: P1 locks for epsilon <= h/100, and 16 cells tell them apart");
   const double from = contact_zone(space, problem, solution).from.value_or(1);
@@ -132,62 +131,21 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) Its gradient is the mean of the other's. (b) No: it is nonnegative at the midpoints on $Γ_C$, and may be a little below
-// 0 at the ends of an edge, where it jumps. So $K_h^{nc}$ is not in $K$. This, and the jumps, are the price (chapter 13); the
-// three times as many unknowns are the other one (chapter 18).
+// (a) Its gradient is the mean of the other's. (b) No: it is nonnegative at the midpoints on $Γ_C$, and may be a
+// little below 0 at the ends of an edge, where it jumps. So $K_h^{nc}$ is not in $K$. This, and the jumps, are the
+// price (chapter 13); the three times as many unknowns are the other one (chapter 18).
 //
 // ## Exercises
 //
-// 1. and 2.: `--exercise N`. 3. On paper: why is P1's interpolation (values at vertices) no substitute in the proof? What does
-// Green's formula say about the mean of $I_h v$ over an edge that is not vertical?
-const std::vector<tutorial::Exercise> exercises{
-    {"Interpolate u^0 with P1, values at the vertices of the same meshes. Is B I_h u^0 = 0?",
-     "no: it is of the order h |u''|, and times epsilon^-2 that is not small",
-     [](const tutorial::Options&, tutorial::Report& report) {
-       const Table lemma = interpolate({16, 32, 64}, p1());
-       lemma.print("P1");
-       report.claim(lemma.least("strain") > 1e-3, "the strain is not 0: {:.1e} at least", lemma.least("strain"));
-       report.claim_within(lemma.order("strain", "h"), 0.5, 1.5, "it falls like h to the");
-     }},
-    {"Predict the error on 1/h = 64 at epsilon = 1e-6 from that on 32. Then at epsilon = 0, and at 1e-2.",
-     "between 2^(3/2) and 2^2 times smaller (the end of contact, and interpolation); the same at every epsilon, to 10 %",
-     [](const tutorial::Options&, tutorial::Report& report) {
-       const auto error = [](int cells, double epsilon) {
-         const Discretisation on = Method{&crouzeix_raviart(), structured()}.on(cells);
-         const Solution solution = active_set(assemble(tutorial::paper_scene(epsilon), on.space()));
-         return tutorial::Exact(epsilon).errors(on.space(), solution).max_at_unknowns;
-       };
-       report.claim_within(error(32, 1e-6) / error(64, 1e-6), 2.7, 4.2, "error on 1/32 / error on 1/64:");
-       for (const double epsilon : {1e-2, 0.0})
-         report.claim_within(error(64, epsilon) / error(64, 1e-6), 0.9, 1.1, fmt::format("epsilon = {} / 1e-6:", epsilon));
-     }}};
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Interpolate $u^0$ with P1, values at the vertices of the same meshes. Is $B I_h u^0 = 0$?
+// 2. Predict the error on $1/h = 64$ at $ε = 10^{-6}$ from that on 32. Then at $ε = 0$, and at $10^{-2}$.
+// 3. On paper: why is P1's interpolation no substitute in the proof? Which of the three means does it not keep?
+
+#include "answers/08_crouzeix_raviart.hpp"
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "08_crouzeix_raviart", "Figure 8: Crouzeix-Raviart does not lock on any mesh",
                        {.exercises = exercises}, robust);
-}
-
-// One basis function on a coarse mesh: that of the edge whose midpoint is nearest to the middle of the layer.
-void draw_basis_function(const std::filesystem::path& path) {
-  const Discretisation on(unstructured_mesh(3), crouzeix_raviart());
-  Eigen::Index edge = 0;
-  (on.space().points().rowwise() - Eigen::RowVector2d(0.5, -0.5)).rowwise().squaredNorm().minCoeff(&edge);
-  write_vtu(path, on.space(), Eigen::VectorXd::Unit(on.space().size(), edge));
-}
-
-// The largest step between two triangles, at the ends of their common edge (at its midpoint they meet).
-double largest_jump(const Space& space, const Eigen::VectorXd& u) {
-  const TriangleMesh& mesh = space.mesh();
-  const auto value_at = [&](int t, int vertex) {
-    int corner = 0;
-    while (mesh.triangles(t, corner) != vertex) ++corner;
-    return space.element().basis(Eigen::Vector3d::Unit(corner)).dot(Eigen::VectorXd(u(space.unknowns().row(t))));
-  };
-  double jump = 0;
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    const int a = mesh.edge_triangles(e, 0), b = mesh.edge_triangles(e, 1);
-    for (int end = 0; end < 2 && b >= 0; ++end)
-      jump = std::max(jump, std::abs(value_at(a, mesh.edges(e, end)) - value_at(b, mesh.edges(e, end))));
-  }
-  return jump;
 }

@@ -120,7 +120,7 @@ TEST(LockingDiagnosis, CountsAndOrders) {
   EXPECT_EQ(p2_anywhere.coarse, 1);
   EXPECT_EQ(p2_anywhere.fine, 1);
   EXPECT_EQ(p2_anywhere.order(), 0);
-  EXPECT_NEAR(p1_columns.order(), 0.5, 0.1);                           // one function per column
+  EXPECT_NEAR(p1_columns.order(), 0.5, 0.1);                             // one function per column
   EXPECT_NEAR(diagnosis_of(crouzeix_raviart(), false).order(), 1, 0.1);  // half a function per triangle
   EXPECT_NE(diagnosis_of(p1(), false).text().find("locks completely"), std::string::npos);
 }

@@ -15,7 +15,8 @@
 namespace antilock::tutorial {
 
 TriangleMesh staggered_mesh(int cells) {
-  if (cells < 2 || cells % 2 != 0) throw Error(fmt::format("a staggered mesh of {} cells; accepted: an even number", cells));
+  if (cells < 2 || cells % 2 != 0)
+    throw Error(fmt::format("a staggered mesh of {} cells; accepted: an even number", cells));
   const double h = 1.0 / cells;
   std::vector<std::vector<int>> rows;  // vertices from left to right, rows from Gamma_C upwards
   std::vector<Eigen::RowVector2d> at;
@@ -37,7 +38,9 @@ TriangleMesh staggered_mesh(int cells) {
   for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
     const std::vector<int>&low = rows[j], &high = rows[j + 1];
     for (std::size_t l = 0, u = 0; l + 1 < low.size() || u + 1 < high.size();) {  // zip the two rows together
-      const auto middle = [&](const std::vector<int>& row, std::size_t i) { return at[row[i]].x() + at[row[i + 1]].x(); };
+      const auto middle = [&](const std::vector<int>& row, std::size_t i) {
+        return at[row[i]].x() + at[row[i + 1]].x();
+      };
       const bool below = u + 1 == high.size() || (l + 1 < low.size() && middle(low, l) <= middle(high, u));
       triangles.push_back({low[l], below ? low[l + 1] : high[u + 1], high[u]});
       below ? ++l : ++u;

@@ -26,8 +26,7 @@ void check_writable(const std::filesystem::path& folder) {
 /// What --help says about the exercises.
 std::string list(const std::vector<Exercise>& exercises) {
   std::string text = exercises.empty() ? "" : "Exercises:\n";
-  for (std::size_t i = 0; i < exercises.size(); ++i)
-    text += fmt::format("  {}. {}\n", i + 1, exercises[i].question);
+  for (std::size_t i = 0; i < exercises.size(); ++i) text += fmt::format("  {}. {}\n", i + 1, exercises[i].question);
   return text;
 }
 
@@ -72,8 +71,7 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
         const std::function<void(const Options&, Report&)>& body) {
   CommandLine line(what, stem);
   if (options.out.empty()) options.out = std::filesystem::path("results") / stem;
-  if (options.takes_epsilon)
-    line.add("--epsilon", options.epsilon, options.epsilon_is, options.least_epsilon, 1);
+  if (options.takes_epsilon) line.add("--epsilon", options.epsilon, options.epsilon_is, options.least_epsilon, 1);
   line.add("--cells", options.cells, "cells per unit side, h = 1/cells", options.least_cells, options.most_cells);
   line.add("--out", options.out, "folder of the results");
   int exercise = 0;
@@ -94,7 +92,8 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
     else
       body(options, report);
     report.finish();
-    fmt::print("{} in {:.2f} s{}\n", stem, watch.seconds(), options.out.empty() ? "" : "; results in " + options.out.string());
+    fmt::print("{} in {:.2f} s{}\n", stem, watch.seconds(),
+               options.out.empty() ? "" : "; results in " + options.out.string());
     return report.all_hold() ? 0 : 1;
   } catch (const NotConverged& failure) {
     return fail(stem, failure.what(), 3);

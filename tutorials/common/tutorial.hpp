@@ -17,8 +17,8 @@ class Report;
 /// A variation of a tutorial that `--exercise N` runs (N counts from 1). The reader predicts first; the outcome claims
 /// what the prediction says. Its page has a line `// Run: STEM --exercise N`, from which the tests are made.
 struct Exercise {
-  std::string question;    ///< what is changed, and what is asked
-  std::string prediction;  ///< the answer that the outcome checks
+  std::string question;                                  ///< what is changed, and what is asked
+  std::string prediction;                                ///< the answer that the outcome checks
   std::function<void(const Options&, Report&)> outcome;  ///< options.out is empty unless --out was given
 };
 

@@ -31,7 +31,7 @@ double LockingDiagnosis::order() const {
 std::string LockingDiagnosis::text() const {
   return fmt::format("kernel on the stiff part: {} of {} unknowns, then {} of {}: {}", coarse, coarse_unknowns, fine,
                      fine_unknowns,
-                     fine == 0   ? "empty, it locks completely"
+                     fine == 0 ? "empty, it locks completely"
                      : locks() ? "it does not grow, it locks"
                                : "it grows");
 }

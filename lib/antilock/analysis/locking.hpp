@@ -10,7 +10,7 @@ namespace antilock {
 /// on the stiff part, the unknowns that stand in a row of B (the layer), and whether it grows under refinement: the
 /// functions of K_0 that it must approach (Theorem 4) are infinitely many.
 struct LockingDiagnosis {
-  int coarse = 0, fine = 0;  ///< dim of the kernel on the stiff part, on a mesh and on a finer one
+  int coarse = 0, fine = 0;                    ///< dim of the kernel on the stiff part, on a mesh and on a finer one
   int coarse_unknowns = 0, fine_unknowns = 0;  ///< free unknowns of the stiff part
 
   /// It locks: the kernel on the stiff part is 0, or does not grow. (That it grows is necessary, not sufficient: its

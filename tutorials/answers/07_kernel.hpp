@@ -1,0 +1,23 @@
+#pragma once
+#include "common/ties.hpp"
+
+// The answers to the exercises of 07_kernel, whose page includes this one: to be read after predicting.
+
+const std::vector<tutorial::Exercise> exercises{
+    {"The staggered mesh of chapter 02 is as regular as a mesh can be. The kernel on its layer, for P1 and for CR?",
+     "P1: 0. CR: N_T / 2, on this mesh as on any",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const TriangleMesh mesh = tutorial::staggered_mesh(8);
+       const auto triangles = static_cast<double>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
+       report.claim_within(layer_kernel_dimension(assemble(scene, Space(mesh, p1()))), 0, 0, "P1:");
+       report.claim_within(layer_kernel_dimension(assemble(scene, Space(mesh, crouzeix_raviart()))) / triangles, 0.5,
+                           0.5, "CR, per triangle:");
+     }},
+    {"epsilon = 0 and vertices moved by a millionth of h. How much of the displacement is lost?",
+     "all: a limit knows no degrees", [](const tutorial::Options&, tutorial::Report& report) {
+       const Discretisation on(jittered_mesh(8, 1e-6), p1());
+       ActiveSetOptions patient;
+       patient.corrections.max_corrections = 100000;
+       const Solution solution = active_set(assemble(scene, on.space()), patient);
+       report.claim_within(solution.u(on.space().contact()).maxCoeff() / 0.0457160, 0, 1e-3, "share that is kept:");
+     }}};

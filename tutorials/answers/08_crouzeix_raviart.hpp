@@ -1,0 +1,26 @@
+#pragma once
+// The answers to the exercises of 08_crouzeix_raviart, whose page includes this one: to be read after predicting.
+
+const std::vector<tutorial::Exercise> exercises{
+    {"Interpolate u^0 with P1, values at the vertices of the same meshes. Is B I_h u^0 = 0?",
+     "no: it is of the order h |u''|, and times epsilon^-2 that is not small",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const Table lemma = interpolate({16, 32, 64}, p1());
+       lemma.print("P1");
+       report.claim(lemma.least("strain") > 1e-3, "the strain is not 0: {:.1e} at least", lemma.least("strain"));
+       report.claim_within(lemma.order("strain", "h"), 0.5, 1.5, "it falls like h to the");
+     }},
+    {"Predict the error on 1/h = 64 at epsilon = 1e-6 from that on 32. Then at epsilon = 0, and at 1e-2.",
+     "between 2^(3/2) and 2^2 times smaller (the end of contact, and interpolation); the same at every epsilon, to 10 "
+     "%",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const auto error = [](int cells, double epsilon) {
+         const Discretisation on = Method{&crouzeix_raviart(), structured()}.on(cells);
+         const Solution solution = active_set(assemble(tutorial::paper_scene(epsilon), on.space()));
+         return tutorial::Exact(epsilon).errors(on.space(), solution).max_at_unknowns;
+       };
+       report.claim_within(error(32, 1e-6) / error(64, 1e-6), 2.7, 4.2, "error on 1/32 / error on 1/64:");
+       for (const double epsilon : {1e-2, 0.0})
+         report.claim_within(error(64, epsilon) / error(64, 1e-6), 0.9, 1.1,
+                             fmt::format("epsilon = {} / 1e-6:", epsilon));
+     }}};

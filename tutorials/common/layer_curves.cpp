@@ -1,0 +1,53 @@
+#include "common/layer_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "antilock/measure/contact_zone.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "common/paper_problem.hpp"
+
+namespace antilock::tutorial {
+
+Table on_contact(const std::vector<double>& epsilons, const Space& space) {
+  std::vector<std::string> columns{"x"};
+  for (const char* kind : {"u", "pressure"})
+    for (std::size_t k = 0; k < epsilons.size(); ++k) columns.push_back(fmt::format("{}{}", kind, k));
+  std::vector<Eigen::MatrixX3d> found;
+  for (const double epsilon : epsilons) {
+    const VariationalInequality problem = assemble(paper_scene(epsilon), space);
+    found.push_back(contact_table(space, problem, active_set(problem)));
+  }
+  Table table(columns);
+  for (Eigen::Index i = 0; i < found[0].rows(); ++i) {
+    std::vector<Entry> row{found[0](i, 0)};
+    for (const int column : {1, 2})
+      for (const auto& one : found) row.emplace_back(one(i, column));
+    table.add(row);
+  }
+  return table;
+}
+
+Table stress_by_depth(const Space& space, const Solution& solution) {
+  const TriangleMesh& mesh = space.mesh();
+  const int n = static_cast<int>(std::lround(std::sqrt(solution.p.size() / 2.0)));  // n x n cells, two triangles each
+  Eigen::MatrixXd p = Eigen::MatrixXd::Zero(n, n);
+  for (int t = 0, row = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] == Region::body) continue;
+    const double px = solution.p(row++);
+    double x = 0, y = 0, left = 1;
+    for (int i = 0; i < 3; ++i) {
+      x += mesh.vertices(mesh.triangles(t, i), 0) / 3, y += mesh.vertices(mesh.triangles(t, i), 1) / 3;
+      left = std::min(left, mesh.vertices(mesh.triangles(t, i), 0));
+    }
+    if (x - left > 0.5 / n) p(static_cast<int>((y + 1) * n), static_cast<int>(x * n)) = px;  // its vertical edge: right
+  }
+  Table table({"x", "top", "middle", "bottom"});
+  for (int i = 0; i + 1 < n; ++i)
+    table.add({(i + 1.0) / n, p(n - 1, i), 0.5 * (p(n / 2, i) + p((n - 1) / 2, i)), p(0, i)});
+  return table;
+}
+
+}  // namespace antilock::tutorial
