@@ -684,6 +684,21 @@ TEST(Bounds, AGreatLoadHidesNoNeighbourThatSinksIn) {
   }
 }
 
+TEST(Bounds, AGreatUElsewhereHidesNoUpperBound) {
+  // where a bound or B may be impossible to meet every violation counts: u_1 stops at 0.1 though u_0 is 1e14
+  VariationalInequality problem = springs(Eigen::MatrixXd(0, 4), Eigen::Vector4d(1e14, 0.2, 1, -1));
+  problem.b = rows_of(Eigen::RowVector4d(0, 0, 1, 0));
+  problem.m = Eigen::VectorXd::Ones(1);
+  problem.compliance = 0;
+  problem.contact = {1, 3};
+  problem.lower = Eigen::Vector2d(-infinity, 0.01);
+  problem.upper = Eigen::Vector2d(0.1, infinity);
+  const Solution s = active_set(problem);
+  EXPECT_NEAR(s.u(1), 0.1, 1e-12);
+  EXPECT_NEAR(s.u(3), 0.01, 1e-12);
+  EXPECT_NEAR(s.lambda(0), -0.1, 1e-12);
+}
+
 TEST(Kkt, ReportsEachSideOfABoundByItself) {
   const String string;
   const Solution right = active_set(string.problem);
