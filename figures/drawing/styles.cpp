@@ -71,6 +71,10 @@ const Row rows[] = {
     {"thin layer (22)", "thin layer (22)", "", {sky, circle, 10}},
     {"scaled layer (23)", "scaled layer (23)", "", {indigo, circle, 4}},
     {"no layer (25)", "no layer (25)", "", {vermillion, circle, 4}},
+    // many ranks
+    {"strong scaling", "one mesh, more ranks", "", {blue, circle, 9}},
+    {"weak scaling", "as many unknowns per rank", "", {green, diamond, 6}},
+    {"columns cut", "one mesh, columns cut", "", {vermillion, square, 7}},
     // estimates and what they estimate
     {"estimate $h = 1/8$", "estimate, $h = 1/8$", "", {vermillion, square, 9}},
     {"estimate $h = 1/32$", "estimate, $h = 1/32$", "", {olive, down_triangle, 5}},
