@@ -85,6 +85,10 @@ const Row rows[] = {
     {"P1 extruded", "$P_1$, layer extruded in columns", "$P_1$ extruded", {blue, circle, 6.5}},
     {"bound", "proved bound", "", {blue, circle, 7}},
     {"error", "error", "", {grey, square, 5}},
+    // many ranks
+    {"strong scaling", "one mesh, more ranks", "", {blue, circle, 9}},
+    {"weak scaling", "as many unknowns per rank", "", {green, diamond, 6}},
+    {"columns cut", "one mesh, columns cut", "", {vermillion, square, 7}},
     // estimates and what they estimate
     {"estimate $h = 1/8$", "estimate, $h = 1/8$", "", {vermillion, square, 9}},
     {"estimate $h = 1/32$", "estimate, $h = 1/32$", "", {olive, down_triangle, 5}},

@@ -1,0 +1,136 @@
+#include "petsc/launched.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cstdio>
+#include <sstream>
+#include <thread>
+
+#include "antilock/core/error.hpp"
+#include "antilock/distributed/ranks.hpp"
+#include "antilock/distributed/snesvi.hpp"
+#include "antilock/distributed/strips.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "common/paper_problem.hpp"
+
+namespace antilock::tutorial {
+namespace {
+
+constexpr auto flag = "--on-ranks";
+const std::vector<std::string> columns{"what",        "ranks",      "cells", "epsilon", "unknowns",
+                                       "corrections", "iterations", "most",  "seconds", "megabytes",
+                                       "u_max",       "u_min",      "reason"};
+
+/// One machine: no network is looked for; root may start ranks, and more of them than there are cores, which then give
+/// way to each other while they wait.
+constexpr auto environment =
+    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
+    "OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OPENBLAS_NUM_THREADS=1";
+
+}  // namespace
+
+std::optional<int> answer_as_rank(int argc, char** argv, const std::function<Ended(const Asked&)>& solve) {
+  if (argc != 5 || std::string(argv[1]) != flag) return std::nullopt;
+  const distributed::Session session;
+  Ended end;
+  try {
+    end = solve({argv[2], distributed::ranks(), std::stoi(argv[3]), std::stod(argv[4])});
+  } catch (const NotConverged&) {
+    end.reason = "gave_up";
+  } catch (const std::exception& error) {
+    distributed::abort(error.what(), 3);
+  }
+  end.megabytes = distributed::peak_megabytes();
+  if (distributed::rank() == 0)
+    fmt::print("{} {} {} {} {} {} {} {} {}\n", end.unknowns, end.corrections, end.iterations, end.most, end.seconds,
+               end.megabytes, end.u_max, end.u_min, end.reason);
+  return 0;
+}
+
+Table on_ranks(const Asked& asked) {
+  const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+  const bool crowded = asked.ranks > static_cast<int>(std::thread::hardware_concurrency());
+  const std::string command =
+      fmt::format("{} OMPI_MCA_mpi_yield_when_idle={} mpiexec -n {} '{}' {} '{}' {} {}", environment, crowded ? 1 : 0,
+                  asked.ranks, self, flag, asked.what, asked.cells, asked.epsilon);
+  FILE* pipe = ::popen(command.c_str(), "r");
+  std::string answer;
+  std::array<char, 512> line{};
+  while (pipe != nullptr && std::fgets(line.data(), static_cast<int>(line.size()), pipe) != nullptr)
+    answer += line.data();
+  const int status = pipe != nullptr ? ::pclose(pipe) : -1;
+  std::istringstream text(answer);
+  Ended end;
+  text >> end.unknowns >> end.corrections >> end.iterations >> end.most >> end.seconds >> end.megabytes >> end.u_max >>
+      end.u_min >> end.reason;
+  if (status != 0 || !text)
+    throw Error(fmt::format("mpiexec -n {} failed (status {}); accepted: a machine where mpiexec starts {} processes",
+                            asked.ranks, status, asked.ranks));
+  Table row(columns);
+  row.add({asked.what, asked.ranks, asked.cells, asked.epsilon, end.unknowns, end.corrections, end.iterations, end.most,
+           end.seconds, end.megabytes, end.u_max, end.u_min, end.reason});
+  return row;
+}
+
+Table on_ranks(const std::string& what, const std::vector<int>& ranks, const std::function<int(int)>& cells,
+               double epsilon) {
+  Table runs(columns);
+  for (const int n : ranks) runs.add(on_ranks({what, n, cells(n), epsilon}));
+  return runs;
+}
+
+Ended by_snesvi(const Asked& asked) {
+  const TriangleMesh mesh = structured_mesh(asked.cells);
+  const distributed::Piece piece =
+      distributed::piece_of(mesh, distributed::strips(mesh, asked.ranks), distributed::rank(), asked.ranks);
+  const Space space(piece.mesh, p1());
+  const bool summed = asked.what == "SNESVI, summed";
+  const distributed::Inequality problem(paper_scene(asked.epsilon), piece, space, summed);
+  distributed::State state = distributed::zero_state(problem);
+  const distributed::SnesviEnd end = summed ? distributed::snesvi(problem) : distributed::snesvi_split(problem, state);
+  return {problem.rows().total(), end.corrections, end.linear, 0, 0, 0, end.largest, 0, end.reason};
+}
+
+Solution serial(const TriangleMesh& mesh, const Element& element, double epsilon) {
+  const Space space(mesh, element);
+  return active_set(assemble(paper_scene(epsilon), space));
+}
+
+void print_runs(const Table& runs) {
+  const Table first = runs.rows().front();
+  runs.select({"ranks", "cells", "epsilon", "unknowns", "corrections", "iterations", "most", "seconds", "megabytes",
+               "u_max", "reason"})
+      .print(first.entry("what").text(), 5);
+}
+
+std::vector<int> chessboard(const TriangleMesh& mesh, int ranks) {
+  std::vector<int> rank_of;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::RowVector3i corners = mesh.triangles.row(t);
+    const double x = mesh.vertices.col(0)(corners).mean(), y = mesh.vertices.col(1)(corners).mean();
+    rank_of.push_back((static_cast<int>(8 * x) + static_cast<int>(8 * (y + 1))) % ranks);
+  }
+  return rank_of;
+}
+
+std::vector<int> all_on_the_first(const TriangleMesh& mesh, int) { return std::vector<int>(mesh.triangle_count(), 0); }
+
+void write_scaling(const std::filesystem::path& folder, const std::vector<std::pair<std::string, Table>>& studies) {
+  Table scaling({"study", "ranks", "quantity", "value"});
+  const std::array<std::array<const char*, 2>, 3> quantities = {{{"most", "iterations per correction"},
+                                                                 {"seconds", "time / time of one rank"},
+                                                                 {"megabytes", "memory of a rank / of one alone"}}};
+  for (const auto& [column, quantity] : quantities)
+    for (const auto& [study, runs] : studies)
+      for (const Table& run : runs.rows()) {
+        const bool counted = std::string(column) == "most", timed = std::string(column) == "seconds";
+        if (timed && run.number("ranks") > std::thread::hardware_concurrency()) continue;
+        scaling.add({study, run.entry("ranks"), quantity, run.number(column) / (counted ? 1 : runs.first(column))});
+      }
+  scaling.write(folder / "scaling.csv");
+}
+
+}  // namespace antilock::tutorial
