@@ -7,6 +7,7 @@
 #include <random>
 
 #include "antilock/analysis/certificate.hpp"
+#include "antilock/analysis/certified_distance.hpp"
 #include "antilock/analysis/energy_bracket.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth.hpp"
@@ -189,21 +190,42 @@ TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
     }
 }
 
-// Too little or too much of everything: r1 is along A u, so that R(v) is far larger than what the width forgives.
+// Too little or too much of everything: r1 is along A u, so that R(v) is far larger than what the width forgives. The
+// strain stays right, eps^2 p = B u, and costs nothing.
 TEST(Certificate, BoundsTheEnergyOfAScaledSolution) {
-  const double epsilon = 1e-2, energy = Truth(paper_sine_load(), epsilon, true, 14).energy();
-  for (const double factor : {0.98, 1.02}) {
-    Answered run(unstructured_mesh(32), test::stiff_scene(epsilon));
-    run.solution.u *= factor;
-    run.solution.p *= factor;
-    const Certificate found = run.certified();
-    EXPECT_GT(found.imbalance, 0.015);
-    for (const double lower :
-         {found.energy_lower, energy_lower_bound(run.scene, run.space, run.problem, run.solution)}) {
-      EXPECT_LE(lower, energy) << factor;
-      EXPECT_GE(lower, 1.03 * energy) << factor << ": J is a minimum, so the scaling costs little";
+  for (const double epsilon : {1.0, 1e-2})
+    for (const double factor : {0.9, 1.1}) {
+      const double energy = Truth(paper_sine_load(), epsilon, true, 14).energy();
+      Answered run(unstructured_mesh(32), test::stiff_scene(epsilon));
+      run.solution.u *= factor;
+      run.solution.p *= factor;
+      const Certificate found = run.certified();
+      EXPECT_GT(found.imbalance, 0.08);
+      for (const double lower :
+           {found.energy_lower, energy_lower_bound(run.scene, run.space, run.problem, run.solution)}) {
+        EXPECT_LE(lower, energy) << epsilon << factor;
+        EXPECT_GE(lower, 1.05 * energy) << epsilon << factor << ": J is a minimum, a tenth off costs a hundredth";
+      }
+      EXPECT_GE(found.energy_upper, energy) << epsilon << factor;
     }
-    EXPECT_GE(found.energy_upper, energy) << factor;
+}
+
+// Next to a clamped end the one free vertex alone keeps v above the obstacle: not below it, and no higher than needed.
+TEST(Companion, IsLiftedBesideAClampedEndAsFarAsTheObstacleAsks) {
+  const UnilateralContact contact{[](double x) { return 0.05 - 0.1 * std::exp(-std::pow((x - 0.05) / 0.03, 2)); }};
+  const TriangleMesh mesh = unstructured_mesh(8);
+  const Space space(mesh, p1());
+  for (const double held : {0.0, 0.03}) {
+    const Eigen::VectorXd lower =
+        admissible_bounds(contact, space, [&](double x, double) { return x < 0.5 ? held : 0.0; });
+    const double end = mesh.vertices(space.contact().front(), 0);  // the first free vertex, right of x = 0
+    EXPECT_GT(lower(0), -contact.gap(end)) << "the bound at the vertex is not enough";
+    double least = 1;
+    for (int k = 0; k <= 32; ++k) {
+      const double theta = k / 32.0;
+      least = std::min(least, (1 - theta) * held + theta * lower(0) + contact.gap(theta * end));
+    }
+    EXPECT_NEAR(least, 0, 1e-12) << held;
   }
 }
 
@@ -302,6 +324,35 @@ TEST(Certificate, BoundsAP1SolutionAndNamesTheLayerWhereItLocks) {
     EXPECT_GE(found.displacement, exact_errors(run.mesh, run.flux(), v, truth).displacement);
     EXPECT_EQ(found.displacement > 0.1, locks);
     EXPECT_EQ(found.layer_share > 0.5, locks) << found.layer_share;
+  }
+}
+
+// |u - w| <= |u - v| + |v - w| for P2 and P1; nothing is lost where w = v.
+TEST(Certificate, BoundsOtherElementsByTheirDistance) {
+  for (const double epsilon : {1.0, 1e-2, 1e-6, 0.0}) {
+    const Truth solved(paper_sine_load(), epsilon, true, 14);
+    const TruthTable truth(solved);
+    const Answered run(layered_mesh(16, epsilon), test::stiff_scene(epsilon));
+    const Companion v = run.strip();
+    const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
+    for (const Element* element : {&p1(), &p2()}) {
+      const Space space(run.mesh, *element);
+      const VariationalInequality problem = test::stiff_problem(space, epsilon);
+      const Solution w = active_set(problem);
+      const double bound = certified_distance(found, v, space, problem, w);
+      EXPECT_GE(bound, measure_errors(space, w, epsilon, reference(truth)).energy) << element->name() << epsilon;
+      EXPECT_GT(bound, found.displacement);
+      EXPECT_LT(bound, 3 * found.displacement);
+    }
+    const Space linear(run.mesh, p1());
+    const VariationalInequality problem = test::stiff_problem(linear, epsilon);
+    const Solution same = active_set(problem);
+    const Companion own = p1_companion(same);
+    EXPECT_EQ(certified_distance(found, own, linear, problem, same), found.displacement);
+    const Answered other(unstructured_mesh(8), test::stiff_scene(epsilon));
+    expect_refused([&] { certified_distance(found, other.strip(), linear, problem, same); }, "columns of its own");
+    expect_refused([&] { certified_distance(found, p1_companion(same), other.space, other.problem, other.solution); },
+                   "both on one mesh");
   }
 }
 

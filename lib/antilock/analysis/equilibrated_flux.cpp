@@ -18,7 +18,8 @@ void check_request(const Scene& scene, const Space& space, const VariationalIneq
                    const Solution& solution) {
   require_lower_bounds(problem, "certificate");
   if (space.element().name() != "CR")
-    throw Error("certificate: element " + space.element().name() + " has no flux in equilibrium; accepted: CR");
+    throw Error("certificate: element " + space.element().name() +
+                " has no flux in equilibrium; accepted: CR, and certified_distance to it");
   if (std::holds_alternative<VentcelLayer>(scene.layer()))
     throw Error(
         "certificate: the Ventcel layer has no flux of its own; accepted: the scaled layer with epsilon = 0, which is "
