@@ -1,12 +1,11 @@
 #include "antilock/solve/exhibits/summed_matrix.hpp"
 
-#include <Eigen/CholmodSupport>
-#include <Eigen/UmfPackSupport>
 #include <set>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/bounds.hpp"
+#include "antilock/solve/exhibits/summed_factor.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
 
@@ -27,21 +26,6 @@ SparseMatrix part(const SparseMatrix& upper, const std::vector<int>& place, int 
   SparseMatrix whole(size, size);
   whole.setFromTriplets(entries.begin(), entries.end());
   return whole;
-}
-
-/// x = K^-1 b; empty where the factorisation gives up.
-Eigen::VectorXd solve(const SparseMatrix& k, const Eigen::VectorXd& b, SummedFactor kind) {
-  Eigen::VectorXd x;
-  if (kind == SummedFactor::cholesky) {
-    Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor;
-    factor.cholmod().print = 0;
-    factor.compute(k);
-    if (factor.info() == Eigen::Success) x = factor.solve(b);
-  } else {
-    const Eigen::UmfPackLU<SparseMatrix> factor(k);
-    if (factor.info() == Eigen::Success) x = factor.solve(b);
-  }
-  return x.allFinite() ? x : Eigen::VectorXd();
 }
 
 }  // namespace
@@ -101,7 +85,7 @@ NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFacto
       }
     }
     const Eigen::VectorXd rest = b - k.selfadjointView<Eigen::Upper>() * x;
-    const Eigen::VectorXd found = solve(part(k, place, static_cast<int>(inactive.size())), rest(inactive), kind);
+    const Eigen::VectorXd found = summed_solve(part(k, place, static_cast<int>(inactive.size())), rest(inactive), kind);
     ++s.counters.factorisations;
     ++s.counters.solves;
     ++s.counters.contact;

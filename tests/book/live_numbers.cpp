@@ -1,0 +1,31 @@
+// What the page's live figure must say, by the library as it is compiled for this machine: one line of JSON per
+// question, with its element, mesh, 1/h, epsilon and numbers. Run: live_numbers
+#include <fmt/format.h>
+
+#include "live_figure.hpp"
+
+using namespace antilock;
+
+int main() {
+  struct Kind {
+    const char* name;
+    book::LiveMesh mesh;
+    double amount;
+  };
+  const Kind kinds[] = {{"structured", book::LiveMesh::structured, 0},
+                        {"unstructured", book::LiveMesh::unstructured, 0},
+                        {"moved", book::LiveMesh::moved, 0.1},
+                        {"layered", book::LiveMesh::layered, 0}};
+  for (const Kind& kind : kinds)
+    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+      book::LiveFigure figure(kind.mesh, 16, kind.amount, *element);
+      for (const double exponent : {0., -2., -6., -8.}) {
+        const double epsilon = exponent == -8 ? 0 : std::pow(10, exponent);
+        const book::LiveNumbers n = figure.solve(epsilon, book::live_truth(epsilon));
+        fmt::print("{{\"element\": \"{}\", \"mesh\": \"{}\", \"moved\": {}, \"exponent\": {}, \"kept\": {:.17g}, ",
+                   element->name(), kind.name, kind.amount, exponent, 100 * n.largest_on_contact / n.ridge);
+        fmt::print("\"error\": {:.17g}, \"touching\": {}, \"largest\": {:.17g}}}\n", n.error, n.touching,
+                   n.largest_on_contact);
+      }
+    }
+}

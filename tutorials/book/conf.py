@@ -1,0 +1,56 @@
+# The book: pages.py has written the Markdown, Sphinx makes the pages. Run: tutorials/book/build
+import re
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE))
+
+from library import Library, NameLinks  # noqa: E402
+
+project = "Antilock"
+author = "the Antilock authors"
+html_title = "Antilock"
+extensions = ["myst_parser", "katex"]
+root_doc = "index"
+myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "attrs_image"]
+myst_heading_anchors = 3
+suppress_warnings = ["myst.header"]  # a step (###) stands where the program has it
+html_theme = "furo"
+html_static_path = ["style.css", "book.js", "../../build/book-parts/static"]
+html_css_files = ["katex.css", "style.css"]
+html_js_files = [("book.js", {"defer": "defer"})]
+html_copy_source = False
+html_show_search_summary = False  # a page opened from a folder cannot read other pages
+html_show_copyright = html_show_sphinx = False
+pygments_style = "xcode"  # of those with enough contrast
+pygments_dark_style = "github-dark"
+
+
+def repair(app, error):
+    """Debian's furo was rebuilt without its tools, and lost three things on the way (bookworm, 2022.12.07+dfsg-1): its
+    script imports but is no module, its style asks the web server for normalize.css, "auto" is never dark."""
+    static = Path(app.outdir) / "_static"
+    script, style = static / "scripts/furo.js", static / "styles/furo.css"
+    if error is None and app.builder.format == "html" and script.read_text().startswith("import Gumshoe"):
+        script.write_text((static / "scripts/gumshoe-patched.js").read_text() + script.read_text().split("\n", 1)[1])
+        (static / "styles/normalize.css").write_text(Path("/usr/share/nodejs/normalize.css/normalize.css").read_text())
+        css = style.read_text().replace("/javascript/normalize.css/normalize.css", "normalize.css")
+        dark = re.search(r'body\[data-theme="dark"\] (\{.*?\})', css, re.S)[1]
+        style.write_text(css + '@media not print { @media (prefers-color-scheme: dark) { body:not([data-theme="light"]) ' + dark + "} }\n")
+
+
+def setup(app):
+    app.connect("build-finished", repair)
+    links = NameLinks(Library(HERE.parents[1] / "lib"))
+
+    def page(app, name, template, context, doctree):
+        body = context.get("body", "")
+        if 'class="live"' in body:
+            app.add_js_file("live_data.js", loading_method="defer")
+            app.add_js_file("live.js", loading_method="defer")
+        if not name.startswith("library"):
+            body = links(body)
+        context["body"] = re.sub(r'<img alt="([^"]*)" class="lazy"', r'<img alt="\1" loading="lazy" class="lazy"', body)
+
+    app.connect("html-page-context", page)

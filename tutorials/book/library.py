@@ -1,0 +1,84 @@
+"""The library's headers as pages, one per room, and the names in code that lead there."""
+import re
+
+from docutils.nodes import make_id
+
+ROOMS = "core scene mesh space form problem models solve exact measure analysis adapt study distributed io".split()
+TYPE = re.compile(r"^(?:class|struct|enum class) (\w+)[^;]*$")
+FUNCTION = re.compile(r"^(?!return|using|namespace|template|#|//|\})(?:[\w:<>,*&]+ )+[*&]?(\w+)\(")
+
+
+class Library:
+    def __init__(self, lib):
+        self.lib = lib
+        self.rooms = [room for room in ROOMS if list((lib / "antilock" / room).glob("**/*.hpp"))]
+
+    def headers(self, room):
+        return sorted((self.lib / "antilock" / room).glob("**/*.hpp"))
+
+    def short(self, header):
+        return header.relative_to(self.lib / "antilock").as_posix()
+
+    def page(self, header, suffix=".md"):
+        short = self.short(header)
+        return f"library_{short.split('/')[0]}{suffix}#{make_id(short)}"
+
+    def page_names(self):
+        return [f"library_{room}" for room in self.rooms]
+
+    def names(self):
+        """({type: page}, {function: page}) of what the headers declare; a name of two headers leads to the first."""
+        types, functions = {}, {}
+        for room in self.rooms:
+            for header in self.headers(room):
+                for line in header.read_text().splitlines():
+                    for pattern, known in ((TYPE, types), (FUNCTION, functions)):
+                        found = pattern.match(line)
+                        if found:
+                            known.setdefault(found[1], self.page(header, ".html"))
+        return types, functions
+
+    def write(self, write):
+        for room in self.rooms:
+            out = [f"# Room {room}", ""]
+            for header in self.headers(room):
+                out += [f"## {self.short(header)}", "", "```cpp", header.read_text().rstrip(), "```", ""]
+            write(f"library_{room}", out)
+        write("library", ["# The library's headers", "", "A room includes only rooms before it.", "", "```{toctree}", ":maxdepth: 2", "",
+                          *(f"library_{room}" for room in self.rooms), "```"])
+
+
+class NameLinks:
+    """Turns the names of a page's code into links to their headers, each name once per block."""
+
+    def __init__(self, library):
+        self.types, self.functions = library.names()
+        self.includes = {f"antilock/{library.short(header)}": library.page(header, ".html")
+                         for room in library.rooms for header in library.headers(room)}
+
+    def block(self, code):
+        seen = set()
+
+        def name(found):
+            before, name, after = found[1], found[2], found[3]
+            to = self.types.get(name)
+            if to is None and after and not re.search(r'class="(n|nc|kt)">[^<]*</span>(<span class="w"> +</span>)?$', before):
+                to = self.functions.get(name)
+            if to is None or name in seen:
+                return found[0]
+            seen.add(name)
+            return found[0].replace(f">{name}<", f'><a href="{to}">{name}</a><', 1)
+
+        code = re.sub(r'((?:<span class="\w+">[^<]*</span>)?(?:<span class="w"> +</span>)?)<span class="n[cf]?">(\w+)</span>(<span class="p">\()?',
+                      name, code)
+        return re.sub(r'&quot;(antilock/[\w/]+\.hpp)&quot;',
+                      lambda f: f'<a href="{self.includes[f[1]]}">&quot;{f[1]}&quot;</a>' if f[1] in self.includes else f[0], code)
+
+    def inline(self, found):
+        name = found[2].removesuffix("()")
+        to = self.types.get(name) or self.functions.get(name) or self.includes.get("antilock/" + name)
+        return f'<a class="name" href="{to}">{found[0]}</a>' if to else found[0]
+
+    def __call__(self, body):
+        body = re.sub(r'<div class="highlight-cpp notranslate">.*?</div>', lambda f: self.block(f[0]), body, flags=re.S)
+        return re.sub(r'(?<!">)(<code class="docutils literal notranslate"><span class="pre">)([\w/.]+(?:\(\))?)(</span></code>)', self.inline, body)

@@ -1,0 +1,163 @@
+"""A tutorial (C++ or FreeFEM with prose in its comments) as Markdown.
+
+- A comment at the margin is prose (Markdown, formulas between dollars); everything else is code.
+- An indented comment belongs to the code, unless it begins with a heading (`### Solve`): then it is prose too.
+- `### Solve` in the C++ finds `// ### Solve` in the FreeFEM twin, which is folded under it.
+- `Run: COMMAND    what it does` lines become a table; includes are folded away.
+- `:live: string` places a live figure.
+"""
+import html
+import re
+
+HEADING = re.compile(r"#{1,4} ")
+
+
+class BookError(Exception):
+    """What stops the build: one line that names the file."""
+
+
+def chunks(lines):
+    """("prose" | "code", lines) in the order of the file."""
+    kind, block, in_step, fenced = "code", [], False, False
+    for line in lines:
+        text = line.strip()
+        comment = text.startswith("//")
+        body = text[2:].removeprefix(" ")
+        if comment and not line[0].isspace():
+            new = "prose"
+        elif comment and (HEADING.match(body) or (kind == "prose" and in_step)):
+            new, in_step = "prose", True
+        else:
+            new, in_step = "code", False
+        if new != kind:
+            if any(part.strip() for part in block):
+                yield kind, block
+            kind, block = new, []
+        block.append(body if new == "prose" else line.rstrip())
+    if any(part.strip() for part in block):
+        yield kind, block
+
+
+def dedent(lines):
+    while lines and not lines[0].strip():
+        lines = lines[1:]
+    while lines and not lines[-1].strip():
+        lines = lines[:-1]
+    margin = min((len(line) - len(line.lstrip()) for line in lines if line.strip()), default=0)
+    return [line[margin:] for line in lines]
+
+
+def fence(language, lines):
+    return [f"```{language}", *dedent(lines), "```", ""]
+
+
+def folded(summary, lines, kind):
+    return [f'<details class="{kind}"><summary>{html.escape(summary)}</summary>', "", *lines, "", "</details>", ""]
+
+
+def step_name(heading):
+    """`### Solve: the contact loop` is the step Solve."""
+    return re.split(r"[:,.(]", heading.lstrip("# "))[0].strip()
+
+
+def steps(path):
+    """The steps of a program: {name: its lines}."""
+    found, name = {}, None
+    for line in path.read_text().splitlines() if path.exists() else []:
+        heading = re.match(r"\s*// (### .+)", line)
+        if heading:
+            name = step_name(heading[1])
+        if name:
+            found.setdefault(name, []).append(line.replace("// ### ", "// "))
+    return found
+
+
+def runs(prose):
+    """Takes the `Run:` lines out of the prose: (prose, a Markdown table)."""
+    table, rest = [], []
+    for line in prose:
+        found = re.match(r"Run: (\S.*?)(?:  +(.*))?$", line)
+        if found:
+            table.append(f"| `{found[1]}` | {found[2] or ''} |")
+        else:
+            rest.append(line)
+    return rest, (["| command | what it does |", "|---|---|", *table, ""] if table else [])
+
+
+def needs(prose):
+    """Takes the `Needs: 00, 02` line out of the prose: (prose, numbers), None where there is no such line."""
+    for i, line in enumerate(prose):
+        found = re.match(r"(?:Needs|Builds on|Read first)(?: chapters?| tutorials?)?:? ([^a-z]*\d\d.*)$", line)
+        if found:
+            return prose[:i] + prose[i + 1:], re.findall(r"\b\d\d\b", found[1])
+    return prose, None
+
+
+class Page:
+    """What a tutorial's source says, in the order of its page."""
+
+    def __init__(self, source, twin, draft):
+        self.title, self.lead, self.body, self.runs, self.needs = None, [], [], [], None
+        self.lives, self.steps = [], set()
+        self.twin = steps(twin)
+        self.shown = set()
+        step = None
+        for kind, block in chunks(source.read_text().splitlines()):
+            if kind == "code":
+                if all(line.startswith(("#include", "using", "#pragma")) or not line.strip() for line in block):
+                    self.body += folded("Headers", fence("cpp", block), "headers")
+                else:
+                    self.body += fence("cpp", block)
+                continue
+            if self.title is None:
+                block = self.header(source, block, draft)
+            fenced = False
+            for line in block:
+                fenced ^= line.startswith("```")
+                if HEADING.match(line) and not fenced:
+                    self.show_twin(step)
+                    step = step_name(line) if line.startswith("### ") else None
+                    self.steps.add(step)
+                live = re.match(r":live:\s*(.*)$", line)
+                self.body += self.live(live[1].split()) if live else [line]
+            self.body.append("")
+        self.show_twin(step)
+        missing = [name for name in self.twin if name not in self.steps]
+        if missing and not draft:
+            raise BookError(f"{twin.name}: step \"{missing[0]}\" is none of {source.name}; it has {sorted(s for s in self.steps if s)}")
+
+    def header(self, source, block, draft):
+        if not block[0].startswith("# "):
+            if not draft:
+                raise BookError(f"{source.name}: line 1 is no title; accepted: \"// # Title\"")
+            block = ["# " + block[0].split(".")[0], "", *block]
+        self.title = block[0][2:].strip()
+        if not draft and len(self.title.split()) > 6:
+            raise BookError(f"{source.name}: the title has {len(self.title.split())} words; accepted: at most six")
+        block, self.runs = runs(block[1:])
+        block, self.needs = needs(block)
+        return block
+
+    def show_twin(self, step):
+        if step in self.twin and step not in self.shown:
+            self.body += folded(f"The same in FreeFEM: {step}", fence("freefem", self.twin[step]), "twin")
+            self.shown.add(step)
+
+    def live(self, words):
+        kind = words.pop(0) if words and "=" not in words[0] else "locking"
+        self.lives.append(kind)
+        return live_figure(kind, dict(word.split("=", 1) for word in words))
+
+
+STILLS = {"locking": "hero", "string": "string", "convergence": "figure9", "roundoff": "roundoff"}
+
+
+def live_figure(kind, settings):
+    """The place of a live figure; what stands in it is seen until the script has taken over, or where it cannot."""
+    if kind not in STILLS:
+        raise BookError(f":live: {kind} is unknown; accepted: {', '.join(STILLS)}")
+    data = "".join(f' data-{key}="{html.escape(value)}"' for key, value in settings.items())
+    identity = ' id="live"' if kind == "locking" else f' id="live-{kind}"'
+    still = (f'<img src="_images/{STILLS[kind]}.webp" alt="A still of the live figure" loading="lazy">'
+             '<p class="live-still">This is a still. The live figure needs a browser with scripts, WebAssembly and WebGL2.</p>')
+    return ["", f'<div class="live" data-kind="{kind}"{identity}{data}>{still}</div>', ""]

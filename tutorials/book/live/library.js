@@ -1,0 +1,116 @@
+// The library, compiled to WebAssembly (live_data.js), as a few calls. No network: it opens from a folder too.
+"use strict";
+const antilock = {};
+
+antilock.data = (() => {
+  async function unpacked(text) {
+    const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  }
+  let ready;
+  return () => (ready ??= (async () => {
+    const packed = window.ANTILOCK_LIVE;
+    if (!packed) throw new Error("live_data.js is missing");
+    const [module, meshes] = await Promise.all([unpacked(packed.wasm), unpacked(packed.meshes)]);
+    return { module: await WebAssembly.compile(module), meshes };
+  })());
+})();
+
+/// A fresh instance of the library. After a throw the instance is lost: ask for another.
+antilock.library = async () => {
+  const { module, meshes } = await antilock.data();
+  let memory, said = "";
+  const text = (at) => {
+    const all = new Uint8Array(memory.buffer);
+    return new TextDecoder().decode(all.slice(at, all.indexOf(0, at)));
+  };
+  // What the library asks of a system (WASI) is a clock; everything else is answered with "not here".
+  const system = {
+    clock_time_get: (id, precision, at) => {
+      new DataView(memory.buffer).setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
+      return 0;
+    },
+  };
+  const imports = {};
+  for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+    imports[from] ??= {};
+    imports[from][name] = from === "page" ? (at) => { said = text(at); } : system[name] ?? (() => 52);
+  }
+  const { exports } = await WebAssembly.instantiate(module, imports);
+  memory = exports.memory;
+  exports._initialize?.();
+  const call = (name, ...numbers) => {  // a throw ends in a trap; what it says has come before
+    said = "";
+    try { return exports[name](...numbers); } catch (trap) { throw new Error(said || String(trap)); }
+  };
+
+  const view = new DataView(meshes);
+  for (let at = 0; at + 16 <= meshes.byteLength;) {
+    const [cells, layer, vertices, triangles] = [0, 4, 8, 12].map((k) => view.getInt32(at + k, true));
+    const corners = at + 16 + 16 * vertices, end = corners + 6 * triangles;
+    if (end > meshes.byteLength) throw new Error("the page's meshes are damaged");
+    const v = call("mesh_vertices", cells, layer, vertices), t = call("mesh_triangles", cells, layer, triangles);
+    new Uint8Array(memory.buffer, v, 16 * vertices).set(new Uint8Array(meshes, at + 16, 16 * vertices));
+    const target = new Int32Array(memory.buffer, t, 3 * triangles);
+    for (let i = 0; i < 3 * triangles; ++i) target[i] = view.getUint16(corners + 2 * i, true);
+    at = end;
+  }
+
+  const line = (at) => new Float64Array(memory.buffer, at, call("line_size")).slice();
+  const kinds = ["structured", "unstructured", "moved", "layered"];
+  return {
+    discretise: (element, mesh, cells, moved) => call("discretise", element, kinds.indexOf(mesh), cells, moved),
+    solve(element, epsilon) {
+      const [largest, ridge, error, ms, unknowns, corrections, factorisations, touching, contact, from] =
+        new Float64Array(memory.buffer, call("solve", element, epsilon), 10);
+      return { largest, ridge, error, ms, unknowns, corrections, factorisations, touching, contact, from, kept: 100 * largest / ridge };
+    },
+    surface: (element) => {
+      const at = call("surface", element);
+      return new Float32Array(memory.buffer, at, call("surface_size")).slice();
+    },
+    trace: (element) => line(call("trace", element)),
+    ridge: (epsilon, points) => line(call("ridge", epsilon, points)),
+    roundOff(cells, epsilon) {
+      const [split, summed] = new Float64Array(memory.buffer, call("round_off", cells, epsilon), 2);
+      return { split, summed };
+    },
+  };
+};
+
+// ---- What the figures share.
+
+/// epsilon of a range input: its value is log10 epsilon, its lowest position is exactly 0.
+antilock.epsilonOf = (range) => (Number(range.value) <= Number(range.min) ? 0 : 10 ** Number(range.value));
+antilock.epsilonSaid = (range) => (antilock.epsilonOf(range) === 0 ? "0, the limit" : `10^${range.value}`);
+antilock.epsilonShown = (range) =>
+  antilock.epsilonOf(range) === 0 ? "0, the limit" : `10<sup>${range.value.replace("-", "−")}</sup>`;
+antilock.digits = (x, n = 2) => (x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e4 ? x.toExponential(n - 1) : String(Number(x.toPrecision(n + 1))));
+
+/// Calls `update` once per picture drawn, however often it is asked.
+antilock.soon = (update) => {
+  let waiting = false;
+  return () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(async () => { waiting = false; await update(); });
+  };
+};
+
+antilock.figures = {};
+/// Fills every live figure of the page; where one cannot be, its still stays, with a sentence.
+antilock.start = async () => {
+  for (const box of document.querySelectorAll("div.live")) {
+    const still = box.innerHTML;
+    try {
+      if (typeof WebAssembly === "undefined") throw new Error("this browser has no WebAssembly");
+      if (typeof DecompressionStream === "undefined") throw new Error("this browser is too old: it has no DecompressionStream");
+      box.setAttribute("role", "group");
+      await antilock.figures[box.dataset.kind](box);
+    } catch (error) {
+      box.innerHTML = still;
+      box.querySelector(".live-still").textContent = `This is a still: ${error.message}.`;
+      box.dataset.state = "still";
+    }
+  }
+};

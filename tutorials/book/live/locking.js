@@ -1,0 +1,110 @@
+// The figure of the book: epsilon, the mesh and 1/h against P1 and Crouzeix-Raviart.
+"use strict";
+antilock.figures.locking = async (box) => {
+  const settings = box.dataset, names = ["P1", "Crouzeix–Raviart"], short = ["p1", "cr"], range = 0.25;
+  let library = await antilock.library(), made = "";
+  const option = (value, text, chosen) => `<option value="${value}"${value === chosen ? " selected" : ""}>${text}</option>`;
+  const colours = Array.from({ length: 21 }, (_, i) => `rgb(${antilock.viridis(i / 20).join(",")})`).join(",");
+  const still = document.createElement("div");
+  still.innerHTML = `
+    <p class="live-title">Try it: the library, solving in this page</p>
+    <div class="live-controls">
+      <label for="live-epsilon">ε = <output id="live-epsilon-said" for="live-epsilon"></output></label>
+      <input id="live-epsilon" type="range" min="-8" max="0" step="0.25" value="${settings.epsilon ?? -2}">
+      <label for="live-mesh">mesh</label>
+      <select id="live-mesh">${[["structured", "structured"], ["unstructured", "unstructured"], ["moved", "moved by t h"], ["layered", "layered"]]
+        .map(([value, text]) => option(value, text, settings.mesh ?? "unstructured")).join("")}</select>
+      <span id="live-moved-box" hidden><label for="live-moved">t = <output id="live-moved-said"></output></label>
+      <input id="live-moved" type="range" min="0" max="0.2" step="0.01" value="${settings.moved ?? 0.02}"></span>
+      <label for="live-cells">1/h</label>
+      <select id="live-cells">${["8", "16", "32"].map((n) => option(n, n, settings.cells ?? "16")).join("")}</select>
+    </div>
+    <div class="live-pictures">${names.map((name, i) => `
+      <figure><figcaption><b>${name}</b> keeps <span class="live-number" id="live-kept-${short[i]}"></span> % of the layer’s displacement</figcaption>
+      <div class="live-canvas"><canvas tabindex="0" role="img"></canvas>
+      <span class="live-label" aria-hidden="true">x = 0</span><span class="live-label" aria-hidden="true">x = 1</span>
+      <span class="live-label" aria-hidden="true">y = 1</span><span class="live-label" aria-hidden="true">Σ</span>
+      <span class="live-label" aria-hidden="true">Γ<sub>C</sub></span><span class="live-label" aria-hidden="true"></span></div></figure>`).join("")}
+    </div>
+    <div class="live-bar" role="img" aria-label="Colours of u, from minus ${range} to ${range}"><span>u = −${range}</span>
+      <i style="background:linear-gradient(to right,${colours})"></i><span>${range}</span>
+      <span class="live-key">exact u on Γ<sub>C</sub></span></div>
+    <table class="live-table"><thead><tr><th></th><th>unknowns</th><th>error</th><th>corrections</th><th>in contact</th><th>ms</th></tr></thead>
+    <tbody>${names.map((name) => `<tr><th scope="row">${name}</th><td></td><td></td><td></td><td></td><td></td></tr>`).join("")}</tbody></table>
+    <p class="live-note">Both solved in <span id="live-ms"></span> ms. Error: the largest at the unknowns. Drag a picture to turn it, or use its arrow keys.</p>
+    <p class="live-said" role="status"></p>`;
+  const parts = Object.fromEntries([...still.querySelectorAll("[id]")].map((part) => [part.id.slice(5), part]));
+  const at = (id) => parts[id], said = still.querySelector(".live-said");
+  const canvases = [...still.querySelectorAll("canvas")], rows = [...still.querySelectorAll("tbody tr")];
+  const paint = canvases.map((canvas) => {
+    const places = [() => [0, -1.12, 0], () => [1, -1.12, 0], () => [1.06, 1, 0], () => [1.06, 0, 0], () => [1.08, -1, 0], (r) => [0, -1, r + 0.02]];
+    const spans = [...canvas.parentNode.querySelectorAll("span")];
+    spans[5].textContent = "u";
+    return antilock.surface(canvas, { at: spans.map((span, i) => [span, places[i]]),
+      lost: (lost) => { said.textContent = lost ? "The graphics card was lost; the numbers go on, and the pictures come back with it." : ""; } });
+  });
+  const solved = [null, null], turn = [-0.6, 0.6];
+  let ridge = [];
+  const draw = () => solved.forEach((s, i) => s && paint[i](s.corners, ridge, range, turn));
+
+  async function update() {
+    const epsilon = antilock.epsilonOf(at("epsilon")), mesh = at("mesh").value, cells = Number(at("cells").value);
+    const moved = Number(at("moved").value), wanted = `${mesh} ${cells} ${mesh === "moved" ? moved : ""}`;
+    at("epsilon-said").innerHTML = antilock.epsilonShown(at("epsilon"));
+    at("epsilon").setAttribute("aria-valuetext", `epsilon is ${antilock.epsilonSaid(at("epsilon"))}`);
+    at("moved-said").textContent = moved;
+    at("moved-box").hidden = mesh !== "moved";
+    const began = performance.now();
+    try {
+      library ??= await antilock.library();
+      for (const i of [0, 1]) {
+        if (made !== wanted) library.discretise(i, mesh, cells, moved);
+        solved[i] = library.solve(i, epsilon);
+        solved[i].corners = library.surface(i);
+      }
+      ridge = library.ridge(epsilon, 65);
+      made = wanted;
+      draw();
+      solved.forEach((s, i) => {
+        at(`kept-${short[i]}`).textContent = antilock.digits(s.kept);
+        at(`kept-${short[i]}`).dataset.value = s.kept;
+        canvases[i].setAttribute("aria-label", `Surface of u with ${names[i]}: the layer keeps ${antilock.digits(s.kept)} percent of its displacement`);
+        const zone = s.touching ? `${s.touching} of ${s.contact}, from x = ${s.from.toFixed(3)}` : `0 of ${s.contact}`;
+        [s.unknowns, antilock.digits(s.error), s.corrections, zone, s.ms.toFixed(1)].forEach((text, k) => { rows[i].children[k + 1].textContent = text; });
+        rows[i].dataset.error = s.error;
+        rows[i].dataset.touching = s.touching;
+      });
+      at("ms").textContent = (solved[0].ms + solved[1].ms).toFixed(1);
+      said.textContent = "";
+      box.dataset.state = "ready";
+      box.dataset.step = (performance.now() - began).toFixed(2);
+      box.dispatchEvent(new CustomEvent("solved", { detail: { epsilon, mesh, cells, moved, solved } }));
+    } catch (error) {
+      library = null;
+      made = "";
+      said.textContent = `No answer: ${error.message}. Choose something else; the page goes on.`;
+      box.dataset.state = "failed";
+    }
+  }
+  const ask = antilock.soon(update);
+  for (const name of ["epsilon", "mesh", "cells", "moved"]) at(name).addEventListener("input", ask);
+  for (const canvas of canvases) {
+    const turned = (dx, dy) => {
+      turn[0] += dx;
+      turn[1] = Math.min(1.5, Math.max(0.05, turn[1] + dy));
+      draw();
+    };
+    canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
+    canvas.addEventListener("pointermove", (event) => event.buttons && turned(event.movementX / 150, event.movementY / 150));
+    canvas.addEventListener("keydown", (event) => {
+      const step = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
+      if (!step) return;
+      event.preventDefault();
+      turned(...step);
+    });
+  }
+  window.addEventListener("resize", draw);
+  box.setAttribute("aria-label", "Live figure: epsilon and the mesh against P1 and Crouzeix-Raviart");
+  box.replaceChildren(...still.children);
+  await update();
+};

@@ -1,0 +1,255 @@
+#!/usr/bin/python3
+"""Writes the Markdown of every page of the book, and its pictures. Run: pages.py FOLDER [--draft]
+
+--draft accepts chapters that are not written yet in the book's markup, and runs whose output is missing.
+"""
+import csv
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from PIL import Image
+
+from literate import BookError, Page, fence, folded, live_figure
+from library import Library
+
+ROOT = Path(__file__).resolve().parents[2]
+PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 15),
+         ("What accuracy costs", 16, 21), ("The class", 22, 99)]
+# Where a chapter does not place its live figure itself, the figure stands under the first picture.
+LIVE = {"00": "string", "06": "locking mesh=unstructured", "09": "convergence", "16": "roundoff"}
+EXTRA = ["errata", "glossary", "notation"]
+WIDTH = 1600
+
+
+class Book:
+    def __init__(self, out, draft):
+        self.out, self.draft = out, draft
+        self.sources = sorted(path for path in (ROOT / "tutorials").glob("[0-9][0-9]_*.cpp"))
+        self.names = [path.stem for path in self.sources]
+        self.table = list(csv.DictReader((ROOT / "figures/table.csv").open()))
+        self.library = Library(ROOT / "lib")
+        self.pages = {}
+
+    def complain(self, what):
+        if not self.draft:
+            raise BookError(what)
+        print(f"draft: {what}", file=sys.stderr)
+
+    def first_of(self, number):
+        """The chapter of a number; where two share it, the first."""
+        return next((name for name in self.names if name.startswith(number + "_")), None)
+
+    # ---- links
+
+    def link(self, target, where):
+        """The page behind a link of the sources; None: a file of the repository that is no page."""
+        target, _, anchor = target.partition("#")
+        anchor = f"#{anchor}" if anchor else ""
+        if not target or re.match(r"[a-z]+:", target):
+            return target + anchor
+        path = Path(os.path.normpath(where / target))
+        if path.suffix in (".cpp", ".edp") and path.stem in self.names and path.parent.name in ("tutorials", "freefem"):
+            return path.stem + ".md" + anchor
+        if path.parent.name in ("tutorials", "book") and path.suffix in (".md", ".html") and path.stem in EXTRA + self.names:
+            return path.stem + ".md" + anchor
+        if path == ROOT / "tutorials/README.md":
+            return "theory.md"
+        if path == ROOT / "figures/README.md":
+            return "gallery.md"
+        if not path.exists():
+            raise BookError(f"{where.relative_to(ROOT)}: unknown link {target}")
+        if path.suffix == ".hpp" and (ROOT / "lib/antilock") in path.parents:
+            return self.library.page(path)
+        if path.suffix == ".png" and path.parent == ROOT / "figures/images":
+            return self.picture(path.stem)
+        return None
+
+    def linked(self, lines, where):
+        """Prose with its links turned to the pages of the book; `chapter 07` becomes a link. Code stays as it is."""
+        out, fenced = [], False
+        for line in lines:
+            fenced ^= line.startswith("```")
+            if fenced or line.startswith(("    ", "<", "```")):
+                out.append(line)
+                continue
+            parts = re.split(r"(`[^`]*`|\$[^$]*\$)", line)
+            joined = "\0".join(parts[1::2])
+            text = "\1".join(parts[0::2])
+
+            def replaced(found):
+                to = self.link(found[3], where)
+                return found[0] if to == found[3] else f"{found[1]}[{found[2]}]({to})" if to else f"`{found[3].lstrip('./')}`"
+
+            def numbered(found):
+                if found[1].lower() not in ("chapter", "chapters", "tutorial", "tutorials"):
+                    return found[0]
+                def one(number):
+                    name = self.first_of(number[0])
+                    if name is None:
+                        self.complain(f"{where.relative_to(ROOT)}: chapter {number[0]} does not exist")
+                        return number[0]
+                    return f"[{number[0]}]({name}.md)"
+                return found[1] + " " + re.sub(r"\b\d\d\b", one, found[2])
+
+            text = re.sub(r"(!?)\[([^\]]+)\]\(([^)\s]+)\)", replaced, text)
+            text = re.sub(r"\b([Cc]hapters?|[Tt]utorials?) (\d\d(?:(?:, | and | to )\d\d)*)\b(?![\]\w])", numbered, text)
+            text = text.replace("[](", "\\[\\](")  # a lambda, not a link
+            code = iter(joined.split("\0"))
+            out.append("".join(next(code) if part == "\1" else part for part in re.split("(\1)", text)))
+        return out
+
+    # ---- pictures
+
+    def picture(self, name):
+        """The WebP of figures/images, 1,600 pixels wide; made anew where the PNG is newer."""
+        source, target = ROOT / f"figures/images/{name}.png", self.out / f"images/{name}.webp"
+        if not source.exists():
+            raise BookError(f"figures/images/{name}.png is missing; figures/reproduce {name} makes it")
+        if not target.exists() or target.stat().st_mtime < source.stat().st_mtime:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            image = Image.open(source).convert("RGB")
+            if image.width > WIDTH:
+                image = image.resize((WIDTH, round(image.height * WIDTH / image.width)), Image.LANCZOS)
+            image.save(target, "WEBP", quality=80, method=4)
+        return f"images/{name}.webp"
+
+    def figure(self, row, eager=False):
+        path = self.picture(row["image"])
+        title = f"**Figure {row['figure']} of the paper.** " if row["figure"] else ""
+        alt = row["caption"].replace('"', "'")
+        return [f"```{{figure}} {path}", f":alt: \"{alt}\"", ":figclass: picture", f":target: _images/{row['image']}.webp",
+                *([] if eager else [":class: lazy"]), "", title + row["caption"].rstrip(".") + ".", "```", ""]
+
+    # ---- pages
+
+    def write(self, name, lines):
+        text = "\n".join(lines) + "\n"
+        path = self.out / f"{name}.md"
+        if not path.exists() or path.read_text() != text:
+            path.write_text(text)
+
+    def log(self, stem):
+        """What the program printed, and its verdicts."""
+        path = ROOT / f"results/logs/{stem}.log"
+        if not path.exists():
+            self.complain(f"results/logs/{stem}.log is missing; figures/reproduce writes it")
+            return []
+        text = path.read_text().replace(f"{ROOT}/", "")
+        lines = [line.rstrip() for line in re.sub(r"\r[^\n]*", "", text).splitlines()]
+        verdicts = [line for line in lines if line.startswith("VERDICT")]
+        out = ["## What came out", ""]
+        if verdicts:
+            out += ["```{list-table}", ":class: verdicts", ":widths: 12 88", ""]
+            for line in verdicts:
+                holds, what = line.removeprefix("VERDICT ").split(": ", 1)
+                out += [f"* - **{holds}**", f"  - {self.escaped(what)}"]
+            out += ["```", ""]
+        rest = [line for line in lines if not line.startswith("VERDICT")]
+        shown = fence("text", rest)
+        return out + (folded(f"What it prints, {len(rest)} lines", shown, "printed") if len(rest) > 60 else shown)
+
+    @staticmethod
+    def escaped(text):
+        return re.sub(r"([\\`*_\[\]<>$^|#])", r"\\\1", text)
+
+    def pictures_of(self, stem):
+        return [row for row in self.table if stem in row["tutorial"].split()]
+
+    def relations(self, stem):
+        """Needs and leads to."""
+        needs = [self.first_of(number) for number in self.pages[stem].needs or []]
+        if None in needs:
+            raise BookError(f"{stem}: needs a chapter that does not exist; accepted: {', '.join(n[:2] for n in self.names)}")
+        leads = [name for name in self.names if stem[:2] in (self.pages[name].needs or []) and name != stem]
+        say = lambda names: ", ".join(f"[{name[:2]} {self.pages[name].title}]({name}.md)" for name in names)
+        parts = ([f"**Needs** {say(needs)}."] if needs else []) + ([f"**Leads to** {say(leads)}."] if leads else [])
+        return [":::{div} relations", " ".join(parts), ":::", ""] if parts else []
+
+    def chapter(self, source):
+        stem, page = source.stem, self.pages[source.stem]
+        shots = self.pictures_of(stem)
+        out = [f"# {page.title}", "", *self.relations(stem)]
+        out += self.figure(shots[0], eager=True) if shots else []
+        if not page.lives and source == ROOT / f"tutorials/{self.first_of(stem[:2])}.cpp" and stem[:2] in LIVE:
+            kind, *settings = LIVE[stem[:2]].split()
+            out += live_figure(kind, dict(word.split("=") for word in settings))
+        out += self.linked(page.body, source.parent)
+        if page.runs:
+            out += ["## Run it", "", *page.runs]
+        for shot in shots[1:]:
+            out += self.figure(shot)
+        out += self.log(stem)
+        twin = ROOT / f"freefem/{stem}.edp"
+        out += ["## The sources", ""]
+        if twin.exists():
+            whole = twin.read_text().splitlines()
+            out += folded(f"The FreeFEM twin as it is: freefem/{stem}.edp, {len(whole)} lines", fence("freefem", whole), "twin")
+        files = [source] + ([twin] if twin.exists() else [])
+        for file in files:
+            copy = self.out / file.name
+            if not copy.exists() or copy.read_bytes() != file.read_bytes():
+                copy.write_bytes(file.read_bytes())
+        out += ["To keep: " + ", ".join(f"{{download}}`{file.name}`" for file in files) + ".", ""]
+        self.write(stem, out)
+
+    def theory(self):
+        text = (ROOT / "tutorials/README.md").read_text()
+        section = re.search(r"## The theory as experiments\n(.*?)(?=\n## |\Z)", text, re.S)
+        if not section:
+            raise BookError("tutorials/README.md: no section \"The theory as experiments\"")
+        self.write("theory", ["# The theory as experiments", "", *self.linked(section[1].splitlines(), ROOT / "tutorials")])
+
+    def gallery(self):
+        out = ["# Gallery", "", "Every picture, and the chapter that makes it.", ""]
+        for row in self.table:
+            chapters = [f"[{self.pages[name].title}]({name}.md)" for name in row["tutorial"].split() if name in self.pages]
+            picture = self.figure(row)
+            picture[-3] += (" From " + ", ".join(chapters) + ".") if chapters else ""
+            out += picture
+        self.write("gallery", out)
+
+    def index(self):
+        text = (ROOT / "tutorials/book/index.md").read_text()
+        trees = []
+        for i, (caption, first, last) in enumerate(PARTS):
+            names = [name for name in self.names if first <= int(name[:2]) <= last]
+            if names:
+                trees += ["```{toctree}", f":caption: {'I II III IV V'.split()[i]} {caption}", ":maxdepth: 1", "",
+                          *(f"{name[:2]} {self.pages[name].title} <{name}>" for name in names), "```", ""]
+        more = ["theory", "gallery", *(name for name in EXTRA if (self.out / f"{name}.md").exists()), "library"]
+        trees += ["```{toctree}", ":caption: To look up", ":maxdepth: 1", "", *more, "```"]
+        live = "\n".join(live_figure("locking", {"mesh": "unstructured"}))
+        self.picture("hero")
+        self.write("index", text.replace(":live:", live).replace(":chapters:", "\n".join(trees)).splitlines())
+
+    def make(self):
+        self.out.mkdir(parents=True, exist_ok=True)
+        for source in self.sources:
+            self.pages[source.stem] = Page(source, ROOT / f"freefem/{source.stem}.edp", self.draft)
+        for kind in ("hero", "string", "figure9", "roundoff"):
+            self.picture(kind)
+        for source in self.sources:
+            self.chapter(source)
+        for name in EXTRA:
+            lines = (ROOT / f"tutorials/{name}.md").read_text().splitlines()
+            if name == "glossary":  # its last column names chapters by number
+                lines = [re.sub(r"\| ([\d, ]+) \|$", lambda found: "| " + re.sub(r"\d\d", lambda n: f"[{n[0]}]({self.first_of(n[0])}.md)" if self.first_of(n[0]) else n[0], found[1]) + " |", line) for line in lines]
+            self.write(name, self.linked(lines, ROOT / "tutorials"))
+        self.theory()
+        self.gallery()
+        self.library.write(self.write)
+        self.index()
+        known = {*self.names, *EXTRA, "theory", "gallery", "index", "library", *self.library.page_names()}
+        for path in self.out.glob("*.md"):
+            if path.stem not in known:
+                path.unlink()
+
+
+if __name__ == "__main__":
+    try:
+        Book(Path(sys.argv[1]), "--draft" in sys.argv[2:]).make()
+    except BookError as error:
+        sys.exit(f"book: {error}")
