@@ -49,8 +49,11 @@ def setup(app):
         if 'class="live"' in body:
             app.add_js_file("live_data.js", loading_method="defer")
             app.add_js_file("live.js", loading_method="defer")
+        context["script_files"] = [script for script in context["script_files"] if not re.search(r"jquery|underscore|frameworks_compat", str(script))]
         if not name.startswith("library"):
             body = links(body)
+        # names, signs and blanks have the colour of the text: a third of the book's size were their marks
+        body = re.sub(r'<span class="(?:n|p|o|w|nb|bp)">([^<]*)</span>', r"\1", body)
         context["body"] = re.sub(r'<img alt="([^"]*)" class="lazy"', r'<img alt="\1" loading="lazy" class="lazy"', body)
 
     app.connect("html-page-context", page)

@@ -85,29 +85,31 @@ def runs(prose):
 
 
 def needs(prose):
-    """Takes the `Needs: 00, 02` line out of the prose: (prose, numbers), None where there is no such line."""
-    for i, line in enumerate(prose):
-        found = re.match(r"(?:Needs|Builds on|Read first)(?: chapters?| tutorials?)?:? ([^a-z]*\d\d.*)$", line)
-        if found:
-            return prose[:i] + prose[i + 1:], re.findall(r"\b\d\d\b", found[1])
-    return prose, None
+    """Takes the paragraph `Needs: [00](...) (cone), ...` out of the prose: (prose, the paragraph)."""
+    start = next((i for i, line in enumerate(prose) if line.startswith("Needs: ")), None)
+    if start is None:
+        return prose, []
+    end = next((i for i in range(start, len(prose)) if not prose[i].strip()), len(prose))
+    return prose[:start] + prose[end:], prose[start:end]
 
 
 class Page:
     """What a tutorial's source says, in the order of its page."""
 
     def __init__(self, source, twin, draft):
-        self.title, self.lead, self.body, self.runs, self.needs = None, [], [], [], None
+        self.title, self.lead, self.body, self.runs, self.needs = None, [], [], [], []
         self.lives, self.steps = [], set()
         self.twin = steps(twin)
         self.shown = set()
         step = None
         for kind, block in chunks(source.read_text().splitlines()):
             if kind == "code":
-                if all(line.startswith(("#include", "using", "#pragma")) or not line.strip() for line in block):
-                    self.body += folded("Headers", fence("cpp", block), "headers")
-                else:
-                    self.body += fence("cpp", block)
+                head = next((i for i, line in enumerate(block) if line.strip() and not line.startswith(("#include", "using namespace"))),
+                            len(block))
+                if any(line.startswith("#include") for line in block[:head]):
+                    self.body += folded("Headers", fence("cpp", block[:head]), "headers")
+                    block = block[head:]
+                self.body += fence("cpp", block) if block else []
                 continue
             if self.title is None:
                 block = self.header(source, block, draft)
@@ -137,6 +139,10 @@ class Page:
         block, self.runs = runs(block[1:])
         block, self.needs = needs(block)
         return block
+
+    def needed(self):
+        """The numbers of the chapters that it needs."""
+        return re.findall(r"\[(\d\d)\]\(", " ".join(self.needs))
 
     def show_twin(self, step):
         if step in self.twin and step not in self.shown:

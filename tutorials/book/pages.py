@@ -140,7 +140,7 @@ class Book:
         text = path.read_text().replace(f"{ROOT}/", "")
         lines = [line.rstrip() for line in re.sub(r"\r[^\n]*", "", text).splitlines()]
         verdicts = [line for line in lines if line.startswith("VERDICT")]
-        out = ["## What came out", ""]
+        out = ["## What it prints", ""]
         if verdicts:
             out += ["```{list-table}", ":class: verdicts", ":widths: 12 88", ""]
             for line in verdicts:
@@ -149,7 +149,7 @@ class Book:
             out += ["```", ""]
         rest = [line for line in lines if not line.startswith("VERDICT")]
         shown = fence("text", rest)
-        return out + (folded(f"What it prints, {len(rest)} lines", shown, "printed") if len(rest) > 60 else shown)
+        return out + (folded(f"All {len(rest)} lines", shown, "printed") if len(rest) > 60 else shown)
 
     @staticmethod
     def escaped(text):
@@ -159,14 +159,13 @@ class Book:
         return [row for row in self.table if stem in row["tutorial"].split()]
 
     def relations(self, stem):
-        """Needs and leads to."""
-        needs = [self.first_of(number) for number in self.pages[stem].needs or []]
-        if None in needs:
-            raise BookError(f"{stem}: needs a chapter that does not exist; accepted: {', '.join(n[:2] for n in self.names)}")
-        leads = [name for name in self.names if stem[:2] in (self.pages[name].needs or []) and name != stem]
-        say = lambda names: ", ".join(f"[{name[:2]} {self.pages[name].title}]({name}.md)" for name in names)
-        parts = ([f"**Needs** {say(needs)}."] if needs else []) + ([f"**Leads to** {say(leads)}."] if leads else [])
-        return [":::{div} relations", " ".join(parts), ":::", ""] if parts else []
+        """What the chapter needs, in its own words, and where it leads to."""
+        page = self.pages[stem]
+        leads = [name for name in self.names if stem[:2] in self.pages[name].needed() and name != stem]
+        out = [*page.needs]
+        if leads:
+            out.append("Leads to: " + ", ".join(f"[{name[:2]} {self.pages[name].title}]({name}.md)" for name in leads) + ".")
+        return [":::{container} relations", *self.linked(out, ROOT / "tutorials"), ":::", ""] if out else []
 
     def chapter(self, source):
         stem, page = source.stem, self.pages[source.stem]
@@ -184,7 +183,7 @@ class Book:
         out += self.log(stem)
         twin = ROOT / f"freefem/{stem}.edp"
         out += ["## The sources", ""]
-        if twin.exists():
+        if twin.exists() and not page.twin:
             whole = twin.read_text().splitlines()
             out += folded(f"The FreeFEM twin as it is: freefem/{stem}.edp, {len(whole)} lines", fence("freefem", whole), "twin")
         files = [source] + ([twin] if twin.exists() else [])

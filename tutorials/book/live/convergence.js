@@ -11,7 +11,7 @@ antilock.figures.convergence = async (box) => {
       <label for="live-convergence-mesh">mesh</label>
       <select id="live-convergence-mesh"><option selected>unstructured</option><option>structured</option><option>layered</option></select>
       <label for="live-convergence-cells">1/h</label>
-      <select id="live-convergence-cells"><option>8</option><option selected>16</option><option>32</option></select>
+      <select id="live-convergence-cells"><option selected>16</option><option>24</option><option>32</option></select>
       <button type="button">all ε</button> <button type="button">clear</button>
     </div>
     <div class="live-drawing"></div>

@@ -56,23 +56,25 @@ antilock.library = async () => {
     at = end;
   }
 
-  const line = (at) => new Float64Array(memory.buffer, at, call("line_size")).slice();
+  // memory.buffer is another one where a call has asked for more memory: it is looked up after the call
+  const doubles = (at, count) => new Float64Array(memory.buffer, at, count);
+  const line = (at) => doubles(at, call("line_size")).slice();
   const kinds = ["structured", "unstructured", "moved", "layered"];
   return {
     discretise: (element, mesh, cells, moved) => call("discretise", element, kinds.indexOf(mesh), cells, moved),
     solve(element, epsilon) {
       const [largest, ridge, error, ms, unknowns, corrections, factorisations, touching, contact, from] =
-        new Float64Array(memory.buffer, call("solve", element, epsilon), 10);
+        doubles(call("solve", element, epsilon), 10);
       return { largest, ridge, error, ms, unknowns, corrections, factorisations, touching, contact, from, kept: 100 * largest / ridge };
     },
     surface: (element) => {
-      const at = call("surface", element);
-      return new Float32Array(memory.buffer, at, call("surface_size")).slice();
+      const at = call("surface", element), size = call("surface_size");
+      return new Float32Array(memory.buffer, at, size).slice();
     },
     trace: (element) => line(call("trace", element)),
     ridge: (epsilon, points) => line(call("ridge", epsilon, points)),
     roundOff(cells, epsilon) {
-      const [split, summed] = new Float64Array(memory.buffer, call("round_off", cells, epsilon), 2);
+      const [split, summed] = doubles(call("round_off", cells, epsilon), 2);
       return { split, summed };
     },
   };

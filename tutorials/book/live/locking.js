@@ -17,10 +17,10 @@ antilock.figures.locking = async (box) => {
       <span id="live-moved-box" hidden><label for="live-moved">t = <output id="live-moved-said"></output></label>
       <input id="live-moved" type="range" min="0" max="0.2" step="0.01" value="${settings.moved ?? 0.02}"></span>
       <label for="live-cells">1/h</label>
-      <select id="live-cells">${["8", "16", "32"].map((n) => option(n, n, settings.cells ?? "16")).join("")}</select>
+      <select id="live-cells">${["16", "24", "32"].map((n) => option(n, n, settings.cells ?? "16")).join("")}</select>
     </div>
     <div class="live-pictures">${names.map((name, i) => `
-      <figure><figcaption><b>${name}</b> keeps <span class="live-number" id="live-kept-${short[i]}"></span> % of the layer’s displacement</figcaption>
+      <figure><figcaption><b>${name}</b><br>keeps <span class="live-number" id="live-kept-${short[i]}"></span> % of the layer’s displacement</figcaption>
       <div class="live-canvas"><canvas tabindex="0" role="img"></canvas>
       <span class="live-label" aria-hidden="true">x = 0</span><span class="live-label" aria-hidden="true">x = 1</span>
       <span class="live-label" aria-hidden="true">y = 1</span><span class="live-label" aria-hidden="true">Σ</span>
@@ -37,7 +37,7 @@ antilock.figures.locking = async (box) => {
   const at = (id) => parts[id], said = still.querySelector(".live-said");
   const canvases = [...still.querySelectorAll("canvas")], rows = [...still.querySelectorAll("tbody tr")];
   const paint = canvases.map((canvas) => {
-    const places = [() => [0, -1.12, 0], () => [1, -1.12, 0], () => [1.06, 1, 0], () => [1.06, 0, 0], () => [1.08, -1, 0], (r) => [0, -1, r + 0.02]];
+    const places = [() => [0, -1.14, 0], () => [1, -1.14, 0], () => [1.13, 1, 0], () => [1.07, 0, 0], () => [0.5, -1.14, 0], (r) => [0, -1, r + 0.03]];
     const spans = [...canvas.parentNode.querySelectorAll("span")];
     spans[5].textContent = "u";
     return antilock.surface(canvas, { at: spans.map((span, i) => [span, places[i]]),

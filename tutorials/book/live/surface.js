@@ -22,7 +22,7 @@ antilock.surface = (canvas, labels) => {
       place = v;
       u = corner.z;
       side = vec3(gl_VertexID % 3 == 0, gl_VertexID % 3 == 1, gl_VertexID % 3 == 2);
-      float zoom = 1.25 * min(1.0, aspect / 1.25);
+      float zoom = 1.4 * min(1.0, aspect / 1.65);
       gl_Position = vec4(v.x / aspect * zoom, v.y * zoom - 0.02, v.z * 0.3, 1.0);
     }`;
   const fragmentShader = `#version 300 es
@@ -75,7 +75,7 @@ antilock.surface = (canvas, labels) => {
 
   const onPage = ([x, y, z], turn, aspect) => {
     const p = [x - 0.5, 0.75 * y, z * height], c = Math.cos(turn[0]), s = Math.sin(turn[0]), ct = Math.cos(turn[1]), st = Math.sin(turn[1]);
-    const q = [c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]], zoom = 1.25 * Math.min(1, aspect / 1.25);
+    const q = [c * p[0] - s * p[1], s * p[0] + c * p[1], p[2]], zoom = 1.4 * Math.min(1, aspect / 1.65);
     return [50 + 50 * (q[0] / aspect) * zoom, 50 - 50 * ((ct * q[2] + st * q[1]) * zoom - 0.02)];
   };
 

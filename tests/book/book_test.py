@@ -1,0 +1,310 @@
+#!/usr/bin/python3
+"""The book as a reader meets it: every page opened from its folder in Chromium.
+
+Run: book_test.py BOOK LIVE_NUMBERS [unittest's options]     exit status 77 where there is no browser
+Screenshots of every page, wide and narrow, go to the folder BOOK_SCREENSHOTS, where that is set.
+"""
+import base64
+import json
+import os
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+from urllib.parse import unquote, urlparse
+
+try:
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.keys import Keys
+except ImportError:
+    print("book_test: python3-selenium is missing; .ci/install browser installs it")
+    sys.exit(77)
+
+BOOK, NUMBERS = Path(sys.argv[1]).resolve(), sys.argv[2]
+SHOTS = os.environ.get("BOOK_SCREENSHOTS")
+PAGES = sorted(path.stem for path in BOOK.glob("*.html"))
+LIVE = "return [...document.querySelectorAll('div.live')].every((box) => box.dataset.state)"
+
+
+def open_browser():
+    options = webdriver.ChromeOptions()
+    options.binary_location = "/usr/bin/chromium"
+    # WebGL2 without a graphics card
+    for argument in ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"):
+        options.add_argument(argument)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
+
+
+class Book(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = open_browser()
+        cls.browser.set_script_timeout(60)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.quit()
+
+    def run_script(self, script, *arguments):
+        return self.browser.execute_script(script, *arguments)
+
+    def wait(self, script, *arguments, seconds=30):
+        end = time.monotonic() + seconds
+        while not self.run_script(script, *arguments):
+            self.assertLess(time.monotonic(), end, f"not within {seconds} s: {script}")
+            time.sleep(0.02)
+
+    def show(self, page, width=1280, theme="light", reduced="no-preference", query=""):
+        command = self.browser.execute_cdp_cmd
+        command("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme},
+                                                            {"name": "prefers-reduced-motion", "value": reduced}]})
+        command("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500})
+        self.browser.get(f"{(BOOK / page).as_uri()}.html{query}")
+        self.wait(LIVE)
+
+    def said(self):
+        """Errors of the console, and requests beyond the folder, since the last call."""
+        console = [entry["message"] for entry in self.browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+        asked = []
+        for entry in self.browser.get_log("performance"):
+            message = json.loads(entry["message"])["message"]
+            if message["method"] == "Network.requestWillBeSent":
+                asked.append(message["params"]["request"]["url"])
+        beyond = [url for url in asked if not url.startswith((BOOK.as_uri() + "/", "data:", "blob:"))]
+        return console + [f"asks for {url}" for url in beyond]
+
+    def shot(self, name, width):
+        if not SHOTS:
+            return
+        Path(SHOTS).mkdir(parents=True, exist_ok=True)
+        height = min(self.run_script("return document.documentElement.scrollHeight"), 9000)
+        picture = self.browser.execute_cdp_cmd("Page.captureScreenshot", {
+            "captureBeyondViewport": True, "clip": {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}})
+        (Path(SHOTS) / f"{name}.png").write_bytes(base64.b64decode(picture["data"]))
+
+
+class EveryPage(Book):
+    def test_opens_without_an_error_and_is_complete(self):
+        anchors, links = {}, []
+        self.said()
+        for page in PAGES:
+            with self.subTest(page=page):
+                self.show(page)
+                found = self.run_script("""
+                  document.querySelectorAll("details").forEach((part) => { part.open = true; });
+                  const images = [...document.querySelectorAll("article img")];
+                  const prose = document.querySelector("article").cloneNode(true);
+                  prose.querySelectorAll("pre, code, .katex, svg").forEach((part) => part.remove());
+                  return {
+                    silent: images.filter((image) => !image.alt).length,
+                    sources: images.map((image) => image.src),
+                    raw: prose.textContent.match(/\\$[^$\\n]+\\$|\\\\(frac|tag|text)\\b/g) ?? [],
+                    katex: document.querySelectorAll(".katex").length,
+                    mathml: document.querySelectorAll(".katex math").length,
+                    failed: document.querySelectorAll(".katex-error").length,
+                    ids: [...document.querySelectorAll("[id]")].map((part) => part.id),
+                    links: [...document.querySelectorAll("a[href]")].map((link) => link.href),
+                    states: [...document.querySelectorAll("div.live")].map((box) => box.dataset.state) };""")
+                self.assertEqual(found["silent"], 0, "images without a text")
+                self.assertEqual(found["raw"], [], "formulas that were not set")
+                self.assertEqual((found["failed"], found["katex"]), (0, found["mathml"]))
+                self.assertEqual(set(found["states"]) - {"ready"}, set())
+                self.assertEqual(len(found["ids"]), len(set(found["ids"])), "an id that stands twice")
+                broken = self.browser.execute_async_script("""
+                  const done = arguments[arguments.length - 1];
+                  Promise.all([...document.querySelectorAll("article img")].map((image) => {
+                    image.loading = "eager";
+                    return image.decode().then(() => "", () => image.src);
+                  })).then((all) => done(all.filter(Boolean)));""")
+                self.assertEqual(broken, [])
+                self.assertEqual(self.said(), [])
+                anchors[page] = set(found["ids"])
+                links += [(page, link) for link in found["links"]]
+                self.shot(f"{page}_wide", 1280)
+        for page, link in sorted(set(links)):
+            url = urlparse(link)
+            if url.scheme != "file":
+                continue
+            target, anchor = Path(unquote(url.path)), unquote(url.fragment)
+            with self.subTest(page=page, link=link):
+                self.assertTrue(target.exists(), "leads nowhere")
+                if anchor and target.suffix == ".html":
+                    self.assertIn(anchor, anchors[target.stem])
+
+    def test_fits_a_telephone(self):
+        for page in PAGES:
+            with self.subTest(page=page):
+                self.show(page, width=375)
+                self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), 375)
+                self.shot(f"{page}_narrow", 375)
+
+    # WCAG AA: 4.5 to 1 for text, against the nearest background that is not transparent; pictures and disabled parts apart.
+    def test_text_stands_out_in_both_themes(self):
+        for theme in ("light", "dark"):
+            for page in PAGES:
+                with self.subTest(page=page, theme=theme):
+                    self.show(page, theme=theme)
+                    paper = self.run_script("return getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3).map(Number)")
+                    self.assertTrue(max(paper) < 60 if theme == "dark" else min(paper) > 200, f"the page is {paper}")
+                    self.assertEqual(self.run_script(CONTRAST), [])
+
+
+CONTRAST = """
+  const numbers = (colour) => { const c = colour.match(/[\\d.]+/g).map(Number); return c.length < 4 ? [...c, 1] : c; };
+  const part = (v) => ((v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
+  const light = ([r, g, b]) => 0.2126 * part(r) + 0.7152 * part(g) + 0.0722 * part(b);
+  const poor = {};
+  const walker = document.createTreeWalker(document.querySelector("article"), NodeFilter.SHOW_TEXT);
+  for (let node; (node = walker.nextNode());) {
+    const at = node.parentElement;
+    if (!node.textContent.trim() || at.closest("option, .katex-mathml, script, details:not([open]) > :not(summary), .headerlink")) continue;
+    const style = getComputedStyle(at);
+    if (style.visibility === "hidden" || at.getClientRects().length === 0) continue;
+    let behind = at, paper = [255, 255, 255, 0];
+    for (; behind; behind = behind.parentElement) { paper = numbers(getComputedStyle(behind).backgroundColor); if (paper[3] === 1) break; }
+    const ink = numbers(at instanceof SVGElement ? style.fill : style.color);
+    const both = [light(ink), light(paper)].sort((a, b) => b - a), ratio = (both[0] + 0.05) / (both[1] + 0.05);
+    if (ratio < 4.5) poor[`${at.tagName}.${at.getAttribute("class")} in ${at.parentElement.getAttribute("class")}: ${ratio.toFixed(2)}`] = 1;
+  }
+  return Object.keys(poor);"""
+
+
+class Search(Book):
+    def test_answers_from_a_folder(self):
+        for word, at_least in (("kernel", 3), ("Crouzeix", 3), ("complementarity", 1)):
+            self.show("search", query=f"?q={word}")
+            self.wait("return document.querySelectorAll('#search-results li').length >= arguments[0]", at_least, seconds=10)
+            self.assertEqual(self.said(), [])
+
+
+class LiveFigure(Book):
+    def ask(self, **values):
+        """Sets inputs of the figure as a reader does, and waits for the answer."""
+        self.run_script("""
+          const box = document.querySelector("#live");
+          delete box.dataset.step;
+          box.dataset.state = "";
+          for (const [name, value] of Object.entries(arguments[0])) {
+            const input = document.querySelector("#live-" + name);
+            input.value = value;
+            input.dispatchEvent(new Event("input", { bubbles: true }));
+          }""", values)
+        self.wait("return document.querySelector('#live').dataset.state")
+        return self.run_script("""
+          const box = document.querySelector("#live"), rows = [...box.querySelectorAll("tbody tr")];
+          const kept = ["p1", "cr"].map((name) => document.querySelector("#live-kept-" + name));
+          return { state: box.dataset.state, step: Number(box.dataset.step), said: box.querySelector(".live-said").textContent,
+            kept: kept.map((part) => Number(part.dataset.value)), text: kept.map((part) => Number(part.textContent)),
+            error: rows.map((row) => Number(row.dataset.error)), touching: rows.map((row) => Number(row.dataset.touching)),
+            ms: Number(document.querySelector("#live-ms").textContent),
+            pictures: [...box.querySelectorAll("canvas")].map((canvas) => canvas.toDataURL()) };""")
+
+    def test_p1_locks_and_crouzeix_raviart_does_not(self):
+        self.show("index")
+        seen = {}
+        for exponent in (0, -6, -8):
+            for cells in (16, 24, 32):
+                seen[exponent, cells] = answer = self.ask(mesh="unstructured", cells=cells, epsilon=exponent)
+                self.assertEqual(answer["state"], "ready", answer["said"])
+                with self.subTest(exponent=exponent, cells=cells):
+                    p1, cr = answer["text"]
+                    if exponent == 0:
+                        self.assertTrue(90 < p1 < 110 and 90 < cr < 110, answer["text"])
+                    else:
+                        self.assertLess(p1, 0.01)
+                        self.assertTrue(98 < cr < 102, cr)
+                    self.assertGreater(answer["ms"], 0)
+        for i in (0, 1):
+            self.assertNotEqual(seen[0, 16]["pictures"][i], seen[-6, 16]["pictures"][i])
+        self.assertEqual(self.said(), [])
+
+    def test_says_what_the_library_says_on_this_machine(self):
+        self.show("index")
+        native = {}
+        for line in subprocess.run([NUMBERS], capture_output=True, text=True, check=True).stdout.splitlines():
+            row = json.loads(line)
+            native.setdefault((row["mesh"], row["moved"], row["exponent"]), {})[row["element"]] = row
+        self.assertEqual(len(native), 16)
+        worst = 0
+        for (mesh, moved, exponent), rows in native.items():
+            answer = self.ask(mesh=mesh, moved=moved, cells=16, epsilon=exponent)
+            for i, element in enumerate(("P1", "CR")):
+                with self.subTest(mesh=mesh, exponent=exponent, element=element):
+                    away = abs(answer["kept"][i] - rows[element]["kept"]) / 100
+                    worst = max(worst, away, abs(answer["error"][i] - rows[element]["error"]))
+                    self.assertLess(away, 1e-10)
+                    self.assertLess(abs(answer["error"][i] - rows[element]["error"]), 1e-10)
+                    if rows[element]["kept"] > 1:  # where all of it is lost, no double says what touches
+                        self.assertEqual(answer["touching"][i], rows[element]["touching"])
+        print(f"largest difference from the native library: {worst:.1e}")
+
+    def test_obeys_the_keyboard(self):
+        self.show("index")
+        slider = self.browser.find_element("id", "live-epsilon")
+        before = slider.get_attribute("aria-valuetext")
+        slider.send_keys(Keys.ARROW_LEFT)
+        self.wait("return document.querySelector('#live-epsilon').getAttribute('aria-valuetext') !== arguments[0]", before)
+        slider.send_keys(Keys.HOME)
+        self.wait("return document.querySelector('#live-epsilon').getAttribute('aria-valuetext') === 'epsilon is 0, the limit'")
+        canvas = self.browser.find_element("css selector", "#live canvas")
+        still = self.run_script("return arguments[0].toDataURL()", canvas)
+        canvas.send_keys(Keys.ARROW_RIGHT)
+        self.wait("return arguments[0].toDataURL() !== arguments[1]", canvas, still)
+
+    def test_a_refusal_is_a_sentence_and_the_page_goes_on(self):
+        self.show("index")
+        self.ask(mesh="moved", epsilon=-2)
+        self.run_script("document.querySelector('#live-moved').max = 5; document.querySelector('#live-moved').value = 3;")
+        answer = self.ask(mesh="moved")
+        self.assertEqual(answer["state"], "failed")
+        self.assertIn("jitter", answer["said"])
+        answer = self.ask(mesh="structured")
+        self.assertEqual((answer["state"], answer["said"]), ("ready", ""))
+        self.assertGreater(answer["kept"][0], 90)
+
+    def test_a_lost_graphics_card_is_a_sentence_and_the_page_goes_on(self):
+        self.show("index")
+        self.run_script("""window.lost = [...document.querySelectorAll("#live canvas")].map((canvas) => canvas.getContext("webgl2").getExtension("WEBGL_lose_context"));
+          lost.forEach((one) => one.loseContext());""")
+        self.wait("return document.querySelector('#live .live-said').textContent.includes('lost')")
+        self.assertEqual(self.ask(epsilon=-4)["state"], "ready")
+        self.run_script("lost.forEach((one) => one.restoreContext());")
+        self.wait("return document.querySelector('#live .live-said').textContent === ''")
+
+    def test_the_still_stays_where_the_browser_lacks_something(self):
+        for lacking in ("delete window.WebAssembly", "HTMLCanvasElement.prototype.getContext = () => null", "Object.defineProperty(window, 'ANTILOCK_LIVE', { get: () => ({ wasm: 'H4sIAAAAAAAAAwMAAAAAAAAAAAA=', meshes: 'H4sIAAAAAAAAAwMAAAAAAAAAAAA=' }), set: () => {} })"):
+            script = self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": lacking})
+            self.show("index")
+            self.browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+            with self.subTest(lacking=lacking):
+                self.assertEqual(self.run_script("return document.querySelector('#live').dataset.state"), "still")
+                self.assertIn("This is a still: ", self.run_script("return document.querySelector('#live .live-still').textContent"))
+                self.assertGreater(self.run_script("const image = document.querySelector('#live img'); image.loading = 'eager'; return image.complete ? 1 : image.width"), 0)
+        self.browser.get_log("browser")
+
+    def test_every_chapter_answers_in_its_own_figure(self):
+        chapter = {kind: next(page for page in PAGES if page.startswith(number)) for kind, number in
+                   (("string", "00"), ("convergence", "09"), ("roundoff", "16"))}
+        data = "return {...document.querySelector('#live-' + arguments[0]).dataset}"
+        moved = """const input = document.querySelector(`#live-${arguments[0]}-${arguments[1]}`); input.value = arguments[2];
+          input.dispatchEvent(new Event("input"));"""
+        self.show(chapter["string"])
+        self.assertEqual(self.run_script(data, "string")["steps"], "8")  # the chapter's program says so for 32 cells
+        self.show(chapter["convergence"], reduced="reduce")
+        self.run_script("document.querySelector('#live-convergence button').click()")
+        self.wait("return document.querySelector('#live-convergence').dataset.points === '17'", seconds=60)
+        self.show(chapter["roundoff"])
+        self.run_script(moved, "roundoff", "epsilon", -12)
+        self.wait("return Number(document.querySelector('#live-roundoff').dataset.summed) > 0.02")
+        self.assertLess(float(self.run_script(data, "roundoff")["split"]), 0.005)
+        self.assertEqual(self.said(), [])
+
+
+if __name__ == "__main__":
+    if not Path("/usr/bin/chromedriver").exists():
+        print("book_test: chromium-driver is missing; .ci/install browser installs it")
+        sys.exit(77)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
