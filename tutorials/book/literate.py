@@ -104,7 +104,7 @@ class Page:
         step = None
         for kind, block in chunks(source.read_text().splitlines()):
             if kind == "code":
-                head = next((i for i, line in enumerate(block) if line.strip() and not line.startswith(("#include", "using namespace"))),
+                head = next((i for i, line in enumerate(block) if line.strip() and not line.startswith(("#include", "using "))),
                             len(block))
                 if any(line.startswith("#include") for line in block[:head]):
                     self.body += folded("Headers", fence("cpp", block[:head]), "headers")

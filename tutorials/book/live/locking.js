@@ -37,7 +37,7 @@ antilock.figures.locking = async (box) => {
   const at = (id) => parts[id], said = still.querySelector(".live-said");
   const canvases = [...still.querySelectorAll("canvas")], rows = [...still.querySelectorAll("tbody tr")];
   const paint = canvases.map((canvas) => {
-    const places = [() => [0, -1.14, 0], () => [1, -1.14, 0], () => [1.13, 1, 0], () => [1.07, 0, 0], () => [0.5, -1.14, 0], (r) => [0, -1, r + 0.03]];
+    const places = [() => [0, -1.14, 0], () => [1, -1.14, 0], () => [1.13, 1, 0], () => [-0.05, 0, 0], () => [0.5, -1.14, 0], (r) => [0, -1, r + 0.03]];
     const spans = [...canvas.parentNode.querySelectorAll("span")];
     spans[5].textContent = "u";
     return antilock.surface(canvas, { at: spans.map((span, i) => [span, places[i]]),
