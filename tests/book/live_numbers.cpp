@@ -21,7 +21,7 @@ int main() {
       book::LiveFigure figure(kind.mesh, 16, kind.amount, *element);
       for (const double exponent : {0., -2., -6., -8.}) {
         const double epsilon = exponent == -8 ? 0 : std::pow(10, exponent);
-        const book::LiveNumbers n = figure.solve(epsilon, book::live_truth(epsilon));
+        const book::LiveNumbers n = figure.solve(epsilon, book::LiveTruth(epsilon));
         fmt::print("{{\"element\": \"{}\", \"mesh\": \"{}\", \"moved\": {}, \"exponent\": {}, \"kept\": {:.17g}, ",
                    element->name(), kind.name, kind.amount, exponent, 100 * n.largest_on_contact / n.ridge);
         fmt::print("\"error\": {:.17g}, \"touching\": {}, \"largest\": {:.17g}}}\n", n.error, n.touching,

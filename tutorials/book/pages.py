@@ -108,7 +108,8 @@ class Book:
         """The WebP of figures/images, 1,600 pixels wide; made anew where the PNG is newer."""
         source, target = ROOT / f"figures/images/{name}.png", self.out / f"images/{name}.webp"
         if not source.exists():
-            raise BookError(f"figures/images/{name}.png is missing; figures/reproduce {name} makes it")
+            self.complain(f"figures/images/{name}.png is missing; figures/reproduce {name} makes it")
+            return None
         if not target.exists() or target.stat().st_mtime < source.stat().st_mtime:
             target.parent.mkdir(parents=True, exist_ok=True)
             image = Image.open(source).convert("RGB")
@@ -119,6 +120,8 @@ class Book:
 
     def figure(self, row, eager=False):
         path = self.picture(row["image"])
+        if path is None:
+            return []
         title = f"**Figure {row['figure']} of the paper.** " if row["figure"] else ""
         alt = row["caption"].replace('"', "'")
         return [f"```{{figure}} {path}", f":alt: \"{alt}\"", ":figclass: picture", f":target: _images/{row['image']}.webp",
@@ -208,6 +211,8 @@ class Book:
         for row in self.table:
             chapters = [f"[{self.pages[name].title}]({name}.md)" for name in row["tutorial"].split() if name in self.pages]
             picture = self.figure(row)
+            if not picture:
+                continue
             picture[-3] += (" From " + ", ".join(chapters) + ".") if chapters else ""
             out += picture
         self.write("gallery", out)

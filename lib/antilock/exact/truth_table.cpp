@@ -20,8 +20,6 @@
 namespace antilock {
 namespace {
 
-constexpr int finest_cells = 1 << 14;               // along Gamma_C
-constexpr double finest_step = 1.0 / finest_cells;  // between rows, next to Gamma_C
 constexpr double steps_per_distance = 12;           // rows within a distance d
 constexpr double smooth_step = 0.06;                // between rows and points, in units of 1 / (k pi) of the load
 constexpr int most_waves = 32;
@@ -127,11 +125,11 @@ class RowSampler {
 
 // The y of rows from one end to the other, steps growing with the distance from Gamma_C; unit: physical length of y
 // = 1.
-std::vector<double> graded_rows(double from, double to, double gamma_c, double unit, double longest) {
+std::vector<double> graded_rows(double from, double to, double gamma_c, double unit, double finest, double longest) {
   std::vector<double> rows{from};
   while (rows.back() < to) {
     const double distance = (rows.back() - gamma_c) * unit;
-    const double step = std::min(std::max(distance / steps_per_distance, finest_step), longest);
+    const double step = std::min(std::max(distance / steps_per_distance, finest), longest);
     rows.push_back(rows.back() + std::min(step / unit, 1.0));
   }
   rows.back() = to;
@@ -162,7 +160,7 @@ struct TruthTable::Grid {
   static double p(const Between& at) { return at.in_y()(at.below.p, at.below.p_y, at.above.p, at.above.p_y); }
 };
 
-TruthTable::TruthTable(const Truth& truth) : grid_(std::make_unique<Grid>()) {
+TruthTable::TruthTable(const Truth& truth, int finest_cells) : grid_(std::make_unique<Grid>()) {
   const Truth::Data& data = truth.data();
   const int waves = largest_wave(data);
   if (waves > most_waves)
@@ -170,14 +168,15 @@ TruthTable::TruthTable(const Truth& truth) : grid_(std::make_unique<Grid>()) {
         fmt::format("truth table: load with wave number k = {}; accepted: up to {} (sum the series of Truth instead)",
                     waves, most_waves));
   const double epsilon = grid_->epsilon = data.epsilon, longest = smooth_step / (waves * std::numbers::pi);
+  const double finest = 1.0 / finest_cells;  // between rows, next to Gamma_C
   const auto cells = [&](double distance) {
     return power_of_two_from(std::max(64.0 * waves, std::min(16 / distance, double(finest_cells))));
   };
   RowSampler sampler;
-  const double unit = std::max(epsilon, finest_step);  // a thinner layer is one step
-  for (const double y : graded_rows(-1, 0, -1, unit, longest))
+  const double unit = std::max(epsilon, finest);  // a thinner layer is one step
+  for (const double y : graded_rows(-1, 0, -1, unit, finest, longest))
     grid_->layer.push_back(sampler(layer_row(data, y), y, cells((1 + y) * epsilon)));
-  for (const double y : graded_rows(0, 1, -epsilon, 1, longest))
+  for (const double y : graded_rows(0, 1, -epsilon, 1, finest, longest))
     grid_->body.push_back(sampler(body_row(data, y), y, cells(y + epsilon)));
 }
 

@@ -54,14 +54,14 @@ namespace {
 using namespace antilock;
 
 std::unique_ptr<book::LiveFigure> figures[2];  // P1, Crouzeix-Raviart
-std::unique_ptr<Truth> truth;
+std::unique_ptr<book::LiveTruth> truth;
 book::LiveNumbers numbers;
 book::RoundOff round_off_numbers;
 std::vector<float> picture;
 std::vector<double> line;
 
-const Truth& truth_at(double epsilon) {
-  if (!truth || truth->epsilon() != epsilon) truth = std::make_unique<Truth>(book::live_truth(epsilon));
+const book::LiveTruth& truth_at(double epsilon) {
+  if (!truth || truth->epsilon != epsilon) truth = std::make_unique<book::LiveTruth>(epsilon);
   return *truth;
 }
 

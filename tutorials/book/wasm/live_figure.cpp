@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/exact/truth_table.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/exhibits/summed_matrix.hpp"
@@ -14,10 +13,10 @@ namespace {
 
 Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
 
-double largest_error(const Space& space, const Eigen::VectorXd& u, const TruthTable& truth) {
+double largest_error(const Space& space, const Eigen::VectorXd& u, const TruthTable& table) {
   double error = 0;
   for (int i = 0; i < space.size(); ++i)
-    error = std::max(error, std::abs(u(i) - truth.value(space.points()(i, 0), space.points()(i, 1))));
+    error = std::max(error, std::abs(u(i) - table.value(space.points()(i, 0), space.points()(i, 1))));
   return error;
 }
 
@@ -40,7 +39,7 @@ TriangleMesh live_mesh(LiveMesh kind, int cells, double amount) {
 LiveFigure::LiveFigure(LiveMesh kind, int cells, double amount, const Element& element)
     : discrete_(live_mesh(kind, cells, amount), element), sweep_(paper_scene(1), discrete_.space()) {}
 
-LiveNumbers LiveFigure::solve(double epsilon, const Truth& truth) {
+LiveNumbers LiveFigure::solve(double epsilon, const LiveTruth& truth) {
   const Stopwatch watch;
   sweep_.set_epsilon(epsilon);
   solution_ = sweep_.solve();
@@ -55,8 +54,8 @@ LiveNumbers LiveFigure::solve(double epsilon, const Truth& truth) {
     numbers.touches_from = std::min(numbers.touches_from, space.points()(unknown, 0));
   }
   numbers.contact = static_cast<double>(space.contact().size());
-  numbers.ridge = truth.max_on_contact();
-  numbers.error = largest_error(space, solution_.u, TruthTable(truth));
+  numbers.ridge = truth.truth.max_on_contact();
+  numbers.error = largest_error(space, solution_.u, truth.table);
   numbers.unknowns = solution_.counters.unknowns;
   numbers.corrections = solution_.counters.corrections;
   numbers.factorisations = solution_.counters.factorisations;
@@ -92,26 +91,26 @@ std::vector<double> LiveFigure::trace() const {
   return numbers;
 }
 
-Truth live_truth(double epsilon) { return Truth(paper_sine_load(), epsilon, true, 10); }
+LiveTruth::LiveTruth(double epsilon)
+    : epsilon(epsilon), truth(paper_sine_load(), epsilon, true, 10), table(truth, 1 << 10) {}
 
-std::vector<double> ridge_line(const Truth& truth, int points) {
+std::vector<double> ridge_line(const LiveTruth& truth, int points) {
   std::vector<double> numbers;
   for (int i = 0; i < points; ++i) {
     const double x = static_cast<double>(i) / (points - 1);
-    numbers.insert(numbers.end(), {x, truth.value(x, -1)});
+    numbers.insert(numbers.end(), {x, truth.table.value(x, -1)});
   }
   return numbers;
 }
 
-RoundOff round_off(int cells, double epsilon, const Truth& truth) {
+RoundOff round_off(int cells, double epsilon, const LiveTruth& truth) {
   const Discretisation discrete(structured_mesh(cells), p1());
   const Space& space = discrete.space();
   const VariationalInequality problem = assemble(paper_scene(epsilon), space);
-  const TruthTable table(truth);
   RoundOff errors;
-  errors.split = largest_error(space, active_set(problem).u, table);
+  errors.split = largest_error(space, active_set(problem).u, truth.table);
   const NaiveAnswer summed = naive_summed_solve(problem, SummedFactor::cholesky);
-  errors.summed = summed.end == NaiveEnd::refused ? 1 : largest_error(space, summed.solution.u, table);
+  errors.summed = summed.end == NaiveEnd::refused ? 1 : largest_error(space, summed.solution.u, truth.table);
   return errors;
 }
 

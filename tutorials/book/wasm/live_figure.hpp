@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "antilock/exact/truth.hpp"
+#include "antilock/exact/truth_table.hpp"
 #include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
 
@@ -23,13 +23,21 @@ struct LiveNumbers {
   double touches_from = 1;           ///< the least x in contact; 1 where nothing touches
 };
 
+/// The exact solution at one epsilon as the page needs it: 2^10 points along Gamma_C.
+struct LiveTruth {
+  explicit LiveTruth(double epsilon);
+  double epsilon;
+  Truth truth;
+  TruthTable table;
+};
+
 /// One half of the live figure: the paper's problem with one element on one mesh, asked at any epsilon.
 class LiveFigure {
  public:
   LiveFigure(LiveMesh kind, int cells, double amount, const Element& element);
 
   /// Solves (23), or (24) at epsilon = 0, and compares with the exact solution.
-  LiveNumbers solve(double epsilon, const Truth& truth);
+  LiveNumbers solve(double epsilon, const LiveTruth& truth);
   /// x, y, u of the three corners of every triangle, in the order of the mesh: 9 numbers per triangle.
   std::vector<float> picture() const;
   /// x, u_h and 1 (in contact) or 0 at every unknown of Gamma_C, by x: 3 numbers per unknown.
@@ -42,16 +50,14 @@ class LiveFigure {
   Solution solution_;
 };
 
-/// The exact solution as the page needs it: 2^10 points carry six digits.
-Truth live_truth(double epsilon);
 /// x and the exact u at `points` places along Gamma_C: 2 numbers per place.
-std::vector<double> ridge_line(const Truth& truth, int points);
+std::vector<double> ridge_line(const LiveTruth& truth, int points);
 
 /// One epsilon of the round-off exhibit (P1, structured): the largest error at the unknowns by the split form, and by
 /// the sum A1 + epsilon^-2 B' M B; 1 where the sum was refused.
 struct RoundOff {
   double split = 0, summed = 0;
 };
-RoundOff round_off(int cells, double epsilon, const Truth& truth);
+RoundOff round_off(int cells, double epsilon, const LiveTruth& truth);
 
 }  // namespace antilock::book
