@@ -17,15 +17,24 @@ Solution solve(const VariationalInequality& problem, PenaltyFactor& factor, cons
   if (options.start && !options.start->above.empty() && options.start->above.size() != problem.contact.size())
     throw Error("active set: the start has " + std::to_string(options.start->above.size()) +
                 " entries for upper bounds; accepted none, or one per contact unknown");
-  int steps = 0, most = 0;
-  const ContactSolver contact = [&](const ContactProblem& p, const ContactAnswer& before, int correction) {
-    HeldBounds start(before.active, before.above);
-    if (correction == 0) start = options.start ? *options.start : nested_start(p, options.max_steps);
-    ContactAnswer answer = solve_contact(p, std::move(start), options.max_steps);
-    steps += answer.steps;
-    most = std::max(most, answer.steps);
-    return answer;
+  int most = 0;
+  const auto start = [&](const auto& p, const ContactAnswer& before, int correction) {
+    if (correction > 0) return HeldBounds(before.active, before.above);
+    return options.start ? *options.start : nested_start(p, options.max_steps);
   };
+  const ContactSolver contact{
+      .dense =
+          [&](const ContactProblem& p, const ContactAnswer& before, int correction) {
+            ContactAnswer answer = solve_contact(p, start(p, before, correction), options.max_steps);
+            most = std::max(most, answer.steps);
+            return answer;
+          },
+      .sparse =
+          [&](const SparseContactProblem& p, const ContactAnswer& before, int correction) {
+            SparseContactAnswer answer = solve_contact(p, start(p, before, correction), options.max_steps);
+            most = std::max(most, answer.contact.steps);
+            return answer;
+          }};
   Solution solution = iterated_penalty(problem, factor, contact, options.corrections, "active set");
   solution.counters.contact = most;
   return solution;
@@ -46,7 +55,7 @@ Solution active_set(const VariationalInequality& problem, const ActiveSetOptions
     return handed_back(problem, basis, active_set(basis.problem, options),
                        TrustLevels{.refused = options.corrections.refused});
   }
-  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty);
+  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty, options.road);
   return solve(problem, factor, options);
 }
 

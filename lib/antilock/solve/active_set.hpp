@@ -11,9 +11,10 @@ namespace antilock {
 
 struct ActiveSetOptions {
   CorrectionOptions corrections;
-  std::optional<double> penalty;    ///< delta where compliance is smaller; empty: choose_penalty
-  int max_steps = 1000;             ///< of the contact iteration, a correction; reached: NotConverged
-  std::optional<HeldBounds> start;  ///< contact set to start from; empty: the nested start
+  std::optional<double> penalty;              ///< delta where compliance is smaller; empty: choose_penalty
+  ContactRoad road = ContactRoad::automatic;  ///< of the factor, where the solver makes it
+  int max_steps = 1000;                       ///< of the contact iteration, a correction; reached: NotConverged
+  std::optional<HeldBounds> start;            ///< contact set to start from; empty: the nested start
 };
 
 /// Primal-dual active set on the contact unknowns, everything else eliminated by one sparse Cholesky factor; the stiff

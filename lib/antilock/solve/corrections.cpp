@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "antilock/core/error.hpp"
@@ -61,6 +62,7 @@ Corrections::Change Corrections::correct(SplitResidual r, const ContactSolver& c
 
 Eigen::VectorXd Corrections::solve_with_factor(Eigen::VectorXd r, const ContactSolver& contact) {
   const auto c = static_cast<Eigen::Index>(problem_.contact.size());
+  if (factor_.held() != nullptr) return solve_holding(std::move(r), contact);
   Stopwatch watch;
   // what acts on Gamma_C itself stays out of the factor: a great load there, which the obstacle bears, would leave
   // its round-off on the neighbours
@@ -76,7 +78,8 @@ Eigen::VectorXd Corrections::solve_with_factor(Eigen::VectorXd r, const ContactS
     const Eigen::VectorXd upper = problem_.upper.size() > 0 ? Eigen::VectorXd(problem_.upper - u_c) : Eigen::VectorXd();
     Eigen::VectorXd q = r_c + l * y.tail(c);
     if (contact_.lambda.size() > 0) q -= contact_.lambda;  // r holds them already; contact asks for all
-    contact_ = contact({schur_, q, lower, s_.u.lpNorm<Eigen::Infinity>(), u_c, noise_c_, upper}, contact_, correction_);
+    contact_ =
+        contact.dense({schur_, q, lower, s_.u.lpNorm<Eigen::Infinity>(), u_c, noise_c_, upper}, contact_, correction_);
     y.tail(c) = l.transpose() * contact_.v;
     s_.seconds.contact += watch.lap();
   }
@@ -84,6 +87,25 @@ Eigen::VectorXd Corrections::solve_with_factor(Eigen::VectorXd r, const ContactS
   Eigen::VectorXd du = Eigen::VectorXd::Zero(problem_.size());
   du(factor_.numbering().unknown) = x;
   s_.seconds.solve += watch.lap();
+  return du;
+}
+
+Eigen::VectorXd Corrections::solve_holding(Eigen::VectorXd r, const ContactSolver& contact) {
+  const Stopwatch watch;
+  const std::vector<int>& unknown = factor_.numbering().unknown;
+  std::vector<int> bounded(problem_.contact.size());
+  std::iota(bounded.begin(), bounded.end(), factor_.numbering().interior);
+  const Eigen::VectorXd from = s_.u(unknown), u_c = s_.u(problem_.contact), lower = problem_.lower - u_c;
+  const Eigen::VectorXd upper = problem_.upper.size() > 0 ? Eigen::VectorXd(problem_.upper - u_c) : Eigen::VectorXd();
+  if (contact_.lambda.size() > 0) r.tail(contact_.lambda.size()) -= contact_.lambda;  // contact asks for all
+  SparseContactAnswer answer =
+      contact.sparse({*factor_.held(), r, bounded, lower, s_.u.lpNorm<Eigen::Infinity>(), from, noise_c_, upper},
+                     contact_, correction_);
+  contact_ = std::move(answer.contact);
+  ++factor_.solves;
+  Eigen::VectorXd du = Eigen::VectorXd::Zero(problem_.size());
+  du(unknown) = answer.x;
+  s_.seconds.contact += watch.seconds();
   return du;
 }
 
@@ -121,6 +143,7 @@ Solution Corrections::finished() {
   s_.counters.corrections = correction_;
   s_.counters.unknowns = problem_.free_count();
   s_.counters.factorisations = factor_.factorisations;
+  if (factor_.held() != nullptr) s_.counters.factorisations += factor_.held()->refactorisations;
   s_.counters.solves = factor_.solves - s_.counters.solves;  // since the start
   s_.seconds.analyse = factor_.analyse_seconds;
   s_.seconds.factor = factor_.factor_seconds;

@@ -55,6 +55,8 @@ class Corrections {
   void refactor(double delta);
   /// du on all unknowns, with the contact problem on Gamma_C solved on the way.
   Eigen::VectorXd solve_with_factor(Eigen::VectorXd r, const ContactSolver& contact);
+  /// The same on the sparse road.
+  Eigen::VectorXd solve_holding(Eigen::VectorXd r, const ContactSolver& contact);
 
   const VariationalInequality& problem_;
   PenaltyFactor& factor_;
@@ -62,7 +64,7 @@ class Corrections {
   Solution s_;                      ///< u, p and what is counted
   ContactAnswer contact_;           ///< of the last correction: forces, contact set
   const Eigen::VectorXd row_sums_;  ///< R, absolute_row_sums of B
-  Eigen::MatrixXd schur_;           ///< C x C, S = L_C L_C', of the factor as it is now
+  Eigen::MatrixXd schur_;           ///< C x C, S = L_C L_C', of the factor as it is now; empty on the sparse road
   Anderson acceleration_{6};        ///< the past that the mix and the contraction are read from
   int correction_ = 0;
   int since_rescue_ = 0;      ///< corrections with the means as they are

@@ -1,38 +1,20 @@
 #include "antilock/solve/penalty_factor.hpp"
 
-#include <cholmod.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
-#include <numeric>
 #include <optional>
+#include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
-#include "antilock/solve/supernodes.hpp"
 
 namespace antilock {
 namespace {
-
-/// CHOLMOD's view of an upper triangle that Eigen owns.
-cholmod_sparse view(SparseMatrix& k) {
-  cholmod_sparse a{};
-  a.nrow = a.ncol = static_cast<std::size_t>(k.cols());
-  a.nzmax = static_cast<std::size_t>(k.nonZeros());
-  a.p = k.outerIndexPtr();
-  a.i = k.innerIndexPtr();
-  a.x = k.valuePtr();
-  a.stype = 1;
-  a.itype = CHOLMOD_INT;
-  a.xtype = CHOLMOD_REAL;
-  a.dtype = CHOLMOD_DOUBLE;
-  a.sorted = a.packed = 1;
-  return a;
-}
 
 const VariationalInequality& checked(const VariationalInequality& problem) {
   check(problem);
@@ -63,83 +45,30 @@ std::uint64_t fingerprint(const VariationalInequality& problem) {
   return hash[0];
 }
 
+/// Whether the contact problem takes the sparse road (see ContactRoad).
+bool takes_sparse(ContactRoad road, const FreeNumbering& numbering) {
+  const auto all = static_cast<double>(numbering.unknown.size()), bounded = all - numbering.interior;
+  if (bounded == 0 || road != ContactRoad::automatic) return bounded > 0 && road == ContactRoad::sparse;
+  return bounded > 600 && bounded > 8 * std::sqrt(all);
+}
+
 }  // namespace
 
-struct PenaltyFactor::Cholmod {
-  cholmod_common common{};
-  cholmod_factor* l = nullptr;
-
-  Cholmod() {
-    cholmod_start(&common);
-    common.print = 0;
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.final_ll = 1;
-  }
-  ~Cholmod() {
-    cholmod_free_factor(&l, &common);
-    cholmod_finish(&common);
-  }
-  Cholmod(const Cholmod&) = delete;
-  Cholmod& operator=(const Cholmod&) = delete;
-
-  /// CAMD orders by minimum degree under the constraint that the contact unknowns come last: as good as AMD without it.
-  void analyse(SparseMatrix& k, int interior) {
-    const int size = static_cast<int>(k.cols());
-    std::vector<int> order(size), group(size, 0);
-    std::fill(group.begin() + interior, group.end(), interior > 0 ? 1 : 0);  // CAMD wants groups below `size`
-    cholmod_sparse whole = view(k);
-    if (!cholmod_camd(&whole, nullptr, 0, group.data(), order.data(), &common))
-      throw Error("solve: the ordering of the sparse factor failed: out of memory");
-    std::iota(order.begin() + interior, order.end(), interior);  // among themselves in the order of the reports
-    common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_GIVEN;
-    for (const int postorder : {1, 0}) {
-      common.postorder = postorder;
-      cholmod_free_factor(&l, &common);
-      l = cholmod_analyze_p(&whole, order.data(), nullptr, 0, &common);
-      if (l == nullptr) throw Error("solve: the analysis of the sparse factor failed: out of memory");
-      const int* perm = static_cast<int*>(l->Perm);
-      bool last = true;
-      for (int i = interior; i < size; ++i) last = last && perm[i] == i;
-      if (last) return;  // else a postorder moved a contact unknown: do without
-    }
-    throw Error("solve: the contact unknowns did not come last in the sparse factor");
-  }
-
-  Supernodes supernodes() const {
-    return {.size = static_cast<int>(l->n),
-            .count = static_cast<int>(l->nsuper),
-            .start = static_cast<const int*>(l->super),
-            .row_start = static_cast<const int*>(l->pi),
-            .block_start = static_cast<const int*>(l->px),
-            .row = static_cast<const int*>(l->s),
-            .value = static_cast<const double*>(l->x)};
-  }
-
-  /// The order of the columns of L: place -> row of K.
-  Eigen::Map<const Eigen::VectorXi> order() const {
-    return {static_cast<const int*>(l->Perm), static_cast<Eigen::Index>(l->n)};
-  }
-};
-
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, Checked)
-    : numbering_(problem), matrices_(fingerprint(problem)), cholmod_(std::make_unique<Cholmod>()) {
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road, Checked)
+    : numbering_(problem), holds_(takes_sparse(road, numbering_)), matrices_(fingerprint(problem)) {
   factorise(problem, delta);
 }
 
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta)
-    : PenaltyFactor(checked(problem), delta, Checked{}) {}
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road)
+    : PenaltyFactor(checked(problem), delta, road, Checked{}) {}
 
 PenaltyFactor::PenaltyFactor(const VariationalInequality& problem)
-    : PenaltyFactor(problem, moderate_delta(checked(problem)), Checked{}) {}
+    : PenaltyFactor(problem, moderate_delta(checked(problem)), ContactRoad::automatic, Checked{}) {}
 
-PenaltyFactor PenaltyFactor::moderate(const VariationalInequality& problem, std::optional<double> penalty) {
-  return {problem, moderate_delta(checked(problem), penalty), Checked{}};
+PenaltyFactor PenaltyFactor::moderate(const VariationalInequality& problem, std::optional<double> penalty,
+                                      ContactRoad road) {
+  return {problem, moderate_delta(checked(problem), penalty), road, Checked{}};
 }
-
-PenaltyFactor::~PenaltyFactor() = default;
-PenaltyFactor::PenaltyFactor(PenaltyFactor&&) noexcept = default;
-PenaltyFactor& PenaltyFactor::operator=(PenaltyFactor&&) noexcept = default;
 
 void PenaltyFactor::check_fits(const VariationalInequality& problem) const {
   check_data(problem);
@@ -173,46 +102,62 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
     throw Error(fmt::format("solve: delta = {}; accepted: a positive number", delta));
   delta_ = delta;
   SparseMatrix k = penalised_matrix(problem, numbering_, delta);
+  std::optional<int> lost;
   Stopwatch watch;
-  if (cholmod_->l == nullptr) {
-    cholmod_->analyse(k, numbering_.interior);
-    analyse_seconds = watch.lap();
+  if (holds_) {
+    if (!held_) held_.emplace();
+    lost = held_->factorise(std::move(k));
+    analyse_seconds = held_->analyse_seconds;
+    factor_seconds = watch.lap() - analyse_seconds;
+  } else {
+    if (!cholesky_.analysed()) {
+      cholesky_.analyse(k, static_cast<int>(k.cols()) - numbering_.interior);
+      analyse_seconds = watch.lap();
+    }
+    lost = cholesky_.factorise(k);
   }
-  cholmod_sparse whole = view(k);
-  cholmod_factorize(&whole, cholmod_->l, &cholmod_->common);
-  if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
-  std::optional<int> column;
-  if (cholmod_->common.status == CHOLMOD_NOT_POSDEF)
-    column = static_cast<int>(cholmod_->l->minor);
-  else
-    column = cholmod_->supernodes().lost_pivot(k.diagonal()(cholmod_->order()));
-  if (column) {
-    const int unknown = numbering_.unknown[cholmod_->order()(*column)];
+  if (lost)
     throw Error(fmt::format(
         "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
         "by nothing, a cell is too flat for double precision, or A1 and B are in units far apart; accepted: enough "
         "fixed unknowns, cells, entries of A1 and B' M B of like size",
-        delta, unknown));
+        delta, numbering_.unknown[*lost]));
+  if (!holds_) {
+    contact_block_ = cholesky_.trailing_block(numbering_.interior);
+    factor_seconds = watch.lap();
   }
-  contact_block_ = cholmod_->supernodes().trailing_block(numbering_.interior);
-  factor_seconds = watch.lap();
   ++factorisations;
 }
 
-double PenaltyFactor::rcond() { return cholmod_rcond(cholmod_->l, &cholmod_->common); }
+double PenaltyFactor::rcond() const { return holds_ ? held_->rcond() : cholesky_.rcond(); }
 
-Eigen::VectorXd PenaltyFactor::forward(const Eigen::VectorXd& r) {
-  Eigen::VectorXd y = r(cholmod_->order());
-  cholmod_->supernodes().forward(y);
-  return y;
+Eigen::VectorXd PenaltyFactor::forward(const Eigen::VectorXd& r) const {
+  require_dense();
+  return cholesky_.forward(r);
 }
 
 Eigen::VectorXd PenaltyFactor::backward(Eigen::VectorXd y) {
-  cholmod_->supernodes().backward(y);
-  Eigen::VectorXd x(y.size());
-  x(cholmod_->order()) = y;
+  require_dense();
   ++solves;
-  return x;
+  return cholesky_.backward(std::move(y));
+}
+
+Eigen::VectorXd PenaltyFactor::solve(const Eigen::VectorXd& r) {
+  ++solves;
+  return holds_ ? held_->solve(r) : cholesky_.backward(cholesky_.forward(r));
+}
+
+const Eigen::MatrixXd& PenaltyFactor::contact_block() const {
+  require_dense();
+  return contact_block_;
+}
+
+void PenaltyFactor::require_dense() const {
+  if (holds_)
+    throw Error(
+        fmt::format("solve: this factor of {} bounds among {} unknowns has no dense contact block; accepted: a factor "
+                    "made with ContactRoad::dense",
+                    numbering_.unknown.size() - numbering_.interior, numbering_.unknown.size()));
 }
 
 }  // namespace antilock

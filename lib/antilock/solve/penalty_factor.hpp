@@ -1,30 +1,43 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
 #include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/held_factor.hpp"
 #include "antilock/solve/penalised_matrix.hpp"
+#include "antilock/solve/sparse_cholesky.hpp"
 
 namespace antilock {
 
-/// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B (CHOLMOD, supernodal) with
-/// the contact unknowns ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur
-/// complement, so the whole contact problem is solved on it for next to nothing. It serves every load, every bound and,
-/// where delta is the same, every compliance of one matrix pair (A1, B).
+/// How the contact problem of a correction is solved.
+///
+/// dense: the contact unknowns come last in the factor, everything else is eliminated once, and the contact iteration
+/// works on their C x C Schur complement. sparse: each step of the contact iteration factors K on the unknowns that are
+/// not held; its cost follows the sparse factor, whatever C is. automatic takes the sparse one where
+///
+///     C > 600  and  C > 8 sqrt(F),   F free unknowns
+///
+/// Measured on a membrane (tests/benchmark/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F): dense
+/// over sparse seconds are 0.3 at k = 1 to 3, 0.4 at 4, 0.4 to 0.65 at 6, 0.94 to 1.07 at 8 and 2 to 3.4 at 12, for n =
+/// 32, 64 and 128 alike: C^3 stands against F^(3/2). Up to 600 bounds the dense road takes less than 0.1 s, and on a
+/// beam, to whose stiffness the sparse road's start does not fit, fewer steps.
+enum class ContactRoad { automatic, dense, sparse };
+
+/// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B. On the dense road with the
+/// contact unknowns ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur complement,
+/// so the whole contact problem is solved on it for next to nothing. It serves every load, every bound and, where delta
+/// is the same, every compliance of one matrix pair (A1, B).
 class PenaltyFactor {
  public:
   /// Throws Error for a malformed problem or a delta that is not positive, if K is not positive definite (then
   /// A1 + B' M B is singular: a piece is held nowhere), or out of memory.
-  PenaltyFactor(const VariationalInequality& problem, double delta);
+  PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road = ContactRoad::automatic);
   /// The usual one: delta = moderate_delta(problem), the compliance itself where nothing is gained by less.
   explicit PenaltyFactor(const VariationalInequality& problem);
   /// The same with the penalty chosen by the caller, where there is one.
-  static PenaltyFactor moderate(const VariationalInequality& problem, std::optional<double> penalty);
-  ~PenaltyFactor();
-  PenaltyFactor(PenaltyFactor&&) noexcept;
-  PenaltyFactor& operator=(PenaltyFactor&&) noexcept;
+  static PenaltyFactor moderate(const VariationalInequality& problem, std::optional<double> penalty,
+                                ContactRoad road = ContactRoad::automatic);
 
   /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B or
   /// M than this factor's: one walk over the data, about the cost of a residual.
@@ -36,28 +49,37 @@ class PenaltyFactor {
   double delta() const { return delta_; }
   const FreeNumbering& numbering() const { return numbering_; }
   /// Smallest by largest pivot of K: an upper estimate of 1 / condition number, for next to nothing.
-  double rcond();
+  double rcond() const;
+  /// K^-1 r on the F free places; on the sparse road of the unknowns that are not held, 0 on the held ones.
+  Eigen::VectorXd solve(const Eigen::VectorXd& r);
+
+  /// The sparse road's K, which holds unknowns; nullptr on the dense one.
+  HeldFactor* held() { return held_ ? &*held_ : nullptr; }
+
+  // The dense road's; on the sparse one they throw Error.
   /// y = L^-1 P r for r on the F free places; the last C entries of y belong to the contact unknowns, in their order.
-  Eigen::VectorXd forward(const Eigen::VectorXd& r);
+  Eigen::VectorXd forward(const Eigen::VectorXd& r) const;
   /// x = P' L'^-1 y.
   Eigen::VectorXd backward(Eigen::VectorXd y);
   /// C x C lower triangular trailing block of L.
-  const Eigen::MatrixXd& contact_block() const { return contact_block_; }
+  const Eigen::MatrixXd& contact_block() const;
 
-  int factorisations = 0;                          ///< numeric factorisations so far
+  int factorisations = 0;                          ///< numeric factorisations of the whole K so far
   int solves = 0;                                  ///< forward + backward pairs so far
   double analyse_seconds = 0, factor_seconds = 0;  ///< of the last analysis and factorisation
 
  private:
-  struct Cholmod;
   struct Checked {};  ///< the problem has passed `check`
-  PenaltyFactor(const VariationalInequality& problem, double delta, Checked);
+  PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road, Checked);
   void check_unknowns(const VariationalInequality& problem) const;
+  void require_dense() const;
   void factorise(const VariationalInequality& problem, double delta);
   FreeNumbering numbering_;
+  bool holds_ = false;
   double delta_ = 0;
   std::uint64_t matrices_ = 0;  ///< fingerprint of the A1, B and M that it was made of
-  std::unique_ptr<Cholmod> cholmod_;
+  SparseCholesky cholesky_;     ///< the dense road's
+  std::optional<HeldFactor> held_;
   Eigen::MatrixXd contact_block_;
 };
 

@@ -25,7 +25,8 @@ bool needs_long_double(const VariationalInequality& problem, PenaltyFactor& fact
 }
 
 /// S = L_C L_C', C x C.
-Eigen::MatrixXd contact_schur(const PenaltyFactor& factor) {
+Eigen::MatrixXd contact_schur(PenaltyFactor& factor) {
+  if (factor.held() != nullptr) return {};
   const Eigen::MatrixXd& block = factor.contact_block();
   if (block.size() == 0) return block;  // no contact: Eigen's triangular product would read what is not there
   return block.triangularView<Eigen::Lower>() * block.transpose();

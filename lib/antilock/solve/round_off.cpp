@@ -84,7 +84,7 @@ void Corrections::note_round_off() {
   for (std::size_t i = 0; i < problem_.contact.size(); ++i)  // what the obstacle bears displaces nothing
     if (contact_.active[i]) forces(problem_.contact[i]) = 0;
   const Eigen::VectorXd on_free = digits * forces(factor_.numbering().unknown);
-  const Eigen::VectorXd displaced = factor_.backward(factor_.forward(on_free));
+  const Eigen::VectorXd displaced = factor_.solve(on_free);
   Eigen::VectorXd noise = Eigen::VectorXd::Zero(problem_.size());
   noise(factor_.numbering().unknown) = displaced.cwiseAbs();
   noise_ = noise_.size() > 0 ? Eigen::VectorXd(noise_.cwiseMin(noise)) : noise;

@@ -121,8 +121,10 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
   corrections.progress = options.progress;
   corrections.contact = corrections.tolerance;
   if (problem.contact.empty()) return iterated_penalty(problem, factor, {}, corrections, "uzawa");
+  if (factor.held() != nullptr) factor.contact_block();  // says that there is none
   CondensedUzawa contact(factor, options);
-  Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");
+  Solution solution =
+      iterated_penalty(problem, factor, {.dense = std::ref(contact), .sparse = {}}, corrections, "uzawa");
   solution.counters.contact = static_cast<int>(contact.history.size());
   solution.history = std::move(contact.history);
   return solution;
@@ -135,7 +137,7 @@ Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options
     return handed_back(problem, basis, uzawa(basis.problem, options),
                        TrustLevels{.refused = asked_of_corrections(options).refused});
   }
-  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty);
+  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty, ContactRoad::dense);
   return uzawa(problem, factor, options);
 }
 

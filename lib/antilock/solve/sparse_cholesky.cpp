@@ -1,0 +1,132 @@
+#include "antilock/solve/sparse_cholesky.hpp"
+
+#include <cholmod.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "antilock/core/error.hpp"
+#include "antilock/solve/supernodes.hpp"
+
+namespace antilock {
+namespace {
+
+/// CHOLMOD's view of an upper triangle that Eigen owns.
+cholmod_sparse view(SparseMatrix& k) {
+  cholmod_sparse a{};
+  a.nrow = a.ncol = static_cast<std::size_t>(k.cols());
+  a.nzmax = static_cast<std::size_t>(k.nonZeros());
+  a.p = k.outerIndexPtr();
+  a.i = k.innerIndexPtr();
+  a.x = k.valuePtr();
+  a.stype = 1;
+  a.itype = CHOLMOD_INT;
+  a.xtype = CHOLMOD_REAL;
+  a.dtype = CHOLMOD_DOUBLE;
+  a.sorted = a.packed = 1;
+  return a;
+}
+
+}  // namespace
+
+struct SparseCholesky::Cholmod {
+  cholmod_common common{};
+  cholmod_factor* l = nullptr;
+
+  Cholmod() {
+    cholmod_start(&common);
+    common.print = 0;
+    common.supernodal = CHOLMOD_SUPERNODAL;
+    common.final_ll = 1;
+  }
+  ~Cholmod() {
+    cholmod_free_factor(&l, &common);
+    cholmod_finish(&common);
+  }
+  Cholmod(const Cholmod&) = delete;
+  Cholmod& operator=(const Cholmod&) = delete;
+
+  void analyse_with_the_last(cholmod_sparse& whole, int last) {
+    const int size = static_cast<int>(whole.ncol), interior = size - last;
+    std::vector<int> order(size), group(size, 0);
+    std::fill(group.begin() + interior, group.end(), interior > 0 ? 1 : 0);  // CAMD wants groups below `size`
+    if (!cholmod_camd(&whole, nullptr, 0, group.data(), order.data(), &common))
+      throw Error("solve: the ordering of the sparse factor failed: out of memory");
+    std::iota(order.begin() + interior, order.end(), interior);  // among themselves in the order of the reports
+    common.nmethods = 1;
+    common.method[0].ordering = CHOLMOD_GIVEN;
+    for (const int postorder : {1, 0}) {
+      common.postorder = postorder;
+      cholmod_free_factor(&l, &common);
+      l = cholmod_analyze_p(&whole, order.data(), nullptr, 0, &common);
+      if (l == nullptr) throw Error("solve: the analysis of the sparse factor failed: out of memory");
+      const int* perm = static_cast<int*>(l->Perm);
+      bool kept = true;
+      for (int i = interior; i < size; ++i) kept = kept && perm[i] == i;
+      if (kept) return;  // else a postorder moved one of the last: do without
+    }
+    throw Error("solve: the contact unknowns did not come last in the sparse factor");
+  }
+
+  Supernodes supernodes() const {
+    return {.size = static_cast<int>(l->n),
+            .count = static_cast<int>(l->nsuper),
+            .start = static_cast<const int*>(l->super),
+            .row_start = static_cast<const int*>(l->pi),
+            .block_start = static_cast<const int*>(l->px),
+            .row = static_cast<const int*>(l->s),
+            .value = static_cast<const double*>(l->x)};
+  }
+
+  /// The order of the columns of L: place -> row of K.
+  Eigen::Map<const Eigen::VectorXi> order() const {
+    return {static_cast<const int*>(l->Perm), static_cast<Eigen::Index>(l->n)};
+  }
+};
+
+SparseCholesky::SparseCholesky() : cholmod_(std::make_unique<Cholmod>()) {}
+SparseCholesky::~SparseCholesky() = default;
+SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
+SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+
+void SparseCholesky::analyse(SparseMatrix& k, int last) {
+  cholmod_sparse whole = view(k);
+  if (last > 0) return cholmod_->analyse_with_the_last(whole, last);
+  cholmod_->l = cholmod_analyze(&whole, &cholmod_->common);
+  if (cholmod_->l == nullptr) throw Error("solve: the analysis of the sparse factor failed: out of memory");
+}
+
+bool SparseCholesky::analysed() const { return cholmod_->l != nullptr; }
+
+std::optional<int> SparseCholesky::factorise(SparseMatrix& k) {
+  cholmod_sparse whole = view(k);
+  cholmod_factorize(&whole, cholmod_->l, &cholmod_->common);
+  if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
+  std::optional<int> column;
+  if (cholmod_->common.status == CHOLMOD_NOT_POSDEF)
+    column = static_cast<int>(cholmod_->l->minor);
+  else
+    column = cholmod_->supernodes().lost_pivot(k.diagonal()(cholmod_->order()));
+  if (column) column = cholmod_->order()(*column);
+  return column;
+}
+
+double SparseCholesky::rcond() const { return cholmod_rcond(cholmod_->l, &cholmod_->common); }
+
+Eigen::VectorXd SparseCholesky::forward(const Eigen::VectorXd& r) const {
+  Eigen::VectorXd y = r(cholmod_->order());
+  cholmod_->supernodes().forward(y);
+  return y;
+}
+
+Eigen::VectorXd SparseCholesky::backward(Eigen::VectorXd y) const {
+  cholmod_->supernodes().backward(y);
+  Eigen::VectorXd x(y.size());
+  x(cholmod_->order()) = y;
+  return x;
+}
+
+Eigen::MatrixXd SparseCholesky::trailing_block(int first) const { return cholmod_->supernodes().trailing_block(first); }
+
+}  // namespace antilock

@@ -1,0 +1,278 @@
+// Bounds on many unknowns: the sparse road beside the dense one, problem by problem.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <random>
+
+#include "antilock/core/error.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/sparse_contact.hpp"
+#include "antilock/solve/uzawa.hpp"
+#include "hard/adversary.hpp"
+#include "support/membrane.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using test::expect_refused;
+using test::membrane_over_obstacle;
+
+/// The answer by one road, or the message of its refusal.
+struct Outcome {
+  Solution s;
+  std::string refusal;
+};
+
+Outcome by(ContactRoad road, const VariationalInequality& problem) {
+  try {
+    ActiveSetOptions options;
+    options.road = road;
+    return {active_set(problem, options), ""};
+  } catch (const Error& error) {
+    return {{}, error.what()};
+  }
+}
+
+/// The distance of two answers, relative to the largest |u|. Where u locks (it tends to 0 and keeps no more digits than
+/// those of its size before) to 1e-4 of that size.
+double apart(const Solution& a, const Solution& b) {
+  const double distance = (a.u - b.u).lpNorm<Eigen::Infinity>();
+  return distance == 0 ? 0 : distance / std::max(a.u.lpNorm<Eigen::Infinity>(), 1e-4 * a.moderate);
+}
+
+/// Both roads on one list of problems: how many both answer without a warning, and how many one of them refuses alone.
+struct Agreement {
+  int answered = 0, other = 0;
+};
+Agreement compare(const std::function<VariationalInequality(unsigned)>& problem_of, unsigned seeds) {
+  Agreement agreement;
+  for (unsigned seed = 0; seed < seeds; ++seed) {
+    const VariationalInequality problem = problem_of(seed);
+    const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+    const auto plain = [](const Outcome& o) { return o.refusal.empty() && o.s.warning.empty(); };
+    agreement.other += dense.refusal.empty() != sparse.refusal.empty();
+    if (!plain(dense) || !plain(sparse)) continue;
+    ++agreement.answered;
+    EXPECT_LE(apart(dense.s, sparse.s), 1e-10) << "seed " << seed;
+  }
+  return agreement;
+}
+
+// Small problems of every kind: with and without B, compliance 0 to above 1, prescribed values, infeasible, singular.
+TEST(ManyBounds, BothRoadsAgreeOnRandomProblems) {
+  const Agreement agreement = compare(hard::random_problem, 1500);
+  EXPECT_GT(agreement.answered, 1200);
+  EXPECT_LE(agreement.other, 6);  // measured: 5; over 6000 10, six of them answered by the sparse road alone
+}
+
+TEST(ManyBounds, BothRoadsAgreeOnBoundsOfOtherShapes) {
+  const Agreement agreement = compare(hard::random_bounds, 1500);
+  EXPECT_GT(agreement.answered, 1000);
+  EXPECT_LE(agreement.other, 10);
+}
+
+/// The layer problem on 8 x 8 squares with every free unknown of the layer, y <= 0, bounded from below.
+VariationalInequality layer_under_bounds(const TriangleMesh& mesh, const std::string& element_name, double epsilon) {
+  const Space space(mesh, element(element_name));
+  VariationalInequality problem = assemble(Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
+  std::vector<char> fixed(problem.size(), 0);
+  for (const int i : problem.fixed) fixed[i] = 1;
+  problem.contact.clear();
+  for (int i = 0; i < problem.size(); ++i)
+    if (fixed[i] == 0 && space.points()(i, 1) <= 1e-12) problem.contact.push_back(i);
+  problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+  return problem;
+}
+
+TEST(ManyBounds, BothRoadsAgreeOnAStiffLayerUnderBounds) {
+  for (const std::string name : {"P1", "CR"})
+    for (const bool structured : {true, false})
+      for (const double epsilon : {1.0, 1e-3, 1e-6, 0.0}) {  // compliance 1, 1e-6, 1e-12, 0
+        const TriangleMesh mesh = structured ? structured_mesh(8) : jittered_mesh(8, 0.2);
+        VariationalInequality problem = layer_under_bounds(mesh, name, epsilon);
+        const Eigen::VectorXd ones = Eigen::VectorXd::Ones(problem.lower.size());
+        for (const double lower : {-10.0, -0.01, 0.0, 0.02}) {  // nowhere, in part, on the rest state, lifted
+          problem.lower = lower * ones;
+          const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+          const std::string what = fmt::format("{} {} epsilon {} lower {}", name, structured, epsilon, lower);
+          ASSERT_EQ(dense.refusal.empty(), sparse.refusal.empty()) << what << dense.refusal << sparse.refusal;
+          if (!dense.refusal.empty()) continue;
+          EXPECT_LE(apart(dense.s, sparse.s), 1e-10) << what;
+          EXPECT_EQ(dense.s.warning.empty(), sparse.s.warning.empty()) << what;
+        }
+      }
+}
+
+TEST(ManyBounds, BothRoadsFindTheSameDiscUnderAMembrane) {
+  const VariationalInequality problem = membrane_over_obstacle(28);
+  const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+  ASSERT_EQ(dense.refusal + sparse.refusal, "");
+  EXPECT_EQ(dense.s.active, sparse.s.active);
+  EXPECT_LE(apart(dense.s, sparse.s), 1e-13);
+  EXPECT_LE((dense.s.lambda - sparse.s.lambda).lpNorm<Eigen::Infinity>(), 1e-12 * dense.s.lambda.maxCoeff());
+  EXPECT_EQ(dense.s.counters.factorisations, 1);
+}
+
+// Between two obstacles: the membrane is pressed on the lower one on the left and on the upper one on the right; a few
+// unknowns are equations, others bounded from above alone.
+TEST(ManyBounds, BothRoadsAgreeBetweenTwoObstacles) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  VariationalInequality problem = membrane_over_obstacle(28);
+  problem.upper = problem.lower.array() + 0.3;
+  for (int i = 0; i < problem.size(); ++i) {
+    problem.load(i) *= i % 27 < 13 ? 3 : -3;
+    if (i % 50 == 7) problem.upper(i) = problem.lower(i);
+    if (i % 31 == 5) problem.lower(i) = -infinity;
+    if (i % 31 == 6) problem.upper(i) = infinity;
+  }
+  const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+  ASSERT_EQ(dense.refusal + sparse.refusal, "");
+  EXPECT_GT(dense.s.lambda.maxCoeff(), 0);
+  EXPECT_LT(dense.s.lambda.minCoeff(), 0);
+  EXPECT_EQ(dense.s.active, sparse.s.active);
+  EXPECT_LE(apart(dense.s, sparse.s), 1e-12);
+  EXPECT_LE((dense.s.lambda - sparse.s.lambda).lpNorm<Eigen::Infinity>(), 1e-11 * dense.s.lambda.maxCoeff());
+}
+
+// All bounds hold, none does, they graze: u is the obstacle, which is its own solution.
+TEST(ManyBounds, DegenerateContactIsTheSameByBothRoads) {
+  VariationalInequality problem = membrane_over_obstacle(16);
+  const Eigen::VectorXd grazing = problem.a1 * problem.lower;  // u = lower with no force
+  for (const double push : {-1.0, 0.0, 1e-13, 1.0}) {
+    problem.load = grazing + push * Eigen::VectorXd::Ones(problem.size());
+    const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+    ASSERT_EQ(dense.refusal + sparse.refusal, "") << push;
+    EXPECT_LE(apart(dense.s, sparse.s), 1e-12) << push;
+    if (push == -1) {
+      EXPECT_EQ(std::count(sparse.s.active.begin(), sparse.s.active.end(), true), problem.size());
+    }
+  }
+  problem.load.setZero();
+  problem.lower.setZero();
+  EXPECT_TRUE(by(ContactRoad::sparse, problem).s.u.isZero(0));
+}
+
+// From no contact and from contact everywhere the steps grow like 1/h (26 and 45 at 1/h = 128); nested they hardly do.
+TEST(ManyBounds, TheNestedStartKeepsTheStepsFew) {
+  for (const int n : {32, 64, 128}) {
+    const Outcome o = by(ContactRoad::automatic, membrane_over_obstacle(n));
+    ASSERT_EQ(o.refusal, "");
+    EXPECT_LE(o.s.counters.contact, 9) << n;  // measured: 4, 4, 6
+    EXPECT_EQ(o.s.counters.factorisations, o.s.counters.contact + 1) << n;
+    EXPECT_EQ(o.s.warning, "");
+  }
+}
+
+TEST(ManyBounds, EveryStartEndsAtTheSameAnswer) {
+  const VariationalInequality problem = membrane_over_obstacle(28);
+  PenaltyFactor factor(problem);
+  const Solution nested = active_set(problem, factor);
+  std::mt19937 engine(7);
+  for (int k = 0; k < 6; ++k) {
+    ActiveSetOptions options;
+    std::vector<bool> start(problem.contact.size(), k == 1);
+    if (k > 1)
+      for (std::size_t i = 0; i < start.size(); ++i) start[i] = engine() % 2 == 0;
+    options.start = start;
+    EXPECT_LE(apart(nested, active_set(problem, factor, options)), 1e-13) << k;
+  }
+}
+
+/// The random problems of hard/degenerate_contact_test.cpp: plain exchanges of whole sets cycle on some of them.
+TEST(ManyBounds, NothingCycles) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const int n = 3 + trial % 28;
+    Eigen::MatrixXd g(n, n);
+    Eigen::VectorXd q(n);
+    for (double& value : g.reshaped()) value = normal(random);
+    for (double& value : q) value = normal(random);
+    const Eigen::MatrixXd s = g * g.transpose() + 1e-4 * Eigen::MatrixXd::Identity(n, n);
+    const Eigen::VectorXd lower = Eigen::VectorXd::Zero(n);
+    HeldFactor k;
+    ASSERT_FALSE(k.factorise(Eigen::MatrixXd(s.triangularView<Eigen::Upper>()).sparseView()));
+    std::vector<int> bounded(n);
+    std::iota(bounded.begin(), bounded.end(), 0);
+    for (const bool start : {false, true}) {
+      const SparseContactAnswer answer =
+          solve_contact(SparseContactProblem{k, q, bounded, lower, 0}, std::vector<bool>(n, start), 500);
+      // relative to the condition number, 1e7 at most
+      const Eigen::VectorXd& v = answer.contact.v;
+      const double v_scale = v.lpNorm<Eigen::Infinity>(), f_scale = s.cwiseAbs().maxCoeff() * v_scale + 1;
+      EXPECT_GE(v.minCoeff(), -1e-6 * v_scale) << trial;
+      EXPECT_GE((s * v - q).minCoeff(), -1e-10 * f_scale) << trial;
+      EXPECT_LE(v.cwiseProduct(answer.contact.lambda).lpNorm<Eigen::Infinity>(), 1e-10 * v_scale * f_scale) << trial;
+      EXPECT_LE(answer.contact.steps, 200) << trial;
+    }
+  }
+}
+
+TEST(ManyBounds, OneFactorServesASweepOverLoadsBoundsAndCompliances) {
+  VariationalInequality problem = layer_under_bounds(structured_mesh(8), "P1", 0.0);
+  PenaltyFactor factor(problem, 1e-4, ContactRoad::sparse);
+  for (const double compliance : {0.0, 1e-12, 1e-6})
+    for (const double size : {1.0, -3.0}) {
+      VariationalInequality other = problem;
+      other.compliance = compliance;
+      other.load *= size;
+      other.lower.array() -= 0.001 * std::abs(size);
+      const Outcome alone = by(ContactRoad::dense, other);
+      ASSERT_EQ(alone.refusal, "");
+      EXPECT_LE(apart(alone.s, active_set(other, factor)), 1e-10) << compliance << " " << size;
+    }
+}
+
+TEST(ManyBounds, TheLibraryChoosesTheRoad) {
+  EXPECT_NE(PenaltyFactor(membrane_over_obstacle(28)).held(), nullptr);  // 729 bounds, all of the unknowns
+  EXPECT_EQ(PenaltyFactor(membrane_over_obstacle(16)).held(), nullptr);  // few
+  const TriangleMesh mesh = structured_mesh(64);                         // bounds on a line
+  EXPECT_EQ(PenaltyFactor(test::stiff_problem(Space(mesh, p1()), 0.1)).held(), nullptr);
+}
+
+TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
+  VariationalInequality problem = membrane_over_obstacle(28);
+  PenaltyFactor factor(problem);
+  ActiveSetOptions one;
+  one.max_steps = 1;
+  EXPECT_THROW(active_set(problem, factor, one), NotConverged);
+  expect_refused([&] { uzawa(problem, factor); }, "accepted: a factor made with ContactRoad::dense");
+  expect_refused([&] { factor.forward(problem.load); }, "ContactRoad::dense");
+  const auto refused = [&](const auto& spoil, const std::string& words) {
+    VariationalInequality bad = problem;
+    spoil(bad);
+    expect_refused([&] { active_set(bad, factor); }, words);
+  };
+  using P = VariationalInequality;
+  refused([](P& p) { p.lower.conservativeResize(1); }, "one bound per contact unknown");
+  refused([](P& p) { p.lower(1) = std::numeric_limits<double>::quiet_NaN(); }, "not finite");
+  refused([](P& p) { p.a1.coeffRef(0, 0) = 5; }, "another A1, B or M");
+  refused([](P& p) { p.contact.pop_back(), p.lower.conservativeResize(p.lower.size() - 1); },
+          "free and contact unknowns");
+  problem.a1.coeffRef(0, 1) = 3;
+  expect_refused([&] { active_set(problem); }, "not symmetric");
+
+  VariationalInequality floating = membrane_over_obstacle(28);  // each row sums to 0: held by nothing
+  const Eigen::VectorXd sums = floating.a1 * Eigen::VectorXd::Ones(floating.size());
+  for (int i = 0; i < floating.size(); ++i) floating.a1.coeffRef(i, i) -= sums(i);
+  expect_refused([&] { active_set(floating); }, "held by nothing");
+
+  // compliance 0 and B = I in the middle row: u = 0 there, the bound says more
+  VariationalInequality infeasible = membrane_over_obstacle(28);
+  infeasible.b.resize(1, infeasible.size());
+  infeasible.b.insert(0, 364) = 1;
+  infeasible.b.makeCompressed();
+  infeasible.m = Eigen::VectorXd::Ones(1);
+  infeasible.compliance = 0;
+  infeasible.lower(364) = 0.05;
+  EXPECT_THROW(active_set(infeasible), NotConverged);
+}
+
+}  // namespace
+}  // namespace antilock
