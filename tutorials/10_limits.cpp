@@ -147,15 +147,16 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
     const auto order = [&](const char* term) { return own.where("term", term).order("value", "h"); };
     const bool locks = method == "P1 unstructured";
     report.claim(order("first term") > 2.5 && order("third term") > (locks ? 0.5 : 2.5),
-                 "{}, (18) along epsilon = h^2: first term h^{:.2f}, third h^{:.2f}", method.text(), order("first term"),
-                 order("third term"));
+                 "{}, (18) along epsilon = h^2: first term h^{:.2f}, third h^{:.2f}", method.text(),
+                 order("first term"), order("third term"));
     const double second = own.where("term", "second term").last("value");
     if (locks)
-      report.claim(second >= lost, "{}: second term {:.3f}, at least |u^0| on the layer, {:.3f}", method.text(), second, lost);
+      report.claim(second >= lost, "{}: second term {:.3f}, at least |u^0| on the layer, {:.3f}", method.text(), second,
+                   lost);
     else
       report.claim(order("second term") > 0.9 && order("left side") > 0.9,
-                   "{}, Propositions 2, 3: second term h^{:.2f}, left side h^{:.2f}", method.text(), order("second term"),
-                   order("left side"));
+                   "{}, Propositions 2, 3: second term h^{:.2f}, left side h^{:.2f}", method.text(),
+                   order("second term"), order("left side"));
   }
   tutorial::judge_limit_problem(sigma, models, limit, options.cells, report);
 }
@@ -169,27 +170,16 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict, then run `--exercise N`. On paper: (a) (23) with $v = 0$ and $v = 2 u^ε$ gives $a^ε(u^ε, u^ε) = L(u^ε)$;
-// which bound on $‖p‖$ follows? (b) Derive (25) from (2) by parts.
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Locked P1 along $ε = h$ in place of $h^2$: does its error still stay?
+// 2. Take the obstacle away. Which order has $‖u^ε - u^0‖$ now?
+// 3. On paper: $v = 0$ and $v = 2u^ε$ in (23) give $a^ε(u^ε, u^ε) = L(u^ε)$. Which bound on $ε ‖p‖$ follows?
+// 4. On paper: derive (25) from (2) by parts.
+
+#include "answers/10_limits.hpp"
+
 int main(int argc, char** argv) {
-  const std::vector<tutorial::Exercise> exercises{
-      {"Locked P1 along epsilon = h in place of h^2: does its error still stay?",
-       "no, it falls; the second term stays, so by (18) the third must stay too",
-       [](const tutorial::Options& options, tutorial::Report& report) {
-         const Table terms = three_terms({&p1(), unstructured()}, 1, options.cells, Exact(0, 15));
-         const auto of = [&](const char* term) { return terms.where("term", term); };
-         terms.pivot("h", "term", "value").print();
-         report.claim(of("left side").order("value", "h") > 0.5, "the error falls");
-         report.claim(of("third term").last("value") > 0.5 * of("second term").last("value"), "the third term stays");
-       }},
-      {"Take the obstacle away. Which order has |u^epsilon - u^0| now?", "2: no end of contact, no jump of the pressure",
-       [](const tutorial::Options&, tutorial::Report& report) {
-         const Truth limit(paper_sine_load(), 0, false, 15);
-         Table curve({"epsilon", "distance"});
-         for (const double epsilon : {1e-2, 1e-3, 1e-4})
-           curve.add({epsilon, h1_distance(Truth(paper_sine_load(), epsilon, false, 15), limit)});
-         report.claim_within(curve.order("distance", "epsilon"), 1.95, 2.05, "order");
-       }}};
   return tutorial::run(argc, argv, "10_limits", "Theorem 1, Propositions 1, 2, 3, 5: the limit epsilon -> 0",
                        {.takes_epsilon = false, .least_cells = 16, .most_cells = 256, .exercises = exercises}, limits);
 }

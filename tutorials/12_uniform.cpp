@@ -158,24 +158,15 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict, then run `--exercise 1`. On paper: (a) is the hypothesis of Theorem 4 necessary? The exercise knows. (b)
-// Why does $\sup$ over $[h, 1]$ tend to 0 for locked P1, and over $[h^2, 1]$ not?
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. The load $-10 \sin πx$ presses everywhere. Is P1 on the unstructured mesh uniform now? Is the hypothesis of
+//    Theorem 4 necessary?
+// 2. On paper: why does the worst error over $[h, 1]$ tend to 0 for locked P1, and over $[h^2, 1]$ not?
+
+#include "answers/12_uniform.hpp"
+
 int main(int argc, char** argv) {
-  const std::vector<tutorial::Exercise> exercises{
-      {"The load -10 sin(pi x) presses everywhere. Is P1 on the unstructured mesh uniform now?",
-       "yes: u^0 is 0 on the layer, nothing can be lost there; the hypothesis of Theorem 4 is sufficient, not "
-       "necessary",
-       [](const tutorial::Options& options, tutorial::Report& report) {
-         const SineLoad load{{{1, {-10}}}};
-         std::vector<Exact> truth;
-         for (const double epsilon : epsilons()) truth.emplace_back(Truth(load, epsilon, true, 14));
-         Table map(columns);
-         for (int n = 8; n <= options.cells; n *= 2) map.add(solve_all({&p1(), unstructured()}, n, truth, load));
-         const Table worst = worst_from(0, map);
-         worst.print();
-         report.claim_within(worst.order("h1", "h"), 0.9, 1.1, "order of the worst error");
-         report.claim(worst.most("ratio") < 1.1, "locking ratio at most {:.2f}", worst.most("ratio"));
-       }}};
   return tutorial::run(argc, argv, "12_uniform",
                        "Theorems 4, 5, 7: convergence uniform in epsilon, and the locking map",
                        {.takes_epsilon = false, .least_cells = 16, .most_cells = 128, .exercises = exercises}, study);

@@ -219,39 +219,17 @@ void judge(const Table& results, const Table& walls, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict, then run `--exercise N`. On paper: for which $ε(h)$ is (28) useless (its right side does not fall), and
-// for which does it say the truth about P1 on the structured mesh? (Answers: $ε ≤ h^{3/8}$; none, the truth is $h$.)
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Move the vertices of the structured mesh by up to $h/5$: nothing cancels any more, slopes are of size $h$. Where
+//    is the wall?
+// 2. In the energy norm $M = α = 1$. Where does the locking go? Show $J(v) - J(u) = ½ |u - v|_a^2 + R(v)$ first.
+// 3. On paper: for which $ε(h)$ is (28) useless (its right side does not fall), and for which does it say the truth
+//    about P1 on the structured mesh? (Answers: $ε ≤ h^{3/8}$; none, the truth is $h$.)
+
+#include "answers/13_estimates.hpp"
+
 int main(int argc, char** argv) {
-  const std::vector<tutorial::Exercise> exercises{
-      {"Move the vertices of the structured mesh by up to h/5: nothing cancels any more, slopes are of size h. Where "
-       "is the wall?",
-       "q tends to 1: half is lost at epsilon ~ h, worse than on the meshes of gmsh",
-       [](const tutorial::Options& options, tutorial::Report& report) {
-         const MeshFamily jittered{"jittered", [](int cells) { return jittered_mesh(cells, 0.2); }};
-         Table lost({"curve", "inverse_epsilon", "x"}), rows[]{Table(columns), Table(columns)};
-         const std::vector<Case> truth = truths();
-         for (int n = 8; n <= options.cells; n *= 2)
-           for (const bool cr : {false, true})
-             rows[cr].add(both_sides({cr ? &crouzeix_raviart() : &p1(), jittered}, n, truth));
-         const Table walls = wall(rows[false], rows[true], lost);
-         walls.print();
-         report.claim_within(walls.order("half lost at epsilon", "h"), 0.8, 1.3, "q =");
-       }},
-      {"In the energy norm M = α = 1. Where does the locking go? (Show J(v) - J(u) = |u - v|^2 / 2 + R(v) first.)",
-       "into the first infimum: it is about J(u_h) - J(u), which does not fall for locked P1, and like h^2 otherwise",
-       [](const tutorial::Options& options, tutorial::Report& report) {
-         const Exact exact(1e-6);
-         Table rows({"mesh", "h", "excess"});
-         for (const MeshFamily& family : {structured(), unstructured()})
-           for (int n = 8; n <= options.cells; n *= 2) {
-             const Discretisation on(family.mesh(n), p1());
-             const VariationalInequality problem = assemble(tutorial::paper_scene(1e-6), on.space());
-             rows.add({family.name, 1.0 / n, energy(problem, active_set(problem)) - exact.truth.energy()});
-           }
-         rows.pivot("h", "mesh", "excess").print("J(u_h) - J(u)");
-         report.claim_within(rows.where("mesh", "structured").order("excess", "h"), 1.8, 2.2, "structured: order");
-         report.claim(rows.where("mesh", "unstructured").least("excess") > 8e-3, "unstructured: it stays");
-       }}};
   return tutorial::run(argc, argv, "13_estimates",
                        "Theorems 2, 3 and 6: both sides of the estimates, and where locking hides",
                        {.takes_epsilon = false, .least_cells = 16, .most_cells = 128, .exercises = exercises}, study);

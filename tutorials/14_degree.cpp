@@ -132,28 +132,15 @@ void verdicts(const Table& results, const Exact& exact, tutorial::Report& report
 //
 // ## Exercises
 //
-// Predict, then run `--exercise 1`. On paper: a mesh of the layer on which P1 has exactly 3 kernel functions
-// (vertical mesh lines at three inner $x$, anything between them).
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. A coarse unstructured mesh (1/h = 4) and ε = 1e-4: P1 and P2 both lock under $\sin 2πx$. And under $10 \sin πx$?
+// 2. On paper: a mesh of the layer on which P1 has exactly 3 kernel functions. (Vertical mesh lines at three inner
+//    $x$, anything between them.)
+
+#include "answers/14_degree.hpp"
+
 int main(int argc, char** argv) {
-  const std::vector<tutorial::Exercise> exercises{
-      {"A coarse unstructured mesh (1/h = 4) and epsilon = 1e-4: P1 and P2 both lock under sin(2 pi x). And under 10 "
-       "sin(pi x)?",
-       "P1 loses all, P2 keeps nearly all: its one kernel function x (1 - x) is near the ridge, under sin(2 pi x) it "
-       "is odd about it",
-       [](const tutorial::Options&, tutorial::Report& report) {
-         const SineLoad one_hump{{{1, {10}}}};
-         for (const auto& [load, name, low, high] :
-              {std::tuple{paper_sine_load(), "sin(2 pi x)", 0.0, 0.1}, {one_hump, "sin(pi x)", 0.9, 1.1}}) {
-           const Exact exact(Truth(load, 1e-4, true, 15));
-           for (const Element* element : {&p1(), &p2()}) {
-             const Table row = solve({element, unstructured()}, 4, 1e-4, load, exact);
-             const bool p1_used = element == &p1();
-             report.claim_within(row.number("ridge") / exact.truth.max_on_contact(), p1_used ? 0 : low,
-                                 p1_used ? 0.1 : high,
-                                 element->name() + " under " + name + ": share of the ridge that is kept");
-           }
-         }
-       }}};
   return tutorial::run(
       argc, argv, "14_degree", "degrees 1 to 4 on both meshes: less locking, not none",
       {.epsilon = 1e-4, .least_epsilon = 1e-4, .least_cells = 8, .most_cells = 64, .exercises = exercises}, study);

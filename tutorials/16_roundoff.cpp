@@ -157,25 +157,15 @@ void judge(const Table& results, const Table& conditions, tutorial::Report& repo
 //
 // ## Exercises
 //
-// Predict, then run `--exercise 1`. On paper: with δ = 1e-6 and σ about $h^2$ on 1/h = 64, how many corrections give
-// 12 digits?
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Iterative refinement, as textbooks have it: factor the sum itself, take $r = L - (A_1 + ε^{-2} B^T M B) u$,
+//    correct. Does it bring the digits back, at ε = 1e-7?
+// 2. On paper: with δ = 1e-6 and $σ ∼ h^2$ on 1/h = 64, how many corrections give 12 digits?
+
+#include "answers/16_roundoff.hpp"
+
 int main(int argc, char** argv) {
-  const std::vector<tutorial::Exercise> exercises{
-      {"Iterative refinement, as textbooks have it: factor the sum itself, take r = L - (A1 + B' M B / epsilon^2) u, "
-       "correct. "
-       "Does it bring the digits back, at epsilon = 1e-7?",
-       "no: it finds the solution of the rounded sum; the digits that were lost are not in its residual",
-       [](const tutorial::Options& options, tutorial::Report& report) {
-         const Discretisation on(structured_mesh(options.cells), p1());
-         const VariationalInequality problem = assemble(tutorial::paper_scene(1e-7), on.space());
-         PenaltyFactor factor(problem);
-         const Solution right = active_set(problem, factor);
-         const auto apart = [&](const VectorXd& u) { return (u - right.u).norm() / right.u.norm(); };
-         const double split = apart(cure(problem, right.active, factor.delta()));
-         const double sum = apart(cure(problem, right.active, problem.compliance, false));
-         report.claim(split < 1e-8, "residual of the split form: relative error {:.0e}", split);
-         report.claim(!(sum < 1e-4), "residual of the sum: relative error {:.0e}", sum);
-       }}};
   return tutorial::run(argc, argv, "16_roundoff", "Round-off: why the two forms must not be added, and what to do",
                        {.takes_epsilon = false, .cells = 16, .exercises = exercises}, roundoff);
 }

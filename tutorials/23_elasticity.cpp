@@ -162,48 +162,17 @@ void judge(const Table& checks, const Table& forces, const Table& errors, int ce
 //
 // ## Exercises
 //
-// Predict, then run `--exercise N`. On paper: in a crossed square, why does the fourth condition follow from three?
-// (Sum up $± \operatorname{div} u$ around the centre.)
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. CR penalises its jumps with weight 1. Between weight 0.1 and 10, how much does the contact force change, on 8
+//    and on 16 cells?
+// 2. Count what is left at 1/h = 4 and 8: does $\dim G_h$ of P1 grow like the unknowns under refinement? And of CR?
+// 3. On paper: in a crossed square, why does the fourth condition follow from three? (Sum up $± \operatorname{div} u$
+//    around the centre.)
+
+#include "answers/23_elasticity.hpp"
+
 int main(int argc, char** argv) {
-  const auto named = [](const std::string& name, int cells) {
-    for (const Rubber& rubber : make_methods(cells))
-      if (rubber.name == name) return rubber;
-    throw Error("no method " + name);
-  };
-  const std::vector<tutorial::Exercise> exercises{
-      {"CR penalises its jumps with weight 1. Between weight 0.1 and 10, how much does the contact force change, on 8 "
-       "and on 16 cells?",
-       "by some per cent, and half as much on half the width: the jumps of the solution vanish with h, and the weight "
-       "with them",
-       [=](const tutorial::Options&, tutorial::Report& report) {
-         const auto spread = [&](int cells) {
-           const Rubber cr = named("Crouzeix-Raviart with jumps", cells);
-           const Space x(cr.mesh, cr.in_x), y(cr.mesh, cr.in_y);
-           const auto force = [&](double weight) {
-             VariationalInequality problem = pushed(cr, {x, y}, weight);
-             problem.compliance = 1e-8;
-             return active_set(problem).lambda.sum();
-           };
-           return force(10) / force(0.1) - 1;
-         };
-         const double coarse = spread(8), fine = spread(16);
-         report.claim(coarse < 0.2 && fine < 0.65 * coarse,
-                      "weights 0.1 and 10 differ by {:.1f} % on 8 cells, {:.1f} % on 16", 100 * coarse, 100 * fine);
-       }},
-      {"Count what is left at 1/h = 4 and 8: does dim G_h of P1 grow like the unknowns under refinement? And of CR?",
-       "P1 on parallel diagonals: like n, a vanishing share of 2 n^2 unknowns; CR: like n^2",
-       [=](const tutorial::Options&, tutorial::Report& report) {
-         const auto kernel = [&](const std::string& name, int cells) {
-           const Rubber rubber = named(name, cells);
-           const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
-           return kernel_dimension(pushed(rubber, {x, y}, 1));
-         };
-         const int coarse = kernel("P1 right diagonals", 4), fine = kernel("P1 right diagonals", 8);
-         const int coarse_cr = kernel("Crouzeix-Raviart with jumps", 4),
-                   fine_cr = kernel("Crouzeix-Raviart with jumps", 8);
-         report.claim(coarse == 8 && fine == 16, "P1: 2n = {}, {}", coarse, fine);
-         report.claim(fine_cr > 3.5 * coarse_cr, "CR: {}, {}", coarse_cr, fine_cr);
-       }}};
   return tutorial::run(argc, argv, "23_elasticity", "Nearly incompressible elasticity in contact: five discretisations",
                        {.epsilon = 1e-8,
                         .epsilon_is = "the class parameter of (1), 1/lambda; 0 is incompressible",

@@ -157,19 +157,14 @@ void refuse_the_impossible(const Strings& strings, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict, then run `--exercise 1`. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need
-// no truth.
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Give both strings $n$ cells. Does the glue at every point still lock?
+// 2. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need no truth.
+
+#include "answers/25_your_own_problem.hpp"
+
 int main(int argc, char** argv) {
-  const std::vector<tutorial::Exercise> exercises{
-      {"Give both strings n cells. Does the glue at every point still lock?",
-       "no: the corners coincide, the n - 1 inner values are free, and the energy is the truth's up to q^2 h^2 / 24",
-       [](const tutorial::Options& options, tutorial::Report& report) {
-         const VariationalInequality problem = make_problem({options.cells, 0}, Glue::pointwise, 0);
-         const double truth = load * load * std::pow(free_part, 3) / 3 - load * gap, n = options.cells;
-         report.claim(kernel_dimension(problem) == options.cells - 1, "kernel {}", kernel_dimension(problem));
-         report.claim_within(energy(problem, active_set(problem)) - truth, 0, load * load / (24 * n * n),
-                             "energy - truth");
-       }}};
   return tutorial::run(argc, argv, "25_your_own_problem", "Your own problem in the class: two strings and a stiff glue",
                        {.epsilon = 1e-10,
                         .epsilon_is = "the class parameter of (1), the compliance of the glue; 0 is a rigid glue",

@@ -5,10 +5,5 @@
 #include <numbers>
 
 #include "antilock/form/forms.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
-#include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
-#include "common/tutorial.hpp"
+#include "common/course.hpp"
