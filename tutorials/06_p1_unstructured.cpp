@@ -108,8 +108,9 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) Not at all: the error is 4.57e-2 on both meshes, and on every mesh that fits a computer. (b) The body as if it
-// were clamped on $Σ$: the layer has become a wall. Neither the solver nor a look at the picture would tell.
+// (a) Not at all: the error is 4.57e-2 on both meshes, and by the law it stays so until $1/h$ is about $10^4$. (b)
+// The body as if it were clamped on $Σ$: the layer has become a wall. Neither the solver nor a look at the picture
+// would tell.
 //
 // ## Exercises
 //

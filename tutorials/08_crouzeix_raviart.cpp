@@ -12,8 +12,6 @@
 // not lock on any mesh.* Look closely: the triangles do not quite meet. The second picture shows why they may: one
 // basis function, 1 at the midpoint of its edge, 0 at all other midpoints, with jumps in between.
 //
-// :live: mesh=unstructured
-//
 // **Predict.** (a) The mean of a function over each edge: which affine function on a triangle has the same three
 // means, and what do the two gradients have to do with each other? (b) `u ≥ 0` holds for the truth, everywhere. Does
 // it hold for that function, everywhere?
@@ -130,6 +128,8 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 // ## What came out
+//
+// :live: mesh=unstructured
 //
 // (a) Its gradient is the mean of the other's. (b) No: it is nonnegative at the midpoints on $Γ_C$, and may be a
 // little below 0 at the ends of an edge, where it jumps. So $K_h^{nc}$ is not in $K$. This, and the jumps, are the

@@ -12,8 +12,6 @@
 // *Where a method converges uniformly, the lines of all $ε$ lie on top of each other. For P1 on unstructured meshes
 // they fan out.*
 //
-// :live: convergence
-//
 // **Predict.** (a) P1 interpolates with the error $h^2$. Which slope have the lines? Which one has the flat line of
 // locked P1? (b) The paper: "The P1 nonconforming method on structured meshes is even slightly better than the P1
 // conforming method on structured meshes" (end of Section 4.2). In which norm would you expect that, the largest
@@ -131,6 +129,8 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
 }
 
 // ## What came out
+//
+// :live: convergence
 //
 // (a) Slope 2, a little less for CR on unstructured meshes; slope 0 where it locks, at $ε = 10^{-4}$ and $10^{-6}$.
 // At $10^{-2}$ P1 unstructured "locks already" (caption of Figure 9) on coarse meshes, and recovers where
