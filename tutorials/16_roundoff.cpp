@@ -89,6 +89,8 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   // None on which P1 locks: whatever goes wrong below is round-off.
   const std::vector<Method> settings{
       {&p1(), structured()}, {&crouzeix_raviart(), structured()}, {&crouzeix_raviart(), unstructured()}};
+  // ### Forms
+  // `compare_solvers` assembles (23) at each $ε$ and hands it to every solver.
   Table results({"solver", "element", "mesh", "epsilon", "error", "ended", "wrong", "refused", "seconds", "apart"});
   for (const double epsilon :
        {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-14, 1e-16}) {
