@@ -43,14 +43,14 @@ void write_projection(const std::filesystem::path& path) {
     for (int i = 0; i < 24; ++i)
       add("fill", name, at + 0.007 * Eigen::Vector2d(std::cos(i * pi / 12), std::sin(i * pi / 12)));
   };
-  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(-0.16, -0.46), {0.64, 0.2}}) add("page", "", corner);
+  for (const Eigen::Vector2d& corner : {Eigen::Vector2d(-0.16, -0.53), {0.64, 0.2}}) add("page", "", corner);
   for (const Eigen::Vector2d& corner : {Eigen::Vector2d(0, 0), {0.6, 0}, {0.6, 0.16}, {0, 0.16}})
     add("fill", "body", corner);
   level("axis half", 0.62);
   level("axis more", 1.25);
   level("sigma", 1);
   for (const Eigen::Vector2d& end : {Eigen::Vector2d(-0.14, 0), {0.6, 0}}) add("arrow", "axis u1", end);
-  for (const Eigen::Vector2d& end : {Eigen::Vector2d(0, -0.42), {0, 0.18}}) add("arrow", "axis u2", end);
+  for (const Eigen::Vector2d& end : {Eigen::Vector2d(0, -0.5), {0, 0.18}}) add("arrow", "axis u2", end);
   for (const Eigen::Vector2d& end : {touching, Eigen::Vector2d(touching + Eigen::Vector2d(0, 0.11))})
     add("arrow", "contact", end);
   dot("clamped", free);
