@@ -135,12 +135,6 @@ Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
 // **The truth.** Where the string is free $-u'' = f$, so $u = α \sin 2πx + s x$ with $α = 10/4π²$. It leaves the
 // floor without a kink, which would need a force at one point: $u(c) = 0$ and $u'(c) = 0$. Both together say
 // $\tan z = z$ for $z = 2πc$, so $c = 0.715148...$
-double touches_from(const String& s, const VectorXd& lambda) {
-  for (int i = 0; i < lambda.size(); ++i)
-    if (lambda(i) > 0) return (i + 1) * s.h;
-  return 1;
-}
-
 void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& report) {
   const String s = hang(options.cells);
   std::vector<VectorXd> guesses;
@@ -148,16 +142,13 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
   fmt::print("  linear solves: active set {}, Uzawa {}\n", active.solves, uzawa.solves);
   tutorial::write_string(options.out, guesses, active.lambda);
 
-  const double from = touches_from(s, active.lambda), c = tutorial::string_touches_from(0);
+  const double from = tutorial::contact_starts(active.lambda), c = tutorial::string_touches_from(0);
   report.claim(active.u.minCoeff() >= 0 && active.lambda.minCoeff() >= 0 && active.u.dot(active.lambda) == 0,
                "u >= 0, lambda >= 0 and lambda u = 0 at every node, exactly");
   report.claim(std::abs(from - c) <= s.h, "contact starts at x = {:.4f}, truth {:.4f} (h = {:.4f})", from, c, s.h);
   // With exact loads P1 is exact at the nodes of a free string. The end of contact is off by at most h, and u'' jumps
   // there by |f(c)| = 9.76: the error is at most 9.76 h^2 / 2.
-  double error = 0;
-  for (int i = 0; i < active.u.size(); ++i)
-    error = std::max(error, std::abs(active.u(i) - tutorial::string_shape((i + 1) * s.h)));
-  report.claim_within(error / (s.h * s.h), 0, 4.9, "largest error at the nodes / h^2:");
+  report.claim_within(tutorial::string_error(active.u) / (s.h * s.h), 0, 4.9, "largest error at the nodes / h^2:");
   // Uzawa stops when a step moves less than 1e-10; each later step is (1 - pi^2 h^2 / 2) times the one before.
   report.claim_within((uzawa.u - active.u).lpNorm<Eigen::Infinity>(), 0, 2e-10 / (pi * pi * s.h * s.h),
                       "Uzawa comes to the same string:");

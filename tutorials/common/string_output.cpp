@@ -75,6 +75,20 @@ double string_shape(double x) {
   return 2 * pi * x >= z ? 0 : amplitude * (std::sin(2 * pi * x) - 2 * pi * x * std::cos(z));
 }
 
+double contact_starts(const Eigen::VectorXd& lambda) {
+  for (Eigen::Index i = 0; i < lambda.size(); ++i)
+    if (lambda(i) > 0) return static_cast<double>(i + 1) / static_cast<double>(lambda.size() + 1);
+  return 1;
+}
+
+double string_error(const Eigen::VectorXd& u) {
+  double error = 0;
+  for (Eigen::Index i = 0; i < u.size(); ++i)
+    error =
+        std::max(error, std::abs(u(i) - string_shape(static_cast<double>(i + 1) / static_cast<double>(u.size() + 1))));
+  return error;
+}
+
 void write_string(const std::filesystem::path& out, const std::vector<Eigen::VectorXd>& guesses,
                   const Eigen::VectorXd& lambda) {
   const int n = static_cast<int>(lambda.size());

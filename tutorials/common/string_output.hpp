@@ -11,6 +11,11 @@ namespace antilock::tutorial {
 double string_touches_from(double depth);
 double string_shape(double x);
 
+/// Of a discrete string, at its inner nodes x_i = i / (n + 1): the first x with a force (1 without one), and the largest
+/// error on a floor at height 0.
+double contact_starts(const Eigen::VectorXd& lambda);
+double string_error(const Eigen::VectorXd& u);
+
 /// What that chapter draws, at the inner nodes x_i = i / (n + 1): shapes.csv (the string, with and without the floor, and
 /// the pressure of the floor), active_sets.csv (the first three guesses and the last), projection.csv (a string of two
 /// nodes: its energy over the plane of their heights).
