@@ -30,7 +30,7 @@
 //
 // $$ J(v) + ½ |σ|^2 = ½ m^2 + C,   m = |A∇v - σ|,   C = ∫_{Γ_C} λ v ≥ 0   for v ∈ K. $$
 //
-// Hence the *energy bracket* $-½ |σ|^2 ≤ J(u) ≤ J(v)$ of width $½ m^2 + C$, and $|u - v|_a^2 ≤ 2·width$. A little more is
+// Hence the *energy bracket* $-½ |σ|^2 ≤ J(u) ≤ J(v)$, its width $w = ½ m^2 + C$, and $|u - v|_a^2 ≤ 2 w$. A little more is
 // true: put $v - u$ into the balance and subtract the inequality. With $Y = |u - v|_a$ this is $Y^2 ≤ m Y + C$, so
 //
 // $$ |u - v|_a ≤ ½ m + (¼ m^2 + C)^{1/2}. $$

@@ -17,11 +17,11 @@
 //
 // The certificate of chapter 17 is a sum over triangles of terms that are not negative,
 //
-// $$ η_T = ½ |A∇v - σ|_T^2 + C_T + o_T^2,   C_T the contact work on T, o_T the oscillation of f on T. $$
+// $$ η_T = ½ |A∇v - σ|_T^2 + C_T + o_T^2, $$
 //
-// So it says where the error is: *solve, certify, stop where the bound is small enough, else mark and refine*. Marked are
-// the largest $η_T$ that make up half of the sum (Doerfler 1996). What is certified is *relative*: $|u|_a ≥ |v|_a - bound$,
-// so that $|u - v|_a / |u|_a ≤ bound / (|v|_a - bound)$.
+// $C_T$ the contact work, $o_T$ the oscillation of $f$. So it says where the error is: *solve, certify, stop where the bound
+// is small enough, else mark and refine*. Marked are the largest $η_T$ that make up half of the sum (Doerfler 1996). What is
+// certified is *relative*: for the bound $β$, $|u|_a ≥ |v|_a - β$, so that $|u - v|_a / |u|_a ≤ β / (|v|_a - β)$.
 //
 // **The price is known before it is paid.** Triangles of size $h$ are $N ~ h^{-2}$, and the bound is of order $h ~ N^{-1/2}$.
 // A bound `k` times too large needs `k²` times the unknowns: from the third level on `solve_to` quotes their number, and
