@@ -28,8 +28,8 @@
 //
 // $$ r_1 = L - A_1 u - B' M p,   r_2 = ε^2 p - B u. $$
 //
-// A point stays in contact where $-r_1$ presses, and comes into contact where $u < -gap$. Then
-// $K\,du = r_1 + δ^{-1} B' M r_2$ off the contact set and $du = -gap - u$ on it; $u ← u + du$,
+// A point stays in contact where $-r_1$ presses, and comes into contact where $u < -\text{gap}$. Then
+// $K\,du = r_1 + δ^{-1} B' M r_2$ off the contact set and $du = -\text{gap} - u$ on it; $u ← u + du$,
 // $p ← p + δ^{-1} (B\,du - r_2)$. The penalty $δ = h^2/256$ follows the mesh. Each level of refinement begins with the
 // contact set of the level before.
 //

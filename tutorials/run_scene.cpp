@@ -47,6 +47,8 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   kind = "unstructured"         # "structured" (cells up to 2048), "unstructured" (up to 512), "layered" (up to 512: the
                                 # unstructured body over a scaled layer in columns) or "file"
   cells = 64                    # cells per unit side; with kind = "file" instead: file = "my.msh", beside the scene
+  refinements = 2               # optional: every triangle of that mesh is cut into four so many times; with "petsc" each
+                                # rank refines its own strip of a small mesh
   [method]                      # optional
   element = "CR"                # "P1" (default), "CR" (Crouzeix-Raviart) or "P2"
   solver = "active-set"         # (default), "uzawa", the paper's, or "petsc": PETSc, alone or under mpiexec
@@ -62,7 +64,7 @@ shape on and above y = 0 with a bottom edge on that line; all of that edge is co
 Written to the results folder: summary.json; solution.csv (x,y,u); contact.csv (x,gap,pressure; with contact only), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too).
-In summary.json, h is 1/cells, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
+In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level; warning says what to doubt: an answer above the trusted error, a load that the mesh misses.
 Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8

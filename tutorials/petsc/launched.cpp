@@ -120,13 +120,13 @@ std::vector<int> all_on_the_first(const TriangleMesh& mesh, int) { return std::v
 
 void write_scaling(const std::filesystem::path& folder, const std::vector<std::pair<std::string, Table>>& studies) {
   Table scaling({"study", "ranks", "quantity", "value"});
-  const std::array<std::array<const char*, 2>, 3> quantities = {{{"most", "iterations per correction"},
+  const std::array<std::array<const char*, 2>, 3> quantities = {{{"iterations", "iterations, all corrections"},
                                                                  {"seconds", "time / time of one rank"},
                                                                  {"megabytes", "memory of a rank / of one alone"}}};
   for (const auto& [column, quantity] : quantities)
     for (const auto& [study, runs] : studies)
       for (const Table& run : runs.rows()) {
-        const bool counted = std::string(column) == "most", timed = std::string(column) == "seconds";
+        const bool counted = std::string(column) == "iterations", timed = std::string(column) == "seconds";
         if (timed && run.number("ranks") > std::thread::hardware_concurrency()) continue;
         scaling.add({study, run.entry("ranks"), quantity, run.number(column) / (counted ? 1 : runs.first(column))});
       }
