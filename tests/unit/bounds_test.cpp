@@ -234,9 +234,33 @@ TEST(StringBetweenFloorAndCeiling, ASweepKeepsTheSides) {
   sweep.set_bounds(string.problem.lower, Eigen::VectorXd::Constant(string.n - 1, infinity));
   VariationalInequality from_below = string.problem;
   from_below.upper.resize(0);
-  EXPECT_LT(relative_difference(sweep.solve().u, active_set(from_below).u), 1e-13);
+  const Eigen::VectorXd below = active_set(from_below).u;
+  EXPECT_LT(relative_difference(sweep.solve().u, below), 1e-13);
+  sweep.set_bounds(string.problem.lower, string.problem.upper);
+  sweep.solve();
+  sweep.set_bounds(string.problem.lower, Eigen::VectorXd());
+  EXPECT_LT(relative_difference(sweep.solve().u, below), 1e-13) << "no upper bound is left to start from";
+  sweep.set_bounds(string.problem.lower, Eigen::VectorXd::Constant(string.n - 1, infinity));
   expect_refused([&] { sweep.set_bounds(string.problem.upper, string.problem.lower); }, "accepted: lower <= upper");
   EXPECT_EQ(sweep.problem().upper(0), infinity) << "as before";
+}
+
+TEST(StringBetweenFloorAndCeiling, AStartAtBoundsThatAreGoneIsNoHarm) {
+  const String string;
+  VariationalInequality from_below = string.problem;
+  from_below.upper.resize(0);
+  const Eigen::VectorXd below = active_set(from_below).u;
+  for (const ContactRoad road : {ContactRoad::dense, ContactRoad::sparse}) {
+    ActiveSetOptions options;
+    options.road = road;
+    EXPECT_LT(relative_difference(active_set(string.problem, options).u, string.u), 1e-13);
+    options.start = HeldBounds(std::vector<bool>(string.n - 1, true), std::vector<bool>(string.n - 1, true));
+    EXPECT_LT(relative_difference(active_set(string.problem, options).u, string.u), 1e-13);
+    EXPECT_LT(relative_difference(active_set(from_below, options).u, below), 1e-13);
+    VariationalInequality far = from_below;
+    far.upper = Eigen::VectorXd::Constant(string.n - 1, infinity);
+    EXPECT_LT(relative_difference(active_set(far, options).u, below), 1e-13);
+  }
 }
 
 // ---- Signs and equations.

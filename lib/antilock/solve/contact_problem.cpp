@@ -132,7 +132,7 @@ ContactAnswer solve_contact(const ContactProblem& problem, HeldBounds start, int
   ContactAnswer answer;
   answer.active = std::move(start.active);
   answer.above = std::move(start.above);
-  if (problem.upper.size() > 0) answer.above.resize(problem.q.size());
+  answer.above.resize(problem.upper.size());
   for (int i = 0; i < problem.q.size(); ++i) {  // a start asks for bounds that there are; an equation always holds
     const bool low = std::isfinite(problem.lower(i)), high = std::isfinite(upper_bound(problem, i));
     if (is_equation(problem, i)) answer.active[i] = true;

@@ -24,10 +24,11 @@ class Iteration {
         diagonal_(p.k.upper().diagonal()) {
     held_.active = std::move(start.active);
     held_.above = std::move(start.above);
-    if (p.upper.size() > 0) held_.above.resize(p.bounded.size());
+    held_.above.resize(p.upper.size());
     for (int i = 0; i < count(); ++i) {  // a start asks for bounds that there are; an equation always holds
       if (is_equation(i)) held_.active[i] = true;
-      if (std::isfinite(upper(i))) held_.above[i] = held_.active[i] && (held_.above[i] || !std::isfinite(p.lower(i)));
+      const bool low = std::isfinite(p.lower(i)), high = std::isfinite(upper(i));
+      if (p.upper.size() > 0) held_.above[i] = held_.active[i] && high && (held_.above[i] || !low);
     }
   }
 
