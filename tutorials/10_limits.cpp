@@ -55,7 +55,7 @@
 // $$ -Δu = f,   u ≥ 0,   r = ∂_n u - u_{xx} ≥ 0,   u r = 0 \text{ on } Σ. \tag{25} $$
 //
 // This is the *Ventcel–Signorini problem*: a string on $Σ$, pulled by the body, over an obstacle. (22) has a thin
-// layer, (23) the same one stretched, (25) none: the picture has all three.
+// layer, (23) the same one stretched, (25) none: the last picture has all three.
 
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/h1_norm.hpp"

@@ -32,7 +32,8 @@
 //
 // $$ ‖v_h - u_h‖_h^2 ≤ (M/α)^2 ‖u - v_h‖_h^2 + (2/α) (R(v_h) - R(u_h)), $$
 //
-// and by the triangle inequality, with $-R(u_h) = \inf_{v ∈ K} R(v - u_h)$,
+// and by the triangle inequality, with $-R(u_h) = \inf_{v ∈ K} R(v - u_h)$ (the infimum of $R$ over $K$ is
+// $R(u) = 0$),
 //
 // $$ ‖u - u_h‖_h^2 ≤ C (\inf_{v_h ∈ K_h} \{ ‖u - v_h‖_h^2 + R(v_h) \} + \inf_{v ∈ K} R(v - u_h)). \tag{13} $$
 //
@@ -222,10 +223,10 @@ void judge(const Table& results, const Table& walls, tutorial::Report& report) {
 // Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
 //
 // 1. Move the vertices of the structured mesh by up to $h/5$: nothing cancels any more, slopes are of size $h$. Where
-//    is the wall?
+// is the wall?
 // 2. In the energy norm $M = α = 1$. Where does the locking go? Show $J(v) - J(u) = ½ |u - v|_a^2 + R(v)$ first.
 // 3. On paper: for which $ε(h)$ is (28) useless (its right side does not fall), and for which does it say the truth
-//    about P1 on the structured mesh? (Answers: $ε ≤ h^{3/8}$; none, the truth is $h$.)
+// about P1 on the structured mesh? (Answers: $ε ≤ h^{3/8}$; none, the truth is $h$.)
 
 #include "answers/13_estimates.hpp"
 
