@@ -15,6 +15,7 @@
 #include "antilock/solve/contact_problem.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"
+#include "support/dense.hpp"
 
 namespace antilock::hard {
 namespace {
@@ -271,7 +272,7 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
     Eigen::VectorXd q(n);
     for (double& value : g.reshaped()) value = normal(random);
     for (double& value : q) value = normal(random);
-    const Eigen::MatrixXd s = g * g.transpose() + 1e-4 * Eigen::MatrixXd::Identity(n, n);
+    const Eigen::MatrixXd s = test::product(g, g.transpose()) + 1e-4 * Eigen::MatrixXd::Identity(n, n);
     const Eigen::VectorXd lower = Eigen::VectorXd::Zero(n);
     const ContactProblem problem{s, q, lower, 0};
     cycles += !plain_settles(s, q);

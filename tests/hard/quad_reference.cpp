@@ -2,6 +2,7 @@
 
 #include <Eigen/Sparse>
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "antilock/solve/penalty_factor.hpp"
@@ -11,26 +12,31 @@ namespace {
 
 using QuadMatrix = Eigen::SparseMatrix<Quad>;
 
-/// y += factor A x and y += factor A' x, with the matrix's own doubles and every operation in quadruple precision.
+/// y += A x, y -= A x and y += A' x, with the matrix's own doubles and every operation in quadruple precision.
 template <class Matrix>
-void add_product(QuadVector& y, int factor, const Matrix& a, const QuadVector& x) {
+void add_product(QuadVector& y, const Matrix& a, const QuadVector& x) {
   for (Eigen::Index k = 0; k < a.outerSize(); ++k)
-    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.row()) += factor * Quad(it.value()) * x(it.col());
+    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.row()) += Quad(it.value()) * x(it.col());
 }
 template <class Matrix>
-void add_transposed_product(QuadVector& y, int factor, const Matrix& a, const QuadVector& x) {
+void subtract_product(QuadVector& y, const Matrix& a, const QuadVector& x) {
   for (Eigen::Index k = 0; k < a.outerSize(); ++k)
-    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.col()) += factor * Quad(it.value()) * x(it.row());
+    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.row()) -= Quad(it.value()) * x(it.col());
+}
+template <class Matrix>
+void add_transposed_product(QuadVector& y, const Matrix& a, const QuadVector& x) {
+  for (Eigen::Index k = 0; k < a.outerSize(); ++k)
+    for (typename Matrix::InnerIterator it(a, k); it; ++it) y(it.col()) += Quad(it.value()) * x(it.row());
 }
 
 /// r1 = L - A1 u - B' M p and r2 = compliance p - B u in quadruple precision.
 std::pair<QuadVector, QuadVector> quad_residual(const VariationalInequality& problem, const QuadVector& u,
                                                 const QuadVector& p) {
   QuadVector r1 = problem.load.cast<Quad>(), r2 = Quad(problem.compliance) * p;
-  const QuadVector stress = problem.m.cast<Quad>().cwiseProduct(p);
-  add_product(r1, -1, problem.a1, u);
-  add_transposed_product(r1, -1, problem.b, stress);
-  add_product(r2, -1, problem.b, u);
+  const QuadVector minus_stress = -problem.m.cast<Quad>().cwiseProduct(p);
+  subtract_product(r1, problem.a1, u);
+  add_transposed_product(r1, problem.b, minus_stress);
+  subtract_product(r2, problem.b, u);
   return {r1, r2};
 }
 
@@ -46,10 +52,11 @@ QuadSolution refine(const VariationalInequality& problem, const std::vector<bool
     s.u(linear.fixed[i]) = linear.fixed_values(static_cast<Eigen::Index>(i));
   s.p = QuadVector::Zero(problem.b.rows());
   const QuadVector weight = problem.m.cast<Quad>() / Quad(delta);
+  QuadVector r1, r2;
   while (true) {
-    auto [r1, r2] = quad_residual(problem, s.u, s.p);
+    std::tie(r1, r2) = quad_residual(problem, s.u, s.p);
     QuadVector r = r1;
-    add_transposed_product(r, 1, problem.b, weight.cwiseProduct(r2));
+    add_transposed_product(r, problem.b, weight.cwiseProduct(r2));
     QuadVector free(static_cast<Eigen::Index>(unknown.size())), free1 = free;
     for (std::size_t i = 0; i < unknown.size(); ++i) {
       free(static_cast<Eigen::Index>(i)) = r(unknown[i]);
@@ -65,10 +72,9 @@ QuadSolution refine(const VariationalInequality& problem, const std::vector<bool
     for (std::size_t i = 0; i < unknown.size(); ++i) du(unknown[i]) = x(static_cast<Eigen::Index>(i));
     s.u += du;
     QuadVector dp = -r2;
-    add_product(dp, 1, problem.b, du);
+    add_product(dp, problem.b, du);
     s.p += dp / Quad(delta);
   }
-  const auto [r1, r2] = quad_residual(problem, s.u, s.p);
   s.lambda = QuadVector::Zero(static_cast<Eigen::Index>(problem.contact.size()));
   Quad min_gap = 0, min_pressure = 0;
   for (std::size_t i = 0; i < problem.contact.size(); ++i) {

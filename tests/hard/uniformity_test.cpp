@@ -2,18 +2,19 @@
 // the discrete answer against the truth.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/SPQRSupport>
 #include <Eigen/UmfPackSupport>
 #include <array>
 #include <cstdlib>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"
+#include "support/dense.hpp"
 
 namespace antilock::hard {
 namespace {
@@ -176,10 +177,10 @@ TEST(Formulations, EpsilonZeroIsTheProblemOnTheKernelOfA0) {
     const VariationalInequality linear = held(problem, solution.active);
     const FreeNumbering numbering(linear);
     const Eigen::MatrixXd z = kernel_basis(linear, numbering);
-    Eigen::MatrixXd a1_z(z.rows(), z.cols());
     const Eigen::MatrixXd a1 = Eigen::MatrixXd(problem.a1)(numbering.unknown, numbering.unknown);
     const Eigen::VectorXd load = problem.load(numbering.unknown);
-    const Eigen::VectorXd y = (z.transpose() * a1 * z).ldlt().solve(z.transpose() * load);
+    const Eigen::MatrixXd projected = test::product(z.transpose(), test::product(a1, z));
+    const Eigen::VectorXd y = Cholesky(projected).solve(Eigen::VectorXd(z.transpose() * load));
     Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.size());
     u(numbering.unknown) = z * y;
     // 1e-10 is the solver's tolerance; the projected problem itself carries about 1e-13

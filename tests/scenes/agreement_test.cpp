@@ -11,6 +11,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "support/dense.hpp"
 
 namespace antilock {
 namespace {
@@ -155,7 +156,7 @@ Eigen::VectorXd obstacle_reference(int n) {
     q(k - 1) = 10 * std::tanh(pi) / (2 * pi) * std::sin(2 * pi * k / (n + 1));
     for (int j = 1; j <= n; ++j) sines(j - 1, k - 1) = std::sqrt(2.0 / (n + 1)) * std::sin(pi * j * k / (n + 1));
   }
-  const Eigen::MatrixXd d = sines * symbol.asDiagonal() * sines;
+  const Eigen::MatrixXd d = test::gram(sines, symbol);  // sines is symmetric
   Eigen::VectorXd c = Eigen::VectorXd::Zero(n);
   for (double change = 1; change > 1e-13;) {
     change = 0;

@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -25,7 +25,7 @@ Random random_problem(int size, unsigned seed, int rank = 0) {
   std::normal_distribution<double> normal;
   Random r;
   const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(size, rank > 0 ? rank : size, [&] { return normal(engine); });
-  r.s = a * a.transpose() + 1e-2 * Eigen::MatrixXd::Identity(size, size);
+  r.s = test::product(a, a.transpose()) + 1e-2 * Eigen::MatrixXd::Identity(size, size);
   r.q = Eigen::VectorXd::NullaryExpr(size, [&] { return normal(engine); });
   r.lower = Eigen::VectorXd::NullaryExpr(size, [&] { return 0.3 * normal(engine); });
   return r;
@@ -42,7 +42,7 @@ ContactAnswer enumerate(const Random& r) {
     Eigen::VectorXd rhs = r.q - r.s * r.lower;
     for (int i = 0; i < n; ++i)
       if ((set >> i) & 1U) system.col(i) = -Eigen::VectorXd::Unit(n, i);
-    const Eigen::VectorXd x = system.fullPivLu().solve(rhs);  // v - lower, or lambda: both must be nonnegative
+    const Eigen::VectorXd x = test::lu_solve(system, rhs);  // v - lower, or lambda: both must be nonnegative
     if (x.minCoeff() < -1e-12) continue;
     ++found;
     answer.active.assign(n, false);
@@ -94,7 +94,7 @@ bool plain_exchanges_end(const Random& r) {
     Eigen::MatrixXd system = r.s;
     for (int i = 0; i < n; ++i)
       if (active[i]) system.col(i) = -Eigen::VectorXd::Unit(n, i);
-    const Eigen::VectorXd x = system.partialPivLu().solve(r.q - r.s * r.lower);
+    const Eigen::VectorXd x = test::lu_solve(system, r.q - r.s * r.lower);
     if (x.minCoeff() >= -1e-10) return true;
     for (int i = 0; i < n; ++i)
       if (x(i) < 0) active[i] = !active[i];
@@ -187,7 +187,7 @@ Random beam(int n) {
     if (i + 1 < n) second(i + 2, i) = 1;
   }
   second(0, 0) = second(n + 1, n - 1) = std::sqrt(2.0);  // half a cell each
-  r.s = second.transpose() * second / (h * h * h);
+  r.s = test::product(second.transpose(), second) / (h * h * h);
   r.q = Eigen::VectorXd::Constant(n, -5832 * h);
   r.lower = Eigen::VectorXd::Constant(n, -1);
   return r;

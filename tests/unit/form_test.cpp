@@ -8,6 +8,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/form/quadrature.hpp"
+#include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -108,8 +109,7 @@ TEST(Forms, FactoredA0IsTheDenseLoop) {
     for (const Element* element : elements()) {
       const Space space(mesh, *element);
       const FactoredForm strain = layer_strain(space);
-      const Eigen::MatrixXd b = strain.b;
-      const Eigen::MatrixXd a0 = b.transpose() * strain.m.asDiagonal() * b;
+      const Eigen::MatrixXd a0 = test::gram(strain.b, strain.m);
       const Eigen::MatrixXd loop = dense_form(space, Region::layer, 0, 1);
       EXPECT_LT((a0 - loop).cwiseAbs().maxCoeff(), 1e-12 * loop.cwiseAbs().maxCoeff()) << name << element->name();
     }

@@ -16,6 +16,7 @@
 #include "antilock/measure/errors.hpp"
 #include "antilock/measure/residual.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -410,7 +411,7 @@ TEST(ContactTrace, TheConstantIsTheLargestHiddenPartOfSampledFunctions) {
                                                    .cwiseProduct(trace.col(2).segment(32 * e, 32).cwiseSqrt());
       }
       const Eigen::MatrixXd norm = Eigen::MatrixXd(h1_norm(space))(free, free);
-      const double largest = generalised_eigenvalues(samples.transpose() * samples, norm).maxCoeff();
+      const double largest = generalised_eigenvalues(test::product(samples.transpose(), samples), norm).maxCoeff();
       const double constant = negative_part_constant(space, stiff_problem(space, 1), h1_norm(space));
       EXPECT_NEAR(constant / std::sqrt(largest), 1, 5e-3) << name << element->name();  // midpoint sums: 32^-2
     }

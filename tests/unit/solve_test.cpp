@@ -13,6 +13,7 @@
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "support/brute_force.hpp"
+#include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -341,8 +342,7 @@ TEST(PenaltyFactor, ContactBlockIsTheFactorOfTheSchurComplement) {
       const Space space(mesh, *element);
       const VariationalInequality problem = stiff_problem(space, 0.1);
       const PenaltyFactor factor(problem, 0.01);
-      const Eigen::MatrixXd b = problem.b;
-      const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + b.transpose() * problem.m.asDiagonal() * b / 0.01;
+      const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + test::gram(problem.b, problem.m) / 0.01;
       std::vector<int> interior;
       for (int i = 0; i < problem.size(); ++i)
         if (!std::count(problem.fixed.begin(), problem.fixed.end(), i) &&
@@ -350,9 +350,10 @@ TEST(PenaltyFactor, ContactBlockIsTheFactorOfTheSchurComplement) {
           interior.push_back(i);
       const auto& c = problem.contact;
       const Eigen::MatrixXd schur =
-          k(c, c) - k(c, interior) * Cholesky(k(interior, interior)).solve(Eigen::MatrixXd(k(interior, c)));
+          k(c, c) -
+          test::product(k(c, interior), Cholesky(k(interior, interior)).solve(Eigen::MatrixXd(k(interior, c))));
       const Eigen::MatrixXd& l = factor.contact_block();
-      EXPECT_LT((l * l.transpose() - schur).cwiseAbs().maxCoeff(), 1e-11 * schur.cwiseAbs().maxCoeff()) << name;
+      EXPECT_LT((test::product(l, l.transpose()) - schur).cwiseAbs().maxCoeff(), 1e-11 * schur.cwiseAbs().maxCoeff()) << name;
       EXPECT_EQ(Eigen::MatrixXd(l.triangularView<Eigen::StrictlyUpper>()).cwiseAbs().maxCoeff(), 0) << name;
     }
 }
@@ -367,8 +368,7 @@ TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
     factor.refactor(problem, delta);
     EXPECT_EQ(factor.delta(), delta);
     const std::vector<int>& unknown = factor.numbering().unknown;
-    const Eigen::MatrixXd b = problem.b;
-    const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + b.transpose() * problem.m.asDiagonal() * b / delta;
+    const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + test::gram(problem.b, problem.m) / delta;
     const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.free_count(), -1, 2);
     const Eigen::VectorXd x = factor.backward(factor.forward(r));
     const Eigen::VectorXd truth = Cholesky(k(unknown, unknown)).solve(r);

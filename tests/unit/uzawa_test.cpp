@@ -15,6 +15,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "support/brute_force.hpp"
+#include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -170,7 +171,7 @@ TEST(Uzawa, TheStepLengthChangesTheCostNotTheAnswer) {
   // the largest eigenvalue of the compliance bounds the step from above by 2 over it
   const PenaltyFactor factor(problem);
   const Eigen::MatrixXd l = factor.contact_block();
-  const double largest = 1 / symmetric_eigenvalues(l * l.transpose()).minCoeff();
+  const double largest = 1 / symmetric_eigenvalues(test::product(l, l.transpose())).minCoeff();
   UzawaOptions options;
   for (const double step : {0.3, 1.0, 1.9}) {
     options.step = step / largest;
