@@ -1,6 +1,6 @@
 // # Past one machine
 //
-// Run: 21_past_one_machine                1/h = 256 on 1, 2 and 4 ranks; 12 s on two cores with nothing else on them
+// Run: 21_past_one_machine                1/h = 256 on 1, 2 and 4 ranks; 10 s on two cores with nothing else on them
 // Run: 21_past_one_machine --cells 1024   2.1 million unknowns, 5 GB; minutes
 // Run: 21_past_one_machine --exercise 1
 // Run: 21_past_one_machine --exercise 2
