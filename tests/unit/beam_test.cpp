@@ -133,7 +133,8 @@ TEST(Beam, LockingIsTheKernelOfB) {
     EXPECT_EQ(kernel_basis(full).cols(), 0);
     // rows of B are of size 1/h = cells
     EXPECT_LT((reduced.b * basis).cwiseAbs().maxCoeff(), 1e-13 * cells);
-    EXPECT_LT((test::product(basis.transpose(), basis) - Eigen::MatrixXd::Identity(cells - 2, cells - 2)).norm(), 1e-12);
+    EXPECT_LT((test::product(basis.transpose(), basis) - Eigen::MatrixXd::Identity(cells - 2, cells - 2)).norm(),
+              1e-12);
   }
 }
 

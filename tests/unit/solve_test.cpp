@@ -353,7 +353,8 @@ TEST(PenaltyFactor, ContactBlockIsTheFactorOfTheSchurComplement) {
           k(c, c) -
           test::product(k(c, interior), Cholesky(k(interior, interior)).solve(Eigen::MatrixXd(k(interior, c))));
       const Eigen::MatrixXd& l = factor.contact_block();
-      EXPECT_LT((test::product(l, l.transpose()) - schur).cwiseAbs().maxCoeff(), 1e-11 * schur.cwiseAbs().maxCoeff()) << name;
+      EXPECT_LT((test::product(l, l.transpose()) - schur).cwiseAbs().maxCoeff(), 1e-11 * schur.cwiseAbs().maxCoeff())
+          << name;
       EXPECT_EQ(Eigen::MatrixXd(l.triangularView<Eigen::StrictlyUpper>()).cwiseAbs().maxCoeff(), 0) << name;
     }
 }

@@ -21,15 +21,14 @@ void* gmsh_library() {
     return loaded;
   }();
   if (library == nullptr)
-    throw Error(fmt::format("mesh: gmsh cannot be loaded ({}); an unstructured or layered mesh needs it (Debian: "
-                            "libgmsh-dev), a structured mesh or a mesh file does not",
-                            why));
+    throw Error(
+        fmt::format("mesh: gmsh cannot be loaded ({}); an unstructured or layered mesh needs it (Debian: "
+                    "libgmsh-dev), a structured mesh or a mesh file does not",
+                    why));
   return library;
 }
 
-void free_by_gmsh(void* memory) {
-  reinterpret_cast<decltype(gmshFree)*>(dlsym(gmsh_library(), "gmshFree"))(memory);
-}
+void free_by_gmsh(void* memory) { reinterpret_cast<decltype(gmshFree)*>(dlsym(gmsh_library(), "gmshFree"))(memory); }
 
 /// What gmsh allocated, as a vector; gmsh's own memory is freed.
 template <class Number>
@@ -105,8 +104,8 @@ GmshSession::Nodes GmshSession::nodes() const {
 std::vector<std::size_t> GmshSession::elements_of(int dimension, int entity) const {
   const int two_nodes_or_three = dimension;  // gmsh's numbers of the line with two nodes and the triangle with three
   std::size_t *tags = nullptr, tag_count = 0, *nodes = nullptr, node_count = 0;
-  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", two_nodes_or_three, &tags, &tag_count,
-                                                 &nodes, &node_count, entity, /*task*/ 0, /*numTasks*/ 1);
+  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", two_nodes_or_three, &tags,
+                                                 &tag_count, &nodes, &node_count, entity, /*task*/ 0, /*numTasks*/ 1);
   free_by_gmsh(tags);
   return taken(nodes, node_count);
 }
