@@ -69,9 +69,8 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   // ### Forms
   VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), space);
   // ### Solve
-  // Nothing is wrong with the solver: the conditions of the inequality hold to round-off. The discrete problem
-  // itself has
-  // the wrong solution.
+  // Nothing is wrong with the solver: the conditions of the inequality hold to round-off. It is the discrete
+  // problem that has the wrong solution.
   const Solution solution = active_set(problem);
   const Solution dirichlet = active_set(dirichlet_laplace(problem, space));
   const tutorial::Exact exact(options.epsilon);
