@@ -38,10 +38,12 @@
 // $a(w - u, v - u) ≤ 0$: seen from $u$, the way to $w$ makes no acute angle with the way to any $v$ in $K$. So $u$ is
 // the *projection* of $w$ onto $K$, its nearest element when lengths are measured by $a(v, v)^{1/2}$ (last picture).
 //
-// **The multiplier is the contact force.** Take nodes $x_i = i h$, hat functions $φ_i$, the matrix
-// $A_{ij} = a(φ_i, φ_j)$ and the vector $b_i = L(φ_i)$, and call $λ = A u - b$. It is the force that is missing for
-// equilibrium: the force of the floor. Put $v = u + φ_i$ into the inequality: $λ_i ≥ 0$. Put $v = 0$ and $v = 2u$:
-// $λ^T u = 0$, a sum of terms none of which is negative. So for every inner node
+// **The multiplier is the contact force.** Now let $u$ and $v$ be linear between nodes $x_i = i h$, so that
+// $u = ∑ u_i φ_i$ with the hat functions $φ_i$. Such a $u$ is in $K$ if no $u_i$ is negative. Write $u$ for the
+// vector of the $u_i$ too. With the matrix $A_{ij} = a(φ_i, φ_j)$ and the vector $b_i = L(φ_i)$ the inequality reads
+// $(A u - b)^T (v - u) ≥ 0$. Call $λ = A u - b$ the *multiplier*. It is the force that is missing for equilibrium:
+// the force of the floor. Put $v = u + φ_i$ into the inequality: $λ_i ≥ 0$. Put $v = 0$: $λ^T u ≤ 0$. Put $v = 2u$:
+// $λ^T u ≥ 0$. So $λ^T u = 0$. No term $λ_i u_i$ of this sum is negative, so each is 0. For every inner node
 //
 // $$ u_i ≥ 0,   λ_i ≥ 0,   λ_i u_i = 0,   A u = b + λ. $$
 //
@@ -113,12 +115,15 @@ Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
 }
 
 // **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor,
-// push more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$. The maximum is the
-// projection onto the cone $λ ≥ 0$. This is a *projected gradient* method, and its operator is $A^{-1}$, the
-// *compliance*: force in, displacement out. $A$ has the eigenvalues $4 \sin^2(kπh/2)/h$, so that those of $A^{-1}$
-// lie between about $h/4$ and $1/(π² h)$, and a step $ρ < 2π² h$ is safe. It makes the slowest part of the error
-// smaller by the factor $1 - ρ h/4 ≈ 1 - π² h²/2$. So halve $h$, and there are four times as many steps; the ratio of
-// the two eigenvalues, the *condition number* $κ$, says it in one number.
+// push more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$, $ρ$ the length of
+// the step. The maximum is the projection onto the cone $λ ≥ 0$. $u - floor$ is the gradient in $λ$ of
+// $½ (b + λ)^T A^{-1} (b + λ) - floor ∑ λ_i$, so this is a *projected gradient* method. Its operator is $A^{-1}$, the
+// *compliance*: force in, displacement out. $A$ has the eigenvalues $4 \sin^2(kπh/2)/h$, so those of $A^{-1}$ lie
+// between about $h/4$ and $1/(π² h)$. A step multiplies the part of the error with the eigenvalue $σ$ by $1 - ρσ$. So
+// every $ρ < 2π² h$, which is 2 / largest $σ$, is safe. The part with the smallest $σ$ is the slowest: its factor is
+// $1 - ρ h/4$, at best about $1 - π² h²/2$. So halve $h$, and there are four times as many steps. The *condition
+// number* $κ$ = largest / smallest eigenvalue, here $4/(π² h²)$, says the same in one number: the factor is
+// $1 - 2/κ$.
 Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
   const Cholesky factor(s.a);
   Answer answer{s.b, 0 * s.b};
@@ -132,9 +137,10 @@ Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
 }
 
 // ### Output
-// **The truth.** Where the string is free $-u'' = f$, so $u = α \sin 2πx + s x$ with $α = 10/4π²$. It leaves the
-// floor without a kink, which would need a force at one point: $u(c) = 0$ and $u'(c) = 0$. Both together say
-// $\tan z = z$ for $z = 2πc$, so $c = 0.715148...$
+// **The truth.** Where the string is free $-u'' = f$, so $u = α \sin 2πx + s x$ with $α = 10/(4π²)$ and a slope $s$
+// still to be found. Contact starts at $c$: $u(c) = 0$. A kink at $c$ would be a jump of $u'$ from a negative value
+// up to 0. Only a force that pulls the string down could hold it there, and the floor does not pull. So $u'(c) = 0$.
+// Both together say $\tan z = z$ for $z = 2πc$, so $c = 0.715148...$
 void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& report) {
   const String s = hang(options.cells);
   std::vector<VectorXd> guesses;
@@ -167,7 +173,9 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // 1. Double the load. What happens to $u$, to the forces, to the contact set?
 // 2. Lower the floor to $-0.05$. $K$ is no cone any more. Where does contact start? Does it reach $x = 1$?
 // 3. Uzawa with $ρ = 4π² h$, twice the safe step. Does it diverge? (Where does $λ$ live?)
-// 4. On paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Why is neither allowed in exercise 2?
+// 4. On paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Which of the two is forbidden in exercise 2, and
+//    what is left of the equality? ($2u$, it is below the floor where the string touches. From $v = 0$:
+//    $a(u, u) ≤ L(u)$.)
 
 #include "answers/00_string_on_an_obstacle.hpp"
 

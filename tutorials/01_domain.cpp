@@ -7,8 +7,9 @@
 // Needs: [00](00_string_on_an_obstacle.cpp) (variational inequality, cone, complementarity).
 //
 // **The picture.** An elastic body `Ω⁺ = (0,1) × (0,1)` is clamped on `Γ⁺`, both sides and the top. A thin stiff
-// layer `Ω_ε⁻ = (0,1) × (-ε,0)` is grafted onto its lower side `Σ`, clamped at its two ends, and may touch a rigid
-// obstacle on `Γ_{C,ε}`. *The second picture is the first one after the change of variable `y ↦ y/ε`: the thickness
+// layer `Ω_ε⁻ = (0,1) × (-ε,0)` is grafted onto its lower side `Σ`. The layer is clamped at its two ends, `Γ_{D,ε}⁻`.
+// It may touch a rigid obstacle on its own lower side, `Γ_{C,ε}`. *The second picture is the first one after the
+// change of variable `y ↦ y/ε`: the thickness
 // has left the domain.* Both draw the obstacle apart from `Γ_C`, to be seen. In the problem there is no distance
 // between them.
 //
@@ -52,8 +53,9 @@
 //
 // $$ a^+(u,v) = ∫_{Ω^+} ∇u·∇v,   a_x^-(u,v) = ∫_{Ω^-} ∂_x u ∂_x v,   a_y^-(u,v) = ∫_{Ω^-} ∂_y u ∂_y v. $$
 //
-// Let $V$ be the displacements that are 0 on $Γ_D$, and $K = \{ v ∈ V : v ≥ 0 on Γ_C \}$. Then the problem of this
-// whole course reads
+// Write $Γ_D$ and $Γ_C$ for $Γ_{D,ε}$ and $Γ_{C,ε}$ after the change of variable: $Γ_C$ is the side $y = -1$. Write
+// $Ω$ for body and unit layer together, and $(f, v)$ for $∫_{Ω^+} f v$. Let $V$ be the displacements that are 0 on
+// $Γ_D$, and $K = \{ v ∈ V : v ≥ 0 on Γ_C \}$. Then the problem of this whole course reads
 //
 // $$ u ∈ K,   a^+(u, v-u) + a_x^-(u, v-u) + ε^{-2} a_y^-(u, v-u) ≥ (f, v-u)   for all v ∈ K. \tag{23} $$
 //
@@ -119,7 +121,8 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 //
 // 1. Which costs more energy when the layer is made thinner: $\sin πx$, or $\tilde y \sin πx$ in the layer?
 // 2. On paper: which condition of (21) changes for an obstacle at distance $g$? Which term of the derivation?
-// 3. On paper: write (21) on the unit layer. (There $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$; on $Σ$ $∂_n u^+ = ε^{-2} ∂_n u^-$.)
+// 3. On paper: write (21) on the unit layer. (There $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$; on $Σ$
+// $∂_n u^+ = ε^{-2} ∂_n u^-$.)
 
 #include "answers/01_domain.hpp"
 

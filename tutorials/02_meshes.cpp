@@ -17,8 +17,9 @@
 //
 // ## What the layer may do
 //
-// As $ε → 0$ the factor $ε^{-2}$ in (23) forces $a_y^-(u, u) → 0$: in the limit only displacements with $∂_y u = 0$
-// in the layer are left. Let $V_h$ be the P1 functions on a mesh, affine on each triangle, continuous, 0 on $Γ_D$.
+// Put $v = 0$ into (23): the energy is at most $(f, u)$, which stays bounded as $ε → 0$. Its part
+// $ε^{-2} a_y^-(u, u)$ is bounded too, so $a_y^-(u, u) → 0$: in the limit only displacements with $∂_y u = 0$ in the
+// layer are left. Let $V_h$ be the P1 functions on a mesh, affine on each triangle, continuous, 0 on $Γ_D$.
 // Those that the stiff form does not see are its *kernel*:
 //
 // $$ G_h = \{ v ∈ V_h : ∂_y v = 0 \text{ on every triangle of the layer} \}. $$
@@ -94,7 +95,9 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
 //
 // 1. All inner vertices of a structured mesh are moved a little, but for those on 3 vertical lines. Groups? Kernel?
 // 2. Turn the diagonals of the structured mesh (left), or draw both (crossed). How many groups?
-// 3. On paper: let the layer be free at its ends. Which functions are in $G_h$ on the unstructured mesh? (1 and $x$.)
+// 3. On paper: let body and layer be free at both sides, so that only the top is clamped. Which functions of $G_h$
+//    are left on the layer of the unstructured mesh? ($1$ and $x$. With the layer alone free the answer is 0 again:
+//    the corners $(0,0)$ and $(1,0)$ belong to the clamped sides of the body.)
 // 4. On paper: quadratic functions with $∂_y v = 0$ on one group: how many are 0 at both ends? (One, $x(1 - x)$.)
 
 #include "answers/02_meshes.hpp"

@@ -17,8 +17,9 @@
 //
 // ## From (23) to matrices
 //
-// Let $φ_i$ be the hat function of vertex $i$ and $u = ∑ u_i φ_i$. Put P1 functions into (23) and its $K$: the
-// discrete problem (26), with the set $K_h$ and the solution $u_h$. The moderate form becomes a matrix,
+// Let $φ_i$ be the hat function of vertex $i$ and $u = ∑ u_i φ_i$. Let $K_h$ be the set of the P1 functions in $K$: 0
+// at the clamped vertices, not negative at the vertices of $Γ_C$. The discrete problem, (26) in the paper, is (23)
+// with $K_h$ in place of $K$. Its solution is $u_h$. The moderate form becomes a matrix,
 // $(A_1)_{ij} = a^+(φ_i, φ_j) + a_x^-(φ_i, φ_j)$. The stiff form keeps its factors. On a triangle $T$ of the layer
 // $∂_y u$ is a number; let row $T$ of $B$ compute it from $u$, and let $M$ be the diagonal matrix of the areas. Then
 //
@@ -104,18 +105,21 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
 // $$ A_1 u + B^T M p = L + λ,   B u = ε² p. $$
 //
 // No large number is left. One matrix is factored, with a moderate number $δ$ in place of $ε²$:
-// $K = A_1 + δ^{-1} B^T M B$. Given $u$ and $p$, what the two equations leave over, their *residuals*, is
+// $K = A_1 + δ^{-1} B^T M B$ (a matrix; the set of (23) has the same letter). Given $u$ and $p$, what the two
+// equations leave over, their *residuals*, is
 //
 // $$ r_1 = L - A_1 u - B^T M p + λ,   r_2 = ε² p - B u. $$
 //
-// One *correction* solves $K du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$; insert both to see that
-// then $r_1 = 0$ and $r_2 = (ε² - δ) dp$: with $δ = ε²$ nothing would be left over. When $r_1 = r_2 = 0$, $u$ and $p$
-// solve (23), whatever $δ$ was. This is the *iterated penalty* method. If $r_2$ is an eigenvector of
-// $B A_1^{-1} B^T M$ with the eigenvalue $σ$, a correction makes it smaller by $(δ - ε²)/(δ + σ)$: a small $δ$ is
-// fast, but too small a $δ$ rounds the digits of $A_1$ away again.
+// One *correction* solves $K du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$. Insert both: after it
+// $r_1 = 0$ and $r_2 = (ε² - δ) dp$. With $δ = ε²$ nothing would be left over. When $r_1 = r_2 = 0$ and the signs on
+// $Γ_C$ are right, $u$ and $p$ solve (26), whatever $δ$ was. This is the *iterated penalty* method. Let $r_1 = 0$, as
+// after the first correction, and let $r_2$ be an eigenvector of $B A_1^{-1} B^T M$ with the eigenvalue $σ$. A
+// correction multiplies it by $(δ - ε²)/(δ + σ)$. A small $δ$ is fast, but too small a $δ$ rounds the digits of
+// $A_1$ away again.
 //
-// **The contact loop**, in each correction: guess which vertices of $Γ_C$ touch, solve, look at the signs (chapter
-// 00).
+// **The contact loop**, in each correction: the $λ$ in $r_1$ is not known beforehand. Guess which vertices of $Γ_C$
+// touch. There $u + du = 0$, and the row of the vertex gives $λ$. Elsewhere $λ = 0$, and the row is an equation for
+// $du$. Solve, and look at the signs (chapter 00).
 struct Answer {
   VectorXd u, stress;
 };
@@ -179,8 +183,10 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference along it. These are
-// chapter 02's columns again. (b) No. $p$ tends to the stress of the rigid limit; only its factors $ε^{-2}$ and $B u$
+// (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference of $u$ along it,
+// divided by its length $h$. So one row of $B$ couples two vertices of one vertical line, and never two lines. This
+// is chapter 02's kernel again: one function per line. (b) No. $p$ tends to the stress of the rigid limit $ε = 0$;
+// only its factors $ε^{-2}$ and $B u$
 // go to infinity and to 0. The `du` of the corrections fall by a constant factor, and after the first correction the
 // contact set hardly moves: one contact step is enough.
 //

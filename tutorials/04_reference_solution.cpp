@@ -30,14 +30,16 @@
 // step. With the best $ρ$ the error falls by $(κ - 1)/(κ + 1)$ per step, $κ$ the condition number. An error of $tol$
 // takes about $(κ/2) \ln(1/tol)$ steps.
 //
-// **How large is $κ$?** Press with $\sin kπx$, $k$ waves. At $ε = 1$ the answer goes into the depth only as far as a
-// wave is long: stiffness $≈ kπ$, by which $κ$ = largest / smallest = number of waves on the mesh $~ 1/h$. As $ε → 0$
-// the layer cannot vary across, and its own bending $a_x^-$ decides: stiffness $≈ (kπ)^2$, and $κ ~ 1/h^2$, as for a
-// string.
+// **How large is $κ$?** Press with $\sin kπx$, which has $k$ half waves. A mesh carries $k = 1$ to about $1/h$. At
+// $ε = 1$ the answer goes into the depth only as far as a half wave is long. The stiffness is $≈ kπ$, so $κ$ =
+// largest / smallest $~ 1/h$. As $ε → 0$ the layer cannot vary across, and its own energy along $x$, $a_x^-$,
+// decides. It is the energy of a string: stiffness $≈ (kπ)^2$, and $κ ~ 1/h^2$.
 //
-// **The truth.** $u = 0$ at $x = 0$ and $x = 1$ in body and layer, so that sine series in $x$ solve (23) up to the
-// contact, and leave one complementarity problem in $x$. `lib/antilock/exact` solves it to 8 digits. No mesh is
-// involved: against it every discrete solution of this course is measured, the reference solution too.
+// **The truth.** $u = 0$ at $x = 0$ and at $x = 1$, in body and layer. So write $u = ∑_k u_k(y) \sin kπx$. Inside
+// body and layer (23) becomes one ordinary differential equation in $y$ per $k$, solved in closed form. Left open is
+// the contact: the displacement $u$ and the pressure $λ$ on $Γ_C$, with $u ≥ 0$, $λ ≥ 0$, $λ u = 0$. This is one
+// complementarity problem in $x$ alone. `lib/antilock/exact` solves it to 8 digits. No mesh is involved. Every
+// discrete solution of this course is measured against it, the paper's reference solution too.
 
 #include "antilock/solve/uzawa.hpp"
 #include "common/course.hpp"

@@ -25,10 +25,14 @@
 // $$ u_h^0 ∈ K_{0h} = K_h ∩ G_h,   a_1(u_h^0, w_h - u_h^0) ≥ (f, w_h - u_h^0)   for all w_h ∈ K_{0h}. \tag{27} $$
 //
 // **Theorem 4** of the paper: *if $K_h$ approaches $K$ and $K_{0h}$ approaches $K_0$, the error tends to 0 uniformly
-// in $ε$.* "Approaches" means here: every element of $K$ is a limit of elements of $K_h$, and no weak limit falls
-// outside (Definition 1; chapter 11 measures it). P1 has the first on every regular mesh. The second needs $K_{0h}$
-// to contain approximations of every function of $x$ that is nonnegative: the hat functions of the vertical lines
-// are. Hence
+// in $ε$*: one bound, which depends on $h$ and not on $ε$, tends to 0. "$K_h$ approaches $K$" has two parts
+// (Definition 1; chapter 11 measures it). Every element of $K$ is a limit of elements of $K_h$. And no weak limit of
+// elements of $K_h$ lies outside $K$. ($v_h$ tends to $v$ *weakly* if it stays bounded and $a_1(v_h, w)$ tends to
+// $a_1(v, w)$ for every fixed $w$: $v_h$ may oscillate faster and faster.) P1 has both for $K$ on every regular mesh.
+// $K_0$ asks for more: every nonnegative function of $x$ on the layer must be a limit of functions in $K_{0h}$. On
+// this mesh it is one. $K_{0h}$ contains the nonnegative sums of the hat functions of the vertical lines, so the
+// interpolant of such a function is among them. With $‖v‖_{1,Ω}$, the norm that measures $v$ and its first
+// derivatives in body and layer, this gives
 //
 // $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^ε‖_{1,Ω} = 0.   \text{(Theorem 5)} $$
 //
@@ -102,7 +106,8 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
 //
 // 1. Turn the diagonals of the mesh to the left. Does P1 lock?
 // 2. Double the load. Does the contact zone grow? Does the pressure double?
-// 3. On paper: integrate $∂_y p = -u''(x)$ over the layer to get $λ = -∂_y u^+ - u''$ on $Σ$, the condition that is left of
+// 3. On paper: integrate $∂_y p = -u''(x)$ over the layer to get $λ = -∂_y u^+ - u''$ on $Σ$, the condition that is
+// left of
 //    the layer. (Chapter 10 calls it Ventcel's.)
 
 #include "answers/05_p1_structured.hpp"

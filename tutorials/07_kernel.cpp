@@ -18,29 +18,34 @@
 // ## What decides
 //
 // In the limit the answer lies in $G_h = \{ v ∈ V_h : ∂_y v = 0 \text{ in the layer} \}$. It holds all functions of
-// the body that are 0 on $Σ$, on every mesh: its full dimension tells nothing. What decides is **the kernel on the
-// layer**, and **whether it grows under refinement**: $K_{0h}$ must approach $K_0$ (Theorem 4), and $K_0$ holds
-// infinitely many functions of $x$. Count it by linear algebra: the columns of $B$ that belong to free unknowns of
-// the layer, less their rank.
+// the body that are 0 on $Σ$, on every mesh: its full dimension tells nothing. What counts is **the kernel on the
+// layer**, and **whether it grows under refinement**. $K_{0h}$ is to approach $K_0$ (Theorem 4), and $K_0$ holds
+// infinitely many functions of $x$. So a kernel that does not grow locks. (One that grows in one half of the layer
+// only locks in the other half: growth is necessary, not sufficient.) Count it by linear algebra: the columns of $B$
+// that belong to unknowns of the layer that are not clamped, less their rank.
 //
 // | method | dimension on the layer | why |
 // |---|---|---|
 // | P1, structured, $1/h = n$ | $n - 1$ | one hat per inner vertical line |
 // | P1, unstructured | 0 | one group of tied triangles, 0 at both ends |
-// | P2, unstructured | 1 | $∂_y v = 0$ leaves $v = a + b x + c x^2$: $x(1 - x)$, on every mesh |
-// | CR, any mesh | $N_T/2$ | 3/2 edges per layer triangle, one condition $∂_y v = 0$ each |
+// | P2, unstructured | 1 | $∂_y v = 0$ leaves $v = a + b x + c x^2$: $x(1 - x)$, however small $h$ is |
+// | CR, any mesh | $N_T/2$ | 3/2 free edges per layer triangle, less one condition $∂_y v = 0$ per triangle |
+//
+// (An inner edge belongs to two triangles: 3/2 per triangle. Of the boundary edges those on the two sides are clamped
+// and those on top and bottom are free. They are equally many here, so 3/2 is exact.)
 //
 // CR, the element of Crouzeix and Raviart, is affine on each triangle and continuous at the midpoints of the edges
 // only: one unknown per edge ([08](08_crouzeix_raviart.cpp) draws it). $N_T$ is the number of triangles of the layer.
 //
-// **A second question: which stresses are seen?** The *inf-sup constant* of $B$ is the largest $β$ with
+// **A second question: which stresses are seen?** A displacement $v$ *sees* the stress $q$ if $(q, ∂_y v) ≠ 0$: the
+// stress then does work on it. The *inf-sup constant* of $B$ is the largest $β$ with
 // $\max_v (q, ∂_y v)/|v|_{1,h} ≥ β ‖q‖$ for every stress $q$, constant on triangles; $|v|_{1,h}$ is the norm of $∇v$,
 // taken triangle by triangle. With $‖q‖$ the same maximum over *all* displacements (the *dual norm*), $β = 1$ says:
 // whatever stress some displacement sees, a discrete one sees as well. For CR $β ≥ 1$ on every mesh: the
 // interpolation of chapter 08 keeps $(q, ∂_y v)$ and does not enlarge $|v|_1$ (a property that carries Fortin's
-// name). For P1 the rows of $B$ depend on each other (chapter 03: two triangles share each vertical edge), some
-// stress is not seen at all, and $β = 0$: on the structured mesh too, where nothing locks. So $β > 0$ is sufficient,
-// not necessary.
+// name). For P1 the rows of $B$ depend on each other (chapter 03: two triangles share each vertical edge). Some stress
+// is then not seen at all, and $β = 0$. This holds on the structured mesh too, where nothing locks. The theory of
+// mixed methods shows that a $β$ above a positive number for all $h$ excludes locking. Here it is not necessary.
 
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
@@ -144,9 +149,9 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) No, one parabola is left; but it is one on every mesh, and P2 locks too, unless $u^0$ happens to be that
-// parabola. (b) The kernel is gone, at every $ε$ all is lost in the limit; but at $ε = 10^{-3}$ a millionth of $h$
-// costs nothing yet.
+// (a) No, one parabola is left; but it stays one when $h$ falls, and P2 locks too, unless $u^0$ happens to be that
+// parabola. (b) Yes, as $ε → 0$ on this mesh: the kernel on the layer is 0, so at $ε = 0$ all is lost. At
+// $ε = 10^{-3}$ a millionth of $h$ costs nothing yet, since $t h/ε$ is still small.
 //
 // ## Exercises
 //

@@ -29,7 +29,8 @@
 //
 // $$ ∫_T ∇ I_h v = ∑_{E ⊂ ∂T} n_E ∫_E I_h v = ∑_{E ⊂ ∂T} n_E ∫_E v = ∫_T ∇ v. $$
 //
-// *The gradient of $I_h v$ is the mean of the gradient of $v$.* Three consequences are **Lemma 2**, in essence:
+// *The gradient of $I_h v$ is the mean of the gradient of $v$.* **Lemma 2** of the paper says: $K_h^{nc}$ approaches
+// $K$, and $K_{0h}^{nc} = K_h^{nc} ∩ G_h^{nc}$ approaches $K_0$. Its proof rests on three properties of $I_h$:
 //
 // - If $v ∈ K_0$, then $∂_y v = 0$ in the layer, and so $∂_y I_h v = 0$ on its triangles, on every mesh: $B I_h v = 0$.
 // - If $v ≥ 0$ on $Γ_C$, so are its means: $I_h v ≥ 0$ at the midpoints. Hence $I_h$ maps $K_0$ into $K_{0h}^{nc}$.
@@ -37,7 +38,9 @@
 //
 // $$ ‖v - I_h v‖_{1,Ω_h} ≤ C h (|v|_{2,Ω^+} + |v|_{2,Ω^-}). \tag{32} $$
 //
-// So both hypotheses of Theorem 4 hold, with no condition on the mesh beyond good angles:
+// Every function of $K$ or $K_0$ is a limit of smooth ones, so the first half of "approaches" follows (chapter 05).
+// The second half, on weak limits, is checked in [chapter 11](11_contact_sets.cpp). With both, Theorem 4 applies, and
+// asks nothing of the mesh but good angles:
 //
 // $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^{nc,ε}‖_{1,Ω_h} = 0.   \text{(Theorem 7)} $$
 
@@ -140,8 +143,9 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
 // Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
 //
 // 1. Interpolate $u^0$ with P1, values at the vertices of the same meshes. Is $B I_h u^0 = 0$?
-// 2. Predict the error on $1/h = 64$ at $ε = 10^{-6}$ from that on 32. Then at $ε = 0$, and at $10^{-2}$.
-// 3. On paper: why is P1's interpolation no substitute in the proof? Which of the three means does it not keep?
+// 2. On structured meshes: predict the error on $1/h = 64$ at $ε = 10^{-6}$ from that on 32. Then on 64 at $ε = 0$,
+//    and at $10^{-2}$.
+// 3. On paper: why is P1's interpolation no substitute in the proof? Does it keep the means? (In general, none.)
 
 #include "answers/08_crouzeix_raviart.hpp"
 

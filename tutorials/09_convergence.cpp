@@ -8,14 +8,15 @@
 // Needs: [05](05_p1_structured.cpp) (Theorem 5), [06](06_p1_unstructured.cpp) (locking and its law),
 // [08](08_crouzeix_raviart.cpp) (CR, Theorem 7, broken norms).
 //
-// **The picture.** Figure 9: the largest error, the norm of $L^∞(Ω)$, against $h$, for five $ε$ and four methods.
+// **The picture.** Figure 9: the largest error, the norm of $L^∞(Ω)$, against $h$, for five $ε$. Four methods are
+// shown, P1 and CR on both kinds of mesh; the paper's caption counts three.
 // *Where a method converges uniformly, the lines of all $ε$ lie on top of each other. For P1 on unstructured meshes
 // they fan out.*
 //
-// **Predict.** (a) P1 interpolates with the error $h^2$. Which slope have the lines? Which one has the flat line of
-// locked P1? (b) The paper: "The P1 nonconforming method on structured meshes is even slightly better than the P1
-// conforming method on structured meshes" (end of Section 4.2). In which norm would you expect that, the largest
-// error or the gradient's?
+// **Predict.** (a) P1 interpolates with the error $h^2$. Which slope do the lines have? And that of P1 on unstructured
+// meshes at $ε = 10^{-6}$? (b) The paper: "The P1 nonconforming method on structured meshes is even slightly better
+// than the P1 conforming method on structured meshes" (end of Section 4.2). In which norm would you expect that, the
+// largest error or the gradient's?
 //
 // ## What to expect
 //
@@ -24,13 +25,15 @@
 // of the ridge is lost, $x = (h^{3/2}/ε)^2$. For each $ε > 0$ it tends to 0; but at every $h$ there is an $ε$ at
 // which nearly all is lost.
 //
-// **The orders.** Interpolation has order 2 in the largest error and order 1 in the gradient. At the end of contact
-// $u$ is like $r^{3/2}$, $r$ the distance from it (its second derivative is not bounded), and where no mesh line
-// passes near, order 3/2 is what is left of the 2.
+// **The orders.** Interpolation has order 2 in the largest error and order 1 in the gradient. The end of contact may
+// take some of the 2. For $ε > 0$ the solution $u^ε$ is there like $r^{3/2}$, $r$ the distance from it: its second
+// derivative is not bounded. This part reaches about as far as $ε$. For $ε = 0$ the second derivative jumps, as for
+// chapter 00's string. Where no mesh line passes near, an order between 3/2 and 2 is left.
 //
 // **P1 against CR.** Both gradients are constant per triangle. That of $I_h u$ for CR is the mean of $∇u$, the best
-// constant (chapter 08); no function, conforming or not, comes nearer to $∇u$. The price is paid at the corners of
-// the triangles.
+// constant (chapter 08). So no function that is affine per triangle, P1 or CR, comes nearer to $∇u$. This is about
+// the interpolant; the solution $u_h$ is another function, and its error is measured below. In the values CR may lose:
+// it is exact for means over edges, and its error is largest at the corners, where it jumps.
 //
 // **Computed once.** $a_1$ and $a_0$ do not contain $ε$: a mesh is assembled once for five $ε$, and the small ones
 // share one factorisation, since $δ$ stands in the place of $ε^2$ (chapter 03). `SceneSweep` does that.

@@ -22,28 +22,34 @@
 // $$ u^ε ∈ K,  a_1(u^ε, v - u^ε) + ε_c^{-1} a_0(u^ε, v - u^ε) ≥ L(v - u^ε)  ∀ v ∈ K. \tag{1} $$
 //
 // The limit lives in $K_0 = K ∩ G$: what the obstacle allows and $a_0$ does not see. There it solves
-// $a_1(u^0, w - u^0) ≥ L(w - u^0)$ for all $w ∈ K_0$, (2). Three steps prove it. *Bounded:* put $v = v_0 ∈ K_0$ into
-// (1). As $a_0(v_0, ·) = 0$, no large number is left beside $v_0$, so that $‖u^ε‖ ≤ C$ and $a_0(u^ε, u^ε) ≤ C ε_c$.
-// *Limit:* a bounded family has a sequence that converges *weakly* (its product with each fixed function converges).
-// Its limit has $a_0 = 0$: it is in $K_0$. For $w ∈ K_0$ drop $-ε_c^{-1} a_0(u^ε, u^ε) ≤ 0$ from (1), and (2) is
-// left, which has one solution only. *Strong:* put $v = u^0$ into (1):
+// $a_1(u^0, w - u^0) ≥ L(w - u^0)$ for all $w ∈ K_0$, (2). The proof needs that $a^ε = a_1 + ε_c^{-1} a_0$ is
+// *coercive*: $a^ε(v, v) ≥ α ‖v‖^2$ with one $α > 0$ for all $ε$. It has three steps.
+//
+// *Bounded:* put $v = v_0 ∈ K_0$ into (1). As $a_0(v_0, ·) = 0$, this says with $d = u^ε - v_0$ that
+// $α ‖d‖^2 ≤ a^ε(d, d) ≤ L(d) - a_1(v_0, d)$. The right side grows like $‖d‖$ only, so $‖u^ε‖ ≤ C$ and
+// $a_0(u^ε, u^ε) ≤ C ε_c$. *Limit:* a bounded family has a sequence that converges *weakly* (its product with each
+// fixed function converges). A convex set keeps its weak limits, and a form like $a_0(v, v)$ can only fall in one.
+// So the limit is in $K$ and has $a_0 = 0$: it is in $K_0$. For $w ∈ K_0$ drop $-ε_c^{-1} a_0(u^ε, u^ε) ≤ 0$ from
+// (1). In the limit $a_1(u^ε, u^ε)$ can only fall, too, and (2) is left, which has one solution only.
+// *Strong:* put $v = u^0$ into (1):
 //
 // $$ a^ε(u^ε - u^0, u^ε - u^0) ≤ L(u^ε - u^0) - a_1(u^0, u^ε - u^0) → 0. \tag{5} $$
 //
 // (5) says more than $u^ε → u^0$. Since $a_0(u^0, ·) = 0$, its stiff part is $ε^{-2} a_0(u^ε, u^ε) = ε^2 ‖p‖^2$ in
 // $L^2$ of the layer: the energy in the thickness vanishes.
 //
-// No theorem gives an order. The layer changes wave $k$ of $u$ by a factor $(ε k)^2$ up to $k = 1/ε$. Where contact
-// ends the pressure jumps, which leaves $u_k ∼ k^{-3}$. So $‖u^ε - u^0‖^2 ∼ ∑ k^{-4} \min(1, (ε k)^4) ∼ ε^3$: order
-// 3/2. A mesh has no waves beyond $1/h$, and below $ε ∼ h$ a discrete solution is a rational function of $ε^2$: order
-// 2.
+// No theorem gives an order. Write $u$ on $Γ_C$ as a sum of waves $u_k \sin kπx$. A layer of thickness $ε$ changes
+// wave $k$ by the share $(ε k)^2$ of itself, and from $k = 1/ε$ on by about all of it. Where contact ends, the
+// pressure of $u^0$ jumps, and its second derivative with it: this leaves $u_k ∼ k^{-3}$. In $‖·‖^2$ wave $k$ counts
+// $k^2 u_k^2 ∼ k^{-4}$. So $‖u^ε - u^0‖^2 ∼ ∑ k^{-4} \min(1, (ε k)^4) ∼ ε^3$: order 3/2. A mesh has no waves beyond
+// $1/h$. Below $ε ∼ h$ every wave is changed by a share that is like $ε^2$: order 2.
 //
 // ## The same on a mesh, and both at once
 //
 // *Proposition 1:* $u_h^ε → u_h^0$ at fixed $h$, by the same proof on $V_h$; $u_h^0$ solves (7), in
-// $K_{0h} = K_h ∩ G_h$. *Proposition 2:* $u_h^ε → u^ε$ as $h → 0$ at fixed $ε$, and $u_h^0 → u^0$ if $K_{0h}$ comes
-// near each element of $K_0$ (the [next chapter](11_contact_sets.cpp) is about that "if"). *Proposition 3* lets both
-// tend to 0:
+// $K_{0h} = K_h ∩ G_h$; (27) is (7) for our problem. *Proposition 2:* if $K_h$ approaches $K$, then $u_h^ε → u^ε$ as
+// $h → 0$ at fixed $ε$. If $K_{0h}$ approaches $K_0$, then $u_h^0 → u^0$. (The [next chapter](11_contact_sets.cpp) is
+// about these two "if".) *Proposition 3* needs both, and lets $ε$ and $h$ tend to 0 together:
 //
 // $$ ‖u^ε-u_h^ε‖_h ≤ ‖u^ε-u^0‖ + ‖u^0-u_h^0‖_h + ‖u_h^0-u_h^ε‖_h. \tag{18} $$
 //
@@ -164,9 +170,10 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
 // ## What came out
 //
 // (a) Yes, with the order 2 of every method. (b) Only the second: 0.253, 0.175, 0.148, and it can never fall below
-// 0.126, the norm of $u^0$ on the layer. So the sum (18) stays, and so does the error. Order 1.56 of the exact limit
-// tends to 3/2 from above; $ε^2 ‖p‖^2$ has order 2: $p$ has a limit. At ε = 0.1, (22) and (23) agree to 1e-4 on
-// $Γ_C$, and (25) is 4.5e-3 away.
+// 0.126, the norm of $u^0$ on the layer. The error differs from this second term by at most the other two, which
+// tend to 0: so the error stays, too. Order 1.56 of the exact limit tends to 3/2 from above; $ε^2 ‖p‖^2$ has order 2:
+// $p$ has a limit. At ε = 0.1, (22) and (23) agree to 1e-4 on $Γ_C$. (In chapter 01 they agree to round-off, on the
+// same triangles; here each has a mesh of its own.) (25) is 4.5e-3 away.
 //
 // ## Exercises
 //

@@ -30,18 +30,20 @@
 // the form of the norm in place of $a$. For $K_{0h}$ add $B v_h = 0$, no slope across the layer: the same problem at
 // ε = 0. It is enough to ask for smooth $v$, since they are dense: in $K_0$ this is *Lemma 1*, the smooth functions
 // of $K_0$ come as near as one likes to each of its functions. For a smooth $v$ interpolation gives order $h$ (P1,
-// CR) or $h^2$ (P2). Where contact ends $u$ is like $r^{3/2}$ with $r$ the distance from there, which leaves P2 at
-// least $h^{3/2}$.
+// CR) or $h^2$ (P2). Where contact ends, $u^ε$ is like $r^{3/2}$ with $r$ the distance from there, and the second
+// derivative of $u^0$ jumps (chapter 09). Each of the two leaves P2 at least $h^{3/2}$.
 //
 // **(9) for $K$: what lies below 0.** P1 is affine between vertices at which $v_h ≥ 0$: nothing lies below 0,
 // $K_h ⊂ K$. CR has $v_h ≥ 0$ at a midpoint only, which is the mean over the edge. P2 may dip between its three
 // points. On an edge $E$ the part below 0 is no larger than the difference of $v_h$ and the constant through the
-// midpoint (CR), or the two chords (P2): at most $|E|$ times a slope. Squares summed over the edges of $Γ_C$ and a
-// slope bounded by $h^{-1/2} ‖v_h‖_h$ (the triangle above $E$ has the area $∼ h |E|$) give
+// midpoint (CR), or the two chords (P2): at most $|E|$ times the largest slope $s_E$. The integral of its square
+// over $E$ is at most $|E|^3 s_E^2$. The triangle above $E$ has the area $∼ h |E|$, and adds about $h |E| s_E^2$ to
+// $‖v_h‖_h^2$. As $|E| ≤ h$, the first is at most about $h$ times the second. The sum over the edges of $Γ_C$ gives
 //
 // $$ ‖\min(v_h, 0)‖_{L^2(Γ_C)} ≤ c_h ‖v_h‖_h,   c_h ∼ h^{1/2}. $$
 //
-// So a bounded sequence loses its negative part, and its weak limit is in $K$. The best $c_h$ is an eigenvalue.
+// So a bounded sequence loses its negative part, and its weak limit is in $K$. The $c_h$ computed here is an upper
+// bound: the root of the largest eigenvalue of (squares of these differences) against $‖v_h‖_h^2$, over all of $V_h$.
 //
 // **(9) for $K_0$: what slope a jump hides.** A weak limit $v$ of $v_h ∈ K_{0h}$ must have $∂_y v = 0$, that is
 // $∫ v ∂_y φ = 0$ for each smooth $φ$ that is 0 around the layer. Triangle by triangle $∂_y v_h = 0$, so by parts

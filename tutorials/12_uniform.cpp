@@ -19,12 +19,13 @@
 // *uniformly*: the supremum over ε comes first, the limit second.
 //
 // **Proposition 4.** On $[ε_0, 1]$ with $ε_0 > 0$ every method with $K_h → K$ converges uniformly. Nothing is stiff
-// there: by the inequalities for two parameters ε and $\bar ε$,
+// there. Put $u_h^{\bar ε}$ into the inequality for ε, and $u_h^ε$ into that for $\bar ε$, and add. With $α > 0$ the
+// constant in $a^ε(v_h, v_h) ≥ α ‖v_h‖_h^2$ (chapter 13 computes it),
 //
 // $$ α ‖u_h^{\bar ε} - u_h^ε‖_h^2 ≤ (ε^{-2} - \bar ε^{-2}) a_0(u_h^{\bar ε}, u_h^{\bar ε} - u_h^ε), $$
 //
-// so $u_h^ε$ changes little between neighbouring ε, at a rate that $ε_0$ sets and not $h$. Finitely many ε therefore
-// stand for all, and each of them converges.
+// so $u_h^ε$ changes little between neighbouring ε, at a rate that $ε_0$ sets and not $h$. The same lines hold for
+// $u^ε$. Finitely many ε therefore stand for all, and at each of them the method converges.
 //
 // **Theorem 4.** *If $K_h$ approaches $K$ and $K_{0h}$ approaches $K_0$, then*
 //
@@ -33,16 +34,18 @@
 // Suppose not: then there are $h_n → 0$ and $ε_n$ with errors above some $c > 0$. A part of the $ε_n$ tends to some
 // $\bar ε ∈ [0, 1]$. If $\bar ε > 0$, Proposition 4 is violated; if $\bar ε = 0$, Proposition 3.
 //
-// **Theorem 5** is Theorem 4 for P1 on the structured mesh: the interpolant of a smooth $v ∈ K_0$ takes one value per
-// column, so it is in $K_{0h}$. **Theorem 7** is Theorem 4 for Crouzeix–Raviart on any mesh, by Lemma 2 ([chapter
-// 08](08_crouzeix_raviart.cpp)). **Remark 4** says the same in the energy seminorm $|v|_{a^ε} = a^ε(v, v)^{1/2}$, in
+// **Theorem 5** is Theorem 4 for P1 on the structured mesh. In the layer the interpolant of a smooth $v ∈ K_0$ takes
+// one value per vertical line, so it is in $K_{0h}$. Smooth $v$ are enough, by Lemma 1. **Theorem 7** is Theorem 4
+// for Crouzeix–Raviart on any mesh, by Lemma 2 ([chapter 08](08_crouzeix_raviart.cpp)). **Remark 4** says the same in
+// the energy seminorm $|v|_{a^ε} = a^ε(v, v)^{1/2}$, in
 // which the layer's slope counts $ε^{-1}$ times.
 //
 // **How much is lost** is a number too. Babuška and Suri, [3] of the paper, compare at equal unknowns $N$ the worst
 // error with the error where nothing is stiff: the *locking ratio* $\sup_ε E(ε, N) / E(1, N)$. Bounded: free of
-// locking. (They take the supremum over a ball of loads as well; here there is one load, $f = 10 \sin 2πx$.) Below
-// the exact $u^ε$ moves no more than [chapter 10](10_limits.cpp) says, so half decades from 1 to 1e-10, and 0, stand
-// for all ε.
+// locking. (They take the supremum over a ball of loads as well; here there is one load, $f = 10 \sin 2πx$.)
+//
+// The computation takes half decades of ε from 1 to 1e-10, and 0. Between two of them $u^ε$ and $u_h^ε$ change little.
+// Below 1e-10 both are at their limits, up to what [chapter 10](10_limits.cpp) says.
 
 #include "antilock/analysis/nearest.hpp"
 #include "common/limit_problem.hpp"

@@ -39,28 +39,35 @@
 //
 // Both infima can be computed. The first is a contact problem over $K_h$ ([chapter 11](11_contact_sets.cpp)). The
 // second is $-R(u_h)$. For P1, $K_h ⊂ K$ and $-R(u_h) ≤ 0$: this is *Falk's lemma* (Remark 2). For CR it is the
-// *consistency error*: the flux of $u$ does not fulfil the equation against functions that jump. *Theorem 3* follows:
-// if $K_h$ approaches $K$ both infima tend to 0, so $u_h → u$ (Remark 3: known before in the conforming case).
+// *consistency error*. The *flux* of $u$ is its gradient times the stiffness: $∇u$ in the body, $(∂_x u, p)$ in the
+// layer. By parts on each triangle, $R(w_h)$ is the work of $λ$ and the work of the flux on the jumps of $w_h$.
+//
+// *Theorem 3:* if $K_h$ approaches $K$ and (H0nc) holds, then $u_h → u$ (Remark 3: known before in the conforming
+// case). The first infimum tends to 0 by (8). For the second, $u_h$ is bounded. By (H0nc) and (9) it has a weak limit
+// in $K$. This limit solves the problem, so it is $u$, and $R(u_h) → R(u) = 0$.
 //
 // **Two hypotheses that conforming methods have for nothing.** *(H1nc):* $a_1 + a_0$ is coercive in the full broken
-// norm, $α$ not depending on $h$. On $V$ it is $∫ |∇v|^2$, and a function that is 0 but on the lower side has
-// $∫ |∇v|^2 ≥ μ ∫ v^2$ with $μ = π^2 (1 + 1/16)$, so $α = μ/(1 + μ) = 0.9129$. *(H0nc):* weak limits of bounded $v_h$
-// lie in $V$, so jumps must vanish against every smooth flux. The consistency error is such a test, with the flux of
-// $u$ itself; as a functional of $w_h$ with $‖w_h‖_h = 1$ it should be $O(h)$ at each ε, since the flux through an
-// edge of the layer is the bounded stress $p$.
+// norm, $α$ not depending on $h$. On $V$ the form $a_1 + a_0$ is $∫ |∇v|^2$. A function that is 0 on all sides of $Ω$
+// except the lower one has $∫ |∇v|^2 ≥ μ ∫ v^2$ with $μ = π^2 (1 + 1/16)$, so $α = μ/(1 + μ) = 0.9129$.
+// *(H0nc):* bounded $v_h$ have weak limits in $V$. So the work of every smooth flux on the jumps of $v_h$ must tend
+// to 0. The work of the flux of $u$ itself is such a test, over all $w_h$ with $‖w_h‖_h = 1$. It is $O(h)$ where this
+// flux is smooth. Where contact ends $p$ jumps, which leaves $h^{1/2}$ with a small factor.
 //
 // ## What (28) and (31) promise
 //
-// In $C$ stands $M/α$, and $M = ε^{-2}$. With the infima bounded by $h^{3/2}$ times $H^2$ norms, Falk's lemma gives
+// In $C$ stands $(M/α)^2$ (the paper says "linearly"; this is an erratum), and $M = ε^{-2}$. The infima are bounded
+// by $h^{3/2}$ times squares of $H^2$ norms. The root of (13) then has $ε^{-2}$ and $h^{3/4}$: Falk's lemma gives
 // (28) for P1, and Theorem 6 gives (31) for CR:
 //
 // $$ ‖u^ε - u_h^ε‖_h ≤ C ε^{-2} h^{3/4} (‖u^ε‖_{2,Ω^+} + ‖u^ε‖_{2,Ω^-}). \tag{28, 31} $$
 //
 // The right side is small once $h ≪ ε^{8/3}$; "$h ≪ ε$", says the paper. What is true for locked P1? A ridge $w(x)$
-// on the layer gets slopes $∂_y I_h w$ of size $h^q$, for which (26) charges $ε^{-2} h^{2q}$. Balance this against
-// what the ridge is worth: the layer keeps $1/(1 + x)$ of it with $x = \text{lost} / \text{kept} ∼ ε^{-2} h^{2q}$,
-// and half is lost at $ε ∼ h^q$. On meshes of nearly equilateral triangles leading errors cancel and $q ≈ 3/2$
-// ([chapter 14](14_degree.cpp)): the wall is $h ∼ ε^{2/3}$.
+// on the layer gets slopes $∂_y I_h w$ of size $h^q$, for which (26) charges $ε^{-2} h^{2q}$. Let the layer keep the
+// share $s$ of the ridge. Without this charge the energy is $E (½ s^2 - s)$, least at $s = 1$. The charge adds
+// $½ s^2 E x$ with $x ∼ ε^{-2} h^{2q}$. Now the energy is least at $s = 1/(1 + x)$: this share is kept, $x/(1 + x)$ is
+// lost, and $x = \text{lost} / \text{kept}$. Half is lost where $x = 1$, at $ε ∼ h^q$. This $h$ is the *wall*. On
+// meshes of nearly equilateral triangles leading errors cancel and $q ≈ 3/2$ is measured ([chapter
+// 14](14_degree.cpp)): the wall is $h ∼ ε^{2/3}$.
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/nearest.hpp"

@@ -36,12 +36,14 @@
 // Interpolate a smooth ridge $w(x)$, constant across the layer, on an unstructured mesh. Its slope is wrong by $h^p$,
 // so $∂_y I_h w$ is of size $h^p$ where it should be 0. (26) charges $ε^{-2}$ times the square: it is nothing once
 // $h^p ≪ ε$. On the meshes of gmsh nearly all triangles are nearly equilateral, leading errors of neighbours cancel,
-// and about $h^{p + 1/2}$ is measured. Half of the ridge is lost where that equals ε: at ε = 1e-4 near
-// $h = ε^{2/3} = 1/460$ for P1 and near $h = ε^{2/5} = 1/40$ for P2.
+// and about $h^{p + 1/2}$ is measured. Half of the ridge is lost where that, times a factor near 1, equals ε. With
+// the factor 1 this is at ε = 1e-4 $h = ε^{2/3} = 1/460$ for P1 and $h = ε^{2/5} = 1/40$ for P2. For P2 the factor
+// is less than 1: the run below puts its wall nearer to 1/28.
 //
 // Contact is asked at the unknowns on $Γ_C$. For $p ≥ 2$ a polynomial may dip below 0 between them: $V_h ⊂ V$, but
-// $K_h ⊄ K$. And where contact ends the second derivative of $u$ jumps, so that no degree beats $h^{3/2}$ in $H^1$
-// for good.
+// $K_h ⊄ K$. And $u$ is not smooth where contact ends. Nearer than ε it is like $r^{3/2}$ (chapter 09). Seen from
+// farther away its second derivative along $x$ jumps, as the pressure does (chapter 10). Both leave $h^{3/2}$ in $H^1$:
+// on fine meshes no degree has a higher order.
 
 #include "antilock/analysis/kernel.hpp"
 #include "common/study.hpp"
@@ -64,7 +66,8 @@ Table solve(const Method& method, int cells, double epsilon, const Field& load, 
   const VariationalInequality problem = assemble(scene, on.space());
   const Eigen::VectorXd slope = problem.b * (2 * pi * on.space().points().col(0).array()).sin().matrix();
   // ### Solve
-  // Factored at the true ε: functions that $B$ nearly misses would need hundreds of corrections with a larger penalty ([chapter 16](16_roundoff.cpp)). Below ε = 1e-4 that costs too many digits; the solver says so, and refuses.
+  // Factored at the true ε: functions that $B$ nearly misses would need hundreds of corrections with a larger penalty
+  // ([chapter 16](16_roundoff.cpp)). Below ε = 1e-4 that costs too many digits; the solver says so, and refuses.
   PenaltyFactor factor(problem, problem.compliance);
   const Solution solution = active_set(problem, factor);
   Table row(columns);
@@ -103,7 +106,8 @@ void verdicts(const Table& results, const Exact& exact, tutorial::Report& report
     const double p = own.first("degree"), order = own.order("cost", "h");
     report.claim(order > p - 0.1 && order < p + 0.8, "{} unstructured: d/dy I_h w falls like h^{:.2f} (at least h^{})",
                  element.text(), order, p);
-    // What is lost over what is kept is the square of h^p / ε times a number near 1: 1e3 and more, or 1/4 and less, decide.
+    // What is lost over what is kept is the square of h^p / ε times a number near 1: 1e3 and more, or 1/4 and less,
+    // decide.
     const double ratio = std::pow(1 / finest, p) / exact.epsilon,
                  kept = own.last("ridge") / exact.truth.max_on_contact();
     const auto say = [&](bool holds) {

@@ -16,7 +16,7 @@
 // ## The trap
 //
 // Locking is a fault of the discrete space. A second fault looks just like it and has nothing to do with the space:
-// to add the two forms of (6),
+// to add the two forms of (26),
 //
 // $$ A = A_1 + ε^{-2} B^T M B, $$
 //
@@ -31,8 +31,9 @@
 // ## The way out
 //
 // Nothing is wrong with the problem, which has a limit (24); the large number is the mistake. The paper bounds
-// $a_0(u, u) ≤ C ε$ in its class (proof of Theorem 1), so $∂_y u → 0$. Go one step further than the paper and keep
-// what the product of both tends to, the *layer stress*, as an unknown:
+// $a_0(u, u) ≤ C ε_c$ in its class (proof of Theorem 1). Here $ε_c = ε^2$, so $∂_y u → 0$. The large factor $ε^{-2}$
+// meets the small $∂_y u$. Go one step further than the paper and keep their product, the *layer stress*, as an
+// unknown:
 //
 // $$ p = ε^{-2} ∂_y u:   A_1 u + B^T M p = L + λ,   ε^2 p - B u = 0. $$
 //
@@ -42,9 +43,10 @@
 //
 // `cure` solves it. It factors $K = A_1 + δ^{-1} B^T M B$ once, with a moderate δ in place of $ε^2$, and uses the
 // factor only for corrections: each one solves for what the split form leaves over (*iterated penalty*). To see that
-// this converges, eliminate $u$: the exact $p$ solves $(ε^2 + S) p = g$ with the Schur complement
-// $S = B A_1^{-1} B^T M$, and a correction solves $(δ + S) dp = $ residual. On a part of $p$ where $S$ is the number
-// $σ$, the error shrinks by
+// this converges, take P1, for which $A_1$ is invertible, and eliminate $u$. The exact $p$ solves $(ε^2 + S) p = g$
+// with the Schur complement $S = B A_1^{-1} B^T M$, and a correction solves $(δ + S) dp = $ residual. (For CR $A_1$
+// has a kernel. It counts as $σ = ∞$: there $p$ is right after one correction.) On an eigenvector of $S$ with the
+// eigenvalue $σ$ the error is multiplied by
 //
 // $$ 1 - \frac{ε^2 + σ}{δ + σ} = \frac{δ - ε^2}{δ + σ}. $$
 

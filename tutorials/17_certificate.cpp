@@ -3,6 +3,7 @@
 // Run: 17_certificate                1/h from 8 to 64, three meshes, six epsilons; ten seconds
 // Run: 17_certificate --exercise 1
 // Run: 17_certificate --exercise 2
+// Run: 17_certificate --exercise 3
 //
 // Needs: [00](00_string_on_an_obstacle.cpp) (energy, cone), [04](04_reference_solution.cpp) (Uzawa),
 // [08](08_crouzeix_raviart.cpp) (Crouzeix-Raviart), [16](16_roundoff.cpp) (the layer stress `p` is an unknown).
@@ -10,8 +11,8 @@
 // **The picture** (`certificate_width`). Each triangle shows its share of a proved bound of the error at `ε = 1e-6`.
 // *Where P1 locks, its bound lies in the layer, and nothing in the bound knows $u$.*
 //
-// **Predict.** (a) The bound is computed at `ε = 1` and at `ε = 0`. Where is it closer to the error? (b) Uzawa is stopped
-// after 1, 2, 4, ... steps of several hundred. From which step on does the proved bound no longer fall?
+// **Predict.** (a) The bound is computed at `ε = 1` and at `ε = 0`. Where is it closer to the error? (b) Uzawa is
+// stopped after 1, 2, 4, ... steps of several hundred. From which step on does the proved bound no longer fall?
 //
 // ## From above and from below
 //
@@ -30,19 +31,23 @@
 //
 // $$ J(v) + ½ |σ|^2 = ½ m^2 + C,   m = |A∇v - σ|,   C = ∫_{Γ_C} λ v ≥ 0   for v ∈ K. $$
 //
-// Hence the *energy bracket* $-½ |σ|^2 ≤ J(u) ≤ J(v)$, its width $w = ½ m^2 + C$, and $|u - v|_a^2 ≤ 2 w$. A little more is
-// true: put $v - u$ into the balance and subtract the inequality. With $Y = |u - v|_a$ this is $Y^2 ≤ m Y + C$, so
+// Hence the *energy bracket* $-½ |σ|^2 ≤ J(u) ≤ J(v)$, its width $w = ½ m^2 + C$, and $|u - v|_a^2 ≤ 2 w$. A little
+// more is true: put $v - u$ into the balance and subtract the inequality. With $Y = |u - v|_a$ this is
+// $Y^2 ≤ m Y + C$, so
 //
 // $$ |u - v|_a ≤ ½ m + (¼ m^2 + C)^{1/2}. $$
 //
-// **Where $σ$ comes from.** The equation of Crouzeix-Raviart for an edge says: what the flux $∇u_h$ loses across the edge
-// is a third of the load on both triangles. Give it back triangle by triangle: $σ = ∇u_h - ½ f_T (x - c)$, for a load $f_T$
-// that is constant on a triangle with centroid $c$ (Marini 1985). The layer has no load, there $σ = (∂_x u_h, p)$.
-// `analysis/certificate.cpp` treats any load, proves the same bound for $u_h$ itself, and adds the forces $r_1$ that an
-// early stop leaves unbalanced: $ρ = (r_1' K^{-1} r_1)^{1/2}$ to $m$.
+// **Where $σ$ comes from.** The equation of Crouzeix-Raviart for an edge says: what the flux $∇u_h$ loses across the
+// edge is a third of the load on both triangles. Give it back triangle by triangle: $σ = ∇u_h - ½ f_T (x - c)$, for a
+// load $f_T$ that is constant on a triangle with centroid $c$ (Marini 1985). The layer has no load, there
+// $σ = (∂_x u_h, p)$. `analysis/certificate.cpp` treats any load and proves the same bound for $u_h$ itself. An
+// iteration that is stopped early leaves forces $r_1$ unbalanced (chapter 03's residual). Their size in the energy
+// norm is $ρ = (r_1^T K^{-1} r_1)^{1/2}$, with the matrix $K$ of chapter 03 (this $ρ$ is not Uzawa's step). The bound
+// then has $m + ρ$ in place of $m$.
 //
-// **Where $v$ comes from.** From P1 on the same mesh; then the bound is large where P1 locks. Or from the *strip*: averages
-// of $u_h$ in the body, and a small P1 problem on columns extruded below $Σ$, on which P1 does not lock (chapter 02).
+// **Where $v$ comes from.** From P1 on the same mesh; then the bound is large where P1 locks. Or from the *strip*:
+// averages of $u_h$ in the body, and a small P1 problem on columns extruded below $Σ$, on which P1 does not lock
+// (chapter 02).
 
 #include "antilock/mesh/layered.hpp"
 #include "antilock/study/scene_sweep.hpp"

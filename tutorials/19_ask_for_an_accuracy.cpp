@@ -7,31 +7,36 @@
 //
 // Needs: [17](17_certificate.cpp) (flux, certificate, strip), [02](02_meshes.cpp) (the layered mesh).
 //
-// **The picture** (`asked_meshes`). Three meshes for one concentrated load at `ε = 1e-6`, coloured by the bound per area.
-// *Where a mesh follows its certificate, the colour evens out: each triangle has a like share of the error.*
+// **The picture** (`asked_meshes`). Three meshes for one concentrated load at `ε = 1e-6`, coloured by the bound per
+// area. *Where a mesh follows its certificate, the peak of the colour is gone: where the bound per area is large, the
+// triangles are small.*
 //
-// **Predict.** (a) How many times fewer unknowns than a uniform mesh does an adapted one need for a concentrated load, and
-// for `f = 10 sin(2πx)`? (b) Where P1 locks, triangles are refined where its bound lies, in the layer. Does that cure it?
+// **Predict.** (a) How many times fewer unknowns than a uniform mesh does an adapted one need for a concentrated
+// load, and for `f = 10 sin(2πx)`? (b) Where P1 locks, triangles are refined where its bound lies, in the layer. Does
+// that cure it?
 //
 // ## The loop
 //
-// The certificate of chapter 17 is a sum over triangles of terms that are not negative,
+// The width $½ m^2 + C$ of the bracket of chapter 17 is a sum over triangles. With the oscillation added its terms are
 //
 // $$ η_T = ½ |A∇v - σ|_T^2 + C_T + o_T^2, $$
 //
-// $C_T$ the contact work, $o_T$ the oscillation of $f$. So it says where the error is: *solve, certify, stop where the bound
-// is small enough, else mark and refine*. Marked are the largest $η_T$ that make up half of the sum (Doerfler 1996). What is
+// none of them negative. $C_T$ is the contact work. $o_T$ is the *oscillation*: what $f$ varies beyond affine on $T$.
+// So the terms say where the error is: *solve, certify, stop where the bound is small enough, else mark and refine*.
+// Marked are the largest $η_T$ that make up half of the sum (Doerfler 1996). What is
 // certified is *relative*: for the bound $β$, $|u|_a ≥ |v|_a - β$, so that $|u - v|_a / |u|_a ≤ β / (|v|_a - β)$.
 //
-// **The price is known before it is paid.** Triangles of size $h$ are $N ~ h^{-2}$, and the bound is of order $h ~ N^{-1/2}$.
-// A bound `k` times too large needs `k²` times the unknowns: from the third level on `solve_to` quotes their number, and
-// refuses what is beyond the limit.
+// **The price is known before it is paid.** Triangles of size $h$ are $N ~ h^{-2}$, and the bound is of order
+// $h ~ N^{-1/2}$. A bound `k` times too large needs `k²` times the unknowns: from the third level on `solve_to`
+// quotes their number, and refuses what is beyond the limit.
 //
-// **Half the bound.** Write $a$ and $b$ for the distances of $A∇u$ from $A∇v$ and from $σ$. Chapter 17 showed
-// $(a, b) ≤ C$, and $a - b$ has the norm $m$. The *midpoint* of the two fluxes, a stress field and no displacement, is
-// nearer than either, and costs a quarter of the unknowns:
+// **Half the bound.** Call the two differences $d = A∇u - A∇v$ and $s = A∇u - σ$. Chapter 17 put $v - u$ into the
+// balance and subtracted the inequality: in these letters it says $(d, s) ≤ C$. And $s - d = A∇v - σ$ has the norm $m$.
+// The *midpoint* of the two fluxes is a stress field and no displacement. Its bound is
 //
-// $$ |A∇u - ½(σ + A∇v)|^2 = ¼ |a + b|^2 = ¼ m^2 + (a, b) ≤ ¼ m^2 + C. $$
+// $$ |A∇u - ½(σ + A∇v)|^2 = ¼ |d + s|^2 = ¼ m^2 + (d, s) ≤ ¼ m^2 + C. $$
+//
+// For small $C$ that is $½ m$ in place of $m$. By the rule above half the bound costs a quarter of the unknowns.
 //
 // **Columns.** In a thin layer, what happens at one $x$ happens in the whole thickness. For `ε ≤ 0.1` the body alone is
 // bisected, and the layer is *extruded* below it in columns: squares would be the dearer mesh.
@@ -127,9 +132,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) 10 times fewer for the concentrated load, 2 for the smooth one, and those from the columns alone: where the error is
-// spread evenly, there is nothing to follow. (b) No. Half of the triangles go into the layer, and the bound hardly falls:
-// adaptivity does not cure locking, it finds it. The cure is the columns.
+// (a) 10 times fewer for the concentrated load, 2 for the smooth one, and those from the columns alone: where the
+// error is spread evenly, there is nothing to follow. (b) No. Half of the triangles go into the layer, and the bound
+// hardly falls: adaptivity does not cure locking, it finds it. The cure is the columns.
 //
 // ## Exercises
 //

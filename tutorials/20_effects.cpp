@@ -25,7 +25,8 @@
 // - no contact: $K$ is a space. Put $v = u + w$ and $v = u - w$ into the inequality: $≥$ becomes $=$, one linear solve;
 // - no layer: $a^+$ alone, on the body's mesh alone;
 // - ε = 0: (24), the layer can only follow $Σ$: $u(x, y) = u(x, 0)$ there;
-// - and then it need not be meshed: $a_x^-$ on functions of $x$ is one term on $Σ$, $∫_Σ ∂_x u ∂_x v$, the condition of Ventcel, (25);
+// - and then it need not be meshed: $a_x^-$ on functions of $x$ is one term on $Σ$, $∫_Σ ∂_x u ∂_x v$, the condition
+// of Ventcel, (25);
 // - before the change of variable $y → y/ε$ the layer is $(0,1) × (-ε,0)$ and $1/ε$ times as stiff: (22).
 //
 // Each of these is a type (`scene/scene.hpp`), so that what a scene lacks cannot cost anything: there is no code to
@@ -198,8 +199,9 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 // ## What came out
 //
 // (a) None, none and none: a Ventcel layer costs what the body alone costs, and answers within the error of the
-// meshed layer. (b) Those above the penalty δ, about $h^2/16$, one each, and one for all others. On corresponding
-// meshes (22) and (23) differ by round-off.
+// meshed layer. (b) One for each ε whose square is above the penalty δ, and one for all others. δ is about $h^2/256$,
+// so the border is ε = $h/16$: at $h = 1/32$ only 0.1 lies above, and two are enough. On corresponding meshes (22) and
+// (23) differ by round-off.
 //
 // ## Exercises
 //

@@ -5,11 +5,13 @@
 // Run: 21_past_one_machine --exercise 1
 // Run: 21_past_one_machine --exercise 2
 //
-// Needs: [02](02_meshes.cpp) for the layered mesh, [07](07_kernel.cpp) for the kernel on the layer, [16](16_roundoff.cpp)
-// for the split form and the iterated penalty. FreeFEM's own interface to PETSc is not in Debian's package: no script.
+// Needs: [02](02_meshes.cpp) for the layered mesh, [07](07_kernel.cpp) for the kernel on the layer,
+// [16](16_roundoff.cpp) for the split form and the iterated penalty. FreeFEM's own interface to PETSc is not in
+// Debian's package: no script.
 //
-// **The picture.** One mesh on more *ranks*, the processes that share a problem (strong scaling), and as many unknowns on
-// each rank (weak scaling). *Iterations hardly grow with the ranks, as long as no rank cuts a column of the layer.*
+// **The picture.** One mesh on more *ranks*, the processes that share a problem (strong scaling), and as many
+// unknowns on each rank (weak scaling). *Iterations hardly grow with the ranks, as long as no rank cuts a column of
+// the layer.*
 //
 // **Predict.** (a) The triangles are dealt out in squares, as on a chessboard, so that columns are cut. What happens
 // to the iterations on four ranks? (b) PETSc has a solver of its own for variational inequalities. It is given the
@@ -17,14 +19,14 @@
 //
 // ## Why the factor stops, and what replaces it
 //
-// Every chapter before factors $K = A_1 + δ^{-1} B' M B$, in $N^{3/2}$ operations for $N$ unknowns in the plane. A second
-// machine helps little: the order of elimination is found on one processor, and the last and largest blocks of the
-// factor wait for all others.
+// Every chapter before factors $K = A_1 + δ^{-1} B' M B$, in $N^{3/2}$ operations for $N$ unknowns in the plane. A
+// second machine helps little: the order of elimination is found on one processor, and the last and largest blocks of
+// the factor wait for all others.
 //
 // The iterated penalty needs $K^{-1}$ on residuals alone, and each correction repairs what the last one left over. Four
-// digits are enough. Conjugate gradients give them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it reads
-// from $K$ which unknowns hang together, merges them into a coarser problem, and so on until one is left that is solved
-// at once. Contact set and penalty are corrected in one loop, from $A_1$, $B$, $M$ and $p$, never from $K$:
+// digits are enough. Conjugate gradients give them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it
+// reads from $K$ which unknowns hang together, merges them into a coarser problem, and so on until one is left that
+// is solved at once. Contact set and penalty are corrected in one loop, from $A_1$, $B$, $M$ and $p$, never from $K$:
 //
 // $$ r_1 = L - A_1 u - B' M p,   r_2 = ε^2 p - B u. $$
 //
@@ -36,15 +38,18 @@
 // ## Why columns: the kernel again
 //
 // Multigrid must keep on its coarse problems what $K$ hardly charges: the kernel of $B$ on the layer. For P1 in columns
-// that is one function per column, and the unknowns that hang together through $δ^{-1}$ are those of one column. Merged,
-// they are still in the kernel. Without columns Crouzeix-Raviart has half a function per triangle, and no way of merging
-// unknowns keeps them: every multigrid that was tried needs 500 iterations and more. The cure is the layered mesh, or a
-// direct solver over MPI (MUMPS: exercise 2). BDDC, which factors each strip, took 5 to 9 iterations up to 1/h = 256 and
+// that is one function per column, and the unknowns that hang together through $δ^{-1}$ are those of one column.
+// Merged, they are still in the kernel. Without columns Crouzeix-Raviart has one such function per two triangles
+// (chapter 07). No way of merging unknowns keeps them: every multigrid that was tried needs 500 iterations and more.
+// The cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the factor (exercise 2). MPI is
+// how ranks send each other numbers. A *strip* is here the part of the mesh between two vertical lines that one rank
+// owns, not the strip of chapter 17. BDDC factors each strip by itself. It took 5 to 9 iterations up to 1/h = 256 and
 // broke down at 1.8 million unknowns; it is not offered.
 //
 // **SNESVI**, PETSc's own solver, is an active set ([00](00_string_on_an_obstacle.cpp)) whose line search compares
-// residuals. The rows of the summed matrix are of size $ε^{-2}$, and so is the round-off in its residual: below ε = 1e-4
-// there is nothing left to compare. In the split form it solves for $du$ alone, with full steps, and ends with our $u$.
+// residuals. The rows of the summed matrix are of size $ε^{-2}$, and so is the round-off in its residual: below ε =
+// 1e-4 there is nothing left to compare. In the split form it solves for $du$ alone, with full steps, and ends with
+// our $u$.
 
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
@@ -92,9 +97,9 @@ Ended on_each_rank(const Asked& ask) {
 // | 2,095,104 | 17, 2.6 | 14, 2.1 | 8.2, 1.1 | 3 |
 // | 8,384,512 | | | 49, 4.3 | 5 |
 //
-// On paper $10^9$ unknowns need 1 TB and some 10,000 processor seconds. What breaks first: Debian's PETSc counts with 32
-// bits (refused beyond 134 million unknowns); then the strips, at most as many as coarse columns, with seams from top to
-// bottom; then the coarse mesh, which every rank holds.
+// On paper $10^9$ unknowns need 1 TB and some 10,000 processor seconds. What breaks first: Debian's PETSc counts with
+// 32 bits (refused beyond 134 million unknowns); then the strips, at most as many as coarse columns, with seams from
+// top to bottom; then the coarse mesh, which every rank holds.
 void past_one_machine(const tutorial::Options& options, tutorial::Report& report) {
   const double epsilon = options.epsilon;
   const auto same = [&](int) { return options.cells; };
@@ -121,10 +126,15 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
                       "SNESVI, split at 1e-6 over summed at 1e-2");
 }
 
+// ## What came out
+//
+// (a) They grow, at least 1.5 times: a cut column is no longer merged as a whole. (b) $u = 0$, everywhere: at ε = 1e-6
+// round-off hides the residual. At ε = 1e-2 the same solver is right, and in the split form it is right at 1e-6.
+//
 // ## Exercises
 //
-// Predict, then run `--exercise N`. On paper: how many columns must the coarse mesh have for 1,024 ranks, and how often is
-// it refined for $10^9$ unknowns? (1,024 columns, P1 has 2 n^2 unknowns: 1/h = 22,400, between 4 and 5 times.)
+// Predict, then run `--exercise N`. On paper: how many columns must the coarse mesh have for 1,024 ranks, and how
+// often is it refined for $10^9$ unknowns? (1,024 columns, P1 has 2 n^2 unknowns: 1/h = 22,400, between 4 and 5 times.)
 int main(int argc, char** argv) {
   const auto any = [](const Asked& ask) {
     return ask.what.starts_with("SNESVI") ? tutorial::by_snesvi(ask) : on_each_rank(ask);

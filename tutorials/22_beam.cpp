@@ -13,7 +13,8 @@
 // little and touches over too short a length, and nothing looks wrong.*
 //
 // **Predict.** (a) The unknowns are the deflection $w$ and the rotation $θ$ of the sections, both P1. In the limit
-// $w' = θ$ is asked. How many pairs $(w, θ)$ fulfil it at every point? (b) And if it is asked at the midpoints of the
+// $w' = θ$ is asked. How many independent pairs $(w, θ)$ fulfil it at every point? (b) And if it is asked at the
+// midpoints of the
 // $n$ cells only?
 //
 // ## Timoshenko's beam in the class
@@ -35,9 +36,12 @@
 // and full integration is reduced integration with a bending stiffness $1 + h^2/(12 ε)$ times too large, contact
 // included: 1.8 times at $h = 1/32$, ε = 1e-4.
 //
-// Theorem 4 does not cover the cure. It compares spaces for one $a_0$; reduced integration is another $a_0$, no
-// choice of $V_h$. The truth is a closed form (`exact/beam_truth.cpp`): contact on $[c, 1 - c]$, at ε = 0 with
-// $c = (72 / q)^{1/4}$.
+// Theorem 4 does not cover the cure as it is written: the theorem compares spaces for one $a_0$, and reduced
+// integration is another $a_0$. For a constant load it can be read as another $V_h$. Add to $w$ on each cell the
+// parabola $b$ with $b' = θ - \bar θ$. It is 0 at both ends of the cell. Then $(w + b)' - θ = w' - \bar θ$: the reduced
+// form of $(w, θ)$ is the exact form of $(w + b, θ)$. A constant load does not see $b$ (exercise 3). Without shear
+// $w + b$ is made of parabolas with a continuous slope: these are the $n - 2$ functions. The truth is a closed form
+// (`exact/beam_truth.cpp`): contact on $[c, 1 - c]$, at ε = 0 with $c = (72 / q)^{1/4}$.
 
 #include <cmath>
 
@@ -125,7 +129,7 @@ void bend(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) None: the kernel is 0, and at ε = 0 the beam does not move. (b) $n - 2$ = 30. At ε = 1e-4 full integration is
+// (a) None but 0, and at ε = 0 the beam does not move. (b) $n - 2$ = 30. At ε = 1e-4 full integration is
 // 1.81 times too stiff: its error of $w$ is many times that of reduced integration, which falls like $h^2$ at every
 // ε. It is cured by $h^2 ≪ ε$ alone.
 //
@@ -135,7 +139,8 @@ void bend(const tutorial::Options& options, tutorial::Report& report) {
 //
 // 1. Double the load. Do deflection, force and contact double? And if the gap doubles with it?
 // 2. How many cells does full integration need at ε = 1e-4 to be 1 % too stiff?
-// 3. On paper: why is reduced integration no choice of $V_h$?
+// 3. On paper: reduced integration changes $a_0$. When is it a choice of $V_h$ all the same? Show $∫ b = -h^3 θ'/12$
+//    on a cell. Why does a constant load not see $b$? (Sum up, use the clamps.)
 
 #include "answers/22_beam.hpp"
 

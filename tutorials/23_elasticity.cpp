@@ -17,17 +17,21 @@
 //
 // ## Rubber in the class
 //
-// In plane strain (no displacement out of the plane) with shear modulus $μ = 1$ and strain $ε(u) = ½ (∇u + ∇u^T)$ the
-// energy is
+// The body is in plane strain: nothing moves out of the plane. Its shear modulus is $μ = 1$, its strain is
+// $e(u) = ½ (∇u + ∇u^T)$. On this page $λ$ is Lamé's parameter, the stiffness against a change of volume, and not the
+// contact force of the other chapters. The energy is
 //
-// $$ ∫ ε(u) : ε(u) + \frac{λ}{2} ∫ (\operatorname{div} u)^2, $$
+// $$ ∫ e(u) : e(u) + \frac{λ}{2} ∫ (\operatorname{div} u)^2, $$
 //
 // the paper's class with $a_0 = ∫ \operatorname{div} u \operatorname{div} v$ and the class parameter $1/λ$. On a P1
 // or CR triangle $\operatorname{div} u$ is constant: one row of $B$ per triangle, $2n^2$ conditions. P1 has two
-// unknowns per vertex, about one per triangle: about $2n$ functions are left, too few. Three cures:
+// unknowns per vertex that is not held: $2n(n + 1)$. On parallel triangles $2n$ functions are left. That is a vanishing
+// share under refinement, too few. Three cures:
 //
-// - *crossed triangles*: each square is cut by both diagonals, and one of its four conditions follows from the other three;
-// - *CR*, three unknowns per triangle. With $ε(u)$ in place of $∇u$ it has motions without energy that are not rigid; the jumps over edges, penalised with weight 1, remove them (Hansbo and Larson 2003);
+// - *crossed triangles*: each square is cut by both diagonals, and one of its four conditions follows from the other
+// three;
+// - *CR*, three unknowns per triangle. With $e(u)$ in place of $∇u$ it has motions without energy that are not rigid;
+// the jumps over edges, penalised with weight 1, remove them (Hansbo and Larson 2003);
 // - *Kouhia–Stenberg* (1995): P1 for one component, CR for the other. It needs no jumps.
 //
 // Two checks need no reference: a *patch test* (a uniform strain must come out exactly on any mesh) and the number of
@@ -99,7 +103,8 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
     const VariationalInequality problem = pushed(rubber, space, 1);
 
     // ### Solve
-    // The contact force at every λ; its error in % where the reference is known. The forms do not hold λ, and all large λ share one factorisation.
+    // The contact force at every λ; its error in % where the reference is known. The forms do not hold λ, and all
+    // large λ share one factorisation.
     Sweep sweep(problem);
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0}) {
       sweep.set_compliance(epsilon);
@@ -156,9 +161,10 @@ void judge(const Table& checks, const Table& forces, const Table& errors, int ce
 
 // ## What came out
 //
-// (a) $2n^2$ conditions and about as many unknowns. (b) Three times as many. Where nothing locks the force is right
-// to 16/n per cent at every λ, in at most 5 corrections; P1 on parallel or arbitrary triangles is more than 100 %
-// off. The pressure of P1 reaches 46 in stripes, where the true one stays below 0.7.
+// (a) $2n^2$ conditions and about as many unknowns. (b) As many conditions, and three times as many unknowns. Where
+// nothing locks the force is right to 16/n per cent at every λ, in at most 5 corrections. P1 on parallel or arbitrary
+// triangles is right at λ = 1, and more than 100 % off in the limit. The pressure of P1 reaches 46 in stripes, where
+// the true one stays below 0.7.
 //
 // ## Exercises
 //

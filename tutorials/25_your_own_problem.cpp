@@ -13,13 +13,14 @@
 // kernel, says so before anything is solved.*
 //
 // **Predict.** Two strings, one above the other, have corners at different places: one has $n$ cells, the other
-// $n + 1$. (a) How many pairs of broken lines are equal everywhere and 0 at the ends? (b) If $u - w$ need only be
-// orthogonal to the $n - 1$ hat functions of the lower string, how many pairs are left?
+// $n + 1$. (a) How many independent pairs of broken lines are equal everywhere and 0 at the ends? (b) The lower string
+// has $n$ cells. If $u - w$ need only be orthogonal to its $n - 1$ hat functions, how many independent pairs are left?
 //
 // ## Two strings and a glue
 //
-// Nothing here is known to the library. The upper string $u$ is loaded by $q$ downwards, the lower one $w$ lies over
-// an obstacle at $-g$, and a thin glue bonds them:
+// Nothing here is known to the library. The upper string $u$ is loaded by $q = 32$ downwards. The lower one $w$ lies
+// over an obstacle at $-g = -1/2$. Both have the tension 1, and a thin glue bonds them. With test functions $v$ for $u$
+// and $z$ for $w$:
 //
 // $$ a_1 = ∫ u' v' + ∫ w' z',   a_0 = ∫ (u - w)(v - z),   L = -q ∫ v,   K = \{ w ≥ -g \}. $$
 //
@@ -103,7 +104,8 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
       energies.add({name, row.number("epsilon"), -row.number("energy"), row.number("corrections")});
 
     // ### Solve
-    // At the ε asked for, with its KKT report: how well the conditions of the inequality hold ([chapter 00](00_string_on_an_obstacle.cpp)), named after Karush, Kuhn and Tucker.
+    // At the ε asked for, with its KKT report: how well the conditions of the inequality hold ([chapter
+    // 00](00_string_on_an_obstacle.cpp)), named after Karush, Kuhn and Tucker.
     const Solution solution = active_set(problem);
     const Kkt& k = solution.kkt;
     fmt::print(

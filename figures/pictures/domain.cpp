@@ -27,11 +27,13 @@ Colour tint(const Colour& colour) {
 
 Colour colour_of(const std::string& name) {
   static const std::map<std::string, Colour> colours{
-      {"body", palette::body},     {"layer", palette::layer},        {"sigma", palette::green},
-      {"clamped", palette::ink},   {"layer_clamped", palette::blue}, {"contact", palette::vermillion},
-      {"obstacle", palette::grey}, {"axis", palette::grey},
-      {"tied0", tint(palette::blue)},   {"tied1", tint(palette::vermillion)}, {"tied2", tint(palette::green)},
-      {"tied3", tint(palette::purple)}, {"tied4", tint(palette::olive)},      {"tied5", tint(palette::indigo)},
+      {"body", palette::body},          {"layer", palette::layer},
+      {"sigma", palette::green},        {"clamped", palette::ink},
+      {"layer_clamped", palette::blue}, {"contact", palette::vermillion},
+      {"obstacle", palette::grey},      {"axis", palette::grey},
+      {"tied0", tint(palette::blue)},   {"tied1", tint(palette::vermillion)},
+      {"tied2", tint(palette::green)},  {"tied3", tint(palette::purple)},
+      {"tied4", tint(palette::olive)},  {"tied5", tint(palette::indigo)},
   };
   const auto found = colours.find(name.substr(0, name.find(' ')));
   return found == colours.end() ? palette::ink : found->second;

@@ -32,7 +32,8 @@ int main(int argc, char** argv) {
           return 1;
         }
         const double away = (solution.u - other).lpNorm<Eigen::Infinity>() / other.lpNorm<Eigen::Infinity>();
-        if (!(away < 1e-12)) fmt::print("{}, 1/h = {}, epsilon = {}: {:.1e} apart\n", method.name(), cells, epsilon, away);
+        if (!(away < 1e-12))
+          fmt::print("{}, 1/h = {}, epsilon = {}: {:.1e} apart\n", method.name(), cells, epsilon, away);
         worst = std::max(worst, away);
         ++answers;
       }

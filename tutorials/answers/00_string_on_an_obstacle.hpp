@@ -1,7 +1,8 @@
 #pragma once
 // The answers to the exercises of 00_string_on_an_obstacle, whose page includes this one: to be read after predicting.
-// For 3: where the string is free $λ = 0$, so only the compliance of the touching nodes counts. Its largest eigenvalue
-// is $1/k²$ with $\tan(k(1 - c)) = -k c$, and $k = 2π$ solves that: steps up to $2k² h = 8π² h$ are taken.
+// For 3: where the string is free $λ = 0$, so only the compliance of the touching nodes counts. Its largest
+// eigenvalue is about $1/(k² h)$, where $k$ is the smallest solution of $\tan(k(1 - c)) = -k c$. This is $k = 2π$,
+// since $\tan 2πc = 2πc$. A step is safe below 2 / largest eigenvalue, that is $2k² h = 8π² h$.
 
 std::vector<tutorial::Exercise> exercises() {
   const auto solve = [](const String& s) {

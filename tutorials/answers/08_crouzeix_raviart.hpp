@@ -10,7 +10,7 @@ const std::vector<tutorial::Exercise> exercises{
        report.claim(lemma.least("strain") > 1e-3, "the strain is not 0: {:.1e} at least", lemma.least("strain"));
        report.claim_within(lemma.order("strain", "h"), 0.5, 1.5, "it falls like h to the");
      }},
-    {"Predict the error on 1/h = 64 at epsilon = 1e-6 from that on 32. Then at epsilon = 0, and at 1e-2.",
+    {"Structured: predict the error on 1/h = 64 at epsilon = 1e-6 from that on 32. Then at 0, and at 1e-2.",
      "between 2^(3/2) and 2^2 times smaller (the end of contact, and interpolation); the same at every epsilon, to 10 "
      "%",
      [](const tutorial::Options&, tutorial::Report& report) {

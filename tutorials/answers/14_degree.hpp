@@ -4,8 +4,8 @@
 const std::vector<tutorial::Exercise> exercises{
     {"A coarse unstructured mesh (1/h = 4) and epsilon = 1e-4: P1 and P2 both lock under sin(2 pi x). And under 10 "
      "sin(pi x)?",
-     "P1 loses all, P2 keeps nearly all: its one kernel function x (1 - x) is near the ridge, under sin(2 pi x) it "
-     "is odd about it",
+     "P1 loses all, P2 keeps nearly all: its one kernel function x (1 - x) is near the ridge. The load sin(2 pi x) is "
+     "odd about x = 1/2 and x (1 - x) is even: this load does no work on it, and P2 loses all",
      [](const tutorial::Options&, tutorial::Report& report) {
        const SineLoad one_hump{{{1, {10}}}};
        for (const auto& [load, name, low, high] :

@@ -115,7 +115,7 @@ class Book:
             image = Image.open(source).convert("RGB")
             if image.width > WIDTH:
                 image = image.resize((WIDTH, round(image.height * WIDTH / image.width)), Image.LANCZOS)
-            image.save(target, "WEBP", quality=60, method=4)
+            image.save(target, "WEBP", quality=40, method=6)
         return f"images/{name}.webp"
 
     def figure(self, row, eager=False):

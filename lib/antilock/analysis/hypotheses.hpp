@@ -9,10 +9,10 @@ namespace antilock {
 /// in h is seen by asking on two meshes.
 struct Hypotheses {
   double coercivity = 0;  ///< (H1), (H1nc): smallest (a1 + a0)(v, v) / norm(v, v); the theory wants it >= beta > 0
-  int kernel = 0;         ///< (H2): dim G_h, G_h the kernel of a0 on the free unknowns. All that a0 does not see is in it
-                          ///< (in (23) the whole body), so that its size does not tell locking: locking.hpp does
-  int free = 0;           ///< free unknowns: free - kernel conditions are asked
-  double distance = 0;    ///< of K_h from G_h (distance_to_kernel); the theory wants K_h and G_h to meet
+  int kernel = 0;       ///< (H2): dim G_h, G_h the kernel of a0 on the free unknowns. All that a0 does not see is in it
+                        ///< (in (23) the whole body), so that its size does not tell locking: locking.hpp does
+  int free = 0;         ///< free unknowns: free - kernel conditions are asked
+  double distance = 0;  ///< of K_h from G_h (distance_to_kernel); the theory wants K_h and G_h to meet
 
   bool coercive() const { return coercivity > 1e-10; }  ///< far above the round-off of an eigenvalue
   bool meet() const { return distance < 1e-6; }         ///< below what the solvers refuse

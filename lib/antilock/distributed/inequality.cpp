@@ -35,17 +35,18 @@ long long layer_triangles(const TriangleMesh& mesh) {
 
 Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& space, bool summed) : rows_(piece, space) {
   const bool here = layer_triangles(piece.mesh) > 0, somewhere = sum(layer_triangles(piece.mesh)) > 0;
-  together([&] {  // a strip without a part of the layer (between the two feet of a body) has the body's part of the forms
-    part_ = assemble(here || !somewhere ? scene : Scene(scene.body(), NoLayer{}, scene.contact()), space);
-    lower_ = Eigen::VectorXd::Constant(rows_.owned(), -std::numeric_limits<double>::infinity());
-    if (!scene.contact()) return;
-    for (int place = 0; place < rows_.owned(); ++place) {
-      if (rows_.on_contact()[rows_.unknown(place)] == 0) continue;
-      const double x = space.points()(rows_.unknown(place), 0), gap = scene.contact()->gap(x);
-      if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
-      lower_(place) = -gap;
-    }
-  });
+  together(
+      [&] {  // a strip without a part of the layer (between the two feet of a body) has the body's part of the forms
+        part_ = assemble(here || !somewhere ? scene : Scene(scene.body(), NoLayer{}, scene.contact()), space);
+        lower_ = Eigen::VectorXd::Constant(rows_.owned(), -std::numeric_limits<double>::infinity());
+        if (!scene.contact()) return;
+        for (int place = 0; place < rows_.owned(); ++place) {
+          if (rows_.on_contact()[rows_.unknown(place)] == 0) continue;
+          const double x = space.points()(rows_.unknown(place), 0), gap = scene.contact()->gap(x);
+          if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
+          lower_(place) = -gap;
+        }
+      });
   stiff_ = sum(static_cast<long long>(part_.m.size())) > 0;
   if (stiff_) part_.compliance = largest(part_.m.size() > 0 ? part_.compliance : 0);
   const double h = column_width(piece.mesh);

@@ -105,7 +105,9 @@ std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coar
     level = std::move(finer);
     report.assemble += watch.lap();
     LoopOptions loop = options.loop;
-    if (!last) loop.tolerance = std::max(loop.tolerance, 1e-6), loop.residual = std::max(loop.residual, 1e-4);  // a start, no answer
+    if (!last)
+      loop.tolerance = std::max(loop.tolerance, 1e-6),
+      loop.residual = std::max(loop.residual, 1e-4);  // a start, no answer
     report.last = contact_loop(level->problem, level->state, loop);
     report.loops.push_back(report.last);
     report.unknowns.push_back(level->problem.rows().total());

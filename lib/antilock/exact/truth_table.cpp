@@ -20,8 +20,8 @@
 namespace antilock {
 namespace {
 
-constexpr double steps_per_distance = 12;           // rows within a distance d
-constexpr double smooth_step = 0.06;                // between rows and points, in units of 1 / (k pi) of the load
+constexpr double steps_per_distance = 12;  // rows within a distance d
+constexpr double smooth_step = 0.06;       // between rows and points, in units of 1 / (k pi) of the load
 constexpr int most_waves = 32;
 
 // What is known at one point: with slopes in x and y, all that Hermite interpolation wants.

@@ -34,8 +34,8 @@ void Sweep::set_load(Eigen::VectorXd load) {
 void Sweep::set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper) {
   if (problem_.contact.empty()) throw Error("sweep: no unknown is bounded; accepted: a problem with contact");
   if (lower.size() != problem_.lower.size())
-    throw Error(fmt::format("sweep: {} bounds; accepted: {}, one per contact unknown", lower.size(),
-                            problem_.lower.size()));
+    throw Error(
+        fmt::format("sweep: {} bounds; accepted: {}, one per contact unknown", lower.size(), problem_.lower.size()));
   const auto before = std::pair(problem_.lower, problem_.upper);
   problem_.lower = std::move(lower);
   if (upper) problem_.upper = std::move(*upper);

@@ -23,7 +23,8 @@ std::map<std::pair<int, bool>, SentMesh> sent_meshes;  // by cells, and whether 
 TriangleMesh unstructured_mesh(int cells, const Domain& domain) {
   const bool layer = domain.layer_depth > 0;
   const auto sent = sent_meshes.find({cells, layer});
-  if (sent == sent_meshes.end()) throw Error("mesh: the page has no unstructured mesh with 1/h = " + std::to_string(cells));
+  if (sent == sent_meshes.end())
+    throw Error("mesh: the page has no unstructured mesh with 1/h = " + std::to_string(cells));
   const auto& [xy, corners] = sent->second;
   for (const int v : corners)
     if (v < 0 || 2 * static_cast<std::size_t>(v) >= xy.size()) throw Error("mesh: the page's mesh is damaged");

@@ -85,8 +85,7 @@ std::vector<double> LiveFigure::trace() const {
   std::vector<double> numbers;
   for (std::size_t i = 0; i < space.contact().size(); ++i) {
     const int unknown = space.contact()[i];
-    numbers.insert(numbers.end(),
-                   {space.points()(unknown, 0), solution_.u(unknown), solution_.active[i] ? 1.0 : 0.0});
+    numbers.insert(numbers.end(), {space.points()(unknown, 0), solution_.u(unknown), solution_.active[i] ? 1.0 : 0.0});
   }
   return numbers;
 }

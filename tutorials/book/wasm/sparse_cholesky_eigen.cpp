@@ -45,7 +45,8 @@ bool SparseCholesky::analysed() const { return cholmod_->analysed; }
 std::optional<int> SparseCholesky::factorise(SparseMatrix& k) {
   const SparseMatrix p = cholmod_->permuted(k);
   cholmod_->factor.factorize(p);
-  const Eigen::VectorXi row = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>(cholmod_->order.inverse()).indices();
+  const Eigen::VectorXi row =
+      Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>(cholmod_->order.inverse()).indices();
   const bool ended = cholmod_->factor.info() == Eigen::Success;
   constexpr double lost = 64 * std::numeric_limits<double>::epsilon();  // as for CHOLMOD's pivots (supernodes.hpp)
   for (Eigen::Index j = 0; j < p.cols(); ++j) {
