@@ -1,3 +1,4 @@
+// The contact loop: the primal-dual active set, with signs read above round-off (solve/active_set.hpp calls it).
 #include "antilock/solve/contact_problem.hpp"
 
 #include <fmt/format.h>
