@@ -282,7 +282,8 @@ class LiveFigure(Book):
             with self.subTest(lacking=lacking):
                 self.assertEqual(self.run_script("return document.querySelector('#live').dataset.state"), "still")
                 self.assertIn("This is a still: ", self.run_script("return document.querySelector('#live .live-still').textContent"))
-                self.assertGreater(self.run_script("const image = document.querySelector('#live img'); image.loading = 'eager'; return image.complete ? 1 : image.width"), 0)
+                self.run_script("document.querySelector('#live img').loading = 'eager'")
+                self.wait("return document.querySelector('#live img').naturalWidth > 0")  # it fails where no image comes
         self.browser.get_log("browser")
 
     def test_every_chapter_answers_in_its_own_figure(self):
