@@ -20,9 +20,9 @@
 // In the limit the answer lies in $G_h = \{ v ∈ V_h : ∂_y v = 0 \text{ in the layer} \}$. It holds all functions of
 // the body that are 0 on $Σ$, on every mesh: its full dimension tells nothing. What counts is **the kernel on the
 // layer**, and **whether it grows under refinement**. $K_{0h}$ is to approach $K_0$ (Theorem 4), and $K_0$ holds
-// infinitely many functions of $x$. So a kernel that does not grow locks. (One that grows in one half of the layer
-// only locks in the other half: growth is necessary, not sufficient.) Count it by linear algebra: the columns of $B$
-// that belong to unknowns of the layer that are not clamped, less their rank.
+// infinitely many functions of $x$. So a method whose kernel does not grow locks. (If the kernel grows in the left
+// half of the layer alone, the method still locks in the right half: growth is necessary, not sufficient.) Count it by
+// linear algebra: the columns of $B$ that belong to unknowns of the layer that are not clamped, less their rank.
 //
 // | method | dimension on the layer | why |
 // |---|---|---|

@@ -145,7 +145,8 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
 // 1. Interpolate $u^0$ with P1, values at the vertices of the same meshes. Is $B I_h u^0 = 0$?
 // 2. On structured meshes: predict the error on $1/h = 64$ at $ε = 10^{-6}$ from that on 32. Then on 64 at $ε = 0$,
 //    and at $10^{-2}$.
-// 3. On paper: why is P1's interpolation no substitute in the proof? Does it keep the means? (In general, none.)
+// 3. On paper: why is P1's interpolation no substitute in the proof? Which of the three means over edges does it keep?
+//    (In general, none.)
 
 #include "answers/08_crouzeix_raviart.hpp"
 

@@ -51,7 +51,8 @@
 // except the lower one has $∫ |∇v|^2 ≥ μ ∫ v^2$ with $μ = π^2 (1 + 1/16)$, so $α = μ/(1 + μ) = 0.9129$.
 // *(H0nc):* bounded $v_h$ have weak limits in $V$. So the work of every smooth flux on the jumps of $v_h$ must tend
 // to 0. The work of the flux of $u$ itself is such a test, over all $w_h$ with $‖w_h‖_h = 1$. It is $O(h)$ where this
-// flux is smooth. Where contact ends $p$ jumps, which leaves $h^{1/2}$ with a small factor.
+// flux is smooth. Where contact ends $p$ jumps at ε = 0, and on a mesh with $h ≫ ε$ it looks as if it did: this leaves
+// $h^{1/2}$ with a small factor.
 //
 // ## What (28) and (31) promise
 //

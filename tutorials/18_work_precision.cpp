@@ -193,7 +193,8 @@ void judge(const std::vector<TimedRun>& runs, tutorial::Report& report) {
 //
 // (a) The linear solves of the active set do not grow. It needs at most 4 contact steps, on fine meshes 1 or 2, since
 // it starts from the contact set of a coarser one. Uzawa's steps grow with the condition number of the compliance of
-// $Γ_C$: by 2 at ε = 1, by almost 4 at 1e-6 (chapter 04). With the paper's linear solver Uzawa gives up at small ε.
+// $Γ_C$: each time $h$ is halved, by the factor 2 at ε = 1 and by almost 4 at 1e-6 (chapter 04). With the paper's
+// linear solver Uzawa gives up at small ε.
 // (b) No: it comes to a level line. The bracket stops Uzawa there, after less than half of the steps, within
 // 1 % of the error. The price list (`price_list.md`) says for each method what 1e-2, 1e-3 and 1e-4 cost, or "never".
 //

@@ -36,7 +36,8 @@
 //
 // $$ |A∇u - ½(σ + A∇v)|^2 = ¼ |d + s|^2 = ¼ m^2 + (d, s) ≤ ¼ m^2 + C. $$
 //
-// For small $C$ that is $½ m$ in place of $m$. By the rule above half the bound costs a quarter of the unknowns.
+// For small $C$ that is $½ m$ in place of $m$: half the bound on the same mesh. So by the rule above a given bound is
+// reached with a quarter of the unknowns.
 //
 // **Columns.** In a thin layer, what happens at one $x$ happens in the whole thickness. For `ε ≤ 0.1` the body alone is
 // bisected, and the layer is *extruded* below it in columns: squares would be the dearer mesh.

@@ -41,8 +41,8 @@
 // that is one function per column, and the unknowns that hang together through $δ^{-1}$ are those of one column.
 // Merged, they are still in the kernel. Without columns Crouzeix-Raviart has one such function per two triangles
 // (chapter 07). No way of merging unknowns keeps them: every multigrid that was tried needs 500 iterations and more.
-// The cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the factor (exercise 2). MPI is
-// how ranks send each other numbers. A *strip* is here the part of the mesh between two vertical lines that one rank
+// The cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the factor (exercise 2); they send
+// each other its numbers by MPI. A *strip* is here the part of the mesh between two vertical lines that one rank
 // owns, not the strip of chapter 17. BDDC factors each strip by itself. It took 5 to 9 iterations up to 1/h = 256 and
 // broke down at 1.8 million unknowns; it is not offered.
 //
