@@ -29,8 +29,8 @@
 // $α ‖d‖^2 ≤ a^ε(d, d) ≤ L(d) - a_1(v_0, d)$. The right side grows like $‖d‖$ only, so $‖u^ε‖ ≤ C$ and
 // $a_0(u^ε, u^ε) ≤ C ε_c$. *Limit:* a bounded family has a sequence that converges *weakly* (its product with each
 // fixed function converges). A closed convex set keeps its weak limits. A form like $a_0(v, v)$, which is never
-// negative, can only fall in one. So the limit is in $K$ and has $a_0 = 0$: it is in $K_0$. For $w ∈ K_0$ drop $-ε_c^{-1} a_0(u^ε, u^ε) ≤ 0$ from
-// (1). In the limit $a_1(u^ε, u^ε)$ can only fall, too, and (2) is left, which has one solution only.
+// negative, can only fall in one. So the limit is in $K$ and has $a_0 = 0$: it is in $K_0$. For $w ∈ K_0$ drop
+// $-ε_c^{-1} a_0(u^ε, u^ε) ≤ 0$ from (1). In the limit $a_1(u^ε, u^ε)$ can only fall, too, and (2) is left, which has one solution only.
 // *Strong:* put $v = u^0$ into (1):
 //
 // $$ a^ε(u^ε - u^0, u^ε - u^0) ≤ L(u^ε - u^0) - a_1(u^0, u^ε - u^0) → 0. \tag{5} $$
