@@ -1,8 +1,8 @@
 // # A problem of your own
 //
-// Run: 25_your_own_problem                          two strings glued together, ε = 1e-10
-// Run: 25_your_own_problem --epsilon 0 --cells 64   a rigid glue
-// Run: 25_your_own_problem --exercise 1
+// Run: 28_your_own_problem                          two strings glued together, ε = 1e-10
+// Run: 28_your_own_problem --epsilon 0 --cells 64   a rigid glue
+// Run: 28_your_own_problem --exercise 1
 //
 // Needs: [00](00_string_on_an_obstacle.cpp) for strings, [07](07_kernel.cpp) for kernels, [10](10_limits.cpp) for the
 // class (1), [13](13_estimates.cpp) for coercivity. **Here ε is the parameter of the class itself**, not its square
@@ -164,10 +164,10 @@ void refuse_the_impossible(const Strings& strings, tutorial::Report& report) {
 // 1. Give both strings $n$ cells. Does the glue at every point still lock?
 // 2. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need no truth.
 
-#include "answers/25_your_own_problem.hpp"
+#include "answers/28_your_own_problem.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "25_your_own_problem", "Your own problem in the class: two strings and a stiff glue",
+  return tutorial::run(argc, argv, "28_your_own_problem", "Your own problem in the class: two strings and a stiff glue",
                        {.epsilon = 1e-10,
                         .epsilon_is = "the class parameter of (1), the compliance of the glue; 0 is a rigid glue",
                         .least_cells = 4,
