@@ -15,7 +15,7 @@
 #include "antilock/solve/contact_problem.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"
-#include "support/dense.hpp"
+#include "support/random_contact.hpp"
 
 namespace antilock::hard {
 namespace {
@@ -263,17 +263,13 @@ bool plain_settles(const Eigen::MatrixXd& s, const Eigen::VectorXd& q) {
 // Off Gamma_C of an elastic body nothing promises that the plain method ends: for a random symmetric positive definite
 // matrix it cycles now and then. The safeguarded one ends every time, with every condition met.
 TEST(Cycling, RandomComplementarityProblemsAllEnd) {
-  std::mt19937 random(4);
-  std::normal_distribution<double> normal;
+  test::RandomContact contact;
   int cycles = 0, most = 0;
   for (int trial = 0; trial < 3000; ++trial) {
-    const int n = 3 + trial % 28;
-    Eigen::MatrixXd g(n, n);
-    Eigen::VectorXd q(n);
-    for (double& value : g.reshaped()) value = normal(random);
-    for (double& value : q) value = normal(random);
-    const Eigen::MatrixXd s = test::product(g, g.transpose()) + 1e-4 * Eigen::MatrixXd::Identity(n, n);
-    const Eigen::VectorXd lower = Eigen::VectorXd::Zero(n);
+    contact.next();
+    const int n = contact.size();
+    const Eigen::MatrixXd& s = contact.s;
+    const Eigen::VectorXd &q = contact.q, &lower = contact.lower;
     const ContactProblem problem{s, q, lower, 0};
     cycles += !plain_settles(s, q);
     for (const bool start : {false, true}) {

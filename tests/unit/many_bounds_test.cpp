@@ -15,6 +15,7 @@
 #include "antilock/solve/uzawa.hpp"
 #include "hard/adversary.hpp"
 #include "support/membrane.hpp"
+#include "support/random_contact.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
@@ -190,18 +191,14 @@ TEST(ManyBounds, EveryStartEndsAtTheSameAnswer) {
   }
 }
 
-/// The random problems of hard/degenerate_contact_test.cpp: plain exchanges of whole sets cycle on some of them.
+/// Plain exchanges of whole sets cycle on some of these (hard/degenerate_contact_test.cpp).
 TEST(ManyBounds, NothingCycles) {
-  std::mt19937 random(4);
-  std::normal_distribution<double> normal;
+  test::RandomContact contact;
   for (int trial = 0; trial < 3000; ++trial) {
-    const int n = 3 + trial % 28;
-    Eigen::MatrixXd g(n, n);
-    Eigen::VectorXd q(n);
-    for (double& value : g.reshaped()) value = normal(random);
-    for (double& value : q) value = normal(random);
-    const Eigen::MatrixXd s = g * g.transpose() + 1e-4 * Eigen::MatrixXd::Identity(n, n);
-    const Eigen::VectorXd lower = Eigen::VectorXd::Zero(n);
+    contact.next();
+    const int n = contact.size();
+    const Eigen::MatrixXd& s = contact.s;
+    const Eigen::VectorXd &q = contact.q, &lower = contact.lower;
     HeldFactor k;
     ASSERT_FALSE(k.factorise(Eigen::MatrixXd(s.triangularView<Eigen::Upper>()).sparseView()));
     std::vector<int> bounded(n);

@@ -1,7 +1,5 @@
 #include "antilock/solve/sparse_contact.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,58 +7,26 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/solve/aggregation.hpp"
+#include "antilock/solve/contact_loop.hpp"
 
 namespace antilock {
 namespace {
 
 constexpr double unit = 64 * std::numeric_limits<double>::epsilon();
 
-/// The primal-dual active set of one problem: the steps of the dense road, each on all F places.
-class Iteration {
+/// The road of `settle` on all F places, by a sparse factor of those that are not held.
+class SparseRoad {
  public:
-  Iteration(const SparseContactProblem& p, HeldBounds start)
+  SparseRoad(const SparseContactProblem& p, HeldBounds start)
       : p_(p),
+        bounds_{p.lower, p.upper},
         from_(p.from.size() > 0 ? p.from : Eigen::VectorXd::Zero(p.q.size())),
-        diagonal_(p.k.upper().diagonal()) {
-    held_.active = std::move(start.active);
-    held_.above = std::move(start.above);
-    held_.above.resize(p.upper.size());
-    for (int i = 0; i < count(); ++i) {  // a start asks for bounds that there are; an equation always holds
-      if (is_equation(i)) held_.active[i] = true;
-      const bool low = std::isfinite(p.lower(i)), high = std::isfinite(upper(i));
-      if (p.upper.size() > 0) held_.above[i] = held_.active[i] && high && (held_.above[i] || !low);
-    }
-  }
+        diagonal_(p.k.upper().diagonal()),
+        held_(bounds_.allowed(std::move(start))) {}
 
-  SparseContactAnswer run(int max_steps) {
-    int fewest = count() + 1;
-    int patience = 5;  // exchanges of whole sets allowed without progress before the energy is asked
-    while (true) {
-      solve();
-      std::vector<int> wrong;
-      for (int i = 0; i < count(); ++i)
-        if (violated(i)) wrong.push_back(i);
-      const int violations = static_cast<int>(wrong.size());
-      if (violations == 0) return {{bounded(x_), std::move(lambda_), held_.active, steps_, held_.above}, std::move(x_)};
-      if (steps_ >= max_steps)
-        throw NotConverged(fmt::format("contact: {} of {} contact conditions still violated after {} steps", violations,
-                                       count(), steps_),
-                           static_cast<double>(violations) / count(), steps_);
-      patience = violations < fewest ? 5 : patience - 1;
-      fewest = std::min(fewest, violations);
-      if (patience > 0)
-        for (const int i : wrong) exchange(i);
-      else
-        descend();
-    }
-  }
-
- private:
-  int count() const { return static_cast<int>(p_.bounded.size()); }
-  double upper(int i) const { return p_.upper.size() > 0 ? p_.upper(i) : std::numeric_limits<double>::infinity(); }
-  bool is_equation(int i) const { return p_.lower(i) == upper(i); }
-  bool is_above(int i) const { return !held_.above.empty() && held_.above[i]; }
-  Eigen::VectorXd bounded(const Eigen::VectorXd& x) const { return x(p_.bounded); }
+  int count() const { return bounds_.count(); }
+  int steps() const { return steps_; }
+  SparseContactAnswer answer() const { return {{bounded(x_), lambda_, held_.active, steps_, held_.above}, x_}; }
 
   /// x on the unknowns that are not held from the equation, at its bound on the held ones; lambda from both.
   void solve() {
@@ -69,7 +35,7 @@ class Iteration {
     for (int i = 0; i < count(); ++i)
       if (held_.active[i]) {
         held[p_.bounded[i]] = 1;
-        x_(p_.bounded[i]) = is_above(i) ? p_.upper(i) : p_.lower(i);
+        x_(p_.bounded[i]) = bounds_.at(held_, i);
       }
     p_.k.hold(held);
     x_ += p_.k.solve(p_.q - p_.k.times(x_));
@@ -85,44 +51,23 @@ class Iteration {
     ++steps_;
   }
 
-  /// Round-off of x beside a bound. Where it is known, nothing is added to it: a diagonal entry of K, unlike one of a
-  /// Schur complement, holds the penalty, and what it makes of round-off may hide a violation.
-  double noise_at(int i, double bound) const {
-    const double place = std::abs(from_(p_.bounded[i]) + bound);
-    return p_.noise.size() > 0 ? unit * place + p_.noise(i) : unit * std::max(place, p_.u_scale) + moved_(i);
-  }
-
-  /// Whether bound i is on the wrong side by more than noise. An equation holds whatever its force.
+  /// By more than noise. An equation holds whatever its force.
   bool violated(int i) const {
-    const double x = x_(p_.bounded[i]);
-    if (!held_.active[i]) return x - p_.lower(i) < -noise_at(i, p_.lower(i)) || upper(i) - x < -noise_at(i, upper(i));
-    return (is_above(i) ? -lambda_(i) : lambda_(i)) < -noise_lambda_(i) && !is_equation(i);
+    const double x = x_(p_.bounded[i]), upper = bounds_.above(i);
+    if (!held_.active[i]) return x - p_.lower(i) < -noise_at(i, p_.lower(i)) || upper - x < -noise_at(i, upper);
+    return (is_above(held_, i) ? -lambda_(i) : lambda_(i)) < -noise_lambda_(i) && !bounds_.is_equation(i);
   }
 
-  /// Puts i where its violated condition asks it to be. An unknown that is let go and, alone, would reach its other bound
-  /// goes there at once.
-  void exchange(int i) {
-    const bool active = held_.active[i];
-    const bool across = active && diagonal_(p_.bounded[i]) * (upper(i) - p_.lower(i)) < std::abs(lambda_(i));
-    const bool above = active ? across && !is_above(i) : x_(p_.bounded[i]) > upper(i);
-    held_.active[i] = !active || across;
-    if (p_.upper.size() > 0) held_.above[i] = above;
-  }
+  void exchange(int i) { bounds_.exchange(held_, i, x_(p_.bounded[i]), lambda_(i), diagonal_(p_.bounded[i])); }
 
-  /// The nearest x within the bounds.
-  Eigen::VectorXd projected(Eigen::VectorXd x) const {
-    for (int i = 0; i < count(); ++i) x(p_.bounded[i]) = std::min(std::max(x(p_.bounded[i]), p_.lower(i)), upper(i));
-    return x;
-  }
-
-  /// One step of Bertsekas' projected Newton method from a feasible x: it lowers the energy, so it cannot cycle.
+  /// One step of Bertsekas' projected Newton method from a feasible x.
   void descend() {
     if (descent_.size() == 0) descent_ = projected(x_);
     const Eigen::VectorXd gradient = p_.k.times(descent_) - p_.q;
     std::vector<char> held(gradient.size(), 0);
     for (int i = 0; i < count(); ++i) {
       const double x = descent_(p_.bounded[i]), g = gradient(p_.bounded[i]);
-      held[p_.bounded[i]] = (x <= p_.lower(i) && g > 0) || (x >= upper(i) && g < 0) ? 1 : 0;
+      held[p_.bounded[i]] = (x <= p_.lower(i) && g > 0) || (x >= bounds_.above(i) && g < 0) ? 1 : 0;
     }
     p_.k.hold(held);
     const Eigen::VectorXd direction = p_.k.solve(-gradient);
@@ -135,15 +80,27 @@ class Iteration {
     }
     descent_ = std::move(next);
     ++steps_;
-    for (int i = 0; i < count(); ++i) {
-      const double x = descent_(p_.bounded[i]);
-      const bool above = x >= upper(i) && x > p_.lower(i);
-      held_.active[i] = x <= p_.lower(i) || above;
-      if (p_.upper.size() > 0) held_.above[i] = above;
-    }
+    held_ = bounds_.reached(bounded(descent_));
+  }
+
+ private:
+  Eigen::VectorXd bounded(const Eigen::VectorXd& x) const { return x(p_.bounded); }
+
+  /// The nearest x within the bounds.
+  Eigen::VectorXd projected(Eigen::VectorXd x) const {
+    x(p_.bounded) = bounds_.nearest(bounded(x));
+    return x;
+  }
+
+  /// Round-off of x beside a bound. Where it is known, nothing is added to it: a diagonal entry of K, unlike one of a
+  /// Schur complement, holds the penalty, and what it makes of round-off may hide a violation.
+  double noise_at(int i, double bound) const {
+    const double place = std::abs(from_(p_.bounded[i]) + bound);
+    return p_.noise.size() > 0 ? unit * place + p_.noise(i) : unit * std::max(place, p_.u_scale) + moved_(i);
   }
 
   const SparseContactProblem& p_;
+  const ContactBounds bounds_;
   Eigen::VectorXd from_, diagonal_;  ///< F each
   HeldBounds held_;
   Eigen::VectorXd x_;                     ///< F
@@ -167,7 +124,9 @@ Eigen::VectorXd mean_bound(const Eigen::VectorXd& bound, const std::vector<int>&
 }  // namespace
 
 SparseContactAnswer solve_contact(const SparseContactProblem& problem, HeldBounds start, int max_steps) {
-  return Iteration(problem, std::move(start)).run(max_steps);
+  SparseRoad road(problem, std::move(start));
+  settle(road, max_steps);
+  return road.answer();
 }
 
 HeldBounds nested_start(const SparseContactProblem& problem, int max_steps) {
