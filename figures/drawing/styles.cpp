@@ -164,7 +164,8 @@ Meaning meaning_of(const std::vector<std::string>& columns, const std::vector<st
   for (std::size_t i = 0; i < entries.size(); ++i)
     key.append(i == 0 ? 0 : 1, ' ').append(key_of(columns[i], entries[i]));
   if (auto meaning = find(key)) return *meaning;
-  Meaning together;  // part by part; drawn like the first
+  Meaning together;  // part by part; drawn like the first; of no parts: not in the table
+  together.known = !entries.empty();
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Meaning part = find(key_of(columns[i], entries[i])).value_or(unknown(columns[i], entries[i]));
     together.name.append(i == 0 ? "" : ", ").append(part.name);

@@ -20,7 +20,7 @@ struct Meaning {
   std::string name;        ///< markup, for titles and legends
   std::string short_name;  ///< where the name does not fit
   std::vector<int> rank;   ///< its place among panels and in legends, compared lexicographically
-  Look look;
+  Look look{};
   bool known = true;  ///< false: the table of styles.cpp does not have it
 };
 

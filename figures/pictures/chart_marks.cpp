@@ -41,7 +41,9 @@ void draw_failure(Page& page, const Box& box) {
 
 void draw_slopes(Page& page, const Panel& panel, const std::vector<double>& slopes, const std::vector<Point>& taken) {
   if (slopes.empty()) return;
-  const double steep = steepness(panel), most = *std::max_element(slopes.begin(), slopes.end());
+  const double steep = steepness(panel),
+               most = std::abs(*std::max_element(slopes.begin(), slopes.end(),
+                                                 [](double a, double b) { return std::abs(a) < std::abs(b); }));
   const double base = std::min(120.0, 0.3 * panel.box.height / (most * steep)), triangle = base + 100;
   const Box need{0, 0, triangle * static_cast<double>(slopes.size()), most * steep * base + size + 40};
   const double left = panel.box.x + 30, right = panel.box.right() - need.width - 10, low = panel.box.y + 20,
@@ -55,13 +57,15 @@ void draw_slopes(Page& page, const Panel& panel, const std::vector<double>& slop
     });
     if (fewest < 0 || inside < fewest) best = box, fewest = inside;
   }
-  Point origin{best.x, best.y + size + 10};
-  for (const double slope : slopes) {
+  Point left_end{best.x, best.y + size + 10};
+  for (const double slope : slopes) {  // a falling one hangs below its base
+    const Point origin = left_end + Point{0, std::max(0.0, -slope * steep * base)};
     const Point end = origin + Point{base, 0}, top = end + Point{0, slope * steep * base};
     page.line({origin, end, top, origin, end}, {3, palette::ink});
-    page.text(end + Point{-0.5 * base, -12}, "1", {size, {0.5, Anchor::Height::top}});
+    const Anchor::Height side = slope < 0 ? Anchor::Height::baseline : Anchor::Height::top;
+    page.text(end + Point{-0.5 * base, slope < 0 ? 12.0 : -12.0}, "1", {size, {0.5, side}});
     page.text(0.5 * (end + top) + Point{14, 0}, fmt::format("{:g}", slope), {size, {0, Anchor::Height::middle}});
-    origin = origin + Point{triangle, 0};
+    left_end = left_end + Point{triangle, 0};
   }
 }
 

@@ -106,6 +106,9 @@ TEST(Styles, ANumberHasOneMeaningHoweverItIsWritten) {
   EXPECT_EQ(meaning_of({"element", "mesh"}, {"P1", "unstructured"}).name, meaning_of("P1 unstructured").name);
 }
 
+// A chart of one curve: it has no column that names its series, and takes the first look of its own.
+TEST(Styles, ASeriesOfNoColumnIsNotInTheTable) { EXPECT_FALSE(meaning_of({}, {}).known); }
+
 TEST(Styles, PanelsComeInOneOrder) {
   const auto rank = [](const char* element, const char* mesh) {
     return meaning_of({"element", "mesh"}, {element, mesh}).rank;

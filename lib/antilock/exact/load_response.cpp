@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace antilock {
 namespace {
@@ -9,9 +10,7 @@ namespace {
 using Polynomial = std::vector<double>;
 
 double evaluate(const Polynomial& p, double y) {
-  double sum = 0;
-  for (auto c = p.rbegin(); c != p.rend(); ++c) sum = sum * y + *c;
-  return sum;
+  return std::accumulate(p.rbegin(), p.rend(), 0.0, [y](double sum, double c) { return sum * y + c; });
 }
 
 double evaluate_slope(const Polynomial& p, double y) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "antilock/core/error.hpp"
 #include "antilock/exact/contact_line.hpp"
@@ -44,6 +45,7 @@ std::vector<LoadResponse> checked_load(const SineLoad& load, int points) {
     }
   }
   std::vector<LoadResponse> responses;
+  responses.reserve(profiles.size());
   for (auto& [k, profile] : profiles) responses.emplace_back(k, std::move(profile));
   return responses;
 }
@@ -132,8 +134,8 @@ SineRow row_at(const Truth::Data& data, double y) { return y >= 0 ? body_row(dat
 double SineLoad::operator()(double x, double y) const {
   double sum = 0;
   for (const SineMode& mode : modes) {
-    double f = 0;
-    for (auto c = mode.profile.rbegin(); c != mode.profile.rend(); ++c) f = f * y + *c;
+    const auto horner = [y](double f, double c) { return f * y + c; };
+    const double f = std::accumulate(mode.profile.rbegin(), mode.profile.rend(), 0.0, horner);
     sum += f * std::sin(mode.k * pi * x);
   }
   return sum;
@@ -141,7 +143,7 @@ double SineLoad::operator()(double x, double y) const {
 
 SineLoad paper_sine_load() { return {{{2, {10.0}}}}; }
 
-Truth::Truth(SineLoad load, double epsilon, bool contact, int log2_points) : data_(std::make_unique<Data>()) {
+Truth::Truth(const SineLoad& load, double epsilon, bool contact, int log2_points) : data_(std::make_unique<Data>()) {
   if (!(epsilon >= 0 && epsilon <= 1))
     throw Error(fmt::format("truth: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
   if (log2_points < 6 || log2_points > 20)

@@ -26,7 +26,7 @@ SineLoad paper_sine_load();
 class Truth {
  public:
   /// contact = false: Gamma_C free (a linear problem, closed form). N = 2^log2_points collocation points, 6 to 20.
-  Truth(SineLoad load, double epsilon, bool contact = true, int log2_points = 17);
+  Truth(const SineLoad& load, double epsilon, bool contact = true, int log2_points = 17);
   ~Truth();
   Truth(Truth&&) noexcept;
   Truth& operator=(Truth&&) noexcept;

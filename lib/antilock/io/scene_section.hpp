@@ -44,7 +44,7 @@ class Section {
   }
   std::string one_of(const std::string& key, Names accepted) const {
     const std::string list = fmt::format("\"{}\"", fmt::join(accepted, "\", \""));
-    const std::string value = text(key, list);
+    std::string value = text(key, list);
     if (std::find(accepted.begin(), accepted.end(), value) == accepted.end())
       refuse(key, fmt::format("\"{}\" is unknown; accepted: {}", printable(value), list));
     return value;

@@ -42,7 +42,7 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
     problem.a1 = gradient_form(space, {1, 1}, {1, 0});  // a+ + a_x^- of (23)
     FactoredForm strain = layer_strain(space);          // a_y^-, factored
-    problem.b = std::move(strain.b);
+    problem.b.swap(strain.b);
     problem.m = std::move(strain.m);
     problem.compliance = compliance(*stiff);
   } else if (const auto* thin = std::get_if<ThinLayer>(&scene.layer())) {

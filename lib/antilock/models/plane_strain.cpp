@@ -21,7 +21,7 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   if (scene.jump_weight > 0) problem.a1 += jump_form(space, scene.jump_weight, !scene.sliding);
   problem.a1.makeCompressed();
   FactoredForm div = divergence(space);
-  problem.b = std::move(div.b);
+  problem.b.swap(div.b);
   problem.m = std::move(div.m);
   problem.compliance = scene.epsilon;
   problem.load = Eigen::VectorXd::Zero(space.size());

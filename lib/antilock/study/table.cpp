@@ -159,9 +159,11 @@ Table Table::pivot(const std::string& rows, const std::string& across, const std
 Table Table::select(const std::vector<std::string>& columns) const {
   Table selected(columns);
   std::vector<std::size_t> places;
+  places.reserve(columns.size());
   for (const std::string& column : columns) places.push_back(place(column));
   for (const auto& row : rows_) {
     std::vector<Entry> kept;
+    kept.reserve(places.size());
     for (const std::size_t at : places) kept.push_back(row[at]);
     selected.rows_.push_back(std::move(kept));
   }
@@ -194,6 +196,7 @@ void Table::write(const std::filesystem::path& path) const {
     line(columns_);
     for (const auto& row : rows_) {
       std::vector<std::string> words;
+      words.reserve(row.size());
       for (const Entry& entry : row) words.push_back(quoted(entry.text()));
       line(words);
     }

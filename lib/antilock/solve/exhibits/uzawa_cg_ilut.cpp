@@ -31,7 +31,7 @@ class CgIlut {
   }
   Eigen::VectorXd operator()(const Eigen::VectorXd& b, const Eigen::VectorXd& guess) {
     ++runs;
-    const Eigen::VectorXd x = cg_.solveWithGuess(b, guess);
+    Eigen::VectorXd x = cg_.solveWithGuess(b, guess);
     if (cg_.info() != Eigen::Success || !x.allFinite())
       throw NotConverged(
           fmt::format("uzawa, CG + ILUT: the conjugate gradients of linear solve {} stopped at a relative residual of "
