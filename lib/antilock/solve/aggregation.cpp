@@ -42,6 +42,7 @@ Aggregates smoothed_aggregation(const SparseMatrix& upper) {
   Aggregates aggregates{aggregates_of(k, diagonal, count), {}, {}};
   SparseMatrix p0(k.cols(), count);
   std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(k.cols());
   for (int i = 0; i < k.cols(); ++i) entries.emplace_back(i, aggregates.of[i], 1.0);
   p0.setFromTriplets(entries.begin(), entries.end());
   const Eigen::VectorXd weight = (2.0 / 3) * diagonal.cwiseInverse();
