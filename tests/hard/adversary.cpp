@@ -155,6 +155,37 @@ VariationalInequality random_bounds(unsigned seed) {
   return problem;
 }
 
+VariationalInequality random_friction(unsigned seed) {
+  VariationalInequality problem = random_bounds(seed);
+  Dice dice(seed ^ 0x2545f491u);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const auto rows = std::min<Eigen::Index>(problem.combinations.rows(), 4);
+  const auto contact = std::min(std::ssize(problem.contact), 4 - rows), before = std::ssize(problem.contact);
+  const auto kept = [&](const Eigen::VectorXd& bound) {
+    Eigen::VectorXd some(contact + rows);
+    some << bound.head(contact), bound.segment(before, rows);
+    return some;
+  };
+  problem.combinations = RowMatrix(problem.combinations.topRows(rows));
+  if (problem.upper.size() > 0) problem.upper = kept(problem.upper);
+  problem.lower = kept(problem.lower);
+  problem.contact.resize(contact);
+  const Eigen::Index bounds = contact + rows;
+  if (problem.upper.size() == 0) problem.upper = Eigen::VectorXd::Constant(bounds, infinity);
+  problem.force_bound = Eigen::VectorXd::Constant(bounds, infinity);
+  const double size = std::max(problem.load.lpNorm<Eigen::Infinity>(), 1e-6);
+  for (Eigen::Index i = 0; i < bounds; ++i) {
+    if (dice.one_in(4)) continue;
+    if (!dice.one_in(3)) problem.lower(i) = problem.upper(i) = dice.one_in(3) ? std::min(problem.lower(i), 1e3) : 0;
+    if (std::isinf(problem.lower(i)) && std::isinf(problem.upper(i))) problem.lower(i) = problem.upper(i) = 0;
+    problem.force_bound(i) = dice.one_in(10)  ? 0
+                             : dice.one_in(4) ? std::abs(problem.load(dice.below(problem.size())))
+                             : dice.one_in(2) ? few_digits(dice.uniform()) * size
+                                              : dice.decades(6) * size;
+  }
+  return problem;
+}
+
 Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& exact, bool by_uzawa) {
   Judgement judgement;
   const bool solvable = exact.what == test::Exactly::solved;

@@ -15,6 +15,11 @@ VariationalInequality random_problem(unsigned seed);
 /// own, some through fixed and bounded unknowns, a few dependent on other bounds.
 VariationalInequality random_bounds(unsigned seed);
 
+/// Problem number `seed` of a third list: a problem of the second with up to four bounds, most of which give way.
+/// Friction (equations that bear a given force), plastic obstacles, forces that are borne over twelve decades, some 0,
+/// some the very force at which the bound gives way.
+VariationalInequality random_friction(unsigned seed);
+
 enum class Outcome {
   right,         ///< u to 1e-6 of its largest entry, no warning
   warned,        ///< answered with a warning

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "antilock/core/error.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
@@ -84,6 +85,36 @@ TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrong) {
 TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrongByUzawa) {
   for (unsigned seed = 1000; seed < 1060; ++seed) {
     const VariationalInequality problem = random_bounds(seed);
+    const Judgement judgement = judge(problem, test::exact_answer(problem), true);
+    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+  }
+}
+
+TEST(Adversary, FrictionIsNotQuietlyWrong) {
+  int solvable = 0, refused = 0, slips = 0, sticks = 0;
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    const VariationalInequality problem = random_friction(seed);
+    const test::ExactAnswer exact = test::exact_answer(problem);
+    const Judgement judgement = judge(problem, exact, false);
+    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+    solvable += exact.what == test::Exactly::solved;
+    refused += judgement.outcome == Outcome::refused && judgement.reason.find("combination") == std::string::npos;
+    if (exact.what != test::Exactly::solved) continue;
+    const Eigen::VectorXd values = bounded_values(problem, exact.u);
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      if (std::isinf(problem.force_bound(i)) || problem.lower(i) != problem.upper(i)) continue;
+      ++(values(i) == problem.lower(i) ? sticks : slips);
+    }
+  }
+  EXPECT_GT(solvable, 250);
+  EXPECT_GT(slips, 100);
+  EXPECT_GT(sticks, 100);
+  EXPECT_LE(refused, 8);
+}
+
+TEST(Adversary, FrictionIsNotQuietlyWrongByUzawa) {
+  for (unsigned seed = 1000; seed < 1060; ++seed) {
+    const VariationalInequality problem = random_friction(seed);
     const Judgement judgement = judge(problem, test::exact_answer(problem), true);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
   }

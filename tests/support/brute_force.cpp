@@ -14,14 +14,28 @@ namespace {
 using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-/// The next of all sets of bounds that hold; false after the last. An infinite bound holds nowhere.
-bool next_set(std::vector<int>& set, const LongVector& lower, const LongVector& upper) {
+/// Whether bound k can do what `state` says. An infinite bound does nothing, an equation always holds or gives way.
+bool there_is(int state, const LongVector& lower, const LongVector& upper, const LongVector& most, Eigen::Index k) {
+  const bool equation = lower(k) == upper(k);
+  if (state == 0 || state == 2) return !equation && (state == 0 || std::isfinite(upper(k)));
+  if (state == 1) return std::isfinite(lower(k));
+  return std::isfinite(most(k)) && std::isfinite(state == 3 ? lower(k) : upper(k));
+}
+
+/// The next state that there is for bound k, 5 after the last.
+int next_state(int state, const LongVector& lower, const LongVector& upper, const LongVector& most, Eigen::Index k) {
+  do ++state;
+  while (state < 5 && !there_is(state, lower, upper, most, k));
+  return state;
+}
+
+/// The next of all sets of states; false after the last.
+bool next_set(std::vector<int>& set, const LongVector& lower, const LongVector& upper, const LongVector& most) {
   for (std::size_t i = 0; i < set.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(i);
-    do ++set[i];
-    while ((set[i] == 1 && std::isinf(lower(k))) || (set[i] == 2 && std::isinf(upper(k))));
-    if (set[i] < 3) return true;
-    set[i] = 0;
+    set[i] = next_state(set[i], lower, upper, most, k);
+    if (set[i] < 5) return true;
+    set[i] = next_state(-1, lower, upper, most, k);
   }
   return false;
 }
@@ -65,28 +79,41 @@ BruteForce brute_force(const VariationalInequality& problem) {
   const LongVector upper = problem.upper.size() > 0
                                ? LongVector(problem.upper.cast<long double>())
                                : LongVector(LongVector::Constant(c, std::numeric_limits<long double>::infinity()));
+  const LongVector most = problem.force_bound.size() > 0
+                              ? LongVector(problem.force_bound.cast<long double>())
+                              : LongVector(LongVector::Constant(c, std::numeric_limits<long double>::infinity()));
   constexpr long double slack = 1e-14L;  // of a sign: far above the round-off of 64-bit mantissas, far below any gap
   BruteForce best;
-  // 0: free, 1: at the lower bound, 2: at the upper one
-  std::vector<int> set(c, 0);
+  // 0: free, 1: at the lower bound, 2: at the upper one, 3: below the lower one, 4: above the upper one
+  std::vector<int> set;
+  for (int i = 0; i < c; ++i) set.push_back(next_state(-1, lower, upper, most, i));
   do {
     std::vector<int> held;
     LongVector bound = lower;
     for (int i = 0; i < c; ++i) {
-      if (set[i] != 0) held.push_back(i);
+      if (set[i] == 1 || set[i] == 2) held.push_back(i);
       if (set[i] == 2) bound(i) = upper(i);
     }
     LongVector lambda = LongVector::Zero(c);
+    for (int i = 0; i < c; ++i)
+      if (set[i] > 2) lambda(i) = set[i] == 3 ? most(i) : -most(i);
     if (!held.empty()) {
-      const LongVector push = (bound - unloaded)(held);
+      const LongVector push = (bound - unloaded - compliance * lambda)(held);
       const LongVector reaction = LongMatrix(compliance(held, held)).ldlt().solve(push);
       lambda(held) = reaction;
     }
     const LongVector v = unloaded + compliance * lambda;
     bool right = lambda.allFinite();
-    for (int i = 0; i < c; ++i)
-      right = right && (set[i] == 2 ? -lambda(i) : lambda(i)) >= -slack && v(i) - lower(i) >= -slack &&
-              upper(i) - v(i) >= -slack;
+    for (int i = 0; i < c; ++i) {
+      const bool either = lower(i) == upper(i);  // an equation bears a force of either sign
+      right = right &&
+              (set[i] == 1 && !either ? lambda(i)
+               : set[i] == 2          ? -lambda(i)
+                                      : 0) >= -slack &&
+              most(i) - std::abs(lambda(i)) >= -slack;
+      right = right && (set[i] == 3 ? lower(i) - v(i) : v(i) - (set[i] == 4 ? upper(i) : lower(i))) >= -slack &&
+              (set[i] > 2 || upper(i) - v(i) >= -slack);
+    }
     if (!right) continue;
     ++best.answers;
     const LongVector x = response * (force + on_free.transpose() * lambda);
@@ -95,7 +122,7 @@ BruteForce brute_force(const VariationalInequality& problem) {
     best.lambda = lambda.cast<double>();
     best.active.assign(c, false);
     for (const int i : held) best.active[i] = true;
-  } while (next_set(set, lower, upper));
+  } while (next_set(set, lower, upper, most));
   EXPECT_EQ(best.answers, 1) << "contact sets that satisfy every condition";
   return best;
 }  // namespace

@@ -54,45 +54,73 @@ bool positive_definite(Matrix a) {
   return true;
 }
 
-/// Whether `held` names two sides of one bound; side[i] is the number of the bound that row i is a side of.
-bool both_sides(const std::vector<int>& side, const std::vector<std::size_t>& held) {
-  for (std::size_t k = 1; k < held.size(); ++k)
-    if (side[held[k]] == side[held[k - 1]]) return true;
+/// c z >= bound, one side of bound number `number`; a side that bears `most` gives way to more.
+struct Side {
+  Vector c;
+  Number bound;
+  int number;
+  std::optional<Number> most;
+};
+
+/// What a side does: nothing (its condition holds), it holds (0 <= force <= most), it has given way (force = most).
+enum State { idle, holds, gave_way };
+
+/// The next of all sets of states; false after the last.
+bool next_set(std::vector<State>& states, const std::vector<Side>& sides) {
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const State last = sides[i].most ? gave_way : holds;
+    if (states[i] != last) {
+      states[i] = static_cast<State>(states[i] + 1);
+      return true;
+    }
+    states[i] = idle;
+  }
   return false;
 }
 
-/// min z' h z / 2 - g' z  subject to  c z >= bound, by trying contact sets. Two rows of one sign each are a bound on
-/// both sides; where both hold they depend on each other.
-std::optional<Vector> minimise(const Matrix& h, const Vector& g, const Matrix& c, const Vector& bound,
-                               const std::vector<int>& side) {
+/// Whether two sides of one bound do something: where both hold they depend on each other.
+bool both_sides(const std::vector<State>& states, const std::vector<Side>& sides) {
+  for (std::size_t k = 1; k < sides.size(); ++k)
+    if (states[k] != idle && states[k - 1] != idle && sides[k].number == sides[k - 1].number) return true;
+  return false;
+}
+
+/// min z' h z / 2 - g' z + the work of the sides that give way, subject to the others, by trying all sets of states. Two
+/// sides of one number are neighbours.
+std::optional<Vector> minimise(const Matrix& h, const Vector& g, const std::vector<Side>& sides) {
   const std::size_t n = g.size();
-  for (std::size_t set = 0; set < (std::size_t{1} << bound.size()); ++set) {
+  std::vector<State> states(sides.size(), idle);
+  do {
     std::vector<std::size_t> held;
-    for (std::size_t i = 0; i < bound.size(); ++i)
-      if ((set >> i & 1) != 0) held.push_back(i);
-    if (held.size() > n || both_sides(side, held)) continue;
-    Matrix kkt = zeros(n + held.size(), n + held.size());
     Vector rhs = g;
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      if (states[i] == holds) held.push_back(i);
+      if (states[i] == gave_way)
+        for (std::size_t j = 0; j < n; ++j) rhs[j] += *sides[i].most * sides[i].c[j];
+    }
+    if (held.size() > n || both_sides(states, sides)) continue;
+    Matrix kkt = zeros(n + held.size(), n + held.size());
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) kkt[i][j] = h[i][j];
     for (std::size_t k = 0; k < held.size(); ++k) {
       for (std::size_t i = 0; i < n; ++i) {
-        kkt[n + k][i] = c[held[k]][i];
-        kkt[i][n + k] = -c[held[k]][i];
+        kkt[n + k][i] = sides[held[k]].c[i];
+        kkt[i][n + k] = -sides[held[k]].c[i];
       }
-      rhs.push_back(bound[held[k]]);
+      rhs.push_back(sides[held[k]].bound);
     }
     const std::optional<Vector> x = solve(kkt, rhs);
     if (!x) continue;  // dependent bounds: a smaller set does as well
     bool right = true;
-    for (std::size_t k = 0; k < held.size(); ++k) right = right && (*x)[n + k] >= 0;
-    for (std::size_t i = 0; right && i < bound.size(); ++i) {
+    for (std::size_t k = 0; k < held.size(); ++k)
+      right = right && (*x)[n + k] >= 0 && (!sides[held[k]].most || (*x)[n + k] <= *sides[held[k]].most);
+    for (std::size_t i = 0; right && i < sides.size(); ++i) {
       Number at = 0;
-      for (std::size_t j = 0; j < n; ++j) at += c[i][j] * (*x)[j];
-      right = at >= bound[i];
+      for (std::size_t j = 0; j < n; ++j) at += sides[i].c[j] * (*x)[j];
+      right = states[i] == gave_way ? at <= sides[i].bound : at >= sides[i].bound;
     }
     if (right) return Vector(x->begin(), x->begin() + static_cast<std::ptrdiff_t>(n));
-  }
+  } while (next_set(states, sides));
   return std::nullopt;
 }
 
@@ -180,9 +208,7 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
       for (std::size_t l = 0; l < dimension; ++l) h[k][l] += basis[i][k] * a_basis[i][l];
     }
   }
-  Matrix c;
-  Vector bound;
-  std::vector<int> side;
+  std::vector<Side> sides;
   const Eigen::MatrixXd combinations = problem.combinations;
   for (int k = 0; k < problem.bound_count(); ++k) {
     const int contact = static_cast<int>(problem.contact.size());
@@ -198,15 +224,16 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
     }
     const auto add = [&](int sign, double value) {
       if (std::isinf(value)) return;
-      c.push_back(row);
-      for (Number& entry : c.back()) entry *= sign;
-      bound.push_back(sign * (Number(value) - start_value));
-      side.push_back(k);
+      Side side{row, sign * (Number(value) - start_value), k, std::nullopt};
+      for (Number& entry : side.c) entry *= sign;
+      if (problem.force_bound.size() > 0 && std::isfinite(problem.force_bound(k)))
+        side.most = Number(problem.force_bound(k));
+      sides.push_back(side);
     };
     add(1, problem.lower(k));
     if (problem.upper.size() > 0) add(-1, problem.upper(k));
   }
-  const std::optional<Vector> z = minimise(h, g, c, bound, side);
+  const std::optional<Vector> z = minimise(h, g, sides);
   if (!z) return answer;
   answer.what = Exactly::solved;
   answer.u.resize(problem.size());

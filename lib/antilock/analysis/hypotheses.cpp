@@ -1,6 +1,7 @@
 #include "antilock/analysis/hypotheses.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "antilock/analysis/kernel.hpp"
@@ -26,6 +27,8 @@ double distance_to_kernel(const VariationalInequality& problem) {
   // Without a load, u minimises a1/2 + a0/(2 epsilon) over K_h: as epsilon -> 0, a0 tends to its smallest value there.
   VariationalInequality unloaded = problem;
   unloaded.load.setZero();
+  for (double& g : unloaded.force_bound)  // what gives way is no part of K_h
+    if (std::isfinite(g)) g = 0;
   unloaded.compliance = 1e-9;
   const Solution s = active_set(unloaded);
   const double u = s.u.lpNorm<Eigen::Infinity>();

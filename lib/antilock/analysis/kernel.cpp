@@ -50,6 +50,7 @@ int layer_kernel_dimension(VariationalInequality problem) {
   problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
   std::erase_if(problem.contact, [&](int i) { return held[i] != 0; });
   problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
+  problem.force_bound.resize(0);
   problem.upper.resize(0);  // no bound has a part in the kernel of B
   problem.combinations.resize(0, 0);
   return kernel_dimension(problem);

@@ -9,6 +9,7 @@ namespace antilock {
 
 ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution) {
   require_bounds_on_unknowns(problem, "contact zone");
+  require_firm_bounds(problem, "contact zone");
   ContactZone zone;
   zone.points = static_cast<int>(problem.contact.size());
   for (int i = 0; i < zone.points; ++i) {
@@ -36,6 +37,7 @@ Eigen::VectorXd contact_lengths(const Space& space) {
 
 Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& problem, const Solution& solution) {
   require_bounds_on_unknowns(problem, "contact table");
+  require_firm_bounds(problem, "contact table");
   const auto count = static_cast<Eigen::Index>(problem.contact.size());
   Eigen::MatrixX3d table(count, 3);
   table.col(0) = space.points().col(0)(problem.contact);

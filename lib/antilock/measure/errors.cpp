@@ -6,6 +6,7 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 namespace {
@@ -116,7 +117,8 @@ double slope(const std::vector<double>& h, const std::vector<double>& errors) {
 double energy(const VariationalInequality& problem, const Solution& solution) {
   const double stiff =
       problem.b.rows() > 0 ? problem.compliance * solution.p.dot(problem.m.cwiseProduct(solution.p)) : 0;
-  return 0.5 * (solution.u.dot(problem.a1 * solution.u) + stiff) - problem.load.dot(solution.u);
+  return 0.5 * (solution.u.dot(problem.a1 * solution.u) + stiff) - problem.load.dot(solution.u) +
+         friction_energy(problem, solution.u);
 }
 
 }  // namespace antilock

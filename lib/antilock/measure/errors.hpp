@@ -36,7 +36,7 @@ std::vector<double> rates(const std::vector<double>& h, const std::vector<double
 /// Least-squares slope of log(error) against log(h).
 double slope(const std::vector<double>& h, const std::vector<double>& errors);
 
-/// J(u) = a(u, u)/2 - L(u), the stiff part as compliance p' M p.
+/// J(u) = a(u, u)/2 - L(u) + j(u), the stiff part as compliance p' M p, j of friction (problem/bounds.hpp).
 double energy(const VariationalInequality& problem, const Solution& solution);
 
 }  // namespace antilock

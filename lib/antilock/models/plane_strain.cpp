@@ -2,12 +2,56 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "antilock/core/error.hpp"
 
 namespace antilock {
+
+namespace {
+
+/// The friction bound of every unknown of u_x: int g phi_i, by the midpoint rule on each contact edge.
+Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
+  Eigen::VectorXd bounds = Eigen::VectorXd::Zero(space.size());
+  const TriangleMesh& mesh = space.mesh();
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const int e = mesh.triangle_edges(t, i);
+      if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+      const Eigen::Vector3d midpoint = 0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(i));
+      const double here = g(point_in(mesh, t, midpoint)(0));
+      if (!(here >= 0)) throw Error(fmt::format("plane strain: friction bound {}; accepted 0 or more", here));
+      const Eigen::VectorXd basis = space.element().basis(midpoint);
+      for (Eigen::Index k = 0; k < basis.size(); ++k)
+        bounds(space.unknowns()(t, k)) += mesh.edge_length(e) * here * basis(k);
+    }
+  return bounds;
+}
+
+/// Behind the bounds of u_y: u_x = 0 on the free contact unknowns, as long as the force is below its bound.
+void add_friction(VariationalInequality& problem, const Profile& g, const Space& in_x) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Eigen::VectorXd all = friction_bounds(g, in_x), normal = problem.lower;
+  std::vector<double> bounds;
+  for (const int i : in_x.contact()) {
+    if (std::binary_search(problem.fixed.begin(), problem.fixed.end(), i)) continue;
+    problem.contact.push_back(i);
+    bounds.push_back(all(i));
+  }
+  const auto tangential = static_cast<Eigen::Index>(bounds.size());
+  const Eigen::VectorXd sticks = Eigen::VectorXd::Zero(tangential);
+  const Eigen::VectorXd none = Eigen::VectorXd::Constant(normal.size(), infinity);
+  problem.lower.resize(normal.size() + tangential);
+  problem.upper = problem.force_bound = problem.lower;
+  problem.lower << normal, sticks;
+  problem.upper << none, sticks;
+  problem.force_bound << none, Eigen::Map<const Eigen::VectorXd>(bounds.data(), tangential);
+}
+
+}  // namespace
 
 VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& space) {
   if (!(scene.epsilon >= 0 && scene.epsilon <= 1))
@@ -44,6 +88,7 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
     problem.lower(static_cast<Eigen::Index>(problem.contact.size())) = -scene.gap(space.y.points()(i, 0));
     problem.contact.push_back(shift + i);
   }
+  if (scene.friction) add_friction(problem, scene.friction, space.x);
   return problem;
 }
 

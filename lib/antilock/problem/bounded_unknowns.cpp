@@ -182,6 +182,7 @@ BoundedUnknowns::BoundedUnknowns(const VariationalInequality& of) : problem(of),
   of_fixed.tail(of.combinations.rows()) = of.combinations * fixed;
   problem.lower = shifted(of.lower, of_fixed, scale);
   problem.upper = shifted(of.upper, of_fixed, scale);
+  if (of.force_bound.size() > 0) problem.force_bound = of.force_bound.cwiseQuotient(scale);
   const SparseMatrix a1 = t.transpose() * of.a1 * t;
   problem.a1 = SparseMatrix(a1 + SparseMatrix(a1.transpose())) / 2;  // symmetric to the last bit
   if (of.b.rows() > 0) problem.b = RowMatrix(of.b * t);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -51,7 +52,27 @@ Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::
 
 Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorXd& u) {
   const Eigen::VectorXd values = bounded_values(problem, u), above = values - problem.lower;
-  return problem.upper.size() > 0 ? Eigen::VectorXd(above.cwiseMin(problem.upper - values)) : above;
+  Eigen::VectorXd nearer = problem.upper.size() > 0 ? Eigen::VectorXd(above.cwiseMin(problem.upper - values)) : above;
+  for (Eigen::Index i = 0; i < problem.force_bound.size(); ++i)
+    if (std::isfinite(problem.force_bound(i))) nearer(i) = std::numeric_limits<double>::infinity();
+  return nearer;
+}
+
+double force_bound(const VariationalInequality& problem, Eigen::Index i) {
+  return problem.force_bound.size() > 0 ? problem.force_bound(i) : std::numeric_limits<double>::infinity();
+}
+
+double friction_energy(const VariationalInequality& problem, const Eigen::VectorXd& u) {
+  if (problem.force_bound.size() == 0) return 0;
+  const Eigen::VectorXd values = bounded_values(problem, u);
+  double sum = 0;
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (std::isinf(problem.force_bound(i))) continue;
+    const double below = problem.lower(i) - values(i),
+                 above = problem.upper.size() > 0 ? values(i) - problem.upper(i) : 0;
+    sum += problem.force_bound(i) * std::max({below, above, 0.0});
+  }
+  return sum;
 }
 
 void check_bounds(const VariationalInequality& problem) {
@@ -63,6 +84,13 @@ void check_bounds(const VariationalInequality& problem) {
                             lower.size(), bounds));
   require_bound(upper.size() == 0 || upper.size() == bounds,
                 fmt::format("upper has {} entries; accepted none, or {} as in lower", upper.size(), bounds));
+  require_bound(
+      problem.force_bound.size() == 0 || problem.force_bound.size() == bounds,
+      fmt::format("force_bound has {} entries; accepted none, or {} as in lower", problem.force_bound.size(), bounds));
+  for (Eigen::Index i = 0; i < problem.force_bound.size(); ++i)
+    require_bound(
+        problem.force_bound(i) >= 0,
+        fmt::format("force_bound {} is {}; accepted: 0 or more, infinity for any", i, problem.force_bound(i)));
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < bounds; ++i) {
     const double low = lower(i), high = upper.size() > 0 ? upper(i) : infinity;
@@ -84,7 +112,13 @@ void require_bounds_on_unknowns(const VariationalInequality& problem, const std:
                 "(problem/bounded_unknowns.hpp) makes of them");
 }
 
+void require_firm_bounds(const VariationalInequality& problem, const std::string& who) {
+  if (problem.force_bound.size() > 0)
+    throw Error(who + ": friction is not known here; accepted: a problem without force_bound");
+}
+
 void require_lower_bounds(const VariationalInequality& problem, const std::string& who) {
+  require_firm_bounds(problem, who);
   if (problem.combinations.rows() > 0 || problem.upper.size() > 0)
     throw Error(who +
                 ": upper bounds and bounds on combinations are not known here; accepted: lower bounds on unknowns");

@@ -11,8 +11,15 @@ Eigen::VectorXd bounded_values(const VariationalInequality& problem, const Eigen
 /// The N forces on the unknowns of C forces lambda at the bounds: the transpose of bounded_values.
 Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda);
 
-/// The distance of each bounded value from the nearer of its bounds, negative where it lies outside. C entries.
+/// The distance of each bounded value from the nearer of its bounds, negative where it lies outside, infinite where the
+/// bound gives way. C entries.
 Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorXd& u);
+
+/// The most that bound i bears; infinite: anything.
+double force_bound(const VariationalInequality& problem, Eigen::Index i);
+
+/// j(u), the work that bounds with a force_bound take up: the sum of force_bound times the distance from the bounds.
+double friction_energy(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
 /// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of combinations
 /// without a free unknown. Throws Error.
@@ -20,6 +27,9 @@ void check_bounds(const VariationalInequality& problem);
 
 /// Throws Error where `who` takes bounds on unknowns alone and the problem has combinations.
 void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who);
+
+/// Throws Error where `who` takes bounds that bear anything and the problem has others.
+void require_firm_bounds(const VariationalInequality& problem, const std::string& who);
 
 /// Throws Error where `who` takes lower bounds on unknowns alone and the problem has others.
 void require_lower_bounds(const VariationalInequality& problem, const std::string& who);

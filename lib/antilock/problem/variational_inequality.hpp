@@ -11,6 +11,11 @@ namespace antilock {
 ///     K_h = { v : v = fixed_values on the fixed unknowns, lower <= v <= upper on the contact unknowns,
 ///                 lower <= combinations v <= upper }
 ///
+/// A bound with a finite force_bound g is no part of K_h: it bears g at most and gives way to more. It adds j(v) - j(u)
+/// on the left, j(v) = sum g dist(v, [lower, upper]), and |lambda| <= g; lambda = g below it, -g above. Tresca's
+/// friction with the bound g is the one of a tangential displacement with lower = upper = 0: it sticks where
+/// |lambda| < g and slips against lambda where |lambda| = g.
+///
 /// a0(u, v) = (B u, M B v) stays in factored form: summed into a1 it destroys a1 by round-off. Everything is
 /// dimensionless. N unknowns, R rows of B, C bounds: those on unknowns and then those on combinations, in lower, in
 /// upper and in the answer's lambda. lambda >= 0 at a lower bound, <= 0 at an upper one.
@@ -26,12 +31,13 @@ struct VariationalInequality {
                            ///< `assemble` (models/anti_plane.hpp)
   Eigen::VectorXd load;    ///< N, L(phi_i)
   std::vector<int> fixed;  ///< unknowns with a prescribed value, ascending
-  Eigen::VectorXd fixed_values;  ///< one per fixed unknown
-  std::vector<int> contact;      ///< bounded unknowns, in the order of the reports (by x)
-  Eigen::VectorXd lower;         ///< C: lower <= u there (= -gap). -infinity: no bound from below
-  Eigen::VectorXd upper = {};    ///< C, or empty: none. +infinity: no bound from above; = lower: an equation
-  RowMatrix combinations = {};   ///< x N, or empty: a row c bounds c . u, such as the normal displacement on a slope or
-                                 ///< the gap between two bodies (bounded_unknowns.hpp says which rows are accepted)
+  Eigen::VectorXd fixed_values;      ///< one per fixed unknown
+  std::vector<int> contact;          ///< bounded unknowns, in the order of the reports (by x)
+  Eigen::VectorXd lower;             ///< C: lower <= u there (= -gap). -infinity: no bound from below
+  Eigen::VectorXd upper = {};        ///< C, or empty: none. +infinity: no bound from above; = lower: an equation
+  Eigen::VectorXd force_bound = {};  ///< C, or empty: none. The most that a bound bears, 0 or more; +infinity: anything
+  RowMatrix combinations = {};  ///< x N, or empty: a row c bounds c . u, such as the normal displacement on a slope or
+                                ///< the gap between two bodies (bounded_unknowns.hpp says which rows are accepted)
 
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(fixed.size()); }

@@ -17,9 +17,12 @@ Solution solve(const VariationalInequality& problem, PenaltyFactor& factor, cons
   if (options.start && !options.start->above.empty() && options.start->above.size() != problem.contact.size())
     throw Error("active set: the start has " + std::to_string(options.start->above.size()) +
                 " entries for upper bounds; accepted none, or one per contact unknown");
+  if (options.start && !options.start->beyond.empty() && options.start->beyond.size() != problem.contact.size())
+    throw Error("active set: the start has " + std::to_string(options.start->beyond.size()) +
+                " entries for bounds that give way; accepted none, or one per contact unknown");
   int most = 0;
   const auto start = [&](const auto& p, const ContactAnswer& before, int correction) {
-    if (correction > 0) return HeldBounds(before.active, before.above);
+    if (correction > 0) return held_by(before);
     return options.start ? *options.start : nested_start(p, options.max_steps);
   };
   const ContactSolver contact{

@@ -20,17 +20,19 @@ class DenseRoad {
  public:
   DenseRoad(const ContactProblem& p, HeldBounds start)
       : p_(p),
-        bounds_{p.lower, p.upper},
+        bounds_{p.lower, p.upper, p.most},
         from_(p.from.size() > 0 ? p.from : Eigen::VectorXd::Zero(p.q.size())),
         held_(bounds_.allowed(std::move(start))) {}
 
   int count() const { return bounds_.count(); }
   int steps() const { return steps_; }
-  ContactAnswer answer() const { return {v_, lambda_, held_.active, steps_, held_.above}; }
+  ContactAnswer answer() const { return {v_, lambda_, held_.active, steps_, held_.above, held_.beyond}; }
 
   /// v on the inactive unknowns from the equation, at its bound on the active ones; lambda from both.
   void solve() {
     std::vector<int> free, held;
+    lambda_ = bounds_.given(held_);
+    const Eigen::VectorXd q = p_.q + lambda_, size_q = p_.q.cwiseAbs() + lambda_.cwiseAbs();
     v_.resize(p_.q.size());
     for (int i = 0; i < count(); ++i) {
       (held_.active[i] ? held : free).push_back(i);
@@ -38,7 +40,7 @@ class DenseRoad {
     }
     moved_.setZero(p_.q.size());
     if (!free.empty()) {
-      Eigen::VectorXd rhs = p_.q(free);
+      Eigen::VectorXd rhs = q(free);
       if (!held.empty()) rhs.noalias() -= p_.s(free, held) * v_(held);
       const Cholesky factor(p_.s(free, free));
       if (!factor.positive_definite()) throw Error("contact: the Schur complement is not positive definite");
@@ -46,36 +48,39 @@ class DenseRoad {
       v_(free) = inactive;
       // a compliance is positive: forces of the size of their round-off, all of one sign, displace the most
       const Eigen::VectorXd residual_noise =
-          unit * (p_.s.diagonal().cwiseAbs().cwiseProduct((from_ + v_).cwiseAbs()) + p_.q.cwiseAbs());
+          unit * (p_.s.diagonal().cwiseAbs().cwiseProduct((from_ + v_).cwiseAbs()) + size_q);
       const Eigen::VectorXd moved = factor.solve(Eigen::VectorXd(residual_noise(free))).cwiseAbs();
       moved_(free) = moved;
     }
     // each force by its own row: one stiff unknown must not hide the pull on a soft one
-    noise_lambda_ = unit * (p_.s.cwiseAbs() * (from_ + v_).cwiseAbs() + p_.q.cwiseAbs());
-    lambda_.setZero(p_.q.size());
+    noise_lambda_ = unit * (p_.s.cwiseAbs() * (from_ + v_).cwiseAbs() + size_q);
     if (!held.empty()) lambda_(held) = p_.s(held, Eigen::all) * v_ - p_.q(held);
     ++steps_;
   }
 
-  /// By more than noise: following a sign below it would only make grazing or badly conditioned contact cycle. An
-  /// equation holds whatever its force.
+  /// By more than noise: following a sign below it would only make grazing or badly conditioned contact cycle.
   bool violated(int i) const {
-    if (!held_.active[i])
-      return v_(i) - p_.lower(i) < -noise_at(i, p_.lower(i)) ||
-             bounds_.above(i) - v_(i) < -noise_at(i, bounds_.above(i));
-    return (is_above(held_, i) ? -lambda_(i) : lambda_(i)) < -noise_lambda_(i) && !bounds_.is_equation(i);
+    if (held_.active[i]) {
+      const auto [low, high] = bounds_.forces(held_, i);
+      return lambda_(i) - low < -noise_lambda_(i) || high - lambda_(i) < -noise_lambda_(i);
+    }
+    const auto [low, high] = bounds_.piece(held_, i);
+    return v_(i) - low < -noise_at(i, low) || high - v_(i) < -noise_at(i, high);
   }
 
   void exchange(int i) { bounds_.exchange(held_, i, v_(i), lambda_(i), p_.s(i, i)); }
 
-  /// One step of Bertsekas' projected Newton method from a feasible v: it lowers the energy v' S v / 2 - q' v.
+  /// One step of Bertsekas' projected Newton method from a feasible v: it lowers the energy v' S v / 2 - q' v + j(v).
+  /// In the pieces that lead downhill from v the energy is smooth, and they are bounds like any others.
   void descend() {
     if (descent_.size() == 0) descent_ = bounds_.nearest(v_);
     Eigen::VectorXd& v = descent_;
-    const Eigen::VectorXd gradient = p_.s * v - p_.q;
+    Eigen::VectorXd gradient = p_.s * v - p_.q;
+    const HeldBounds pieces = bounds_.downhill(v, gradient);
+    gradient -= bounds_.given(pieces);
     std::vector<int> free;
     for (int i = 0; i < v.size(); ++i)
-      if ((v(i) > p_.lower(i) || gradient(i) <= 0) && (v(i) < bounds_.above(i) || gradient(i) >= 0)) free.push_back(i);
+      if (!pieces.active[i]) free.push_back(i);
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(v.size());
     if (!free.empty()) {
       const Eigen::VectorXd step = Cholesky(p_.s(free, free)).solve(Eigen::VectorXd(-gradient(free)));
@@ -86,7 +91,7 @@ class DenseRoad {
     double t = 1;
     Eigen::VectorXd next;
     for (int halvings = 0; halvings < 60; ++halvings, t /= 2) {
-      next = bounds_.nearest(v + t * direction);
+      next = bounds_.nearest(pieces, v + t * direction);
       const Eigen::VectorXd change = next - v;
       if (change.dot(gradient + 0.5 * (p_.s * change)) <= 1e-4 * change.dot(gradient)) break;
     }
@@ -112,6 +117,18 @@ class DenseRoad {
   int steps_ = 0;
 };
 
+/// What every second one bears when the others bear nothing: its own, and half of what each neighbour gives up.
+Eigen::VectorXd shared_by_every_second(const Eigen::VectorXd& most) {
+  const Eigen::Index fine = most.size();
+  Eigen::VectorXd shared(fine / 2);
+  for (Eigen::Index i = 1; i < fine; i += 2) {
+    shared(i / 2) = most(i);
+    for (const Eigen::Index j : {i - 1, i + 1})
+      if (j < fine && std::isfinite(most(j))) shared(i / 2) += 0.5 * most(j);
+  }
+  return shared;
+}
+
 }  // namespace
 
 ContactAnswer solve_contact(const ContactProblem& problem, HeldBounds start, int max_steps) {
@@ -135,14 +152,17 @@ HeldBounds nested_start(const ContactProblem& problem, int max_steps) {
   if (problem.from.size() > 0) smaller.from = problem.from(kept);
   if (problem.noise.size() > 0) smaller.noise = problem.noise(kept);
   if (problem.upper.size() > 0) smaller.upper = problem.upper(kept);
+  if (problem.most.size() > 0) smaller.most = shared_by_every_second(problem.most);
   const ContactAnswer answer = solve_contact(smaller, nested_start(smaller, max_steps), max_steps);
-  HeldBounds start(std::vector<bool>(fine), std::vector<bool>(problem.upper.size()));
+  HeldBounds start(std::vector<bool>(fine), std::vector<bool>(problem.upper.size()),
+                   std::vector<int>(problem.most.size()));
   for (Eigen::Index i = 0; i < fine; ++i) {
     const Eigen::Index right = std::min(i / 2, coarse - 1), left = std::clamp<Eigen::Index>((i - 1) / 2, 0, coarse - 1);
     const bool above = !answer.above.empty() && answer.above[right];
     const bool agree = answer.above.empty() || answer.above[left] == above;
     start.active[i] = answer.active[right] && answer.active[left] && agree;
     if (problem.upper.size() > 0) start.above[i] = start.active[i] && above;
+    if (problem.most.size() > 0 && answer.beyond[right] == answer.beyond[left]) start.beyond[i] = answer.beyond[right];
   }
   return start;
 }

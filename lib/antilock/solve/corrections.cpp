@@ -46,7 +46,7 @@ Corrections::Change Corrections::correct(SplitResidual r, const ContactSolver& c
   const double delta = factor_.delta();
   const bool stiff = problem_.b.rows() > 0;
   if (stiff) r.r1.noalias() += problem_.b.transpose() * (problem_.m.cwiseProduct(r.r2) / delta);
-  const std::vector<bool> active_before = contact_.active, above_before = contact_.above;
+  const HeldBounds before = held_by(contact_);
   Change change;
   change.u = solve_with_factor(r.r1(factor_.numbering().unknown), contact);
   s_.u += change.u;
@@ -56,7 +56,8 @@ Corrections::Change Corrections::correct(SplitResidual r, const ContactSolver& c
     change.p /= delta;
     s_.p += change.p;
   }
-  change.same_contact = contact_.active == active_before && contact_.above == above_before;
+  change.same_contact =
+      contact_.active == before.active && contact_.above == before.above && contact_.beyond == before.beyond;
   return change;
 }
 
@@ -79,7 +80,8 @@ Eigen::VectorXd Corrections::solve_with_factor(Eigen::VectorXd r, const ContactS
     Eigen::VectorXd q = r_c + l * y.tail(c);
     if (contact_.lambda.size() > 0) q -= contact_.lambda;  // r holds them already; contact asks for all
     contact_ =
-        contact.dense({schur_, q, lower, s_.u.lpNorm<Eigen::Infinity>(), u_c, noise_c_, upper}, contact_, correction_);
+        contact.dense({schur_, q, lower, s_.u.lpNorm<Eigen::Infinity>(), u_c, noise_c_, upper, problem_.force_bound},
+                      contact_, correction_);
     y.tail(c) = l.transpose() * contact_.v;
     s_.seconds.contact += watch.lap();
   }
@@ -98,9 +100,9 @@ Eigen::VectorXd Corrections::solve_holding(Eigen::VectorXd r, const ContactSolve
   const Eigen::VectorXd from = s_.u(unknown), u_c = s_.u(problem_.contact), lower = problem_.lower - u_c;
   const Eigen::VectorXd upper = problem_.upper.size() > 0 ? Eigen::VectorXd(problem_.upper - u_c) : Eigen::VectorXd();
   if (contact_.lambda.size() > 0) r.tail(contact_.lambda.size()) -= contact_.lambda;  // contact asks for all
-  SparseContactAnswer answer =
-      contact.sparse({*factor_.held(), r, bounded, lower, s_.u.lpNorm<Eigen::Infinity>(), from, noise_c_, upper},
-                     contact_, correction_);
+  SparseContactAnswer answer = contact.sparse(
+      {*factor_.held(), r, bounded, lower, s_.u.lpNorm<Eigen::Infinity>(), from, noise_c_, upper, problem_.force_bound},
+      contact_, correction_);
   contact_ = std::move(answer.contact);
   ++factor_.solves;
   Eigen::VectorXd du = Eigen::VectorXd::Zero(problem_.size());

@@ -35,8 +35,11 @@ Eigen::VectorXd absolute_row_sums(const RowMatrix& b);
 /// | min_pressure, of bound i  | lambda_i at a lower bound | force_i             | as for r1                          |
 /// |                           | -lambda_i at an upper one | force_i             |                                    |
 /// |                           | |lambda_i| between two    | force_i             | either sign is right               |
+/// |                           | g_i - |lambda_i|, where the bound bears g_i | max(force_i, g_i)                      |
 /// | complementarity           | |lambda_i gap|, the part of lambda_i that a side bears times its gap | gap's scale  |
 /// |                           |                           | times force_i       |                                    |
+///
+/// A bound that gives way leaves no gap; beyond it complementarity asks for lambda_i = g_i: |(g_i - |lambda_i|) gap|.
 ///
 ///     s_i    the bounded value: u_k of a contact unknown k, c . u of a row c of combinations
 ///     c_i    what s_i is at most where no |u| is above 1: 1, and sum_k |c_k|

@@ -35,6 +35,8 @@ void note_bound(Kkt& kkt, const VariationalInequality& problem, Eigen::Index i, 
                 double u_scale, double force) {
   const double lower = problem.lower(i);
   const double upper = problem.upper.size() > 0 ? problem.upper(i) : std::numeric_limits<double>::infinity();
+  const double bears = force_bound(problem, i);
+  const bool soft = std::isfinite(bears);
   // between two bounds either sign of lambda is right, and each side answers for its own
   const bool two = std::isfinite(lower) && std::isfinite(upper);
   const double up = two ? std::max(lambda, 0.0) : lambda, down = two ? std::max(-lambda, 0.0) : -lambda;
@@ -42,10 +44,12 @@ void note_bound(Kkt& kkt, const VariationalInequality& problem, Eigen::Index i, 
     if (!std::isfinite(bound)) return;
     const double scale = std::max(u_scale, std::abs(bound));
     if (!two) kkt.min_pressure = least(kkt.min_pressure, ratio(pressure, force));
-    kkt.min_gap = least(kkt.min_gap, ratio(gap, scale));
-    kkt.complementarity = most(kkt.complementarity, ratio(std::abs(pressure * gap), scale * force));
+    if (!soft) kkt.min_gap = least(kkt.min_gap, ratio(gap, scale));
+    const double idle = soft && gap < 0 ? bears - pressure : pressure;  // what is not borne beyond a bound
+    kkt.complementarity = most(kkt.complementarity, ratio(std::abs(idle * gap), scale * force));
   };
   if (two) kkt.min_pressure = least(kkt.min_pressure, ratio(std::abs(lambda), force));
+  if (soft) kkt.min_pressure = least(kkt.min_pressure, ratio(bears - std::abs(lambda), std::max(force, bears)));
   side(lower, value - lower, up);
   side(upper, upper - value, down);
 }
@@ -72,6 +76,7 @@ void report_bounds(Kkt& kkt, const VariationalInequality& problem, const Solutio
     const BoundUnits units = bound_units(problem, i, forces);
     note_bound(kkt, problem, i, values(i), solution.lambda(i), u_scale * units.strain, units.force);
   }
+  if (kkt.min_gap == std::numeric_limits<double>::infinity()) kkt.min_gap = 0;  // every bound gives way
 }
 
 }  // namespace antilock

@@ -14,11 +14,23 @@ namespace {
 
 constexpr double digits = 64 * std::numeric_limits<double>::epsilon();
 
+/// How far each bounded value is outside its bounds, or, where the bound gives way, on the other side of it than its
+/// force says.
+Eigen::VectorXd sunk_in(const VariationalInequality& problem, const Eigen::VectorXd& u, const ContactAnswer& contact) {
+  Eigen::VectorXd sunk = -slack(problem, u);
+  const Eigen::VectorXd values = bounded_values(problem, u);
+  for (Eigen::Index i = 0; i < problem.force_bound.size(); ++i) {
+    if (std::isinf(problem.force_bound(i)) || contact.active[i] || contact.beyond[i] == 0) continue;
+    sunk(i) = contact.beyond[i] < 0 ? values(i) - problem.lower(i) : problem.upper(i) - values(i);
+  }
+  return sunk;
+}
+
 }  // namespace
 
 bool Corrections::hides_a_violation(const Change& change, const ContactSolver& contact) {
   const auto c = static_cast<Eigen::Index>(problem_.contact.size());
-  const Eigen::VectorXd u_c = s_.u(problem_.contact), sunk = -slack(problem_, s_.u);
+  const Eigen::VectorXd u_c = s_.u(problem_.contact), sunk = sunk_in(problem_, s_.u, contact_);
   // where u = 0 is admissible there is an answer, and the round-off of the largest u is none too large; else it may hide
   // that there is none
   const bool may_be_infeasible = problem_.compliance == 0 && problem_.b.rows() > 0 && !zero_is_admissible();

@@ -19,14 +19,16 @@ class SparseRoad {
  public:
   SparseRoad(const SparseContactProblem& p, HeldBounds start)
       : p_(p),
-        bounds_{p.lower, p.upper},
+        bounds_{p.lower, p.upper, p.most},
         from_(p.from.size() > 0 ? p.from : Eigen::VectorXd::Zero(p.q.size())),
         diagonal_(p.k.upper().diagonal()),
         held_(bounds_.allowed(std::move(start))) {}
 
   int count() const { return bounds_.count(); }
   int steps() const { return steps_; }
-  SparseContactAnswer answer() const { return {{bounded(x_), lambda_, held_.active, steps_, held_.above}, x_}; }
+  SparseContactAnswer answer() const {
+    return {{bounded(x_), lambda_, held_.active, steps_, held_.above, held_.beyond}, x_};
+  }
 
   /// x on the unknowns that are not held from the equation, at its bound on the held ones; lambda from both.
   void solve() {
@@ -38,43 +40,56 @@ class SparseRoad {
         x_(p_.bounded[i]) = bounds_.at(held_, i);
       }
     p_.k.hold(held);
-    x_ += p_.k.solve(p_.q - p_.k.times(x_));
+    const Eigen::VectorXd given = bounds_.given(held_);
+    Eigen::VectorXd q = p_.q;
+    q(p_.bounded) += given;
+    x_ += p_.k.solve(q - p_.k.times(x_));
     lambda_ = bounded(p_.k.times(x_) - p_.q);
     for (int i = 0; i < count(); ++i)
-      if (!held_.active[i]) lambda_(i) = 0;
+      if (!held_.active[i]) lambda_(i) = given(i);
     // the same measures of round-off as on the dense road: see there
     const Eigen::VectorXd size = (from_ + x_).cwiseAbs();
     Eigen::VectorXd pushed = Eigen::VectorXd::Zero(x_.size());
-    for (const int place : p_.bounded) pushed(place) = unit * (diagonal_(place) * size(place) + std::abs(p_.q(place)));
+    for (int i = 0; i < count(); ++i) {
+      const int place = p_.bounded[i];
+      pushed(place) = unit * (diagonal_(place) * size(place) + std::abs(p_.q(place)) + std::abs(given(i)));
+    }
     moved_ = bounded(p_.k.solve(pushed)).cwiseAbs();
-    noise_lambda_ = unit * bounded(p_.k.absolute_times(size) + p_.q.cwiseAbs());
+    noise_lambda_ = unit * (bounded(p_.k.absolute_times(size) + p_.q.cwiseAbs()) + given.cwiseAbs());
     ++steps_;
   }
 
-  /// By more than noise. An equation holds whatever its force.
+  /// By more than noise.
   bool violated(int i) const {
-    const double x = x_(p_.bounded[i]), upper = bounds_.above(i);
-    if (!held_.active[i]) return x - p_.lower(i) < -noise_at(i, p_.lower(i)) || upper - x < -noise_at(i, upper);
-    return (is_above(held_, i) ? -lambda_(i) : lambda_(i)) < -noise_lambda_(i) && !bounds_.is_equation(i);
+    if (held_.active[i]) {
+      const auto [low, high] = bounds_.forces(held_, i);
+      return lambda_(i) - low < -noise_lambda_(i) || high - lambda_(i) < -noise_lambda_(i);
+    }
+    const double x = x_(p_.bounded[i]);
+    const auto [low, high] = bounds_.piece(held_, i);
+    return x - low < -noise_at(i, low) || high - x < -noise_at(i, high);
   }
 
   void exchange(int i) { bounds_.exchange(held_, i, x_(p_.bounded[i]), lambda_(i), diagonal_(p_.bounded[i])); }
 
   /// One step of Bertsekas' projected Newton method from a feasible x.
   void descend() {
-    if (descent_.size() == 0) descent_ = projected(x_);
-    const Eigen::VectorXd gradient = p_.k.times(descent_) - p_.q;
-    std::vector<char> held(gradient.size(), 0);
-    for (int i = 0; i < count(); ++i) {
-      const double x = descent_(p_.bounded[i]), g = gradient(p_.bounded[i]);
-      held[p_.bounded[i]] = (x <= p_.lower(i) && g > 0) || (x >= bounds_.above(i) && g < 0) ? 1 : 0;
+    if (descent_.size() == 0) {
+      descent_ = x_;
+      descent_(p_.bounded) = bounds_.nearest(bounded(x_));
     }
+    Eigen::VectorXd gradient = p_.k.times(descent_) - p_.q;
+    const HeldBounds pieces = bounds_.downhill(bounded(descent_), bounded(gradient));
+    gradient(p_.bounded) -= bounds_.given(pieces);
+    std::vector<char> held(gradient.size(), 0);
+    for (int i = 0; i < count(); ++i) held[p_.bounded[i]] = pieces.active[i] ? 1 : 0;
     p_.k.hold(held);
     const Eigen::VectorXd direction = p_.k.solve(-gradient);
     double t = 1;
     Eigen::VectorXd next;
     for (int halvings = 0; halvings < 60; ++halvings, t /= 2) {
-      next = projected(descent_ + t * direction);
+      next = descent_ + t * direction;
+      next(p_.bounded) = bounds_.nearest(pieces, bounded(next));
       const Eigen::VectorXd change = next - descent_;
       if (change.dot(gradient + 0.5 * p_.k.times(change)) <= 1e-4 * change.dot(gradient)) break;
     }
@@ -85,12 +100,6 @@ class SparseRoad {
 
  private:
   Eigen::VectorXd bounded(const Eigen::VectorXd& x) const { return x(p_.bounded); }
-
-  /// The nearest x within the bounds.
-  Eigen::VectorXd projected(Eigen::VectorXd x) const {
-    x(p_.bounded) = bounds_.nearest(bounded(x));
-    return x;
-  }
 
   /// Round-off of x beside a bound. Where it is known, nothing is added to it: a diagonal entry of K, unlike one of a
   /// Schur complement, holds the penalty, and what it makes of round-off may hide a violation.
@@ -119,6 +128,14 @@ Eigen::VectorXd mean_bound(const Eigen::VectorXd& bound, const std::vector<int>&
     ++members(coarse_of[i]);
   }
   return sum.cwiseQuotient(members);
+}
+
+/// What the members of each coarse unknown bear together; infinite where one of them bears anything.
+Eigen::VectorXd sum_of_most(const Eigen::VectorXd& most, const std::vector<int>& coarse_of, Eigen::Index coarse) {
+  if (most.size() == 0) return {};
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(coarse);
+  for (Eigen::Index i = 0; i < most.size(); ++i) sum(coarse_of[i]) += most(i);
+  return sum;
 }
 
 }  // namespace
@@ -155,11 +172,13 @@ HeldBounds nested_start(const SparseContactProblem& problem, int max_steps) {
     if (k.factorise(aggregates.coarse)) return none;
     SparseContactProblem coarse{k, q, bounded, lower, problem.u_scale};
     coarse.upper = mean_bound(problem.upper, coarse_of, coarse_count);
+    coarse.most = sum_of_most(problem.most, coarse_of, coarse_count);
     answer = solve_contact(coarse, nested_start(coarse, max_steps), max_steps).contact;
   } catch (const Error&) {
     return none;  // a start, no more: the fine problem says what is wrong
   }
-  HeldBounds start(std::vector<bool>(count), std::vector<bool>(problem.upper.size()));
+  HeldBounds start(std::vector<bool>(count), std::vector<bool>(problem.upper.size()),
+                   std::vector<int>(problem.most.size()));
   const RowMatrix rows = p;
   for (std::size_t i = 0; i < count; ++i) {
     const bool above = !answer.above.empty() && answer.above[coarse_of[i]];
@@ -170,6 +189,7 @@ HeldBounds nested_start(const SparseContactProblem& problem, int max_steps) {
     }
     start.active[i] = active;
     if (problem.upper.size() > 0) start.above[i] = active && above;
+    if (problem.most.size() > 0) start.beyond[i] = answer.beyond[coarse_of[i]];
   }
   return start;
 }

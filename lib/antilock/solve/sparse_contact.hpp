@@ -8,6 +8,7 @@ namespace antilock {
 
 /// The contact problem on all F places, for many bounds: find x with lower <= x <= upper on the bounded places and
 ///     lambda = K x - q >= 0 where x = lower,  <= 0 where x = upper,  = 0 between and on all other places.
+/// Bounds give way as in the dense one.
 struct SparseContactProblem {
   HeldFactor& k;
   const Eigen::VectorXd& q;         ///< F
@@ -17,6 +18,7 @@ struct SparseContactProblem {
   Eigen::VectorXd from = {};        ///< F, where x and lower count from (empty: 0): round-off is that of from + x
   Eigen::VectorXd noise = {};       ///< C, the round-off of each bounded x where it is known
   Eigen::VectorXd upper = {};       ///< C, or empty: none; +infinity: none here
+  Eigen::VectorXd most = {};        ///< C, or empty: the most that a bound bears; +infinity: anything
 };
 
 struct SparseContactAnswer {

@@ -9,6 +9,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/bounds.hpp"
+#include "antilock/solve/contact_loop.hpp"
 #include "antilock/solve/handed_back.hpp"
 #include "antilock/solve/iterated_penalty.hpp"
 
@@ -20,16 +21,26 @@ Eigen::VectorXd between(const Eigen::VectorXd& low, const Eigen::VectorXd& x, co
   return low.cwiseMax(high.size() > 0 ? Eigen::VectorXd(x.cwiseMin(high)) : x);
 }
 
+/// The most that bound i bears; infinite: anything.
+double bears(const ContactProblem& p, Eigen::Index i) {
+  return p.most.size() > 0 ? p.most(i) : std::numeric_limits<double>::infinity();
+}
+
 /// An upper bound of J(v+) - J(u_h) on Gamma_C, v+ = v moved to the nearest bound where it is beyond, for v = S^-1 (q +
 /// lambda) and any lambda of the right signs: the energy of v+ less the dual energy of lambda, -(q + lambda) S^-1 (q +
 /// lambda) / 2 + lambda bound (the lower one where lambda > 0, the upper one where lambda < 0), which simplifies to
 ///     lambda (v+ - bound) + d S d / 2,   d = v+ - v what v sinks in.
+/// A bound that gives way moves nothing and adds the work that it takes up, most times the distance from it.
 double duality_gap(const ContactProblem& p, const ContactAnswer& answer) {
-  const Eigen::VectorXd inside = between(p.lower, answer.v, p.upper), d = inside - answer.v;
+  const HeldBounds reached = ContactBounds{p.lower, p.upper, p.most}.reached(answer.v);
+  const Eigen::VectorXd inside = ContactBounds{p.lower, p.upper, p.most}.nearest(answer.v), d = inside - answer.v;
   double work = 0;
-  for (Eigen::Index i = 0; i < d.size(); ++i)
+  for (Eigen::Index i = 0; i < d.size(); ++i) {
     if (const double lambda = answer.lambda(i); lambda != 0)
       work += lambda * (inside(i) - (lambda > 0 ? p.lower(i) : p.upper(i)));
+    if (const int beyond = is_beyond(reached, static_cast<int>(i)); beyond != 0)
+      work += p.most(i) * std::abs(inside(i) - (beyond < 0 ? p.lower(i) : p.upper(i)));
+  }
   return work + 0.5 * d.dot(p.s * d);
 }
 
@@ -64,21 +75,37 @@ class CondensedUzawa {
                         change, history.size(), watch_.seconds(), options_.tolerance),
             change, static_cast<int>(history.size()));
     }
-    answer.active.resize(p.q.size());
-    for (Eigen::Index i = 0; i < p.q.size(); ++i) answer.active[i] = f(i) != p.q(i);
-    answer.lambda = f - p.q;
     answer.v = compliance_ * f;
+    take_bounds(p, f, answer);
     return answer;
   }
 
   std::vector<double> history;
 
  private:
+  /// lambda, and which bounds bear it: all that push, or that hold an equation, but not those that bear their most.
+  void take_bounds(const ContactProblem& p, const Eigen::VectorXd& f, ContactAnswer& answer) const {
+    answer.lambda = f - p.q;
+    answer.active.resize(f.size());
+    answer.beyond.assign(p.most.size(), 0);
+    for (Eigen::Index i = 0; i < f.size(); ++i) {
+      const double most = bears(p, i);
+      const bool low = f(i) >= p.q(i) + most, high = f(i) <= p.q(i) - most;
+      const bool equation = p.upper.size() > 0 && p.lower(i) == p.upper(i);
+      answer.active[i] = !low && !high && (f(i) != p.q(i) || (equation && std::isfinite(most)));
+      if (low || high) answer.beyond[i] = low && (!high || answer.v(i) < p.lower(i)) ? -1 : 1;
+      if (low || high) answer.lambda(i) = low && high ? 0 : low ? most : -most;
+    }
+  }
+
   /// lambda <- max(0, lambda - rho (v - lower)) + min(0, lambda - rho (v - upper)): of the two terms one is zero. In f
-  /// that is q, moved up to f - rho (v - lower) or down to f - rho (v - upper).
+  /// that is q, moved up to f - rho (v - lower) or down to f - rho (v - upper), and no further than a bound bears.
   Eigen::VectorXd projected_step(const ContactProblem& p, const Eigen::VectorXd& f, const Eigen::VectorXd& v) const {
     const Eigen::VectorXd up = f - rho_ * (v - p.lower);
-    return between(up, p.q, p.upper.size() > 0 ? Eigen::VectorXd(f - rho_ * (v - p.upper)) : Eigen::VectorXd());
+    Eigen::VectorXd next =
+        between(up, p.q, p.upper.size() > 0 ? Eigen::VectorXd(f - rho_ * (v - p.upper)) : Eigen::VectorXd());
+    if (p.most.size() > 0) next = next.cwiseMax(p.q - p.most).cwiseMin(p.q + p.most);
+    return next;
   }
 
   void condense() {

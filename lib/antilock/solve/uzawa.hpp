@@ -31,7 +31,7 @@ struct UzawaOptions {
 
 /// The paper's algorithm: projected gradient on the contact pressure,
 ///     A u = L + lambda,   lambda <- max(0, lambda - rho (u - lower))   on Gamma_C,
-/// and + min(0, lambda - rho (u - upper)) where there is an upper bound; the linear solve by Cholesky. Condensed on
+/// and + min(0, lambda - rho (u - upper)) where there is an upper bound, cut to |lambda| <= force_bound; the linear solve by Cholesky. Condensed on
 /// Gamma_C (the compliance is dense there and small) a step costs a product with a C x C matrix; the stiff part is
 /// treated by iterated penalty, as in active_set. history holds one entry per step. Throws NotConverged, with how far it
 /// came, instead of ever returning an unconverged answer. Bounds of other shapes as in active_set.

@@ -47,6 +47,16 @@ void Sweep::set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upp
   }
 }
 
+void Sweep::set_force_bound(Eigen::VectorXd force_bound) {
+  std::swap(problem_.force_bound, force_bound);
+  try {
+    check_bounds(problem_);
+  } catch (const Error&) {
+    std::swap(problem_.force_bound, force_bound);
+    throw;
+  }
+}
+
 const PenaltyFactor& Sweep::factor() const {
   if (!factor_) throw Error("sweep: no factor before the first answer; accepted: solve first");
   return *factor_;
@@ -62,9 +72,12 @@ Solution Sweep::solve(ActiveSetOptions options) {
   if (!options.start) options.start = contact_set_;
 
   Solution solution = active_set(problem_, *factor_, options);
-  contact_set_.emplace(solution.active, std::vector<bool>(problem_.upper.size()));
+  contact_set_.emplace(solution.active, std::vector<bool>(problem_.upper.size()),
+                       std::vector<int>(problem_.force_bound.size()));
   for (Eigen::Index i = 0; i < problem_.upper.size(); ++i)
     contact_set_->above[i] = solution.active[i] && solution.lambda(i) < 0;
+  for (Eigen::Index i = 0; i < problem_.force_bound.size(); ++i)
+    if (!solution.active[i] && solution.lambda(i) != 0) contact_set_->beyond[i] = solution.lambda(i) > 0 ? -1 : 1;
   solution.counters.factorisations = factor_->factorisations - factorisations_before;
   if (solution.counters.factorisations == 0) solution.seconds.factor = 0;
   if (factorisations_before > 0) solution.seconds.analyse = 0;

@@ -29,6 +29,8 @@ class Sweep {
   /// C entries, one per contact unknown; `upper` as in the problem, empty: as it was. Throws Error where there is no
   /// contact, and as `check` does.
   void set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper = {});
+  /// C entries, or none, as in the problem. Throws Error as `check` does.
+  void set_force_bound(Eigen::VectorXd force_bound);
 
   /// The answer, its counters saying what this question cost beyond the ones before.
   Solution solve(ActiveSetOptions options = {});
