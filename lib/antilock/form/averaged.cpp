@@ -26,7 +26,8 @@ Shares one_group_per_row(const std::vector<std::pair<long, long>>& key) {
 
 void check_shares(const FactoredForm& form, const Shares& shares) {
   if (shares.cols() != form.b.rows())
-    throw Error(fmt::format("averaged: shares of {} rows; accepted: of the {} rows of B", shares.cols(), form.b.rows()));
+    throw Error(
+        fmt::format("averaged: shares of {} rows; accepted: of the {} rows of B", shares.cols(), form.b.rows()));
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(shares.cols());
   for (Eigen::Index g = 0; g < shares.rows(); ++g) {
     double own = 0;
@@ -49,8 +50,10 @@ FactoredForm averaged(const FactoredForm& form, const Shares& shares) {
   check_shares(form, shares);
   FactoredForm mean;
   mean.m = shares * form.m;
-  mean.b = mean.m.cwiseInverse().asDiagonal() * (shares * form.m.asDiagonal() * form.b).pruned();
-  mean.b.makeCompressed();
+  const Shares weights = shares * form.m.asDiagonal();
+  mean.b = weights * form.b;
+  for (Eigen::Index g = 0; g < mean.b.rows(); ++g)
+    for (RowMatrix::InnerIterator entry(mean.b, g); entry; ++entry) entry.valueRef() /= mean.m(g);
   if (!form.cell.empty())
     for (Eigen::Index g = 0; g < shares.rows(); ++g)
       mean.cell.push_back(form.cell[Shares::InnerIterator(shares, g).col()]);
@@ -75,9 +78,10 @@ Shares vertex_shares(const TriangleMesh& mesh, const FactoredForm& form, const Q
   std::vector<int> mean(mesh.vertex_count(), -1);
   for (std::size_t r = 0; r < form.cell.size(); ++r) {
     if (form.cell.size() % points != 0 || form.cell[r] != form.cell[r - r % points])
-      throw Error(fmt::format("vertex_shares: row {} of B is not a point of the rule of {} points per cell; accepted: "
-                              "the rule that the form was made with",
-                              r, points));
+      throw Error(
+          fmt::format("vertex_shares: row {} of B is not a point of the rule of {} points per cell; accepted: "
+                      "the rule that the form was made with",
+                      r, points));
     for (int i = 0; i < 3; ++i) mean[mesh.triangles(form.cell[r], i)] = 0;
   }
   int means = 0;

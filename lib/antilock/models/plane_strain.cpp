@@ -22,8 +22,7 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   if (scene.jump_weight > 0) problem.a1 += jump_form(space, scene.jump_weight, !scene.sliding);
   problem.a1.makeCompressed();
   FactoredForm div = divergence(space);
-  if (scene.continuous_pressure)
-    div = averaged(div, vertex_shares(space.x.mesh(), div, divergence_rule(space)));
+  if (scene.continuous_pressure) div = averaged(div, vertex_shares(space.x.mesh(), div, divergence_rule(space)));
   problem.b = std::move(div.b);
   problem.m = std::move(div.m);
   problem.compliance = scene.epsilon;
