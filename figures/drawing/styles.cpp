@@ -42,10 +42,10 @@ const Row rows[] = {
     {"Kouhia-Stenberg", "Kouhia–Stenberg", "", {black, triangle, 4}},
     // means of the strain (what fails, what cures); mixed methods of rubber
     {"P1 as it is", "$P_1$ as it is", "", {vermillion, square, 11}},
-    {"patches (half kept)", "patches of vertices, half kept", "patches", {red, down_triangle, 5}},
-    {"columns (half kept)", "columns (half kept)", "columns", {olive, triangle, 7}},
+    {"patches (half kept)", "patches, half kept", "", {red, down_triangle, 5}},
+    {"columns (half kept)", "columns, half kept", "", {olive, triangle, 7}},
     {"boxes (nothing kept)", "boxes, nothing kept", "", {black, cross, 6}},
-    {"boxes (half kept)", "boxes (half kept)", "boxes", {blue, circle, 8}},
+    {"boxes (half kept)", "boxes, half kept", "", {blue, circle, 8}},
     {"Crouzeix-Raviart", "Crouzeix–Raviart", "CR", {green, diamond, 4.5}},
     {"P1 (pressure per triangle)", "$P_1$, pressure per triangle", "", {vermillion, square, 9}},
     {"MINI", "MINI", "", {blue, circle, 8}},
