@@ -12,6 +12,8 @@
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
+#include "antilock/models/plane_strain.hpp"
+#include "antilock/problem/projected.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "cross_check.hpp"
@@ -198,6 +200,63 @@ Numbers glued_strings(int cells, const std::filesystem::path& folder) {
       numbers.all.push_back({at + "largest |u|", ours.u.cwiseAbs().maxCoeff(), table.column("moved")(row), gap});
       numbers.all.push_back({at + "contact force", ours.lambda.sum(), table.column("force")(row), load});
     }
+  }
+  return numbers;
+}
+
+namespace {
+
+/// u of a file x, y, u at the points of a space, each relative to the largest of ours.
+void compare_values(Numbers& numbers, const std::string& what, const Space& space, const Eigen::VectorXd& ours,
+                    const Table& theirs) {
+  Points places(theirs.rows.rows(), 2);
+  places << theirs.column("x"), theirs.column("y");
+  const Eigen::VectorXd u = theirs.column("u")(match(space.points(), places));
+  const double largest = ours.cwiseAbs().maxCoeff();
+  for (int i = 0; i < space.size(); ++i)
+    numbers.all.push_back({fmt::format("{} at unknown {}", what, i), ours(i), u(i), largest});
+}
+
+}  // namespace
+
+Numbers mixed(int cells, double epsilon, const std::filesystem::path& folder) {
+  const TriangleMesh squares = unstructured_mesh(cells), block = with_free_sides(structured_mesh(cells, Domain{0}));
+  const auto mesh = folder / "mesh.freefem.msh", body = folder / "body.freefem.msh";
+  write_freefem_mesh(mesh, squares);
+  write_freefem_mesh(body, block);
+  run("25_mixed", {"-mesh", mesh, "-body", body, "-cells", std::to_string(cells), "-epsilon",
+                   fmt::format("{}", epsilon), "-out", folder});
+  const Table summary = read_table(folder / "summary.csv", 2);
+  if (summary.rows.rows() != 3) throw Error(fmt::format("summary.csv: {} rows; accepted 3", summary.rows.rows()));
+  Numbers numbers;
+  const auto took = [&](Eigen::Index row, const Solution& ours) {
+    numbers.took(summary.names[row].substr(0, summary.names[row].find(' ')));
+    numbers.unknowns = std::max(numbers.unknowns, static_cast<int>(ours.u.size()));
+    numbers.seconds += ours.seconds.total();
+    numbers.freefem_seconds += summary.column("seconds")(row);
+    numbers.relative(summary.names[row] + ": contact force", ours.lambda.sum(), summary.column("force")(row));
+  };
+
+  const Space p1_space(squares, p1());
+  const Shares boxes = box_shares(squares, layer_strain(p1_space), 2.0 / cells, 2.0 / cells);
+  const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
+  const Solution layer = active_set(projected(antilock::assemble(scene, p1_space), boxes, 0.5));
+  took(0, layer);
+  compare_values(numbers, "boxes: u", p1_space, layer.u, read_table(folder / "boxes.csv"));
+
+  Eigen::Index row = 1;
+  for (const auto& [element, name] : {std::pair{&p1_bubble(), "MINI"}, {&p2(), "TaylorHood"}}) {
+    const Space space(block, *element);
+    PlaneStrain rubber;
+    rubber.epsilon = epsilon;
+    rubber.gap = [](double x) { return (x - 0.5) * (x - 0.5); };
+    rubber.continuous_pressure = true;
+    const Solution ours = active_set(antilock::assemble(rubber, {space, space}));
+    took(row++, ours);
+    for (const bool in_x : {true, false})
+      compare_values(numbers, fmt::format("{}: u_{}", name, in_x ? "x" : "y"), space,
+                     in_x ? ours.u.head(space.size()) : ours.u.tail(space.size()),
+                     read_table(folder / fmt::format("{}_{}.csv", name, in_x ? "x" : "y")));
   }
   return numbers;
 }

@@ -57,7 +57,10 @@ Numbers contact_sets(const std::filesystem::path& folder);
 Numbers certificate(int cells, const std::filesystem::path& folder);
 /// 14: cost of a ridge, ridge and energy on an unstructured mesh, epsilon = 1e-2. P1, then P2.
 std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder);
-/// 25: two glued strings, both glues, epsilon from 1 to 1e-12: energy, largest |u|, contact force.
+/// 25: u and contact force of P1 with means over boxes, of MINI and of Taylor-Hood. A component of u relative to its
+/// largest value.
+Numbers mixed(int cells, double epsilon, const std::filesystem::path& folder);
+/// 28: two glued strings, both glues, epsilon from 1 to 1e-12: energy, largest |u|, contact force.
 Numbers glued_strings(int cells, const std::filesystem::path& folder);
 
 }  // namespace antilock::freefem

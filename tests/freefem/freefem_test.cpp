@@ -342,6 +342,17 @@ TEST_P(Elasticity, AgreesWithFrictionInTheZonesAndTheForces) {
 }
 INSTANTIATE_TEST_SUITE_P(FreeFem, Elasticity, ::testing::Values(1.0, 1e-4, 1e-8, 0.0));
 
+class Mixed : public ::testing::TestWithParam<double> {};
+
+// Boxes, MINI and Taylor-Hood on the same meshes: 1e-8 as for the scalar problem, both sides stop at 1e-10 of u.
+TEST_P(Mixed, AgreesInDisplacementAndForce) {
+  const TemporaryFolder folder;
+  const freefem::Numbers numbers = freefem::mixed(8, GetParam(), folder.path());
+  EXPECT_GT(numbers.all.size(), 1000u);
+  for (const freefem::Number& n : numbers.all) ASSERT_LE(n.difference(), 1e-8) << n.name;
+}
+INSTANTIATE_TEST_SUITE_P(FreeFem, Mixed, ::testing::Values(1.0, 1e-2, 1e-6, 1e-20, 0.0));
+
 TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> scripts{
       {"00_plain", {}},
@@ -366,6 +377,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"22_beam", {"beam.csv", "summary.csv", "beam.eps"}},
       {"23_elasticity",
        {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv", "P1_deformed.eps"}},
+      {"25_mixed", {"boxes.csv", "MINI_x.csv", "TaylorHood_y.csv", "summary.csv", "boxes.eps"}},
       {"26_friction", {"P1_floor.csv", "KS_summary.csv", "TaylorHood_summary.csv", "TaylorHood_deformed.eps"}},
       {"28_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};

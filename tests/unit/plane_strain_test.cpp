@@ -172,7 +172,7 @@ TEST(PlaneStrain, AConfinedBlockIsRefusedWhereItCannotBePushed) {
 
 TEST(PlaneStrain, RefusesValuesOutOfRange) {
   const TriangleMesh mesh = right_mesh(2);
-  const Spaces spaces(mesh, p1(), p1()), quadratic(mesh, p2(), p2());
+  const Spaces spaces(mesh, p1(), p1());
   const auto refused = [&](auto&& change) {
     PlaneStrain scene;
     change(scene);
@@ -182,7 +182,6 @@ TEST(PlaneStrain, RefusesValuesOutOfRange) {
   refused([](PlaneStrain& s) { s.epsilon = 2; });
   refused([](PlaneStrain& s) { s.push = infinity; });
   refused([](PlaneStrain& s) { s.jump_weight = -1; });
-  EXPECT_THROW(assemble(PlaneStrain{}, quadratic.both()), Error);
 }
 
 }  // namespace

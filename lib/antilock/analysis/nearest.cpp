@@ -26,7 +26,8 @@ Nearest nearest(const Space& space, VariationalInequality problem, const Referen
   minimise_norm(problem, h1_norm(space), within == Within::k_0h);
   problem.load = h1_products(space, u);  // |u - v|_h^2 / 2 but for a constant
   if (functional.size() > 0) problem.load -= 0.5 * functional;
-  const Solution solution = active_set(problem);
+  Solution solution = active_set(problem);
+  solution.p.resize(0);  // of the norm's problem: no stress, and of a projected form not one per triangle
   const double distance = measure_errors(space, solution, 1, u).h1;
   const double added = functional.size() > 0 ? functional.dot(solution.u) : 0;
   return {solution.u, distance, distance * distance + added};

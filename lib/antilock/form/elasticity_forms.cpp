@@ -1,25 +1,32 @@
 #include "antilock/form/elasticity_forms.hpp"
 
-#include "antilock/core/error.hpp"
+#include <algorithm>
 
 namespace antilock {
 namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// Gradients of the three basis functions of a component on a triangle, 3 x 2, and their unknowns in the whole vector.
-struct Component {
-  Eigen::Matrix<double, 3, 2> gradient;
-  Eigen::Vector3i unknown;
-};
+/// The basis functions of a component on a triangle: derivatives by the barycentric coordinates at each point of a rule
+/// (the same on every triangle), and the unknowns in the whole vector.
+class Component {
+ public:
+  Component(const Space& space, int first, const Quadrature& rule) : space_(space), first_(first) {
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+      derivative_.push_back(space.element().derivative(rule.points.row(q)));
+  }
+  int unknowns() const { return space_.element().unknowns(); }
+  Eigen::VectorXi unknown(int t) const { return (space_.unknowns().row(t).transpose().array() + first_).matrix(); }
+  /// m x 2
+  Eigen::MatrixX2d gradient(Eigen::Index q, const Eigen::Matrix<double, 3, 2>& barycentric) const {
+    return derivative_[q] * barycentric;
+  }
 
-Component component(const Space& space, int first, int t) {
-  if (space.element().degree() != 1)
-    throw Error("elasticity: element " + space.element().name() + " is not accepted; P1 or CR");
-  const Eigen::Matrix3d derivative = space.element().derivative(Eigen::Vector3d::Constant(1.0 / 3));
-  return {derivative * barycentric_gradients(space.mesh(), t),
-          (space.unknowns().row(t).transpose().array() + first).matrix()};
-}
+ private:
+  const Space& space_;
+  int first_;
+  std::vector<Eigen::MatrixX3d> derivative_;
+};
 
 Eigen::SparseMatrix<double> sum(const VectorSpace& space, const Triplets& entries) {
   Eigen::SparseMatrix<double> matrix(space.size(), space.size());
@@ -50,42 +57,59 @@ std::vector<std::pair<int, double>> jump(const Space& space, int first, int e) {
 
 }  // namespace
 
+const Quadrature& divergence_rule(const VectorSpace& space) {
+  return triangle_rule(2 * (std::max(space.x.element().degree(), space.y.element().degree()) - 1));
+}
+
 Eigen::SparseMatrix<double> strain_form(const VectorSpace& space) {
   const TriangleMesh& mesh = space.x.mesh();
+  const Quadrature& rule = divergence_rule(space);
+  const Component x(space.x, 0, rule), y(space.y, space.x.size(), rule);
+  const int m = x.unknowns(), n = y.unknowns();
   Triplets entries;
+  Eigen::VectorXi unknown(m + n);
+  Eigen::Matrix3Xd strain = Eigen::Matrix3Xd::Zero(3, m + n);
+  Eigen::MatrixXd local(m + n, m + n);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Component x = component(space.x, 0, t), y = component(space.y, space.x.size(), t);
-    // rows: eps_xx, eps_yy, 2 eps_xy; 2 eps:eps = 2 eps_xx^2 + 2 eps_yy^2 + (2 eps_xy)^2
-    Eigen::Matrix<double, 3, 6> strain = Eigen::Matrix<double, 3, 6>::Zero();
-    strain.block<1, 3>(0, 0) = x.gradient.col(0).transpose();
-    strain.block<1, 3>(1, 3) = y.gradient.col(1).transpose();
-    strain.block<1, 3>(2, 0) = x.gradient.col(1).transpose();
-    strain.block<1, 3>(2, 3) = y.gradient.col(0).transpose();
-    const Eigen::Matrix<double, 6, 6> local =
-        mesh.area(t) * strain.transpose() * Eigen::Vector3d(2, 2, 1).asDiagonal() * strain;
-    Eigen::Matrix<int, 6, 1> unknown;
-    unknown << x.unknown, y.unknown;
-    for (int i = 0; i < 6; ++i)
-      for (int j = 0; j < 6; ++j) entries.emplace_back(unknown(i), unknown(j), local(i, j));
+    const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
+    local.setZero();
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::MatrixX2d of_x = x.gradient(q, barycentric), of_y = y.gradient(q, barycentric);
+      // rows: eps_xx, eps_yy, 2 eps_xy; 2 eps:eps = 2 eps_xx^2 + 2 eps_yy^2 + (2 eps_xy)^2
+      strain.row(0).head(m) = of_x.col(0).transpose();
+      strain.row(1).tail(n) = of_y.col(1).transpose();
+      strain.row(2) << of_x.col(1).transpose(), of_y.col(0).transpose();
+      local += rule.weights(q) * mesh.area(t) * strain.transpose() * Eigen::Vector3d(2, 2, 1).asDiagonal() * strain;
+    }
+    unknown << x.unknown(t), y.unknown(t);
+    for (int i = 0; i < m + n; ++i)
+      for (int j = 0; j < m + n; ++j) entries.emplace_back(unknown(i), unknown(j), local(i, j));
   }
   return sum(space, entries);
 }
 
 FactoredForm divergence(const VectorSpace& space) {
   const TriangleMesh& mesh = space.x.mesh();
+  const Quadrature& rule = divergence_rule(space);
+  const Component x(space.x, 0, rule), y(space.y, space.x.size(), rule);
+  const auto points = static_cast<int>(rule.weights.size());
   FactoredForm b;
   Triplets entries;
-  b.m.resize(mesh.triangle_count());
+  b.m.resize(mesh.triangle_count() * points);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Component x = component(space.x, 0, t), y = component(space.y, space.x.size(), t);
-    for (int i = 0; i < 3; ++i) {
-      entries.emplace_back(t, x.unknown(i), x.gradient(i, 0));
-      entries.emplace_back(t, y.unknown(i), y.gradient(i, 1));
+    const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
+    for (int q = 0; q < points; ++q) {
+      const int row = t * points + q;
+      for (const auto& [part, direction] : {std::pair{&x, 0}, {&y, 1}}) {
+        const Eigen::MatrixX2d gradient = part->gradient(q, barycentric);
+        const Eigen::VectorXi unknown = part->unknown(t);
+        for (int i = 0; i < part->unknowns(); ++i) entries.emplace_back(row, unknown(i), gradient(i, direction));
+      }
+      b.m(row) = rule.weights(q) * mesh.area(t);
+      b.cell.push_back(t);
     }
-    b.m(t) = mesh.area(t);
-    b.cell.push_back(t);
   }
-  b.b.resize(mesh.triangle_count(), space.size());
+  b.b.resize(b.m.size(), space.size());
   b.b.setFromTriplets(entries.begin(), entries.end());
   return b;
 }
@@ -94,7 +118,7 @@ Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, b
   const TriangleMesh& mesh = space.x.mesh();
   Triplets entries;
   for (const auto& [part, first] : {std::pair<const Space*, int>{&space.x, 0}, {&space.y, space.x.size()}}) {
-    if (part->element().per_edge() == 0) continue;  // conforming: no steps
+    if (part->element().conforming()) continue;  // no steps
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const bool interior = mesh.edge_triangles(e, 1) >= 0;
       const bool held = mesh.edge_tag[e] == EdgeTag::clamped && (clamped_in_x || part == &space.y);

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "antilock/core/error.hpp"
+#include "antilock/form/averaged.hpp"
 
 namespace antilock {
 
@@ -65,6 +66,7 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   if (scene.jump_weight > 0) problem.a1 += jump_form(space, scene.jump_weight, !scene.sliding);
   problem.a1.makeCompressed();
   FactoredForm div = divergence(space);
+  if (scene.continuous_pressure) div = averaged(div, vertex_shares(space.x.mesh(), div, divergence_rule(space)));
   problem.b.swap(div.b);
   problem.m = std::move(div.m);
   problem.compliance = scene.epsilon;

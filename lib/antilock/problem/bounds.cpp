@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "antilock/core/error.hpp"
 
@@ -73,6 +74,27 @@ double friction_energy(const VariationalInequality& problem, const Eigen::Vector
     sum += problem.force_bound(i) * std::max({below, above, 0.0});
   }
   return sum;
+}
+
+VariationalInequality held_in_contact(VariationalInequality problem, const std::vector<bool>& active) {
+  require_lower_bounds(problem, "held_in_contact");
+  if (active.size() != problem.contact.size())
+    throw Error(fmt::format("held_in_contact: {} marks; accepted: {}, one per contact unknown", active.size(),
+                            problem.contact.size()));
+  std::map<int, double> fixed;
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+    fixed[problem.fixed[i]] = problem.fixed_values(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < active.size(); ++i)
+    if (active[i]) fixed[problem.contact[i]] = problem.lower(static_cast<Eigen::Index>(i));
+  problem.fixed.clear();
+  problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()));
+  for (const auto& [unknown, value] : fixed) {
+    problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
+    problem.fixed.push_back(unknown);
+  }
+  problem.contact.clear();
+  problem.lower.resize(0);
+  return problem;
 }
 
 void check_bounds(const VariationalInequality& problem) {

@@ -21,6 +21,11 @@ double force_bound(const VariationalInequality& problem, Eigen::Index i);
 /// j(u), the work that bounds with a force_bound take up: the sum of force_bound times the distance from the bounds.
 double friction_energy(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
+/// The problem whose bounds marked in `active` (one mark per contact unknown) hold as equations, and whose other bounds
+/// are gone: linear, and where `active` is the contact set of the solution, with the same solution. Throws Error for
+/// another number of marks, and where bounds are others than lower ones on unknowns.
+VariationalInequality held_in_contact(VariationalInequality problem, const std::vector<bool>& active);
+
 /// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of combinations
 /// without a free unknown. Throws Error.
 void check_bounds(const VariationalInequality& problem);

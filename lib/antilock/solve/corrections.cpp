@@ -17,6 +17,9 @@ namespace {
 /// A u that falls below this fraction of its size after the first correction is locked: its round-off, 1e-16 of that
 /// size, is what the default tolerance of 1e-10 comes to.
 constexpr double locked = 1e-5;
+/// A u above this multiple of it runs away: no u meets the bounds and B u = 0. A stiffer problem does not move further
+/// than the moderate one, and of a u of 1e18 every condition would hold, relative to it.
+constexpr double runaway = 1e8;
 
 }  // namespace
 
@@ -117,7 +120,13 @@ bool Corrections::settled(const Change& change) {
   // a locked u tends to 0, and its round-off is that of the first; one on its way to infinity (an infeasible problem)
   // must not count for long
   if (correction_ == 0) u_first_ = s_.u.lpNorm<Eigen::Infinity>();
-  u_scale_ = std::max(locked * u_first_, s_.u.lpNorm<Eigen::Infinity>());
+  const double u = s_.u.lpNorm<Eigen::Infinity>();
+  if (u_first_ > 0 && u > runaway * u_first_)
+    throw NotConverged(fmt::format("{}: not converged, or infeasible: after {} corrections u is {:.0e} times its size "
+                                   "with the moderate penalty, accepted {:.0e}",
+                                   s_.solver, correction_, u / u_first_, runaway),
+                       u / u_first_, correction_);
+  u_scale_ = std::max(locked * u_first_, u);
   const double step = u_scale_ > 0 ? change.u.lpNorm<Eigen::Infinity>() / u_scale_ : 0;
   s_.history.push_back(step);
   if (!std::isfinite(step))

@@ -3,8 +3,8 @@
 
 namespace antilock {
 
-/// A displacement (u_x, u_y) with a space a component on the same mesh: P1 and P1, CR and CR, or P1 and CR (Kouhia and
-/// Stenberg 1995). Unknowns: those of x first, those of y behind them. Both spaces must outlive it and be of degree 1.
+/// A displacement (u_x, u_y) with a space per component on the same mesh: one element twice, or P1 and CR (Kouhia and
+/// Stenberg 1995). Unknowns: those of x first, those of y behind them. Both spaces must outlive it.
 struct VectorSpace {
   const Space& x;
   const Space& y;
