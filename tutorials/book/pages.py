@@ -13,14 +13,12 @@ from pathlib import Path
 
 from PIL import Image
 
-from literate import BookError, Page, fence, folded, live_figure
+from literate import STILLS, BookError, Page, fence, folded, live_figure
 from library import Library
 
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 15),
          ("What accuracy costs", 16, 21), ("The class", 22, 99)]
-# Where a chapter does not place its live figure itself, the figure stands under the first picture.
-LIVE = {"00": "string", "06": "locking mesh=unstructured", "09": "convergence", "16": "roundoff"}
 EXTRA = ["errata", "glossary", "notation"]
 WIDTH = 1600
 
@@ -177,9 +175,6 @@ class Book:
         shots = self.pictures_of(stem)
         out = [f"# {page.title}", "", *self.relations(stem)]
         out += self.figure(shots[0], eager=True) if shots else []
-        if not page.lives and source == ROOT / f"tutorials/{self.first_of(stem[:2])}.cpp" and stem[:2] in LIVE:
-            kind, *settings = LIVE[stem[:2]].split()
-            out += live_figure(kind, dict(word.split("=") for word in settings))
         out += self.linked(page.body, source.parent)
         if page.runs:
             out += ["## Run it", "", *page.runs]
@@ -227,16 +222,15 @@ class Book:
                           *(f"{name[:2]} {self.pages[name].title} <{name}>" for name in names), "```", ""]
         more = ["theory", "gallery", *(name for name in EXTRA if (self.out / f"{name}.md").exists()), "library"]
         trees += ["```{toctree}", ":caption: To look up", ":maxdepth: 1", "", *more, "```"]
-        live = "\n".join(live_figure("locking", {"mesh": "unstructured"}))
-        self.picture("hero")
+        live = "\n".join(live_figure("mesh=unstructured")[1])
         self.write("index", text.replace(":live:", live).replace(":chapters:", "\n".join(trees)).splitlines())
 
     def make(self):
         self.out.mkdir(parents=True, exist_ok=True)
         for source in self.sources:
             self.pages[source.stem] = Page(source, ROOT / f"freefem/{source.stem}.edp", self.draft)
-        for kind in ("hero", "string", "figure9", "roundoff"):
-            self.picture(kind)
+        for still in STILLS.values():
+            self.picture(still)
         for source in self.sources:
             self.chapter(source)
         for name in EXTRA:
