@@ -19,13 +19,14 @@ antilock.string = {
   },
   contactForce: ({ cells, h, b }, u) =>
     u.map((value, i) => (i > 0 && i < cells && value === 0 ? (-u[i - 1] + 2 * u[i] - u[i + 1]) / h - b[i] : 0)),
-  /// Every guess of the active set: { u, lambda, touches }, the last one is the answer.
+  /// Every guess of the active set: { u, lambda, touches }, the last one is the answer. The free string passes the floor in
+  /// its middle: a node there is a round-off above or below it. Here it touches.
   activeSet(s) {
-    const steps = [];
+    const steps = [], onFloor = 1e-14;
     for (let touches = Array(s.cells + 1).fill(false);;) {
       const u = this.solveWithHeld(s, s.b, touches), lambda = this.contactForce(s, u);
       steps.push({ u, lambda, touches });
-      const next = touches.map((held, i) => i > 0 && i < s.cells && (held ? lambda[i] > 0 : u[i] < 0));
+      const next = touches.map((held, i) => i > 0 && i < s.cells && (held ? lambda[i] > 0 : u[i] < onFloor));
       if (next.every((held, i) => held === touches[i])) return steps;
       touches = next;
     }
