@@ -89,7 +89,7 @@ class Book(unittest.TestCase):
         if not SHOTS:
             return
         Path(SHOTS).mkdir(parents=True, exist_ok=True)
-        height = min(self.run_script("return document.documentElement.scrollHeight"), 9000)
+        height = min(self.run_script("return document.documentElement.scrollHeight"), 8000)  # what a picture may have
         picture = self.browser.execute_cdp_cmd("Page.captureScreenshot", {
             "captureBeyondViewport": True, "clip": {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}})
         (Path(SHOTS) / f"{name}.png").write_bytes(base64.b64decode(picture["data"]))

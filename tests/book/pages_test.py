@@ -4,6 +4,7 @@ Each fault is put into a copy of its own, and the build must name it. Run: pages
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -129,6 +130,19 @@ class Pages(unittest.TestCase):
         self.assertEqual(places("24_later"), [])
         self.assertRegex(self.page("00_start"), r'(?s)Needs: nothing,\nat all\..*images/string.*class="live".*The picture')
         self.assertRegex(self.page("07_middle"), r'(?s)Words before.*data-kind="locking".*Words after.*no figure.*### Output.*"convergence"')
+
+    # ---- tables and captions
+
+    def test_letters_that_are_written_out_become_signs(self):
+        sys.path.insert(0, str(ROOT / "tutorials/book"))
+        from literate import signs
+        for text, shown in (("u_h^epsilon -> u^0", "u<sub>h</sub><sup>ε</sup> → u<sup>0</sup>"),
+                            ("a_x^-(u_h^+, v)", "a<sub>x</sub><sup>−</sup>(u<sub>h</sub><sup>+</sup>, v)"),
+                            (r"\|.\|_{1,Omega_h}", r"\|.\|<sub>1,Ω<sub>h</sub></sub>"),
+                            ("h << epsilon^(8/3)", "h ≪ ε<sup>8/3</sup>"), ("h^1.12, K_0h", "h<sup>1.12</sup>, K<sub>0h</sub>"),
+                            ("(t h / epsilon)^2.", "(t h / ε)<sup>2</sup>."), ("10^-2.5 >= 1/epsilon", "10<sup>−2.5</sup> ≥ 1/ε"),
+                            ("06_p1_unstructured (12_uniform)", "06_p1_unstructured (12_uniform)")):
+            self.assertEqual(signs(text), shown)
 
     # ---- what stops the build
 

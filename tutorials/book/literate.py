@@ -94,6 +94,23 @@ def needs(prose):
     return prose[:start] + prose[end:], prose[start:end]
 
 
+GREEK = dict(zip("alpha beta gamma delta epsilon eta kappa lambda mu pi rho sigma Gamma Omega Sigma".split(), "αβγδεηκλμπρσΓΩΣ"))
+SCRIPT = r"(?:\{[^}]*\}|-?\d+(?:\.\d+)?(?!\w)|\([\d/]+\)|-?[A-Za-z0-9]+|[-+](?!\w))"
+SCRIPTS = re.compile(rf"((?<![\w\\])(?:[A-Za-z]|{'|'.join(GREEK)})|\||\)|(?<!\w)\d+(?=\^))((?:[_^]{SCRIPT})+)")
+RELATIONS = {"->": "→", ">=": "≥", "<=": "≤", "<<": "≪"}
+
+
+def signs(text):
+    """The letters that tables and captions write out, as u_h^epsilon -> u^0 or h^(3/2), set as signs."""
+    def one(found):
+        scripts = re.findall(rf"([_^])({SCRIPT})", found[2])
+        return found[1] + "".join(f"<{tag}>{signs(part.strip('{}()')).replace('-', '−')}</{tag}>"
+                                  for kind, part in scripts for tag in ["sub" if kind == "_" else "sup"])
+    text = SCRIPTS.sub(one, text)
+    text = re.sub(rf"(?<!\w)({'|'.join(GREEK)})(?!\w)", lambda found: GREEK[found[1]], text)
+    return re.sub("->|>=|<=|<<", lambda found: RELATIONS[found[0]], text)
+
+
 class Page:
     """What a tutorial's source says, in the order of its page."""
 

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from literate import STILLS, BookError, Page, fence, folded, live_figure
+from literate import STILLS, BookError, Page, fence, folded, live_figure, signs
 from library import Library
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -66,8 +66,9 @@ class Book:
             return self.picture(path.stem)
         return None
 
-    def linked(self, lines, where):
-        """Prose with its links turned to the pages of the book; `chapter 07` becomes a link. Code stays as it is."""
+    def linked(self, lines, where, spell=lambda text: text):
+        """Prose with its links turned to the pages of the book; `chapter 07` becomes a link. Code stays as it is; `spell`
+        is for the rest."""
         out, fenced = [], False
         for line in lines:
             fenced ^= line.startswith("```")
@@ -93,7 +94,7 @@ class Book:
                     return f"[{number[0]}]({name}.md)"
                 return found[1] + " " + re.sub(r"\b\d\d\b", one, found[2])
 
-            text = re.sub(r"(!?)\[([^\]]+)\]\(([^)\s]+)\)", replaced, text)
+            text = re.sub(r"(!?)\[([^\]]+)\]\(([^)\s]+)\)", replaced, spell(text))
             text = re.sub(r"\b([Cc]hapters?|[Tt]utorials?) (\d\d(?:(?:, | and | to )\d\d)*)\b(?![\]\w])", numbered, text)
             text = text.replace("[](", "\\[\\](")  # a lambda, not a link
             code = iter(joined.split("\0"))
@@ -123,7 +124,7 @@ class Book:
         title = f"**Figure {row['figure']} of the paper.** " if row["figure"] else ""
         alt = row["caption"].replace('"', "'")
         return [f"```{{figure}} {path}", f":alt: \"{alt}\"", ":figclass: picture", f":target: _images/{row['image']}.webp",
-                *([] if eager else [":class: lazy"]), "", title + row["caption"].rstrip(".") + ".", "```", ""]
+                *([] if eager else [":class: lazy"]), "", title + signs(row["caption"].rstrip(".")) + ".", "```", ""]
 
     # ---- pages
 
@@ -199,7 +200,7 @@ class Book:
         section = re.search(r"## The theory as experiments\n(.*?)(?=\n## |\Z)", text, re.S)
         if not section:
             raise BookError("tutorials/README.md: no section \"The theory as experiments\"")
-        self.write("theory", ["# The theory as experiments", "", *self.linked(section[1].splitlines(), ROOT / "tutorials")])
+        self.write("theory", ["# The theory as experiments", "", *self.linked(re.sub(r"\[(\d\d)_\w+\]\(", r"[\1](", section[1]).splitlines(), ROOT / "tutorials", signs)])
 
     def gallery(self):
         out = ["# Gallery", "", "Every picture, and the chapter that makes it.", ""]
@@ -237,7 +238,7 @@ class Book:
             lines = (ROOT / f"tutorials/{name}.md").read_text().splitlines()
             if name == "glossary":  # its last column names chapters by number
                 lines = [re.sub(r"\| ([\d, ]+) \|$", lambda found: "| " + re.sub(r"\d\d", lambda n: f"[{n[0]}]({self.first_of(n[0])}.md)" if self.first_of(n[0]) else n[0], found[1]) + " |", line) for line in lines]
-            self.write(name, self.linked(lines, ROOT / "tutorials"))
+            self.write(name, self.linked(lines, ROOT / "tutorials", signs))
         self.theory()
         self.gallery()
         self.library.write(self.write)

@@ -86,8 +86,9 @@ antilock.library = async () => {
 
 /// epsilon of a range input: its value is log10 epsilon, its lowest position is exactly 0.
 antilock.epsilonOf = (range) => (Number(range.value) <= Number(range.min) ? 0 : 10 ** Number(range.value));
-antilock.epsilonSaid = (range, epsilon) => (epsilon === 0 ? "0, the limit" : `10^${range.value}`);
-antilock.epsilonShown = (range, epsilon) => (epsilon === 0 ? "0, the limit" : `10<sup>${range.value.replace("-", "−")}</sup>`);
+antilock.epsilonSaid = (range, epsilon) => (epsilon === 0 ? "0, the limit" : epsilon === 1 ? "1" : `10^${range.value}`);
+antilock.epsilonShown = (range, epsilon) =>
+  epsilon === 0 ? "0, the limit" : epsilon === 1 ? "1" : `10<sup>${range.value.replace("-", "−")}</sup>`;
 antilock.refusal = (error) => `No answer: ${error.message}. Choose something else; the page goes on.`;
 antilock.digits = (x, n = 2) => (x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e4 ? x.toExponential(n - 1) : String(Number(x.toPrecision(n + 1))));
 

@@ -20,7 +20,7 @@ antilock.figures.locking = async (box) => {
       <select id="live-cells">${sizes.map((n) => option(n, n, Number(settings.cells ?? 16))).join("")}</select></span>
     </div>
     <div class="live-pictures">${names.map((name, i) => `
-      <figure><figcaption><b>${name}</b><br>keeps <span class="live-number" id="live-kept-${short[i]}"></span> % of the layer’s displacement</figcaption>
+      <figure><figcaption><b>${name}</b><br><span class="live-number" id="live-kept-${short[i]}"></span> % of the layer’s displacement kept</figcaption>
       <div class="live-canvas"><canvas tabindex="0" role="img"></canvas>
       <span class="live-label" aria-hidden="true">x = 0</span><span class="live-label" aria-hidden="true">x = 1</span>
       <span class="live-label" aria-hidden="true">y = 1</span><span class="live-label" aria-hidden="true">Σ</span>

@@ -54,9 +54,9 @@ antilock.figures.string = async (box) => {
     <div class="live-controls">
       <label for="live-string-step">step <output></output></label>
       <input id="live-string-step" type="range" min="0" max="1" step="1" value="0">
-      <label for="live-string-cells">cells</label>
+      <span class="live-choice"><label for="live-string-cells">cells</label>
       <select id="live-string-cells"><option>8</option><option>16</option><option selected>32</option><option>64</option></select>
-      <button type="button">play</button>
+      <button type="button">play</button></span>
     </div>
     <div class="live-drawing"></div>
     <p class="live-key-line"><span class="key cr">active set</span> <span class="key touching">guessed to touch</span> <span class="key p1">Uzawa</span> <span class="key exact">answer</span></p>
