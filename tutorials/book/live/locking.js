@@ -29,8 +29,8 @@ antilock.figures.locking = async (box) => {
     <div class="live-bar" role="img" aria-label="Colours of u, from minus ${range} to ${range}"><span>u = −${range}</span>
       <i style="background:linear-gradient(to right,${colours})"></i><span>${range}</span>
       <span class="live-key">exact u on Γ<sub>C</sub></span></div>
-    <table class="live-table"><thead><tr><th></th><th>unknowns</th><th>error</th><th>corrections</th><th>in contact</th><th>ms</th></tr></thead>
-    <tbody>${names.map((name) => `<tr><th scope="row">${name}</th><td></td><td></td><td></td><td></td><td></td></tr>`).join("")}</tbody></table>
+    <table class="live-table"><thead><tr><th></th><th>unknowns</th><th>error</th><th>corrections</th><th>in contact</th><th>from x</th><th>ms</th></tr></thead>
+    <tbody>${names.map((name) => `<tr><th scope="row">${name}</th>${"<td></td>".repeat(6)}</tr>`).join("")}</tbody></table>
     <p class="live-note">Both solved in <span id="live-ms"></span> ms. Error: the largest at the unknowns. Drag a picture to turn it, or use its arrow keys.</p>
     <p class="live-said" role="status"></p>`;
   const parts = Object.fromEntries([...still.querySelectorAll("[id]")].map((part) => [part.id.slice(5), part]));
@@ -93,8 +93,8 @@ antilock.figures.locking = async (box) => {
         at(`kept-${short[i]}`).textContent = antilock.digits(s.kept);
         at(`kept-${short[i]}`).dataset.value = s.kept;
         canvases[i].setAttribute("aria-label", `Surface of u with ${names[i]}: the layer keeps ${antilock.digits(s.kept)} percent of its displacement`);
-        const zone = s.touching ? `${s.touching} of ${s.contact}, from x = ${s.from.toFixed(3)}` : `0 of ${s.contact}`;
-        [s.unknowns, antilock.digits(s.error), s.corrections, zone, s.ms.toFixed(1)].forEach((text, k) => { rows[i].children[k + 1].textContent = text; });
+        [s.unknowns, antilock.digits(s.error), s.corrections, `${s.touching} of ${s.contact}`, s.touching ? s.from.toFixed(3) : "–",
+         s.ms.toFixed(1)].forEach((text, k) => { rows[i].children[k + 1].textContent = text; });
         rows[i].dataset.error = s.error;
         rows[i].dataset.touching = s.touching;
       });
