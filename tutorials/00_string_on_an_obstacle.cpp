@@ -7,6 +7,7 @@
 // Run: 00_string_on_an_obstacle --exercise 3
 //
 // Needs: one course on finite elements (hat functions, the matrix of a form). It is the first chapter.
+// :live: string
 //
 // **The picture.** A string is held at both ends. The load `f(x) = 10 sin(2πx)` lifts its left half and presses its
 // right half on a floor at height 0. *The string touches the floor in one piece, and the floor pushes exactly there.*

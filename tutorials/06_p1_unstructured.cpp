@@ -7,6 +7,7 @@
 //
 // Needs: [02](02_meshes.cpp) (kernel, tied triangles), [05](05_p1_structured.cpp) (the limit problem (27), Theorem
 // 4).
+// :live: mesh=unstructured
 //
 // **The picture.** Figure 7: the same problem, the same element, about as many triangles as in Figure 5, but the mesh
 // of Figure 6. *The ridge on the layer is gone: the solution is flat zero there.* It does not oscillate, it does not

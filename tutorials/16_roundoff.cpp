@@ -6,6 +6,7 @@
 //
 // Needs: [03](03_by_hand.cpp) for the layer stress and the iterated penalty, [04](04_reference_solution.cpp) for
 // Schur complements and condition numbers, [06](06_p1_unstructured.cpp) for locking.
+// :live: roundoff
 //
 // **The picture.** Error against ε for five ways to solve one discrete problem, none of which locks. *Where both
 // forms are summed into one matrix the digits are lost below ε = 1e-6. In split form the error does not depend on ε.*

@@ -5,10 +5,12 @@ Run: book_test.py BOOK LIVE_NUMBERS [unittest's options]     exit status 77 wher
 Screenshots of every page, wide and narrow, go to the folder BOOK_SCREENSHOTS, where that is set.
 """
 import base64
+import csv
 import json
 import os
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
 from pathlib import Path
@@ -39,14 +41,14 @@ def open_browser():
 
 
 class Book(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = open_browser()
-        cls.browser.set_script_timeout(60)
+    browser = None  # one for all
 
     @classmethod
-    def tearDownClass(cls):
-        cls.browser.quit()
+    def setUpClass(cls):
+        if Book.browser is None:
+            Book.browser = open_browser()
+            Book.browser.set_script_timeout(60)
+            unittest.addModuleCleanup(Book.browser.quit)
 
     def run_script(self, script, *arguments):
         return self.browser.execute_script(script, *arguments)
@@ -57,73 +59,61 @@ class Book(unittest.TestCase):
             self.assertLess(time.monotonic(), end, f"not within {seconds} s: {script}")
             time.sleep(0.02)
 
-    def show(self, page, width=1280, theme="light", reduced="no-preference", query=""):
-        command = self.browser.execute_cdp_cmd
-        command("Emulation.setEmulatedMedia", {"features": [{"name": "prefers-color-scheme", "value": theme},
-                                                            {"name": "prefers-reduced-motion", "value": reduced}]})
-        command("Emulation.setDeviceMetricsOverride", {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500})
+    def prefer(self, theme="light", reduced="no-preference"):
+        self.browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": [
+            {"name": "prefers-color-scheme", "value": theme}, {"name": "prefers-reduced-motion", "value": reduced}]})
+
+    def turn(self, width):
+        """The window this wide, the page already open: as a telephone that is turned."""
+        self.browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                     {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500})
+
+    def show(self, page, width=1280, reduced="no-preference", query=""):
+        self.prefer(reduced=reduced)
+        self.turn(width)
         self.browser.get(f"{(BOOK / page).as_uri()}.html{query}")
         self.wait(LIVE)
 
     def said(self):
-        """Errors of the console, and requests beyond the folder, since the last call."""
+        """Errors of the console, and requests beyond the folder, since the last call; `asked` keeps what was asked for."""
         console = [entry["message"] for entry in self.browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
-        asked = []
+        self.asked = asked = set()
         for entry in self.browser.get_log("performance"):
             message = json.loads(entry["message"])["message"]
             if message["method"] == "Network.requestWillBeSent":
-                asked.append(message["params"]["request"]["url"])
-        beyond = [url for url in asked if not url.startswith((BOOK.as_uri() + "/", "data:", "blob:"))]
+                asked.add(message["params"]["request"]["url"])
+        beyond = [url for url in sorted(asked) if not url.startswith((BOOK.as_uri() + "/", "data:", "blob:"))]
         return console + [f"asks for {url}" for url in beyond]
 
     def shot(self, name, width):
         if not SHOTS:
             return
         Path(SHOTS).mkdir(parents=True, exist_ok=True)
-        height = min(self.run_script("return document.documentElement.scrollHeight"), 9000)
+        height = min(self.run_script("return document.documentElement.scrollHeight"), 8000)  # what a picture may have
         picture = self.browser.execute_cdp_cmd("Page.captureScreenshot", {
             "captureBeyondViewport": True, "clip": {"x": 0, "y": 0, "width": width, "height": height, "scale": 1}})
         (Path(SHOTS) / f"{name}.png").write_bytes(base64.b64decode(picture["data"]))
 
 
 class EveryPage(Book):
-    def test_opens_without_an_error_and_is_complete(self):
+    # Each page is opened once: the window is made narrow and the theme dark under it, as a reader may.
+    def test_is_complete_in_both_themes_and_fits_a_telephone(self):
         anchors, links = {}, []
         self.said()
         for page in PAGES:
             with self.subTest(page=page):
                 self.show(page)
-                found = self.run_script("""
-                  document.querySelectorAll("details").forEach((part) => { part.open = true; });
-                  const images = [...document.querySelectorAll("article img")];
-                  const prose = document.querySelector("article").cloneNode(true);
-                  prose.querySelectorAll("pre, code, .katex, svg").forEach((part) => part.remove());
-                  return {
-                    silent: images.filter((image) => !image.alt).length,
-                    sources: images.map((image) => image.src),
-                    raw: prose.textContent.match(/\\$[^$\\n]+\\$|\\\\(frac|tag|text)\\b/g) ?? [],
-                    katex: document.querySelectorAll(".katex").length,
-                    mathml: document.querySelectorAll(".katex math").length,
-                    failed: document.querySelectorAll(".katex-error").length,
-                    ids: [...document.querySelectorAll("[id]")].map((part) => part.id),
-                    links: [...document.querySelectorAll("a[href]")].map((link) => link.href),
-                    states: [...document.querySelectorAll("div.live")].map((box) => box.dataset.state) };""")
-                self.assertEqual(found["silent"], 0, "images without a text")
-                self.assertEqual(found["raw"], [], "formulas that were not set")
-                self.assertEqual((found["failed"], found["katex"]), (0, found["mathml"]))
-                self.assertEqual(set(found["states"]) - {"ready"}, set())
-                self.assertEqual(len(found["ids"]), len(set(found["ids"])), "an id that stands twice")
-                broken = self.browser.execute_async_script("""
-                  const done = arguments[arguments.length - 1];
-                  Promise.all([...document.querySelectorAll("article img")].map((image) => {
-                    image.loading = "eager";
-                    return image.decode().then(() => "", () => image.src);
-                  })).then((all) => done(all.filter(Boolean)));""")
-                self.assertEqual(broken, [])
-                self.assertEqual(self.said(), [])
-                anchors[page] = set(found["ids"])
-                links += [(page, link) for link in found["links"]]
+                self.has_everything(page, anchors, links)
+                self.stands_out("light")
                 self.shot(f"{page}_wide", 1280)
+                self.prefer(theme="dark")
+                self.stands_out("dark")
+                self.shot(f"{page}_dark", 1280)
+                self.prefer()
+                self.turn(375)
+                self.assertEqual(self.run_script("return document.documentElement.clientWidth"), 375)
+                self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), 375)
+                self.shot(f"{page}_narrow", 375)
         for page, link in sorted(set(links)):
             url = urlparse(link)
             if url.scheme != "file":
@@ -134,22 +124,69 @@ class EveryPage(Book):
                 if anchor and target.suffix == ".html":
                     self.assertIn(anchor, anchors[target.stem])
 
-    def test_fits_a_telephone(self):
-        for page in PAGES:
-            with self.subTest(page=page):
-                self.show(page, width=375)
-                self.assertLessEqual(self.run_script("return document.documentElement.scrollWidth"), 375)
-                self.shot(f"{page}_narrow", 375)
+    def has_everything(self, page, anchors, links):
+        found = self.run_script("""
+          document.querySelectorAll("details").forEach((part) => { part.open = true; });
+          const images = [...document.querySelectorAll("article img")];
+          const prose = document.querySelector("article").cloneNode(true);
+          prose.querySelectorAll("pre, code, .katex, svg").forEach((part) => part.remove());
+          return {
+            silent: images.filter((image) => !image.alt).length,
+            raw: prose.textContent.match(/\\$[^$\\n]+\\$|\\\\(frac|tag|text)\\b/g) ?? [],
+            katex: document.querySelectorAll(".katex").length,
+            mathml: document.querySelectorAll(".katex math").length,
+            failed: document.querySelectorAll(".katex-error").length,
+            ids: [...document.querySelectorAll("[id]")].map((part) => part.id),
+            links: [...document.querySelectorAll("a[href]")].map((link) => link.href),
+            states: [...document.querySelectorAll("div.live")].map((box) => box.dataset.state) };""")
+        self.assertEqual(found["silent"], 0, "images without a text")
+        self.assertEqual(found["raw"], [], "formulas that were not set")
+        self.assertEqual((found["failed"], found["katex"]), (0, found["mathml"]))
+        self.assertEqual(set(found["states"]) - {"ready"}, set())
+        self.assertEqual(len(found["ids"]), len(set(found["ids"])), "an id that stands twice")
+        broken = self.browser.execute_async_script("""
+          const done = arguments[arguments.length - 1];
+          Promise.all([...document.querySelectorAll("article img")].map((image) => {
+            image.loading = "eager";
+            return image.decode().then(() => "", () => image.src);
+          })).then((all) => done(all.filter(Boolean)));""")
+        self.assertEqual(broken, [])
+        self.assertEqual(self.said(), [])
+        anchors[page] = set(found["ids"])
+        links += [(page, link) for link in found["links"]]
 
     # WCAG AA: 4.5 to 1 for text, against the nearest background that is not transparent; pictures and disabled parts apart.
-    def test_text_stands_out_in_both_themes(self):
-        for theme in ("light", "dark"):
-            for page in PAGES:
-                with self.subTest(page=page, theme=theme):
-                    self.show(page, theme=theme)
-                    paper = self.run_script("return getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3).map(Number)")
-                    self.assertTrue(max(paper) < 60 if theme == "dark" else min(paper) > 200, f"the page is {paper}")
-                    self.assertEqual(self.run_script(CONTRAST), [])
+    def stands_out(self, theme):
+        paper = self.run_script("return getComputedStyle(document.body).backgroundColor.match(/\\d+/g).slice(0, 3).map(Number)")
+        self.assertTrue(max(paper) < 60 if theme == "dark" else min(paper) > 200, f"the page is {paper} where it is to be {theme}")
+        self.assertEqual(self.run_script(CONTRAST), [], theme)
+
+    def test_the_first_page_and_the_book_are_small(self):
+        """What the first page asks for until its figure has answered, and is scrolled to its end."""
+        self.said()
+        self.show("index")
+        self.run_script("window.scrollTo(0, document.documentElement.scrollHeight)")
+        self.wait("return [...document.images].every((image) => image.complete)")
+        self.said()
+        files = {Path(unquote(urlparse(url).path)) for url in self.asked if url.startswith("file:")}
+        first, whole = (sum(path.stat().st_size for path in paths) for paths in (files, (p for p in BOOK.rglob("*") if p.is_file())))
+        print(f"first page {first / 1e6:.2f} MB in {len(files)} files, the book {whole / 1e6:.2f} MB")
+        kinds = {path.suffix for path in files}
+        self.assertLessEqual({".html", ".css", ".js", ".woff2"}, kinds, "the measure misses a kind of file")
+        self.assertIn(BOOK / "_static/live_data.js", files)  # holds the WebAssembly and the meshes
+        self.assertLess(first, 1.5e6)
+        self.assertLess(whole, 8e6)
+
+    def test_chapters_follow_each_other_in_the_order_of_their_numbers(self):
+        chapters = [page for page in PAGES if page[:2].isdigit()]
+        tree = "return [...document.querySelectorAll(arguments[0])].map((link) => link.getAttribute('href'))"
+        self.show("index")
+        self.assertEqual(self.run_script(tree, "article .toctree-l1 > a")[:len(chapters)], [f"{page}.html" for page in chapters])
+        for before, page, after in zip([None, *chapters], chapters, [*chapters[1:], None]):
+            text = (BOOK / f"{page}.html").read_text()
+            for kind, other in (("prev", before), ("next", after)):
+                if other:
+                    self.assertIn(f'class="{kind}-page" href="{other}.html"', text)
 
 
 CONTRAST = """
@@ -180,6 +217,11 @@ class Search(Book):
             self.assertEqual(self.said(), [])
 
 
+def chapter(kind):
+    """The first page that holds a live figure of the kind."""
+    return next(page for page in PAGES if page != "index" and f'data-kind="{kind}"' in (BOOK / f"{page}.html").read_text())
+
+
 class LiveFigure(Book):
     def ask(self, **values):
         """Sets inputs of the figure as a reader does, and waits for the answer."""
@@ -206,16 +248,17 @@ class LiveFigure(Book):
         self.show("index")
         seen = {}
         for exponent in (0, -6, -8):
-            for cells in (16, 24, 32):
+            for cells in (8, 16, 24, 32):
                 seen[exponent, cells] = answer = self.ask(mesh="unstructured", cells=cells, epsilon=exponent)
                 self.assertEqual(answer["state"], "ready", answer["said"])
                 with self.subTest(exponent=exponent, cells=cells):
                     p1, cr = answer["text"]
                     if exponent == 0:
-                        self.assertTrue(90 < p1 < 110 and 90 < cr < 110, answer["text"])
+                        least = 80 if cells == 8 else 90
+                        self.assertTrue(least < p1 < 110 and least < cr < 110, answer["text"])
                     else:
                         self.assertLess(p1, 0.01)
-                        self.assertTrue(98 < cr < 102, cr)
+                        self.assertTrue((90 if cells == 8 else 98) < cr < 102, cr)
                     self.assertGreater(answer["ms"], 0)
         for i in (0, 1):
             self.assertNotEqual(seen[0, 16]["pictures"][i], seen[-6, 16]["pictures"][i])
@@ -226,13 +269,14 @@ class LiveFigure(Book):
         native = {}
         for line in subprocess.run([NUMBERS], capture_output=True, text=True, check=True).stdout.splitlines():
             row = json.loads(line)
-            native.setdefault((row["mesh"], row["moved"], row["exponent"]), {})[row["element"]] = row
-        self.assertEqual(len(native), 16)
+            native.setdefault((row["mesh"], row["moved"], row["cells"], row["exponent"]), {})[row["element"]] = row
+        self.assertEqual(len(native), 32)
+        self.wait("return document.querySelector('#live').dataset.ahead === '0'")  # meshes that were made before they are asked for
         worst = 0
-        for (mesh, moved, exponent), rows in native.items():
-            answer = self.ask(mesh=mesh, moved=moved, cells=16, epsilon=exponent)
+        for (mesh, moved, cells, exponent), rows in native.items():
+            answer = self.ask(mesh=mesh, moved=moved, cells=cells, epsilon=exponent)
             for i, element in enumerate(("P1", "CR")):
-                with self.subTest(mesh=mesh, exponent=exponent, element=element):
+                with self.subTest(mesh=mesh, cells=cells, exponent=exponent, element=element):
                     away = abs(answer["kept"][i] - rows[element]["kept"]) / 100
                     worst = max(worst, away, abs(answer["error"][i] - rows[element]["error"]))
                     self.assertLess(away, 1e-10)
@@ -286,21 +330,42 @@ class LiveFigure(Book):
                 self.wait("return document.querySelector('#live img').naturalWidth > 0")  # it fails where no image comes
         self.browser.get_log("browser")
 
+    # The figure steps through the two loops of the chapter in the reader's language: every guess, the force and the counts
+    # are those of the chapter's own program.
+    def test_the_string_is_that_of_its_chapter(self):
+        page = chapter("string")
+        self.show(page)
+        # 8 and 32 cells have a node in the middle, where the free string is 0: round-off says whether it touches in the second
+        # guess, and with it the guesses after that
+        for cells in (9, 31, 8, 32):
+            with self.subTest(cells=cells), tempfile.TemporaryDirectory() as out:
+                said = subprocess.run([BOOK.parent / "tutorials" / page, "--cells", str(cells), "--out", out], capture_output=True, text=True, check=True)
+                sets, shapes = ([{key: float(value) for key, value in row.items()} for row in csv.DictReader((Path(out) / name).read_text().splitlines())]
+                                for name in ("active_sets.csv", "shapes.csv"))
+                steps, uzawa = self.run_script("""const s = antilock.string.hang(arguments[0]);
+                  return [antilock.string.activeSet(s), [...antilock.string.uzawa(s, 1e-10)].length];""", cells)
+                self.assertIn(f"active set {len(steps)}, Uzawa {uzawa}\n" if cells % 2 else f", Uzawa {uzawa}\n", said.stdout)
+                pairs = [("x", sets, [i / cells for i in range(cells + 1)]), ("free", shapes, steps[0]["u"]), ("u", shapes, steps[-1]["u"]),
+                         ("pressure", shapes, [cells * force for force in steps[-1]["lambda"]]), ("last", sets, steps[-1]["u"]),
+                         *((name, sets, step["u"]) for name, step in zip(("first", "second", "third"), steps) if cells % 2)]
+                for name, rows, here in pairs:
+                    self.assertEqual(len(rows), len(here))
+                    away = max(abs(row[name] - value) for row, value in zip(rows, here))
+                    self.assertLess(away, 1e-12 * cells, name)  # the forces are second differences
+
     def test_every_chapter_answers_in_its_own_figure(self):
-        chapter = {kind: next(page for page in PAGES if page.startswith(number)) for kind, number in
-                   (("string", "00"), ("convergence", "09"), ("roundoff", "16"))}
         data = "return {...document.querySelector('#live-' + arguments[0]).dataset}"
         moved = """const input = document.querySelector(`#live-${arguments[0]}-${arguments[1]}`); input.value = arguments[2];
           input.dispatchEvent(new Event("input"));"""
-        self.show(chapter["string"])
-        self.assertEqual(self.run_script(data, "string")["steps"], "8")  # the chapter's program says so for 32 cells
-        self.show(chapter["convergence"], reduced="reduce")
+        self.show(chapter("string"))
+        self.assertEqual(self.run_script(data, "string")["steps"], "9")  # the chapter's program says so for 32 cells
+        self.show(chapter("convergence"), reduced="reduce")
         self.run_script("document.querySelector('#live-convergence button').click()")
         self.wait("return document.querySelector('#live-convergence').dataset.points === '17'", seconds=60)
-        self.show(chapter["roundoff"])
+        self.show(chapter("roundoff"))
         self.run_script(moved, "roundoff", "epsilon", -12)
-        self.wait("return Number(document.querySelector('#live-roundoff').dataset.summed) > 0.02")
-        self.assertLess(float(self.run_script(data, "roundoff")["split"]), 0.005)
+        self.wait("return Number(document.querySelector('#live-roundoff').dataset.p1) > 0.02")
+        self.assertLess(float(self.run_script(data, "roundoff")["cr"]), 0.005)
         self.assertEqual(self.said(), [])
 
 

@@ -4,12 +4,13 @@
 - An indented comment belongs to the code, unless it begins with a heading (`### Solve`): then it is prose too.
 - `### Solve` in the C++ finds `// ### Solve` in the FreeFEM twin, which is folded under it.
 - `Run: COMMAND    what it does` lines become a table; includes are folded away.
-- `:live: string` places a live figure.
+- `:live: string` places a live figure, `:live: mesh=layered cells=32` the one of P1 and Crouzeix-Raviart with its settings.
 """
 import html
 import re
 
 HEADING = re.compile(r"#{1,4} ")
+LIVE = re.compile(r":live:\s*(.*)$")
 
 
 class BookError(Exception):
@@ -89,8 +90,25 @@ def needs(prose):
     start = next((i for i, line in enumerate(prose) if line.startswith("Needs: ")), None)
     if start is None:
         return prose, []
-    end = next((i for i in range(start, len(prose)) if not prose[i].strip()), len(prose))
+    end = next((i for i in range(start, len(prose)) if not prose[i].strip() or LIVE.match(prose[i])), len(prose))
     return prose[:start] + prose[end:], prose[start:end]
+
+
+GREEK = dict(zip("alpha beta gamma delta epsilon eta kappa lambda mu pi rho sigma Gamma Omega Sigma".split(), "αβγδεηκλμπρσΓΩΣ"))
+SCRIPT = r"(?:\{[^}]*\}|-?\d+(?:\.\d+)?(?!\w)|\([\d/]+\)|-?[A-Za-z0-9]+|[-+](?!\w))"
+SCRIPTS = re.compile(rf"((?<![\w\\])(?:[A-Za-z]|{'|'.join(GREEK)})|\||\)|(?<!\w)\d+(?=\^))((?:[_^]{SCRIPT})+)")
+RELATIONS = {"->": "→", ">=": "≥", "<=": "≤", "<<": "≪"}
+
+
+def signs(text):
+    """The letters that tables and captions write out, as u_h^epsilon -> u^0 or h^(3/2), set as signs."""
+    def one(found):
+        scripts = re.findall(rf"([_^])({SCRIPT})", found[2])
+        return found[1] + "".join(f"<{tag}>{signs(part.strip('{}()')).replace('-', '−')}</{tag}>"
+                                  for kind, part in scripts for tag in ["sub" if kind == "_" else "sup"])
+    text = SCRIPTS.sub(one, text)
+    text = re.sub(rf"(?<!\w)({'|'.join(GREEK)})(?!\w)", lambda found: GREEK[found[1]], text)
+    return re.sub("->|>=|<=|<<", lambda found: RELATIONS[found[0]], text)
 
 
 class Page:
@@ -120,8 +138,8 @@ class Page:
                     self.show_twin(step)
                     step = step_name(line) if line.startswith("### ") else None
                     self.steps.add(step)
-                live = re.match(r":live:\s*(.*)$", line)
-                self.body += self.live(live[1].split()) if live else [line]
+                live = None if fenced else LIVE.match(line)
+                self.body += self.live(source.name, live[1]) if live else [line]
             self.body.append("")
         self.show_twin(step)
         missing = [name for name in self.twin if name not in self.steps]
@@ -149,21 +167,38 @@ class Page:
             self.body += folded(f"The same in FreeFEM: {step}", fence("freefem", self.twin[step]), "twin")
             self.shown.add(step)
 
-    def live(self, words):
-        kind = words.pop(0) if words and "=" not in words[0] else "locking"
+    def live(self, name, words):
+        try:
+            kind, figure = live_figure(words)
+        except BookError as error:
+            raise BookError(f"{name}: :live: {words}: {error}") from None
+        if kind in self.lives:
+            raise BookError(f"{name}: :live: {words}: a page holds one figure of a kind")
         self.lives.append(kind)
-        return live_figure(kind, dict(word.split("=", 1) for word in words))
+        return figure
 
 
+# The live figures: the picture that stands in their place until the script has taken over, or where it cannot.
 STILLS = {"locking": "hero", "string": "string", "convergence": "figure9", "roundoff": "roundoff"}
+# What a figure may be told: what its inputs offer.
+SETTINGS = {"locking": {"mesh": "structured|unstructured|moved|layered", "cells": "8|16|24|32", "moved": r"0\.\d+",
+                        "epsilon": r"0|-[1-8](?:\.\d+)?"}}
 
 
-def live_figure(kind, settings):
-    """The place of a live figure; what stands in it is seen until the script has taken over, or where it cannot."""
+def live_figure(text):
+    """(kind, the lines of its place): text is the kind, and settings as `mesh=layered`; without a kind it is locking."""
+    words = text.split()
+    kind = words.pop(0) if words and "=" not in words[0] else "locking"
     if kind not in STILLS:
-        raise BookError(f":live: {kind} is unknown; accepted: {', '.join(STILLS)}")
-    data = "".join(f' data-{key}="{html.escape(value)}"' for key, value in settings.items())
-    identity = ' id="live"' if kind == "locking" else f' id="live-{kind}"'
+        raise BookError(f"{kind} is unknown; accepted: {', '.join(STILLS)}")
+    accepted, data = SETTINGS.get(kind, {}), ""
+    for word in words:
+        key, _, value = word.partition("=")
+        if key not in accepted or not re.fullmatch(accepted[key], value):
+            raise BookError(f"{word} is no setting of {kind}; accepted: " +
+                            (", ".join(f"{name}={values}" for name, values in accepted.items()) or "none"))
+        data += f' data-{key}="{html.escape(value)}"'
+    identity = "live" if kind == "locking" else f"live-{kind}"
     still = (f'<img src="_images/{STILLS[kind]}.webp" alt="A still of the live figure" loading="lazy">'
              '<p class="live-still">This is a still. The live figure needs a browser with scripts, WebAssembly and WebGL2.</p>')
-    return ["", f'<div class="live" data-kind="{kind}"{identity}{data}>{still}</div>', ""]
+    return kind, ["", f'<div class="live" data-kind="{kind}" id="{identity}"{data}>{still}</div>', ""]

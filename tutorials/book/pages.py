@@ -13,14 +13,12 @@ from pathlib import Path
 
 from PIL import Image
 
-from literate import BookError, Page, fence, folded, live_figure
+from literate import STILLS, BookError, Page, fence, folded, live_figure, signs
 from library import Library
 
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 15),
          ("What accuracy costs", 16, 21), ("The class", 22, 99)]
-# Where a chapter does not place its live figure itself, the figure stands under the first picture.
-LIVE = {"00": "string", "06": "locking mesh=unstructured", "09": "convergence", "16": "roundoff"}
 EXTRA = ["errata", "glossary", "notation"]
 WIDTH = 1600
 
@@ -68,8 +66,9 @@ class Book:
             return self.picture(path.stem)
         return None
 
-    def linked(self, lines, where):
-        """Prose with its links turned to the pages of the book; `chapter 07` becomes a link. Code stays as it is."""
+    def linked(self, lines, where, spell=lambda text: text):
+        """Prose with its links turned to the pages of the book; `chapter 07` becomes a link. Code stays as it is; `spell`
+        is for the rest."""
         out, fenced = [], False
         for line in lines:
             fenced ^= line.startswith("```")
@@ -95,7 +94,7 @@ class Book:
                     return f"[{number[0]}]({name}.md)"
                 return found[1] + " " + re.sub(r"\b\d\d\b", one, found[2])
 
-            text = re.sub(r"(!?)\[([^\]]+)\]\(([^)\s]+)\)", replaced, text)
+            text = re.sub(r"(!?)\[([^\]]+)\]\(([^)\s]+)\)", replaced, spell(text))
             text = re.sub(r"\b([Cc]hapters?|[Tt]utorials?) (\d\d(?:(?:, | and | to )\d\d)*)\b(?![\]\w])", numbered, text)
             text = text.replace("[](", "\\[\\](")  # a lambda, not a link
             code = iter(joined.split("\0"))
@@ -125,7 +124,7 @@ class Book:
         title = f"**Figure {row['figure']} of the paper.** " if row["figure"] else ""
         alt = row["caption"].replace('"', "'")
         return [f"```{{figure}} {path}", f":alt: \"{alt}\"", ":figclass: picture", f":target: _images/{row['image']}.webp",
-                *([] if eager else [":class: lazy"]), "", title + row["caption"].rstrip(".") + ".", "```", ""]
+                *([] if eager else [":class: lazy"]), "", title + signs(row["caption"].rstrip(".")) + ".", "```", ""]
 
     # ---- pages
 
@@ -177,9 +176,6 @@ class Book:
         shots = self.pictures_of(stem)
         out = [f"# {page.title}", "", *self.relations(stem)]
         out += self.figure(shots[0], eager=True) if shots else []
-        if not page.lives and source == ROOT / f"tutorials/{self.first_of(stem[:2])}.cpp" and stem[:2] in LIVE:
-            kind, *settings = LIVE[stem[:2]].split()
-            out += live_figure(kind, dict(word.split("=") for word in settings))
         out += self.linked(page.body, source.parent)
         if page.runs:
             out += ["## Run it", "", *page.runs]
@@ -204,7 +200,7 @@ class Book:
         section = re.search(r"## The theory as experiments\n(.*?)(?=\n## |\Z)", text, re.S)
         if not section:
             raise BookError("tutorials/README.md: no section \"The theory as experiments\"")
-        self.write("theory", ["# The theory as experiments", "", *self.linked(section[1].splitlines(), ROOT / "tutorials")])
+        self.write("theory", ["# The theory as experiments", "", *self.linked(re.sub(r"\[(\d\d)_\w+\]\(", r"[\1](", section[1]).splitlines(), ROOT / "tutorials", signs)])
 
     def gallery(self):
         out = ["# Gallery", "", "Every picture, and the chapter that makes it.", ""]
@@ -227,23 +223,22 @@ class Book:
                           *(f"{name[:2]} {self.pages[name].title} <{name}>" for name in names), "```", ""]
         more = ["theory", "gallery", *(name for name in EXTRA if (self.out / f"{name}.md").exists()), "library"]
         trees += ["```{toctree}", ":caption: To look up", ":maxdepth: 1", "", *more, "```"]
-        live = "\n".join(live_figure("locking", {"mesh": "unstructured"}))
-        self.picture("hero")
+        live = "\n".join(live_figure("mesh=unstructured")[1])
         self.write("index", text.replace(":live:", live).replace(":chapters:", "\n".join(trees)).splitlines())
 
     def make(self):
         self.out.mkdir(parents=True, exist_ok=True)
         for source in self.sources:
             self.pages[source.stem] = Page(source, ROOT / f"freefem/{source.stem}.edp", self.draft)
-        for kind in ("hero", "string", "figure9", "roundoff"):
-            self.picture(kind)
+        for still in STILLS.values():
+            self.picture(still)
         for source in self.sources:
             self.chapter(source)
         for name in EXTRA:
             lines = (ROOT / f"tutorials/{name}.md").read_text().splitlines()
             if name == "glossary":  # its last column names chapters by number
                 lines = [re.sub(r"\| ([\d, ]+) \|$", lambda found: "| " + re.sub(r"\d\d", lambda n: f"[{n[0]}]({self.first_of(n[0])}.md)" if self.first_of(n[0]) else n[0], found[1]) + " |", line) for line in lines]
-            self.write(name, self.linked(lines, ROOT / "tutorials"))
+            self.write(name, self.linked(lines, ROOT / "tutorials", signs))
         self.theory()
         self.gallery()
         self.library.write(self.write)

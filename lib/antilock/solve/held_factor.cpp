@@ -4,18 +4,21 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/solve/default_cholesky.hpp"
 
 namespace antilock {
+
+HeldFactor::HeldFactor() : HeldFactor(std::make_unique<DefaultCholesky>()) {}
 
 std::optional<int> HeldFactor::factorise(SparseMatrix k) {
   k_ = std::move(k);
   held_.assign(k_.cols(), 0);
-  if (!cholesky_.analysed()) {
+  if (!cholesky_->analysed()) {
     Stopwatch watch;
-    cholesky_.analyse(k_, 0);
+    cholesky_->analyse(k_, 0);
     analyse_seconds = watch.seconds();
   }
-  return cholesky_.factorise(k_);
+  return cholesky_->factorise(k_);
 }
 
 void HeldFactor::hold(const std::vector<char>& held) {
@@ -26,11 +29,11 @@ void HeldFactor::hold(const std::vector<char>& held) {
       if (it.row() != j && (held[j] != 0 || held[it.row()] != 0)) it.valueRef() = 0;
   held_ = held;
   ++refactorisations;
-  if (cholesky_.factorise(rest)) throw Error("contact: K on the unknowns that are not held is not positive definite");
+  if (cholesky_->factorise(rest)) throw Error("contact: K on the unknowns that are not held is not positive definite");
 }
 
 Eigen::VectorXd HeldFactor::solve(const Eigen::VectorXd& r) const {
-  Eigen::VectorXd x = cholesky_.backward(cholesky_.forward(r));
+  Eigen::VectorXd x = cholesky_->backward(cholesky_->forward(r));
   for (Eigen::Index i = 0; i < x.size(); ++i)
     if (held_[i] != 0) x(i) = 0;
   return x;

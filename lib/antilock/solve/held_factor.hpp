@@ -1,5 +1,7 @@
 #pragma once
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "antilock/solve/sparse_cholesky.hpp"
@@ -11,6 +13,8 @@ namespace antilock {
 /// one numeric factorisation.
 class HeldFactor {
  public:
+  HeldFactor();  ///< on DefaultCholesky
+  explicit HeldFactor(std::unique_ptr<SparseCholesky> cholesky) : cholesky_(std::move(cholesky)) {}
   /// Takes the upper triangle of K and factors it with nothing held; a later one must have the same pattern. Returns the
   /// row of a lost pivot, as SparseCholesky does.
   std::optional<int> factorise(SparseMatrix k);
@@ -22,7 +26,7 @@ class HeldFactor {
   Eigen::VectorXd times(const Eigen::VectorXd& x) const;           ///< K x, the whole K
   Eigen::VectorXd absolute_times(const Eigen::VectorXd& x) const;  ///< |K| x
   const SparseMatrix& upper() const { return k_; }
-  double rcond() const { return cholesky_.rcond(); }
+  double rcond() const { return cholesky_->rcond(); }
 
   int refactorisations = 0;  ///< for another set
   double analyse_seconds = 0;
@@ -30,7 +34,7 @@ class HeldFactor {
  private:
   SparseMatrix k_;
   std::vector<char> held_;
-  SparseCholesky cholesky_;
+  std::unique_ptr<SparseCholesky> cholesky_;
 };
 
 }  // namespace antilock

@@ -12,6 +12,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/default_cholesky.hpp"
 
 namespace antilock {
 namespace {
@@ -54,20 +55,29 @@ bool takes_sparse(ContactRoad road, const FreeNumbering& numbering) {
 
 }  // namespace
 
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road, Checked)
-    : numbering_(problem), holds_(takes_sparse(road, numbering_)), matrices_(fingerprint(problem)) {
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road,
+                             std::unique_ptr<SparseCholesky> cholesky)
+    : numbering_(problem), matrices_(fingerprint(problem)) {
+  if (takes_sparse(road, numbering_))
+    held_.emplace(std::move(cholesky));
+  else
+    cholesky_ = std::move(cholesky);
   factorise(problem, delta);
 }
 
 PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road)
-    : PenaltyFactor(checked(problem), delta, road, Checked{}) {}
+    : PenaltyFactor(checked(problem), delta, road, std::make_unique<DefaultCholesky>()) {}
 
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem)
-    : PenaltyFactor(problem, moderate_delta(checked(problem)), ContactRoad::automatic, Checked{}) {}
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem) : PenaltyFactor(moderate(problem, std::nullopt)) {}
 
 PenaltyFactor PenaltyFactor::moderate(const VariationalInequality& problem, std::optional<double> penalty,
                                       ContactRoad road) {
-  return {problem, moderate_delta(checked(problem), penalty), road, Checked{}};
+  return moderate(problem, penalty, road, std::make_unique<DefaultCholesky>());
+}
+
+PenaltyFactor PenaltyFactor::moderate(const VariationalInequality& problem, std::optional<double> penalty,
+                                      ContactRoad road, std::unique_ptr<SparseCholesky> cholesky) {
+  return {problem, moderate_delta(checked(problem), penalty), road, std::move(cholesky)};
 }
 
 void PenaltyFactor::check_fits(const VariationalInequality& problem) const {
@@ -104,17 +114,16 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
   SparseMatrix k = penalised_matrix(problem, numbering_, delta);
   std::optional<int> lost;
   Stopwatch watch;
-  if (holds_) {
-    if (!held_) held_.emplace();
+  if (held_) {
     lost = held_->factorise(std::move(k));
     analyse_seconds = held_->analyse_seconds;
     factor_seconds = watch.lap() - analyse_seconds;
   } else {
-    if (!cholesky_.analysed()) {
-      cholesky_.analyse(k, static_cast<int>(k.cols()) - numbering_.interior);
+    if (!cholesky_->analysed()) {
+      cholesky_->analyse(k, static_cast<int>(k.cols()) - numbering_.interior);
       analyse_seconds = watch.lap();
     }
-    lost = cholesky_.factorise(k);
+    lost = cholesky_->factorise(k);
   }
   if (lost)
     throw Error(fmt::format(
@@ -122,29 +131,29 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
         "by nothing, a cell is too flat for double precision, or A1 and B are in units far apart; accepted: enough "
         "fixed unknowns, cells, entries of A1 and B' M B of like size",
         delta, numbering_.unknown[*lost]));
-  if (!holds_) {
-    contact_block_ = cholesky_.trailing_block(numbering_.interior);
+  if (!held_) {
+    contact_block_ = cholesky_->trailing_block(numbering_.interior);
     factor_seconds = watch.lap();
   }
   ++factorisations;
 }
 
-double PenaltyFactor::rcond() const { return holds_ ? held_->rcond() : cholesky_.rcond(); }
+double PenaltyFactor::rcond() const { return held_ ? held_->rcond() : cholesky_->rcond(); }
 
 Eigen::VectorXd PenaltyFactor::forward(const Eigen::VectorXd& r) const {
   require_dense();
-  return cholesky_.forward(r);
+  return cholesky_->forward(r);
 }
 
 Eigen::VectorXd PenaltyFactor::backward(Eigen::VectorXd y) {
   require_dense();
   ++solves;
-  return cholesky_.backward(std::move(y));
+  return cholesky_->backward(std::move(y));
 }
 
 Eigen::VectorXd PenaltyFactor::solve(const Eigen::VectorXd& r) {
   ++solves;
-  return holds_ ? held_->solve(r) : cholesky_.backward(cholesky_.forward(r));
+  return held_ ? held_->solve(r) : cholesky_->backward(cholesky_->forward(r));
 }
 
 const Eigen::MatrixXd& PenaltyFactor::contact_block() const {
@@ -153,7 +162,7 @@ const Eigen::MatrixXd& PenaltyFactor::contact_block() const {
 }
 
 void PenaltyFactor::require_dense() const {
-  if (holds_)
+  if (held_)
     throw Error(
         fmt::format("solve: this factor of {} bounds among {} unknowns has no dense contact block; accepted: a factor "
                     "made with ContactRoad::dense",

@@ -1,6 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <optional>
 
 #include "antilock/problem/variational_inequality.hpp"
@@ -38,6 +39,12 @@ class PenaltyFactor {
   /// The same with the penalty chosen by the caller, where there is one.
   static PenaltyFactor moderate(const VariationalInequality& problem, std::optional<double> penalty,
                                 ContactRoad road = ContactRoad::automatic);
+  /// The same on a factor of the type `Cholesky`, CholmodCholesky or EigenCholesky; all others are on DefaultCholesky.
+  template <class Cholesky>
+  static PenaltyFactor on(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
+                          ContactRoad road = ContactRoad::automatic) {
+    return moderate(problem, penalty, road, std::make_unique<Cholesky>());
+  }
 
   /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B or
   /// M than this factor's: one walk over the data, about the cost of a residual.
@@ -69,17 +76,19 @@ class PenaltyFactor {
   double analyse_seconds = 0, factor_seconds = 0;  ///< of the last analysis and factorisation
 
  private:
-  struct Checked {};  ///< the problem has passed `check`
-  PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road, Checked);
+  /// Of a problem that has passed `check`.
+  PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road,
+                std::unique_ptr<SparseCholesky> cholesky);
+  static PenaltyFactor moderate(const VariationalInequality& problem, std::optional<double> penalty, ContactRoad road,
+                                std::unique_ptr<SparseCholesky> cholesky);
   void check_unknowns(const VariationalInequality& problem) const;
   void require_dense() const;
   void factorise(const VariationalInequality& problem, double delta);
   FreeNumbering numbering_;
-  bool holds_ = false;
   double delta_ = 0;
-  std::uint64_t matrices_ = 0;  ///< fingerprint of the A1, B and M that it was made of
-  SparseCholesky cholesky_;     ///< the dense road's
-  std::optional<HeldFactor> held_;
+  std::uint64_t matrices_ = 0;                ///< fingerprint of the A1, B and M that it was made of
+  std::unique_ptr<SparseCholesky> cholesky_;  ///< the dense road's
+  std::optional<HeldFactor> held_;            ///< the sparse road's
   Eigen::MatrixXd contact_block_;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 #include <Eigen/Core>
-#include <memory>
+#include <limits>
 #include <optional>
 
 #include "antilock/core/matrix.hpp"
@@ -8,34 +8,30 @@
 namespace antilock {
 
 /// Sparse Cholesky factor L L' = P K P' of a symmetric positive definite K (F x F), of which the upper triangle is read.
-/// The one page that knows CHOLMOD (supernodal).
+/// What the solvers ask of a factor; `CholmodCholesky` and `EigenCholesky` answer alike, to round-off.
 class SparseCholesky {
  public:
-  SparseCholesky();
-  ~SparseCholesky();
-  SparseCholesky(SparseCholesky&&) noexcept;
-  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+  virtual ~SparseCholesky() = default;
 
-  /// Orders and analyses the pattern of K. `last` > 0: the last rows of K stay the last ones, in their order, and a
-  /// minimum degree under that constraint orders the rest (CAMD: as good as AMD without it). 0: CHOLMOD's own choice.
-  /// Throws Error out of memory.
-  void analyse(SparseMatrix& k, int last);
-  bool analysed() const;
+  /// A pivot below this part of its diagonal entry of K is nothing but the round-off of that entry. Sound problems stay
+  /// above 1e-11, on meshes and layers of every kind.
+  static constexpr double lost_pivot = 64 * std::numeric_limits<double>::epsilon();
+
+  /// Orders and analyses the pattern of K. `last` > 0: the last rows of K stay the last ones, in their order, and the
+  /// factor's own ordering is for the rest. Throws Error out of memory.
+  virtual void analyse(SparseMatrix& k, int last) = 0;
+  virtual bool analysed() const = 0;
 
   /// A numeric factorisation of a matrix of the analysed pattern. Returns the row of K whose pivot is not positive or
-  /// nothing but round-off; empty: K is positive definite. Throws Error out of memory.
-  std::optional<int> factorise(SparseMatrix& k);
+  /// nothing but round-off (`lost_pivot`); empty: K is positive definite. Throws Error out of memory.
+  virtual std::optional<int> factorise(SparseMatrix& k) = 0;
 
   /// Smallest by largest pivot: an upper estimate of 1 / condition number, for next to nothing.
-  double rcond() const;
-  Eigen::VectorXd forward(const Eigen::VectorXd& r) const;  ///< y = L^-1 P r
-  Eigen::VectorXd backward(Eigen::VectorXd y) const;        ///< x = P' L'^-1 y
+  virtual double rcond() const = 0;
+  virtual Eigen::VectorXd forward(const Eigen::VectorXd& r) const = 0;  ///< y = L^-1 P r
+  virtual Eigen::VectorXd backward(Eigen::VectorXd y) const = 0;        ///< x = P' L'^-1 y
   /// The trailing block of L (lower triangular) from place `first` of the order on.
-  Eigen::MatrixXd trailing_block(int first) const;
-
- private:
-  struct Cholmod;
-  std::unique_ptr<Cholmod> cholmod_;
+  virtual Eigen::MatrixXd trailing_block(int first) const = 0;
 };
 
 }  // namespace antilock

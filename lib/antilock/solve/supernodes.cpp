@@ -1,7 +1,8 @@
 #include "antilock/solve/supernodes.hpp"
 
 #include <algorithm>
-#include <limits>
+
+#include "antilock/solve/sparse_cholesky.hpp"
 
 namespace antilock {
 namespace {
@@ -62,11 +63,10 @@ Eigen::MatrixXd Supernodes::trailing_block(int first) const {
 }
 
 std::optional<int> Supernodes::lost_pivot(const Eigen::VectorXd& diagonal) const {
-  constexpr double lost = 64 * std::numeric_limits<double>::epsilon();
   for (int s = 0; s < count; ++s) {
     const Supernode node(*this, s);
     for (Eigen::Index j = 0; j < node.block.cols(); ++j)
-      if (const double root = node.block(j, j); !(root * root > lost * diagonal(node.first + j)))
+      if (const double root = node.block(j, j); !(root * root > SparseCholesky::lost_pivot * diagonal(node.first + j)))
         return static_cast<int>(node.first + j);
   }
   return std::nullopt;

@@ -27,9 +27,9 @@ struct Supernodes {
   /// The trailing block of L (lower triangular) from `first` on.
   Eigen::MatrixXd trailing_block(int first) const;
 
-  /// The first column of L whose pivot is nothing but the round-off of its diagonal entry of the matrix: the matrix is
-  /// singular, though its factor came to an end. Empty: there is none. Sound problems stay above 1e-11, on meshes and
-  /// layers of every kind. `diagonal`: F, in the order of L.
+  /// The first column of L whose pivot is nothing but the round-off of its diagonal entry of the matrix
+  /// (`SparseCholesky::lost_pivot`): the matrix is singular, though its factor came to an end. Empty: there is none.
+  /// `diagonal`: F, in the order of L.
   std::optional<int> lost_pivot(const Eigen::VectorXd& diagonal) const;
 };
 

@@ -7,7 +7,8 @@ antilock.chart = (where, { x, y, title }) => {
     parent?.append(part);
     return part;
   };
-  const width = 560, height = 300, left = 62, bottom = 44, right = 12, top = 12;
+  const narrow = matchMedia("(max-width: 36em)").matches;  // its letters stay as large as those around it
+  const width = narrow ? 360 : 560, height = narrow ? 280 : 300, left = 62, bottom = 44, right = 12, top = 12;
   const svg = make("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": title, class: "live-chart" });
   where.append(svg);
   const map = (axis, from, to) => (v) => {

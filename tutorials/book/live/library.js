@@ -62,6 +62,8 @@ antilock.library = async () => {
   const kinds = ["structured", "unstructured", "moved", "layered"];
   return {
     discretise: (element, mesh, cells, moved) => call("discretise", element, kinds.indexOf(mesh), cells, moved),
+    /// Makes a mesh and its factor, for a discretise to come.
+    prepare: (element, mesh, cells, moved, epsilon) => call("prepare", element, kinds.indexOf(mesh), cells, moved, epsilon),
     solve(element, epsilon) {
       const [largest, ridge, error, ms, unknowns, corrections, factorisations, touching, contact, from] =
         doubles(call("solve", element, epsilon), 10);
@@ -84,9 +86,10 @@ antilock.library = async () => {
 
 /// epsilon of a range input: its value is log10 epsilon, its lowest position is exactly 0.
 antilock.epsilonOf = (range) => (Number(range.value) <= Number(range.min) ? 0 : 10 ** Number(range.value));
-antilock.epsilonSaid = (range) => (antilock.epsilonOf(range) === 0 ? "0, the limit" : `10^${range.value}`);
-antilock.epsilonShown = (range) =>
-  antilock.epsilonOf(range) === 0 ? "0, the limit" : `10<sup>${range.value.replace("-", "−")}</sup>`;
+antilock.epsilonSaid = (range, epsilon) => (epsilon === 0 ? "0, the limit" : epsilon === 1 ? "1" : `10^${range.value}`);
+antilock.epsilonShown = (range, epsilon) =>
+  epsilon === 0 ? "0, the limit" : epsilon === 1 ? "1" : `10<sup>${range.value.replace("-", "−")}</sup>`;
+antilock.refusal = (error) => `No answer: ${error.message}. Choose something else; the page goes on.`;
 antilock.digits = (x, n = 2) => (x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e4 ? x.toExponential(n - 1) : String(Number(x.toPrecision(n + 1))));
 
 /// Calls `update` once per picture drawn, however often it is asked.
@@ -98,6 +101,8 @@ antilock.soon = (update) => {
     requestAnimationFrame(async () => { waiting = false; await update(); });
   };
 };
+
+antilock.whenIdle = window.requestIdleCallback?.bind(window) ?? ((task) => setTimeout(task, 100));
 
 antilock.figures = {};
 /// Fills every live figure of the page; where one cannot be, its still stays, with a sentence.

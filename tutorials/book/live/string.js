@@ -19,13 +19,14 @@ antilock.string = {
   },
   contactForce: ({ cells, h, b }, u) =>
     u.map((value, i) => (i > 0 && i < cells && value === 0 ? (-u[i - 1] + 2 * u[i] - u[i + 1]) / h - b[i] : 0)),
-  /// Every guess of the active set: { u, lambda, touches }, the last one is the answer.
+  /// Every guess of the active set: { u, lambda, touches }, the last one is the answer. The free string passes the floor in
+  /// its middle: a node there is a round-off above or below it. Here it touches.
   activeSet(s) {
-    const steps = [];
+    const steps = [], onFloor = 1e-14;
     for (let touches = Array(s.cells + 1).fill(false);;) {
       const u = this.solveWithHeld(s, s.b, touches), lambda = this.contactForce(s, u);
       steps.push({ u, lambda, touches });
-      const next = touches.map((held, i) => i > 0 && i < s.cells && (held ? lambda[i] > 0 : u[i] < 0));
+      const next = touches.map((held, i) => i > 0 && i < s.cells && (held ? lambda[i] > 0 : u[i] < onFloor));
       if (next.every((held, i) => held === touches[i])) return steps;
       touches = next;
     }
@@ -53,9 +54,9 @@ antilock.figures.string = async (box) => {
     <div class="live-controls">
       <label for="live-string-step">step <output></output></label>
       <input id="live-string-step" type="range" min="0" max="1" step="1" value="0">
-      <label for="live-string-cells">cells</label>
+      <span class="live-choice"><label for="live-string-cells">cells</label>
       <select id="live-string-cells"><option>8</option><option>16</option><option selected>32</option><option>64</option></select>
-      <button type="button">play</button>
+      <button type="button">play</button></span>
     </div>
     <div class="live-drawing"></div>
     <p class="live-key-line"><span class="key cr">active set</span> <span class="key touching">guessed to touch</span> <span class="key p1">Uzawa</span> <span class="key exact">answer</span></p>

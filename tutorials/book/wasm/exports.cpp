@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <map>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "antilock/core/error.hpp"
@@ -54,12 +55,26 @@ namespace {
 
 using namespace antilock;
 
-std::unique_ptr<book::LiveFigure> figures[2];  // P1, Crouzeix-Raviart
+struct Made {
+  double amount;
+  std::unique_ptr<book::LiveFigure> figure;
+};
+std::map<std::tuple<int, int, int>, Made> made;  // by element, kind and cells, with the amount asked for last
+book::LiveFigure* figures[2];                    // of `made`, those that are seen: P1, Crouzeix-Raviart
 std::unique_ptr<book::LiveTruth> truth;
 book::LiveNumbers numbers;
 book::RoundOff round_off_numbers;
 std::vector<float> picture;
 std::vector<double> line;
+
+book::LiveFigure& figure_of(int element, int kind, int cells, double amount) {
+  Made& one = made[{element, kind, cells}];
+  if (!one.figure || (one.amount != amount && static_cast<book::LiveMesh>(kind) == book::LiveMesh::moved)) {
+    const Element& which = element == 0 ? p1() : crouzeix_raviart();
+    one = {amount, std::make_unique<book::LiveFigure>(static_cast<book::LiveMesh>(kind), cells, amount, which)};
+  }
+  return *one.figure;
+}
 
 const book::LiveTruth& truth_at(double epsilon) {
   if (!truth || truth->epsilon != epsilon) truth = std::make_unique<book::LiveTruth>(epsilon);
@@ -82,10 +97,15 @@ EXPORT(mesh_triangles) int* mesh_triangles(int cells, int layer, int count) {
   return room.data();
 }
 
-/// element: 0 P1, 1 Crouzeix-Raviart; kind: in the order of LiveMesh.
+/// element: 0 P1, 1 Crouzeix-Raviart; kind: in the order of LiveMesh. A mesh is made once.
 EXPORT(discretise) void discretise(int element, int kind, int cells, double amount) {
-  const Element& which = element == 0 ? p1() : crouzeix_raviart();
-  figures[element] = std::make_unique<book::LiveFigure>(static_cast<book::LiveMesh>(kind), cells, amount, which);
+  figures[element] = &figure_of(element, kind, cells, amount);
+}
+/// Makes a mesh that is not seen yet, and its factor, before it is asked for.
+EXPORT(prepare) void prepare(int element, int kind, int cells, double amount, double epsilon) {
+  book::LiveFigure& figure = figure_of(element, kind, cells, amount);
+  if (figure.solution().u.size() > 0 || &figure == figures[element]) return;
+  figure.solve(epsilon, truth_at(epsilon));
 }
 /// The members of LiveNumbers in their order.
 EXPORT(solve) const double* solve(int element, double epsilon) {

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   std::ofstream out(argv[1], std::ios::binary);
-  for (const int cells : {16, 24, 32})
+  for (const int cells : {8, 16, 24, 32})
     for (const int layer : {0, 1}) write_mesh(out, cells, layer);
   out.close();
   if (!out) fmt::print(stderr, "live_meshes: cannot write {}\n", argv[1]);

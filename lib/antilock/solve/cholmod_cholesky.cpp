@@ -1,4 +1,4 @@
-#include "antilock/solve/sparse_cholesky.hpp"
+#include "antilock/solve/cholmod_cholesky.hpp"
 
 #include <cholmod.h>
 
@@ -30,7 +30,7 @@ cholmod_sparse view(SparseMatrix& k) {
 
 }  // namespace
 
-struct SparseCholesky::Cholmod {
+struct CholmodCholesky::Cholmod {
   cholmod_common common{};
   cholmod_factor* l = nullptr;
 
@@ -85,21 +85,19 @@ struct SparseCholesky::Cholmod {
   }
 };
 
-SparseCholesky::SparseCholesky() : cholmod_(std::make_unique<Cholmod>()) {}
-SparseCholesky::~SparseCholesky() = default;
-SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
-SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
+CholmodCholesky::CholmodCholesky() : cholmod_(std::make_unique<Cholmod>()) {}
+CholmodCholesky::~CholmodCholesky() = default;
 
-void SparseCholesky::analyse(SparseMatrix& k, int last) {
+void CholmodCholesky::analyse(SparseMatrix& k, int last) {
   cholmod_sparse whole = view(k);
   if (last > 0) return cholmod_->analyse_with_the_last(whole, last);
   cholmod_->l = cholmod_analyze(&whole, &cholmod_->common);
   if (cholmod_->l == nullptr) throw Error("solve: the analysis of the sparse factor failed: out of memory");
 }
 
-bool SparseCholesky::analysed() const { return cholmod_->l != nullptr; }
+bool CholmodCholesky::analysed() const { return cholmod_->l != nullptr; }
 
-std::optional<int> SparseCholesky::factorise(SparseMatrix& k) {
+std::optional<int> CholmodCholesky::factorise(SparseMatrix& k) {
   cholmod_sparse whole = view(k);
   cholmod_factorize(&whole, cholmod_->l, &cholmod_->common);
   if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
@@ -112,21 +110,23 @@ std::optional<int> SparseCholesky::factorise(SparseMatrix& k) {
   return column;
 }
 
-double SparseCholesky::rcond() const { return cholmod_rcond(cholmod_->l, &cholmod_->common); }
+double CholmodCholesky::rcond() const { return cholmod_rcond(cholmod_->l, &cholmod_->common); }
 
-Eigen::VectorXd SparseCholesky::forward(const Eigen::VectorXd& r) const {
+Eigen::VectorXd CholmodCholesky::forward(const Eigen::VectorXd& r) const {
   Eigen::VectorXd y = r(cholmod_->order());
   cholmod_->supernodes().forward(y);
   return y;
 }
 
-Eigen::VectorXd SparseCholesky::backward(Eigen::VectorXd y) const {
+Eigen::VectorXd CholmodCholesky::backward(Eigen::VectorXd y) const {
   cholmod_->supernodes().backward(y);
   Eigen::VectorXd x(y.size());
   x(cholmod_->order()) = y;
   return x;
 }
 
-Eigen::MatrixXd SparseCholesky::trailing_block(int first) const { return cholmod_->supernodes().trailing_block(first); }
+Eigen::MatrixXd CholmodCholesky::trailing_block(int first) const {
+  return cholmod_->supernodes().trailing_block(first);
+}
 
 }  // namespace antilock

@@ -1,0 +1,17 @@
+#pragma once
+#ifdef ANTILOCK_WITHOUT_CHOLMOD  // the build for the browser says so
+#include "antilock/solve/eigen_cholesky.hpp"
+#else
+#include "antilock/solve/cholmod_cholesky.hpp"
+#endif
+
+namespace antilock {
+
+/// The factor of whoever asks for none in particular.
+#ifdef ANTILOCK_WITHOUT_CHOLMOD
+using DefaultCholesky = EigenCholesky;
+#else
+using DefaultCholesky = CholmodCholesky;
+#endif
+
+}  // namespace antilock

@@ -1,0 +1,188 @@
+#!/usr/bin/python3
+"""The book of a small repository of three chapters: their order, where the live figures stand, and what must stop the build.
+Each fault is put into a copy of its own, and the build must name it. Run: pages_test.py [unittest's options]"""
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parents[2]
+STILLS = ("hero", "string", "figure9", "roundoff")
+CHAPTERS = {
+    "00_start": """// # A first chapter
+//
+// Run: 00_start    a moment
+//
+// Needs: nothing,
+// at all.
+// :live: string
+//
+// **The picture.** A formula $u ≥ 0$, and chapter 07.
+#include "antilock/core/error.hpp"
+
+// ### Solve
+int main() { return 0; }
+""",
+    "07_middle": """// # A second chapter
+//
+// Needs: [00](00_start.cpp) (all of it).
+//
+// Words before the figure.
+// :live: mesh=layered cells=8
+//
+// Words after the figure.
+//
+// ```
+// :live: in a listing is no figure
+// ```
+int main() {
+  // ### Output
+  // :live: convergence
+  return 0;
+}
+""",
+    "24_later": """// # A third chapter
+//
+// Needs: [07](07_middle.cpp).
+//
+// No figure here.
+int main() {}
+""",
+}
+
+
+def small_repository(root):
+    shutil.copytree(ROOT / "tutorials/book", root / "tutorials/book", ignore=shutil.ignore_patterns("wasm", "__pycache__"))
+    for folder in ("freefem", "figures/images", "lib/antilock/core", "build/book-parts/static"):
+        (root / folder).mkdir(parents=True)
+    for stem, text in CHAPTERS.items():
+        (root / f"tutorials/{stem}.cpp").write_text(text)
+    (root / "freefem/00_start.edp").write_text("// ### Solve\nreal a = 1;\n")
+    (root / "lib/antilock/core/error.hpp").write_text("#pragma once\nclass Error {};\n")
+    (root / "tutorials/README.md").write_text("# Tutorials\n\n## The theory as experiments\n\nNone.\n")
+    for page in ("errata", "glossary", "notation"):
+        (root / f"tutorials/{page}.md").write_text(f"# The {page}\n\nNone.\n")
+    for still in STILLS:
+        Image.new("RGB", (4, 4)).save(root / f"figures/images/{still}.png")
+    (root / "figures/table.csv").write_text("image,figure,tutorial,freefem,render,caption\nstring,,00_start,,,A string\n")
+    for script in ("live.js", "live_data.js"):
+        (root / f"build/book-parts/static/{script}").touch()
+
+
+class Pages(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.root = Path(cls.folder.name)
+        small_repository(cls.root)
+        for command in (cls.pages, cls.sphinx):
+            status, said = command()
+            if status != 0:
+                raise AssertionError(f"the sources as they are: {said}")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    @classmethod
+    def ask(cls, *command):
+        done = subprocess.run(command, cwd=cls.root, capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+    @classmethod
+    def pages(cls):
+        return cls.ask("tutorials/book/pages.py", "build/pages", "--without-runs")
+
+    @classmethod
+    def sphinx(cls):
+        return cls.ask("sphinx-build", "-q", "-W", "--keep-going", "-c", "tutorials/book", "build/pages", "build/book")
+
+    def page(self, stem, suffix="md", folder="pages"):
+        return (self.root / f"build/{folder}/{stem}.{suffix}").read_text()
+
+    # ---- order
+
+    def test_the_index_has_every_chapter_once_in_the_order_of_their_numbers(self):
+        self.assertEqual(re.findall(r"<(\d\d_\w+)>", self.page("index")), sorted(CHAPTERS))
+        captions = re.findall(r":caption: (\w+) ", self.page("index"))
+        self.assertEqual(captions, ["I", "II", "V", "To"])  # of the five parts those that have a chapter
+
+    def test_a_chapter_leads_to_the_next_whatever_numbers_are_free(self):
+        stems = sorted(CHAPTERS)
+        for before, after in zip(stems, stems[1:]):
+            self.assertIn(f'class="next-page" href="{after}.html"', self.page(before, "html", "book"))
+            self.assertIn(f'class="prev-page" href="{before}.html"', self.page(after, "html", "book"))
+            self.assertRegex(self.page(before), rf"Leads to: \[{after[:2]} [^]]*\]\({after}\.md\)\.")
+
+    # ---- live figures
+
+    def test_a_live_figure_stands_where_its_line_stands(self):
+        def places(stem):
+            return re.findall(r'<div class="live" ([^>]*)>', self.page(stem))
+        self.assertEqual(places("00_start"), ['data-kind="string" id="live-string"'])
+        self.assertEqual(places("07_middle"), ['data-kind="locking" id="live" data-mesh="layered" data-cells="8"',
+                                               'data-kind="convergence" id="live-convergence"'])
+        self.assertEqual(places("24_later"), [])
+        self.assertRegex(self.page("00_start"), r'(?s)Needs: nothing,\nat all\..*images/string.*class="live".*The picture')
+        self.assertRegex(self.page("07_middle"), r'(?s)Words before.*data-kind="locking".*Words after.*no figure.*### Output.*"convergence"')
+
+    # ---- tables and captions
+
+    def test_letters_that_are_written_out_become_signs(self):
+        sys.path.insert(0, str(ROOT / "tutorials/book"))
+        from literate import signs
+        for text, shown in (("u_h^epsilon -> u^0", "u<sub>h</sub><sup>ε</sup> → u<sup>0</sup>"),
+                            ("a_x^-(u_h^+, v)", "a<sub>x</sub><sup>−</sup>(u<sub>h</sub><sup>+</sup>, v)"),
+                            (r"\|.\|_{1,Omega_h}", r"\|.\|<sub>1,Ω<sub>h</sub></sub>"),
+                            ("h << epsilon^(8/3)", "h ≪ ε<sup>8/3</sup>"), ("h^1.12, K_0h", "h<sup>1.12</sup>, K<sub>0h</sub>"),
+                            ("(t h / epsilon)^2.", "(t h / ε)<sup>2</sup>."), ("10^-2.5 >= 1/epsilon", "10<sup>−2.5</sup> ≥ 1/ε"),
+                            ("06_p1_unstructured (12_uniform)", "06_p1_unstructured (12_uniform)")):
+            self.assertEqual(signs(text), shown)
+
+    # ---- what stops the build
+
+    def refused(self, says, file, line, command, instead_of=None):
+        """With `line` at the end of the file, or in the place of another, the command fails and says so."""
+        path = self.root / file
+        kept = path.read_text()
+        path.write_text(kept + line + "\n" if instead_of is None else kept.replace(instead_of, line))
+        try:
+            status, said = command()
+        finally:
+            path.write_text(kept)
+        self.assertNotEqual(status, 0, f"{line} was let through")
+        self.assertIn(says, said)
+
+    def both(self):
+        status, said = self.pages()
+        return (status, said) if status != 0 else self.sphinx()
+
+    def test_what_is_wrong_is_named(self):
+        chapter = "tutorials/00_start.cpp"
+        for says, file, line in (
+                ("unknown link", chapter, "// [nowhere](no_such_file.cpp)"),
+                ("chapter 98 does not exist", chapter, "// As chapter 98 says."),
+                ("figures/images/none.png is missing", "figures/table.csv", "none,,00_start,,,A picture"),
+                ("00_start.cpp: :live: tree: tree is unknown; accepted: locking", chapter, "// :live: tree"),
+                ("mesh=round is no setting of locking; accepted: mesh=structured|", chapter, "// :live: mesh=round"),
+                ("cells=9 is no setting of string; accepted: none", "tutorials/24_later.cpp", "// :live: string cells=9"),
+                ("a page holds one figure of a kind", chapter, "// :live: string"),
+                ('step "Dance"', "freefem/00_start.edp", "// ### Dance")):
+            with self.subTest(line=line):
+                self.refused(says, file, line, self.pages)
+        with self.subTest("title"):
+            self.refused("accepted: at most six", chapter, "// # A title of more than six words", self.pages, "// # A first chapter")
+
+    def test_what_sphinx_finds_is_named(self):
+        for says, line in (("not found", "// [nowhere](07_middle.cpp#no-such-place)"), ("KaTeX parse error", r"// $\frac{1$")):
+            with self.subTest(line=line):
+                self.refused(says, "tutorials/00_start.cpp", line, self.both)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

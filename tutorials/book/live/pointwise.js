@@ -1,0 +1,70 @@
+// A figure that the reader makes: every epsilon that is asked for leaves its two points.
+"use strict";
+/// `figure`: title and label; min, step and stride of log10 epsilon; zero: where epsilon = 0 is drawn, if the lowest
+/// position is 0; choices: name -> values; start: name -> the value chosen, if it is not the first; keys of both curves;
+/// others: the key of the points of other choices, if they stay; axes; ask(library, epsilon, chosen) -> the two values.
+antilock.pointwise = async (box, figure) => {
+  let library = await antilock.library();
+  const id = `live-${box.dataset.kind}`, still = document.createElement("div"), names = Object.keys(figure.choices);
+  still.innerHTML = `
+    <p class="live-title">${figure.title}</p>
+    <div class="live-controls">
+      <label for="${id}-epsilon">ε = <output></output></label>
+      <input id="${id}-epsilon" type="range" min="${figure.min}" max="0" step="${figure.step}" value="0">
+      ${names.map((name) => `<span class="live-choice"><label for="${id}-${name}">${name === "cells" ? "1/h" : name}</label>
+        <select id="${id}-${name}">${figure.choices[name].map((value) => `<option${value === figure.start?.[name] ? " selected" : ""}>${value}</option>`).join("")}</select></span>`).join("")}
+      <span class="live-choice"><button type="button">all ε</button> <button type="button">clear</button></span>
+    </div>
+    <div class="live-drawing"></div>
+    <p class="live-key-line"><span class="key p1">${figure.keys[0]}</span> <span class="key cr">${figure.keys[1]}</span>
+      ${figure.others ? `<span class="key other">${figure.others}</span>` : ""}</p>
+    <p class="live-said" role="status"></p>`;
+  const range = still.querySelector("input"), selects = [...still.querySelectorAll("select")], [all, clear] = still.querySelectorAll("button");
+  const output = still.querySelector("output"), said = still.querySelector(".live-said");
+  const chart = antilock.chart(still.querySelector(".live-drawing"), figure.axes);
+  let points = {};  // per choice a Map of epsilon to the two values
+  const chosen = () => Object.fromEntries(names.map((name, i) => [name, selects[i].value]));
+  const curve = (key, i) => [...(points[key] ?? [])].sort((a, b) => a[0] - b[0]).map(([e, values]) => [e || figure.zero, values[i]]);
+  function draw() {
+    const key = Object.values(chosen()).join(" ");
+    if (figure.others) {
+      const before = Object.keys(points).filter((other) => other !== key);
+      chart.curve("other", before.flatMap((other) => [...curve(other, 0), ...curve(other, 1)]), { joined: false, markers: true });
+    }
+    ["p1", "cr"].forEach((name, i) => chart.curve(name, curve(key, i), { markers: true }));
+    box.dataset.points = points[key]?.size ?? 0;
+  }
+  async function update() {
+    const epsilon = figure.zero ? antilock.epsilonOf(range) : 10 ** Number(range.value);
+    output.innerHTML = antilock.epsilonShown(range, epsilon);
+    range.setAttribute("aria-valuetext", `epsilon is ${antilock.epsilonSaid(range, epsilon)}`);
+    try {
+      library ??= await antilock.library();
+      const values = figure.ask(library, epsilon, chosen());
+      (points[Object.values(chosen()).join(" ")] ??= new Map()).set(epsilon, values);
+      draw();
+      const text = values.map((value, i) => `${figure.keys[i]} ${antilock.digits(value)}`).join(", ");
+      said.textContent = `Error: ${text}; ${box.dataset.points} points.`;
+      chart.said(text);
+      Object.assign(box.dataset, { state: "ready", p1: values[0], cr: values[1] });
+    } catch (error) {
+      library = null;
+      said.textContent = antilock.refusal(error);
+      box.dataset.state = "failed";
+    }
+  }
+  const soon = antilock.soon(update);
+  for (const part of [range, ...selects]) part.addEventListener("input", soon);
+  all.addEventListener("click", async () => {
+    const atOnce = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    for (let x = 0; x >= figure.min; x -= figure.stride) {
+      range.value = x;
+      await update();
+      if (!atOnce) await new Promise(requestAnimationFrame);
+    }
+  });
+  clear.addEventListener("click", () => { points = {}; draw(); said.textContent = ""; });
+  box.setAttribute("aria-label", `Live figure: ${figure.label}`);
+  box.replaceChildren(...still.children);
+  await update();
+};
