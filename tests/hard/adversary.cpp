@@ -196,9 +196,10 @@ Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& e
     judgement.error = std::numeric_limits<double>::infinity();
     if (solvable) {
       const double difference = (s.u - exact.u).lpNorm<Eigen::Infinity>();
-      // a locked u tends to 0: then to 1e-15 of its size before it locks
-      judgement.error =
-          difference == 0 ? 0 : difference / std::max(exact.u.lpNorm<Eigen::Infinity>(), 1e-9 * s.moderate);
+      // a locked u tends to 0: then to 1e-15 of its size before it locks; numbers below the smallest normal one are 0
+      judgement.error = difference < std::numeric_limits<double>::min()
+                            ? 0
+                            : difference / std::max(exact.u.lpNorm<Eigen::Infinity>(), 1e-9 * s.moderate);
     }
     judgement.reason = s.warning;
     if (!s.warning.empty())

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <map>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,15 @@
 
 using namespace antilock::hard;
 using antilock::test::Exactly;
+
+namespace {
+
+/// Messages that differ by their numbers alone are one reason.
+std::string without_numbers(const std::string& message) {
+  return std::regex_replace(message, std::regex("[0-9][0-9.]*(e[-+]?[0-9]+)?"), "#");
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 3) {
@@ -41,7 +51,7 @@ int main(int argc, char** argv) {
     const std::string outcome = outcomes[static_cast<int>(judgement.outcome)];
     ++counts[truth + ": " + outcome];
     if (judgement.outcome == Outcome::refused || judgement.outcome == Outcome::warned)
-      ++reasons[outcome + ": " + judgement.reason.substr(0, 45)];
+      ++reasons[outcome + ": " + without_numbers(judgement.reason).substr(0, 70)];
     if (judgement.outcome == Outcome::quietly_wrong)
       fmt::print("problem {}: {}, error {:.1e}\n", seed, truth, judgement.error);
   }

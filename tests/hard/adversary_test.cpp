@@ -57,11 +57,14 @@ TEST(Adversary, NothingIsQuietlyWrong) {
 }
 
 TEST(Adversary, NothingIsQuietlyWrongByUzawa) {
-  for (unsigned seed = 1000; seed < 1060; ++seed) {
+  int refused = 0;
+  for (unsigned seed = 0; seed < 600; ++seed) {
     const VariationalInequality problem = random_problem(seed);
     const Judgement judgement = judge(problem, test::exact_answer(problem), true);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+    refused += judgement.outcome == Outcome::refused;
   }
+  EXPECT_LE(refused, 20);  // measured over 5000: 2.6 %, two thirds of them for want of more than 20,000 steps
 }
 
 TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrong) {
@@ -83,11 +86,14 @@ TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrong) {
 }
 
 TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrongByUzawa) {
-  for (unsigned seed = 1000; seed < 1060; ++seed) {
+  int refused = 0;
+  for (unsigned seed = 0; seed < 600; ++seed) {  // 538: a great load leaves round-off far above a locked u
     const VariationalInequality problem = random_bounds(seed);
     const Judgement judgement = judge(problem, test::exact_answer(problem), true);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+    refused += judgement.outcome == Outcome::refused && judgement.reason.find("combination") == std::string::npos;
   }
+  EXPECT_LE(refused, 40);  // measured over 5000: 5.9 %
 }
 
 TEST(Adversary, FrictionIsNotQuietlyWrong) {

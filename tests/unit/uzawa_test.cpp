@@ -184,6 +184,47 @@ TEST(Uzawa, TheStepLengthChangesTheCostNotTheAnswer) {
   EXPECT_THROW(uzawa(problem, options), NotConverged);
 }
 
+/// A chain of five springs in units that lie 4 decades apart, so that its compliances lie 8 apart, over an obstacle.
+VariationalInequality chain_in_units_apart() {
+  const Eigen::VectorXd unit{{1, 1e4, 1e-4, 1, 1e2}};
+  Eigen::MatrixXd chain = 2 * Eigen::MatrixXd::Identity(5, 5);
+  for (int i = 1; i < 5; ++i) chain(i, i - 1) = chain(i - 1, i) = -1;
+  VariationalInequality problem;
+  problem.a1 = Eigen::MatrixXd(unit.asDiagonal() * chain * unit.asDiagonal()).sparseView();
+  problem.b.resize(0, 5);
+  problem.load = unit.cwiseProduct(Eigen::VectorXd{{-1, -2, 0.5, 1, -3}});
+  problem.contact = {0, 1, 2, 3, 4};
+  problem.lower = Eigen::VectorXd{{-0.5, -1, -0.25, 0, -2}}.cwiseQuotient(unit);
+  return problem;
+}
+
+TEST(Uzawa, UnitsDecadesApartTakeAStepEach) {
+  const VariationalInequality problem = chain_in_units_apart();
+  const Solution exact = active_set(problem), s = uzawa(problem);
+  EXPECT_LT(s.counters.contact, 500);  // one step for all takes more than a million
+  EXPECT_EQ(s.active, exact.active);
+  EXPECT_LT(relative_difference(s.u, exact.u), 1e-9);
+}
+
+TEST(Uzawa, EquationsAreSolvedForTheirForces) {
+  VariationalInequality problem = chain_in_units_apart();
+  problem.upper = Eigen::VectorXd::Constant(5, std::numeric_limits<double>::infinity());
+  problem.lower(1) = problem.upper(1) = 0.25e-4;
+  problem.lower(3) = problem.upper(3) = -0.125;
+  const Solution exact = active_set(problem), s = uzawa(problem);
+  EXPECT_EQ(s.u(1), 0.25e-4);
+  EXPECT_EQ(s.u(3), -0.125);
+  EXPECT_EQ(s.active, exact.active);
+  EXPECT_LT((s.lambda - exact.lambda).cwiseQuotient(exact.lambda.cwiseAbs().cwiseMax(1e-3)).cwiseAbs().maxCoeff(),
+            1e-5);
+  // nothing but equations: no step at all
+  problem.upper = problem.lower;
+  const Solution held = uzawa(problem);
+  EXPECT_EQ(held.counters.contact, 0);
+  EXPECT_EQ(held.u, problem.lower);
+  EXPECT_EQ(held.active, std::vector<bool>(5, true));
+}
+
 TEST(Uzawa, NeverReturnsAnUnconvergedAnswer) {
   const TriangleMesh mesh = structured_mesh(8);
   const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 0.1);

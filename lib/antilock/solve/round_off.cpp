@@ -71,7 +71,8 @@ bool Corrections::drowned(const Change& change) {
   note_round_off();
   const double noise = noise_.lpNorm<Eigen::Infinity>();
   if (!(step <= noise && gap_ * u_scale_ <= noise)) return false;
-  if (u_now > noise && step > 1e-9 * u_now)
+  // a u below that round-off counts as 0, but what round-off a great load leaves may be far above that of u
+  if (u_now > noise ? step > 1e-9 * u_now : u_now > 1e-15 * u_first_)
     s_.warning =
         fmt::format("{}: u is locked, {:.0e} of its size before; corrections move it by {:.0e} of itself still",
                     s_.solver, u_now / u_first_, step / u_now);

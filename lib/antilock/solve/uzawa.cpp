@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -49,8 +50,46 @@ class CondensedUzawa {
  public:
   CondensedUzawa(const PenaltyFactor& factor, const UzawaOptions& options) : factor_(factor), options_(options) {}
 
+  /// Equations (lower = upper) are solved for their forces: a step would move those freely, at a rate of its own.
   ContactAnswer operator()(const ContactProblem& p, const ContactAnswer& before, int) {
-    if (factor_.delta() != delta_) condense();  // the corrections may have taken another penalty
+    std::vector<int> equations, open;
+    for (int i = 0; i < static_cast<int>(p.q.size()); ++i)
+      (p.upper.size() > 0 && p.lower(i) == p.upper(i) && std::isinf(bears(p, i)) ? equations : open).push_back(i);
+    if (equations.empty()) return stepped(p, before);
+    ContactAnswer answer;
+    answer.v = p.lower;
+    answer.active.assign(p.q.size(), true);
+    answer.beyond.assign(p.most.size(), 0);
+    if (!open.empty()) {
+      const Eigen::MatrixXd s = p.s(open, open);
+      const Eigen::VectorXd q = p.q(open) - p.s(open, equations) * p.lower(equations), lower = p.lower(open);
+      ContactAnswer of_open;
+      if (before.lambda.size() > 0) of_open.lambda = before.lambda(open);
+      ContactProblem problem{s, q, lower, p.u_scale};
+      problem.upper = p.upper(open);
+      if (p.most.size() > 0) problem.most = p.most(open);
+      of_open = stepped(problem, of_open);
+      answer.v(open) = of_open.v;
+      answer.steps = of_open.steps;
+      for (std::size_t i = 0; i < open.size(); ++i) {
+        answer.active[open[i]] = of_open.active[i];
+        if (p.most.size() > 0) answer.beyond[open[i]] = of_open.beyond[i];
+      }
+    }
+    answer.lambda = p.s * answer.v - p.q;
+    for (const int i : open)
+      if (!answer.active[i]) {
+        const int beyond = answer.beyond.empty() ? 0 : answer.beyond[i];
+        answer.lambda(i) = beyond == 0 ? 0 : -beyond * p.most(i);
+      }
+    return answer;
+  }
+
+  std::vector<double> history;
+
+ private:
+  ContactAnswer stepped(const ContactProblem& p, const ContactAnswer& before) {
+    if (factor_.delta() != delta_) condense(p.s);  // the corrections may have taken another penalty
     ContactAnswer answer;
     // the step is taken on f = q + lambda >= q: where the obstacle bears a great load, little is left of the two
     Eigen::VectorXd f = p.q;
@@ -61,7 +100,7 @@ class CondensedUzawa {
       if (options_.enough && answer.steps % 32 == 0 && duality_gap(p, answer) <= options_.enough->energy) break;
       const Eigen::VectorXd next = projected_step(p, f, answer.v);
       const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), p.u_scale);  // bounds far from v do not count
-      const double change = scale > 0 ? (next - f).cwiseAbs().maxCoeff() / rho_ / scale : 0;
+      const double change = scale > 0 ? (next - f).cwiseAbs().cwiseQuotient(rho_).maxCoeff() / scale : 0;
       f = next;
       ++answer.steps;
       history.push_back(change);
@@ -71,7 +110,8 @@ class CondensedUzawa {
       const bool late = answer.steps % 256 == 0 && watch_.seconds() > options_.max_seconds;
       if (!std::isfinite(change) || late || static_cast<int>(history.size()) >= options_.max_steps)
         throw NotConverged(
-            fmt::format("uzawa: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}",
+            fmt::format("uzawa: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}; "
+                        "active_set needs no step length",
                         change, history.size(), watch_.seconds(), options_.tolerance),
             change, static_cast<int>(history.size()));
     }
@@ -80,9 +120,6 @@ class CondensedUzawa {
     return answer;
   }
 
-  std::vector<double> history;
-
- private:
   /// lambda, and which bounds bear it: all that push, or that hold an equation, but not those that bear their most.
   void take_bounds(const ContactProblem& p, const Eigen::VectorXd& f, ContactAnswer& answer) const {
     answer.lambda = f - p.q;
@@ -101,35 +138,51 @@ class CondensedUzawa {
   /// lambda <- max(0, lambda - rho (v - lower)) + min(0, lambda - rho (v - upper)): of the two terms one is zero. In f
   /// that is q, moved up to f - rho (v - lower) or down to f - rho (v - upper), and no further than a bound bears.
   Eigen::VectorXd projected_step(const ContactProblem& p, const Eigen::VectorXd& f, const Eigen::VectorXd& v) const {
-    const Eigen::VectorXd up = f - rho_ * (v - p.lower);
+    const Eigen::VectorXd up = f - rho_.cwiseProduct(v - p.lower);
     Eigen::VectorXd next =
-        between(up, p.q, p.upper.size() > 0 ? Eigen::VectorXd(f - rho_ * (v - p.upper)) : Eigen::VectorXd());
+        between(up, p.q, p.upper.size() > 0 ? Eigen::VectorXd(f - rho_.cwiseProduct(v - p.upper)) : Eigen::VectorXd());
     if (p.most.size() > 0) next = next.cwiseMax(p.q - p.most).cwiseMin(p.q + p.most);
     return next;
   }
 
-  void condense() {
-    const auto& l = factor_.contact_block();
-    const Eigen::MatrixXd inverse =
-        l.triangularView<Eigen::Lower>().solve(Eigen::MatrixXd::Identity(l.rows(), l.cols()));
+  void condense(const Eigen::MatrixXd& s) {
+    const Eigen::Index count = s.rows();
+    const Eigen::MatrixXd inverse = Cholesky(s).half_solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
     compliance_ = inverse.transpose() * inverse;
     delta_ = factor_.delta();
     if (options_.step) {
-      rho_ = *options_.step;
+      rho_.setConstant(count, *options_.step);
       return;
     }
-    const Eigen::MatrixXd stiffness = l.triangularView<Eigen::Lower>() * l.transpose();
-    const double largest =
-        largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(compliance_ * x); }, l.rows());
-    const double smallest =
-        1 / largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(stiffness * x); }, l.rows());
-    rho_ = 2 / (largest + smallest);
+    // One step for all, or one per unknown, rho_i = rho / C_ii: where stiffnesses lie decades apart, one step is too
+    // small for most.
+    const Eigen::VectorXd one = Eigen::VectorXd::Ones(count), each = compliance_.diagonal().cwiseInverse();
+    const Step common = best_step(s, one), own = best_step(s, each);
+    rho_ = 4 * own.condition < common.condition ? Eigen::VectorXd(own.length * each) : common.length * one;
+  }
+
+  /// The step rho weight_i that contracts fastest, 2 / (largest + smallest eigenvalue of W C), and their ratio.
+  struct Step {
+    double length, condition;
+  };
+  Step best_step(const Eigen::MatrixXd& s, const Eigen::VectorXd& weight) const {
+    const Eigen::VectorXd root = weight.cwiseSqrt();
+    const auto largest = [&](const Eigen::MatrixXd& matrix, const Eigen::VectorXd& side) {
+      return largest_eigenvalue(
+          [&](const Eigen::VectorXd& x) {
+            return Eigen::VectorXd(side.cwiseProduct(matrix * Eigen::VectorXd(side.cwiseProduct(x))));
+          },
+          s.rows());
+    };
+    const double most = largest(compliance_, root), least = 1 / largest(s, root.cwiseInverse());
+    return {2 / (most + least), most / least};
   }
 
   const PenaltyFactor& factor_;
   UzawaOptions options_;
   Eigen::MatrixXd compliance_;
-  double delta_ = 0, rho_ = 0;
+  Eigen::VectorXd rho_;  ///< C, the step of each force
+  double delta_ = 0;
   Stopwatch watch_;
 };
 
