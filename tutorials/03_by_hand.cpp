@@ -192,8 +192,6 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. $δ = 10^{-2}$ in place of $10^{-4}$. The same $u$? As many corrections?
 // 2. Move one inner vertex of the layer sideways by $h/10$. Six triangles meet there. How many entries have their rows
 //    of $B$ now?

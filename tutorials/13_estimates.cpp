@@ -228,8 +228,6 @@ void judge(const Table& results, const Table& walls, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Move the vertices of the structured mesh by up to $h/5$: nothing cancels any more, slopes are of size $h$. Where
 // is the wall?
 // 2. In the energy norm $M = α = 1$. Where does the locking go? Show $J(v) - J(u) = ½ |u - v|_a^2 + R(v)$ first.

@@ -205,8 +205,6 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Move the obstacle out of reach, gap = 1. What does the scene with layer and contact cost, and what does it
 //    answer?
 // 2. Take P1 for Crouzeix–Raviart on this unstructured mesh. Which models of the layer lock: (23), (24), (25)?

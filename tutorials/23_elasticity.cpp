@@ -168,8 +168,6 @@ void judge(const Table& checks, const Table& forces, const Table& errors, int ce
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. CR penalises its jumps with weight 1. Between weight 0.1 and 10, how much does the contact force change, on 8
 //    and on 16 cells?
 // 2. Count what is left at 1/h = 4 and 8: does $\dim G_h$ of P1 grow like the unknowns under refinement? And of CR?
