@@ -33,30 +33,15 @@
 // skip. Contact has a *gap*, the distance between undeformed body and obstacle at $x$: $u ≥ -$gap. Load chosen here,
 // $f = 10 \sin 2πx$; the paper gives none.
 
-#include <algorithm>
-
-#include "antilock/core/stopwatch.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
-#include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
-#include "common/results.hpp"
-#include "common/tutorial.hpp"
+#include "common/course.hpp"
+#include "common/effects.hpp"
 
 using namespace antilock;
+using tutorial::Exact, tutorial::Run;
 
 const Body body{paper_load};
 const UnilateralContact obstacle{};
-
-// A scene from question to answer, and what each step cost.
-struct Run {
-  Run(const Scene& scene, TriangleMesh mesh);
-  Discretisation on;
-  VariationalInequality problem;
-  Solution solution;
-  double energy = 0, contact_from = 1, assemble_seconds = 0, solve_seconds = 0;
-};
 
 // **Five scenes**, from plain Laplace to a stiff layer with contact.
 void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::Report& report) {
@@ -66,15 +51,16 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
       {"3_ventcel", Scene(body, VentcelLayer{})},
       {"4_layer", Scene(body, StiffLayer{options.epsilon})},
       {"5_layer_contact", Scene(body, StiffLayer{options.epsilon}, obstacle)}};
-  Table table({"scene", "triangles", "unknowns", "factorisations", "solves", "contact", "corrections", "assemble_s",
-               "solve_s", "u_min", "u_max"});
+  Table table(tutorial::cost_columns);
   for (const auto& [name, scene] : scenes) {
     // ### Mesh
     // As large as the scene needs: its layer_depth is 0 where no layer is meshed.
-    const Run run(scene, unstructured_mesh(options.cells, {scene.layer_depth()}));
-    const Counters& c = run.solution.counters;
-    table.add({name, run.on.mesh().triangle_count(), c.unknowns, c.factorisations, c.solves, c.contact, c.corrections,
-               run.assemble_seconds, run.solve_seconds, run.solution.u.minCoeff(), run.solution.u.maxCoeff()});
+    TriangleMesh mesh = unstructured_mesh(options.cells, {scene.layer_depth()});
+    // ### Forms
+    // ### Solve
+    // A `Run` assembles what the scene holds and solves it, by Crouzeix-Raviart and the active set.
+    const Run run(scene, std::move(mesh));
+    table.add(tutorial::costs(name, run));
     tutorial::write_results(options.out / name, run.on.space(), run.problem, run.solution);
   }
   // ### Output
@@ -92,32 +78,14 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
 // **One question, three models of the layer**: (23) at a small ε, (24) on the layer's mesh, (25) without one. All are
 // held against the truth at that ε, so the last two show the error of their model as well.
 void three_models(const tutorial::Options& options, tutorial::Report& report) {
-  report.stage("truth at epsilon and at 0: sine series");
-  const tutorial::Exact exact(options.epsilon, 14), limit(0, 14);
-  double model_error = 0;
-  for (int i = 1; i < 64; ++i)
-    model_error = std::max(model_error, std::abs(exact.truth.value(i / 64.0, -1) - limit.truth.value(i / 64.0, -1)));
-  report.finish();
-
-  const std::vector<std::pair<std::string, Scene>> models{
-      {"scaled", Scene(body, StiffLayer{options.epsilon}, obstacle)},
-      {"limit", Scene(body, StiffLayer{0}, obstacle)},
-      {"ventcel", Scene(body, VentcelLayer{}, obstacle)}};
+  const Exact exact(options.epsilon, 14), limit(0, 14);
+  const double model_error = tutorial::apart_on_contact(exact.truth, limit.truth);
   const double h = 1.0 / options.cells, truth = exact.truth.energy();
   const double energy_error = std::abs(truth - limit.truth.energy());
-  Table table({"model", "unknowns", "mesh_s", "assemble_s", "solve_s", "error_on_contact", "energy", "contact_from"});
-  for (const auto& [name, scene] : models) {
-    Stopwatch watch;
-    TriangleMesh mesh = unstructured_mesh(options.cells, {scene.layer_depth()});
-    const double mesh_seconds = watch.lap();
-    const Run run(scene, std::move(mesh));
-    double error = 0;  // of u at the contact unknowns: gap = u where the obstacle is flat
-    const Eigen::MatrixX3d points = contact_table(run.on.space(), run.problem, run.solution);
-    for (const auto& point : points.rowwise())
-      error = std::max(error, std::abs(point(1) - exact.truth.value(point(0), -1)));
-    table.add({name, run.solution.counters.unknowns, mesh_seconds, run.assemble_seconds, run.solve_seconds, error,
-               run.energy, run.contact_from});
-  }
+  Table table(tutorial::model_columns);
+  for (const auto& [name, layer] : std::vector<std::pair<std::string, Layer>>{
+           {"scaled", StiffLayer{options.epsilon}}, {"limit", StiffLayer{0}}, {"ventcel", VentcelLayer{}}})
+    table.add(tutorial::model(name, Scene(body, layer, obstacle), options.cells, exact.truth));
   table.print(fmt::format("truth: contact from x = {:.4f}, J = {:.6f}; the limit differs by {:.1e} in u on Gamma_C",
                           exact.contact_from(), truth, model_error));
   table.write(options.out / "models.csv");
@@ -146,11 +114,8 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
   double energy = 0, from = 0;
   for (const double epsilon : {1e-1, 1e-2, 1e-3}) {
     const Scene thin(body, ThinLayer{epsilon}, obstacle), scaled(body, StiffLayer{epsilon}, obstacle);
-    TriangleMesh pressed = structured_mesh(options.cells);
-    for (auto vertex : pressed.vertices.rowwise())
-      if (vertex(1) < 0) vertex(1) *= epsilon;
-    const Run a(thin, structured_mesh(options.cells, {epsilon})), b(scaled, structured_mesh(options.cells));
-    const Run c(thin, std::move(pressed));
+    const Run a(thin, structured_mesh(options.cells, {epsilon})), b(scaled, structured_mesh(options.cells)),
+        c(thin, tutorial::pressed_mesh(options.cells, epsilon));
     table.add({epsilon, a.energy, b.energy, a.contact_from, b.contact_from,
                (c.solution.u - b.solution.u).cwiseAbs().maxCoeff()});
     energy = std::max(energy, std::abs(a.energy - b.energy));
@@ -171,22 +136,15 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
 void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
   const Discretisation on = Method{&crouzeix_raviart(), unstructured()}.on(options.cells);
-  report.stage(fmt::format("{} epsilons, one by one", epsilons.size()));
-  Stopwatch watch;
-  for (const double epsilon : epsilons) active_set(assemble(tutorial::paper_scene(epsilon), on.space()));
-  const double apart = watch.lap();
-  report.stage("the same in one sweep");
-  watch.lap();
   SceneSweep sweep(tutorial::paper_scene(epsilons.front()), on.space());
   for (const double epsilon : epsilons) {
     sweep.set_epsilon(epsilon);
     sweep.solve();
   }
-  const double together = watch.lap(), delta = sweep.factor().delta();
+  const double delta = sweep.factor().delta();
   const auto above = std::count_if(epsilons.begin(), epsilons.end(), [&](double e) { return e * e > delta; });
-  report.claim(sweep.total().factorisations == above + 1,
-               "{} epsilons cost one assembly and {} factorisations ({:.3f} s; one by one {:.3f} s)", epsilons.size(),
-               sweep.total().factorisations, together, apart);
+  report.claim(sweep.total().factorisations == above + 1, "{} epsilons cost one assembly and {} factorisations",
+               epsilons.size(), sweep.total().factorisations);
 }
 
 void effects(const tutorial::Options& options, tutorial::Report& report) {
@@ -214,16 +172,4 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "20_effects", "Effects: a scene costs what it calls for",
                        {.epsilon = 1e-2, .exercises = exercises}, effects);
-}
-
-Run::Run(const Scene& scene, TriangleMesh mesh) : on(std::move(mesh), crouzeix_raviart()) {
-  Stopwatch watch;
-  // ### Forms
-  problem = assemble(scene, on.space());
-  assemble_seconds = watch.lap();
-  // ### Solve
-  solution = active_set(problem);
-  solve_seconds = watch.lap();
-  contact_from = contact_zone(on.space(), problem, solution).from.value_or(1);
-  energy = antilock::energy(problem, solution);
 }
