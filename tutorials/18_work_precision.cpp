@@ -135,7 +135,7 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
 #include "answers/18_work_precision.hpp"
 
 int main(int argc, char** argv) {
-  tutorial::Timing study{.limit = 0.1};
+  tutorial::Timing study;
   const auto add_options = [&](tutorial::CommandLine& line) {
     line.add("--limit", study.limit, "seconds after which a run counts as failed", 1e-3, 3600);
     line.add("--freefem", study.freefem, "the command freefem/run, to measure FreeFEM's script too");

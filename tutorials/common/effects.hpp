@@ -7,6 +7,7 @@
 #include "antilock/study/method.hpp"
 #include "antilock/study/table.hpp"
 #include "common/paper_problem.hpp"
+#include "common/tutorial.hpp"
 
 namespace antilock::tutorial {
 
@@ -32,8 +33,12 @@ std::vector<Entry> costs(const std::string& name, const Run& run);
 extern const std::vector<std::string> model_columns;
 std::vector<Entry> model(const std::string& name, const Scene& scene, int cells, const Truth& truth);
 
-/// The largest distance of two exact solutions on Gamma_C.
-double apart_on_contact(const Truth& one, const Truth& other);
+/// Prints the models, and claims that each is within the error of its mesh and of its model from the exact solution. What
+/// it returns is the model's error: how far the limit is from the exact solution on Gamma_C.
+double judge_models(const Table& models, const Exact& exact, const Exact& limit, int cells, Report& report);
+
+/// The largest difference of two columns in a row.
+double most_apart(const Table& table, const std::string& one, const std::string& other);
 
 /// The structured mesh with its layer pressed to the thickness epsilon.
 TriangleMesh pressed_mesh(int cells, double epsilon);

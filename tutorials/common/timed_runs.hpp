@@ -49,7 +49,7 @@ void time_freefem(TimedRun& run, const std::string& command, const Space& space,
 
 /// A study of work and precision: what a run may take, and the runs so far.
 struct Timing {
-  double limit;               ///< seconds after which a run counts as failed
+  double limit = 0.1;         ///< seconds after which a run counts as failed
   std::string freefem;        ///< the command freefem/run, or nothing: then FreeFEM is not timed
   std::filesystem::path out;  ///< folder of the results
   int repeats = 5;            ///< of each run; the median is its time
