@@ -91,8 +91,6 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. All inner vertices of a structured mesh are moved a little, but for those on 3 vertical lines. Groups? Kernel?
 // 2. Turn the diagonals of the structured mesh (left), or draw both (crossed). How many groups?
 // 3. On paper: let body and layer be free at both sides, so that only the top is clamped. Which functions of $G_h$

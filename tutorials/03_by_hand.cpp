@@ -5,12 +5,10 @@
 // Run: 03_by_hand --exercise 1
 // Run: 03_by_hand --exercise 2
 //
-// Needs: [00](00_string_on_an_obstacle.cpp) (active set), [01](01_domain.cpp) ((23)), [02](02_meshes.cpp) (P1,
-// kernel).
+// Needs: [00](00_string_on_an_obstacle.cpp) (contact), [01](01_domain.cpp) ((23)), [02](02_meshes.cpp) (P1, kernel).
 //
 // **The picture.** The displacement `u` of body and layer on a coarse mesh, drawn as a height. *Everything in it is
-// computed in this file, without the library's elements, forms and solvers; at the end the library finds the same
-// `u`.*
+// computed in this file, without the library's elements, forms and solvers. At the end the library finds the same.*
 //
 // **Predict.** (a) How many entries that are not 0 has the row of the stiff form that belongs to one triangle? (b)
 // The factor `ε⁻²` goes to infinity as `ε → 0`. Does the *layer stress* `p = ε⁻² ∂_y u` go there too?
@@ -30,15 +28,11 @@
 
 #include <Eigen/Dense>
 
-#include <array>
-#include <cmath>
-#include <numbers>
-
-#include "antilock/form/quadrature.hpp"
+#include "common/by_hand.hpp"
 #include "common/course.hpp"
 
 using namespace antilock;
-using Eigen::MatrixXd, Eigen::VectorXd;
+using Eigen::MatrixXd, Eigen::VectorXd, tutorial::Corners;
 
 struct ByHand {
   MatrixXd a1, b;         // N x N for N vertices, R x N for R triangles of the layer
@@ -48,53 +42,41 @@ struct ByHand {
 };
 
 // ### Forms
-// **Element matrix.** On a triangle with corners $x_0, x_1, x_2$ the function $φ_i$ is affine: 1 at $x_i$, 0 at the
-// others. Its gradient stands on the opposite edge and has the length 1/height: turn that edge by 90°, divide by
-// twice the area.
-Eigen::Matrix<double, 3, 2> hat_gradients(const std::array<Eigen::Vector2d, 3>& x, double area) {
-  Eigen::Matrix<double, 3, 2> gradient;
+// **Element matrix.** On a triangle $φ_i$ is affine: 1 at the corner $i$, 0 at the others. Its gradient stands on the
+// opposite edge and has the length 1/height: turn that edge by 90°, divide by twice the area.
+Corners hat_gradients(const Corners& x, double area) {
+  Corners gradient;
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector2d edge = x[(i + 2) % 3] - x[(i + 1) % 3];
-    gradient.row(i) << -edge(1) / (2 * area), edge(0) / (2 * area);
+    const Eigen::RowVector2d edge = x.row((i + 2) % 3) - x.row((i + 1) % 3);
+    gradient.row(i) << -edge(1), edge(0);
   }
-  return gradient;
+  return gradient / (2 * area);
 }
 
 // **Assembly.** One triangle after the other; what falls on the same place adds up.
 ByHand assemble_by_hand(const TriangleMesh& mesh) {
-  const int n = mesh.vertex_count(), triangles = mesh.triangle_count();
-  ByHand p{
-      MatrixXd::Zero(n, n),   MatrixXd::Zero(triangles / 2, n), VectorXd::Zero(triangles / 2), VectorXd::Zero(n), {},
-      std::vector<char>(n, 0)};
-  int row = 0;
-  for (int t = 0; t < triangles; ++t) {
-    std::array<Eigen::Vector2d, 3> x;
-    for (int i = 0; i < 3; ++i) x[i] = mesh.vertices.row(mesh.triangles(t, i));
-    const double area = 0.5 * ((x[1] - x[0])(0) * (x[2] - x[0])(1) - (x[1] - x[0])(1) * (x[2] - x[0])(0));
-    const auto gradient = hat_gradients(x, area);
-    const bool body = mesh.region[t] == Region::body;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        double entry = gradient(i, 0) * gradient(j, 0);      // d/dx d/dx, in body and layer
-        if (body) entry += gradient(i, 1) * gradient(j, 1);  // d/dy d/dy, in the body alone
-        p.a1(mesh.triangles(t, i), mesh.triangles(t, j)) += area * entry;
-      }
-    if (!body) {  // the stiff form, one row per layer triangle: never added to A1
-      for (int i = 0; i < 3; ++i) p.b(row, mesh.triangles(t, i)) = gradient(i, 1);
+  const int n = mesh.vertex_count(), rows = mesh.triangle_count() / 2;  // half of the triangles are in the layer
+  ByHand p{MatrixXd::Zero(n, n), MatrixXd::Zero(rows, n), VectorXd::Zero(rows), VectorXd::Zero(n), {}, {}};
+  for (int t = 0, row = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::RowVector3i v = mesh.triangles.row(t);
+    const Corners x = mesh.vertices(v, Eigen::all);
+    const Eigen::RowVector2d one = x.row(1) - x.row(0), two = x.row(2) - x.row(0);
+    const double area = 0.5 * (one(0) * two(1) - one(1) * two(0));
+    const Eigen::Vector3d dx = hat_gradients(x, area).col(0), dy = hat_gradients(x, area).col(1);
+    Eigen::Matrix3d entries = dx * dx.transpose();  // d/dx phi_i d/dx phi_j, in body and layer
+    if (mesh.region[t] == Region::body) {
+      entries += dy * dy.transpose();           // d/dy d/dy, in the body alone
+      tutorial::add_loads(p.load, v, x, area);  // int f phi_i by a rule of seven points
+    } else {                                    // the stiff form, one row per layer triangle: never added to A1
+      p.b(row, v) = dy.transpose();
       p.m(row++) = area;
     }
-    if (body)  // int f phi_i by a rule: weights and points lambda, phi_i(lambda) = lambda_i
-      for (Eigen::Index q = 0; q < radon_rule().weights.size(); ++q) {
-        const Eigen::Vector3d lambda = radon_rule().points.row(q);
-        const double f =
-            10 * std::sin(2 * std::numbers::pi * (lambda(0) * x[0] + lambda(1) * x[1] + lambda(2) * x[2])(0));
-        for (int i = 0; i < 3; ++i) p.load(mesh.triangles(t, i)) += area * radon_rule().weights(q) * f * lambda(i);
-      }
+    p.a1(v, v) += area * entries;
   }
   for (int v = 0; v < n; ++v) {
     const double px = mesh.vertices(v, 0), py = mesh.vertices(v, 1);
     if (px > 0 && px < 1 && py < 1) p.free.push_back(v);  // u = 0 on both sides and on top
-    p.contact[v] = py == -1;
+    p.contact.push_back(py == -1);
   }
   return p;
 }
@@ -126,35 +108,29 @@ struct Answer {
 Answer solve_by_hand(const ByHand& p, double epsilon, double delta, Table& history) {
   delta = std::max(epsilon * epsilon, delta);  // never below epsilon^2, which is stiff enough
   const MatrixXd k = p.a1 + p.b.transpose() * p.m.asDiagonal() * p.b / delta;
-  VectorXd u = VectorXd::Zero(p.load.size()), stress = VectorXd::Zero(p.m.size());
+  VectorXd u = VectorXd::Zero(p.load.size()), stress = VectorXd::Zero(p.m.size()), du = u;
   std::vector<char> touches(p.load.size(), 0);
-  double size = 1;
-  for (int correction = 0; size > 1e-14; ++correction) {
+  for (int correction = 0; correction == 0 || du.lpNorm<Eigen::Infinity>() > 1e-14; ++correction) {
+    if (correction == 500) throw NotConverged("by hand: 500 corrections", du.lpNorm<Eigen::Infinity>(), correction);
     const VectorXd r2 = epsilon * epsilon * stress - p.b * u;
     const VectorXd r = p.load - p.a1 * u - p.b.transpose() * p.m.cwiseProduct(stress - r2 / delta);
-    for (int step = 1;; ++step) {
+    int contact_steps = 0;
+    for (std::vector<char> guess; guess != touches; ++contact_steps) {
+      guess = touches;
       std::vector<int> moves;
       for (const int v : p.free)
-        if (!touches[v]) moves.push_back(v);
-      VectorXd du = -u;  // to 0 where it touches; at the clamped vertices u is 0 already
+        if (!guess[v]) moves.push_back(v);
+      du = -u;  // to 0 where it touches; at the clamped vertices u is 0 already
       du(moves).setZero();
       const VectorXd inside = MatrixXd(k(moves, moves)).llt().solve(VectorXd((r - k * du)(moves)));
       du(moves) = inside;
       const VectorXd lambda = k * du - r;
-      std::vector<char> next = touches;
       for (const int v : p.free)
-        if (p.contact[v]) next[v] = touches[v] ? lambda(v) > 0 : u(v) + du(v) < -1e-15;
-      if (next != touches) {
-        touches = next;
-        continue;
-      }
-      u += du;
-      stress += (p.b * du - r2) / delta;
-      size = du.lpNorm<Eigen::Infinity>();
-      history.add({correction, step, size});
-      break;
+        if (p.contact[v]) touches[v] = guess[v] ? lambda(v) > 0 : u(v) + du(v) < -1e-15;
     }
-    if (correction == 500) throw NotConverged("by hand: 500 corrections", size, correction);
+    u += du;
+    stress += (p.b * du - r2) / delta;
+    history.add({correction, contact_steps, du.lpNorm<Eigen::Infinity>()});
   }
   return {u, stress};
 }
@@ -169,9 +145,8 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
   // ### Output
   history.print("The corrections");
   history.write(options.out / "corrections.csv");
-  // The library, from the scene to the answer.
-  const Space space(mesh, p1());
-  const auto same = assemble(Scene(Body{paper_load}, StiffLayer{options.epsilon}, UnilateralContact{}), space);
+  const Space space(mesh, p1());  // and now the library, from the scene to the answer
+  const VariationalInequality same = assemble(tutorial::paper_scene(options.epsilon), space);
   const Solution solution = active_set(same);
   tutorial::write_results(options.out, space, same, solution);
   const double matrices = (MatrixXd(same.a1) - problem.a1).cwiseAbs().maxCoeff();
@@ -186,17 +161,13 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 // (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference of $u$ along it,
 // divided by its length $h$. So one row of $B$ couples two vertices of one vertical line, and never two lines. This
 // is chapter 02's kernel again: one function per line. (b) No. $p$ tends to the stress of the rigid limit $ε = 0$;
-// only its factors $ε^{-2}$ and $B u$
-// go to infinity and to 0. The `du` of the corrections fall by a constant factor, and after the first correction the
-// contact set hardly moves: one contact step is enough.
+// only its factors $ε^{-2}$ and $B u$ go to infinity and to 0. The `du` of the corrections fall by a constant factor.
+// After the first one the contact set hardly moves: one contact step is enough.
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. $δ = 10^{-2}$ in place of $10^{-4}$. The same $u$? As many corrections?
-// 2. Move one inner vertex of the layer sideways by $h/10$. Six triangles meet there. How many entries have their rows
-//    of $B$ now?
+// 2. Move one inner vertex of the layer sideways by $h/10$. Six triangles meet there. How many entries have their rows?
 // 3. On paper: derive the factor $(δ - ε²)/(δ + σ)$. (Without contact; write $du$ by $r_2$ alone.)
 
 #include "answers/03_by_hand.hpp"

@@ -112,8 +112,6 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. At $ε = 1$, $1/h = 64$: what do two further digits cost, from $10^{-8}$ to $10^{-10}$, and to $10^{-12}$?
 // 2. The steps on $1/h = 32$ are known, at $ε = 1$ and at $10^{-6}$. How many on $1/h = 64$?
 // 3. Replace `uzawa` by `uzawa_cg_ilut` (`solve/exhibits`): the paper's own linear solver, conjugate gradients with an

@@ -102,8 +102,6 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Turn the diagonals of the mesh to the left. Does P1 lock?
 // 2. Double the load. Does the contact zone grow? Does the pressure double?
 // 3. On paper: integrate $∂_y p = -u''(x)$ over the layer to get $λ = -∂_y u^+ - u''$ on $Σ$, the condition that is

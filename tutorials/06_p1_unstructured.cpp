@@ -114,8 +114,6 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Refine from $1/h = 32$ to 64 at $ε = 10^{-6}$. What happens to the error, what to the small rest of the ridge?
 // 2. Keep the body's triangles, and put the layer into columns (the layered mesh of chapter 02). Does it lock?
 // 3. `--epsilon 1e-2`: the method "locks already" there (caption of Figure 9). Predict by the law what is kept at

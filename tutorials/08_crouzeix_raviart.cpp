@@ -140,8 +140,6 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Interpolate $u^0$ with P1, values at the vertices of the same meshes. Is $B I_h u^0 = 0$?
 // 2. On structured meshes: predict the error on $1/h = 64$ at $ε = 10^{-6}$ from that on 32. Then on 64 at $ε = 0$,
 //    and at $10^{-2}$.

@@ -142,8 +142,6 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Add $ε = 10^{-3}$ for P1 unstructured. Where does its line start to fall?
 // 2. P1 on the layered mesh: uniform or not?
 // 3. Plot `h1` or `energy` of `results.csv` in place of `max`: which slopes?

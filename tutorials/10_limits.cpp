@@ -177,8 +177,6 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Locked P1 along $ε = h$ in place of $h^2$: does its error still stay?
 // 2. Take the obstacle away. Which order has $‖u^ε - u^0‖$ now?
 // 3. On paper: $v = 0$ and $v = 2u^ε$ in (23) give $a^ε(u^ε, u^ε) = L(u^ε)$. Which bound on $ε ‖p‖$ follows?

@@ -139,8 +139,6 @@ void verdict(const Method& method, const Table& own, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. $v = \min(x, 1-x) (1-y)/2$ is in $K$ and has a kink at $x = 1/2$. How fast does P1 approach it, on both meshes?
 // 2. Move the vertices of the structured mesh by up to $h/10$. Does $K_{0h}$ of P1 approach $K_0$?
 // 3. On paper: where is $K_h$ of P2 not a part of $K$? Draw a parabola.

@@ -162,8 +162,6 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. The load $-10 \sin πx$ presses everywhere. Is P1 on the unstructured mesh uniform now? Is the hypothesis of
 //    Theorem 4 necessary?
 // 2. On paper: why does the worst error over $[h, 1]$ tend to 0 for locked P1, and over $[h^2, 1]$ not?

@@ -18,12 +18,8 @@
 // ## Theorem 2, derived
 //
 // Let $a$ be *continuous* with a constant $M$ and *coercive* with a constant $α$: $|a(u, v)| ≤ M ‖u‖_h ‖v‖_h$ and
-// $a(v_h, v_h) ≥ α ‖v_h‖_h^2$. Call
-//
-// $$ R(v) = a(u, v) - f(v). $$
-//
-// In $V$ this is the work $∫_{Γ_C} λ v$ of the contact pressure, so $R ≥ 0$ on $K$ and $R(u) = 0$. Take any
-// $v_h ∈ K_h$ and insert $u$:
+// $a(v_h, v_h) ≥ α ‖v_h‖_h^2$. Call $R(v) = a(u, v) - f(v)$. In $V$ this is the work $∫_{Γ_C} λ v$ of the contact
+// pressure, so $R ≥ 0$ on $K$ and $R(u) = 0$. Take any $v_h ∈ K_h$ and insert $u$:
 //
 // $$ a(v_h - u_h, v_h - u_h) = a(v_h - u, v_h - u_h) + a(u, v_h - u_h) - a(u_h, v_h - u_h). $$
 //
@@ -32,8 +28,7 @@
 //
 // $$ ‖v_h - u_h‖_h^2 ≤ (M/α)^2 ‖u - v_h‖_h^2 + (2/α) (R(v_h) - R(u_h)), $$
 //
-// and by the triangle inequality, with $-R(u_h) = \inf_{v ∈ K} R(v - u_h)$ (the infimum of $R$ over $K$ is
-// $R(u) = 0$),
+// By the triangle inequality and $-R(u_h) = \inf_{v ∈ K} R(v - u_h)$ (the infimum of $R$ over $K$ is $R(u) = 0$)
 //
 // $$ ‖u - u_h‖_h^2 ≤ C (\inf_{v_h ∈ K_h} \{ ‖u - v_h‖_h^2 + R(v_h) \} + \inf_{v ∈ K} R(v - u_h)). \tag{13} $$
 //
@@ -42,9 +37,9 @@
 // *consistency error*. The *flux* of $u$ is its gradient times the stiffness: $∇u$ in the body, $(∂_x u, p)$ in the
 // layer. By parts on each triangle, $R(w_h)$ is the work of $λ$ and the work of the flux on the jumps of $w_h$.
 //
-// *Theorem 3:* if $K_h$ approaches $K$ and (H0nc) holds, then $u_h → u$ (Remark 3: known before in the conforming
-// case). The first infimum tends to 0 by (8). For the second, $u_h$ is bounded. By (H0nc) and (9) it has a weak limit
-// in $K$. This limit solves the problem, so it is $u$, and $R(u_h) → R(u) = 0$.
+// *Theorem 3:* if $K_h$ approaches $K$ and (H0nc) holds, $u_h → u$ (Remark 3: known before for conforming methods). The
+// first infimum tends to 0 by (8). By (H0nc) and (9) the bounded $u_h$ have a weak limit in $K$. It solves the
+// problem, so it is $u$, and $R(u_h) → R(u) = 0$.
 //
 // **Two hypotheses that conforming methods have for nothing.** *(H1nc):* $a_1 + a_0$ is coercive in the full broken
 // norm, $α$ not depending on $h$. On $V$ the form $a_1 + a_0$ is $∫ |∇v|^2$. A function that is 0 on all sides of $Ω$
@@ -70,23 +65,15 @@
 // meshes of nearly equilateral triangles leading errors cancel and $q ≈ 3/2$ is measured ([chapter
 // 14](14_degree.cpp)): the wall is $h ∼ ε^{2/3}$.
 
-#include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/nearest.hpp"
-#include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/residual.hpp"
+#include "common/estimates.hpp"
 #include "common/lost_displacement.hpp"
 #include "common/study.hpp"
 
 using namespace antilock;
-using tutorial::Exact;
-
-struct Case : Exact {  // an exact solution with the norms on the right of (28)
-  using Exact::Exact;
-  double h2 = h2_norm(truth);
-};
-const std::vector<std::string> columns{"element", "mesh",  "epsilon", "cells", "h",        "h1",         "l2",
-                                       "bound",   "right", "second",  "jumps", "constant", "consistency"};
+using tutorial::Case, tutorial::Exact;
 
 // Both sides of (13), one method on one mesh. `right`: the two infima; `jumps`: the part of the second that comes
 // from the jumps of $u_h$; `constant`: what $C$ must be at least; `bound`: (28) with $C = 1$.
@@ -97,15 +84,15 @@ Table both_sides(const Method& method, int cells, const std::vector<Case>& truth
   SceneSweep sweep(tutorial::paper_scene(1), on.space());
   const SparseMatrix norm = h1_norm(on.space());
   const bool conforming = method.element->conforming();
-  Table rows(columns);
+  Table rows(tutorial::estimate_columns);
   for (const Case& exact : truth) {
     // ### Solve
     sweep.set_epsilon(exact.epsilon);
     const Solution u_h = sweep.solve();
+    const Errors errors = exact.errors(on.space(), u_h);
     const Eigen::VectorXd work = contact_work(on.space(), [&](double x) { return exact.truth.pressure(x); });
     const Eigen::VectorXd r =
         conforming ? work : exact_residual(on.space(), sweep.problem().load, exact.reference(), {exact.contact_from()});
-    const Errors errors = exact.errors(on.space(), u_h);
     const double first = nearest(on.space(), sweep.problem(), exact.reference(), Within::k_h, r).value,
                  second = -r.dot(u_h.u);
     rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, errors.h1, errors.l2,
@@ -116,122 +103,36 @@ Table both_sides(const Method& method, int cells, const std::vector<Case>& truth
   return rows;
 }
 
-// The wall: at which ε half of the displacement is lost, mesh by mesh.
-Table wall(const Table& p1_rows, const Table& cr_rows, Table& lost) {
-  Table rows({"cells", "h", "a", "half lost at epsilon"});
-  for (const Entry& cells : p1_rows.different("cells")) {
-    const Table own = tutorial::lost_to_kept(p1_rows.where("cells", cells), cr_rows.where("cells", cells));
-    lost.add(own);
-    rows.add({cells, 1 / cells.number(), own.order("x", "inverse_epsilon"), tutorial::half_lost(own)});
-  }
-  return rows;
-}
-
-void judge(const Table& results, const Table& walls, tutorial::Report& report);
-
-std::vector<Case> truths() {  // 1 to 1e-3 by quarters of a decade, 1e-4, 1e-6; gradients to 1e-6
-  std::vector<Case> cases;
-  for (int k = 0; k <= 12; ++k) cases.emplace_back(std::pow(10.0, -0.25 * k), 14);
-  for (const double epsilon : {1e-4, 1e-6}) cases.emplace_back(epsilon, 14);
-  return cases;
-}
-
 void study(const tutorial::Options& options, tutorial::Report& report) {
-  const std::vector<Case> truth = truths();
-  Table results(columns), curves({"element", "mesh", "curve", "epsilon", "h1"}),
-      lost({"curve", "inverse_epsilon", "x"});
-  for (const Method& method : methods()) {
-    Table own(columns);
-    for (int n = 8; n <= options.cells; n *= 2) own.add(both_sides(method, n, truth));
-    results.add(own);
-    double c = 0;  // the smallest that makes (28) or (31) true
-    for (const Table& row : own.rows()) c = std::max(c, row.number("h1") / row.number("bound"));
-    for (const Table& row : own.where_number("cells", [&](double n) { return n == 8 || n == options.cells; }).rows())
-      for (const auto& [what, value] : {std::pair{"error", row.number("h1")}, {"estimate", c * row.number("bound")}})
-        curves.add({method.element->name(), method.family.name, fmt::format("{} $h = 1/{}$", what, row.number("cells")),
-                    row.number("epsilon"), value});
-  }
-  const auto unstructured_of = [&](const char* element) {
-    return results.where("mesh", "unstructured").where("element", element);
-  };
-  const Table walls = wall(unstructured_of("P1"), unstructured_of("CR"), lost);
+  const std::vector<Case> truth = tutorial::cases();
+  Table results(tutorial::estimate_columns), lost({"curve", "inverse_epsilon", "x"});
+  for (const Method& method : methods())
+    for (int n = 8; n <= options.cells; n *= 2) results.add(both_sides(method, n, truth));
+  const Table any = results.where("mesh", "unstructured"),
+              walls = tutorial::walls(any.where("element", "P1"), any.where("element", "CR"), lost);
   // ### Output
-  const Table decades =
-      results.where_number("epsilon", [](double e) { return e == 1 || e == 0.1 || e == 0.01 || e < 5e-4; });
-  decades.where("cells", options.cells)
-      .select({"element", "mesh", "epsilon", "h1", "right", "second", "jumps", "constant", "consistency"})
-      .print("both sides of (13) on the finest mesh", 3);
-  walls.print("P1 unstructured: lost / kept = d epsilon^-a");
-  decades.write(options.out / "results.csv");
-  curves.write(options.out / "estimates.csv");
-  lost.write(options.out / "lost.csv");
-  judge(results, walls, report);
-}
-
-void judge(const Table& results, const Table& walls, tutorial::Report& report) {
-  const double finest = results.most("cells"), mu = std::numbers::pi * std::numbers::pi * (1 + 1.0 / 16);
-  for (const Method& method : methods()) {
-    const std::string name = method.name();
-    const bool conforming = method.element->conforming(), locks = name == "P1 unstructured";
-    const Table own = results.where("element", method.element->name()).where("mesh", method.family.name);
-    const Table at_1 = own.where("epsilon", 1), small = own.where("epsilon", 1e-6);
-    // P1 is a part of V and cannot be below α; eigenvalues of CR are below by O(h^2): at 1/h = 8 by less than 0.02.
-    const Discretisation coarse = method.on(8);
-    const double alpha = coercivity(assemble(tutorial::paper_scene(1), coarse.space()), h1_norm(coarse.space()));
-    report.claim(alpha > mu / (1 + mu) - (conforming ? 1e-9 : 0.02), "{}, (H1nc): coercive with {:.4f}, on V {:.4f}",
-                 name, alpha, mu / (1 + mu));
-    report.claim(at_1.order("h1", "h") > 0.75, "{}, Theorem 3, {}: h^{:.2f} at epsilon = 1", name,
-                 conforming ? "(28)" : "Theorem 6, (31)", at_1.order("h1", "h"));
-    report.claim_within(small.order("right", "h"), 1.8, 2.2,
-                        name + ", (13) at epsilon = 1e-6: order of the right side");
-    if (conforming) {  // 1e-9: the digits of the solver
-      report.claim(own.most("second") < 1e-9 * own.least("right"), "{}, Falk: the second infimum is never positive",
-                   name);
-    } else {
-      double share = 1, slowest = 9;
-      for (const Table& row : own.rows()) share = std::min(share, row.number("jumps") / row.number("second"));
-      for (const Entry& epsilon : own.different("epsilon"))
-        slowest = std::min(slowest, own.where("epsilon", epsilon).order("consistency", "h"));
-      // 0.7: the jump of p at the end of contact enters like h^(1/2), with a small factor
-      report.claim(
-          share > 0.9 && slowest > 0.7,
-          "{}, (H0nc): jumps against the flux of u: h^{:.2f} at the slowest; they are {:.0f} % of the second infimum",
-          name, slowest, 100 * share);
-    }
-    if (locks) continue;
-    // The proof has C = 2 + 2 max((M/α)^2, 2/α) = 6.4 at ε = 1, where M = 1; observed is the same C at every ε.
-    report.claim(own.most("constant") < 2 + 4 / alpha,
-                 "{}: (13) holds with C = {:.2f} at every epsilon; the proof has {:.1f} at 1, 1e24 at 1e-6", name,
-                 own.most("constant"), 2 + 4 / alpha);
-    const double power = std::log(small.last("h1") / at_1.last("h1")) / std::log(1e-6);
-    report.claim(std::abs(power) < 0.02, "{}: the error goes like epsilon^{:.3f}, not epsilon^-2", name, power);
-  }
-  const Table locked = results.where("element", "P1").where("mesh", "unstructured").where("epsilon", 1e-6);
-  report.claim(locked.last("constant") > 1.7 * locked.where("cells", finest / 2).number("constant") &&
-                   locked.least("h1") > 0.126,
+  tutorial::show_estimates(options.out, results, walls, lost);
+  tutorial::judge_theorems(results, report);
+  const Table locked = any.where("element", "P1").where("epsilon", 1e-6);
+  report.claim(locked.last("constant") > 1.7 * locked.where("cells", options.cells / 2).number("constant") &&
+                   locked.least("h1") > 0.126,  // |u^0| on the layer
                "P1 unstructured at epsilon = 1e-6: error {:.3f}, C must be {:.1f} at 1/h = {}: no constant will do",
-               locked.last("h1"), locked.last("constant"), finest);
-  report.claim_within(walls.last("a"), 1.7, 2.3,
-                      "P1 unstructured: epsilon^-2 is real: lost / kept = d epsilon^-a, a =");
-  report.claim_within(walls.order("half lost at epsilon", "h"), 1.3, 1.8,
-                      "P1 unstructured: half is lost at epsilon ~ h^q, q =");
+               locked.last("h1"), locked.last("constant"), options.cells);
+  report.claim_within(walls.last("a"), 1.7, 2.3, "P1 unstructured: lost / kept = d epsilon^-a, a =");
+  report.claim_within(walls.order("half lost at epsilon", "h"), 1.3, 1.8, "P1 unstructured: half is lost at h^q, q =");
 }
 
 // ## What came out
 //
 // (a) No: for P1 on the structured mesh and for CR the exponent of ε is 0.00, the order in $h$ is 0.98 or more, and
-// (13) holds with $C = 1.29$ at every ε. The estimates are right and say nothing: at ε = 1e-6 the smallest $C$ that
-// makes (28) true leaves it 1e12 times too large. For locked P1 the right side of (13) falls like $h^{1.95}$ all the
-// same, and $C$ must be 1.4, 2.7, 7.4. (b) Too little for the bound, which asks for $h ≪ ε^{8/3}$, and too much for
-// the error: half of the displacement is lost at $ε ∼ h^{1.56}$, so $h ≪ ε^{2/3}$ is enough. The loss grows like
-// $ε^{-1.9}$ there: the factor $ε^{-2}$ is real, until all is lost.
+// (13) holds with $C = 1.29$ at every ε. (28) is right and says nothing: at ε = 1e-6 it is 1e12 times too large. For
+// locked P1 the right side of (13) falls like $h^{1.95}$ all the same, and $C$ must be 1.4, 2.7, 7.4. (b) Too little
+// for the bound, which asks for $h ≪ ε^{8/3}$, and too much for the error: half is lost at $ε ∼ h^{1.56}$, so
+// $h ≪ ε^{2/3}$ is enough. The loss grows like $ε^{-1.9}$ there: the factor $ε^{-2}$ is real, until all is lost.
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
-// 1. Move the vertices of the structured mesh by up to $h/5$: nothing cancels any more, slopes are of size $h$. Where
-// is the wall?
+// 1. Move the vertices of the structured mesh by up to $h/5$: slopes are of size $h$. Where is the wall?
 // 2. In the energy norm $M = α = 1$. Where does the locking go? Show $J(v) - J(u) = ½ |u - v|_a^2 + R(v)$ first.
 // 3. On paper: for which $ε(h)$ is (28) useless (its right side does not fall), and for which does it say the truth
 // about P1 on the structured mesh? (Answers: $ε ≤ h^{3/8}$; none, the truth is $h$.)

@@ -136,8 +136,6 @@ void verdicts(const Table& results, const Exact& exact, tutorial::Report& report
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. A coarse unstructured mesh (1/h = 4) and ε = 1e-4: P1 and P2 both lock under $\sin 2πx$. And under $10 \sin πx$?
 // 2. On paper: a mesh of the layer on which P1 has exactly 3 kernel functions. (Vertical mesh lines at three inner
 //    $x$, anything between them.)

@@ -162,8 +162,6 @@ void judge(const Table& results, const Table& conditions, tutorial::Report& repo
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Iterative refinement, as textbooks have it: factor the sum itself, take $r = L - (A_1 + ε^{-2} B^T M B) u$,
 //    correct. Does it bring the digits back, at ε = 1e-7?
 // 2. On paper: with δ = 1e-6 and $σ ∼ h^2$ on 1/h = 64, how many corrections give 12 digits?

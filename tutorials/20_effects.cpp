@@ -16,47 +16,28 @@
 // more than the body alone? (b) Seven values of ε on one mesh: how many factorisations, if those below a fraction of
 // $h$ share one?
 //
-// ## The parts of the inequality
+// ## The parts of the inequality (23)
 //
-// With every effect present it is (23):
-//
-// $$ u ∈ K:   \underbrace{a^+(u, v-u)}_{\text{body}} + \underbrace{a_x^-(u, v-u) + ε^{-2} a_y^-(u, v-u)}_{\text{layer}} ≥ (f, v-u)   ∀ v ∈ K. $$
+// $$ \underbrace{a^+(u, v-u)}_{\text{body}} + \underbrace{(a_x^- + ε^{-2} a_y^-)(u, v-u)}_{\text{layer}} ≥ (f, v-u) ∀ v ∈ K. $$
 //
 // - no contact: $K$ is a space. Put $v = u + w$ and $v = u - w$ into the inequality: $≥$ becomes $=$, one linear solve;
 // - no layer: $a^+$ alone, on the body's mesh alone;
 // - ε = 0: (24), the layer can only follow $Σ$: $u(x, y) = u(x, 0)$ there;
-// - and then it need not be meshed: $a_x^-$ on functions of $x$ is one term on $Σ$, $∫_Σ ∂_x u ∂_x v$, the condition
-// of Ventcel, (25);
+// - and then it need not be meshed: $a_x^-$ on functions of $x$ is $∫_Σ ∂_x u ∂_x v$, the condition of Ventcel, (25);
 // - before the change of variable $y → y/ε$ the layer is $(0,1) × (-ε,0)$ and $1/ε$ times as stiff: (22).
 //
 // Each of these is a type (`scene/scene.hpp`), so that what a scene lacks cannot cost anything: there is no code to
-// skip. Contact has a *gap*, the distance between undeformed body and obstacle at $x$: $u ≥ -$gap. Load chosen here,
-// $f = 10 \sin 2πx$; the paper gives none.
+// skip. Contact has a *gap*, the distance between undeformed body and obstacle at $x$: $u ≥ -$gap.
 
-#include <algorithm>
-
-#include "antilock/core/stopwatch.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
-#include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
-#include "common/results.hpp"
-#include "common/tutorial.hpp"
+#include "common/course.hpp"
+#include "common/effects.hpp"
 
 using namespace antilock;
+using tutorial::Exact, tutorial::Run;
 
 const Body body{paper_load};
 const UnilateralContact obstacle{};
-
-// A scene from question to answer, and what each step cost.
-struct Run {
-  Run(const Scene& scene, TriangleMesh mesh);
-  Discretisation on;
-  VariationalInequality problem;
-  Solution solution;
-  double energy = 0, contact_from = 1, assemble_seconds = 0, solve_seconds = 0;
-};
 
 // **Five scenes**, from plain Laplace to a stiff layer with contact.
 void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::Report& report) {
@@ -66,15 +47,16 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
       {"3_ventcel", Scene(body, VentcelLayer{})},
       {"4_layer", Scene(body, StiffLayer{options.epsilon})},
       {"5_layer_contact", Scene(body, StiffLayer{options.epsilon}, obstacle)}};
-  Table table({"scene", "triangles", "unknowns", "factorisations", "solves", "contact", "corrections", "assemble_s",
-               "solve_s", "u_min", "u_max"});
+  Table table(tutorial::cost_columns);
   for (const auto& [name, scene] : scenes) {
     // ### Mesh
     // As large as the scene needs: its layer_depth is 0 where no layer is meshed.
-    const Run run(scene, unstructured_mesh(options.cells, {scene.layer_depth()}));
-    const Counters& c = run.solution.counters;
-    table.add({name, run.on.mesh().triangle_count(), c.unknowns, c.factorisations, c.solves, c.contact, c.corrections,
-               run.assemble_seconds, run.solve_seconds, run.solution.u.minCoeff(), run.solution.u.maxCoeff()});
+    TriangleMesh mesh = unstructured_mesh(options.cells, {scene.layer_depth()});
+    // ### Forms
+    // ### Solve
+    // A `Run` assembles what the scene holds and solves it, by Crouzeix-Raviart and the active set.
+    const Run run(scene, std::move(mesh));
+    table.add(tutorial::costs(name, run));
     tutorial::write_results(options.out / name, run.on.space(), run.problem, run.solution);
   }
   // ### Output
@@ -92,75 +74,36 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
 // **One question, three models of the layer**: (23) at a small ε, (24) on the layer's mesh, (25) without one. All are
 // held against the truth at that ε, so the last two show the error of their model as well.
 void three_models(const tutorial::Options& options, tutorial::Report& report) {
-  report.stage("truth at epsilon and at 0: sine series");
-  const tutorial::Exact exact(options.epsilon, 14), limit(0, 14);
-  double model_error = 0;
-  for (int i = 1; i < 64; ++i)
-    model_error = std::max(model_error, std::abs(exact.truth.value(i / 64.0, -1) - limit.truth.value(i / 64.0, -1)));
-  report.finish();
-
-  const std::vector<std::pair<std::string, Scene>> models{
-      {"scaled", Scene(body, StiffLayer{options.epsilon}, obstacle)},
-      {"limit", Scene(body, StiffLayer{0}, obstacle)},
-      {"ventcel", Scene(body, VentcelLayer{}, obstacle)}};
-  const double h = 1.0 / options.cells, truth = exact.truth.energy();
-  const double energy_error = std::abs(truth - limit.truth.energy());
-  Table table({"model", "unknowns", "mesh_s", "assemble_s", "solve_s", "error_on_contact", "energy", "contact_from"});
-  for (const auto& [name, scene] : models) {
-    Stopwatch watch;
-    TriangleMesh mesh = unstructured_mesh(options.cells, {scene.layer_depth()});
-    const double mesh_seconds = watch.lap();
-    const Run run(scene, std::move(mesh));
-    double error = 0;  // of u at the contact unknowns: gap = u where the obstacle is flat
-    const Eigen::MatrixX3d points = contact_table(run.on.space(), run.problem, run.solution);
-    for (const auto& point : points.rowwise())
-      error = std::max(error, std::abs(point(1) - exact.truth.value(point(0), -1)));
-    table.add({name, run.solution.counters.unknowns, mesh_seconds, run.assemble_seconds, run.solve_seconds, error,
-               run.energy, run.contact_from});
-  }
-  table.print(fmt::format("truth: contact from x = {:.4f}, J = {:.6f}; the limit differs by {:.1e} in u on Gamma_C",
-                          exact.contact_from(), truth, model_error));
+  const Exact exact(options.epsilon, 14), limit(0, 14);
+  Table table(tutorial::model_columns);
+  for (const auto& [name, layer] : std::vector<std::pair<std::string, Layer>>{
+           {"scaled", StiffLayer{options.epsilon}}, {"limit", StiffLayer{0}}, {"ventcel", VentcelLayer{}}})
+    table.add(tutorial::model(name, Scene(body, layer, obstacle), options.cells, exact.truth));
   table.write(options.out / "models.csv");
-  // h^2 / 2 in energy and up to 1.6 h^2 in u on Gamma_C were measured; the end of contact falls
-  // into a cell or the next
-  const auto within = [&](const std::string& column, double wanted, double room) {
-    return std::max(table.most(column) - wanted, wanted - table.least(column)) <= room;
-  };
-  report.claim(table.most("error_on_contact") <= 2 * h * h + model_error &&
-                   within("energy", truth, h * h + energy_error) &&
-                   within("contact_from", exact.contact_from(), 2 * h + model_error),
-               "three models, one answer: each within 2 h^2 + {:.1e} of the truth on Gamma_C, the second number the "
-               "model's own error",
-               model_error);
-  const Table ventcel = table.where("model", "ventcel"), scaled = table.where("model", "scaled");
-  report.claim(ventcel.number("error_on_contact") <= scaled.number("error_on_contact") + model_error,
-               "Ventcel loses nothing with its {} unknowns against {}: error {:.1e}, of the meshed layer {:.1e}",
-               ventcel.number("unknowns"), scaled.number("unknowns"), ventcel.number("error_on_contact"),
-               scaled.number("error_on_contact"));
+  const double model_error = tutorial::judge_models(table, exact, limit, options.cells, report);
+  const double ventcel = table.where("model", "ventcel").number("error_on_contact"),
+               scaled = table.where("model", "scaled").number("error_on_contact");
+  report.claim(ventcel <= scaled + model_error,
+               "Ventcel loses nothing without a mesh of the layer: error {:.1e}, with one {:.1e}", ventcel, scaled);
 }
 
 // **The change of variable** takes (22) to (23). On a mesh whose layer is pressed flat by the same map it does so
 // term by term: the same matrices, the same answer. On a mesh made for the thin layer, up to discretisation.
 void change_of_variable(const tutorial::Options& options, tutorial::Report& report) {
   Table table({"epsilon", "energy_thin", "energy_scaled", "from_thin", "from_scaled", "difference_on_pressed_mesh"});
-  double energy = 0, from = 0;
   for (const double epsilon : {1e-1, 1e-2, 1e-3}) {
     const Scene thin(body, ThinLayer{epsilon}, obstacle), scaled(body, StiffLayer{epsilon}, obstacle);
-    TriangleMesh pressed = structured_mesh(options.cells);
-    for (auto vertex : pressed.vertices.rowwise())
-      if (vertex(1) < 0) vertex(1) *= epsilon;
-    const Run a(thin, structured_mesh(options.cells, {epsilon})), b(scaled, structured_mesh(options.cells));
-    const Run c(thin, std::move(pressed));
+    const Run a(thin, structured_mesh(options.cells, {epsilon})), b(scaled, structured_mesh(options.cells)),
+        c(thin, tutorial::pressed_mesh(options.cells, epsilon));
     table.add({epsilon, a.energy, b.energy, a.contact_from, b.contact_from,
                (c.solution.u - b.solution.u).cwiseAbs().maxCoeff()});
-    energy = std::max(energy, std::abs(a.energy - b.energy));
-    from = std::max(from, std::abs(a.contact_from - b.contact_from));
   }
   table.print("(22) on the thin layer, (23) on the unit layer", 6);
   table.write(options.out / "change_of_variable.csv");
-  const double h = 1.0 / options.cells, pressed = table.most("difference_on_pressed_mesh");
-  // round-off times the condition of (22), epsilon^-2 h^-2
-  report.claim(pressed <= 1e-16 / (1e-6 * h * h),
+  const double h = 1.0 / options.cells, pressed = table.most("difference_on_pressed_mesh"),
+               energy = tutorial::most_apart(table, "energy_thin", "energy_scaled"),
+               from = tutorial::most_apart(table, "from_thin", "from_scaled");
+  report.claim(pressed <= 1e-16 / (1e-6 * h * h),  // round-off times the condition of (22), epsilon^-2 h^-2
                "(22) is (23), term by term: u differs by {:.1e} on corresponding meshes", pressed);
   report.claim(energy <= h * h && from <= 1.5 * h,
                "and up to discretisation on others: energy within {:.1e}, contact within {:.3f}", energy, from);
@@ -171,22 +114,15 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
 void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
   const Discretisation on = Method{&crouzeix_raviart(), unstructured()}.on(options.cells);
-  report.stage(fmt::format("{} epsilons, one by one", epsilons.size()));
-  Stopwatch watch;
-  for (const double epsilon : epsilons) active_set(assemble(tutorial::paper_scene(epsilon), on.space()));
-  const double apart = watch.lap();
-  report.stage("the same in one sweep");
-  watch.lap();
   SceneSweep sweep(tutorial::paper_scene(epsilons.front()), on.space());
   for (const double epsilon : epsilons) {
     sweep.set_epsilon(epsilon);
     sweep.solve();
   }
-  const double together = watch.lap(), delta = sweep.factor().delta();
+  const double delta = sweep.factor().delta();
   const auto above = std::count_if(epsilons.begin(), epsilons.end(), [&](double e) { return e * e > delta; });
-  report.claim(sweep.total().factorisations == above + 1,
-               "{} epsilons cost one assembly and {} factorisations ({:.3f} s; one by one {:.3f} s)", epsilons.size(),
-               sweep.total().factorisations, together, apart);
+  report.claim(sweep.total().factorisations == above + 1, "{} epsilons cost one assembly and {} factorisations",
+               epsilons.size(), sweep.total().factorisations);
 }
 
 void effects(const tutorial::Options& options, tutorial::Report& report) {
@@ -198,17 +134,13 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// (a) None, none and none: a Ventcel layer costs what the body alone costs, and answers within the error of the
-// meshed layer. (b) One for each ε whose square is above the penalty δ, and one for all others. δ is about $h^2/256$,
-// so the border is ε = $h/16$: at $h = 1/32$ only 0.1 lies above, and two are enough. On corresponding meshes (22) and
-// (23) differ by round-off.
+// (a) None, none and none: it answers within the error of the meshed layer all the same. (b) One for each ε whose
+// square is above the penalty δ, and one for all others. δ is about $h^2/256$, so the border is ε = $h/16$: at
+// $h = 1/32$ only 0.1 lies above, and two are enough. On corresponding meshes (22) and (23) differ by round-off.
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
-// 1. Move the obstacle out of reach, gap = 1. What does the scene with layer and contact cost, and what does it
-//    answer?
+// 1. Move the obstacle out of reach, gap = 1. What does the scene with layer and contact cost, what does it answer?
 // 2. Take P1 for Crouzeix–Raviart on this unstructured mesh. Which models of the layer lock: (23), (24), (25)?
 
 #include "answers/20_effects.hpp"
@@ -216,16 +148,4 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "20_effects", "Effects: a scene costs what it calls for",
                        {.epsilon = 1e-2, .exercises = exercises}, effects);
-}
-
-Run::Run(const Scene& scene, TriangleMesh mesh) : on(std::move(mesh), crouzeix_raviart()) {
-  Stopwatch watch;
-  // ### Forms
-  problem = assemble(scene, on.space());
-  assemble_seconds = watch.lap();
-  // ### Solve
-  solution = active_set(problem);
-  solve_seconds = watch.lap();
-  contact_from = contact_zone(on.space(), problem, solution).from.value_or(1);
-  energy = antilock::energy(problem, solution);
 }

@@ -133,7 +133,7 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 //
 // ## Exercises
 //
-// Predict, then run `--exercise N`. On paper: how many columns must the coarse mesh have for 1,024 ranks, and how
+// On paper: how many columns must the coarse mesh have for 1,024 ranks, and how
 // often is it refined for $10^9$ unknowns? (1,024 columns, P1 has 2 n^2 unknowns: 1/h = 22,400, between 4 and 5 times.)
 int main(int argc, char** argv) {
   const auto any = [](const Asked& ask) {

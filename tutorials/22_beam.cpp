@@ -135,8 +135,6 @@ void bend(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Double the load. Do deflection, force and contact double? And if the gap doubles with it?
 // 2. How many cells does full integration need at ε = 1e-4 to be 1 % too stiff?
 // 3. On paper: reduced integration changes $a_0$. When is it a choice of $V_h$ all the same? Show $∫ b = -h^3 θ'/12$

@@ -6,7 +6,7 @@
 // Run: 23_elasticity --exercise 2
 //
 // Needs: [06](06_p1_unstructured.cpp) for locking, [07](07_kernel.cpp) for kernels, [08](08_crouzeix_raviart.cpp) for
-// Crouzeix–Raviart (CR). **Here ε is the parameter of the class (1) itself**, $ε = 1/λ$, not its square as in (23).
+// Crouzeix–Raviart (CR). **Here ε is the parameter of the class (1) itself**, $ε = 1/λ$ (in (23) it is $ε^2$).
 //
 // **The picture.** A block of rubber hangs under a rigid plate, its sides free, and is pushed by 0.1 on the obstacle
 // $y = -(x - 1/2)^2$. *P1 on parallel triangles hardly bulges, its left side not at all; its pressure is noise and
@@ -38,42 +38,18 @@
 // motions without energy. The reference of the contact force is Taylor–Hood, P2 with a continuous P1 pressure, on
 // graded meshes (`freefem/23_elasticity.edp`).
 
-#include <cmath>
-#include <map>
-
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/core/error.hpp"
-#include "antilock/io/writers.hpp"
-#include "antilock/models/plane_strain.hpp"
-#include "antilock/study/method.hpp"
 #include "antilock/study/sweep.hpp"
-#include "antilock/study/table.hpp"
-#include "common/tutorial.hpp"
+#include "common/rubber.hpp"
 
 using namespace antilock;
-
-// ### Mesh
-// A discretisation: triangles, an element per component, and whether edges need their jumps penalised.
-struct Rubber {
-  std::string name, file;
-  TriangleMesh mesh;
-  const Element &in_x, &in_y;
-  bool jumps, locks;
-};
-std::vector<Rubber> make_methods(int cells) {
-  const Domain square{0};
-  const TriangleMesh right = with_free_sides(structured_mesh(cells, square));
-  const TriangleMesh crossed = with_free_sides(structured_mesh(cells, square, Diagonal::crossed));
-  const TriangleMesh any = with_free_sides(unstructured_mesh(cells, square));
-  return {{"P1 right diagonals", "p1_right", right, p1(), p1(), false, true},
-          {"P1 unstructured", "p1_unstructured", any, p1(), p1(), false, true},
-          {"P1 crossed triangles", "p1_crossed", crossed, p1(), p1(), false, false},
-          {"Crouzeix-Raviart with jumps", "cr", right, crouzeix_raviart(), crouzeix_raviart(), true, false},
-          {"Kouhia-Stenberg", "ks", right, p1(), crouzeix_raviart(), false, false}};
-}
+using tutorial::Rubber;
 
 double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the obstacle below y = 0
 
+// ### Mesh
+// A `Rubber` is one of five discretisations: triangles, an element per component, jumps to be penalised or not.
+//
 // ### Forms
 // $u = (0, -0.1)$ on top, $u_y ≥ -$gap below. It fills $A_1$, $B$, $M$ and the bounds; the rest is the scalar
 // problem's.
@@ -84,19 +60,12 @@ VariationalInequality pushed(const Rubber& rubber, const VectorSpace& space, dou
   return assemble(scene, space);
 }
 
-double patch_error(const Rubber& rubber, double epsilon);
-int zero_modes(VariationalInequality problem);
-double bulge(const Space& space, const Eigen::VectorXd& u, double side);
-Eigen::VectorXd pressure(const Rubber& rubber, const Solution& solution);
-void judge(const Table& checks, const Table& forces, const Table& errors, int cells, tutorial::Report& report);
+void judge(const Table& checks, const Table& forces, int cells, tutorial::Report& report);
 
 void push(const tutorial::Options& options, tutorial::Report& report) {
-  const std::map<double, double> reference{
-      {1, 0.158792}, {1e-2, 0.255738}, {1e-4, 0.259131}, {1e-8, 0.259166}, {0, 0.259166}};
   Table checks({"element", "unknowns", "kernel", "patch", "zero_modes", "without_jumps", "bulge left", "right"});
-  Table forces({"element", "lambda", "epsilon", "force", "corrections"});
-  Table errors({"element", "lambda", "epsilon", "percent", "locks"});
-  for (const Rubber& rubber : make_methods(options.cells)) {
+  Table forces({"element", "lambda", "epsilon", "force", "corrections", "percent", "known", "locks"});
+  for (const Rubber& rubber : tutorial::rubbers(options.cells)) {
     report.stage(rubber.name);
     const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
     const VectorSpace space{x, y};
@@ -109,52 +78,41 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 0.0}) {
       sweep.set_compliance(epsilon);
       const Solution solution = sweep.solve();
-      const double force = solution.lambda.sum();
-      forces.add({rubber.name, 1 / epsilon, epsilon, force, solution.counters.corrections});
-      if (const auto known = reference.find(epsilon); known != reference.end())
-        errors.add({rubber.name, 1 / epsilon, epsilon, 100 * (force / known->second - 1), rubber.locks});
+      const double force = solution.lambda.sum(), percent = tutorial::percent_too_large(force, epsilon);
+      forces.add({rubber.name, 1 / epsilon, epsilon, force, solution.counters.corrections, percent,
+                  !std::isnan(percent), rubber.locks});
     }
 
     // ### Output
     // The deformed block at the ε asked for.
     sweep.set_compliance(options.epsilon);
     const Solution solution = sweep.solve();
-    write_deformed_vtu(options.out / (rubber.file + ".vtu"), space, solution.u, pressure(rubber, solution));
-    if (rubber.file == "p1_right") write_freefem_mesh(options.out / "mesh.freefem.msh", rubber.mesh);
+    tutorial::write_block(options.out, rubber, space, solution);
 
     // The checks that need no reference: what $B$ leaves free, patch test, motions without energy.
     checks.add({rubber.name, problem.free_count(), kernel_dimension(problem),
-                std::max(patch_error(rubber, 1), patch_error(rubber, options.epsilon)), zero_modes(problem),
-                rubber.jumps ? Entry(zero_modes(pushed(rubber, space, 0))) : Entry(""), bulge(x, solution.u, 0),
-                bulge(x, solution.u, 1)});
+                std::max(tutorial::patch_error(rubber, 1), tutorial::patch_error(rubber, options.epsilon)),
+                tutorial::zero_modes(problem),
+                rubber.jumps ? Entry(tutorial::zero_modes(pushed(rubber, space, 0))) : Entry(""),
+                tutorial::bulge(x, solution.u, 0), tutorial::bulge(x, solution.u, 1)});
   }
   report.finish();
-  checks.print("", 2);
-  errors.pivot("element", "lambda", "percent").print("error of the contact force in %, by lambda");
-  forces.pivot("element", "lambda", "corrections").print("corrections, by lambda");
-  forces.write(options.out / "force.csv");
-  Table obstacle({"x", "y"});
-  for (int i = 0; i <= 40; ++i) obstacle.add({-0.1 + 0.03 * i, -gap(-0.1 + 0.03 * i)});
-  obstacle.write(options.out / "obstacle.csv");
-  judge(checks, forces, errors, options.cells, report);
+  tutorial::show_rubber(options.out, checks, forces, gap);
+  judge(checks, forces, options.cells, report);
 }
 
-void judge(const Table& checks, const Table& forces, const Table& errors, int cells, tutorial::Report& report) {
+void judge(const Table& checks, const Table& forces, int cells, tutorial::Report& report) {
   const Table jumping = checks.where("element", "Crouzeix-Raviart with jumps");
   report.claim(checks.most("patch") < 1e-12, "patch test: every method has the uniform strain to {:.0e}",
                checks.most("patch"));
   report.claim(jumping.number("without_jumps") == 2 * cells && checks.most("zero_modes") == 0,
                "motions of no energy: {} = 2n without jumps, {} in every method here", jumping.number("without_jumps"),
                checks.most("zero_modes"));
-  double corrections = 0, worst = 0;
-  for (const Entry& element : errors.where("locks", 0).different("element")) {
-    const Table own = errors.where("element", element);
-    corrections = std::max(corrections, forces.where("element", element).most("corrections"));
-    worst = std::max({worst, own.most("percent"), -own.least("percent")});
-  }
+  const Table free = forces.where("locks", 0), known = free.where("known", 1);
+  const double corrections = free.most("corrections"), worst = std::max(known.most("percent"), -known.least("percent"));
   report.claim(corrections <= 5, "at most {} corrections at any lambda where nothing locks", corrections);
   if (cells < 8) return report.not_judged("the contact force: fewer than 8 cells do not tell locked from inexact");
-  const double locked = errors.where("locks", 1).where("epsilon", 0).least("percent");
+  const double locked = forces.where("locks", 1).where("epsilon", 0).least("percent");
   report.claim(locked > 100, "P1 on parallel or arbitrary triangles locks: force {:.0f} % too large or more", locked);
   report.claim(worst < 16.0 / cells, "the other three are off by {:.2f} % at most, at any lambda of the table", worst);
 }
@@ -167,8 +125,6 @@ void judge(const Table& checks, const Table& forces, const Table& errors, int ce
 // the true one stays below 0.7.
 //
 // ## Exercises
-//
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
 //
 // 1. CR penalises its jumps with weight 1. Between weight 0.1 and 10, how much does the contact force change, on 8
 //    and on 16 cells?
@@ -185,49 +141,4 @@ int main(int argc, char** argv) {
                         .least_cells = 2,  // below, no vertex of the obstacle is free in x
                         .exercises = exercises},
                        push);
-}
-
-// Patch test: a uniform strain, u = (.1/(1 + 2 epsilon) x, -.1 y), is in every space and must come out exactly.
-double patch_error(const Rubber& rubber, double epsilon) {
-  const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
-  PlaneStrain scene;  // flat obstacle, touching
-  scene.epsilon = epsilon;
-  scene.sliding = true;
-  scene.jump_weight = rubber.jumps ? 1 : 0;
-  const Eigen::VectorXd u = active_set(assemble(scene, {x, y})).u;
-  const Eigen::VectorXd in_x = u.head(x.size()) - 0.1 / (1 + 2 * epsilon) * x.points().col(0);
-  return std::max(in_x.cwiseAbs().maxCoeff(), (u.tail(y.size()) + 0.1 * y.points().col(1)).cwiseAbs().maxCoeff());
-}
-
-// Dimension of the kernel of a1 on the free unknowns: the motions that cost no energy.
-int zero_modes(VariationalInequality problem) {
-  problem.b = problem.a1;
-  problem.m = Eigen::VectorXd::Ones(problem.size());
-  return kernel_dimension(problem);
-}
-
-// How far a side moves outwards, on average (the mean of an affine function over an edge is its value at the
-// midpoint).
-double bulge(const Space& space, const Eigen::VectorXd& u, double side) {
-  const TriangleMesh& mesh = space.mesh();
-  double mean = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const int e = mesh.triangle_edges(t, i);
-      if (mesh.vertices(mesh.edges(e, 0), 0) != side || mesh.vertices(mesh.edges(e, 1), 0) != side) continue;
-      const Eigen::VectorXd at_midpoint =
-          space.element().basis(0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(i)));
-      const Eigen::VectorXi unknowns = space.unknowns().row(t);
-      mean += mesh.edge_length(e) * at_midpoint.dot(u(unknowns));
-    }
-  return side == 0 ? -mean : mean;
-}
-
-// The pressure -lambda div u. Crossed triangles carry a checkerboard in every square, which its mean removes.
-Eigen::VectorXd pressure(const Rubber& rubber, const Solution& solution) {
-  Eigen::VectorXd p = -solution.p;
-  if (rubber.file == "p1_crossed")
-    for (Eigen::Index square = 0; square < p.size() / 4; ++square)
-      p.segment<4>(4 * square).setConstant(p.segment<4>(4 * square).mean());
-  return p;
 }

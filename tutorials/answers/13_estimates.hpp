@@ -7,12 +7,13 @@ const std::vector<tutorial::Exercise> exercises{
      "q tends to 1: half is lost at epsilon ~ h, worse than on the meshes of gmsh",
      [](const tutorial::Options& options, tutorial::Report& report) {
        const MeshFamily jittered{"jittered", [](int cells) { return jittered_mesh(cells, 0.2); }};
-       Table lost({"curve", "inverse_epsilon", "x"}), rows[]{Table(columns), Table(columns)};
-       const std::vector<Case> truth = truths();
+       Table lost({"curve", "inverse_epsilon", "x"}),
+           rows[]{Table(tutorial::estimate_columns), Table(tutorial::estimate_columns)};
+       const std::vector<Case> truth = tutorial::cases();
        for (int n = 8; n <= options.cells; n *= 2)
          for (const bool cr : {false, true})
            rows[cr].add(both_sides({cr ? &crouzeix_raviart() : &p1(), jittered}, n, truth));
-       const Table walls = wall(rows[false], rows[true], lost);
+       const Table walls = tutorial::walls(rows[false], rows[true], lost);
        walls.print();
        report.claim_within(walls.order("half lost at epsilon", "h"), 0.8, 1.3, "q =");
      }},

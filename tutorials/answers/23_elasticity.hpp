@@ -2,7 +2,7 @@
 // The answers to the exercises of 23_elasticity, whose page includes this one: to be read after predicting.
 
 const auto named = [](const std::string& name, int cells) {
-  for (const Rubber& rubber : make_methods(cells))
+  for (const Rubber& rubber : tutorial::rubbers(cells))
     if (rubber.name == name) return rubber;
   throw Error("no method " + name);
 };

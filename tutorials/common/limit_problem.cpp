@@ -7,6 +7,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/method.hpp"
+#include "common/effects.hpp"
 #include "common/paper_problem.hpp"
 
 namespace antilock::tutorial {
@@ -98,15 +99,11 @@ void judge_limit_problem(const Table& sigma, const Table& models, const Exact& l
   report.claim(ventcel < 1e-9, "Remark 5, discrete: u_h^0 of P1 structured is that of (25), to {:.0e}", ventcel);
   // (22) and (23) are one problem: what is between them is the mesh, of second order. The thin layer has 2 rows of
   // cells at 1/h = 16 and 3 at 32, and (2/3)^2 = 0.44.
-  const auto apart = [](const Table& table, const char* one, const char* other) {
-    double most = 0;
-    for (const Table& row : table.rows()) most = std::max(most, std::abs(row.number(one) - row.number(other)));
-    return most;
-  };
-  const double here = apart(models, "thin", "scaled"), coarser = apart(three_models(0.1, cells / 2), "thin", "scaled");
+  const double here = most_apart(models, "thin", "scaled"),
+               coarser = most_apart(three_models(0.1, cells / 2), "thin", "scaled");
   report.claim(here < 0.5 * coarser, "(22) and (23) at epsilon = 0.1: {:.1e} apart on Gamma_C, {:.1e} at 2 h", here,
                coarser);
-  const double limit_apart = apart(models, "scaled", "limit");
+  const double limit_apart = most_apart(models, "scaled", "limit");
   report.claim(limit_apart > 10 * here, "(25) is {:.1e} from them: the limit, not the layer", limit_apart);
 }
 

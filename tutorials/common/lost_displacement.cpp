@@ -29,4 +29,14 @@ double half_lost(const Table& lost) {
   return 1 / (inverse[i] * std::pow(inverse[i + 1] / inverse[i], s));
 }
 
+Table walls(const Table& p1, const Table& cr, Table& lost) {
+  Table rows({"cells", "h", "a", "half lost at epsilon"});
+  for (const Entry& cells : p1.different("cells")) {
+    const Table own = lost_to_kept(p1.where("cells", cells), cr.where("cells", cells));
+    lost.add(own);
+    rows.add({cells, 1 / cells.number(), own.order("x", "inverse_epsilon"), half_lost(own)});
+  }
+  return rows;
+}
+
 }  // namespace antilock::tutorial

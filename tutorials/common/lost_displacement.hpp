@@ -13,4 +13,8 @@ Table lost_to_kept(const Table& locked, const Table& usual);
 /// The epsilon at which half is lost, x = 1: between the two nearest, or beyond the nearest two.
 double half_lost(const Table& lost);
 
+/// The wall, mesh by mesh: cells, h, the power a in x = d epsilon^-a, "half lost at epsilon". `p1`, `cr`: rows of both
+/// elements on all meshes, columns as above and h. What lost_to_kept says of each mesh is added to `lost`.
+Table walls(const Table& p1, const Table& cr, Table& lost);
+
 }  // namespace antilock::tutorial

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -100,6 +101,52 @@ void time_freefem(TimedRun& run, const std::string& command, const Space& space,
     run.errors.max_at_unknowns = std::max(run.errors.max_at_unknowns, std::abs(u - truth.value(x, y)));
     run.scale = std::max(run.scale, std::abs(u));
   }
+}
+
+void Timing::add(TimedRun run, const std::string& solver, const std::function<Solution()>& solve,
+                 const std::function<Errors(const Solution&)>& errors, bool limited) {
+  run.solver = solver;
+  if (!given_up(runs, run, limit))
+    if (const auto u = time_solver(run, solve, limited ? limit : std::numeric_limits<double>::infinity(), repeats))
+      run.errors = errors(*u);
+  runs.push_back(std::move(run));
+}
+
+void Timing::add_freefem(TimedRun run, const Space& space, const TruthTable& truth) {
+  if (freefem.empty()) return;
+  run.solver = "FreeFEM";
+  if (!given_up(runs, run, limit)) time_freefem(run, freefem, space, truth, limit, repeats, out / "freefem");
+  runs.push_back(std::move(run));
+}
+
+const TimedRun& Timing::finest(const Method& method, double epsilon) const {
+  const auto wanted = [&](const TimedRun& r) {
+    return r.solver == "active set" && r.element == method.element->name() && r.mesh == method.family.name &&
+           r.epsilon == epsilon;
+  };
+  const auto found = std::find_if(runs.rbegin(), runs.rend(), wanted);
+  if (found == runs.rend()) throw Error("no run of " + method.name());
+  return *found;
+}
+
+void Timing::judge(Report& report) const {
+  bool reliable = true, agree = true;
+  double reference_error = 0;
+  for (const TimedRun& r : runs) {
+    reliable = reliable && (r.ok || r.solver != "active set");
+    if (r.solver == "active set") reference_error = r.errors.max;  // the first solver of each problem
+    if (r.solver == "Uzawa, Cholesky" && r.ok)
+      agree = agree && std::abs(reference_error - r.errors.max) <= 1e-3 * reference_error;
+  }
+  report.claim(reliable, "the active set answers on every mesh and at every epsilon");
+  report.claim(agree, "where Uzawa ends within its limit, its error is that of the active set");
+}
+
+void Timing::write(int finest) const {
+  write_stages(out, std::max(128, finest), repeats);
+  write_runs(out / "work_precision.csv", runs);
+  write_price_list(out, runs);
+  write_machine(out / "machine.csv");
 }
 
 void write_runs(const std::filesystem::path& path, const std::vector<TimedRun>& runs) {

@@ -9,6 +9,8 @@
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/space/space.hpp"
+#include "antilock/study/method.hpp"
+#include "common/tutorial.hpp"
 
 namespace antilock::tutorial {
 
@@ -44,6 +46,28 @@ std::optional<Solution> time_solver(TimedRun& run, const std::function<Solution(
 /// is freefem/run. The clock is the script's own, without start-up and reading the mesh.
 void time_freefem(TimedRun& run, const std::string& command, const Space& space, const TruthTable& truth, double limit,
                   int repeats, const std::filesystem::path& folder);
+
+/// A study of work and precision: what a run may take, and the runs so far.
+struct Timing {
+  double limit = 0.1;         ///< seconds after which a run counts as failed
+  std::string freefem;        ///< the command freefem/run, or nothing: then FreeFEM is not timed
+  std::filesystem::path out;  ///< folder of the results
+  int repeats = 5;            ///< of each run; the median is its time
+  std::vector<TimedRun> runs{};
+
+  /// Times one solver. `run` says what is solved: element, mesh, epsilon, cells, unknowns, mesh_seconds. Not tried where
+  /// the same method was over the limit on a coarser mesh; `limited` false: a solver that no limit stops.
+  void add(TimedRun run, const std::string& solver, const std::function<Solution()>& solve,
+           const std::function<Errors(const Solution&)>& errors, bool limited = true);
+  /// FreeFEM's script on the same mesh, where its command is given.
+  void add_freefem(TimedRun run, const Space& space, const TruthTable& truth);
+  /// The active set's run on the finest mesh of this method.
+  const TimedRun& finest(const Method& method, double epsilon) const;
+  /// Claims that the active set always answers, and that Uzawa's answers are its own.
+  void judge(Report& report) const;
+  /// Writes work_precision.csv, the price list, the stages up to 1/h = finest or 128, and the machine.
+  void write(int finest) const;
+};
 
 /// One row per run, columns as in TimedRun; status is ok or failed. `relative` and the errors are 0
 /// where it failed.

@@ -1,0 +1,93 @@
+#include "common/rubber.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/io/writers.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/solve/active_set.hpp"
+
+namespace antilock::tutorial {
+
+std::vector<Rubber> rubbers(int cells) {
+  const Domain square{0};
+  const TriangleMesh right = with_free_sides(structured_mesh(cells, square));
+  const TriangleMesh crossed = with_free_sides(structured_mesh(cells, square, Diagonal::crossed));
+  const TriangleMesh any = with_free_sides(unstructured_mesh(cells, square));
+  return {{"P1 right diagonals", "p1_right", right, p1(), p1(), false, true},
+          {"P1 unstructured", "p1_unstructured", any, p1(), p1(), false, true},
+          {"P1 crossed triangles", "p1_crossed", crossed, p1(), p1(), false, false},
+          {"Crouzeix-Raviart with jumps", "cr", right, crouzeix_raviart(), crouzeix_raviart(), true, false},
+          {"Kouhia-Stenberg", "ks", right, p1(), crouzeix_raviart(), false, false}};
+}
+
+double patch_error(const Rubber& rubber, double epsilon) {
+  const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
+  PlaneStrain scene;  // flat obstacle, touching
+  scene.epsilon = epsilon;
+  scene.sliding = true;
+  scene.jump_weight = rubber.jumps ? 1 : 0;
+  const Eigen::VectorXd u = active_set(assemble(scene, {x, y})).u;
+  const Eigen::VectorXd in_x = u.head(x.size()) - 0.1 / (1 + 2 * epsilon) * x.points().col(0);
+  return std::max(in_x.cwiseAbs().maxCoeff(), (u.tail(y.size()) + 0.1 * y.points().col(1)).cwiseAbs().maxCoeff());
+}
+
+int zero_modes(VariationalInequality problem) {
+  problem.b = problem.a1;
+  problem.m = Eigen::VectorXd::Ones(problem.size());
+  return kernel_dimension(problem);
+}
+
+double bulge(const Space& space, const Eigen::VectorXd& u, double side) {
+  const TriangleMesh& mesh = space.mesh();
+  double mean = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const int e = mesh.triangle_edges(t, i);
+      if (mesh.vertices(mesh.edges(e, 0), 0) != side || mesh.vertices(mesh.edges(e, 1), 0) != side) continue;
+      const Eigen::VectorXd at_midpoint =
+          space.element().basis(0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(i)));
+      const Eigen::VectorXi unknowns = space.unknowns().row(t);
+      mean += mesh.edge_length(e) * at_midpoint.dot(u(unknowns));
+    }
+  return side == 0 ? -mean : mean;
+}
+
+double percent_too_large(double force, double epsilon) {
+  static const std::map<double, double> reference{
+      {1, 0.158792}, {1e-2, 0.255738}, {1e-4, 0.259131}, {1e-8, 0.259166}, {0, 0.259166}};
+  const auto known = reference.find(epsilon);
+  return known == reference.end() ? std::numeric_limits<double>::quiet_NaN() : 100 * (force / known->second - 1);
+}
+
+namespace {
+
+Eigen::VectorXd pressure(const Rubber& rubber, const Solution& solution) {
+  Eigen::VectorXd p = -solution.p;
+  if (rubber.file == "p1_crossed")
+    for (Eigen::Index square = 0; square < p.size() / 4; ++square)
+      p.segment<4>(4 * square).setConstant(p.segment<4>(4 * square).mean());
+  return p;
+}
+
+}  // namespace
+
+void write_block(const std::filesystem::path& out, const Rubber& rubber, const VectorSpace& space,
+                 const Solution& solution) {
+  write_deformed_vtu(out / (rubber.file + ".vtu"), space, solution.u, pressure(rubber, solution));
+  if (rubber.file == "p1_right") write_freefem_mesh(out / "mesh.freefem.msh", rubber.mesh);
+}
+
+void show_rubber(const std::filesystem::path& out, const Table& checks, const Table& forces, const Profile& gap) {
+  checks.print("", 2);
+  forces.where("known", 1).pivot("element", "lambda", "percent").print("error of the contact force in %, by lambda");
+  forces.pivot("element", "lambda", "corrections").print("corrections, by lambda");
+  forces.select({"element", "lambda", "epsilon", "force", "corrections"}).write(out / "force.csv");
+  Table obstacle({"x", "y"});
+  for (int i = 0; i <= 40; ++i) obstacle.add({-0.1 + 0.03 * i, -gap(-0.1 + 0.03 * i)});
+  obstacle.write(out / "obstacle.csv");
+}
+
+}  // namespace antilock::tutorial

@@ -1,0 +1,20 @@
+#include "common/stopped_early.hpp"
+
+namespace antilock::tutorial {
+
+Table uzawa_on_its_way(const std::string& method, const VariationalInequality& problem, const Solution& early,
+                       const Solution& full, const std::function<double(const Solution&)>& error) {
+  Table table({"method", "quantity", "steps", "error"});
+  table.add({method, "accurate enough: stop", early.counters.contact, error(early)});
+  for (double energy = 1e-3; energy > 1e-17; energy /= 4) {
+    UzawaOptions options;
+    options.enough = {energy, 1e-3};
+    const Solution u = uzawa(problem, options);
+    table.add({method, "error of the iterate", u.counters.contact, error(u)});
+    if (u.counters.contact < full.counters.contact)
+      table.add({method, "its algebraic part", u.counters.contact, (u.u - full.u).cwiseAbs().maxCoeff()});
+  }
+  return table;
+}
+
+}  // namespace antilock::tutorial
