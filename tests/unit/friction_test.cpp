@@ -69,7 +69,10 @@ VariationalInequality random_friction(std::mt19937& engine) {
   problem.lower = Eigen::VectorXd::NullaryExpr(bounds + rows, [&](auto) { return -0.2 * std::abs(normal(engine)); });
   problem.upper = problem.force_bound = Eigen::VectorXd::Constant(bounds + rows, infinity);
   for (int i = 0; i < bounds + rows; ++i) {
-    if (engine() % 4 == 0) continue;  // contact
+    if (engine() % 4 == 0) {  // contact, or an equation
+      if (engine() % 2 == 0) problem.upper(i) = problem.lower(i);
+      continue;
+    }
     problem.force_bound(i) = 0.7 * std::abs(normal(engine));
     if (engine() % 4 == 0) continue;                               // a plastic obstacle
     problem.upper(i) = problem.lower(i) = engine() % 3 ? 0 : 0.1;  // friction, about 0 or elsewhere
