@@ -385,8 +385,8 @@ std::vector<bool> refined_marks(const Space& coarse, const std::vector<bool>& ac
   return marks;
 }
 
-/// (23), P1 with means over boxes of side 2h, in the dual norm of the theory: that of P1 on the mesh refined twice, with
-/// the same contact held. A box holds the 16 parts of each of its triangles.
+/// (23), P1 with means over boxes of side 2h, in the dual norm of the theory: that of P1 on the mesh refined twice,
+/// with the same contact held. A box holds the 16 parts of each of its triangles.
 double inf_sup_of_boxes(const TriangleMesh& mesh, int n, bool contact) {
   const auto seminorm = [](const Space& space) { return gradient_form(space, {1, 1}, {1, 1}); };
   const TriangleMesh fine = refined(refined(mesh));

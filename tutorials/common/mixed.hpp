@@ -13,9 +13,9 @@
 
 namespace antilock::tutorial {
 
-/// What Theorem 4 asks for another a0, in numbers on one mesh: alpha of (i), by dense eigenvalues (not a number beyond
-/// 1000 unknowns); the distance from u^0 to K_0h, (ii); the slope that K_0h hides, (iii): the largest int d/dy v phi over
-/// the v of the kernel of a0_h with |v| = 1, phi = sin(pi x) sin(pi y), as in chapter 11.
+/// What Theorem 4 asks for another a0, in numbers on one mesh: alpha of (i), by dense eigenvalues (not a number
+/// beyond 1000 unknowns); the distance from u^0 to K_0h, (ii); the slope that K_0h hides, (iii): the largest int d/dy
+/// v phi over the v of the kernel of a0_h with |v| = 1, phi = sin(pi x) sin(pi y), as in chapter 11.
 struct Asked {
   double alpha, near, hidden;
 };
@@ -38,8 +38,8 @@ struct Mixed {
 };
 std::vector<Mixed> mixed_methods();
 
-/// One row per method and epsilon: the contact force against the reference of chapter 23 in per cent, the corrections of
-/// the solver, and the seconds of the method's first solution.
+/// One row per method and epsilon: the contact force against the reference of chapter 23 in per cent, the corrections
+/// of the solver, and the seconds of the method's first solution.
 inline const std::vector<std::string> force_columns{"name",    "unknowns", "lambda",      "epsilon",
                                                     "percent", "pressure", "corrections", "seconds"};
 /// The block of chapter 23 at epsilon = 0, in the space for both components.
