@@ -75,31 +75,50 @@ class DenseRoad {
   void descend() {
     if (descent_.size() == 0) descent_ = bounds_.nearest(v_);
     Eigen::VectorXd& v = descent_;
-    Eigen::VectorXd gradient = p_.s * v - p_.q;
-    const HeldBounds pieces = bounds_.downhill(v, gradient);
-    gradient -= bounds_.given(pieces);
+    HeldBounds pieces = bounds_.downhill(v, p_.s * v - p_.q);
+    const Eigen::VectorXd gradient = p_.s * v - p_.q - bounds_.given(pieces), direction = newton(pieces, gradient);
+    // Armijo along the projected path; the change of energy from the change of v, so that no digits cancel
+    double t = 1;
+    Eigen::VectorXd next;
+    int halvings = 0;
+    for (; halvings < 60; ++halvings, t /= 2) {
+      next = bounds_.nearest(pieces, v + t * direction);
+      const Eigen::VectorXd change = next - v;
+      if (change.dot(gradient + 0.5 * (p_.s * change)) <= 1e-4 * change.dot(gradient)) break;
+    }
+    if (halvings > jams)
+      walk(std::move(pieces), direction);
+    else
+      v = std::move(next);
+    held_ = bounds_.reached(v);
+  }
+
+ private:
+  /// The way to where the gradient on the pieces vanishes.
+  Eigen::VectorXd newton(const HeldBounds& pieces, const Eigen::VectorXd& gradient) {
     std::vector<int> free;
-    for (int i = 0; i < v.size(); ++i)
+    for (int i = 0; i < count(); ++i)
       if (!pieces.active[i]) free.push_back(i);
-    Eigen::VectorXd direction = Eigen::VectorXd::Zero(v.size());
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(count());
     if (!free.empty()) {
       const Eigen::VectorXd step = Cholesky(p_.s(free, free)).solve(Eigen::VectorXd(-gradient(free)));
       direction(free) = step;
     }
     ++steps_;
-    // Armijo along the projected path; the change of energy from the change of v, so that no digits cancel
-    double t = 1;
-    Eigen::VectorXd next;
-    for (int halvings = 0; halvings < 60; ++halvings, t /= 2) {
-      next = bounds_.nearest(pieces, v + t * direction);
-      const Eigen::VectorXd change = next - v;
-      if (change.dot(gradient + 0.5 * (p_.s * change)) <= 1e-4 * change.dot(gradient)) break;
-    }
-    v = std::move(next);
-    held_ = bounds_.reached(v);
+    return direction;
   }
 
- private:
+  /// Straight on, and what ends its piece is held there: the energy falls on every stretch, to its least on what is left.
+  void walk(HeldBounds pieces, Eigen::VectorXd direction) {
+    while (true) {
+      const auto [t, ended] = bounds_.hold_first_end(pieces, descent_, direction);
+      descent_ += t * direction;
+      if (ended < 0) return;
+      descent_(ended) = bounds_.at(pieces, ended);
+      direction = newton(pieces, p_.s * descent_ - p_.q - bounds_.given(pieces));
+    }
+  }
+
   /// Where v and the bound count from, and how large the bound is: each bound by itself, so that an obstacle far away in
   /// one place hides no contact in another.
   double noise_at(int i, double bound) const {
