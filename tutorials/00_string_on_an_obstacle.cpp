@@ -92,26 +92,26 @@ struct Answer {
 // pull should not. When the guess repeats itself, all signs are right. The guess is called the *active set*.
 Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
-  std::vector<bool> touches(n, false);
-  for (Answer answer;;) {
+  Answer answer;
+  std::vector<bool> touches(n, false), guess;
+  for (; guess != touches; ++answer.solves) {
+    guess = touches;
     MatrixXd a = s.a;
     VectorXd right = s.b;
     for (int i = 0; i < n; ++i)
-      if (touches[i]) a(i, i) = 1e30, right(i) = 1e30 * s.floor;  // row i now says u_i = floor
-    answer = {Cholesky(a).solve(right), VectorXd::Zero(n), answer.solves + 1};
+      if (guess[i]) a(i, i) = 1e30, right(i) = 1e30 * s.floor;  // row i now says u_i = floor
+    answer.u = Cholesky(a).solve(right);
     for (int i = 0; i < n; ++i)
-      if (touches[i]) answer.u(i) = s.floor;  // without the round-off of 1e30
+      if (guess[i]) answer.u(i) = s.floor;  // without the round-off of 1e30
     guesses.push_back(answer.u);
     const VectorXd missing = s.a * answer.u - s.b;
-    bool settled = true;
+    answer.lambda = VectorXd::Zero(n);
     for (int i = 0; i < n; ++i) {
-      if (touches[i]) answer.lambda(i) = missing(i);
-      const bool should = touches[i] ? missing(i) > 0 : answer.u(i) < s.floor;
-      settled = settled && should == touches[i];
-      touches[i] = should;
+      if (guess[i]) answer.lambda(i) = missing(i);
+      touches[i] = guess[i] ? missing(i) > 0 : answer.u(i) < s.floor;
     }
-    if (settled) return answer;
   }
+  return answer;
 }
 
 // **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor,

@@ -105,8 +105,7 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
 // 1. Turn the diagonals of the mesh to the left. Does P1 lock?
 // 2. Double the load. Does the contact zone grow? Does the pressure double?
 // 3. On paper: integrate $∂_y p = -u''(x)$ over the layer to get $λ = -∂_y u^+ - u''$ on $Σ$, the condition that is
-// left of
-//    the layer. (Chapter 10 calls it Ventcel's.)
+//    left of the layer. (Chapter 10 calls it Ventcel's.)
 
 #include "answers/05_p1_structured.hpp"
 

@@ -118,8 +118,7 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 // 3. `--epsilon 1e-2`: the method "locks already" there (caption of Figure 9). Predict by the law what is kept at
 //    `--cells 16` and at `--cells 64`, and check.
 // 4. On paper: for which loads is nothing lost on this mesh? (Those whose $u^0$ is 0 on the layer. Whether a method
-// locks
-//    is a question about all loads.)
+//    locks is a question about all loads.)
 
 #include "answers/06_p1_unstructured.hpp"
 
