@@ -67,8 +67,7 @@ struct String {
   VectorXd b;  // at the inner nodes
 };
 // ### Forms
-// $A$ has $2/h$ on its diagonal and $-1/h$ beside it; $∫ \sin(2πx) φ_i = \sin(2πx_i) (2 - 2\cos 2πh)/(4π² h)$,
-// exactly.
+// $A$ has $2/h$ on its diagonal and $-1/h$ beside it; $∫ \sin(2πx) φ_i = \sin(2πx_i) (2 - 2\cos 2πh)/(4π² h)$.
 String hang(int cells, double load = 10, double floor = 0) {
   const int n = cells - 1;
   const double h = 1.0 / cells, factor = load * (2 - 2 * std::cos(2 * pi * h)) / (4 * pi * pi * h);
@@ -122,8 +121,7 @@ Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
 // between about $h/4$ and $1/(π² h)$. A step multiplies the part of the error with the eigenvalue $σ$ by $1 - ρσ$. So
 // every $ρ < 2π² h$, which is 2 / largest $σ$, is safe. The part with the smallest $σ$ is the slowest: its factor is
 // $1 - ρ h/4$, at best about $1 - π² h²/2$. So halve $h$, and there are four times as many steps. The *condition
-// number* $κ$ = largest / smallest eigenvalue, here $4/(π² h²)$, says the same in one number: the factor is
-// $1 - 2/κ$.
+// number* $κ$ = largest / smallest eigenvalue, here $4/(π² h²)$, says it in one number: the factor is $1 - 2/κ$.
 Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
   const Cholesky factor(s.a);
   Answer answer{s.b, 0 * s.b};
@@ -163,8 +161,7 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // ## What came out
 //
 // The active set needs fewer than ten linear solves, Uzawa 2,737, for the same string. (a) No: contact starts at
-// 0.7151, since the lifted half pulls its neighbour up. (b) Where the string lies flat $u'' = 0$, so the pressure is
-// $-f$ there.
+// 0.7151, since the lifted half pulls its neighbour up. (b) Where the string lies flat $u'' = 0$: the pressure is $-f$.
 //
 // ## Exercises
 //
@@ -174,8 +171,7 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // 2. Lower the floor to $-0.05$. $K$ is no cone any more. Where does contact start? Does it reach $x = 1$?
 // 3. Uzawa with $ρ = 4π² h$, twice the safe step. Does it diverge? (Where does $λ$ live?)
 // 4. On paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Which of the two is forbidden in exercise 2, and
-//    what is left of the equality? ($2u$, it is below the floor where the string touches. From $v = 0$:
-//    $a(u, u) ≤ L(u)$.)
+//    what is left of the equality?
 
 #include "answers/00_string_on_an_obstacle.hpp"
 

@@ -109,8 +109,8 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// The form and the solution are the same on both domains, to round-off. (a) Neither: for a function of $x$ alone the
-// factors $ε$ of the thickness and $1/ε$ of the stiffness cancel. (b) More, like $ε^{-2}$. So as $ε → 0$ the
+// Form and solution are the same on both domains, to round-off (chapter 16). (a) Neither: for a function of $x$ alone
+// the factors $ε$ of the thickness and $1/ε$ of the stiffness cancel. (b) More, like $ε^{-2}$. So as $ε → 0$ the
 // displacement may not vary across the layer: the stiff form enforces it, and a discretisation must be able to do it.
 //
 // ## Exercises

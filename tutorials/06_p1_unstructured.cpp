@@ -108,7 +108,7 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 // ## What came out
 //
 // (a) Not at all: the error is 4.57e-2 on both meshes, and by the law it stays so until $1/h$ is about $10^4$. (b) It
-// solves the problem of a body that is clamped on $Σ$ as well: the layer has become a wall. Neither the solver nor a
+// solves the problem of a body that is clamped on $Σ$ as well: the layer acts as a clamp. Neither the solver nor a
 // look at the picture would tell.
 //
 // ## Exercises

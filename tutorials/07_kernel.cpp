@@ -83,8 +83,8 @@ LockingDiagnosis diagnose(const Method& method) {
 }
 
 // From Figure 3 to Figure 6: every inner vertex is moved by up to $t h$, at random. The kernel on the layer is 0 at
-// the first $t > 0$. But a function of $x$ is only missed by a slope of order $t h$, at the price $ε^{-2} (t h)^2$:
-// the error rises like $(t h/ε)^2$, until all is lost. Locking is a matter of degree; its cause is not.
+// the first $t > 0$. But a function of $x$ is only missed by a slope of size $t h$, at the price $ε^{-2} (t h)^2$:
+// the error rises like $(t h/ε)^2$, until all is lost. Locking comes little by little; its cause does not.
 Table jitter_study(int n) {
   Table table({"t", "epsilon", "kernel", "lost", "lost_to_kept"});
   ActiveSetOptions patient;  // functions that are almost in the kernel are corrected slowly

@@ -5,8 +5,7 @@
 // Run: 10_limits --exercise 1
 // Run: 10_limits --exercise 2
 //
-// Needs: [01](01_domain.cpp) for (21) to (23), [03](03_by_hand.cpp) for the layer stress $p$, [07](07_kernel.cpp) for
-// kernels, [09](09_convergence.cpp) for orders in $h$.
+// Needs: [01](01_domain.cpp) ((23)), [03](03_by_hand.cpp) ($p$), [07](07_kernel.cpp), [09](09_convergence.cpp) (order).
 //
 // **The picture.** How far $u^ε$ is from its limit: exact (grey), and four methods on one mesh. *Each method has a
 // limit, the locked one too. What is wrong with locked P1 is where it goes.*
@@ -125,8 +124,7 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
   curves.add(tutorial::exact_to_the_limit(curves.numbers("epsilon"), limit));
   // ### Output
   tutorial::show_limits(options.out, curves, terms);
-  tutorial::judge_orders(curves, report);
-  tutorial::judge_terms(terms, report);
+  tutorial::judge_orders(curves, terms, report);
   // What locked P1 loses is $u^0$ on the layer: its second term cannot be smaller than that.
   const double lost = tutorial::limit_on_layer(limit.truth), second = tutorial::last_second_term(terms);
   report.claim(second >= lost, "P1 unstructured: second term {:.3f}, |u^0| on the layer {:.3f}", second, lost);

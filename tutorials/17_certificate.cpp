@@ -140,7 +140,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // ## Exercises
 //
 // 1. Multiply `u_h` and `p` by 1.01. By how much does the bound grow? (What is $r_1$ then?)
-// 2. A gap $g = 0.02 x (1 - x)$ has no exact solution here. Do the brackets of `1/h = 16` and `32` agree?
+// 2. With an obstacle at distance $0.02 x (1 - x)$ no $u$ is known. Do the brackets of `1/h = 16` and `32` agree?
 // 3. Why may P2 not take the place of P1 in the upper bound? (Is a parabola $≥ 0$ between its unknowns?)
 int main(int argc, char** argv) {
   const auto exercises = tutorial::certificate_exercises();

@@ -97,7 +97,7 @@ void show_limits(const std::filesystem::path& out, const Table& curves, const Ta
   curves.write(out / "limits.csv");
 }
 
-void judge_orders(const Table& curves, Report& report) {
+void judge_orders(const Table& curves, const Table& terms, Report& report) {
   // Slopes over the last four epsilons, 10^-2.5 to 1e-4. Locked P1 settles only below h^(3/2).
   const Table small = curves.where_number("epsilon", [](double epsilon) { return epsilon < 4e-3; });
   for (const Entry& method : small.different("method")) {
@@ -108,13 +108,6 @@ void judge_orders(const Table& curves, Report& report) {
     report.claim_within(own.order("stiff", "epsilon"), method == "P1 unstructured" ? 1.5 : 1.9, 2.1,
                         method.text() + ", (5): order of epsilon^2 |p|^2");
   }
-}
-
-double last_second_term(const Table& terms) {
-  return terms.where("method", "P1 unstructured").where("term", "second term").last("value");
-}
-
-void judge_terms(const Table& terms, Report& report) {
   for (const Entry& method : terms.different("method")) {
     const Table own = terms.where("method", method);
     const auto order = [&](const char* term) { return own.where("term", term).order("value", "h"); };
@@ -127,6 +120,10 @@ void judge_terms(const Table& terms, Report& report) {
                    "{}, Propositions 2, 3: second term h^{:.2f}, left side h^{:.2f}", method.text(),
                    order("second term"), order("left side"));
   }
+}
+
+double last_second_term(const Table& terms) {
+  return terms.where("method", "P1 unstructured").where("term", "second term").last("value");
 }
 
 void judge_limit_problem(const std::filesystem::path& out, const Exact& limit, int cells, Report& report) {

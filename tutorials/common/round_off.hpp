@@ -14,11 +14,10 @@ namespace antilock::tutorial {
 using Cure =
     std::function<Eigen::VectorXd(const VariationalInequality&, const std::vector<bool>& active, double delta)>;
 
-/// Every solver on one discrete problem, one row each: the library in split form, a cure with its contact set, the sum by
-/// Cholesky and LU, the paper's CG + ILUT. error: the largest at the unknowns; ended:
-/// what the solver says of itself; wrong: more than twice the right error, or no answer; refused: what the checks in
-/// split form say, or no answer; seconds; apart:
-/// the largest distance from the library's answer, relative.
+/// Every solver on one discrete problem, one row each: the library in split form, a cure with its contact set, the
+/// sum by Cholesky and LU, the paper's CG + ILUT. error: the largest at the unknowns; ended: what the solver says
+/// of itself; wrong: more than twice the right error, or no answer; refused: what the checks in split form say, or
+/// no answer; seconds; apart: the largest distance from the library's answer, relative.
 Table compare_solvers(const Method& method, const Space& space, const Exact& exact, const Cure& cure);
 
 /// Condition numbers of the sum and of the K that is factored: epsilon, summed, factored. Both have the same smallest
