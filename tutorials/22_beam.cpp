@@ -61,15 +61,12 @@ void bend(const tutorial::Options& options, tutorial::Report& report) {
 
   // ### Solve
   // And the reduced one again with the stiffness of the identity above.
-  report.stage("solve");
   const Solution locked = active_set(full), good = active_set(reduced);
   VariationalInequality stiffer = reduced;
   const double h = 1.0 / options.cells, factor = 1 + h * h / (12 * options.epsilon);
   if (options.epsilon > 0) stiffer.a1 *= factor;
   const double difference = (active_set(stiffer).u - locked.u).cwiseAbs().maxCoeff();
-  report.stage("error against epsilon, three meshes");
   const Table errors = tutorial::beam_errors({16, 32, 64});
-  report.finish();
 
   // ### Output
   const BeamTruth truth(reduced_beam);

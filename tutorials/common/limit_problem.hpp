@@ -35,8 +35,7 @@ Table exact_to_the_limit(const std::vector<double>& epsilons, const Exact& limit
 void show_limits(const std::filesystem::path& out, const Table& curves, const Table& terms);
 
 /// Theorem 1, Proposition 1 and (5): the orders in epsilon of each method in `curves`. Propositions 2 and 3: the orders
-/// in h
-/// of the terms of (18), one by one; of the second one and of the error where nothing locks.
+/// in h of the terms of (18), one by one; of the second one and of the error where nothing locks.
 void judge_orders(const Table& curves, const Table& terms, Report& report);
 
 /// The second term of (18) for P1 unstructured on the finest mesh.
