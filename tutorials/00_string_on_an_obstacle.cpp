@@ -68,8 +68,7 @@ struct String {
   VectorXd b;  // at the inner nodes
 };
 // ### Forms
-// $A$ has $2/h$ on its diagonal and $-1/h$ beside it; $∫ \sin(2πx) φ_i = \sin(2πx_i) (2 - 2\cos 2πh)/(4π² h)$,
-// exactly.
+// $A$ has $2/h$ on its diagonal and $-1/h$ beside it; $∫ \sin(2πx) φ_i = \sin(2πx_i) (2 - 2\cos 2πh)/(4π² h)$.
 String hang(int cells, double load = 10, double floor = 0) {
   const int n = cells - 1;
   const double h = 1.0 / cells, factor = load * (2 - 2 * std::cos(2 * pi * h)) / (4 * pi * pi * h);
@@ -93,26 +92,26 @@ struct Answer {
 // pull should not. When the guess repeats itself, all signs are right. The guess is called the *active set*.
 Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
-  std::vector<bool> touches(n, false);
-  for (Answer answer;;) {
+  Answer answer;
+  std::vector<bool> touches(n, false), guess;
+  for (; guess != touches; ++answer.solves) {
+    guess = touches;
     MatrixXd a = s.a;
     VectorXd right = s.b;
     for (int i = 0; i < n; ++i)
-      if (touches[i]) a(i, i) = 1e30, right(i) = 1e30 * s.floor;  // row i now says u_i = floor
-    answer = {Cholesky(a).solve(right), VectorXd::Zero(n), answer.solves + 1};
+      if (guess[i]) a(i, i) = 1e30, right(i) = 1e30 * s.floor;  // row i now says u_i = floor
+    answer.u = Cholesky(a).solve(right);
     for (int i = 0; i < n; ++i)
-      if (touches[i]) answer.u(i) = s.floor;  // without the round-off of 1e30
+      if (guess[i]) answer.u(i) = s.floor;  // without the round-off of 1e30
     guesses.push_back(answer.u);
     const VectorXd missing = s.a * answer.u - s.b;
-    bool settled = true;
+    answer.lambda = VectorXd::Zero(n);
     for (int i = 0; i < n; ++i) {
-      if (touches[i]) answer.lambda(i) = missing(i);
-      const bool should = touches[i] ? missing(i) > 0 : answer.u(i) < s.floor;
-      settled = settled && should == touches[i];
-      touches[i] = should;
+      if (guess[i]) answer.lambda(i) = missing(i);
+      touches[i] = guess[i] ? missing(i) > 0 : answer.u(i) < s.floor;
     }
-    if (settled) return answer;
   }
+  return answer;
 }
 
 // **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor,
@@ -123,8 +122,7 @@ Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
 // between about $h/4$ and $1/(π² h)$. A step multiplies the part of the error with the eigenvalue $σ$ by $1 - ρσ$. So
 // every $ρ < 2π² h$, which is 2 / largest $σ$, is safe. The part with the smallest $σ$ is the slowest: its factor is
 // $1 - ρ h/4$, at best about $1 - π² h²/2$. So halve $h$, and there are four times as many steps. The *condition
-// number* $κ$ = largest / smallest eigenvalue, here $4/(π² h²)$, says the same in one number: the factor is
-// $1 - 2/κ$.
+// number* $κ$ = largest / smallest eigenvalue, here $4/(π² h²)$, says it in one number: the factor is $1 - 2/κ$.
 Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
   const Cholesky factor(s.a);
   Answer answer{s.b, 0 * s.b};
@@ -164,8 +162,7 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // ## What came out
 //
 // The active set needs fewer than ten linear solves, Uzawa 2,737, for the same string. (a) No: contact starts at
-// 0.7151, since the lifted half pulls its neighbour up. (b) Where the string lies flat $u'' = 0$, so the pressure is
-// $-f$ there.
+// 0.7151, since the lifted half pulls its neighbour up. (b) Where the string lies flat $u'' = 0$: the pressure is $-f$.
 //
 // ## Exercises
 //
@@ -175,8 +172,7 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // 2. Lower the floor to $-0.05$. $K$ is no cone any more. Where does contact start? Does it reach $x = 1$?
 // 3. Uzawa with $ρ = 4π² h$, twice the safe step. Does it diverge? (Where does $λ$ live?)
 // 4. On paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Which of the two is forbidden in exercise 2, and
-//    what is left of the equality? ($2u$, it is below the floor where the string touches. From $v = 0$:
-//    $a(u, u) ≤ L(u)$.)
+//    what is left of the equality?
 
 #include "answers/00_string_on_an_obstacle.hpp"
 

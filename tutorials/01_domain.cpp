@@ -9,9 +9,8 @@
 // **The picture.** An elastic body `Ω⁺ = (0,1) × (0,1)` is clamped on `Γ⁺`, both sides and the top. A thin stiff
 // layer `Ω_ε⁻ = (0,1) × (-ε,0)` is grafted onto its lower side `Σ`. The layer is clamped at its two ends, `Γ_{D,ε}⁻`.
 // It may touch a rigid obstacle on its own lower side, `Γ_{C,ε}`. *The second picture is the first one after the
-// change of variable `y ↦ y/ε`: the thickness
-// has left the domain.* Both draw the obstacle apart from `Γ_C`, to be seen. In the problem there is no distance
-// between them.
+// change of variable `y ↦ y/ε`: the thickness has left the domain.* Both draw the obstacle apart from `Γ_C`, to be
+// seen. In the problem there is no distance between them.
 //
 // **What `u` is.** *Anti-plane* elasticity: the displacement `u(x, y)` points out of the plane of the drawing. The
 // body is sheared, as a pack of cards is. The obstacle is a stop for this displacement: `u ≥ 0` on `Γ_{C,ε}`.
@@ -110,10 +109,9 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 
 // ## What came out
 //
-// The form and the solution are the same on both domains, to round-off. (a) Neither: for a function of $x$ alone the
-// factors $ε$ of the thickness and $1/ε$ of the stiffness cancel. (b) More, like $ε^{-2}$. So as $ε → 0$ the
-// displacement may not vary across the layer: this is what the stiff form enforces, and what a discretisation must be
-// able to do.
+// Form and solution are the same on both domains, to round-off (chapter 16). (a) Neither: for a function of $x$ alone
+// the factors $ε$ of the thickness and $1/ε$ of the stiffness cancel. (b) More, like $ε^{-2}$. So as $ε → 0$ the
+// displacement may not vary across the layer: the stiff form enforces it, and a discretisation must be able to do it.
 //
 // ## Exercises
 //

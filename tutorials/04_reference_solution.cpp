@@ -73,7 +73,6 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   const Solution direct = active_set(problem, factor);
   const double difference = (solution.u - direct.u).cwiseAbs().maxCoeff() / direct.u.cwiseAbs().maxCoeff();
   const Errors errors = tutorial::Exact(options.epsilon).errors(fine.space(), solution);
-  report.stage("Uzawa on coarser meshes, soft and stiff");
   Table steps({"epsilon", "cells", "h", "steps"}), history({"epsilon", "step", "change"});
   for (const double epsilon : {1.0, 1e-6}) {
     for (int n = 16; n <= std::min(128, options.cells); n *= 2)
@@ -97,8 +96,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   report.claim(lowest >= -1e-7, "nonnegative on Gamma_C (smallest value {:.1e})", lowest);
   if (options.cells < 64) return report.not_judged("how the steps grow: three meshes from 1/h = 16 on tell");
   // kappa ~ h^-1 and h^-2. The logarithm takes 0.25 off the second: the slowest wave is as long as a cell, and its
-  // share
-  // of the error falls itself, like h^(7/2). The rest is room for three meshes.
+  // share of the error falls itself, like h^(7/2). The rest is room for three meshes.
   report.claim_within(-steps.where("epsilon", 1.0).order("steps", "h"), 0.8, 1.1,
                       "epsilon = 1: steps grow like 1/h to the");
   report.claim_within(-steps.where("epsilon", 1e-6).order("steps", "h"), 1.6, 2, "epsilon = 1e-6: like 1/h to the");

@@ -31,8 +31,8 @@
 // $a_1(v, w)$ for every fixed $w$: $v_h$ may oscillate faster and faster.) P1 has both for $K$ on every regular mesh.
 // $K_0$ asks for more: every nonnegative function of $x$ on the layer must be a limit of functions in $K_{0h}$. On
 // this mesh it is one. $K_{0h}$ contains the nonnegative sums of the hat functions of the vertical lines, so the
-// interpolant of such a function is among them. With $‖v‖_{1,Ω}$, the norm that measures $v$ and its first
-// derivatives in body and layer, this gives
+// *interpolant* of such a function, which has its values at the vertices, is among them. With $‖v‖_{1,Ω}$, the norm
+// that measures $v$ and its first derivatives in body and layer, this gives
 //
 // $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^ε‖_{1,Ω} = 0.   \text{(Theorem 5)} $$
 //
@@ -105,8 +105,7 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
 // 1. Turn the diagonals of the mesh to the left. Does P1 lock?
 // 2. Double the load. Does the contact zone grow? Does the pressure double?
 // 3. On paper: integrate $∂_y p = -u''(x)$ over the layer to get $λ = -∂_y u^+ - u''$ on $Σ$, the condition that is
-// left of
-//    the layer. (Chapter 10 calls it Ventcel's.)
+//    left of the layer. (Chapter 10 calls it Ventcel's.)
 
 #include "answers/05_p1_structured.hpp"
 

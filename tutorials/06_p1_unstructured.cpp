@@ -109,7 +109,7 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 // ## What came out
 //
 // (a) Not at all: the error is 4.57e-2 on both meshes, and by the law it stays so until $1/h$ is about $10^4$. (b) It
-// solves the problem of a body that is clamped on $Σ$ as well: the layer has become a wall. Neither the solver nor a
+// solves the problem of a body that is clamped on $Σ$ as well: the layer acts as a clamp. Neither the solver nor a
 // look at the picture would tell.
 //
 // ## Exercises
@@ -119,8 +119,7 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 // 3. `--epsilon 1e-2`: the method "locks already" there (caption of Figure 9). Predict by the law what is kept at
 //    `--cells 16` and at `--cells 64`, and check.
 // 4. On paper: for which loads is nothing lost on this mesh? (Those whose $u^0$ is 0 on the layer. Whether a method
-// locks
-//    is a question about all loads.)
+//    locks is a question about all loads.)
 
 #include "answers/06_p1_unstructured.hpp"
 

@@ -20,9 +20,9 @@
 // In the limit the answer lies in $G_h = \{ v ∈ V_h : ∂_y v = 0 \text{ in the layer} \}$. It holds all functions of
 // the body that are 0 on $Σ$, on every mesh: its full dimension tells nothing. What counts is **the kernel on the
 // layer**, and **whether it grows under refinement**. $K_{0h}$ is to approach $K_0$ (Theorem 4), and $K_0$ holds
-// infinitely many functions of $x$. So a method whose kernel does not grow locks. (If the kernel grows in the left
-// half of the layer alone, the method still locks in the right half: growth is necessary, not sufficient.) Count it by
-// linear algebra: the columns of $B$ that belong to unknowns of the layer that are not clamped, less their rank.
+// infinitely many functions of $x$. So a method whose kernel does not grow locks. (If it grows in the left half of
+// the layer alone, the method locks in the right half: growth is necessary, not sufficient.) Count it by algebra:
+// the columns of $B$ that belong to unknowns of the layer that are not clamped, less their rank.
 //
 // | method | dimension on the layer | why |
 // |---|---|---|
@@ -47,11 +47,8 @@
 // is then not seen at all, and $β = 0$. This holds on the structured mesh too, where nothing locks. The theory of
 // mixed methods shows that a $β$ above a positive number for all $h$ excludes locking. Here it is not necessary.
 
-#include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/locking.hpp"
-#include "antilock/form/forms.hpp"
-#include "antilock/mesh/refine.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "common/course.hpp"
 #include "common/kernel_pictures.hpp"
@@ -85,17 +82,9 @@ LockingDiagnosis diagnose(const Method& method) {
   return diagnose_locking(assemble(scene, method.on(4).space()), assemble(scene, method.on(8).space()));
 }
 
-// The inf-sup constant; "all displacements" are P1 on a mesh refined twice.
-double inf_sup_constant(const Method& method, int n) {
-  const auto seminorm = [](const Space& space) { return gradient_form(space, {1, 1}, {1, 1}); };
-  const Discretisation on = method.on(n), almost_all(refined(refined(on.mesh())), p1());
-  const Eigen::MatrixXd dual = multiplier_gram(assemble(scene, almost_all.space()), seminorm(almost_all.space()), 16);
-  return inf_sup(multiplier_gram(assemble(scene, on.space()), seminorm(on.space())), dual);
-}
-
 // From Figure 3 to Figure 6: every inner vertex is moved by up to $t h$, at random. The kernel on the layer is 0 at
-// the first $t > 0$. But a function of $x$ is only missed by a slope of order $t h$, at the price $ε^{-2} (t h)^2$:
-// the error rises like $(t h/ε)^2$, until all is lost. Locking is a matter of degree; its cause is not.
+// the first $t > 0$. But a function of $x$ is only missed by a slope of size $t h$, at the price $ε^{-2} (t h)^2$:
+// the error rises like $(t h/ε)^2$, until all is lost. Locking comes little by little; its cause does not.
 Table jitter_study(int n) {
   Table table({"t", "epsilon", "kernel", "lost", "lost_to_kept"});
   ActiveSetOptions patient;  // functions that are almost in the kernel are corrected slowly
@@ -114,17 +103,11 @@ Table jitter_study(int n) {
 }
 
 void explain(const tutorial::Options& options, tutorial::Report& report) {
-  report.stage("count the kernels (sparse QR)");
-  const Table counts = count_kernels(options.cells);
-  report.stage("draw, and find the inf-sup constants");
+  const Table counts = count_kernels(options.cells), jitter = jitter_study(16);
+  const double p1_seen = tutorial::inf_sup_constant(p1_columns, 8), cr_seen = tutorial::inf_sup_constant(cr_any, 8);
+  // ### Output
   for (const Method& method : {p1_columns, p1_any, cr_any})
     tutorial::draw_kernel(options.out, method.on(8).space(), method.name());
-  const double p1_seen = inf_sup_constant(p1_columns, 8), cr_seen = inf_sup_constant(cr_any, 8);
-  report.stage("move the vertices of P1's structured mesh");
-  constexpr int n = 16;
-  const Table jitter = jitter_study(n);
-  // ### Output
-  report.finish();
   counts.pivot("cells", "method", "kernel").print("dimension of the kernel on the layer");
   jitter.pivot("t", "epsilon", "lost")
       .print("moved by t h: share of the layer's displacement that is lost, by epsilon");
@@ -138,13 +121,11 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
   report.claim(cr_seen > 1 - 1e-9 && p1_seen == 0, "inf-sup constants: {:.4f} for CR (at least 1), {} for P1", cr_seen,
                p1_seen);
   report.claim(jitter.most("kernel") == 0, "the kernel on the layer is 0 at the first t = 1e-6");
-  for (const double epsilon :
-       {1e-3, 1e-4, 1e-5}) {  // the order in t where more than round-off and less than all is lost
-    const Table some =
-        jitter.where("epsilon", epsilon).where_number("lost_to_kept", [](double x) { return x > 0.1 && x < 10; });
-    report.claim_within(some.order("lost_to_kept", "t"), 1.8, 2.05,
+  // The order in t where more than round-off and less than all is lost.
+  const Table some = jitter.where_number("lost_to_kept", [](double x) { return x > 0.1 && x < 10; });
+  for (const double epsilon : {1e-3, 1e-4, 1e-5})
+    report.claim_within(some.where("epsilon", epsilon).order("lost_to_kept", "t"), 1.8, 2.05,
                         fmt::format("epsilon = {}: lost / kept grows like t to the", epsilon));
-  }
 }
 
 // ## What came out

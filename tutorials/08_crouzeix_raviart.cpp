@@ -5,8 +5,7 @@
 // Run: 08_crouzeix_raviart --exercise 1
 // Run: 08_crouzeix_raviart --exercise 2
 //
-// Needs: [05](05_p1_structured.cpp) ((27), Theorem 4), [06](06_p1_unstructured.cpp) (locking), [07](07_kernel.cpp)
-// (kernel).
+// Needs: [05](05_p1_structured.cpp) ((27), Theorem 4), [06](06_p1_unstructured.cpp), [07](07_kernel.cpp) (kernel).
 //
 // **The pictures.** Figure 8: the mesh of Figure 6, on which P1 locks, and the ridge is there. *Crouzeix-Raviart does
 // not lock on any mesh.* Look closely: the triangles do not quite meet. The second picture shows why they may: one
@@ -66,8 +65,7 @@ Eigen::VectorXd edge_means(const Space& space, const Field& v) {
   return means;
 }
 
-// Lemma 2 in numbers, for the truth: the strain and the smallest value on $Γ_C$ of $I_h u^0$, and its distance from
-// $u^0$.
+// Lemma 2 in numbers: strain and smallest value on $Γ_C$ of $I_h u^0$, and its distance from $u^0$, the truth.
 Table interpolate(const std::vector<int>& cells, const Element& element) {
   const tutorial::Exact limit(0);
   Table table({"cells", "h", "strain", "smallest", "distance"});
@@ -113,11 +111,9 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
   report.claim(lemma.least("smallest") >= -1e-8, "Lemma 2: I_h u^0 >= 0 on Gamma_C (smallest {:.1e})",
                lemma.least("smallest"));
   report.claim_within(lemma.order("distance", "h"), 0.9, 1.1, "(32): |u^0 - I_h u^0| falls like h to the");
-  // Interpolation: h^2 / 8 |u''| with |u''| <= 10, twice on a nonconforming space; the end of contact: the rest of 4
-  // h^2.
+  // Interpolation: h^2 / 8 |u''| with |u''| <= 10, twice on a nonconforming space; the end of contact: the rest of 4.
   report.claim_within(errors.max_at_unknowns / (h * h), 0, 4, "Figure 8 matches the truth; error / h^2:");
-  // A step is h/2 times a jump of the gradient, which is like r^(1/2) at the end of contact: the largest falls like
-  // h^(3/2).
+  // A step is h/2 times a jump of the gradient, which is like r^(1/2) at the end of contact: the largest ~ h^(3/2).
   report.claim_within(jump / (h * std::sqrt(h)), 0, 1.5, "largest step between triangles / h^(3/2):");
   // on fewer cells Crouzeix-Raviart itself is off by a tenth of what P1 loses
   if (options.epsilon <= 0.01 * h && options.cells >= 16)

@@ -9,9 +9,8 @@
 // [08](08_crouzeix_raviart.cpp) (CR, Theorem 7, broken norms).
 //
 // **The picture.** Figure 9: the largest error, the norm of $L^∞(Ω)$, against $h$, for five $ε$. Four methods are
-// shown, P1 and CR on both kinds of mesh; the paper's caption counts three.
-// *Where a method converges uniformly, the lines of all $ε$ lie on top of each other. For P1 on unstructured meshes
-// they fan out.*
+// shown, P1 and CR on both kinds of mesh; the paper's caption counts three. *Where a method converges uniformly, the
+// lines of all $ε$ lie on top of each other. For P1 on unstructured meshes they fan out.*
 //
 // **Predict.** (a) P1 interpolates with the error $h^2$. Which slope do the lines have? And that of P1 on unstructured
 // meshes at $ε = 10^{-6}$? (b) The paper: "The P1 nonconforming method on structured meshes is even slightly better
@@ -42,10 +41,13 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "common/course.hpp"
+#include "common/gradients.hpp"
 
 using namespace antilock;
 
-Table error_table();
+const std::vector<std::string> columns{"element",         "mesh", "epsilon", "cells", "h",      "unknowns",
+                                       "max_at_unknowns", "max",  "l2",      "h1",    "energy", "seconds",
+                                       "contact_from"};
 void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, tutorial::Report& report);
 
 // ### Forms
@@ -53,7 +55,7 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
 Table solve_all(const Method& method, const TriangleMesh& mesh, int cells, const std::vector<tutorial::Exact>& truth) {
   const Space space = method.space(mesh);
   SceneSweep sweep(tutorial::paper_scene(1), space);
-  Table rows = error_table();
+  Table rows(columns);
   for (const tutorial::Exact& exact : truth) {
     const Stopwatch watch;
     sweep.set_epsilon(exact.epsilon);
@@ -71,7 +73,7 @@ Table solve_all(const Method& method, const TriangleMesh& mesh, int cells, const
 void study(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("truth for five epsilons");
   const std::vector<tutorial::Exact> truth = tutorial::exact_solutions({1, 1e-1, 1e-2, 1e-4, 1e-6});
-  Table results = error_table();
+  Table results(columns);
   for (int n = 8; n <= options.cells; n *= 2)
     for (const MeshFamily& family : {structured(), unstructured()}) {
       report.stage(fmt::format("1/h = {}, {} mesh", n, family.name));
@@ -91,8 +93,7 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
   };
   for (const Method& method : methods())
     of(method).pivot("cells", "epsilon", "max").print(method.name() + ": L-infinity error against 1/h and epsilon");
-  // The order at the paper's epsilon, from 1/16 on: 2, or 3/2 for CR off the mesh lines, 0 where it locks; 0.1 and
-  // 0.2 are
+  // The order at the paper's epsilon, from 1/16 on: 2, or 3/2 for CR off the mesh lines, 0 where it locks; the rest is
   // room for coarse meshes.
   const std::vector<std::pair<double, double>> orders{{1.8, 2.2}, {-0.02, 0.02}, {1.7, 2.2}, {1.4, 2.2}};
   const std::vector<std::string> said{"Theorem 5", "Section 4.1, locks", "Theorem 7", "Theorem 7"};
@@ -102,9 +103,8 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
     const Table paper = own.where("epsilon", 1e-6).where_number("cells", [](double cells) { return cells >= 16; });
     report.claim_within(paper.order("max", "h"), orders[i].first, orders[i].second,
                         fmt::format("{}, {}: order in h at epsilon = 1e-6", said[i], method.name()));
-    // On the finest mesh the error hardly depends on epsilon. 1.5: Crouzeix-Raviart on an unstructured mesh settles 40
-    // % above
-    // its value at epsilon = 1e-1, and stays. Locked, it is h^2 against the ridge: hundreds.
+    // On the finest mesh the error hardly depends on epsilon. 1.5: CR on an unstructured mesh settles 40 % above its
+    // value at epsilon = 1e-1, and stays. Locked, it is h^2 against the ridge: hundreds.
     const double ratio = last.most("max") / last.least("max");
     const bool locks = method.name() == "P1 unstructured";
     report.claim(locks ? ratio > 20 : ratio < 1.5, "{}: worst over epsilon / best = {:.3g} at 1/h = {} ({})",
@@ -117,18 +117,10 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
                    1 / finest);
     ++i;
   }
-  // The seminorm |grad u| of H1, from the norm and L2. 1: the paper's words; CR's gradient is the better one.
-  Table h1({"cells", "epsilon", "P1", "CR", "ratio"});
-  const auto seminorm = [](const Table& row) {
-    return std::sqrt(std::pow(row.number("h1"), 2) - std::pow(row.number("l2"), 2));
-  };
-  for (const Table& row : of({&p1(), structured()}).rows()) {
-    const Table other = of({&crouzeix_raviart(), structured()}).where("cells", row.number("cells"));
-    const double conforming = seminorm(row), nonconforming = seminorm(other.where("epsilon", row.number("epsilon")));
-    h1.add({row.number("cells"), row.number("epsilon"), conforming, nonconforming, nonconforming / conforming});
-  }
-  h1.pivot("cells", "epsilon", "ratio").print("structured meshes: error of the gradient, CR / P1");
-  report.claim_within(h1.most("ratio"), 0, 1, "Section 4.2, in the H1 seminorm: CR / P1 at most");
+  const Table gradients = tutorial::gradient_ratios(of({&p1(), structured()}), of({&crouzeix_raviart(), structured()}));
+  gradients.pivot("cells", "epsilon", "ratio").print("structured meshes: error of the gradient, CR / P1");
+  // 1: the paper's words; CR's gradient is the better one.
+  report.claim_within(gradients.most("ratio"), 0, 1, "Section 4.2, in the H1 seminorm: CR / P1 at most");
 }
 
 // ## What came out
@@ -152,9 +144,4 @@ int main(int argc, char** argv) {  // an order needs two meshes from 1/16 on; gm
   return tutorial::run(
       argc, argv, "09_convergence", "Figure 9: convergence of the four methods, uniform in epsilon or not",
       {.takes_epsilon = false, .cells = 128, .least_cells = 32, .most_cells = 512, .exercises = exercises()}, study);
-}
-
-Table error_table() {
-  return Table({"element", "mesh", "epsilon", "cells", "h", "unknowns", "max_at_unknowns", "max", "l2", "h1", "energy",
-                "seconds", "contact_from"});
 }

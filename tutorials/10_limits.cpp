@@ -5,15 +5,13 @@
 // Run: 10_limits --exercise 1
 // Run: 10_limits --exercise 2
 //
-// Needs: [01](01_domain.cpp) for (21) to (23), [03](03_by_hand.cpp) for the layer stress $p$, [07](07_kernel.cpp) for
-// kernels, [09](09_convergence.cpp) for orders in $h$.
+// Needs: [01](01_domain.cpp) ((23)), [03](03_by_hand.cpp) ($p$), [07](07_kernel.cpp), [09](09_convergence.cpp) (order).
 //
 // **The picture.** How far $u^ε$ is from its limit: exact (grey), and four methods on one mesh. *Each method has a
 // limit, the locked one too. What is wrong with locked P1 is where it goes.*
 //
-// **Predict.** (a) $h$ is fixed and $ε → 0$: does locked P1 converge? (b) Now $ε = h^2$ and $h → 0$. Between $u^ε$
-// and $u_h^ε$ lie three steps: $u^ε$ to $u^0$, $u^0$ to $u_h^0$, $u_h^0$ to $u_h^ε$. Which of their lengths do not
-// tend to 0 for locked P1?
+// **Predict.** (a) $h$ is fixed and $ε → 0$: does locked P1 converge? (b) Now $ε = h^2$ and $h → 0$. Three steps lead
+// from $u^ε$ by $u^0$ and $u_h^0$ to $u_h^ε$. Which of their lengths do not tend to 0 for locked P1?
 //
 // ## Theorem 1: where $u^ε$ goes
 //
@@ -30,8 +28,8 @@
 // $a_0(u^ε, u^ε) ≤ C ε_c$. *Limit:* a bounded family has a sequence that converges *weakly* (its product with each
 // fixed function converges). A closed convex set keeps its weak limits. A form like $a_0(v, v)$, which is never
 // negative, can only fall in one. So the limit is in $K$ and has $a_0 = 0$: it is in $K_0$. For $w ∈ K_0$ drop
-// $-ε_c^{-1} a_0(u^ε, u^ε) ≤ 0$ from (1). In the limit $a_1(u^ε, u^ε)$ can only fall, too, and (2) is left, which has one solution only.
-// *Strong:* put $v = u^0$ into (1):
+// $-ε_c^{-1} a_0(u^ε, u^ε) ≤ 0$ from (1). In the limit $a_1(u^ε, u^ε)$ can only fall, too, and (2) is left, which has
+// one solution only. *Strong:* put $v = u^0$ into (1):
 //
 // $$ a^ε(u^ε - u^0, u^ε - u^0) ≤ L(u^ε - u^0) - a_1(u^0, u^ε - u^0) → 0. \tag{5} $$
 //
@@ -123,57 +121,21 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
     curves.add(to_the_limit(method, options.cells));
     terms.add(three_terms(method, 2, options.cells, limit));
   }
-  for (const Entry& epsilon : curves.different("epsilon")) {
-    const Truth u(paper_sine_load(), epsilon.number(), true, 15);
-    curves.add({"exact", epsilon, h1_distance(u, limit.truth), std::pow(epsilon.number() * stress_norm(u), 2)});
-  }
+  curves.add(tutorial::exact_to_the_limit(curves.numbers("epsilon"), limit));
   // ### Output
-  const Table sigma = tutorial::strong_form(limit.truth, 400), models = tutorial::three_models(0.1, options.cells);
-  curves.pivot("epsilon", "method", "distance").print("distance to the limit, H1");
-  terms.where("method", "P1 unstructured").pivot("h", "term", "value").print("(18) for locked P1, epsilon = h^2");
-  terms.write(options.out / "terms.csv");
-  curves.write(options.out / "limits.csv");
-  sigma.write(options.out / "sigma.csv");
-  models.write(options.out / "models.csv");
-
-  // Slopes over the last four ε, 10^-2.5 to 1e-4. Locked P1 settles only below h^(3/2).
-  const Table small = curves.where_number("epsilon", [](double epsilon) { return epsilon < 4e-3; });
-  for (const Entry& method : small.different("method")) {
-    const Table own = small.where("method", method);
-    const double low = method == "exact" ? 1.35 : method == "P1 unstructured" ? 1.5 : 1.9;
-    report.claim_within(own.order("distance", "epsilon"), low, method == "exact" ? 1.65 : 2.1,
-                        method.text() + (method == "exact" ? ", Theorem 1: order" : ", Proposition 1: order"));
-    report.claim_within(own.order("stiff", "epsilon"), method == "P1 unstructured" ? 1.5 : 1.9, 2.1,
-                        method.text() + ", (5): order of epsilon^2 |p|^2");
-  }
+  tutorial::show_limits(options.out, curves, terms);
+  tutorial::judge_orders(curves, terms, report);
   // What locked P1 loses is $u^0$ on the layer: its second term cannot be smaller than that.
-  const double lost = tutorial::limit_on_layer(limit.truth);
-  for (const Entry& method : terms.different("method")) {
-    const Table own = terms.where("method", method);
-    const auto order = [&](const char* term) { return own.where("term", term).order("value", "h"); };
-    const bool locks = method == "P1 unstructured";
-    report.claim(order("first term") > 2.5 && order("third term") > (locks ? 0.5 : 2.5),
-                 "{}, (18) along epsilon = h^2: first term h^{:.2f}, third h^{:.2f}", method.text(),
-                 order("first term"), order("third term"));
-    const double second = own.where("term", "second term").last("value");
-    if (locks)
-      report.claim(second >= lost, "{}: second term {:.3f}, at least |u^0| on the layer, {:.3f}", method.text(), second,
-                   lost);
-    else
-      report.claim(order("second term") > 0.9 && order("left side") > 0.9,
-                   "{}, Propositions 2, 3: second term h^{:.2f}, left side h^{:.2f}", method.text(),
-                   order("second term"), order("left side"));
-  }
-  tutorial::judge_limit_problem(sigma, models, limit, options.cells, report);
+  const double lost = tutorial::limit_on_layer(limit.truth), second = tutorial::last_second_term(terms);
+  report.claim(second >= lost, "P1 unstructured: second term {:.3f}, |u^0| on the layer {:.3f}", second, lost);
+  tutorial::judge_limit_problem(options.out, limit, options.cells, report);
 }
 
 // ## What came out
 //
-// (a) Yes, with the order 2 of every method. (b) Only the second: 0.253, 0.175, 0.148, and it can never fall below
-// 0.126, the norm of $u^0$ on the layer. The error differs from this second term by at most the other two, which
-// tend to 0: so the error stays, too. Order 1.56 of the exact limit tends to 3/2 from above; $ε^2 ‖p‖^2$ has order 2:
-// $p$ has a limit. At ε = 0.1, (22) and (23) agree to 1e-4 on $Γ_C$. (In chapter 01 they agree to round-off, on the
-// same triangles; here each has a mesh of its own.) (25) is 4.5e-3 away.
+// (a) Yes, with the order 2 of every method. (b) Only the second: 0.253, 0.175, 0.148, never below 0.126, the norm of
+// $u^0$ on the layer. So the error stays, too. Order 1.56 of the exact limit tends to 3/2 from above; $ε^2 ‖p‖^2$ has
+// order 2: $p$ has a limit. At ε = 0.1, (22) and (23) agree to 1e-4 on $Γ_C$, each on its mesh. (25) is 4.5e-3 away.
 //
 // ## Exercises
 //

@@ -85,7 +85,7 @@ VectorXd cure(VariationalInequality problem, const std::vector<bool>& active, do
   return u;
 }
 
-void judge(const Table& results, const Table& conditions, tutorial::Report& report);
+void judge(const Table& results, tutorial::Report& report);
 
 void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
@@ -105,51 +105,21 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   }
   const Table conditions = tutorial::condition_numbers(settings.front().on(options.cells).space());
   // ### Output
-  results.where("element", "P1").pivot("epsilon", "solver", "error").print("P1 structured: error at the unknowns", 3);
-  results.where("element", "P1")
-      .pivot("epsilon", "solver", "ended")
-      .print("how they ended, and what the checks in split form say");
-  conditions.print("condition number of the sum, and of the K that is factored", 2);
-  results.select({"solver", "element", "mesh", "epsilon", "error", "ended", "seconds"})
-      .write(options.out / "results.csv");
-  tutorial::layer_stress_curves().write(options.out / "stress.csv");
-  judge(results, conditions, report);
+  tutorial::show_round_off(options.out, results, conditions);
+  tutorial::judge_split_form(results, conditions, report);
+  judge(results, report);
 }
 
-void judge(const Table& results, const Table& conditions, tutorial::Report& report) {
-  // From 1e-3 on the truth changes by less than a percent of the error: (ε/h)^2 of it.
-  const Table split = results.where("solver", "split form"),
-              small = split.where_number("epsilon", [](double e) { return e <= 1e-3; });
-  for (const Entry& element : small.different("element"))
-    for (const Entry& mesh : small.where("element", element).different("mesh")) {
-      const Table own = small.where("element", element).where("mesh", mesh);
-      report.claim(own.most("error") < 1.01 * own.least("error"),
-                   "{} {}: split form, error {:.2e} to {:.2e} below epsilon = 1e-3", element.text(), mesh.text(),
-                   own.least("error"), own.most("error"));
-    }
+void judge(const Table& results, tutorial::Report& report) {
   report.claim(results.where("solver", "cure in 20 lines").most("apart") < 1e-8,
                "the cure in twenty lines agrees with the library");
-
-  Table naive = results.where("solver", "sum: Cholesky");
-  naive.add(results.where("solver", "sum: LU"));
+  const Table naive = tutorial::sums(results);
   const Table below = naive.where_number("epsilon", [](double epsilon) { return epsilon < 0.9e-8; });
   report.claim(below.where("wrong", 0).size() == 0,
                "below epsilon = 1e-8 all {} answers of the sum are wrong or missing", below.size());
   const Table wrong = naive.where("wrong", 1), settled = wrong.where("ended", "settled; refused");
   report.claim(settled.size() > 0, "{} wrong answers came with a settled contact set and no complaint", settled.size());
   report.claim(wrong.where("refused", 0).size() == 0, "every wrong answer is refused by the checks in split form");
-  // What the condition number foretells: 1.1e-16 of it bounds the relative error, up to a factor of 10 each way.
-  for (const Table& row : conditions.rows()) {
-    const double lost = 1.1e-16 * row.number("summed");
-    const Table here = naive.where("element", "P1").where("epsilon", row.entry("epsilon"));
-    if (lost > 10 || lost < 0.05)
-      report.claim(here.where("wrong", lost > 10 ? 0 : 1).size() == 0,
-                   "epsilon = {:g}: round-off times condition is {:.0e}, the sum is {}", row.number("epsilon"), lost,
-                   lost > 10 ? "wrong" : "right");
-  }
-  const Table stiff = conditions.where_number("epsilon", [](double epsilon) { return epsilon <= 1e-4; });
-  report.claim(stiff.most("factored") < 1.01 * stiff.least("factored"),
-               "condition number of K: {:.0e} from epsilon = 1e-4 on", stiff.most("factored"));
 }
 
 // ## What came out

@@ -30,7 +30,7 @@
 //
 // *The duality gap* stands for the first. $J(v)$ is above $J(u_h)$ for each $v$ in $K_h$. For each pressure $μ ≥ 0$
 // the smallest value of $J(v) - μ v$ over all $v$, the *dual energy* of $μ$, is below $J(u_h)$, since $μ u_h ≥ 0$.
-// Take for $v$ the iterate pushed out of the obstacle, for $μ$ its pressure: the gap is at least $½ |v - u_h|_a^2$.
+// Take for $v$ the iterate pushed out of the obstacle, for $μ$ its pressure: this is at least $½ |v - u_h|_a^2$.
 //
 // *The energy bracket* of [chapter 17](17_certificate.cpp) stands for the second: it holds $J(u)$, its width is of
 // order $h^2$, and a mesh twice as coarse gives it at a quarter of the price; its width is then divided by 4.

@@ -8,8 +8,7 @@
 // Needs: [17](17_certificate.cpp) (flux, certificate, strip), [02](02_meshes.cpp) (the layered mesh).
 //
 // **The picture** (`asked_meshes`). Three meshes for one concentrated load at `ε = 1e-6`, coloured by the bound per
-// area. *Where a mesh follows its certificate, the peak of the colour is gone: where the bound per area is large, the
-// triangles are small.*
+// area. *Where a mesh follows its certificate, the peak of the colour is gone: there the triangles are small.*
 //
 // **Predict.** (a) How many times fewer unknowns than a uniform mesh does an adapted one need for a concentrated
 // load, and for `f = 10 sin(2πx)`? (b) Where P1 locks, triangles are refined where its bound lies, in the layer. Does
@@ -23,8 +22,8 @@
 //
 // none of them negative. $C_T$ is the contact work. $o_T$ is the *oscillation*: what $f$ varies beyond affine on $T$.
 // So the terms say where the error is: *solve, certify, stop where the bound is small enough, else mark and refine*.
-// Marked are the largest $η_T$ that make up half of the sum (Doerfler 1996). What is
-// certified is *relative*: for the bound $β$, $|u|_a ≥ |v|_a - β$, so that $|u - v|_a / |u|_a ≤ β / (|v|_a - β)$.
+// Marked are the largest $η_T$ that make up half of the sum (Doerfler 1996). What is certified is *relative*: for the
+// bound $β$, $|u|_a ≥ |v|_a - β$, so that $|u - v|_a / |u|_a ≤ β / (|v|_a - β)$.
 //
 // **The price is known before it is paid.** Triangles of size $h$ are $N ~ h^{-2}$, and the bound is of order
 // $h ~ N^{-1/2}$. A bound `k` times too large needs `k²` times the unknowns: from the third level on `solve_to`
@@ -36,8 +35,7 @@
 //
 // $$ |A∇u - ½(σ + A∇v)|^2 = ¼ |d + s|^2 = ¼ m^2 + (d, s) ≤ ¼ m^2 + C. $$
 //
-// For small $C$ that is $½ m$ in place of $m$: half the bound on the same mesh. So by the rule above a given bound is
-// reached with a quarter of the unknowns.
+// For small $C$ that is $½ m$ in place of $m$: half the bound on one mesh, a given bound for a quarter of unknowns.
 //
 // **Columns.** In a thin layer, what happens at one $x$ happens in the whole thickness. For `ε ≤ 0.1` the body alone is
 // bisected, and the layer is *extruded* below it in columns: squares would be the dearer mesh.
@@ -143,14 +141,10 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // 2. The obstacle is a needle, $g = 0.1 - 0.12 e^{-((x - 0.75)/0.004)^2}$. What do 10 % cost, adapted and uniform?
 // 3. A spike of the load lies between the points of the first mesh's quadrature. Is it seen? (`resolve_load`)
 int main(int argc, char** argv) {
-  tutorial::Options options;
-  options.takes_epsilon = false;
-  options.least_cells = 32;
-  options.cells = 64;
-  options.exercises = tutorial::accuracy_exercises();
-  options.add = [](tutorial::CommandLine& line) {
+  const auto ask = [](tutorial::CommandLine& line) {
     line.add("--asked", smallest_asked, "smallest relative accuracy asked for", 0.005, 0.2);
   };
+  const auto list = tutorial::accuracy_exercises();
   return tutorial::run(argc, argv, "19_ask_for_an_accuracy", "an accuracy asked for, a mesh found, a proof handed over",
-                       options, study);
+                       {.takes_epsilon = false, .cells = 64, .least_cells = 32, .add = ask, .exercises = list}, study);
 }

@@ -5,8 +5,7 @@
 // Run: 20_effects --exercise 1
 // Run: 20_effects --exercise 2
 //
-// Needs: [01](01_domain.cpp) for (22) and (23), [03](03_by_hand.cpp) for corrections and the factor,
-// [10](10_limits.cpp) for (25).
+// Needs: [01](01_domain.cpp) for (22), (23), [03](03_by_hand.cpp) for corrections, [10](10_limits.cpp) for (25).
 //
 // **The picture.** One body under one load, five times: alone; on an obstacle; held by a stiff layer that is not
 // meshed; with the layer meshed below it; with layer and obstacle. *Glue a layer that is rigid across its thickness
@@ -18,7 +17,7 @@
 //
 // ## The parts of the inequality (23)
 //
-// $$ \underbrace{a^+(u, v-u)}_{\text{body}} + \underbrace{(a_x^- + ε^{-2} a_y^-)(u, v-u)}_{\text{layer}} ≥ (f, v-u) ∀ v ∈ K. $$
+// $$ \underbrace{a^+(u, v-u)}_{\text{body}} + \underbrace{(a_x^- + ε^{-2} a_y^-)(u, v-u)}_{\text{layer}} ≥ (f, v-u). $$
 //
 // - no contact: $K$ is a space. Put $v = u + w$ and $v = u - w$ into the inequality: $≥$ becomes $=$, one linear solve;
 // - no layer: $a^+$ alone, on the body's mesh alone;

@@ -135,25 +135,14 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 //
 // On paper: how many columns must the coarse mesh have for 1,024 ranks, and how
 // often is it refined for $10^9$ unknowns? (1,024 columns, P1 has 2 n^2 unknowns: 1/h = 22,400, between 4 and 5 times.)
+
+#include "answers/21_past_one_machine.hpp"
+
 int main(int argc, char** argv) {
   const auto any = [](const Asked& ask) {
     return ask.what.starts_with("SNESVI") ? tutorial::by_snesvi(ask) : on_each_rank(ask);
   };
   if (const auto status = tutorial::answer_as_rank(argc, argv, any)) return *status;
-  const std::vector<tutorial::Exercise> exercises{
-      {"epsilon = 0 in place of 1e-6: what becomes of the iterations?", "nothing: K has delta in place of epsilon^2",
-       [](const tutorial::Options&, tutorial::Report& report) {
-         const Table rigid = on_ranks({"strips", 2, 64, 0}), stiff = on_ranks({"strips", 2, 64, 1e-6});
-         report.claim_within(rigid.number("iterations") - stiff.number("iterations"), -1, 1, "more iterations:");
-       }},
-      {"The layer without columns, with MUMPS in place of multigrid: does the loop settle, and on which u?",
-       "yes, on the serial u, in a few corrections: multigrid needs columns, the loop does not",
-       [](const tutorial::Options&, tutorial::Report& report) {
-         const Table direct = on_ranks({"MUMPS", 1, 32, 1e-6});
-         const double u = serial(unstructured_mesh(32), crouzeix_raviart(), 1e-6).u.maxCoeff();
-         report.claim_within(direct.number("corrections"), 1, 10, "corrections");
-         report.claim_within(std::abs(direct.number("u_max") / u - 1), 0, 1e-9, "away from the serial u by");
-       }}};
   return tutorial::run(argc, argv, "21_past_one_machine", "the same inequality on PETSc over MPI",
                        {.cells = 256, .least_cells = 64, .exercises = exercises}, past_one_machine);
 }

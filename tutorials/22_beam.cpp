@@ -14,8 +14,7 @@
 //
 // **Predict.** (a) The unknowns are the deflection $w$ and the rotation $θ$ of the sections, both P1. In the limit
 // $w' = θ$ is asked. How many independent pairs $(w, θ)$ fulfil it at every point? (b) And if it is asked at the
-// midpoints of the
-// $n$ cells only?
+// midpoints of the $n$ cells only?
 //
 // ## Timoshenko's beam in the class
 //
@@ -43,36 +42,12 @@
 // $w + b$ is made of parabolas with a continuous slope: these are the $n - 2$ functions. The truth is a closed form
 // (`exact/beam_truth.cpp`): contact on $[c, 1 - c]$, at ε = 0 with $c = (72 / q)^{1/4}$.
 
-#include <cmath>
-
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/exact/beam_truth.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/study/sweep.hpp"
-#include "antilock/study/table.hpp"
-#include "common/tutorial.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "common/beam.hpp"
 
 using namespace antilock;
-
-double nodal_error(const Beam& beam, const Solution& solution);
-Table drawn(const Beam& beam, const Solution& full, const Solution& reduced);
-
-// The error against epsilon, both integrations, on three meshes: one sweep per mesh and integration.
-Table error_study() {
-  Table table({"integration", "cells", "epsilon", "error"});
-  for (const auto& [shear, name] :
-       {std::pair{ShearIntegration::full, "full integration"}, {ShearIntegration::reduced, "reduced integration"}})
-    for (const int cells : {16, 32, 64}) {
-      Beam beam{.cells = cells, .shear = shear};
-      Sweep sweep(assemble(beam));
-      for (int k = 4; k <= 16; ++k) {
-        beam.epsilon = std::pow(10.0, -0.5 * k);
-        sweep.set_compliance(beam.epsilon);
-        table.add({name, cells, beam.epsilon, nodal_error(beam, sweep.solve())});
-      }
-    }
-  return table;
-}
 
 void bend(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
@@ -86,25 +61,23 @@ void bend(const tutorial::Options& options, tutorial::Report& report) {
 
   // ### Solve
   // And the reduced one again with the stiffness of the identity above.
-  report.stage("solve");
   const Solution locked = active_set(full), good = active_set(reduced);
   VariationalInequality stiffer = reduced;
   const double h = 1.0 / options.cells, factor = 1 + h * h / (12 * options.epsilon);
   if (options.epsilon > 0) stiffer.a1 *= factor;
   const double difference = (active_set(stiffer).u - locked.u).cwiseAbs().maxCoeff();
-  report.stage("error against epsilon, three meshes");
-  const Table errors = error_study();
-  report.finish();
+  const Table errors = tutorial::beam_errors({16, 32, 64});
 
   // ### Output
   const BeamTruth truth(reduced_beam);
-  const double full_error = nodal_error(full_beam, locked), reduced_error = nodal_error(reduced_beam, good);
+  const double full_error = tutorial::nodal_error(full_beam, locked),
+               reduced_error = tutorial::nodal_error(reduced_beam, good);
   Table table({"", "kernel", "error of w", "contact force", "energy"});
   table.add({"full integration", full_kernel, full_error, locked.lambda.sum(), energy(full, locked)});
   table.add({"reduced integration", reduced_kernel, reduced_error, good.lambda.sum(), energy(reduced, good)});
   table.add({"truth", "", "", truth.contact_force(), truth.energy()});
   table.print(fmt::format("contact on [c, 1 - c], c = {:.5f}", truth.contact_start()), 6);
-  drawn(reduced_beam, locked, good).write(options.out / "beam.csv");
+  tutorial::draw_beam(reduced_beam, locked, good).write(options.out / "beam.csv");
   errors.write(options.out / "errors.csv");
 
   report.claim(full_kernel == 0 && reduced_kernel == options.cells - 2,
@@ -148,25 +121,4 @@ int main(int argc, char** argv) {
                         .epsilon_is = "the class parameter of (1), bending by shear stiffness; 0 is the Bernoulli beam",
                         .exercises = exercises},
                        bend);
-}
-
-double nodal_error(const Beam& beam, const Solution& solution) {
-  const BeamTruth truth(beam);
-  double largest = 0;
-  for (int i = 0; i <= beam.cells; ++i)
-    largest = std::max(largest, std::abs(solution.u(2 * i) - truth.deflection(static_cast<double>(i) / beam.cells)));
-  return largest;
-}
-
-// For the picture: deflections and nodal forces, one row per node.
-Table drawn(const Beam& beam, const Solution& full, const Solution& reduced) {
-  const BeamTruth truth(beam);
-  Table table({"x", "w_full", "w_reduced", "w_exact", "force_full", "force_reduced"});
-  for (int i = 0; i <= beam.cells; ++i) {
-    const double x = i * (1.0 / beam.cells);
-    const bool inside = i > 0 && i < beam.cells;
-    table.add({x, full.u(2 * i), reduced.u(2 * i), truth.deflection(x), inside ? full.lambda(i - 1) : 0.0,
-               inside ? reduced.lambda(i - 1) : 0.0});
-  }
-  return table;
 }

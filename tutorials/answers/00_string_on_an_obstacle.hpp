@@ -35,3 +35,10 @@ std::vector<tutorial::Exercise> exercises() {
          report.claim_within(static_cast<double>(safe) / bold, 4 / 1.9 * 0.9, 4 / 1.9 * 1.1, "steps saved, a factor");
        }}};
 }
+
+// ## Answers on paper
+//
+// **4.** $v = 0$ gives $a(u, u) ≤ L(u)$, and $v = 2u$ gives $a(u, u) ≥ L(u)$. In exercise 2 the string touches at
+// $u = -d$, $d = 0.05$, and $2u = -2d$ is below the floor: it is forbidden. From $v = 0$ the inequality
+// $a(u, u) ≤ L(u)$ is left. What is missing is the work of the floor: each $λ_i (u_i + d) = 0$, so
+// $a(u, u) = L(u) + λ^T u = L(u) - d ∑ λ_i$. With 32 cells: $0.8860 = 0.9514 - 0.0654$.

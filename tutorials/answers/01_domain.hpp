@@ -23,3 +23,14 @@ const std::vector<tutorial::Exercise> exercises{
        const auto grown = table.numbers("across");
        report.claim_within(grown[3] / grown[2], 3.5, 4, "across: last factor");
      }}};
+
+// ## Answers on paper
+//
+// **2.** The last line: $u ≥ -g$, $∂_n u ≥ 0$, $(u + g) ∂_n u = 0$ on $Γ_{C,ε}$. So $K_ε$ asks for $v ≥ -g$; it is
+// still convex, but no cone. In the derivation the boundary term changes:
+// $∂_n u (v - u) = ∂_n u (v + g) - ∂_n u (u + g)$. The second part is 0 and the first is not negative, since
+// $v + g ≥ 0$. So (22) and (23) stay as they are, with the new $K$.
+//
+// **3.** In the unit layer $∂_y$ becomes $ε^{-1} ∂_y$. So $-ε^{-1} (∂_{xx} + ε^{-2} ∂_{yy}) u = 0$, which is
+// $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$. On $Σ$: $∂_n u^+ = ε^{-2} ∂_n u^-$. On $Γ_C$: $u ≥ 0$, $ε^{-2} ∂_n u ≥ 0$, and
+// their product is 0.

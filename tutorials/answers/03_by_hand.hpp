@@ -26,3 +26,10 @@ const std::vector<tutorial::Exercise> exercises{
          three += (problem.b.row(row).array().abs() > 1e-9).count() == 3;
        report.claim_within(three, 4, 4, "rows of three entries:");
      }}};
+
+// ## Answers on paper
+//
+// **3.** Without contact $λ = 0$. After the first correction $r_1 = 0$, and it stays 0: $A_1 du + B^T M dp = 0$. Hence
+// $B du = -S dp$ with $S = B A_1^{-1} B^T M$. Put this into $δ dp = B du - r_2$: $(δ + S) dp = -r_2$. The new residual
+// is $ε² (p + dp) - B (u + du) = r_2 + ε² dp - B du = (ε² - δ) dp = (δ - ε²) (δ + S)^{-1} r_2$. On an eigenvector of
+// $S$ this is the factor $(δ - ε²)/(δ + σ)$.

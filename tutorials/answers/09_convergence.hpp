@@ -28,3 +28,9 @@ std::vector<tutorial::Exercise> exercises() {
              report.claim_within(errors.most("error") / errors.least("error"), 1, 2, "worst / best:");
            }}};
 }
+
+// ## Answers on paper
+//
+// **3.** Both have order 1 where nothing locks: they measure the gradient, which is constant per triangle. In `energy`
+// the layer's slope counts $ε^{-1}$ times, and the order is the same (Remark 4, chapter 12). Where P1 locks both are
+// level.

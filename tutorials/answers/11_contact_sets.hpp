@@ -34,3 +34,10 @@ const std::vector<tutorial::Exercise> exercises{
        table.print();
        report.claim(table.last("distance") > 0.126, "the distance stays above |u^0| on the layer");
      }}};
+
+// ## Answers on paper
+//
+// **3.** Where the values at the ends of an edge differ and the one at its midpoint is low. The values 1, 0, 0 at end,
+// midpoint and end give $v = (1 - t)(1 - 2t)$, which is $-1/8$ at $t = 3/4$. With $a, b ≥ 0$ at the ends and $m ≥ 0$
+// at the midpoint the parabola dips below 0 if and only if $4 m < (a^{1/2} - b^{1/2})^2$. This happens where contact
+// ends.

@@ -8,7 +8,7 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options& options, tutorial::Report& report) {
        const SineLoad load{{{1, {-10}}}};
        std::vector<Exact> truth;
-       for (const double epsilon : epsilons()) truth.emplace_back(Truth(load, epsilon, true, 14));
+       for (const double epsilon : tutorial::half_decades()) truth.emplace_back(Truth(load, epsilon, true, 14));
        Table map(columns);
        for (int n = 8; n <= options.cells; n *= 2) map.add(solve_all({&p1(), unstructured()}, n, truth, load));
        const Table worst = worst_from(0, map);
@@ -16,3 +16,10 @@ const std::vector<tutorial::Exercise> exercises{
        report.claim_within(worst.order("h1", "h"), 0.9, 1.1, "order of the worst error");
        report.claim(worst.most("ratio") < 1.1, "locking ratio at most {:.2f}", worst.most("ratio"));
      }}};
+
+// ## Answers on paper
+//
+// **2.** P1 loses the share $x/(1 + x)$ of the ridge, $x = (h^{3/2}/ε)^2$ (chapter 06). On $[h, 1]$ $x$ is at most
+// $h$: what is lost tends to 0, and the rest of the error has order 1. At $ε = h^2$, the end of $[h^2, 1]$, $x = 1/h$:
+// nearly all is lost, the more the finer the mesh. Over $[ε(h), 1]$ the worst error tends to 0 if and only if
+// $ε(h) / h^{3/2} → ∞$.

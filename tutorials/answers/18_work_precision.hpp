@@ -17,3 +17,9 @@ const std::vector<tutorial::Exercise> exercises{
        report.claim(counts.order("Uzawa", "cells") > 0.5, "Uzawa: steps like (1/h)^{:.2f}",
                     counts.order("Uzawa", "cells"));
      }}};
+
+// ## Answers on paper
+//
+// **2.** The error is like $h^2 = 1/N$, and the seconds are like $N$: one digit more costs 10 times the seconds. With
+// an error like $h = N^{-1/2}$: 100 times. (A sparse Cholesky factor in the plane takes $N^{3/2}$: 32 and 1,000
+// times.)

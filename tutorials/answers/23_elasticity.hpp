@@ -40,3 +40,10 @@ const std::vector<tutorial::Exercise> exercises{
        report.claim(coarse == 8 && fine == 16, "P1: 2n = {}, {}", coarse, fine);
        report.claim(fine_cr > 3.5 * coarse_cr, "CR: {}, {}", coarse_cr, fine_cr);
      }}};
+
+// ## Answers on paper
+//
+// **3.** Write $d_b, d_r, d_t, d_l$ for $\operatorname{div} u$ in the four triangles at the bottom, right, top and
+// left of a square of side $h$. For $u_x$: bottom and top have $∂_x$ from their own side, together
+// $(u_{br} - u_{bl} + u_{tr} - u_{tl})/h$. Left and right have $±(2/h)$(centre $-$ mean of their side), and together
+// the same: the centre cancels. For $∂_y u_y$ likewise. So $d_b - d_r + d_t - d_l = 0$: the fourth follows from three.

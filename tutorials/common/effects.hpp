@@ -23,8 +23,8 @@ struct Run {
   double error_on_contact(const Truth& truth) const;
 };
 
-/// What a scene costs: its name, triangles, unknowns, factorisations, solves, contact, corrections, assemble_s, solve_s,
-/// and the smallest and the largest u.
+/// What a scene costs: its name, triangles, unknowns, factorisations, solves, contact, corrections, assemble_s,
+/// solve_s, and the smallest and the largest u.
 extern const std::vector<std::string> cost_columns;
 std::vector<Entry> costs(const std::string& name, const Run& run);
 
@@ -33,8 +33,8 @@ std::vector<Entry> costs(const std::string& name, const Run& run);
 extern const std::vector<std::string> model_columns;
 std::vector<Entry> model(const std::string& name, const Scene& scene, int cells, const Truth& truth);
 
-/// Prints the models, and claims that each is within the error of its mesh and of its model from the exact solution. What
-/// it returns is the model's error: how far the limit is from the exact solution on Gamma_C.
+/// Prints the models, and claims that each is within the error of its mesh and of its model from the exact
+/// solution. What it returns is the model's error: how far the limit is from the exact solution on Gamma_C.
 double judge_models(const Table& models, const Exact& exact, const Exact& limit, int cells, Report& report);
 
 /// The largest difference of two columns in a row.

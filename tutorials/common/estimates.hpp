@@ -21,9 +21,10 @@ struct Case : Exact {
 /// epsilon from 1 to 1e-3 by quarters of a decade, 1e-4 and 1e-6; gradients to 1e-6.
 std::vector<Case> cases();
 
-/// Both sides of (13): element, mesh, epsilon, cells, h; the errors h1, l2; bound: (28) with C = 1; right: the sum of the
-/// two infima; second: the second of them; jumps: what of it comes from the jumps of u_h; constant: the C that (13) needs
-/// at least; consistency: the largest work of the flux of u on the jumps of functions of norm 1, 0 without jumps.
+/// Both sides of (13): element, mesh, epsilon, cells, h; the errors h1, l2; bound: (28) with C = 1; right: the sum
+/// of the two infima; second: the second of them; jumps: what of it comes from the jumps of u_h; constant: the C
+/// that (13) needs at least; consistency: the largest work of the flux of u on the jumps of functions of norm 1, 0
+/// without jumps.
 extern const std::vector<std::string> estimate_columns;
 
 /// Prints both sides on the finest mesh, and the walls. Writes results.csv, estimates.csv (errors and estimates, each

@@ -3,8 +3,11 @@
 #include <cctype>
 #include <numbers>
 
+#include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
+#include "antilock/form/forms.hpp"
 #include "antilock/io/writers.hpp"
+#include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "common/paper_problem.hpp"
 
@@ -25,6 +28,14 @@ void draw_kernel(const std::filesystem::path& out, const Space& space, std::stri
   const auto x = space.points().col(0).array(), y = space.points().col(1).array();
   write_vtu(out / (name + "_local.vtu"), space, local);
   write_vtu(out / (name + "_sine.vtu"), space, projection((std::numbers::pi * x).sin() * (1 - y.max(0.0))));
+}
+
+double inf_sup_constant(const Method& method, int n) {
+  const auto seminorm = [](const Space& space) { return gradient_form(space, {1, 1}, {1, 1}); };
+  const Discretisation on = method.on(n), almost_all(refined(refined(on.mesh())), p1());
+  const Eigen::MatrixXd dual =
+      multiplier_gram(assemble(paper_scene(0), almost_all.space()), seminorm(almost_all.space()), 16);
+  return inf_sup(multiplier_gram(assemble(paper_scene(0), on.space()), seminorm(on.space())), dual);
 }
 
 }  // namespace antilock::tutorial

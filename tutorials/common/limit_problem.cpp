@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <set>
 
+#include "antilock/exact/truth_distance.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -77,7 +80,56 @@ Table three_models(double epsilon, int cells) {
   return table;
 }
 
-void judge_limit_problem(const Table& sigma, const Table& models, const Exact& limit, int cells, Report& report) {
+Table exact_to_the_limit(const std::vector<double>& epsilons, const Exact& limit) {
+  Table rows({"method", "epsilon", "distance", "stiff"});
+  std::set<double, std::greater<>> different(epsilons.begin(), epsilons.end());
+  for (const double epsilon : different) {
+    const Truth u(paper_sine_load(), epsilon, true, 15);
+    rows.add({"exact", epsilon, h1_distance(u, limit.truth), std::pow(epsilon * stress_norm(u), 2)});
+  }
+  return rows;
+}
+
+void show_limits(const std::filesystem::path& out, const Table& curves, const Table& terms) {
+  curves.pivot("epsilon", "method", "distance").print("distance to the limit, H1");
+  terms.where("method", "P1 unstructured").pivot("h", "term", "value").print("(18) for locked P1, epsilon = h^2");
+  terms.write(out / "terms.csv");
+  curves.write(out / "limits.csv");
+}
+
+void judge_orders(const Table& curves, const Table& terms, Report& report) {
+  // Slopes over the last four epsilons, 10^-2.5 to 1e-4. Locked P1 settles only below h^(3/2).
+  const Table small = curves.where_number("epsilon", [](double epsilon) { return epsilon < 4e-3; });
+  for (const Entry& method : small.different("method")) {
+    const Table own = small.where("method", method);
+    const double low = method == "exact" ? 1.35 : method == "P1 unstructured" ? 1.5 : 1.9;
+    report.claim_within(own.order("distance", "epsilon"), low, method == "exact" ? 1.65 : 2.1,
+                        method.text() + (method == "exact" ? ", Theorem 1: order" : ", Proposition 1: order"));
+    report.claim_within(own.order("stiff", "epsilon"), method == "P1 unstructured" ? 1.5 : 1.9, 2.1,
+                        method.text() + ", (5): order of epsilon^2 |p|^2");
+  }
+  for (const Entry& method : terms.different("method")) {
+    const Table own = terms.where("method", method);
+    const auto order = [&](const char* term) { return own.where("term", term).order("value", "h"); };
+    const bool locks = method == "P1 unstructured";
+    report.claim(order("first term") > 2.5 && order("third term") > (locks ? 0.5 : 2.5),
+                 "{}, (18) along epsilon = h^2: first term h^{:.2f}, third h^{:.2f}", method.text(),
+                 order("first term"), order("third term"));
+    if (!locks)
+      report.claim(order("second term") > 0.9 && order("left side") > 0.9,
+                   "{}, Propositions 2, 3: second term h^{:.2f}, left side h^{:.2f}", method.text(),
+                   order("second term"), order("left side"));
+  }
+}
+
+double last_second_term(const Table& terms) {
+  return terms.where("method", "P1 unstructured").where("term", "second term").last("value");
+}
+
+void judge_limit_problem(const std::filesystem::path& out, const Exact& limit, int cells, Report& report) {
+  const Table sigma = strong_form(limit.truth, 400), models = three_models(0.1, cells);
+  sigma.write(out / "sigma.csv");
+  models.write(out / "models.csv");
   // Away from the end of contact, where u_xx jumps and its series rings. 1e-6 and 1e-5 of r, the largest of which is
   // 1.5: what the sum of 2^15 waves leaves.
   const double end = limit.contact_from();

@@ -1,4 +1,7 @@
 #pragma once
+#include <filesystem>
+#include <vector>
+
 #include "antilock/exact/truth.hpp"
 #include "antilock/study/table.hpp"
 #include "common/paper_problem.hpp"
@@ -24,7 +27,22 @@ double limit_on_layer(const Truth& limit);
 /// u on Gamma_C in three models: x, thin (22), scaled (23), limit (25); P1 on structured meshes.
 Table three_models(double epsilon, int cells);
 
-/// What Remark 5 and the three models claim: `sigma` of strong_form, `models` of three_models at epsilon = 0.1.
-void judge_limit_problem(const Table& sigma, const Table& models, const Exact& limit, int cells, Report& report);
+/// The exact solution's way to its limit, one row per different epsilon: method "exact", epsilon, distance in H1, and
+/// stiff = epsilon^2 |p|^2.
+Table exact_to_the_limit(const std::vector<double>& epsilons, const Exact& limit);
+
+/// Prints the distances to the limit and the terms of (18) for locked P1; writes limits.csv and terms.csv.
+void show_limits(const std::filesystem::path& out, const Table& curves, const Table& terms);
+
+/// Theorem 1, Proposition 1 and (5): the orders in epsilon of each method in `curves`. Propositions 2 and 3: the orders
+/// in h of the terms of (18), one by one; of the second one and of the error where nothing locks.
+void judge_orders(const Table& curves, const Table& terms, Report& report);
+
+/// The second term of (18) for P1 unstructured on the finest mesh.
+double last_second_term(const Table& terms);
+
+/// What Remark 5 and the three models claim: strong_form at 401 places, written as sigma.csv, and three_models at
+/// epsilon = 0.1, written as models.csv.
+void judge_limit_problem(const std::filesystem::path& out, const Exact& limit, int cells, Report& report);
 
 }  // namespace antilock::tutorial

@@ -90,4 +90,46 @@ Table layer_stress_curves() {
   return curves;
 }
 
+Table sums(const Table& results) {
+  Table naive = results.where("solver", "sum: Cholesky");
+  naive.add(results.where("solver", "sum: LU"));
+  return naive;
+}
+
+void show_round_off(const std::filesystem::path& out, const Table& results, const Table& conditions) {
+  results.where("element", "P1").pivot("epsilon", "solver", "error").print("P1 structured: error at the unknowns", 3);
+  results.where("element", "P1")
+      .pivot("epsilon", "solver", "ended")
+      .print("how they ended, and what the checks in split form say");
+  conditions.print("condition number of the sum, and of the K that is factored", 2);
+  results.select({"solver", "element", "mesh", "epsilon", "error", "ended", "seconds"}).write(out / "results.csv");
+  layer_stress_curves().write(out / "stress.csv");
+}
+
+void judge_split_form(const Table& results, const Table& conditions, Report& report) {
+  // From 1e-3 on the truth changes by less than a percent of the error: (epsilon / h)^2 of it.
+  const Table split = results.where("solver", "split form"),
+              small = split.where_number("epsilon", [](double e) { return e <= 1e-3; });
+  for (const Entry& element : small.different("element"))
+    for (const Entry& mesh : small.where("element", element).different("mesh")) {
+      const Table own = small.where("element", element).where("mesh", mesh);
+      report.claim(own.most("error") < 1.01 * own.least("error"),
+                   "{} {}: split form, error {:.2e} to {:.2e} below epsilon = 1e-3", element.text(), mesh.text(),
+                   own.least("error"), own.most("error"));
+    }
+  // What the condition number foretells: 1.1e-16 of it bounds the relative error, up to a factor of 10 each way.
+  const Table naive = sums(results);
+  for (const Table& row : conditions.rows()) {
+    const double lost = 1.1e-16 * row.number("summed");
+    const Table here = naive.where("element", "P1").where("epsilon", row.entry("epsilon"));
+    if (lost > 10 || lost < 0.05)
+      report.claim(here.where("wrong", lost > 10 ? 0 : 1).size() == 0,
+                   "epsilon = {:g}: round-off times condition is {:.0e}, the sum is {}", row.number("epsilon"), lost,
+                   lost > 10 ? "wrong" : "right");
+  }
+  const Table stiff = conditions.where_number("epsilon", [](double epsilon) { return epsilon <= 1e-4; });
+  report.claim(stiff.most("factored") < 1.01 * stiff.least("factored"),
+               "condition number of K: {:.0e} from epsilon = 1e-4 on", stiff.most("factored"));
+}
+
 }  // namespace antilock::tutorial

@@ -22,7 +22,8 @@ struct Rubber {
 /// The five of the chapter, on n x n squares with free sides or gmsh's triangles of that size.
 std::vector<Rubber> rubbers(int cells);
 
-/// A uniform strain, u = (.1/(1 + 2 epsilon) x, -.1 y), is in every space: the largest difference of the solution from it.
+/// A uniform strain, u = (.1/(1 + 2 epsilon) x, -.1 y), is in every space: the largest difference of the solution
+/// from it.
 double patch_error(const Rubber& rubber, double epsilon);
 
 /// Dimension of the kernel of a1 on the free unknowns: the motions that cost no energy.

@@ -55,8 +55,8 @@ struct Timing {
   int repeats = 5;            ///< of each run; the median is its time
   std::vector<TimedRun> runs{};
 
-  /// Times one solver. `run` says what is solved: element, mesh, epsilon, cells, unknowns, mesh_seconds. Not tried where
-  /// the same method was over the limit on a coarser mesh; `limited` false: a solver that no limit stops.
+  /// Times one solver. `run` says what is solved: element, mesh, epsilon, cells, unknowns, mesh_seconds. Not tried
+  /// where the same method was over the limit on a coarser mesh; `limited` false: a solver that no limit stops.
   void add(TimedRun run, const std::string& solver, const std::function<Solution()>& solve,
            const std::function<Errors(const Solution&)>& errors, bool limited = true);
   /// FreeFEM's script on the same mesh, where its command is given.

@@ -11,7 +11,8 @@ namespace antilock::tutorial {
 
 // What chapter 28 leaves out of its page: the unknowns of two strings, hat functions, sums over cells.
 
-/// The unknowns of two strings on [0, 1], held or not: upper(0) ... upper(upper_cells()), then lower(0) ... lower(cells).
+/// The unknowns of two strings on [0, 1], held or not: upper(0) ... upper(upper_cells()), then lower(0) ...
+/// lower(cells).
 struct Strings {
   int cells, more = 1;  ///< cells of the lower string, and how many more the upper one has
   int upper_cells() const { return cells + more; }
