@@ -271,7 +271,7 @@ class LiveFigure(Book):
             row = json.loads(line)
             native.setdefault((row["mesh"], row["moved"], row["cells"], row["exponent"]), {})[row["element"]] = row
         self.assertEqual(len(native), 32)
-        self.wait("return document.querySelector('#live').dataset.ahead === '0'")  # meshes that were made before they are asked for
+        self.wait("return document.querySelector('#live').dataset.ahead === '0'", seconds=60)  # meshes that were made before they are asked for
         worst = 0
         for (mesh, moved, cells, exponent), rows in native.items():
             answer = self.ask(mesh=mesh, moved=moved, cells=cells, epsilon=exponent)

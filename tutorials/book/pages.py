@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 15),
          ("What accuracy costs", 16, 21), ("The class", 22, 99)]
 EXTRA = ["errata", "glossary", "notation"]
-WIDTH = 1600
+WIDTH, HEIGHT = 1600, 1000  # at most, in pixels; a page shows a picture 480 high (style.css), a screen may have twice the dots
 
 
 class Book:
@@ -104,7 +104,7 @@ class Book:
     # ---- pictures
 
     def picture(self, name):
-        """The WebP of figures/images, 1,600 pixels wide; made anew where the PNG is newer."""
+        """The WebP of figures/images; made anew where the PNG is newer."""
         source, target = ROOT / f"figures/images/{name}.png", self.out / f"images/{name}.webp"
         if not source.exists():
             self.complain(f"figures/images/{name}.png is missing; figures/reproduce {name} makes it")
@@ -112,8 +112,7 @@ class Book:
         if not target.exists() or target.stat().st_mtime < source.stat().st_mtime:
             target.parent.mkdir(parents=True, exist_ok=True)
             image = Image.open(source).convert("RGB")
-            if image.width > WIDTH:
-                image = image.resize((WIDTH, round(image.height * WIDTH / image.width)), Image.LANCZOS)
+            image.thumbnail((WIDTH, HEIGHT), Image.LANCZOS)
             image.save(target, "WEBP", quality=40, method=6)
         return f"images/{name}.webp"
 
