@@ -67,6 +67,25 @@ TEST(Adversary, NothingIsQuietlyWrongByUzawa) {
   EXPECT_LE(refused, 20);  // measured over 5000: 2.6 %, two thirds of them for want of more than 20,000 steps
 }
 
+/// The same problem for -u: what was a lower bound is an upper one.
+VariationalInequality mirrored(VariationalInequality problem) {
+  problem.load *= -1;
+  problem.fixed_values *= -1;
+  problem.upper = -problem.lower;
+  problem.lower.setConstant(-std::numeric_limits<double>::infinity());
+  return problem;
+}
+
+TEST(Adversary, UpperBoundsAreJudgedLikeLowerOnes) {
+  for (unsigned seed = 0; seed < 400; ++seed) {
+    const VariationalInequality problem = random_problem(seed);
+    test::ExactAnswer exact = test::exact_answer(problem);
+    const Judgement of_lower = judge(problem, exact, false);
+    exact.u *= -1;
+    EXPECT_EQ(judge(mirrored(problem), exact, false).outcome, of_lower.outcome) << "seed " << seed << of_lower.reason;
+  }
+}
+
 TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrong) {
   int solvable = 0, refused = 0, two_sided = 0, combined = 0;
   for (unsigned seed = 0; seed < 250; ++seed) {

@@ -1,9 +1,11 @@
 // The contact problem on Gamma_C: a linear complementarity problem, solved from any start.
 #include "antilock/solve/contact_problem.hpp"
+#include "antilock/solve/contact_loop.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -133,6 +135,74 @@ TEST(ContactProblem, AllFreeAndAllHeld) {
   const ContactAnswer held = solve_contact(r.problem(), std::vector<bool>(6, false), 1000);
   EXPECT_EQ(held.active, std::vector<bool>(6, true));
   EXPECT_EQ(held.v, r.lower);
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+TEST(ContactBounds, NearestAndReachedAreTheProjectionAndItsSides) {
+  // below, at the lower bound, between, at the upper bound, above; an equation; no lower bound; no upper bound
+  const Eigen::VectorXd lower{{0, 0, 0, 0, 0, 1, -infinity, 0}}, upper{{1, 1, 1, 1, 1, 1, 1, infinity}};
+  const ContactBounds bounds{lower, upper};
+  const Eigen::VectorXd v{{-2, 0, 0.5, 1, 3, 7, -9, 9}};
+  const Eigen::VectorXd nearest = bounds.nearest(v);
+  EXPECT_EQ(nearest, (Eigen::VectorXd{{0, 0, 0.5, 1, 1, 1, -9, 9}}));
+  for (const Eigen::VectorXd& at : {v, nearest}) {
+    const HeldBounds held = bounds.reached(at);
+    EXPECT_EQ(held.active, (std::vector<bool>{true, true, false, true, true, true, false, false}));
+    EXPECT_FALSE(held.above[0] || held.above[1] || held.above[2] || held.above[6] || held.above[7]);
+    EXPECT_TRUE(held.above[3] && held.above[4]);
+    for (const int i : {0, 1, 3, 4}) EXPECT_EQ(bounds.at(held, i), nearest(i)) << i;
+  }
+  const Eigen::VectorXd none;
+  const ContactBounds floor{lower, none};
+  EXPECT_EQ(floor.nearest(v), (Eigen::VectorXd{{0, 0, 0.5, 1, 3, 7, -9, 9}}));
+  EXPECT_TRUE(floor.reached(v).above.empty());
+}
+
+TEST(ContactBounds, AStartAsksForBoundsThatThereAre) {
+  // two-sided, from below, from above, an equation
+  const Eigen::VectorXd lower{{0, 0, -infinity, 1}}, upper{{1, infinity, 1, 1}};
+  const ContactBounds bounds{lower, upper};
+  const HeldBounds all = bounds.allowed(HeldBounds(std::vector<bool>(4, true), std::vector<bool>(4, true)));
+  EXPECT_EQ(all.active, std::vector<bool>(4, true));
+  EXPECT_EQ(all.above, (std::vector<bool>{true, false, true, true}));
+  const HeldBounds low = bounds.allowed(std::vector<bool>(4, true));
+  EXPECT_EQ(low.above, (std::vector<bool>{false, false, true, false}));
+  const HeldBounds free = bounds.allowed(std::vector<bool>(4, false));
+  EXPECT_EQ(free.active, (std::vector<bool>{false, false, false, true}));
+  EXPECT_EQ(free.above, std::vector<bool>(4, false));
+}
+
+TEST(ContactBounds, AnUnknownThatIsLetGoCrossesOnlyWhereItsForceTakesItAcross) {
+  // one unknown, stiffness 2, bounds 0 and 1: a force of 2 moves it from one bound to the other
+  const Eigen::VectorXd lower{{0}}, upper{{1}};
+  const ContactBounds bounds{lower, upper};
+  for (const bool above : {false, true})
+    for (const double force : {1.9, 2.1}) {
+      HeldBounds held({true}, {above});
+      bounds.exchange(held, 0, above ? 1 : 0, above ? force : -force, 2);
+      EXPECT_EQ(held.active[0], force > 2) << above;
+      EXPECT_EQ(held.above[0], force > 2 && !above) << above;
+    }
+  for (const double v : {-0.5, 1.5}) {  // free, and beyond a bound: held there
+    HeldBounds held({false}, {false});
+    bounds.exchange(held, 0, v, 0, 2);
+    EXPECT_TRUE(held.active[0]);
+    EXPECT_EQ(held.above[0], v > 1);
+  }
+}
+
+TEST(ContactProblem, ViolationsBelowTheRoundOffOfTheWholeProblemAreNotFollowed) {
+  // v = -1e-10 under a bound of 0: a violation where the largest |u| is 1, round-off where it is 1e6 or is known to be
+  const Eigen::MatrixXd s = Eigen::MatrixXd::Identity(1, 1);
+  const Eigen::VectorXd q{{-1e-10}}, lower{{0}};
+  EXPECT_TRUE(solve_contact({s, q, lower, 1}, std::vector<bool>{false}, 10).active[0]);
+  EXPECT_FALSE(solve_contact({s, q, lower, 1e6}, std::vector<bool>{false}, 10).active[0]);
+  ContactProblem known{s, q, lower, 1e6};
+  known.noise = Eigen::VectorXd{{1e-12}};
+  EXPECT_TRUE(solve_contact(known, std::vector<bool>{false}, 10).active[0]);
+  known.noise = Eigen::VectorXd{{1e-9}};
+  EXPECT_FALSE(solve_contact(known, std::vector<bool>{false}, 10).active[0]);
 }
 
 TEST(ContactProblem, TooFewStepsIsAFailureThatSaysHowFarItCame) {
