@@ -11,8 +11,8 @@ namespace antilock {
 /// The load of a ball of which a method makes the largest error: the supremum in the definition of locking of Babuska
 /// and Suri (SIAM J. Numer. Anal. 29, 1992; [3] of the paper), without contact.
 struct WorstLoad {
-  double error = 0;       ///< |u - u_h| in the (broken) energy seminorm, the largest for |f| <= 1 in L2(body)
-  Eigen::VectorXd load;   ///< of norm 1, in LoadModes
+  double error = 0;      ///< |u - u_h| in the (broken) energy seminorm, the largest for |f| <= 1 in L2(body)
+  Eigen::VectorXd load;  ///< of norm 1, in LoadModes
 };
 
 /// The error of (23) without contact as a quadratic form in the load f = LoadModes:
@@ -43,7 +43,7 @@ class ErrorForm {
  private:
   void integrate_loads();
   void interpolate_solutions();
-  Eigen::VectorXd interpolant(const Eigen::VectorXd& f) const;           // J f
+  Eigen::VectorXd interpolant(const Eigen::VectorXd& f) const;             // J f
   Eigen::VectorXd interpolant_transposed(const Eigen::VectorXd& b) const;  // J' b
   Eigen::VectorXd answer(const Eigen::VectorXd& load);
 
@@ -52,8 +52,8 @@ class ErrorForm {
   double epsilon_ = 1;
   VariationalInequality problem_;
   std::optional<PenaltyFactor> factor_;
-  std::vector<int> active_;        // unknowns of the body that are not clamped
-  Eigen::MatrixXd loads_;          // F': n x active
+  std::vector<int> active_;         // unknowns of the body that are not clamped
+  Eigen::MatrixXd loads_;           // F': n x active
   Eigen::MatrixXd means_, decays_;  // CR: edge means of the basis (n x active), of 2 sin decay (waves + 1 x active)
 };
 

@@ -11,7 +11,7 @@
 namespace antilock {
 namespace {
 
-/// T = a coth a and R = a tanh(epsilon a) / epsilon, a = k std::numbers::pi: the forces on Sigma per unit displacement there.
+/// T = a coth a and R = a tanh(epsilon a) / epsilon, a = k pi: the forces on Sigma per unit displacement there.
 double body_stiffness(double a) { return a / std::tanh(a); }
 double layer_stiffness(double a, double epsilon) {
   const double kappa = epsilon * a;
@@ -37,7 +37,9 @@ LoadModes::LoadModes(int waves) : waves_(waves) {
   if (k_of.empty()) k_of = m_of = {1};  // one wave: the first load alone
   k_ = Eigen::Map<Eigen::VectorXi>(k_of.data(), static_cast<Eigen::Index>(k_of.size()));
   m_ = Eigen::Map<Eigen::VectorXi>(m_of.data(), static_cast<Eigen::Index>(m_of.size()));
-  response_ = (std::numbers::pi * std::numbers::pi * (k_.cast<double>().array().square() + (m_.cast<double>().array() - 0.5).square())).inverse();
+  response_ = (std::numbers::pi * std::numbers::pi *
+               (k_.cast<double>().array().square() + (m_.cast<double>().array() - 0.5).square()))
+                  .inverse();
 }
 
 double LoadModes::beyond() const { return 1 / (waves_ * std::numbers::pi); }

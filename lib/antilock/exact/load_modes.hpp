@@ -17,10 +17,10 @@ class LoadModes {
   explicit LoadModes(int waves);
 
   int waves() const { return waves_; }
-  int size() const { return static_cast<int>(k_.size()); }            ///< n
-  const Eigen::VectorXi& k() const { return k_; }                     ///< n, ascending
-  const Eigen::VectorXi& m() const { return m_; }                     ///< n
-  const Eigen::VectorXd& held_at_top() const { return response_; }    ///< n: g = 1 / ((k pi)^2 + mu_m^2)
+  int size() const { return static_cast<int>(k_.size()); }          ///< n
+  const Eigen::VectorXi& k() const { return k_; }                   ///< n, ascending
+  const Eigen::VectorXi& m() const { return m_; }                   ///< n
+  const Eigen::VectorXd& held_at_top() const { return response_; }  ///< n: g = 1 / ((k pi)^2 + mu_m^2)
   /// A load that is left out, of norm 1, has an energy norm of at most this: 1 / (waves pi).
   double beyond() const;
 
