@@ -52,7 +52,7 @@
 // contains something near its own trace. **With contact** the error
 // is still homogeneous, since $K$ is a cone. What locks completely ($u_h = 0$ on the layer) has
 // $|u - u_h|^2 / 2 ≤ J(u_h) - J(u)$, and without an obstacle $J(u)$ is smaller: contact makes the supremum no larger.
-// $ψ_1 \sin πx$ lifts the layer everywhere, so it is no smaller either. For the others no theorem is at hand; the run
+// $ψ_1 \sin πx$ lifts the layer everywhere, so it is $ℓ_1$ again. For the others no theorem is at hand; the run
 // climbs over loads of four waves, which gives a *lower bound* of the supremum.
 
 #include "antilock/mesh/layered.hpp"
@@ -124,12 +124,13 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       Ball on(method, n);
       for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-20, 0.0}) {
         if (n == options.cells && epsilon < 1 && epsilon > 0) continue;
-        results.add({ball, method.name(), 1.0 / n, epsilon, on.worst(epsilon).error});
         results.add({one_load, method.name(), 1.0 / n, epsilon, on.ours(epsilon)});
+        results.add({ball, method.name(), 1.0 / n, epsilon, on.worst(epsilon).error});
       }
       if (n != options.cells / 2) continue;
       const Eigen::VectorXd load = on.worst(0).load;
-      tutorial::write_load(options.out / ("worst " + method.name() + ".vtu"), on.form.modes(), load);
+      tutorial::write_load(options.out / fmt::format("{}_{}.vtu", method.element->name(), method.family.name),
+                           on.form.modes(), load);
       if (method.name() == "P1 unstructured")
         report.claim(tutorial::likeness(on.form.modes(), load, 1) > 0.98, "{}: the worst load is that of l_1, {:.4f}",
                      method.name(), tutorial::likeness(on.form.modes(), load, 1));

@@ -228,6 +228,8 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
     add("14_degree",
         fmt::format("P{} unstructured, h = 1/{}, epsilon = 0.01: cost of a ridge, ridge, energy", i + 1, half),
         degrees[i]);
+  add("15_families_of_loads", "P1 structured, h = 1/8, 4 epsilons: worst load of the ball against P1 on h = 1/32",
+      freefem::worst_loads(8, folder));
   add("28_your_own_problem",
       fmt::format("two glued strings, {} and {} cells, 13 epsilons to 1e-12: energy, largest u, contact force", cells,
                   cells + 1),

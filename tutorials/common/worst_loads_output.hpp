@@ -10,7 +10,7 @@ namespace antilock::tutorial {
 /// pull upwards on one arch and two.
 void write_load(const std::filesystem::path& path, const LoadModes& modes, Eigen::VectorXd f);
 
-/// The largest of |f . g| / |g|, g the load decay(k pi, y) sin(k pi x): 1 where f, of norm 1, is that load.
+/// |f . g| / |g|, g the load decay(k pi, y) sin(k pi x): 1 where f, of norm 1, is that load.
 double likeness(const LoadModes& modes, const Eigen::VectorXd& f, int k);
 
 /// errors.csv: the rows at epsilon = 0; epsilon.csv: those of the width h, epsilon > 1e-10. Prints errors at 0 by h.

@@ -110,11 +110,9 @@ Eigen::VectorXd ErrorForm::answer(const Eigen::VectorXd& load) {
   return active_set(problem_, *factor_).u;
 }
 
-Eigen::VectorXd ErrorForm::solve(const Eigen::VectorXd& f) { return answer(loads_.transpose() * f); }
-
 Eigen::VectorXd ErrorForm::apply(const Eigen::VectorXd& f) {
+  const Eigen::VectorXd exact = modes_.response(f, epsilon_);  // asks for the size of f
   const Eigen::VectorXd load = loads_.transpose() * f, u = answer(load)(active_);
-  const Eigen::VectorXd exact = modes_.response(f, epsilon_);
   if (space_.element().conforming()) return exact - loads_ * u;
   return exact + loads_ * (u - interpolant(f)) - interpolant_transposed(load);
 }

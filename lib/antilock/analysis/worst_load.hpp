@@ -35,8 +35,6 @@ class ErrorForm {
   Eigen::VectorXd apply(const Eigen::VectorXd& f);
   /// The error |u - u_h| under the load f.
   double error(const Eigen::VectorXd& f);
-  /// The discrete solution under the load f: N values.
-  Eigen::VectorXd solve(const Eigen::VectorXd& f);
   /// The largest over |f| <= 1, by Lanczos iteration, to a relative `tolerance`, from below.
   WorstLoad worst(double tolerance = 1e-4);
 
