@@ -4,6 +4,7 @@
 
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
+#include "antilock/study/method.hpp"
 
 namespace antilock::tutorial {
 
@@ -29,6 +30,22 @@ void write_worst_errors(const std::filesystem::path& out, const Table& results, 
   results.where_number("h", [&](double own) { return std::abs(own / h - 1) < 1e-9; })
       .where_number("epsilon", [](double epsilon) { return epsilon > 1e-10; })
       .write(out / "epsilon.csv");
+}
+
+double half_of_the_loss(const Element& element, int cells) {
+  const Discretisation on(unstructured_mesh(cells), element);
+  ErrorForm form(on.space(), LoadModes(cells));
+  const auto square = [&](double epsilon) {
+    form.set_epsilon(epsilon);
+    return std::pow(form.worst(1e-3).error, 2);
+  };
+  const double middle = 0.5 * (square(1) + square(0));
+  double low = -6, high = 0;
+  for (int i = 0; i < 10; ++i) {
+    const double tried = 0.5 * (low + high);
+    (square(std::pow(10.0, tried)) > middle ? low : high) = tried;
+  }
+  return std::pow(10.0, 0.5 * (low + high));
 }
 
 }  // namespace antilock::tutorial
