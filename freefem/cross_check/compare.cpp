@@ -239,6 +239,8 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
     add("14_degree",
         fmt::format("P{} unstructured, h = 1/{}, epsilon = 0.01: cost of a ridge, ridge, energy", i + 1, half),
         degrees[i]);
+  add("15_families_of_loads", "P1 structured, h = 1/8, 4 epsilons: worst load of the ball against P1 on h = 1/32",
+      freefem::worst_loads(8, folder));
   add("25_mixed", fmt::format("boxes, MINI, Taylor-Hood, h = 1/{}, epsilon = 1e-6: u, contact force", half),
       freefem::mixed(half, 1e-6, folder));
   add("28_your_own_problem",

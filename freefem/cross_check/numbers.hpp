@@ -52,6 +52,8 @@ std::vector<Numbers> worst_errors(const std::filesystem::path& folder);
 Numbers estimates(int cells, const std::filesystem::path& folder);
 /// 11: distances of a fine mesh's u to K_h and of its u^0 to K_0h, P1 on the structured mesh of 1/h = 8.
 Numbers contact_sets(const std::filesystem::path& folder);
+/// 15: the worst load of the ball, P1 on the structured mesh against one four times finer, epsilon 1, 1e-2, 1e-6, 0.
+Numbers worst_loads(int cells, const std::filesystem::path& folder);
 /// 17: the energy bracket, the energy of Crouzeix-Raviart, the certificate of P1 and its share in the layer, one
 /// unstructured mesh, five epsilons.
 Numbers certificate(int cells, const std::filesystem::path& folder);

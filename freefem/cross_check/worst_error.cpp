@@ -1,10 +1,11 @@
-// 12 and 11: errors and distances, for which FreeFEM knows only its own fine mesh in place of the truth; so the same is
+// 12, 11 and 15: errors and distances, for which FreeFEM knows only its own fine mesh in place of the truth; so the same is
 // done here, and not with the sine series.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/errors.hpp"
@@ -138,6 +139,50 @@ Numbers contact_sets(const std::filesystem::path& folder) {
                      table.column(kernel ? "to_k0" : "to_k")(row));
   }
   numbers.took(table.names[row].substr(0, table.names[row].find(" P1")));
+  return numbers;
+}
+
+Numbers worst_loads(int cells, const std::filesystem::path& folder) {
+  run("15_families_of_loads", {"-cells", std::to_string(cells), "-out", folder});
+  const Table table = read_table(folder / "worst.csv", 1);
+  const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
+  const Space space(mesh, p1()), fine_space(fine, p1());
+  // column j: the work of the load 1 / root of its area on body triangle j, so that a vector's norm is the load's in L2
+  Eigen::MatrixXd work = Eigen::MatrixXd::Zero(fine_space.size(), fine.triangle_count() / 2);
+  Eigen::Index column = 0;
+  for (int t = 0; t < fine.triangle_count(); ++t) {
+    if (fine.region[t] != Region::body) continue;
+    for (int i = 0; i < 3; ++i) work(fine_space.unknowns()(t, i), column) = std::sqrt(fine.area(t)) / 3;
+    ++column;
+  }
+  const ByPlace by_place(space, cells);
+  Eigen::MatrixXd coarse_work = Eigen::MatrixXd::Zero(space.size(), work.cols());
+  for (int i = 0; i < space.size(); ++i) {
+    Eigen::VectorXd hat(fine_space.size());
+    for (int j = 0; j < fine_space.size(); ++j)
+      hat(j) =
+          by_place.value(Eigen::VectorXd::Unit(space.size(), i), fine_space.points()(j, 0), fine_space.points()(j, 1));
+    coarse_work.row(i) = (work.transpose() * hat).transpose();
+  }
+  Numbers numbers;
+  const Scene scene(Body{paper_load}, StiffLayer{1});
+  Sweep sweep(assemble(scene, space)), fine_sweep(assemble(scene, fine_space));
+  Eigen::Index row = 0;
+  for (const double epsilon : {1.0, 1e-2, 1e-6, 0.0}) {
+    sweep.set_compliance(epsilon * epsilon);
+    fine_sweep.set_compliance(epsilon * epsilon);
+    const auto error = [&](const Eigen::VectorXd& f) {
+      fine_sweep.set_load(work * f);
+      sweep.set_load(coarse_work * f);
+      return Eigen::VectorXd(work.transpose() * fine_sweep.solve().u - coarse_work.transpose() * sweep.solve().u);
+    };
+    const double worst = std::sqrt(largest_eigenvalue(error, work.cols(), 1e-9));
+    numbers.unknowns = space.size();
+    numbers.count(fmt::format("epsilon = {:g}: unknowns", epsilon), space.size(), table.column("unknowns")(row));
+    numbers.relative(fmt::format("epsilon = {:g}: worst error", epsilon), worst, table.column("worst")(row));
+    numbers.freefem_seconds += table.column("seconds")(row++);
+  }
+  numbers.took("penalty");
   return numbers;
 }
 

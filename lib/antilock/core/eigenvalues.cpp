@@ -27,15 +27,18 @@ struct Operator {
 };
 
 /// 30 vectors between restarts are enough for the clustered ends of a stiff spectrum.
-double only_eigenvalue(Operator matrix, Spectra::SortRule wanted, const char* which, double tolerance = 1e-6,
-                       Eigen::Index basis = 30) {
+Eigenpair only_eigenpair(Operator matrix, Spectra::SortRule wanted, const char* which, double tolerance = 1e-6,
+                         Eigen::Index basis = 30) {
   Spectra::SymEigsSolver<Operator> solver(matrix, 1, std::min(basis, matrix.size));
   solver.init();
   solver.compute(wanted, most_restarts, tolerance);
   if (solver.info() != Spectra::CompInfo::Successful)
     throw NotConverged(fmt::format("{} eigenvalue: the Lanczos iteration has not settled to {:.0e}", which, tolerance),
                        1, static_cast<int>(solver.num_iterations()));
-  return solver.eigenvalues()(0);
+  return {solver.eigenvalues()(0), solver.eigenvectors(1).col(0)};
+}
+double only_eigenvalue(Operator matrix, Spectra::SortRule wanted, const char* which) {
+  return only_eigenpair(std::move(matrix), wanted, which).value;
 }
 
 }  // namespace
@@ -46,14 +49,19 @@ double largest_eigenvalue(const SparseMatrix& upper) {
                          Spectra::SortRule::LargestAlge, "largest");
 }
 
+Eigenpair largest_eigenpair(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
+                            double tolerance, int basis) {
+  if (size == 1) return {apply(Eigen::VectorXd::Ones(1))(0), Eigen::VectorXd::Ones(1)};
+  return only_eigenpair({size,
+                         [&](const double* x, double* y) {
+                           Eigen::Map<Eigen::VectorXd>(y, size) = apply(Eigen::Map<const Eigen::VectorXd>(x, size));
+                         }},
+                        Spectra::SortRule::LargestAlge, "largest", tolerance, basis);
+}
+
 double largest_eigenvalue(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
                           double tolerance, int basis) {
-  if (size == 1) return apply(Eigen::VectorXd::Ones(1))(0);
-  return only_eigenvalue({size,
-                          [&](const double* x, double* y) {
-                            Eigen::Map<Eigen::VectorXd>(y, size) = apply(Eigen::Map<const Eigen::VectorXd>(x, size));
-                          }},
-                         Spectra::SortRule::LargestAlge, "largest", tolerance, basis);
+  return largest_eigenpair(apply, size, tolerance, basis).value;
 }
 
 double smallest_eigenvalue(const SparseMatrix& upper) {

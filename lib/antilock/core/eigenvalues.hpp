@@ -14,6 +14,14 @@ double largest_eigenvalue(const SparseMatrix& upper);
 double largest_eigenvalue(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
                           double tolerance = 1e-6, int basis = 30);
 
+/// The same with its eigenvector, of norm 1.
+struct Eigenpair {
+  double value;
+  Eigen::VectorXd vector;
+};
+Eigenpair largest_eigenpair(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
+                            double tolerance = 1e-6, int basis = 30);
+
 /// The smallest one, by inverse iteration on a sparse LU factor: trustworthy only where the matrix itself can be
 /// factored, that is for condition numbers well below 1e16. Throws NotConverged.
 double smallest_eigenvalue(const SparseMatrix& upper);

@@ -9,16 +9,16 @@
 #include "antilock/core/error.hpp"
 
 namespace antilock {
-namespace {
 
-/// Points (n) and weights (n) of Gauss on (0, 1), exact for degree 2n - 1: eigenvalues of the Jacobi matrix of
-/// Legendre's polynomials (Golub and Welsch 1969).
+// Eigenvalues of the Jacobi matrix of Legendre's polynomials (Golub and Welsch 1969).
 std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n) {
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
   for (int k = 1; k < n; ++k) jacobi(k, k - 1) = k / std::sqrt(4.0 * k * k - 1);
   const auto [values, vectors] = symmetric_eigen(jacobi);
   return {(1 + values.array()) / 2, vectors.row(0).transpose().array().square()};
 }
+
+namespace {
 
 /// The square folded onto the triangle, (s, t) -> lambda = (s, (1 - s) t, (1 - s)(1 - t)): its area element is (1 - s).
 Quadrature conical_rule(int degree) {

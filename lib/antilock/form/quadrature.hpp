@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <utility>
 
 #include "antilock/core/eigen_memory.hpp"
 
@@ -18,5 +19,8 @@ const Quadrature& midpoint_rule();
 /// A rule exact for the given degree, 0 to 12 (else Error): the centroid, midpoint_rule, radon_rule, and from degree 6
 /// on Gauss points in both directions of a square folded to the triangle (Stroud's conical product).
 const Quadrature& triangle_rule(int degree);
+
+/// Points (n) and weights (n) of Gauss on (0, 1), exact for degree 2n - 1.
+std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n);
 
 }  // namespace antilock

@@ -1,0 +1,128 @@
+#include "antilock/analysis/worst_load.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "antilock/core/eigenvalues.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/form/quadrature.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/active_set.hpp"
+
+namespace antilock {
+namespace {
+
+/// Row j: the basis load j of `modes` at a point.
+void basis_loads(const LoadModes& modes, double x, double y, Eigen::Ref<Eigen::VectorXd> values) {
+  const Eigen::VectorXd sine = modes.sines(x), cosine = modes.cosines(y);
+  for (int j = 0; j < modes.size(); ++j) values(j) = 2 * sine(modes.k()(j)) * cosine(modes.m()(j));
+}
+
+}  // namespace
+
+ErrorForm::ErrorForm(const Space& space, LoadModes modes) : space_(space), modes_(std::move(modes)) {
+  if (!space.element().conforming() && &space.element() != &crouzeix_raviart())
+    throw Error("error form: element " + space.element().name() + "; accepted: conforming ones and CR");
+  problem_ = assemble(Scene(Body{[](double, double) { return 0.0; }}, StiffLayer{1}), space);
+  integrate_loads();
+  if (!space.element().conforming()) interpolate_solutions();
+}
+
+void ErrorForm::set_epsilon(double epsilon) {
+  if (!(epsilon >= 0 && epsilon <= 1)) throw Error(fmt::format("error form: epsilon = {}; accepted 0 to 1", epsilon));
+  epsilon_ = epsilon;
+  problem_.compliance = compliance(StiffLayer{epsilon});
+  const double delta = moderate_delta(problem_);
+  if (factor_ && factor_->delta() != delta) factor_->refactor(problem_, delta);
+}
+
+void ErrorForm::integrate_loads() {
+  const TriangleMesh& mesh = space_.mesh();
+  const Element& element = space_.element();
+  const Quadrature& rule = triangle_rule(12);
+  const Eigen::Index points = rule.weights.size();
+  Eigen::MatrixXd weighted(points, element.unknowns()), values(modes_.size(), points);
+  for (Eigen::Index q = 0; q < points; ++q)
+    weighted.row(q) = rule.weights(q) * element.basis(rule.points.row(q)).transpose();
+  std::vector<int> place(space_.size(), -1);
+  for (const int i : space_.clamped()) place[i] = -2;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; mesh.region[t] == Region::body && i < element.unknowns(); ++i)
+      if (int& p = place[space_.unknowns()(t, i)]; p == -1) {
+        p = static_cast<int>(active_.size());
+        active_.push_back(space_.unknowns()(t, i));
+      }
+  loads_.setZero(modes_.size(), static_cast<Eigen::Index>(active_.size()));
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != Region::body) continue;
+    for (Eigen::Index q = 0; q < points; ++q) {
+      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+      basis_loads(modes_, x(0), x(1), values.col(q));
+    }
+    const Eigen::MatrixXd local = mesh.area(t) * values * weighted;
+    for (int i = 0; i < element.unknowns(); ++i)
+      if (const int p = place[space_.unknowns()(t, i)]; p >= 0) loads_.col(p) += local.col(i);
+  }
+}
+
+// The unknowns of CR are means over edges. Those of the layer are not needed: no load stands there.
+void ErrorForm::interpolate_solutions() {
+  const auto [points, weights] = gauss_rule(10);
+  means_.setZero(modes_.size(), loads_.cols());
+  decays_.setZero(modes_.waves() + 1, loads_.cols());
+  Eigen::VectorXd values(modes_.size());
+  const TriangleMesh& mesh = space_.mesh();
+  std::vector<int> place(space_.size(), -1);
+  for (std::size_t p = 0; p < active_.size(); ++p) place[active_[p]] = static_cast<int>(p);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; mesh.region[t] == Region::body && i < 3; ++i) {
+      int& p = place[space_.unknowns()(t, i)];
+      if (p < 0) continue;
+      for (Eigen::Index q = 0; q < points.size(); ++q) {
+        Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+        lambda((i + 1) % 3) = points(q);
+        lambda((i + 2) % 3) = 1 - points(q);
+        const Eigen::Vector2d x = point_in(mesh, t, lambda);
+        basis_loads(modes_, x(0), x(1), values);
+        means_.col(p) += weights(q) * values;
+        decays_.col(p) += 2 * weights(q) * modes_.sines(x(0)).cwiseProduct(modes_.decays(x(1)));
+      }
+      p = -1;  // an edge once
+    }
+}
+
+Eigen::VectorXd ErrorForm::interpolant(const Eigen::VectorXd& f) const {
+  return means_.transpose() * modes_.held_at_top().cwiseProduct(f) -
+         decays_.transpose() * modes_.taken_away(epsilon_).cwiseProduct(modes_.on_free_sigma(f));
+}
+
+Eigen::VectorXd ErrorForm::interpolant_transposed(const Eigen::VectorXd& b) const {
+  const Eigen::VectorXd decaying = modes_.taken_away(epsilon_).cwiseProduct(decays_ * b);
+  return modes_.held_at_top().cwiseProduct(means_ * b - decaying(modes_.k()));
+}
+
+Eigen::VectorXd ErrorForm::answer(const Eigen::VectorXd& load) {
+  problem_.load.setZero();
+  problem_.load(active_) = load;
+  if (!factor_) factor_.emplace(problem_);
+  return active_set(problem_, *factor_).u;
+}
+
+Eigen::VectorXd ErrorForm::apply(const Eigen::VectorXd& f) {
+  const Eigen::VectorXd exact = modes_.response(f, epsilon_);  // asks for the size of f
+  const Eigen::VectorXd load = loads_.transpose() * f, u = answer(load)(active_);
+  if (space_.element().conforming()) return exact - loads_ * u;
+  return exact + loads_ * (u - interpolant(f)) - interpolant_transposed(load);
+}
+
+double ErrorForm::error(const Eigen::VectorXd& f) { return std::sqrt(std::max(0.0, f.dot(apply(f)))); }
+
+WorstLoad ErrorForm::worst(double tolerance) {
+  const Eigenpair largest =
+      largest_eigenpair([this](const Eigen::VectorXd& f) { return apply(f); }, modes_.size(), tolerance, 20);
+  return {std::sqrt(std::max(0.0, largest.value)), largest.vector};
+}
+
+}  // namespace antilock

@@ -1,0 +1,185 @@
+// The supremum of the error over a ball of loads: the exact side in closed form, the quadratic form of the error, its
+// largest eigenvalue.
+#include "antilock/analysis/worst_load.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "antilock/core/dense.hpp"
+#include "antilock/exact/truth_table.hpp"
+#include "antilock/form/forms.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "support/dense.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+using std::numbers::pi;
+using test::expect_refused;
+
+/// E column by column.
+Eigen::MatrixXd matrix_of(ErrorForm& form) {
+  const int n = form.modes().size();
+  Eigen::MatrixXd e(n, n);
+  for (int j = 0; j < n; ++j) e.col(j) = form.apply(Eigen::VectorXd::Unit(n, j));
+  return e;
+}
+
+// a(u, u) = (f, S f) = -2 J(u). The load constant in y falls like 1/m in the modes, its work like m^-4: 40 waves leave
+// out less than 1e-4 of it.
+TEST(LoadModes, WorkIsTheTruths) {
+  const LoadModes modes(40);
+  for (const double epsilon : {1.0, 0.1, 1e-6, 1e-20, 0.0})
+    for (const int k : {1, 2, 5}) {
+      const Eigen::VectorXd f = modes.constant_in_y(k, 10);
+      const Truth truth(SineLoad{{{k, {10}}}}, epsilon, false, 10);
+      EXPECT_NEAR(f.dot(modes.response(f, epsilon)) / (-2 * truth.energy()), 1, 1e-4) << epsilon << " " << k;
+    }
+}
+
+TEST(LoadModes, AreOrthonormal) {
+  const LoadModes modes(3);
+  const auto [points, weights] = gauss_rule(20);
+  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(modes.size(), modes.size());
+  for (int i = 0; i < points.size(); ++i)
+    for (int j = 0; j < points.size(); ++j) {
+      Eigen::VectorXd values(modes.size());
+      for (int l = 0; l < modes.size(); ++l)
+        values(l) = modes.value(Eigen::VectorXd::Unit(modes.size(), l), points(i), points(j));
+      gram += weights(i) * weights(j) * values * values.transpose();
+    }
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(modes.size(), modes.size())).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+// The load 2 sin(k pi x) cos(pi y / 2), its cosine as a polynomial (1e-8), measured point by point against the sine
+// series: for a polynomial V_h exact but for the quadrature of the error (degree 12 or so) and the table (1e-6).
+TEST(ErrorForm, IsTheMeasuredErrorOfEveryElement) {
+  std::vector<double> cosine(13, 0.0);
+  double term = 2;
+  for (int i = 0; i <= 12; i += 2) {
+    cosine[i] = term;
+    term *= -pi * pi / 4 / ((i + 1) * (i + 2));
+  }
+  const TriangleMesh mesh = unstructured_mesh(6);
+  for (const Element* element : {&p1(), &p2(), &p3(), &crouzeix_raviart()}) {
+    const Space space(mesh, *element);
+    ErrorForm form(space, LoadModes(6));
+    for (const double epsilon : {1.0, 1e-2, 0.0})
+      for (const int k : {1, 3}) {
+        form.set_epsilon(epsilon);
+        Eigen::VectorXd f = Eigen::VectorXd::Zero(form.modes().size());
+        for (int j = 0; j < f.size(); ++j) f(j) = form.modes().k()(j) == k && form.modes().m()(j) == 1;
+        const SineLoad load{{{k, cosine}}};
+        const TruthTable table(Truth(load, epsilon, false, 12), 1 << 11);
+        const Solution solution = active_set(assemble(Scene(Body{load}, StiffLayer{epsilon}), space));
+        const double measured = measure_errors(space, solution, epsilon, reference(table)).energy;
+        EXPECT_NEAR(form.error(f) / measured, 1, 1e-3) << element->name() << " " << epsilon << " " << k;
+      }
+  }
+}
+
+// A mesh so small that nothing has to be iterated: S - F' A^-1 F with A summed and inverted, the load of each mode by
+// load_vector (degree 5 and more on triangles of 1/4 of a wave: 1e-3 in E).
+TEST(ErrorForm, ItsLargestIsTheDenseEigenvalue) {
+  const TriangleMesh mesh = unstructured_mesh(3);
+  for (const Element* element : {&p1(), &p4()})
+    for (const double epsilon : {1.0, 0.1}) {
+      const Space space(mesh, *element);
+      ErrorForm form(space, LoadModes(3));
+      form.set_epsilon(epsilon);
+      const VariationalInequality problem =
+          assemble(Scene(Body{[](double, double) { return 0.0; }}, StiffLayer{epsilon}), space);
+      Eigen::MatrixXd a =
+          Eigen::MatrixXd(problem.a1) + test::gram(Eigen::MatrixXd(problem.b), problem.m) / (epsilon * epsilon);
+      for (const int i : problem.fixed) {
+        a.row(i).setZero();
+        a.col(i).setZero();
+        a(i, i) = 1;
+      }
+      const int n = form.modes().size();
+      Eigen::MatrixXd dense(n, n), u(space.size(), n), loads(space.size(), n);
+      for (int j = 0; j < n; ++j) {
+        const Eigen::VectorXd one = Eigen::VectorXd::Unit(n, j);
+        loads.col(j) = load_vector(space, [&](double x, double y) { return form.modes().value(one, x, y); });
+        for (const int i : problem.fixed) loads(i, j) = 0;
+        u.col(j) = test::lu_solve(a, loads.col(j));
+        dense.col(j) = form.modes().response(one, epsilon);
+      }
+      dense -= test::product(loads.transpose(), u);
+      const double largest = symmetric_eigenvalues(0.5 * (dense + dense.transpose())).maxCoeff();
+      EXPECT_NEAR(std::pow(form.worst(1e-6).error, 2) / largest, 1, 0.01) << element->name() << " " << epsilon;
+    }
+}
+
+TEST(ErrorForm, IsSymmetricAndNowhereNegative) {
+  const TriangleMesh mesh = unstructured_mesh(4);
+  for (const Element* element : {&p1(), &p2(), &crouzeix_raviart()}) {
+    const Space space(mesh, *element);
+    ErrorForm form(space, LoadModes(6));
+    for (const double epsilon : {1.0, 1e-3, 0.0}) {
+      form.set_epsilon(epsilon);
+      const Eigen::MatrixXd e = matrix_of(form);
+      const Eigen::VectorXd values = symmetric_eigenvalues(0.5 * (e + e.transpose()));
+      // the solves stop at 1e-10, and S is 0.1; CR's interpolant and loads are two quadratures of waves, 1e-8
+      EXPECT_LT((e - e.transpose()).cwiseAbs().maxCoeff(), 1e-8) << element->name();
+      EXPECT_GT(values.minCoeff(), -1e-7) << element->name();
+      const WorstLoad worst = form.worst(1e-6);
+      EXPECT_NEAR(worst.error * worst.error / values.maxCoeff(), 1, 1e-6) << element->name();
+      EXPECT_NEAR(form.error(worst.load) / worst.error, 1, 1e-6);
+      EXPECT_NEAR(worst.load.norm(), 1, 1e-12);
+    }
+  }
+}
+
+/// l_k: |sinh(a (1 - y)) / sinh a| over the root of a coth a + a^2, a = k pi.
+double loss(int k) {
+  const double a = k * pi, norm2 = (1 / std::tanh(a) - a / std::pow(std::sinh(a), 2)) / (2 * a);
+  return std::sqrt(norm2 / (a / std::tanh(a) + a * a));
+}
+
+// dim G_h = p - 1 on the layer: of the first p waves one combination is lost whole, however fine the mesh.
+TEST(ErrorForm, EveryDegreeLosesWhatItsKernelCannotHold) {
+  for (const Element* element : {&p1(), &p2(), &p3(), &p4()})
+    for (const int cells : {4, 8}) {
+      const TriangleMesh mesh = unstructured_mesh(cells);
+      const Space space(mesh, *element);
+      ErrorForm form(space, LoadModes(2 * cells));  // waves 1 to 4 are among them
+      form.set_epsilon(0);
+      const double rigid = form.worst().error;
+      EXPECT_GT(rigid, 0.999 * loss(element->degree())) << element->name();
+      form.set_epsilon(1e-20);
+      EXPECT_NEAR(form.worst().error / rigid, 1, 1e-3) << element->name();
+    }
+}
+
+// What is left out of the ball adds at most beyond()^2 to the square, and nothing is taken away.
+TEST(ErrorForm, MoreWavesAddNoMoreThanIsProved) {
+  const TriangleMesh mesh = structured_mesh(6);
+  const Space space(mesh, p1());
+  ErrorForm few(space, LoadModes(6)), many(space, LoadModes(18));
+  for (const double epsilon : {1.0, 0.0}) {
+    few.set_epsilon(epsilon);
+    many.set_epsilon(epsilon);
+    const double low = few.worst().error, high = many.worst().error;
+    EXPECT_GT(high, 0.999 * low);
+    EXPECT_LT(high, std::hypot(low, few.modes().beyond()));
+  }
+}
+
+TEST(ErrorForm, RefusesWhatItCannotServe) {
+  expect_refused([] { LoadModes(0); }, "waves");
+  const TriangleMesh mesh = structured_mesh(2), body = structured_mesh(2, Domain{0});
+  const Space space(mesh, p1()), no_layer(body, p1());
+  ErrorForm form(space, LoadModes(2));
+  expect_refused([&] { form.set_epsilon(2); }, "epsilon");
+  expect_refused([&] { form.set_epsilon(std::nan("")); }, "epsilon");
+  expect_refused([&] { form.apply(Eigen::VectorXd::Ones(1)); }, "coefficients");
+  expect_refused([&] { ErrorForm(no_layer, LoadModes(2)); }, "layer");
+}
+
+}  // namespace
+}  // namespace antilock

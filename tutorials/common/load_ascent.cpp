@@ -1,0 +1,69 @@
+#include "common/load_ascent.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "antilock/exact/truth_table.hpp"
+#include "antilock/measure/errors.hpp"
+
+namespace antilock::tutorial {
+
+SineLoad load_of_modes(const Eigen::VectorXd& c) {
+  const double square = std::pow(std::numbers::pi / 2, 2);
+  SineLoad load;
+  for (int k = 1; k <= c.size(); ++k) {
+    std::vector<double> cosine(13, 0.0);
+    double term = 2 * c(k - 1);
+    for (int i = 0; i <= 12; i += 2) {
+      cosine[i] = term;
+      term *= -square / ((i + 1) * (i + 2));
+    }
+    load.modes.push_back({k, cosine});
+  }
+  return load;
+}
+
+ErrorUnderContact::ErrorUnderContact(const Method& method, int cells, double epsilon)
+    : on_(method.on(cells)),
+      epsilon_(epsilon),
+      sweep_(Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}), on_.space()) {}
+
+double ErrorUnderContact::operator()(const Eigen::VectorXd& c) {
+  const SineLoad load = load_of_modes(c);
+  const Truth truth(load, epsilon_, true, 9);  // a few thousandths of the error: the search has to be quick
+  const TruthTable table(truth, 1 << 8);
+  sweep_.set_load(load);
+  return measure_errors(on_.space(), sweep_.solve(), epsilon_, reference(table)).energy;
+}
+
+Ascent ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
+              int steps) {
+  Ascent best;
+  for (const Eigen::VectorXd& start : starts) {
+    Eigen::VectorXd at = start.normalized();
+    double value = error(at), step = 0.3;
+    ++best.evaluations;
+    for (int i = 0; i < steps && step > 0.02; ++i) {
+      Eigen::VectorXd gradient(at.size());
+      for (Eigen::Index k = 0; k < at.size(); ++k)
+        gradient(k) = error((at + 1e-3 * Eigen::VectorXd::Unit(at.size(), k)).normalized()) - value;
+      const Eigen::VectorXd tried = (at + step * gradient.normalized()).normalized();
+      const double there = error(tried);
+      best.evaluations += static_cast<int>(at.size()) + 1;
+      if (there > value) {
+        at = tried;
+        value = there;
+        step *= 2;
+      } else {
+        step *= 0.5;
+      }
+    }
+    if (value > best.error) {
+      best.error = value;
+      best.load = at;
+    }
+  }
+  return best;
+}
+
+}  // namespace antilock::tutorial
