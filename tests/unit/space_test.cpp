@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <set>
 
+#include "antilock/form/quadrature.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock {
 namespace {
 
-std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()}; }
+std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart(), &p1_bubble()}; }
 
 /// Points in and on the triangle, irregular.
 std::vector<Eigen::Vector3d> sample_points() {
@@ -69,6 +70,22 @@ TEST(Element, DerivativeIsTheDerivativeOfTheBasis) {
             << element->name();
       }
     }
+}
+
+TEST(Element, ABubbleIsNothingOnTheEdgesAndHasItsMean) {
+  // 27 lambda_0 lambda_1 lambda_2: 1 at the centroid, mean 27 * 2 / 5! = 9/20. Without it the element is P1.
+  const Quadrature& rule = triangle_rule(3);
+  double mean = 0;
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+    mean += rule.weights(q) * p1_bubble().basis(rule.points.row(q))(3);
+  EXPECT_NEAR(mean, 9.0 / 20, round_off);
+  for (const Eigen::Vector3d& at : sample_points()) {
+    const Eigen::Vector3d on_edge(0, at(1) / (at(1) + at(2) + 1e-300), at(2) / (at(1) + at(2) + 1e-300));
+    EXPECT_EQ(p1_bubble().basis(on_edge)(3), 0);
+    EXPECT_LT((p1_bubble().basis(on_edge).head<3>() - on_edge).norm(), round_off);
+    const Eigen::VectorXd phi = p1_bubble().basis(at);
+    EXPECT_LT((phi.head<3>().array() + phi(3) / 3 - at.array()).matrix().norm(), round_off);
+  }
 }
 
 TEST(Element, GradientsSumToZero) {

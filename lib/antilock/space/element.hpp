@@ -12,7 +12,7 @@ class Element {
  public:
   virtual ~Element() = default;
   virtual std::string name() const = 0;
-  virtual int degree() const = 0;
+  virtual int degree() const = 0;  ///< of the polynomials of the basis: what a quadrature must be exact for
   virtual bool conforming() const { return true; }  ///< V_h is part of V: no jumps
   virtual int per_vertex() const = 0;               ///< unknowns at a vertex
   virtual int per_edge() const = 0;      ///< unknowns on an edge, ordered from its vertex i+1 to its vertex i+2
@@ -28,14 +28,15 @@ class Element {
 };
 
 /// The pages, one instance each, alive as long as the program: P1, P2, P3 and P4 (conforming; beyond P1 contact is
-/// asked at the unknowns on Gamma_C alone, so that K_h is not part of K) and CR (Crouzeix-Raviart, P1 nonconforming of
-/// Section 4.2: edge midpoints).
+/// asked at the unknowns on Gamma_C alone, so that K_h is not part of K), CR (Crouzeix-Raviart, P1 nonconforming of
+/// Section 4.2: edge midpoints) and P1 with a bubble per triangle, which is P1 on every edge.
 const Element& p1();
 const Element& p2();
 const Element& p3();
 const Element& p4();
 const Element& crouzeix_raviart();
-/// By name, "P1" to "P4" or "CR"; throws Error for another.
+const Element& p1_bubble();
+/// By name, "P1" to "P4", "CR" or "P1+bubble"; throws Error for another.
 const Element& element(const std::string& name);
 
 }  // namespace antilock
