@@ -48,40 +48,23 @@
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/exact/plate_truth.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/models/plate.hpp"
 #include "antilock/study/sweep.hpp"
 #include "antilock/study/table.hpp"
+#include "common/plate_study.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;
+using tutorial::Discrete, tutorial::largest_error;
+using Method = tutorial::PlateMethod;
 
-struct Method {
-  std::string name, file;
-  const Element &deflection, &rotation;
-  ShearRule shear;
-  bool locks;
-};
 const std::vector<Method> methods{
     {"P1, exact shear", "p1", p1(), p1(), ShearRule::exact, true},
     {"P1, shear at one point", "p1_one", p1(), p1(), ShearRule::mean, true},
     {"Duran-Liberman", "duran_liberman", p1(), p1(), ShearRule::edges, false},
     {"Arnold-Falk", "arnold_falk", crouzeix_raviart(), p1_bubble(), ShearRule::mean, false}};
 
-// ### Mesh
-// Rings of nearly equilateral triangles; the rim is clamped.
-struct Discrete {
-  Discrete(const Method& method, const TriangleMesh& mesh)
-      : w(mesh, method.deflection), theta(mesh, method.rotation), space{w, {theta, theta}, method.shear} {}
-  Space w, theta;
-  PlateSpace space;
-};
-
-double largest_error(const Space& w, const Solution& solution, const PlateTruth& truth);
-double patch_error(const Method& method, const TriangleMesh& mesh, double thickness);
-void draw(Table& profile, const Method& method, const Space& w, const Solution& solution);
 void judge(const Table& checks, const Table& errors, double h, tutorial::Report& report);
 
 const std::vector<double> thicknesses{0, 1e-20, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 3e-2, 1e-1, 3e-1, 1};
@@ -93,6 +76,8 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
   for (const Method& method : methods) {
     report.stage(method.name);
     for (const int n : {options.cells / 2, 3 * options.cells / 4, options.cells}) {
+      // ### Mesh
+      // Rings of nearly equilateral triangles; the rim is clamped.
       const TriangleMesh mesh = disc_mesh(n);
       const Discrete on(method, mesh);
       // ### Forms
@@ -113,13 +98,15 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
       // ### Output
       sweep.set_compliance(options.epsilon);
       const Solution solution = sweep.solve();
-      draw(profile, method, on.w, solution);
+      tutorial::add_diameter(profile, method, on.w, solution, std::sqrt(options.epsilon));
+      write_freefem_mesh(options.out / "mesh.freefem.msh", mesh);
       write_vtu(options.out / (method.file + ".vtu"), on.w, solution.u.head(on.w.size()));
       const double n2 = n * n, vertices = 3 * n2 - 3 * n + 1;  // off the rim
       const double left = method.locks ? 0 : method.shear == ShearRule::edges ? 3 * vertices : 15 * n2 - 9 * n + 2;
       const TriangleMesh small = disc_mesh(6);
       checks.add({method.name, problem.free_count(), kernel_dimension(problem), left,
-                  std::max(patch_error(method, small, 1), patch_error(method, small, 1e-3)), seconds, method.locks});
+                  std::max(tutorial::patch_error(method, small, 1), tutorial::patch_error(method, small, 1e-3)),
+                  seconds, method.locks});
     }
   }
   report.finish();
@@ -170,9 +157,8 @@ void judge(const Table& checks, const Table& errors, double h, tutorial::Report&
 // $t ≤ 0.1$ and fall like $h^2$ in the limit. Durán–Liberman's error is the smaller one where $t ≪ h$, and rises where $t$
 // is near $h/2$ and the edge of the contact lies between two rings. At $t = 0.3$ nothing is locked.
 //
-// **What it costs.** One solution with 16 rings, without the machine's other work: P1 0.01 s, error 1 (any price is too
-// high); Durán–Liberman 0.02 s, error 0.0004; Arnold–Falk 0.05 s, error 0.005. Arnold–Falk has half as many unknowns
-// again, and takes up to 28 steps to find a contact set from nothing; along a sweep it takes one to six.
+// **What it costs.** One solution with 16 rings takes P1 0.01 to 0.02 s (error 1: any price is too high),
+// Durán–Liberman 0.03 s (error 0.0004) and Arnold–Falk 0.05 s (error 0.005, half as many unknowns again).
 //
 // ## Exercises
 //
@@ -195,42 +181,4 @@ int main(int argc, char** argv) {
        .most_cells = 64,
        .exercises = exercises},
       press);
-}
-
-double largest_error(const Space& w, const Solution& solution, const PlateTruth& truth) {
-  double largest = 0;
-  for (int i = 0; i < w.size(); ++i)
-    largest = std::max(largest, std::abs(solution.u(i) - truth.deflection(w.points().row(i).norm())));
-  return largest;
-}
-
-// A constant curvature, $w = x^2 + x y - y^2 / 2$ and $θ = ∇w$ on the rim, no load. Each triangle's bending is exact then.
-double patch_error(const Method& method, const TriangleMesh& mesh, double thickness) {
-  const Discrete on(method, mesh);
-  Plate bent{.thickness = thickness, .load = [](double, double) { return 0.0; }};
-  bent.gap = [](double, double) { return INFINITY; };
-  bent.rim = [](double x, double y) { return x * x + x * y - y * y / 2; };
-  bent.rim_slope_x = [](double x, double y) { return 2 * x + y; };
-  bent.rim_slope_y = [](double x, double y) { return x - y; };
-  const Eigen::VectorXd u = active_set(assemble(bent, on.space)).u;
-  double worst = 0;
-  for (int i = 0; i < mesh.vertex_count(); ++i) {
-    const double x = mesh.vertices(i, 0), y = mesh.vertices(i, 1);
-    worst =
-        std::max({worst, std::abs(u(on.space.theta_x() + i) - 2 * x - y), std::abs(u(on.space.theta_y() + i) - x + y)});
-  }
-  return worst;
-}
-
-// The deflection along the diameter $y = 0$, at the midpoints of the edges there.
-void draw(Table& profile, const Method& method, const Space& w, const Solution& solution) {
-  const TriangleMesh& mesh = w.mesh();
-  const PlateTruth truth(0);
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    const int a = mesh.edges(e, 0), b = mesh.edges(e, 1);
-    if (std::abs(mesh.vertices(a, 1)) + std::abs(mesh.vertices(b, 1)) > 1e-9) continue;
-    const double x = (mesh.vertices(a, 0) + mesh.vertices(b, 0)) / 2;
-    profile.add({x, method.file, method.deflection.conforming() ? (solution.u(a) + solution.u(b)) / 2 : solution.u(e)});
-    if (method.file == "p1") profile.add({x, "exact", truth.deflection(std::abs(x))});
-  }
 }

@@ -17,6 +17,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
+#include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
@@ -173,6 +174,35 @@ std::vector<Line> elasticity(int cells, const std::filesystem::path& out) {
   return lines;
 }
 
+/// The plate at t = 1e-4, the elements that both sides have: w at the unknowns of the deflection.
+std::vector<Line> plates(int rings, const std::filesystem::path& out) {
+  const TriangleMesh mesh = disc_mesh(rings);
+  const Plate plate{.thickness = 1e-4};
+  freefem::run_plate(mesh, 1e-8, out / "freefem");
+  std::vector<Line> lines;
+  const auto add = [&](const std::string& name, const std::string& what, const Element& in_w, const Element& in_theta,
+                       ShearRule shear) {
+    const Space w(mesh, in_w), theta(mesh, in_theta);
+    const Solution ours = active_set(assemble(plate, {w, {theta, theta}, shear}));
+    const freefem::PlateAnswer theirs = freefem::plate_answer(out / "freefem", name, w);
+    const Eigen::VectorXd deflection = ours.u.head(w.size());
+    int disagree = 0, bound = 0;
+    for (int i = 0; i < w.size(); ++i) {
+      if (std::binary_search(w.clamped().begin(), w.clamped().end(), i)) continue;
+      disagree += ours.active[bound++] != (theirs.force(i) != 0);
+    }
+    lines.push_back({"24_plate", fmt::format("{}, {} rings, t = {:g}", what, rings, plate.thickness), theirs.road,
+                     static_cast<int>(ours.u.size()),
+                     (deflection - theirs.w).cwiseAbs().maxCoeff() / deflection.cwiseAbs().maxCoeff(),
+                     disagree == 0 ? "same" : fmt::format("{} others", disagree), ours.seconds.total(),
+                     theirs.seconds});
+  };
+  add("P1", "P1, exact shear, locked", p1(), p1(), ShearRule::exact);
+  add("P1_one", "P1, shear at one point, locked", p1(), p1(), ShearRule::mean);
+  add("Arnold_Falk", "Arnold-Falk", crouzeix_raviart(), p1_bubble(), ShearRule::mean);
+  return lines;
+}
+
 /// FreeFEM with the plain sum: shown, not asked to agree.
 Line plain_sum(const Method& method, double epsilon, int cells, const std::filesystem::path& out) {
   const TriangleMesh mesh = make_mesh(method, cells);
@@ -304,6 +334,7 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
   for (const Line& line : numbers(cells, out)) lines.push_back(line);
   for (const Line& line : beams(2 * cells, out)) lines.push_back(line);
   for (const Line& line : elasticity(cells, out)) lines.push_back(line);
+  for (const Line& line : plates(cells / 2, out)) lines.push_back(line);
   for (const Line& line : models(out)) lines.push_back(line);
   for (const double e : {1e-2, 1e-4, 1e-6, 1e-8}) lines.push_back(plain_sum(methods[3], e, cells, out));
   return lines;
