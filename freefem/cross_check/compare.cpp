@@ -17,8 +17,9 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
-#include "antilock/problem/bounds.hpp"
+#include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/uzawa.hpp"
@@ -173,14 +174,44 @@ std::vector<Line> elasticity(int cells, bool friction, const std::filesystem::pa
     const Solution ours = active_set(problem);
     const freefem::ElasticAnswer theirs =
         (friction ? freefem::friction_answer : freefem::elastic_answer)(out / "freefem", name, {x, y});
-    lines.push_back({friction ? "26_friction" : "23_elasticity", fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon),
-                     theirs.road, static_cast<int>(ours.u.size()),
+    lines.push_back({friction ? "26_friction" : "23_elasticity",
+                     fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon), theirs.road,
+                     static_cast<int>(ours.u.size()),
                      (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff(),
                      same_zones(problem, ours, theirs.force), ours.seconds.total(), theirs.seconds});
   };
   add("P1", "P1 and P1, locked", p1(), p1());
   add("P1nc", "CR and CR with jumps", crouzeix_raviart(), crouzeix_raviart());
   add("KS", "P1 and CR", p1(), crouzeix_raviart());
+  return lines;
+}
+
+/// The plate at t = 1e-4, the elements that both sides have: w at the unknowns of the deflection.
+std::vector<Line> plates(int rings, const std::filesystem::path& out) {
+  const TriangleMesh mesh = disc_mesh(rings);
+  const Plate plate{.thickness = 1e-4};
+  freefem::run_plate(mesh, 1e-8, out / "freefem");
+  std::vector<Line> lines;
+  const auto add = [&](const std::string& name, const std::string& what, const Element& in_w, const Element& in_theta,
+                       ShearRule shear) {
+    const Space w(mesh, in_w), theta(mesh, in_theta);
+    const Solution ours = active_set(assemble(plate, {w, {theta, theta}, shear}));
+    const freefem::PlateAnswer theirs = freefem::plate_answer(out / "freefem", name, w);
+    const Eigen::VectorXd deflection = ours.u.head(w.size());
+    int disagree = 0, bound = 0;
+    for (int i = 0; i < w.size(); ++i) {
+      if (std::binary_search(w.clamped().begin(), w.clamped().end(), i)) continue;
+      disagree += ours.active[bound++] != (theirs.force(i) != 0);
+    }
+    lines.push_back({"24_plate", fmt::format("{}, {} rings, t = {:g}", what, rings, plate.thickness), theirs.road,
+                     static_cast<int>(ours.u.size()),
+                     (deflection - theirs.w).cwiseAbs().maxCoeff() / deflection.cwiseAbs().maxCoeff(),
+                     disagree == 0 ? "same" : fmt::format("{} others", disagree), ours.seconds.total(),
+                     theirs.seconds});
+  };
+  add("P1", "P1, exact shear, locked", p1(), p1(), ShearRule::exact);
+  add("P1_one", "P1, shear at one point, locked", p1(), p1(), ShearRule::mean);
+  add("Arnold_Falk", "Arnold-Falk", crouzeix_raviart(), p1_bubble(), ShearRule::mean);
   return lines;
 }
 
@@ -320,6 +351,7 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
   for (const Line& line : beams(2 * cells, out)) lines.push_back(line);
   for (const bool friction : {false, true})
     for (const Line& line : elasticity(cells, friction, out)) lines.push_back(line);
+  for (const Line& line : plates(cells / 2, out)) lines.push_back(line);
   for (const Line& line : models(out)) lines.push_back(line);
   for (const double e : {1e-2, 1e-4, 1e-6, 1e-8}) lines.push_back(plain_sum(methods[3], e, cells, out));
   return lines;

@@ -171,6 +171,19 @@ double taylor_hood_force(const std::filesystem::path& folder) {
   return read_table(folder / "TaylorHood_summary.csv", 1).column("force")(0);
 }
 
+void run_plate(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder) {
+  const auto file = folder / "mesh.freefem.msh";
+  write_freefem_mesh(file, mesh);
+  run("24_plate", {"-mesh", file, "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+}
+
+PlateAnswer plate_answer(const std::filesystem::path& folder, const std::string& name, const Space& deflection) {
+  const Table values = read_table(folder / (name + ".csv")), summary = read_table(folder / (name + "_summary.csv"), 1);
+  const std::vector<int> order = match(deflection.points(), places(values));
+  return {summary.names.at(0), values.column("u")(order), values.column("force")(order), summary.column("energy")(0),
+          summary.column("seconds")(0)};
+}
+
 Comparison compare(const Space& space, const VariationalInequality& problem, const Solution& ours,
                    const Answer& theirs) {
   Comparison c;

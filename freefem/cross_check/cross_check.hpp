@@ -67,6 +67,17 @@ ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::st
 /// The contact force of Taylor-Hood there.
 double taylor_hood_force(const std::filesystem::path& folder);
 
+/// What 24_plate.edp found with one of its elements.
+struct PlateAnswer {
+  std::string road;
+  Eigen::VectorXd w, force;  ///< as the space of the deflection numbers them
+  double energy = 0, seconds = 0;
+};
+/// Runs 24_plate.edp on a mesh; epsilon is the square of the thickness.
+void run_plate(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
+/// Reads what it left there for the element `name`: P1, P1_one or Arnold_Falk.
+PlateAnswer plate_answer(const std::filesystem::path& folder, const std::string& name, const Space& deflection);
+
 /// Our solution against theirs.
 struct Comparison {
   double difference = 0;     ///< largest |u - their u| / largest |u|

@@ -15,6 +15,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
+#include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
@@ -282,6 +283,31 @@ TEST_P(Beams, AgreeInDeflectionForceAndEnergyForBothIntegrations) {
 }
 INSTANTIATE_TEST_SUITE_P(FreeFem, Beams, ::testing::Values(1e-2, 1e-4));
 
+class Plates : public ::testing::TestWithParam<double> {};
+
+// The same discrete problems on the same mesh. P1 is locked at 1e-8, and what is left of it is compared too.
+TEST_P(Plates, AgreeInDeflectionForceAndEnergyForThreeElements) {
+  const TemporaryFolder folder;
+  const TriangleMesh mesh = disc_mesh(8);
+  freefem::run_plate(mesh, GetParam(), folder.path());
+  for (const auto& [name, in_w, in_theta, shear] :
+       {std::tuple{"P1", &p1(), &p1(), ShearRule::exact},
+        {"P1_one", &p1(), &p1(), ShearRule::mean},
+        {"Arnold_Falk", &crouzeix_raviart(), &p1_bubble(), ShearRule::mean}}) {
+    SCOPED_TRACE(name);
+    const Space w(mesh, *in_w), theta(mesh, *in_theta);
+    const VariationalInequality problem =
+        assemble(Plate{.thickness = std::sqrt(GetParam())}, PlateSpace{w, {theta, theta}, shear});
+    const Solution ours = active_set(problem);
+    const freefem::PlateAnswer theirs = freefem::plate_answer(folder.path(), name, w);
+    const Eigen::VectorXd deflection = ours.u.head(w.size());
+    EXPECT_LT((deflection - theirs.w).cwiseAbs().maxCoeff(), 1e-8 * deflection.cwiseAbs().maxCoeff());
+    EXPECT_NEAR(theirs.force.sum(), ours.lambda.sum(), 1e-6 * 256);
+    EXPECT_NEAR(theirs.energy / energy(problem, ours), 1, 1e-7);
+  }
+}
+INSTANTIATE_TEST_SUITE_P(FreeFem, Plates, ::testing::Values(1e-2, 1e-8));
+
 class Elasticity : public ::testing::TestWithParam<double> {};
 
 TEST_P(Elasticity, AgreesOnTheSameMeshForEveryElementAndWithTaylorHood) {
@@ -378,6 +404,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"22_beam", {"beam.csv", "summary.csv", "beam.eps"}},
       {"23_elasticity",
        {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv", "P1_deformed.eps"}},
+      {"24_plate", {"P1.csv", "P1_one_summary.csv", "Arnold_Falk.csv", "P1.eps"}},
       {"25_mixed", {"boxes.csv", "MINI_x.csv", "TaylorHood_y.csv", "summary.csv", "boxes.eps"}},
       {"26_friction", {"P1_floor.csv", "KS_summary.csv", "TaylorHood_summary.csv", "TaylorHood_deformed.eps"}},
       {"28_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},

@@ -31,4 +31,8 @@ TriangleMesh jittered_mesh(int cells, double amount);
 /// of the coarse mesh, and inside its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
 TriangleMesh unstructured_mesh(int cells, const Domain& domain = {});
 
+/// The disc of radius 1, its rim clamped: 6 rings^2 triangles with edges of about 1/rings and nearly equal angles. Its
+/// boundary is the polygon through 6 rings points of the circle. Throws Error unless 1 <= rings <= 512.
+TriangleMesh disc_mesh(int rings);
+
 }  // namespace antilock

@@ -1,0 +1,73 @@
+#include "antilock/models/plate.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "antilock/core/error.hpp"
+#include "antilock/form/forms.hpp"
+
+namespace antilock {
+namespace {
+
+/// The unknowns on the rim, and their values.
+std::map<int, double> held(const Plate& plate, const PlateSpace& space) {
+  const TriangleMesh& mesh = space.mesh();
+  std::map<int, double> values;
+  const auto hold = [&](const Space& part, int first, const Field& value) {
+    for (const int i : part.clamped()) values[first + i] = value(part.points()(i, 0), part.points()(i, 1));
+  };
+  hold(space.deflection, 0, plate.rim);
+  hold(space.rotation.x, space.theta_x(), plate.rim_slope_x);
+  hold(space.rotation.y, space.theta_y(), plate.rim_slope_y);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
+    const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+    const Eigen::RowVector2d middle = (a + b) / 2, along = (b - a).normalized();
+    const auto curve = [&](const Field& f) {  // Simpson's mean minus the mean of the ends
+      return 2 * (f(middle(0), middle(1)) - (f(a(0), a(1)) + f(b(0), b(1))) / 2) / 3;
+    };
+    if (!space.deflection.element().conforming())
+      values[e] = (plate.rim(a(0), a(1)) + plate.rim(b(0), b(1))) / 2 + curve(plate.rim);
+    if (space.shear == ShearRule::edges)
+      values[space.on_edges() + e] = along(0) * curve(plate.rim_slope_x) + along(1) * curve(plate.rim_slope_y);
+  }
+  return values;
+}
+
+}  // namespace
+
+VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
+  if (!(plate.thickness >= 0 && plate.thickness <= 1))
+    throw Error(fmt::format("plate: thickness = {}; accepted 0 to 1", plate.thickness));
+  if (!(plate.poisson >= 0 && plate.poisson < 1))
+    throw Error(fmt::format("plate: Poisson's ratio = {}; accepted 0 to less than 1", plate.poisson));
+  VariationalInequality problem;
+  problem.a1 = bending_form(space, plate.poisson);
+  FactoredForm shear = shear_form(space);
+  problem.b = std::move(shear.b);
+  problem.m = std::move(shear.m);
+  problem.compliance = plate.thickness * plate.thickness;  // the class parameter is t^2
+  problem.load = Eigen::VectorXd::Zero(space.size());
+  problem.load.head(space.deflection.size()) = load_vector(space.deflection, plate.load);
+
+  const std::map<int, double> fixed = held(plate, space);
+  problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()));
+  for (const auto& [i, value] : fixed) {
+    problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
+    problem.fixed.push_back(i);
+  }
+  std::vector<double> lower;
+  for (int i = 0; i < space.deflection.size(); ++i) {
+    const double gap = plate.gap(space.deflection.points()(i, 0), space.deflection.points()(i, 1));
+    if (std::isnan(gap)) throw Error("plate: the gap is not a number");
+    if (fixed.count(i) > 0 || std::isinf(gap)) continue;
+    problem.contact.push_back(i);
+    lower.push_back(-gap);
+  }
+  problem.lower = Eigen::Map<const Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
+  return problem;
+}
+
+}  // namespace antilock

@@ -1,0 +1,262 @@
+// Reissner and Mindlin's plate over an obstacle: the class in two dimensions, bounds under all of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/exact/plate_truth.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/models/plate.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Method {
+  std::string name;
+  const Element &deflection, &rotation;
+  ShearRule shear;
+};
+const Method exact_shear{"P1, exact", p1(), p1(), ShearRule::exact};
+const Method one_point{"P1, one point", p1(), p1(), ShearRule::mean};
+const Method duran_liberman{"Duran-Liberman", p1(), p1(), ShearRule::edges};
+const Method arnold_falk{"Arnold-Falk", crouzeix_raviart(), p1_bubble(), ShearRule::mean};
+
+struct On {
+  On(const Method& method, const TriangleMesh& mesh)
+      : w(mesh, method.deflection), theta(mesh, method.rotation), space{w, {theta, theta}, method.shear} {}
+  Space w, theta;
+  PlateSpace space;
+};
+
+/// A mesh of the unit square, clamped all round.
+TriangleMesh clamped(TriangleMesh mesh) {
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_triangles(e, 1) < 0) mesh.edge_tag[e] = EdgeTag::clamped;
+  return mesh;
+}
+
+/// No load and no obstacle; the rim bends the plate to w = x^2 + x y - y^2 / 2.
+Plate bent(double thickness) {
+  Plate plate{.thickness = thickness, .load = [](double, double) { return 0.0; }};
+  plate.gap = [](double, double) { return infinity; };
+  plate.rim = [](double x, double y) { return x * x + x * y - y * y / 2; };
+  plate.rim_slope_x = [](double x, double y) { return 2 * x + y; };
+  plate.rim_slope_y = [](double x, double y) { return x - y; };
+  return plate;
+}
+
+TEST(DiscMesh, IsADiscOfGoodTriangles) {
+  for (const int n : {1, 2, 7, 20}) {
+    const TriangleMesh mesh = disc_mesh(n);
+    EXPECT_EQ(mesh.triangle_count(), 6 * n * n);
+    EXPECT_EQ(mesh.vertex_count(), 3 * n * n + 3 * n + 1);
+    double area = 0, widest = 0;
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      area += mesh.area(t);
+      for (int i = 0; i < 3; ++i) {
+        const Eigen::RowVector2d a = mesh.vertices.row(mesh.triangles(t, i)),
+                                 b = mesh.vertices.row(mesh.triangles(t, (i + 1) % 3)) - a,
+                                 c = mesh.vertices.row(mesh.triangles(t, (i + 2) % 3)) - a;
+        widest = std::max(widest, std::acos(b.dot(c) / b.norm() / c.norm()));
+      }
+    }
+    // the polygon of 6 n corners
+    EXPECT_NEAR(area, 3 * n * std::sin(std::numbers::pi / (3 * n)), 1e-12);
+    EXPECT_LT(widest, 95 * std::numbers::pi / 180) << n;
+    for (int e = 0; e < mesh.edge_count(); ++e)
+      EXPECT_EQ(mesh.edge_tag[e] == EdgeTag::clamped, mesh.edge_triangles(e, 1) < 0);
+  }
+  EXPECT_THROW(disc_mesh(0), Error);
+}
+
+TEST(Plate, BendsExactlyWithConstantCurvature) {
+  // grad w is affine: the rotations hold it, and the edge means of w make the shear 0. Whatever the mesh and t.
+  for (const TriangleMesh& mesh : {disc_mesh(6), clamped(unstructured_mesh(6, Domain{0}))})
+    for (const Method& method : {duran_liberman, arnold_falk})
+      for (const double t : {1.0, 1e-3, 1e-20, 0.0}) {
+        SCOPED_TRACE(method.name + ", t = " + std::to_string(t));
+        const On on(method, mesh);
+        const VariationalInequality problem = assemble(bent(t), on.space);
+        const Solution s = active_set(problem);
+        for (int i = 0; i < mesh.vertex_count(); ++i) {
+          const double x = mesh.vertices(i, 0), y = mesh.vertices(i, 1);
+          ASSERT_NEAR(s.u(on.space.theta_x() + i), 2 * x + y, 1e-11);
+          ASSERT_NEAR(s.u(on.space.theta_y() + i), x - y, 1e-11);
+          if (on.w.element().conforming()) {
+            ASSERT_NEAR(s.u(i), x * x + x * y - y * y / 2, 1e-11);
+          }
+        }
+        // bending energy of the curvatures 2, -1 and twist 1: (1 - nu)(4 + 1 + 2) + nu (2 - 1)^2 per area
+        double area = 0;
+        for (int k = 0; k < mesh.triangle_count(); ++k) area += mesh.area(k);
+        EXPECT_NEAR(s.u.dot(problem.a1 * s.u), (0.7 * 7 + 0.3) * area, 1e-10);
+      }
+}
+
+TEST(Plate, P1CannotBendAtAllInTheLimit) {
+  for (const Method& method : {exact_shear, one_point}) {
+    const TriangleMesh mesh = disc_mesh(5);
+    const On on(method, mesh);
+    EXPECT_EQ(kernel_dimension(assemble(Plate{}, on.space)), 0);
+    EXPECT_THROW(active_set(assemble(bent(0), on.space)), NotConverged);  // B u = 0 has no solution with this rim
+  }
+}
+
+TEST(Plate, TheCuresLeaveAsManyFunctionsAsCounted) {
+  for (const int n : {3, 6}) {
+    const TriangleMesh mesh = disc_mesh(n);
+    const On edges(duran_liberman, mesh), mean(arnold_falk, mesh);
+    const int inner = 3 * n * n - 3 * n + 1;
+    EXPECT_EQ(kernel_dimension(assemble(Plate{}, edges.space)), 3 * inner);
+    // w and P1 rotations: the bubbles are determined by them
+    EXPECT_EQ(kernel_dimension(assemble(Plate{}, mean.space)), 9 * n * n - 3 * n + 2 * inner);
+  }
+}
+
+/// A clamped plate on the unit square without obstacle: w0 = 1e4 g(x) g(y), g = x^3 (x - 1)^3, theta = grad w0,
+/// w = w0 - t^2 Laplace w0, load = Laplace^2 w0 (a check by hand: the shear force is -grad Laplace w0).
+struct Square {
+  double t;
+  static double g(double x, int derivative) {
+    const double x2 = x * x;
+    if (derivative == 0) return x2 * x * std::pow(x - 1, 3);
+    if (derivative == 1) return 3 * x2 * (x - 1) * (x - 1) * (2 * x - 1);
+    if (derivative == 2) return 30 * x2 * x2 - 60 * x2 * x + 36 * x2 - 6 * x;
+    return 360 * x2 - 360 * x + 72;  // the fourth
+  }
+  double deflection(double x, double y) const {
+    return 1e4 * (g(x, 0) * g(y, 0) - t * t * (g(x, 2) * g(y, 0) + g(x, 0) * g(y, 2)));
+  }
+  Plate plate() const {
+    Plate p{.thickness = t};
+    p.load = [](double x, double y) { return 1e4 * (g(x, 4) * g(y, 0) + 2 * g(x, 2) * g(y, 2) + g(x, 0) * g(y, 4)); };
+    p.gap = [](double, double) { return infinity; };
+    return p;
+  }
+};
+
+/// Root mean squares of the errors of w at its unknowns and of theta_x at the vertices, relative to those of w and theta.
+std::pair<double, double> errors(const Method& method, const TriangleMesh& mesh, const Square& exact) {
+  const On on(method, mesh);
+  const Solution s = active_set(assemble(exact.plate(), on.space));
+  double w = 0, w2 = 0, theta = 0, theta2 = 0;
+  for (int i = 0; i < on.w.size(); ++i) {
+    const double value = exact.deflection(on.w.points()(i, 0), on.w.points()(i, 1));
+    w += std::pow(s.u(i) - value, 2);
+    w2 += value * value;
+  }
+  for (int i = 0; i < mesh.vertex_count(); ++i) {
+    const double value = 1e4 * Square::g(mesh.vertices(i, 0), 1) * Square::g(mesh.vertices(i, 1), 0);
+    theta += std::pow(s.u(on.space.theta_x() + i) - value, 2);
+    theta2 += value * value;
+  }
+  return {std::sqrt(w / w2), std::sqrt(theta / theta2)};
+}
+
+TEST(Plate, ConvergesLikeHSquaredUniformlyInTheThickness) {
+  // Arnold and Falk 1989, Duran and Liberman 1992: C h^2 in L2, C without t, on any mesh
+  const std::vector<TriangleMesh> meshes{clamped(unstructured_mesh(8, Domain{0})),
+                                         clamped(unstructured_mesh(16, Domain{0})),
+                                         clamped(unstructured_mesh(32, Domain{0}))};
+  const auto order = [](const std::vector<double>& error) { return std::log2(error.front() / error.back()) / 2; };
+  for (const Method& method : {duran_liberman, arnold_falk})
+    for (const double t : {1.0, 0.1, 1e-2, 1e-4, 0.0}) {
+      SCOPED_TRACE(method.name + ", t = " + std::to_string(t));
+      std::vector<double> w, theta;
+      for (const TriangleMesh& mesh : meshes) {
+        const auto [in_w, in_theta] = errors(method, mesh, {t});
+        w.push_back(in_w);
+        theta.push_back(in_theta);
+      }
+      EXPECT_GT(order(w), 1.7) << w[0] << " " << w[2];
+      EXPECT_GT(order(theta), 1.7) << theta[0] << " " << theta[2];
+      EXPECT_LT(w.back(), 0.02);
+      EXPECT_LT(theta.back(), 0.02);
+    }
+  for (const Method& method : {exact_shear, one_point}) EXPECT_GT(errors(method, meshes[1], {1e-4}).first, 0.99);
+}
+
+TEST(Plate, ThePressedPlateFulfilsTheConditionsOnBothRoads) {
+  const TriangleMesh mesh = disc_mesh(8);
+  for (const Method& method : {duran_liberman, arnold_falk})
+    for (const double t : {1.0, 1e-2, 1e-8, 1e-20, 0.0}) {
+      SCOPED_TRACE(method.name + ", t = " + std::to_string(t));
+      const On on(method, mesh);
+      const VariationalInequality problem = assemble(Plate{.thickness = t}, on.space);
+      ActiveSetOptions on_sparse, on_dense;
+      on_sparse.road = ContactRoad::sparse;
+      on_dense.road = ContactRoad::dense;
+      const Solution dense = active_set(problem, on_dense), sparse = active_set(problem, on_sparse);
+      EXPECT_LT(worst_violation(kkt_report(problem, dense)), 1e-9);
+      EXPECT_LT((dense.u - sparse.u).norm(), 1e-8 * dense.u.norm());
+      EXPECT_LE(dense.counters.corrections, 4);
+      EXPECT_EQ(dense.warning, "");
+    }
+}
+
+TEST(Plate, TheContactForceTendsToTheExactOne) {
+  for (const Method& method : {duran_liberman, arnold_falk})
+    for (const double t : {0.1, 1e-2, 0.0}) {
+      std::vector<double> off;
+      for (const int n : {6, 12}) {
+        const TriangleMesh mesh = disc_mesh(n);
+        const On on(method, mesh);
+        off.push_back(std::abs(
+            active_set(assemble(Plate{.thickness = t}, on.space)).lambda.sum() / PlateTruth(t).contact_force() - 1));
+      }
+      EXPECT_LT(off.back(), 0.01) << method.name << t;
+      EXPECT_LT(off.back(), off.front()) << method.name << t;
+    }
+}
+
+TEST(PlateTruth, SolvesItsEquations) {
+  for (const double t : {1.0, 0.1, 1e-2, 1e-4, 1e-9, 0.0}) {
+    SCOPED_TRACE(t);
+    const PlateTruth truth(t);
+    const double c = truth.contact_radius();
+    EXPECT_NEAR(truth.deflection(1), 0, 1e-12);
+    EXPECT_NEAR(truth.deflection(c * (1 + 1e-12)), -1, 1e-9);
+    EXPECT_NEAR(truth.slope(c * (1 + 1e-12)), 0, 1e-8);
+    // slope is the derivative of the deflection
+    for (const double r : {0.95, 0.97, 0.99})
+      EXPECT_NEAR((truth.deflection(r + 1e-5) - truth.deflection(r - 1e-5)) / 2e-5, truth.slope(r), 1e-6);
+    EXPECT_GT(truth.contact_force(), 0);
+    EXPECT_LT(truth.contact_force(), 256 * std::numbers::pi);
+    EXPECT_NEAR(PlateTruth(t, 512, 2).contact_radius(), c, 1e-12);
+  }
+  EXPECT_NEAR(PlateTruth(1e-9).contact_radius(), PlateTruth(0).contact_radius(), 1e-7);
+  EXPECT_THROW(PlateTruth(0, 63), Error);  // w(0) = -63/64 without the obstacle
+}
+
+TEST(Plate, AnObstacleThatP1CannotReachIsRefused) {
+  const TriangleMesh mesh = disc_mesh(6);
+  Plate lifted{.thickness = 0};
+  lifted.gap = [](double, double) { return -0.1; };
+  for (const Method& method : {exact_shear, one_point})
+    EXPECT_THROW(active_set(assemble(lifted, On(method, mesh).space)), NotConverged) << method.name;
+  for (const Method& method : {duran_liberman, arnold_falk})
+    EXPECT_LT(worst_violation(active_set(assemble(lifted, On(method, mesh).space)).kkt), 1e-9) << method.name;
+}
+
+TEST(Plate, ValuesOutOfRangeAreRefused) {
+  const TriangleMesh mesh = disc_mesh(2);
+  const On on(arnold_falk, mesh);
+  for (const double t : {-1e-9, 1.1, std::nan("")})
+    test::expect_refused([&] { assemble(Plate{.thickness = t}, on.space); }, "accepted 0 to 1");
+  for (const double nu : {-0.1, 1.0})
+    test::expect_refused([&] { assemble(Plate{.poisson = nu}, on.space); }, "Poisson");
+  const On wrong({"", p2(), p2(), ShearRule::mean}, mesh), edges({"", p1(), p1_bubble(), ShearRule::edges}, mesh);
+  test::expect_refused([&] { assemble(Plate{}, wrong.space); }, "accepted P1 and P1");
+  test::expect_refused([&] { assemble(Plate{}, edges.space); }, "accepted P1 and P1");
+}
+
+}  // namespace
+}  // namespace antilock

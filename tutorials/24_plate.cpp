@@ -1,0 +1,184 @@
+// # A plate over an obstacle
+//
+// Run: 24_plate                            t = 1e-4, 16 rings, four elements
+// Run: 24_plate --epsilon 1e-2 --cells 12  a thick plate, t = 0.1
+// Run: 24_plate --exercise 1
+// Run: 24_plate --exercise 2
+//
+// Needs: [07](07_kernel.cpp) for kernels, [08](08_crouzeix_raviart.cpp) for Crouzeix–Raviart (CR),
+// [22](22_beam.cpp) for the beam and its shear, [23](23_elasticity.cpp) for the patch test. **Here ε is the parameter
+// of the class (1) itself: $ε = t^2$**, the square of the thickness $t$ but for a factor.
+//
+// **The picture.** A round plate, clamped at its rim, is pressed on a flat obstacle at height $-1$. *With P1 a thin
+// plate does not move, whether its shear is integrated exactly or at one point. With two other elements on the same
+// triangles it lies on the obstacle where it should.*
+//
+// **Predict.** In the limit $∇w = θ$ is asked. Taken at one point of each triangle these are two conditions. The mesh
+// has $n$ rings, $6n^2$ triangles, about $3n^2$ vertices and $9n^2$ edges. (a) How many unknowns has P1 for $w$ and
+// both components of $θ$, and does one point cure it as it cured the beam? (b) How many functions are left with CR for
+// $w$, and P1 and one more function per triangle for each component of $θ$?
+//
+// ## Reissner and Mindlin's plate in the class
+//
+// The plate is the beam of [chapter 22](22_beam.cpp) in two dimensions: a deflection $w$, a rotation $θ ∈ R^2$,
+//
+// $$ a_1 = ∫ (1 - ν) e(θ) : e(φ) + ν \operatorname{div} θ \operatorname{div} φ,   a_0 = ∫ (∇w - θ)·(∇v - φ), $$
+//
+// $L(v) = -q ∫ v$ and $K = \{ w ≥ -1 \text{ everywhere, clamped rim} \}$. Here $e$ is the symmetric gradient and
+// $ν = 0.3$ Poisson's ratio. As $t → 0$, $θ = ∇w$ and $a_1$ becomes $∫ (Δw)^2$: Kirchhoff's plate. Contact is under
+// the whole plate: one bound per unknown of $w$, not on a line.
+//
+// P1 and P1 with exact shear ask for a constant $θ$ on each triangle, so everywhere, and the rim makes it 0. Two cures
+// change the shear strain that the energy sees, and both add to the rotation:
+//
+// - *Arnold–Falk* (1989): the mean of $∇w - θ$ over a triangle. $w$ is CR, whose gradients are constant. $θ$ is P1 and
+// a *bubble* per triangle, $27 λ_0 λ_1 λ_2$, 0 on all edges. The bubble's mean is free: for every $w$ there is a $θ$
+// without shear;
+// - *Durán–Liberman* (1992), a reduced shear: the means of the tangential part $(∇w - θ)·τ$ on the edges. They
+// determine a field $a + b (-y, x)$ per triangle, and this is what is squared. $w$ is P1. $θ$ is P1 and one function
+// per edge along τ, which makes the mean on its edge 0.
+//
+// In both $a_0$ is not the plate's but an $a_{0h}$. Theorem 4 as stated compares spaces for one $a_0$: it covers the
+// cures only if an $a_{0h}$ other than $a_0$ is allowed in it. Both papers prove a bound $C h$ for the linear plate,
+// $C$ the same for all $t$. Contact on an open set leaves $w''$ bounded, so $h^2$ for $w$ is the most to hope for.
+//
+// The truth is a closed form for every $t$ (`exact/plate_truth.cpp`): contact on the disc $r ≤ c$.
+
+#include <cmath>
+
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/io/writers.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/study/sweep.hpp"
+#include "antilock/study/table.hpp"
+#include "common/plate_study.hpp"
+#include "common/tutorial.hpp"
+
+using namespace antilock;
+using tutorial::Discrete, tutorial::largest_error;
+using Method = tutorial::PlateMethod;
+
+const std::vector<Method> methods{
+    {"P1, exact shear", "p1", p1(), p1(), ShearRule::exact, true},
+    {"P1, shear at one point", "p1_one", p1(), p1(), ShearRule::mean, true},
+    {"Duran-Liberman", "duran_liberman", p1(), p1(), ShearRule::edges, false},
+    {"Arnold-Falk", "arnold_falk", crouzeix_raviart(), p1_bubble(), ShearRule::mean, false}};
+
+void judge(const Table& checks, const Table& errors, double h, tutorial::Report& report);
+
+const std::vector<double> thicknesses{0, 1e-20, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 3e-2, 1e-1, 3e-1, 1};
+
+void press(const tutorial::Options& options, tutorial::Report& report) {
+  Table checks({"element", "unknowns", "kernel", "expected", "patch", "seconds", "locks"});
+  Table errors({"element", "rings", "h", "t", "error", "force", "corrections", "steps", "locks"});
+  Table profile({"x", "element", "w"});
+  for (const Method& method : methods) {
+    report.stage(method.name);
+    for (const int n : {options.cells / 2, 3 * options.cells / 4, options.cells}) {
+      // ### Mesh
+      // Rings of nearly equilateral triangles; the rim is clamped.
+      const TriangleMesh mesh = disc_mesh(n);
+      const Discrete on(method, mesh);
+      // ### Forms
+      // They do not hold $t$: one assembly serves every thickness.
+      const VariationalInequality problem = assemble(Plate{}, on.space);
+      // ### Solve
+      // The contact set of one thickness starts the next; all small $t$ share one factor.
+      Stopwatch watch;
+      Sweep sweep(problem);
+      for (const double t : thicknesses) {
+        sweep.set_compliance(t * t);
+        const Solution solution = sweep.solve();
+        errors.add({method.name, n, 1.0 / n, t, largest_error(on.w, solution, PlateTruth(t)), solution.lambda.sum(),
+                    solution.counters.corrections, solution.counters.contact, method.locks});
+      }
+      const double seconds = watch.seconds() / static_cast<double>(thicknesses.size());
+      if (n < options.cells) continue;
+      // ### Output
+      sweep.set_compliance(options.epsilon);
+      const Solution solution = sweep.solve();
+      tutorial::add_diameter(profile, method, on.w, solution, std::sqrt(options.epsilon));
+      write_freefem_mesh(options.out / "mesh.freefem.msh", mesh);
+      write_vtu(options.out / (method.file + ".vtu"), on.w, solution.u.head(on.w.size()));
+      const double n2 = n * n, vertices = 3 * n2 - 3 * n + 1;  // off the rim
+      const double left = method.locks ? 0 : method.shear == ShearRule::edges ? 3 * vertices : 15 * n2 - 9 * n + 2;
+      const TriangleMesh small = disc_mesh(6);
+      checks.add({method.name, problem.free_count(), kernel_dimension(problem), left,
+                  std::max(tutorial::patch_error(method, small, 1), tutorial::patch_error(method, small, 1e-3)),
+                  seconds, method.locks});
+    }
+  }
+  report.finish();
+  checks.print("", 3);
+  errors.where("rings", options.cells).pivot("element", "t", "error").print("largest error of w, by t", 3);
+  errors.write(options.out / "errors.csv");
+  profile.pivot("x", "element", "w").write(options.out / "profile.csv");
+  judge(checks, errors, 1.0 / options.cells, report);
+}
+
+void judge(const Table& checks, const Table& errors, double h, tutorial::Report& report) {
+  for (const Table& row : checks.rows())
+    report.claim(row.number("kernel") == row.number("expected"), "{}: dim G_h = {} of {}", row.entry("element").text(),
+                 row.number("kernel"), row.number("unknowns"));
+  const Table good = checks.where("locks", 0), bad = checks.where("locks", 1);
+  report.claim(good.most("patch") < 1e-10 && bad.least("patch") > 0.01,
+               "patch test, t = 1 and 1e-3: the cures bend exactly ({:.0e}), P1 does not ({:.2f})", good.most("patch"),
+               bad.least("patch"));
+  // A locked plate keeps about (t/h)^2 of its deflection, which is near 1.
+  const double thin = 0.01 * h;
+  const Table locked = errors.where("locks", 1).where_number("t", [&](double t) { return t <= thin; });
+  report.claim(locked.least("error") > 0.99, "P1, both shears, t <= h/100: {:.1f} % of the deflection is lost",
+               100 * locked.least("error"));
+  // Of Kirchhoff's plate an affine function leaves $h^2 |w''| / 8$ over, most at the rim, where $w' = 0$.
+  const double bent = -PlateTruth(0).slope(1 - 1e-4) / 1e-4;
+  for (const Entry& element : good.entries("element")) {
+    const Table own = errors.where("element", element).where_number("t", [](double t) { return t <= 0.1; });
+    const Table limit = own.where("t", 0);
+    double worst = 0;
+    for (const Table& row : own.rows())
+      worst = std::max(worst, row.number("error") / (row.number("h") * row.number("h") * std::abs(bent) / 8));
+    report.claim(worst < 1, "{}: error of w at most {:.2f} h^2 max|w''| / 8, whatever t <= 0.1 and h", element.text(),
+                 worst);
+    report.claim(limit.order("error", "h") > 1.5, "{}: at t = 0 it falls like h^{:.2f} (h^2 is expected)",
+                 element.text(), limit.order("error", "h"));
+    report.claim(own.most("corrections") <= 5, "{}: at most {} corrections", element.text(), own.most("corrections"));
+    report.claim(std::abs(own.where("h", h).where("t", 1e-20).number("error") - limit.last("error")) < 1e-9,
+                 "{}: t = 1e-20 is t = 0", element.text());
+  }
+  report.not_judged("t = 0.3 and 1: off the obstacle a rim of a ring or two is left, in which w falls by 1");
+}
+
+// ## What came out
+//
+// (a) $9n^2$ unknowns for $12n^2$ conditions: one point leaves nothing free, and cures the beam but not the plate. (b)
+// $27n^2$ unknowns less $12n^2$ conditions: $15n^2 - 9n + 2$ = 3698 functions. Durán–Liberman leaves three per vertex
+// off the rim. At $t = 1/10000$ P1 keeps nothing. The two cures are within $h^2 \max |w''| / 8$ of the truth at all
+// $t ≤ 0.1$ and fall like $h^2$ in the limit. Durán–Liberman's error is the smaller one where $t ≪ h$, and rises where $t$
+// is near $h/2$ and the edge of the contact lies between two rings. At $t = 0.3$ nothing is locked.
+//
+// **What it costs.** One solution with 16 rings takes P1 0.01 to 0.02 s (error 1: any price is too high),
+// Durán–Liberman 0.03 s (error 0.0004) and Arnold–Falk 0.05 s (error 0.005, half as many unknowns again).
+//
+// ## Exercises
+//
+// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
+//
+// 1. Leave the bubbles out of Arnold–Falk: how many functions are left at least, and does it lock at $t = 0$?
+// 2. Double the load and the gap. Do deflection and contact force double? And the disc of contact?
+// 3. On paper: at $t = 0$ Durán and Liberman's edge functions are known once $w$ and $θ$ are known at the vertices. Why
+//    is that so, and why are three functions per inner vertex left?
+
+#include "answers/24_plate.hpp"
+
+int main(int argc, char** argv) {
+  return tutorial::run(
+      argc, argv, "24_plate", "Reissner and Mindlin's plate over an obstacle: four elements",
+      {.epsilon = 1e-8,
+       .epsilon_is = "the class parameter of (1), the square of the thickness t; 0 is Kirchhoff's plate",
+       .cells = 16,
+       .least_cells = 8,
+       .most_cells = 64,
+       .exercises = exercises},
+      press);
+}
