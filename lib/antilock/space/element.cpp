@@ -5,9 +5,10 @@
 namespace antilock {
 
 const Element& element(const std::string& name) {
-  for (const Element* page : {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()})
-    if (page->name() == name) return *page;
-  throw Error("element: \"" + name + "\" is unknown; accepted \"P1\", \"P2\", \"P3\", \"P4\" and \"CR\"");
+  for (int degree = 1; degree <= 6; ++degree)
+    if (lagrange(degree).name() == name) return lagrange(degree);
+  if (crouzeix_raviart().name() == name) return crouzeix_raviart();
+  throw Error("element: \"" + name + "\" is unknown; accepted \"P1\" to \"P6\" and \"CR\"");
 }
 
 }  // namespace antilock

@@ -35,7 +35,9 @@ const Element& p2();
 const Element& p3();
 const Element& p4();
 const Element& crouzeix_raviart();
-/// By name, "P1" to "P4" or "CR"; throws Error for another.
+/// P1 to P6 by their degree; throws Error for another.
+const Element& lagrange(int degree);
+/// By name, "P1" to "P6" or "CR"; throws Error for another.
 const Element& element(const std::string& name);
 
 }  // namespace antilock
