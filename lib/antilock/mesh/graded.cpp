@@ -14,9 +14,11 @@ namespace {
 void check_lines(const std::vector<double>& lines, const char* name) {
   const auto bad = [](double a, double b) { return !(b > a && std::isfinite(b - a)); };
   const auto found = std::adjacent_find(lines.begin(), lines.end(), bad);
-  if (lines.size() < 2) throw Error(fmt::format("tensor mesh: {} {} line(s); accepted: two or more", lines.size(), name));
+  if (lines.size() < 2)
+    throw Error(fmt::format("tensor mesh: {} {} line(s); accepted: two or more", lines.size(), name));
   if (found != lines.end())
-    throw Error(fmt::format("tensor mesh: the {} lines {} and {}; accepted: ascending numbers", name, *found, found[1]));
+    throw Error(
+        fmt::format("tensor mesh: the {} lines {} and {}; accepted: ascending numbers", name, *found, found[1]));
 }
 
 /// From `at`, not included, to `end`.
@@ -35,9 +37,10 @@ std::vector<double> graded_lines(double from, double at, double to, double width
   if (!(from <= at && at <= to && from < to && std::isfinite(to - from)))
     throw Error(fmt::format("graded lines: {} in {} to {}; accepted: a point of an interval", at, from, to));
   if (!(width >= 1e-6 * (to - from) && layers >= 0 && layers <= 60 && ratio > 0 && ratio < 1))
-    throw Error(fmt::format("graded lines: width {}, {} layers, ratio {}; accepted: a width of a millionth of the interval "
-                            "or more, 0 to 60 layers, a ratio between 0 and 1",
-                            width, layers, ratio));
+    throw Error(
+        fmt::format("graded lines: width {}, {} layers, ratio {}; accepted: a width of a millionth of the interval "
+                    "or more, 0 to 60 layers, a ratio between 0 and 1",
+                    width, layers, ratio));
   std::vector<double> lines;
   if (from < at) lines = side(at, from, width, layers, ratio);
   std::reverse(lines.begin(), lines.end());
@@ -54,7 +57,8 @@ TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>
   check_lines(y, "y");
   const auto sigma = std::find(y.begin(), y.end() - 1, 0.0);
   if (sigma == y.end() - 1)
-    throw Error(fmt::format("tensor mesh: y from {} to {}; accepted: a line y = 0 below the last", y.front(), y.back()));
+    throw Error(
+        fmt::format("tensor mesh: y from {} to {}; accepted: a line y = 0 below the last", y.front(), y.back()));
   const int columns = static_cast<int>(x.size()) - 1, rows = static_cast<int>(y.size()) - 1;
   const int layer_rows = static_cast<int>(sigma - y.begin());
   TriangleMesh mesh;
