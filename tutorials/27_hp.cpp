@@ -6,19 +6,19 @@
 //
 // Needs: [14](14_degree.cpp) for $P_p$ and its bounds, [10](10_limits.cpp) for (25) and its jump of the pressure.
 //
-// **The picture.** Error against unknowns at ε = 0: equal cells (left), graded meshes (right). *On equal cells P4
-// falls like $h^{3/2}$ in the end. Graded toward the end of contact, degree $p$ has the order $p$. Where degree and
-// layers grow together (hp), the error falls faster than every power of the unknowns.*
+// **The picture.** Error against unknowns at ε = 0: equal cells (left), graded meshes (right). *On equal cells P4 falls
+// like $h^{3/2}$ in the end. Graded toward the end of contact, degree $p$ has the order $p$. Where degree and layers
+// grow together (hp), the error falls faster than every power of the unknowns.*
 //
-// **Predict.** (a) Near the end of contact $u ∼ r^{3/2}$: which order in $H^1$ does P4 have on equal cells? (b) At ε
-// = 1 the load is far from there. In which norm is that order still seen?
+// **Predict.** (a) Near the end of contact $u ∼ r^{3/2}$: which order in $H^1$ does P4 have on equal cells? (b) At
+// ε = 1 the load is far from there. In which norm is that order still seen?
 //
 // ## What the end of contact is like
 //
-// Contact begins at $x = c$. Put $x = c + ε X$ in the layer: (23) then has one factor in both directions. Near $(c,
-// -1)$ it is Laplace's equation, with $u = 0$ right of $c$ and $∂_y u = 0$ left of it, solved by $r^{k + 1/2}$ times
-// a function of the angle. $k = 0$ would sink in or pull, so $u ∼ r^{3/2}$. Farther than ε from $c$ one sees (25):
-// $w''$ jumps on Σ, and the body answers with $r^2 \log r$.
+// Contact begins at $x = c$. Put $x = c + ε X$ in the layer: (23) then has one factor in both directions. Near
+// $(c, -1)$ it is Laplace's equation, with $u = 0$ right of $c$ and $∂_y u = 0$ left of it, solved by $r^{k + 1/2}$
+// times a function of the angle. $k = 0$ would sink in or pull, so $u ∼ r^{3/2}$. Farther than ε from $c$ one sees
+// (25): $w''$ jumps on Σ, and the body answers with $r^2 \log r$.
 //
 // No polynomial fits $r^{3/2}$ on a cell of size $h$ that holds this point. A slope wrong by $h^{1/2}$ over an area
 // $h^2$ is $h^{3/2}$ in $H^1$; $u$ on $Γ_C$ is wrong by $h^{3/2}$. The jump of $w''$: a slope wrong by $h$ over a
@@ -29,17 +29,16 @@
 // ## Layers
 //
 // Cut the cell next to the point so that the share $q = 1/4$ stays next to it, cut that one again: after $n$ *layers*
-// the last cell is $h q^n$ wide. Every other cell is at most a few times as wide as it is far from the point, where
-// $u$ is smooth on that scale. The error is $C (h q^n)^{3/2} + C h^p$, and $q^{3/2} = 1/8$ per layer. *Graded* $P_p$
-// takes $n ≥ (p/3) \log_2 (1/h)$: the second term is left, and a layer costs two columns. *hp* keeps $h$ and raises
-// $p$ and $n$ by one each. With all mesh lines drawn through (a *tensor* mesh) that is $N ∼ p^2 · p · p$, so the
-// error is $\exp(-b N^{1/4})$; Babuška and Guo (1986), whose cells are small near the point only, have $N^{1/3}$.
+// the last cell is $h q^n$ wide. Every other cell is at most a few times as wide as it is far from the point. The error
+// is $C (h q^n)^{3/2} + C h^p$, and $q^{3/2} = 1/8$ per layer. *Graded* $P_p$ takes $n ≥ (p/3) \log_2 (1/h)$: the
+// second term is left, and a layer costs two columns. *hp* keeps $h$ and raises $p$ and $n$ by one each. With all mesh
+// lines drawn through (a *tensor* mesh) that is $N ∼ p^2 · p · p$, so the error is $\exp(-b N^{1/4})$; Babuška and Guo
+// (1986), whose cells are small near the point only, have $N^{1/3}$.
 //
 // Lines through the layer leave it in columns, so that no degree locks. (On triangles of any shape the degree delays
 // locking and does not hide it: chapter 14.) A distance $d$ in $x$ is felt up to $d$ in the body, but $d/ε$ in the
-// layer. So layers wider than ε get their rows in the body above Σ, and narrower ones in the layer above $Γ_C$.
-//
-// Contact is asked at the unknowns: $K_h ⊄ K$ for $p ≥ 2$. Column `below` says how far $u_h$ is below 0 between them.
+// layer. So layers wider than ε get their rows in the body above Σ, and narrower ones in the layer above $Γ_C$. Contact
+// is asked at the unknowns: $K_h ⊄ K$ for $p ≥ 2$. Column `below` says how far $u_h$ is below 0 between them.
 
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/measure/contact_zone.hpp"
@@ -60,14 +59,8 @@ const std::vector<std::string> columns{"mesh", "series",  "epsilon", "degree", "
 
 // ### Mesh
 TriangleMesh mesh_for(const Level& level, double end, double epsilon) {
-  constexpr double q = 0.25;
   if (level.layers == none) return structured_mesh(level.cells);
-  const double h = 1.0 / level.cells, wider_than_epsilon = std::ceil(std::log(epsilon) / std::log(q));
-  const int body = static_cast<int>(std::min<double>(level.layers, wider_than_epsilon));
-  std::vector<double> y = graded_lines(-1, -1, 0, h, level.layers - body, q);
-  const std::vector<double> above = graded_lines(0, 0, 1, h, body, q);
-  y.insert(y.end(), above.begin() + 1, above.end());
-  return tensor_mesh(graded_lines(0, end, 1, h, level.layers, q), y);
+  return graded_mesh(end, 1.0 / level.cells, level.layers, 0.25, epsilon);
 }
 
 Table solve(const std::string& series, const Level& level, double end, const Exact& exact) {
@@ -92,7 +85,33 @@ Table climb(const std::string& series, const std::vector<Level>& levels, const E
   return rows;
 }
 
-void verdicts(const Table& results, const Exact& exact, tutorial::Report& report);
+void verdicts(const Table& results, const Exact& exact, tutorial::Report& report) {
+  const std::string here = fmt::format("epsilon = {:g}, ", exact.epsilon);
+  const Table rows = results.where("epsilon", exact.epsilon), own = rows.where("series", "hp");
+  const auto at = [&](int p, const char* column) { return own.where("degree", p).number(column); };
+  const auto order = [&](int p) {  // in 1/N, from one level to the next
+    return std::log(at(p, "h1") / at(p + 1, "h1")) / std::log(at(p + 1, "unknowns") / at(p, "unknowns"));
+  };
+  report.claim_within(std::pow(at(2, "h1") / at(6, "h1"), 0.25), 6, 10, here + "hp: H1 error per level (layers: 8)");
+  report.claim(order(5) > 2 * order(2), "{}hp: no power of N, order {:.1f} and then {:.1f}", here, order(2), order(5));
+  if (exact.epsilon == 1e-20) {
+    const double limit = results.where("epsilon", 0).where("series", "hp").last("h1");
+    return report.claim_within(at(6, "h1") / limit, 0.999, 1.001, here + "hp: H1 error over that at epsilon = 0");
+  }
+  const double off = std::abs(at(6, "end") - exact.contact_from());  // the truth has points at distances of 7.6e-6
+  report.claim(off < 2e-5, "{}hp finds where contact begins to {:.1e}", here, off);
+  for (int p = 1; p <= 4; ++p) {
+    const double h1 = rows.where("mesh", "graded").where("series", lagrange(p).name()).order("h1", "h");
+    report.claim(h1 > p - 0.25, "{}graded P{}: h^{:.2f} in H1", here, p, h1);
+  }
+  // Where $c$ lies in its cell changes from mesh to mesh: 1/2 on either side of what theory says.
+  const Table p4 = rows.where("mesh", "equal cells").where("series", "P4");
+  report.claim_within(p4.order("contact", "h"), 1, 2.5, here + "P4, equal cells, on Gamma_C (3/2 to 2): order");
+  if (exact.epsilon < 1) report.claim_within(p4.order("h1", "h"), 1, 2, here + "P4, equal cells, in H1 (3/2): order");
+  const double gain = p4.last("contact") / at(6, "contact"), fewer = p4.last("unknowns") / at(6, "unknowns");
+  report.claim(gain > 50 && fewer > 1, "{}on Gamma_C hp has 1/{:.0f} of that error, 1/{:.1f} of the unknowns", here,
+               gain, fewer);
+}
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
   Table results(columns);
@@ -112,45 +131,16 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   tutorial::write_hp(options.out, results, mesh_for(hp[3], 0.7, 0.1));
 }
 
-void verdicts(const Table& results, const Exact& exact, tutorial::Report& report) {
-  const std::string here = fmt::format("epsilon = {:g}, ", exact.epsilon);
-  const Table rows = results.where("epsilon", exact.epsilon), own = rows.where("series", "hp");
-  const auto at = [&](int p, const char* column) { return own.where("degree", p).number(column); };
-  const auto order = [&](int p) {  // in 1/N, from one level to the next
-    return std::log(at(p, "h1") / at(p + 1, "h1")) / std::log(at(p + 1, "unknowns") / at(p, "unknowns"));
-  };
-  report.claim_within(std::pow(at(2, "h1") / at(6, "h1"), 0.25), 6, 10, here + "hp: H1 error per level (layers: 8)");
-  report.claim(order(5) > 2 * order(2), "{}hp: no power of N, order {:.1f} and then {:.1f}", here, order(2), order(5));
-  if (exact.epsilon == 1e-20) {
-    const double limit = results.where("epsilon", 0).where("series", "hp").last("h1");
-    return report.claim_within(at(6, "h1") / limit, 0.999, 1.001, here + "hp: H1 error over that at epsilon = 0");
-  }
-  // the truth has points at distances of 7.6e-6
-  report.claim(std::abs(at(6, "end") - exact.contact_from()) < 2e-5, "{}hp: contact begins at {:.5f} (truth {:.5f})",
-               here, at(6, "end"), exact.contact_from());
-  for (int p = 1; p <= 4; ++p) {
-    const double h1 = rows.where("mesh", "graded").where("series", lagrange(p).name()).order("h1", "h");
-    report.claim(h1 > p - 0.25, "{}graded P{}: h^{:.2f} in H1", here, p, h1);
-  }
-  // Where $c$ lies in its cell changes from mesh to mesh: 1/2 on either side of what theory says.
-  const Table p4 = rows.where("mesh", "equal cells").where("series", "P4");
-  report.claim_within(p4.order("contact", "h"), 1, 2.5, here + "P4, equal cells, on Gamma_C (3/2 to 2): order");
-  if (exact.epsilon < 1) report.claim_within(p4.order("h1", "h"), 1, 2, here + "P4, equal cells, in H1 (3/2): order");
-  report.claim(p4.last("unknowns") > at(6, "unknowns") && p4.last("contact") > 50 * at(6, "contact"),
-               "{}on Gamma_C hp has 1/{:.0f} of the error of P4 on equal cells, with 1/{:.1f} of its unknowns", here,
-               p4.last("contact") / at(6, "contact"), p4.last("unknowns") / at(6, "unknowns"));
-}
-
 // ## What came out
 //
 // (a) 3/2; measured: 1.60, 1.45, 1.45 at ε = 1e-2, 1e-6, 0. (b) On $Γ_C$ (1.97; clean in exercise 1). In $H^1$ the
 // smooth part hides it at ε = 1: P4 has the order 3.7. Graded, P1 to P4 have 0.93, 1.83, 2.89, 4.3 at ε = 0.
 //
-// hp at ε = 0: 35, 240, 783, 1880, 3795, 6840 unknowns, $H^1$ errors 0.49, 0.13, 2.1e-2, 2.8e-3, 3.2e-4, 3.1e-5, or
-// 8.0 per level; P4 on equal cells has 1.6e-4 with 32,512. The order in $N$ grows from 1.5 to 4.0. The logarithm of
-// the error is straighter in $N^{1/2}$ (0.997 of its variance) and $N^{1/3}$ (0.996) than in $N^{1/4}$ (0.985): six
-// levels are not the limit. At ε = 1 the error is 1.7 times that at 0, at 1e-20 the same. $u_h$ is below 0 by up to
-// its error on equal cells, by 5e-8 of $u$ in hp's last.
+// hp at ε = 0: 35, 240, 783, 1880, 3795, 6840 unknowns, $H^1$ errors 0.49, 0.13, 2.1e-2, 2.8e-3, 3.2e-4, 3.1e-5, or 8.0
+// per level; P4 on equal cells has 1.6e-4 with 32,512. The order in $N$ grows from 1.5 to 4.0. The logarithm of the
+// error is straighter in $N^{1/2}$ (0.997 of its variance) and $N^{1/3}$ (0.996) than in $N^{1/4}$ (0.985): six levels
+// are not the limit. At ε = 1 the error is 1.7 times that at 0, at 1e-20 the same. $u_h$ is below 0 by up to its error
+// on equal cells, by 5e-8 of $u$ in hp's last.
 //
 // ## Exercises
 //

@@ -57,6 +57,9 @@ Numbers contact_sets(const std::filesystem::path& folder);
 Numbers certificate(int cells, const std::filesystem::path& folder);
 /// 14: cost of a ridge, ridge and energy on an unstructured mesh, epsilon = 1e-2. P1, then P2.
 std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder);
+/// 27: layers toward the end of contact, epsilon = 1 and 1e-2: largest u on Gamma_C, how many unknowns are in contact,
+/// energy. P1, then P2.
+std::vector<Numbers> graded_layers(int cells, const std::filesystem::path& folder);
 /// 25: two glued strings, both glues, epsilon from 1 to 1e-12: energy, largest |u|, contact force.
 Numbers glued_strings(int cells, const std::filesystem::path& folder);
 

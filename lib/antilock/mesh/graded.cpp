@@ -100,4 +100,16 @@ TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>
   return mesh;
 }
 
+TriangleMesh graded_mesh(double end, double width, int layers, double ratio, double epsilon) {
+  if (!(end > 0 && end < 1 && epsilon >= 0 && epsilon <= 1))
+    throw Error(fmt::format("graded mesh: end {}, epsilon {}; accepted: 0 < end < 1, 0 <= epsilon <= 1", end, epsilon));
+  const std::vector<double> x = graded_lines(0, end, 1, width, layers, ratio);
+  const double wider = std::ceil(std::log(epsilon) / std::log(ratio));  // than epsilon; infinite at epsilon = 0
+  const int in_body = static_cast<int>(std::min<double>(layers, wider));
+  std::vector<double> y = graded_lines(-1, -1, 0, width, layers - in_body, ratio);
+  const std::vector<double> above = graded_lines(0, 0, 1, width, in_body, ratio);
+  y.insert(y.end(), above.begin() + 1, above.end());
+  return tensor_mesh(x, y);
+}
+
 }  // namespace antilock

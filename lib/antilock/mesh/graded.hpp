@@ -18,4 +18,11 @@ std::vector<double> graded_lines(double from, double at, double to, double width
 TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>& y,
                          Diagonal diagonal = Diagonal::right);
 
+/// The tensor mesh of the two unit squares for a contact that ends at x = `end` on Gamma_C: cells no wider than `width`,
+/// and `layers` toward x = end. What happens at a distance d in x is felt up to d in the body, but up to d / epsilon in
+/// the layer: as many layers toward Sigma as are wider than epsilon (ratio^k > epsilon) in the rows of the body, the
+/// others toward Gamma_C in those of the layer. Throws Error as graded_lines does, and unless 0 < end < 1 and
+/// 0 <= epsilon <= 1.
+TriangleMesh graded_mesh(double end, double width, int layers, double ratio, double epsilon);
+
 }  // namespace antilock
