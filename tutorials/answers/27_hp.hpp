@@ -9,7 +9,7 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options&, tutorial::Report& report) {
        for (const auto& [epsilon, norm, low, high] : {std::tuple{1.0, "contact", 1.25, 1.75}, {0.0, "h1", 1.75, 2.5}}) {
          const Exact exact(epsilon);
-         Table rows(columns);
+         Table rows(hp_columns);
          for (const int n : {16, 32}) rows.add(solve("P4", {4, n, 0}, exact.contact_from(), exact));
          rows.select({"epsilon", "h", "unknowns", "h1", "contact"}).print();
          report.claim_within(rows.order(norm, "h"), low, high, fmt::format("epsilon = {:g}, {}: order", epsilon, norm));
