@@ -38,6 +38,7 @@ const Row rows[] = {
     {"P2", "$P_2$", "", {indigo, down_triangle, 6}},
     {"P3", "$P_3$", "", {olive, diamond, 6}},
     {"P4", "$P_4$", "", {black, triangle, 6}},
+    {"hp", "$hp$", "", {green, square, 9}},
     // methods of nearly incompressible elasticity
     {"P1 right diagonals", "$P_1$, right diagonals", "", {blue, circle, 9}},
     {"P1 crossed triangles", "$P_1$, crossed triangles", "", {indigo, down_triangle, 9}},
@@ -128,6 +129,8 @@ const Row rows[] = {
     {"structured", "structured mesh", "structured", {blue, circle, 6}},
     {"unstructured", "unstructured mesh", "unstructured", {vermillion, square, 6}},
     {"layered", "layered mesh", "layered", {olive, down_triangle, 6}},
+    {"equal cells", "equal cells", "", {vermillion, square, 6}},
+    {"graded", "graded toward the end of contact", "graded", {blue, circle, 6}},
     {"load paper", "load of every chapter", "smooth load", {blue, circle, 6}},
     {"load bump", "concentrated load", "", {vermillion, square, 6}},
     {"cells 16", "$h = 1/16$", "", {sky, circle, 6}},

@@ -12,6 +12,7 @@
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/graded.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "runner.hpp"
@@ -205,6 +206,31 @@ std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
     both[i].relative(of + "ridge", solution.u(space.contact()).maxCoeff(), table.column("ridge")(i));
     both[i].relative(of + "energy", energy(problem, solution), table.column("energy")(i));
     both[i].freefem_seconds = table.column("seconds")(i);
+  }
+  return both;
+}
+
+std::vector<Numbers> graded_layers(int cells, const std::filesystem::path& folder) {
+  std::vector<Numbers> both(2);
+  for (const auto& [epsilon, end] : {std::pair{1.0, 0.6081771}, {1e-2, 0.6975326}}) {
+    run("27_hp", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-end", fmt::format("{}", end),
+                  "-out", folder});
+    const Table table = results(folder / "results.csv", 2, 1);
+    const TriangleMesh mesh = graded_mesh(end, 1.0 / cells, 4, 0.25, epsilon);
+    for (int i = 0; i < 2; ++i) {
+      const Space space(mesh, lagrange(i + 1));
+      const VariationalInequality problem = assemble(contact_scene(epsilon), space);
+      const Solution solution = active_set(problem);
+      const auto held = std::count(solution.active.begin(), solution.active.end(), true);
+      const std::string of = fmt::format("{}, epsilon = {:g}: ", space.element().name(), epsilon);
+      both[i].took(table.names[i]);
+      both[i].solved(space, solution);
+      both[i].count(of + "unknowns", space.size(), table.column("unknowns")(i));
+      both[i].count(of + "in contact", static_cast<double>(held), table.column("held")(i));
+      both[i].relative(of + "largest u on Gamma_C", solution.u(space.contact()).maxCoeff(), table.column("largest")(i));
+      both[i].relative(of + "energy", energy(problem, solution), table.column("energy")(i));
+      both[i].freefem_seconds += table.column("seconds")(i);
+    }
   }
   return both;
 }

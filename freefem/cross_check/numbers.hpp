@@ -62,6 +62,9 @@ std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder);
 /// 25: u and contact force of P1 with means over boxes, of MINI and of Taylor-Hood. A component of u relative to its
 /// largest value.
 Numbers mixed(int cells, double epsilon, const std::filesystem::path& folder);
+/// 27: layers toward the end of contact, epsilon = 1 and 1e-2: largest u on Gamma_C, how many unknowns are in contact,
+/// energy. P1, then P2.
+std::vector<Numbers> graded_layers(int cells, const std::filesystem::path& folder);
 /// 28: two glued strings, both glues, epsilon from 1 to 1e-12: energy, largest |u|, contact force.
 Numbers glued_strings(int cells, const std::filesystem::path& folder);
 

@@ -401,6 +401,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"17_certificate", {"results.csv"}},
       {"11_contact_sets", {"results.csv"}},
       {"14_degree", {"results.csv"}},
+      {"27_hp", {"results.csv"}},
       {"22_beam", {"beam.csv", "summary.csv", "beam.eps"}},
       {"23_elasticity",
        {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv", "P1_deformed.eps"}},
@@ -466,6 +467,12 @@ TEST(FreeFemScripts, TheLimitsAreTheSame) {
 TEST(FreeFemScripts, DegreesOneAndTwoAreTheSame) {
   const TemporaryFolder folder;
   for (const freefem::Numbers& numbers : freefem::degrees(8, folder.path())) expect_same(numbers, 1e-9);
+}
+
+// P1 and P2 on layers, the meshes made by both sides: as for the degrees above.
+TEST(FreeFemScripts, LayersTowardTheEndOfContactAreTheSame) {
+  const TemporaryFolder folder;
+  for (const freefem::Numbers& numbers : freefem::graded_layers(6, folder.path())) expect_same(numbers, 1e-9);
 }
 
 // The string is P1 in one dimension, exact at its nodes; no layer, no correction: round-off alone.

@@ -12,7 +12,9 @@
 namespace antilock {
 namespace {
 
-std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart(), &p1_bubble()}; }
+std::vector<const Element*> elements() {
+  return {&p1(), &p2(), &p3(), &p4(), &lagrange(5), &lagrange(6), &crouzeix_raviart(), &p1_bubble()};
+}
 
 /// Points in and on the triangle, irregular.
 std::vector<Eigen::Vector3d> sample_points() {

@@ -5,10 +5,11 @@
 namespace antilock {
 
 const Element& element(const std::string& name) {
-  for (const Element* page : {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart(), &p1_bubble()})
+  for (int degree = 1; degree <= 6; ++degree)
+    if (lagrange(degree).name() == name) return lagrange(degree);
+  for (const Element* page : {&crouzeix_raviart(), &p1_bubble()})
     if (page->name() == name) return *page;
-  throw Error("element: \"" + name +
-              "\" is unknown; accepted \"P1\", \"P2\", \"P3\", \"P4\", \"CR\" and \"P1+bubble\"");
+  throw Error("element: \"" + name + "\" is unknown; accepted \"P1\" to \"P6\", \"CR\" and \"P1+bubble\"");
 }
 
 }  // namespace antilock

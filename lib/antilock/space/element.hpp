@@ -36,7 +36,9 @@ const Element& p3();
 const Element& p4();
 const Element& crouzeix_raviart();
 const Element& p1_bubble();
-/// By name, "P1" to "P4", "CR" or "P1+bubble"; throws Error for another.
+/// P1 to P6 by their degree; throws Error for another.
+const Element& lagrange(int degree);
+/// By name, "P1" to "P6", "CR" or "P1+bubble"; throws Error for another.
 const Element& element(const std::string& name);
 
 }  // namespace antilock

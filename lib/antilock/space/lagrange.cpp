@@ -1,5 +1,8 @@
-// P3 and P4: continuous, of degree k on each triangle; the unknowns are the values at the points of the lattice of
+// P3 to P6: continuous, of degree k on each triangle; the unknowns are the values at the points of the lattice of
 // order k: those with barycentric coordinates (a0, a1, a2) / k, whole numbers with a0 + a1 + a2 = k.
+#include <fmt/format.h>
+
+#include "antilock/core/error.hpp"
 #include "antilock/space/element.hpp"
 
 namespace antilock {
@@ -68,6 +71,13 @@ const Element& p3() {
 const Element& p4() {
   static const Lagrange page(4, "P4");
   return page;
+}
+
+const Element& lagrange(int degree) {
+  static const Lagrange five(5, "P5"), six(6, "P6");
+  static const Element* const pages[] = {&p1(), &p2(), &p3(), &p4(), &five, &six};
+  if (degree < 1 || degree > 6) throw Error(fmt::format("element: degree {} is not accepted; 1 to 6", degree));
+  return *pages[degree - 1];
 }
 
 }  // namespace antilock

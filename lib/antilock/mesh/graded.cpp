@@ -1,0 +1,115 @@
+#include "antilock/mesh/graded.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "antilock/core/error.hpp"
+#include "antilock/mesh/edges.hpp"
+
+namespace antilock {
+namespace {
+
+void check_lines(const std::vector<double>& lines, const char* name) {
+  const auto bad = [](double a, double b) { return !(b > a && std::isfinite(b - a)); };
+  const auto found = std::adjacent_find(lines.begin(), lines.end(), bad);
+  if (lines.size() < 2)
+    throw Error(fmt::format("tensor mesh: {} {} line(s); accepted: two or more", lines.size(), name));
+  if (found != lines.end())
+    throw Error(
+        fmt::format("tensor mesh: the {} lines {} and {}; accepted: ascending numbers", name, *found, found[1]));
+}
+
+/// From `at`, not included, to `end`.
+std::vector<double> side(double at, double end, double width, int layers, double ratio) {
+  const double cells = std::max(1.0, std::ceil(std::abs(end - at) / width * (1 - 1e-12)));
+  std::vector<double> lines;
+  for (int k = layers; k > 0; --k) lines.push_back(at + (end - at) * std::pow(ratio, k) / cells);
+  for (int j = 1; j < cells; ++j) lines.push_back(at + (end - at) * j / cells);
+  lines.push_back(end);
+  return lines;
+}
+
+}  // namespace
+
+std::vector<double> graded_lines(double from, double at, double to, double width, int layers, double ratio) {
+  if (!(from <= at && at <= to && from < to && std::isfinite(to - from)))
+    throw Error(fmt::format("graded lines: {} in {} to {}; accepted: a point of an interval", at, from, to));
+  if (!(width >= 1e-6 * (to - from) && layers >= 0 && layers <= 60 && ratio > 0 && ratio < 1))
+    throw Error(
+        fmt::format("graded lines: width {}, {} layers, ratio {}; accepted: a width of a millionth of the interval "
+                    "or more, 0 to 60 layers, a ratio between 0 and 1",
+                    width, layers, ratio));
+  std::vector<double> lines;
+  if (from < at) lines = side(at, from, width, layers, ratio);
+  std::reverse(lines.begin(), lines.end());
+  lines.push_back(at);
+  if (at < to) {
+    const std::vector<double> right = side(at, to, width, layers, ratio);
+    lines.insert(lines.end(), right.begin(), right.end());
+  }
+  return lines;
+}
+
+TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>& y, Diagonal diagonal) {
+  check_lines(x, "x");
+  check_lines(y, "y");
+  const auto sigma = std::find(y.begin(), y.end() - 1, 0.0);
+  if (sigma == y.end() - 1)
+    throw Error(
+        fmt::format("tensor mesh: y from {} to {}; accepted: a line y = 0 below the last", y.front(), y.back()));
+  const int columns = static_cast<int>(x.size()) - 1, rows = static_cast<int>(y.size()) - 1;
+  const int layer_rows = static_cast<int>(sigma - y.begin());
+  TriangleMesh mesh;
+  mesh.vertices.resize(static_cast<Eigen::Index>(rows + 1) * (columns + 1), 2);
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i <= columns; ++i) mesh.vertices.row(j * (columns + 1) + i) << x[i], y[j];
+  const bool crossed = diagonal == Diagonal::crossed;
+  const int corners = mesh.vertex_count();
+  if (crossed) mesh.vertices.conservativeResize(corners + static_cast<Eigen::Index>(rows) * columns, 2);
+  mesh.triangles.resize(static_cast<Eigen::Index>(crossed ? 4 : 2) * rows * columns, 3);
+  mesh.region.resize(mesh.triangles.rows());
+  int t = 0;
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const int low = j * (columns + 1) + i, up = low + columns + 1;  // lower left and upper left corner
+      const Region region = j < layer_rows ? Region::layer : Region::body;
+      std::fill_n(mesh.region.begin() + t, crossed ? 4 : 2, region);
+      if (crossed) {
+        const int centre = corners + j * columns + i;
+        mesh.vertices.row(centre) = 0.5 * (mesh.vertices.row(low) + mesh.vertices.row(up + 1));
+        mesh.triangles.row(t++) << low, low + 1, centre;
+        mesh.triangles.row(t++) << low + 1, up + 1, centre;
+        mesh.triangles.row(t++) << up + 1, up, centre;
+        mesh.triangles.row(t++) << up, low, centre;
+      } else if (diagonal == Diagonal::right) {
+        mesh.triangles.row(t++) << low, low + 1, up + 1;
+        mesh.triangles.row(t++) << low, up + 1, up;
+      } else {
+        mesh.triangles.row(t++) << low, low + 1, up;
+        mesh.triangles.row(t++) << low + 1, up + 1, up;
+      }
+    }
+  number_edges(mesh, "tensor mesh");
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_triangles(e, 1) >= 0) continue;
+    const bool bottom = mesh.edges(e, 0) <= columns && mesh.edges(e, 1) <= columns;
+    mesh.edge_tag[e] = bottom ? EdgeTag::contact : EdgeTag::clamped;
+  }
+  return mesh;
+}
+
+TriangleMesh graded_mesh(double end, double width, int layers, double ratio, double epsilon) {
+  if (!(end > 0 && end < 1 && epsilon >= 0 && epsilon <= 1))
+    throw Error(fmt::format("graded mesh: end {}, epsilon {}; accepted: 0 < end < 1, 0 <= epsilon <= 1", end, epsilon));
+  const std::vector<double> x = graded_lines(0, end, 1, width, layers, ratio);
+  const double wider = std::ceil(std::log(epsilon) / std::log(ratio));  // than epsilon; infinite at epsilon = 0
+  const int in_body = static_cast<int>(std::min<double>(layers, wider));
+  std::vector<double> y = graded_lines(-1, -1, 0, width, layers - in_body, ratio);
+  const std::vector<double> above = graded_lines(0, 0, 1, width, in_body, ratio);
+  y.insert(y.end(), above.begin() + 1, above.end());
+  return tensor_mesh(x, y);
+}
+
+}  // namespace antilock

@@ -1,0 +1,32 @@
+#pragma once
+// The answers to the exercises of 27_hp, whose page includes this one: to be read after predicting.
+
+const std::vector<tutorial::Exercise> exercises{
+    {"Equal cells with one mesh line through the end of contact, no layers, P4. Which of the two orders 3/2 does that "
+     "cure?",
+     "that of epsilon = 0: the jump lies on a line, and r^2 log r in the body is left, order 2 in H1. At epsilon = 1 "
+     "r^(3/2) starts at a corner of the cells and is no polynomial either: 3/2 on Gamma_C stays",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       for (const auto& [epsilon, norm, low, high] : {std::tuple{1.0, "contact", 1.25, 1.75}, {0.0, "h1", 1.75, 2.5}}) {
+         const Exact exact(epsilon);
+         Table rows(hp_columns);
+         for (const int n : {16, 32}) rows.add(solve("P4", {4, n, 0}, exact.contact_from(), exact));
+         rows.select({"epsilon", "h", "unknowns", "h1", "contact"}).print();
+         report.claim_within(rows.order(norm, "h"), low, high, fmt::format("epsilon = {:g}, {}: order", epsilon, norm));
+       }
+     }},
+    {"The end of contact is known to d only. Layers toward the wrong place, P6: how does the error on Gamma_C depend "
+     "on "
+     "d (epsilon = 1)?",
+     "like d^(3/2): the cell that holds the end is about d wide, and an error there is that of a mesh with h = d. The "
+     "chapter's levels need no better: each finds the end within its smallest cells",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const Exact exact(1);
+       Table rows({"d", "contact", "found"});
+       for (const double d : {0.1, 0.03, 0.01}) {
+         const Table row = solve("P6", hp.back(), exact.contact_from() + d, exact);
+         rows.add({d, row.number("contact"), row.number("end")});
+       }
+       rows.print();
+       report.claim_within(rows.order("contact", "d"), 1, 2, "order in d");
+     }}};
