@@ -45,7 +45,8 @@
 // interpolation of chapter 08 keeps $(q, ∂_y v)$ and does not enlarge $|v|_1$ (a property that carries Fortin's
 // name). For P1 the rows of $B$ depend on each other (chapter 03: two triangles share each vertical edge). Some stress
 // is then not seen at all, and $β = 0$. This holds on the structured mesh too, where nothing locks. The theory of
-// mixed methods ([chapter 25](25_mixed.cpp)) shows that a $β$ above a positive number for all $h$ excludes locking. Here it is not necessary.
+// mixed methods ([chapter 25](25_mixed.cpp)) shows that a $β$ above a positive number for all $h$ excludes locking.
+// Here it is not necessary.
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/locking.hpp"
