@@ -19,11 +19,11 @@
 // ## Which functions cost nothing
 //
 // The introduction of the paper names "p and hp methods [2]" among the cures (hp: [chapter 27](27_hp.cpp)). Take
-// continuous functions that are polynomials of degree $p$ on each triangle, with unknowns at the points that cut each edge into $p$ equal parts
-// (and inside): the element $P_p$. If $∂_y v = 0$ then $v$ is a polynomial of degree $p$ in $x$ on each triangle. Two
-// neighbours that share an interval of $x$ share the polynomial, unless the edge between them is vertical. On an
-// unstructured mesh no edge is, so all triangles have the same one, and it is 0 at $x = 0$ and $x = 1$: $x (1 - x)$
-// times a polynomial of degree $p - 2$. So
+// continuous functions that are polynomials of degree $p$ on each triangle, with unknowns at the points that cut each
+// edge into $p$ equal parts (and inside): the element $P_p$. If $∂_y v = 0$ then $v$ is a polynomial of degree $p$ in
+// $x$ on each triangle. Two neighbours that share an interval of $x$ share the polynomial, unless the edge between them
+// is vertical. On an unstructured mesh no edge is, so all triangles have the same one, and it is 0 at $x = 0$ and
+// $x = 1$: $x (1 - x)$ times a polynomial of degree $p - 2$. So
 //
 // $$ \dim G_h = p - 1 \text{ on the layer, however fine the mesh;} $$
 //
