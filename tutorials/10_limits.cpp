@@ -73,12 +73,10 @@ struct Discrete {
   // ### Mesh
   Discretisation on;
   // ### Forms
-  // $a_1$ and the factors of $a_0$, assembled once for all ε; the matrix of $‖·‖_h$.
-  SceneSweep sweep{tutorial::paper_scene(0), on.space()};
-  SparseMatrix norm = h1_norm(on.space());
+  SceneSweep sweep{tutorial::paper_scene(0), on.space()};  // a1 and the factors of a0, assembled once for all ε
+  SparseMatrix norm = h1_norm(on.space());                 // the matrix of the norm
   // ### Solve
-  // $u_h^ε$; at ε = 0 this is (7) itself, not a small ε.
-  Solution at(double epsilon) {
+  Solution at(double epsilon) {  // u_h^ε; at ε = 0 this is (7) itself, not a small ε
     sweep.set_epsilon(epsilon);
     return sweep.solve();
   }
