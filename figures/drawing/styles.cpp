@@ -59,6 +59,11 @@ const Row rows[] = {
     {"CR with jumps", "Crouzeix–Raviart with jumps", "CR", {green, diamond, 6}},
     {"contact free", "nothing held", "", {grey, circle, 5}},
     {"contact held", "contact set held", "", {blue, circle, 5}},
+    // elements of the plate
+    {"P1 with exact shear", "$P_1$, exact shear", "", {vermillion, square, 10}},
+    {"P1 with one-point shear", "$P_1$, shear at one point", "", {olive, down_triangle, 6}},
+    {"Duran-Liberman", "Durán–Liberman", "", {blue, circle, 6}},
+    {"Arnold-Falk", "Arnold–Falk", "", {purple, triangle, 8.5}},
     // integration of the beam, glue of the strings
     {"full integration", "full integration", "", {vermillion, square, 8}},
     {"reduced integration", "reduced integration", "", {blue, circle, 6}},

@@ -209,8 +209,8 @@ std::vector<Line> plates(int rings, const std::filesystem::path& out) {
                      disagree == 0 ? "same" : fmt::format("{} others", disagree), ours.seconds.total(),
                      theirs.seconds});
   };
-  add("P1", "P1, exact shear, locked", p1(), p1(), ShearRule::exact);
-  add("P1_one", "P1, shear at one point, locked", p1(), p1(), ShearRule::mean);
+  add("P1", "P1 with exact shear, locked", p1(), p1(), ShearRule::exact);
+  add("P1_one", "P1 with one-point shear, locked", p1(), p1(), ShearRule::mean);
   add("Arnold_Falk", "Arnold-Falk", crouzeix_raviart(), p1_bubble(), ShearRule::mean);
   return lines;
 }

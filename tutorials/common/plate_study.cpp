@@ -38,11 +38,16 @@ void add_diameter(Table& profile, const PlateMethod& method, const Space& w, con
                   double thickness) {
   const TriangleMesh& mesh = w.mesh();
   const PlateTruth truth(thickness);
+  std::vector<std::pair<double, int>> edges;  // x of the midpoint, edge
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const int a = mesh.edges(e, 0), b = mesh.edges(e, 1);
-    if (std::abs(mesh.vertices(a, 1)) + std::abs(mesh.vertices(b, 1)) > 1e-9) continue;
-    const double x = (mesh.vertices(a, 0) + mesh.vertices(b, 0)) / 2;
-    profile.add({x, method.file, method.deflection.conforming() ? (solution.u(a) + solution.u(b)) / 2 : solution.u(e)});
+    if (std::abs(mesh.vertices(a, 1)) + std::abs(mesh.vertices(b, 1)) < 1e-9)
+      edges.emplace_back((mesh.vertices(a, 0) + mesh.vertices(b, 0)) / 2, e);
+  }
+  std::sort(edges.begin(), edges.end());
+  for (const auto& [x, e] : edges) {
+    const double mean = (solution.u(mesh.edges(e, 0)) + solution.u(mesh.edges(e, 1))) / 2;
+    profile.add({x, method.file, method.deflection.conforming() ? mean : solution.u(e)});
     if (method.file == "p1") profile.add({x, "exact", truth.deflection(std::abs(x))});
   }
 }
