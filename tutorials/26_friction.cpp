@@ -9,9 +9,10 @@
 // [23](23_elasticity.cpp) for the block and its elements. **Here ε is the parameter of the class (1) itself**,
 // $ε = 1/λ$.
 //
-// **The picture.** The block of chapter 23 is pressed on its obstacle, and the obstacle rubs. *Above: the tangential
-// force stays between $-g$ and $g$. Below: where it is smaller than $g$ the rubber sticks, where it has reached $g$ the
-// rubber slips against it. P1 locks: it slides as a whole and sticks nowhere.*
+// **The picture.** The block of chapter 23 is pressed on its obstacle, and the obstacle rubs. *Left: the tangential
+// force stays between $-g$ and $g$. Right: where it is smaller in size the rubber sticks; where it has reached $g$ or
+// $-g$ the rubber slips against it, outwards on both sides. P1 on parallel triangles can only shear along its
+// diagonals: its whole contact zone slides to the right and sticks nowhere.*
 //
 // **Predict.** (a) Pressed rubber spreads to both sides. In which direction does the floor pull its left half?
 // (b) Incompressible rubber ($λ → ∞$) spreads more than at $λ = 1$. Does it stick on a longer or a shorter piece?
@@ -113,7 +114,7 @@ void judge(const Table& checks, const Table& forces, const Table& errors, int ce
 
 void rub(const tutorial::Options& options, tutorial::Report& report) {
   const std::map<double, Eigen::Vector2d> reference{
-      {1, {0.160315, 0.016253}}, {1e-4, {0.260827, 0.012224}}, {1e-8, {0.260864, 0.012222}}, {0, {0.260864, 0.012222}}};
+      {1, {0.16034, 0.01627}}, {1e-4, {0.26073, 0.01222}}, {1e-8, {0.26077, 0.01223}}, {0, {0.26077, 0.01223}}};
   Table checks({"element", "locks", "unknowns", "patch", "g = 0", "g = 1e6", "steps", "Uzawa steps", "seconds",
                 "Uzawa s", "apart"});
   Table zones({"x", "g", "minus_g", "T_locked", "T", "u_locked", "u"});
@@ -168,7 +169,7 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
     // Where it sticks and slips, for the two that have the same unknowns on the floor.
     const Eigen::MatrixX3d curves = on_floor(x, problem, solution);
     if (rubber.locks) locked = curves;
-    if (rubber.name == "Kouhia-Stenberg")
+    if (rubber.name == "P1 crossed triangles")
       for (Eigen::Index i = 0; i < curves.rows(); ++i)
         zones.add(
             {curves(i, 0), g(curves(i, 0)), -g(curves(i, 0)), locked(i, 1), curves(i, 1), locked(i, 2), curves(i, 2)});
@@ -211,8 +212,8 @@ void judge(const Table& checks, const Table& forces, const Table& errors, int ce
   report.claim(robust.most("T") < 615.0 / cells, "T is off by {:.1f} % at most (half a cell at its end: {:.0f} %)",
                robust.most("T"), 615.0 / cells);
   const Table locked = forces.where("element", "P1 right diagonals").where("epsilon", 0);
-  report.claim(locked.number("N") > 2 * 0.2609 && locked.number("T") > 2 * 0.0122,
-               "P1 locks: it slides as a whole; N = {:.2f} and T = {:.4f} are more than twice too large",
+  report.claim(locked.number("N") > 2 * 0.2608 && locked.number("T") > 2 * 0.0122,
+               "P1 locks: its contact zone slides to one side; N = {:.2f} and T = {:.4f} are more than twice too large",
                locked.number("N"), locked.number("T"));
 }
 
@@ -222,9 +223,10 @@ void judge(const Table& checks, const Table& forces, const Table& errors, int ce
 // sticks on 0.16, in the limit on 0.21, though more rubber has to go aside: its pressure holds the middle in place.
 //
 // Three elements have the forces of the reference (P2 and a continuous P1 pressure, `freefem/26_friction.edp`) at every
-// λ, with the factor of chapter 23 and at most 5 corrections. Friction adds no steps: the active set takes 2 to 4, as
-// without. Uzawa takes thousands, each a product with a small dense matrix: at this size both take as long. P1's
-// displacement of the floor is locked to slide; all of its $T$ is $-g$ or $g$, and it is judged wrong by a factor 2.
+// λ, by the factor of chapter 23 and in at most 2 corrections. $N$ is right to 0.3 %, $T$ to 4 to 7 %: an end of the
+// stick zone is known to a cell. The active set takes 2 or 3 steps, Uzawa 4000 to 9000. A step of Uzawa is a product
+// with a small dense matrix, so on 32 cells both take 0.01 to 0.05 s, most of it the factor. Locked P1 slides to one
+// side: its $T$ is $-g$ throughout, more than twice the true friction.
 //
 // ## Exercises
 //

@@ -40,6 +40,8 @@ const Row rows[] = {
     {"P1 crossed triangles", "$P_1$, crossed triangles", "", {indigo, down_triangle, 9}},
     {"Crouzeix-Raviart with jumps", "Crouzeix–Raviart with jumps", "CR with jumps", {green, diamond, 6.5}},
     {"Kouhia-Stenberg", "Kouhia–Stenberg", "", {black, triangle, 4}},
+    {"friction bound", "$g$", "", {grey, circle, 11}},
+    {"friction bound below", "$−g$", "", {grey, square, 11}},
     // integration of the beam, glue of the strings
     {"full integration", "full integration", "", {vermillion, square, 8}},
     {"reduced integration", "reduced integration", "", {blue, circle, 6}},

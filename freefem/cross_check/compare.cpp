@@ -17,6 +17,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
@@ -128,6 +129,13 @@ std::string same_set(const Solution& ours, const Eigen::VectorXd& force) {
   return disagree == 0 ? "same" : fmt::format("{} others", disagree);
 }
 
+/// The same with friction: where a force is at its bound, nothing holds.
+std::string same_zones(const VariationalInequality& problem, const Solution& ours, Eigen::VectorXd force) {
+  for (Eigen::Index i = 0; i < force.size(); ++i)
+    if (std::abs(force(i)) >= (1 - 1e-9) * force_bound(problem, i)) force(i) = 0;
+  return same_set(ours, force);
+}
+
 /// The beam, both integrations, at epsilon = 1e-4.
 std::vector<Line> beams(int cells, const std::filesystem::path& out) {
   freefem::run("22_beam", {"-cells", std::to_string(cells), "-epsilon", "1e-4", "-out", out / "freefem"});
@@ -150,22 +158,25 @@ std::vector<Line> beams(int cells, const std::filesystem::path& out) {
   return lines;
 }
 
-/// Nearly incompressible elasticity, lambda = 1e8, the elements that both sides have.
-std::vector<Line> elasticity(int cells, const std::filesystem::path& out) {
+/// Nearly incompressible elasticity, lambda = 1e8, the elements that both sides have; `friction`: with chapter 26's.
+std::vector<Line> elasticity(int cells, bool friction, const std::filesystem::path& out) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(cells, Domain{0}));
   PlaneStrain scene;
   scene.gap = [](double x) { return (x - 0.5) * (x - 0.5); };
-  freefem::run_elasticity(mesh, scene.epsilon, out / "freefem");
+  if (friction) scene.friction = [](double x) { return std::max(0.0, 0.2 - 5 * (x - 0.5) * (x - 0.5)); };
+  (friction ? freefem::run_friction : freefem::run_elasticity)(mesh, scene.epsilon, out / "freefem");
   std::vector<Line> lines;
   const auto add = [&](const std::string& name, const std::string& what, const Element& in_x, const Element& in_y) {
     const Space x(mesh, in_x), y(mesh, in_y);
     scene.jump_weight = name == "P1nc" ? 1 : 0;
-    const Solution ours = active_set(assemble(scene, {x, y}));
-    const freefem::ElasticAnswer theirs = freefem::elastic_answer(out / "freefem", name, {x, y});
-    lines.push_back({"23_elasticity", fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon),
+    const VariationalInequality problem = assemble(scene, {x, y});
+    const Solution ours = active_set(problem);
+    const freefem::ElasticAnswer theirs =
+        (friction ? freefem::friction_answer : freefem::elastic_answer)(out / "freefem", name, {x, y});
+    lines.push_back({friction ? "26_friction" : "23_elasticity", fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon),
                      theirs.road, static_cast<int>(ours.u.size()),
                      (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff(),
-                     same_set(ours, theirs.force), ours.seconds.total(), theirs.seconds});
+                     same_zones(problem, ours, theirs.force), ours.seconds.total(), theirs.seconds});
   };
   add("P1", "P1 and P1, locked", p1(), p1());
   add("P1nc", "CR and CR with jumps", crouzeix_raviart(), crouzeix_raviart());
@@ -303,7 +314,8 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
   for (const Method& method : methods) lines.push_back(study(method, cells, out));
   for (const Line& line : numbers(cells, out)) lines.push_back(line);
   for (const Line& line : beams(2 * cells, out)) lines.push_back(line);
-  for (const Line& line : elasticity(cells, out)) lines.push_back(line);
+  for (const bool friction : {false, true})
+    for (const Line& line : elasticity(cells, friction, out)) lines.push_back(line);
   for (const Line& line : models(out)) lines.push_back(line);
   for (const double e : {1e-2, 1e-4, 1e-6, 1e-8}) lines.push_back(plain_sum(methods[3], e, cells, out));
   return lines;

@@ -152,6 +152,21 @@ ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::str
   return answer;
 }
 
+void run_friction(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder) {
+  const auto file = folder / "mesh.freefem.msh";
+  write_freefem_mesh(file, mesh);
+  run("26_friction", {"-mesh", file, "-epsilon", fmt::format("{}", epsilon), "-cells", "16", "-out", folder});
+}
+
+ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space) {
+  ElasticAnswer answer = elastic_answer(folder, name, space);
+  const Table floor = read_table(folder / (name + "_floor.csv"));
+  const Eigen::VectorXd normal = answer.force, tangential = floor.column("force")(by_x(floor));
+  answer.force.resize(normal.size() + tangential.size());
+  answer.force << normal, tangential;
+  return answer;
+}
+
 double taylor_hood_force(const std::filesystem::path& folder) {
   return read_table(folder / "TaylorHood_summary.csv", 1).column("force")(0);
 }

@@ -59,6 +59,11 @@ struct ElasticAnswer {
 void run_elasticity(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
 /// Reads what it left there for the element `name`: P1, P1nc (with jumps) or KS.
 ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space);
+/// Runs 26_friction.edp in the same way. Its answers are read by the next; their energy holds the work of the friction.
+void run_friction(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
+/// What elastic_answer reads, the tangential forces by x behind the normal ones.
+ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space);
+
 /// The contact force of Taylor-Hood there.
 double taylor_hood_force(const std::filesystem::path& folder);
 

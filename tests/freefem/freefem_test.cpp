@@ -318,6 +318,28 @@ TEST_P(Elasticity, AgreesOnTheSameMeshForEveryElementAndWithTaylorHood) {
     }
   }
 }
+TEST_P(Elasticity, AgreesWithFrictionInTheZonesAndTheForces) {
+  const TriangleMesh mesh = with_free_sides(structured_mesh(16, Domain{0}));
+  const TemporaryFolder folder;
+  freefem::run_friction(mesh, GetParam(), folder.path());
+  for (const std::string name : {"P1", "P1nc", "KS"}) {
+    SCOPED_TRACE(name);
+    const Space x(mesh, name == "P1nc" ? crouzeix_raviart() : p1()), y(mesh, name == "P1" ? p1() : crouzeix_raviart());
+    PlaneStrain scene;
+    scene.epsilon = GetParam();
+    scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
+    scene.friction = [](double at) { return std::max(0.0, 0.2 - 5 * (at - 0.5) * (at - 0.5)); };
+    scene.jump_weight = name == "P1nc" ? 1 : 0;
+    const VariationalInequality problem = assemble(scene, {x, y});
+    const Solution ours = active_set(problem);
+    const freefem::ElasticAnswer theirs = freefem::friction_answer(folder.path(), name, {x, y});
+    EXPECT_LE((ours.u - theirs.u).cwiseAbs().maxCoeff(), 1e-8 * ours.u.cwiseAbs().maxCoeff());
+    ASSERT_EQ(theirs.force.size(), ours.lambda.size());
+    EXPECT_LE((ours.lambda - theirs.force).cwiseAbs().maxCoeff(), 1e-7 * ours.lambda.maxCoeff());
+    EXPECT_NEAR(theirs.energy / energy(problem, ours), 1, 1e-8);  // with the work of the friction on both sides
+    EXPECT_LE(theirs.residual, 1e-10);
+  }
+}
 INSTANTIATE_TEST_SUITE_P(FreeFem, Elasticity, ::testing::Values(1.0, 1e-4, 1e-8, 0.0));
 
 TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
@@ -344,6 +366,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"22_beam", {"beam.csv", "summary.csv", "beam.eps"}},
       {"23_elasticity",
        {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv", "P1_deformed.eps"}},
+      {"26_friction", {"P1_floor.csv", "KS_summary.csv", "TaylorHood_summary.csv", "TaylorHood_deformed.eps"}},
       {"28_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
