@@ -1,0 +1,51 @@
+#include "common/slipping_patch.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "antilock/models/plane_strain.hpp"
+#include "antilock/solve/active_set.hpp"
+
+namespace antilock::tutorial {
+namespace {
+
+/// The load of a force per length on one component, on all edges of the boundary.
+Eigen::VectorXd boundary_load(const Space& space, const std::function<double(const Eigen::Vector2d&)>& force) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());
+  const TriangleMesh& mesh = space.mesh();
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const int e = mesh.triangle_edges(t, i);
+      if (mesh.edge_triangles(e, 1) >= 0) continue;
+      const Eigen::Vector3d midpoint = 0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(i));
+      const Eigen::VectorXi unknowns = space.unknowns().row(t);
+      load(unknowns) += mesh.edge_length(e) * force(point_in(mesh, t, midpoint)) * space.element().basis(midpoint);
+    }
+  return load;
+}
+
+}  // namespace
+
+double slipping_patch_error(const VectorSpace& space, double jump_weight, double epsilon) {
+  constexpr double rubs = 0.1, slip = 0.05;
+  const Space &x = space.x, &y = space.y;
+  PlaneStrain scene;  // flat obstacle, touching
+  scene.epsilon = epsilon;
+  scene.sliding = true;
+  scene.friction = [](double) { return rubs; };
+  scene.jump_weight = jump_weight;
+  VariationalInequality problem = assemble(scene, space);
+  const Eigen::VectorXd exact =
+      slip + 0.1 / (1 + 2 * epsilon) * x.points().col(0).array() + rubs * x.points().col(1).array();
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+    if (problem.fixed[i] < x.size()) problem.fixed_values(static_cast<Eigen::Index>(i)) = exact(problem.fixed[i]);
+  problem.load.head(x.size()) = boundary_load(x, [](const auto& at) { return at(1) == 1 ? rubs : 0; });
+  problem.load.tail(y.size()) = boundary_load(y, [](const auto& at) {
+    return at(0) == 1 ? rubs : at(0) == 0 ? -rubs : 0;
+  });
+  const Eigen::VectorXd u = active_set(problem).u;
+  return std::max((u.head(x.size()) - exact).cwiseAbs().maxCoeff(),
+                  (u.tail(y.size()) + 0.1 * y.points().col(1)).cwiseAbs().maxCoeff());
+}
+
+}  // namespace antilock::tutorial
