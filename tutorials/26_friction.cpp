@@ -112,8 +112,8 @@ void judge(const Table& checks, const Table& forces, const Table& errors, int ce
 void rub(const tutorial::Options& options, tutorial::Report& report) {
   const std::map<double, Eigen::Vector2d> reference{
       {1, {0.16034, 0.01627}}, {1e-4, {0.26073, 0.01222}}, {1e-8, {0.26077, 0.01223}}, {0, {0.26077, 0.01223}}};
-  Table checks({"element", "locks", "unknowns", "patch", "g = 0", "g = 1e6", "steps", "Uzawa steps", "seconds",
-                "Uzawa s", "apart"});
+  Table checks(
+      {"element", "unknowns", "patch", "g = 0", "g = 1e6", "steps", "Uzawa steps", "seconds", "Uzawa s", "apart"});
   Table zones({"x", "g", "minus_g", "T_locked", "T", "u_locked", "u"});
   Eigen::MatrixX3d locked;
   Table forces({"element", "lambda", "epsilon", "N", "T", "sticks", "steps", "corrections"});
@@ -138,26 +138,25 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
                     100 * std::abs(floor.tangential / known->second(1) - 1)});
     }
 
-    // At the ε asked for, from cold: the active set, and Uzawa where nothing locks (P1 takes 3e5 steps).
+    // At the ε asked for, from cold. Beside it, where nothing locks: Uzawa (P1 takes 3e5 steps); $g = 0$, which is chapter
+    // 23; and a great $g$, by which nothing gives way (bonded on both sides P1 cannot move at all).
     const VariationalInequality problem = pressed(rubber, space, g, options.epsilon);
     Stopwatch watch;
     const Solution solution = active_set(problem);
     const double seconds = watch.lap();
-    std::vector<Entry> of_uzawa{"", "", ""};
     if (!rubber.locks) {
       const Solution same = uzawa(problem);
-      of_uzawa = {same.counters.contact, watch.lap(), (same.u - solution.u).lpNorm<Eigen::Infinity>()};
+      const double of_uzawa = watch.lap();
+      const auto u_for = [&](const Profile& g) { return active_set(pressed(rubber, space, g, options.epsilon)).u; };
+      VariationalInequality bonded = problem;
+      bonded.force_bound.resize(0);
+      const double slides = (u_for([](double) { return 0; }) - u_for({})).cwiseAbs().maxCoeff();
+      const double sticks = (u_for([](double) { return 1e6; }) - active_set(bonded).u).cwiseAbs().maxCoeff();
+      checks.add({rubber.name, problem.free_count(),
+                  tutorial::slipping_patch_error(space, rubber.jumps ? 1 : 0, options.epsilon), slides, sticks,
+                  solution.counters.contact, same.counters.contact, seconds, of_uzawa,
+                  (same.u - solution.u).cwiseAbs().maxCoeff()});
     }
-
-    // $g = 0$ is chapter 23, and a great $g$ bonds the floor: nothing gives way.
-    const auto u_for = [&](const Profile& g) { return active_set(pressed(rubber, space, g, options.epsilon)).u; };
-    VariationalInequality bonded = problem;
-    bonded.force_bound.resize(0);
-    const double slides = (u_for([](double) { return 0; }) - u_for({})).cwiseAbs().maxCoeff();
-    const double sticks = (u_for([](double) { return 1e6; }) - active_set(bonded).u).cwiseAbs().maxCoeff();
-    checks.add({rubber.name, rubber.locks, problem.free_count(),
-                tutorial::slipping_patch_error(space, rubber.jumps ? 1 : 0, options.epsilon), slides, sticks,
-                solution.counters.contact, of_uzawa[0], seconds, of_uzawa[1], of_uzawa[2]});
 
     // ### Output
     // Where it sticks and slips, for the two that have the same unknowns on the floor.
@@ -177,15 +176,14 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 void judge(const Table& checks, const Table& forces, const Table& errors, int cells, tutorial::Report& report) {
-  const Table free = checks.where_number("locks", [](double locks) { return locks == 0; });
   report.claim(checks.most("patch") < 1e-12,
                "patch test: a block that slips as a whole has its uniform strain to {:.0e}", checks.most("patch"));
   report.claim(std::max(checks.most("g = 0"), checks.most("g = 1e6")) < 1e-12,
                "g = 0 is the block without friction to {:.0e}, g = 1e6 the bonded one to {:.0e}", checks.most("g = 0"),
                checks.most("g = 1e6"));
-  report.claim(free.most("apart") < 1e-9 && free.most("steps") <= 10,
-               "active set and Uzawa agree to {:.0e}: {} steps at most against {:.0f} or more", free.most("apart"),
-               free.most("steps"), free.least("Uzawa steps"));
+  report.claim(checks.most("apart") < 1e-9 && checks.most("steps") <= 10,
+               "active set and Uzawa agree to {:.0e}: {} steps at most against {:.0f} or more", checks.most("apart"),
+               checks.most("steps"), checks.least("Uzawa steps"));
   const Table robust = errors.where("locks", 0);
   double corrections = 0, drift = 0;
   for (const Entry& element : robust.different("element")) {

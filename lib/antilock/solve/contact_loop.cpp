@@ -101,6 +101,11 @@ HeldBounds ContactBounds::downhill(const Eigen::VectorXd& v, const Eigen::Vector
   return held;
 }
 
+bool ContactBounds::ends_piece(const HeldBounds& held, int i, double v) const {
+  const Interval p = piece(held, i);
+  return v <= p.low || v >= p.high;
+}
+
 void ContactBounds::let_go(HeldBounds& held, int i, bool upwards) const {
   const bool outer = is_equation(i) || is_above(held, i) == upwards;
   put(held, i, false, false, !outer ? 0 : upwards ? 1 : -1);

@@ -41,6 +41,8 @@ struct ContactBounds {
   Eigen::VectorXd nearest(const HeldBounds& held, Eigen::VectorXd v) const;
   /// From v, pulled by lambda = S v - q: lets go of every bound beside which the energy falls, into that piece.
   HeldBounds downhill(const Eigen::VectorXd& v, const Eigen::VectorXd& lambda) const;
+  /// Whether v is at an end of the piece of i, or outside.
+  bool ends_piece(const HeldBounds& held, int i, double v) const;
   /// Puts i, at v and pushed by lambda, where its violated condition asks it to be. What would pass through its next
   /// piece, or over its next bound, by itself, with this stiffness, does so at once.
   void exchange(HeldBounds& held, int i, double v, double lambda, double stiffness) const;
@@ -57,6 +59,10 @@ inline int is_beyond(const HeldBounds& held, int i) { return held.beyond.empty()
 
 /// Throws NotConverged: the contact loop has reached its most steps.
 [[noreturn]] void throw_not_settled(int violations, int count, int steps);
+
+/// Halvings of a projected Newton step after which unknowns on their way to a bound are taken out of it: they go there by
+/// their own stiffness. Else narrow bounds would jam it (Bertsekas 1982, his epsilon).
+constexpr int jams = 3;
 
 /// The primal-dual active set, whatever solves its linear systems. A Road has
 ///     count()      conditions

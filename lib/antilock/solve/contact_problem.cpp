@@ -79,9 +79,15 @@ class DenseRoad {
     const HeldBounds pieces = bounds_.downhill(v, gradient);
     gradient -= bounds_.given(pieces);
     std::vector<int> free;
-    for (int i = 0; i < v.size(); ++i)
-      if (!pieces.active[i]) free.push_back(i);
     Eigen::VectorXd direction = Eigen::VectorXd::Zero(v.size());
+    for (int i = 0; i < v.size(); ++i) {
+      if (pieces.active[i]) continue;
+      const double own = -gradient(i) / p_.s(i, i);
+      if (jammed_ && bounds_.ends_piece(pieces, i, v(i) + own))
+        direction(i) = own;
+      else
+        free.push_back(i);
+    }
     if (!free.empty()) {
       const Eigen::VectorXd step = Cholesky(p_.s(free, free)).solve(Eigen::VectorXd(-gradient(free)));
       direction(free) = step;
@@ -90,11 +96,13 @@ class DenseRoad {
     // Armijo along the projected path; the change of energy from the change of v, so that no digits cancel
     double t = 1;
     Eigen::VectorXd next;
-    for (int halvings = 0; halvings < 60; ++halvings, t /= 2) {
+    int halvings = 0;
+    for (; halvings < 60; ++halvings, t /= 2) {
       next = bounds_.nearest(pieces, v + t * direction);
       const Eigen::VectorXd change = next - v;
       if (change.dot(gradient + 0.5 * (p_.s * change)) <= 1e-4 * change.dot(gradient)) break;
     }
+    jammed_ = jammed_ || halvings > jams;
     v = std::move(next);
     held_ = bounds_.reached(v);
   }
@@ -114,6 +122,7 @@ class DenseRoad {
   Eigen::VectorXd v_, lambda_;            ///< C each
   Eigen::VectorXd moved_, noise_lambda_;  ///< C each, what round-off makes of v and of lambda
   Eigen::VectorXd descent_;               ///< C, the feasible v of the projected Newton steps; empty: none so far
+  bool jammed_ = false;                   ///< one of them has been cut short
   int steps_ = 0;
 };
 

@@ -82,17 +82,26 @@ class SparseRoad {
     const HeldBounds pieces = bounds_.downhill(bounded(descent_), bounded(gradient));
     gradient(p_.bounded) -= bounds_.given(pieces);
     std::vector<char> held(gradient.size(), 0);
-    for (int i = 0; i < count(); ++i) held[p_.bounded[i]] = pieces.active[i] ? 1 : 0;
+    Eigen::VectorXd alone = Eigen::VectorXd::Zero(gradient.size());
+    for (int i = 0; i < count(); ++i) {
+      const int place = p_.bounded[i];
+      const double own = -gradient(place) / diagonal_(place);
+      const bool ends = jammed_ && bounds_.ends_piece(pieces, i, descent_(place) + own);
+      held[place] = pieces.active[i] || ends ? 1 : 0;
+      if (ends && !pieces.active[i]) alone(place) = own;
+    }
     p_.k.hold(held);
-    const Eigen::VectorXd direction = p_.k.solve(-gradient);
+    const Eigen::VectorXd direction = p_.k.solve(-gradient) + alone;
     double t = 1;
+    int halvings = 0;
     Eigen::VectorXd next;
-    for (int halvings = 0; halvings < 60; ++halvings, t /= 2) {
+    for (; halvings < 60; ++halvings, t /= 2) {
       next = descent_ + t * direction;
       next(p_.bounded) = bounds_.nearest(pieces, bounded(next));
       const Eigen::VectorXd change = next - descent_;
       if (change.dot(gradient + 0.5 * p_.k.times(change)) <= 1e-4 * change.dot(gradient)) break;
     }
+    jammed_ = jammed_ || halvings > jams;
     descent_ = std::move(next);
     ++steps_;
     held_ = bounds_.reached(bounded(descent_));
@@ -116,6 +125,7 @@ class SparseRoad {
   Eigen::VectorXd lambda_;                ///< C
   Eigen::VectorXd moved_, noise_lambda_;  ///< C each, what round-off makes of x and of lambda
   Eigen::VectorXd descent_;               ///< F, the feasible x of the projected Newton steps; empty: none so far
+  bool jammed_ = false;                   ///< one of them has been cut short
   int steps_ = 0;
 };
 
