@@ -75,24 +75,8 @@ class DenseRoad {
   void descend() {
     if (descent_.size() == 0) descent_ = bounds_.nearest(v_);
     Eigen::VectorXd& v = descent_;
-    Eigen::VectorXd gradient = p_.s * v - p_.q;
-    const HeldBounds pieces = bounds_.downhill(v, gradient);
-    gradient -= bounds_.given(pieces);
-    std::vector<int> free;
-    Eigen::VectorXd direction = Eigen::VectorXd::Zero(v.size());
-    for (int i = 0; i < v.size(); ++i) {
-      if (pieces.active[i]) continue;
-      const double own = -gradient(i) / p_.s(i, i);
-      if (jammed_ && bounds_.ends_piece(pieces, i, v(i) + own))
-        direction(i) = own;
-      else
-        free.push_back(i);
-    }
-    if (!free.empty()) {
-      const Eigen::VectorXd step = Cholesky(p_.s(free, free)).solve(Eigen::VectorXd(-gradient(free)));
-      direction(free) = step;
-    }
-    ++steps_;
+    HeldBounds pieces = bounds_.downhill(v, p_.s * v - p_.q);
+    const Eigen::VectorXd gradient = p_.s * v - p_.q - bounds_.given(pieces), direction = newton(pieces, gradient);
     // Armijo along the projected path; the change of energy from the change of v, so that no digits cancel
     double t = 1;
     Eigen::VectorXd next;
@@ -102,12 +86,39 @@ class DenseRoad {
       const Eigen::VectorXd change = next - v;
       if (change.dot(gradient + 0.5 * (p_.s * change)) <= 1e-4 * change.dot(gradient)) break;
     }
-    jammed_ = jammed_ || halvings > jams;
-    v = std::move(next);
+    if (halvings > jams)
+      walk(std::move(pieces), direction);
+    else
+      v = std::move(next);
     held_ = bounds_.reached(v);
   }
 
  private:
+  /// The way to where the gradient on the pieces vanishes.
+  Eigen::VectorXd newton(const HeldBounds& pieces, const Eigen::VectorXd& gradient) {
+    std::vector<int> free;
+    for (int i = 0; i < count(); ++i)
+      if (!pieces.active[i]) free.push_back(i);
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(count());
+    if (!free.empty()) {
+      const Eigen::VectorXd step = Cholesky(p_.s(free, free)).solve(Eigen::VectorXd(-gradient(free)));
+      direction(free) = step;
+    }
+    ++steps_;
+    return direction;
+  }
+
+  /// Straight on, and what ends its piece is held there: the energy falls on every stretch, to its least on what is left.
+  void walk(HeldBounds pieces, Eigen::VectorXd direction) {
+    while (true) {
+      const auto [t, ended] = bounds_.hold_first_end(pieces, descent_, direction);
+      descent_ += t * direction;
+      if (ended < 0) return;
+      descent_(ended) = bounds_.at(pieces, ended);
+      direction = newton(pieces, p_.s * descent_ - p_.q - bounds_.given(pieces));
+    }
+  }
+
   /// Where v and the bound count from, and how large the bound is: each bound by itself, so that an obstacle far away in
   /// one place hides no contact in another.
   double noise_at(int i, double bound) const {
@@ -122,7 +133,6 @@ class DenseRoad {
   Eigen::VectorXd v_, lambda_;            ///< C each
   Eigen::VectorXd moved_, noise_lambda_;  ///< C each, what round-off makes of v and of lambda
   Eigen::VectorXd descent_;               ///< C, the feasible v of the projected Newton steps; empty: none so far
-  bool jammed_ = false;                   ///< one of them has been cut short
   int steps_ = 0;
 };
 

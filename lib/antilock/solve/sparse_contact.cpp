@@ -72,42 +72,55 @@ class SparseRoad {
 
   void exchange(int i) { bounds_.exchange(held_, i, x_(p_.bounded[i]), lambda_(i), diagonal_(p_.bounded[i])); }
 
-  /// One step of Bertsekas' projected Newton method from a feasible x.
+  /// One step of Bertsekas' projected Newton method from a feasible x: see the dense road.
   void descend() {
     if (descent_.size() == 0) {
       descent_ = x_;
       descent_(p_.bounded) = bounds_.nearest(bounded(x_));
     }
-    Eigen::VectorXd gradient = p_.k.times(descent_) - p_.q;
-    const HeldBounds pieces = bounds_.downhill(bounded(descent_), bounded(gradient));
-    gradient(p_.bounded) -= bounds_.given(pieces);
-    std::vector<char> held(gradient.size(), 0);
-    Eigen::VectorXd alone = Eigen::VectorXd::Zero(gradient.size());
-    for (int i = 0; i < count(); ++i) {
-      const int place = p_.bounded[i];
-      const double own = -gradient(place) / diagonal_(place);
-      const bool ends = jammed_ && bounds_.ends_piece(pieces, i, descent_(place) + own);
-      held[place] = pieces.active[i] || ends ? 1 : 0;
-      if (ends && !pieces.active[i]) alone(place) = own;
-    }
-    p_.k.hold(held);
-    const Eigen::VectorXd direction = p_.k.solve(-gradient) + alone;
+    HeldBounds pieces = bounds_.downhill(bounded(descent_), bounded(p_.k.times(descent_) - p_.q));
+    const Eigen::VectorXd gradient = gradient_in(pieces), direction = newton(pieces, gradient);
     double t = 1;
-    int halvings = 0;
     Eigen::VectorXd next;
+    int halvings = 0;
     for (; halvings < 60; ++halvings, t /= 2) {
       next = descent_ + t * direction;
       next(p_.bounded) = bounds_.nearest(pieces, bounded(next));
       const Eigen::VectorXd change = next - descent_;
       if (change.dot(gradient + 0.5 * p_.k.times(change)) <= 1e-4 * change.dot(gradient)) break;
     }
-    jammed_ = jammed_ || halvings > jams;
-    descent_ = std::move(next);
-    ++steps_;
+    if (halvings > jams)
+      walk(std::move(pieces), direction);
+    else
+      descent_ = std::move(next);
     held_ = bounds_.reached(bounded(descent_));
   }
 
  private:
+  Eigen::VectorXd gradient_in(const HeldBounds& pieces) const {
+    Eigen::VectorXd gradient = p_.k.times(descent_) - p_.q;
+    gradient(p_.bounded) -= bounds_.given(pieces);
+    return gradient;
+  }
+
+  Eigen::VectorXd newton(const HeldBounds& pieces, const Eigen::VectorXd& gradient) {
+    std::vector<char> held(gradient.size(), 0);
+    for (int i = 0; i < count(); ++i) held[p_.bounded[i]] = pieces.active[i] ? 1 : 0;
+    p_.k.hold(held);
+    ++steps_;
+    return p_.k.solve(-gradient);
+  }
+
+  void walk(HeldBounds pieces, Eigen::VectorXd direction) {
+    while (true) {
+      const auto [t, ended] = bounds_.hold_first_end(pieces, bounded(descent_), bounded(direction));
+      descent_ += t * direction;
+      if (ended < 0) return;
+      descent_(p_.bounded[ended]) = bounds_.at(pieces, ended);
+      direction = newton(pieces, gradient_in(pieces));
+    }
+  }
+
   Eigen::VectorXd bounded(const Eigen::VectorXd& x) const { return x(p_.bounded); }
 
   /// Round-off of x beside a bound. Where it is known, nothing is added to it: a diagonal entry of K, unlike one of a
@@ -125,7 +138,6 @@ class SparseRoad {
   Eigen::VectorXd lambda_;                ///< C
   Eigen::VectorXd moved_, noise_lambda_;  ///< C each, what round-off makes of x and of lambda
   Eigen::VectorXd descent_;               ///< F, the feasible x of the projected Newton steps; empty: none so far
-  bool jammed_ = false;                   ///< one of them has been cut short
   int steps_ = 0;
 };
 

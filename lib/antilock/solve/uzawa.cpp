@@ -9,7 +9,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/contact_loop.hpp"
+#include "antilock/solve/contact_bounds.hpp"
 #include "antilock/solve/handed_back.hpp"
 #include "antilock/solve/iterated_penalty.hpp"
 
