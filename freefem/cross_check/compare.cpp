@@ -17,8 +17,8 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
-#include "antilock/problem/bounds.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/uzawa.hpp"
@@ -173,8 +173,9 @@ std::vector<Line> elasticity(int cells, bool friction, const std::filesystem::pa
     const Solution ours = active_set(problem);
     const freefem::ElasticAnswer theirs =
         (friction ? freefem::friction_answer : freefem::elastic_answer)(out / "freefem", name, {x, y});
-    lines.push_back({friction ? "26_friction" : "23_elasticity", fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon),
-                     theirs.road, static_cast<int>(ours.u.size()),
+    lines.push_back({friction ? "26_friction" : "23_elasticity",
+                     fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon), theirs.road,
+                     static_cast<int>(ours.u.size()),
                      (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff(),
                      same_zones(problem, ours, theirs.force), ours.seconds.total(), theirs.seconds});
   };

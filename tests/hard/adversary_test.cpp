@@ -92,7 +92,7 @@ TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrongByUzawa) {
 
 TEST(Adversary, FrictionIsNotQuietlyWrong) {
   int solvable = 0, refused = 0, slips = 0, sticks = 0;
-  for (unsigned seed = 0; seed < 400; ++seed) {
+  for (unsigned seed = 0; seed < 250; ++seed) {
     const VariationalInequality problem = random_friction(seed);
     const test::ExactAnswer exact = test::exact_answer(problem);
     const Judgement judgement = judge(problem, exact, false);
@@ -106,10 +106,10 @@ TEST(Adversary, FrictionIsNotQuietlyWrong) {
       ++(values(i) == problem.lower(i) ? sticks : slips);
     }
   }
-  EXPECT_GT(solvable, 250);
-  EXPECT_GT(slips, 100);
-  EXPECT_GT(sticks, 100);
-  EXPECT_LE(refused, 8);
+  EXPECT_GT(solvable, 150);
+  EXPECT_GT(slips, 60);
+  EXPECT_GT(sticks, 60);
+  EXPECT_LE(refused, 5);  // measured over 2000: 0.5 %
 }
 
 TEST(Adversary, FrictionIsNotQuietlyWrongByUzawa) {

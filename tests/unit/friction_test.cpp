@@ -154,6 +154,7 @@ TEST(Friction, HasTheEnergyThatNothingNearbyHas) {
   Solution still = s;
   still.u.setZero();
   EXPECT_EQ(friction_energy(bar, still.u), 0);
+  EXPECT_EQ(slack(bar, s.u).minCoeff(), infinity);  // what gives way leaves every u admissible
   EXPECT_NEAR(friction_energy(bar, Eigen::VectorXd::Ones(21)), 1 - 0.5 / 20, 1e-15);
 }
 
@@ -238,6 +239,8 @@ TEST(Friction, TheBlockIsUniformInLambdaWhereItDoesNotLock) {
     EXPECT_LE(s.counters.corrections, 5);
     EXPECT_EQ(s.active, limit.active);
   }
+  scene.friction = [](double at) { return 3 * at; };
+  EXPECT_NEAR(assemble(scene, {x, y}).force_bound.tail(17).sum(), 1.5, 1e-14);  // int g
   scene.friction = [](double) { return -1.0; };
   expect_refused([&] { assemble(scene, {x, y}); }, "friction bound -1");
 }
