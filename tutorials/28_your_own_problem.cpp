@@ -70,6 +70,9 @@ void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem) {
 // With $A_1$, load, what is held and what is bounded from below, that is all that the solver ever sees. (Bounds from
 // above, on sums of unknowns, and bounds that bear a given force only, as friction in [chapter 26](26_friction.cpp),
 // are three more fields.)
+// $A_1$, $B$ and $M$ by the two helpers at the end; load, what is held, what is bounded from below. That is all that
+// the solver ever sees. (Bounds from above, on sums of unknowns, and bounds that bear a given force only, as friction in
+// [chapter 26](26_friction.cpp), are three more fields.)
 VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) {
   VariationalInequality problem;
   problem.a1 = sum_over_cells(s, 1, 0);

@@ -73,6 +73,7 @@ VariationalInequality random_friction(std::mt19937& engine) {
       if (engine() % 2 == 0) problem.upper(i) = problem.lower(i);
       continue;
     }
+    if (engine() % 4 == 0) continue;  // contact
     problem.force_bound(i) = 0.7 * std::abs(normal(engine));
     if (engine() % 4 == 0) continue;                               // a plastic obstacle
     problem.upper(i) = problem.lower(i) = engine() % 3 ? 0 : 0.1;  // friction, about 0 or elsewhere
