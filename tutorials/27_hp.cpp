@@ -149,7 +149,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 
 #include "answers/27_hp.hpp"
 
+// With more than 32 cells graded P4 would be as good as the truth's gradients (1e-6 in $H^1$).
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "27_hp", "layers and degrees where contact ends",
-                       {.takes_epsilon = false, .least_cells = 16, .most_cells = 64, .exercises = exercises}, study);
+                       {.takes_epsilon = false, .least_cells = 16, .most_cells = 32, .exercises = exercises}, study);
 }

@@ -277,7 +277,8 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
   const std::vector<freefem::Numbers> layers = freefem::graded_layers(half, folder);
   for (const int i : {0, 1})
     add("27_hp",
-        fmt::format("P{} on 4 layers, h = 1/{}, epsilon = 1 and 0.01: largest u on Gamma_C, contact, energy", i + 1, half),
+        fmt::format("P{} on 4 layers, h = 1/{}, epsilon = 1 and 0.01: largest u on Gamma_C, contact, energy", i + 1,
+                    half),
         layers[i]);
   add("28_your_own_problem",
       fmt::format("two glued strings, {} and {} cells, 13 epsilons to 1e-12: energy, largest u, contact force", cells,

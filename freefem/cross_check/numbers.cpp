@@ -213,8 +213,8 @@ std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
 std::vector<Numbers> graded_layers(int cells, const std::filesystem::path& folder) {
   std::vector<Numbers> both(2);
   for (const auto& [epsilon, end] : {std::pair{1.0, 0.6081771}, {1e-2, 0.6975326}}) {
-    run("27_hp", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-end", fmt::format("{}", end),
-                  "-out", folder});
+    run("27_hp", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-end",
+                  fmt::format("{}", end), "-out", folder});
     const Table table = results(folder / "results.csv", 2, 1);
     const TriangleMesh mesh = graded_mesh(end, 1.0 / cells, 4, 0.25, epsilon);
     for (int i = 0; i < 2; ++i) {
