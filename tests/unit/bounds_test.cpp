@@ -832,6 +832,9 @@ TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
   const BoundedUnknowns basis(combined);
   PenaltyFactor of_basis(basis.problem);
   EXPECT_EQ(handed_back(combined, basis, active_set(basis.problem, of_basis)).u, c.u);
+  Solution doubted = active_set(basis.problem, of_basis);
+  doubted.warning = "what the solver says";
+  EXPECT_EQ(handed_back(combined, basis, doubted).warning, doubted.warning);
   expect_refused([&] { handed_back(String().problem, basis, active_set(basis.problem, of_basis)); },
                  "of another problem");
 }

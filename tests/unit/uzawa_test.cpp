@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -223,6 +224,23 @@ TEST(Uzawa, EquationsAreSolvedForTheirForces) {
   EXPECT_EQ(held.counters.contact, 0);
   EXPECT_EQ(held.u, problem.lower);
   EXPECT_EQ(held.active, std::vector<bool>(5, true));
+}
+
+TEST(Uzawa, OneUnknownStopsAtEitherBound) {
+  VariationalInequality problem;
+  problem.a1 = Eigen::MatrixXd::Constant(1, 1, 2).sparseView();
+  problem.b.resize(0, 1);
+  problem.contact = {0};
+  problem.lower = Eigen::VectorXd{{-1}};
+  problem.upper = Eigen::VectorXd{{3}};
+  for (const double load : {-10.0, -1.0, 0.0, 5.0, 10.0}) {  // 2 u = load + lambda
+    problem.load = Eigen::VectorXd{{load}};
+    const Solution s = uzawa(problem);
+    const double u = std::clamp(load / 2, -1.0, 3.0);
+    EXPECT_NEAR(s.u(0), u, 1e-9) << load;
+    EXPECT_NEAR(s.lambda(0), 2 * u - load, 1e-8) << load;
+    EXPECT_EQ(s.active[0], std::abs(2 * u - load) > 0) << load;
+  }
 }
 
 TEST(Uzawa, NeverReturnsAnUnconvergedAnswer) {
