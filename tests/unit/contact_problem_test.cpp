@@ -138,11 +138,12 @@ TEST(ContactProblem, AllFreeAndAllHeld) {
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+const Eigen::VectorXd none;
 
 TEST(ContactBounds, NearestAndReachedAreTheProjectionAndItsSides) {
   // below, at the lower bound, between, at the upper bound, above; an equation; no lower bound; no upper bound
   const Eigen::VectorXd lower{{0, 0, 0, 0, 0, 1, -infinity, 0}}, upper{{1, 1, 1, 1, 1, 1, 1, infinity}};
-  const ContactBounds bounds{lower, upper};
+  const ContactBounds bounds{lower, upper, none};
   const Eigen::VectorXd v{{-2, 0, 0.5, 1, 3, 7, -9, 9}};
   const Eigen::VectorXd nearest = bounds.nearest(v);
   EXPECT_EQ(nearest, (Eigen::VectorXd{{0, 0, 0.5, 1, 1, 1, -9, 9}}));
@@ -153,8 +154,7 @@ TEST(ContactBounds, NearestAndReachedAreTheProjectionAndItsSides) {
     EXPECT_TRUE(held.above[3] && held.above[4]);
     for (const int i : {0, 1, 3, 4}) EXPECT_EQ(bounds.at(held, i), nearest(i)) << i;
   }
-  const Eigen::VectorXd none;
-  const ContactBounds floor{lower, none};
+  const ContactBounds floor{lower, none, none};
   EXPECT_EQ(floor.nearest(v), (Eigen::VectorXd{{0, 0, 0.5, 1, 3, 7, -9, 9}}));
   EXPECT_TRUE(floor.reached(v).above.empty());
 }
@@ -162,7 +162,7 @@ TEST(ContactBounds, NearestAndReachedAreTheProjectionAndItsSides) {
 TEST(ContactBounds, AStartAsksForBoundsThatThereAre) {
   // two-sided, from below, from above, an equation
   const Eigen::VectorXd lower{{0, 0, -infinity, 1}}, upper{{1, infinity, 1, 1}};
-  const ContactBounds bounds{lower, upper};
+  const ContactBounds bounds{lower, upper, none};
   const HeldBounds all = bounds.allowed(HeldBounds(std::vector<bool>(4, true), std::vector<bool>(4, true)));
   EXPECT_EQ(all.active, std::vector<bool>(4, true));
   EXPECT_EQ(all.above, (std::vector<bool>{true, false, true, true}));
@@ -176,7 +176,7 @@ TEST(ContactBounds, AStartAsksForBoundsThatThereAre) {
 TEST(ContactBounds, AnUnknownThatIsLetGoCrossesOnlyWhereItsForceTakesItAcross) {
   // one unknown, stiffness 2, bounds 0 and 1: a force of 2 moves it from one bound to the other
   const Eigen::VectorXd lower{{0}}, upper{{1}};
-  const ContactBounds bounds{lower, upper};
+  const ContactBounds bounds{lower, upper, none};
   for (const bool above : {false, true})
     for (const double force : {1.9, 2.1}) {
       HeldBounds held({true}, {above});
