@@ -62,6 +62,10 @@ def small_repository(root):
         (root / folder).mkdir(parents=True)
     for stem, text in CHAPTERS.items():
         (root / f"tutorials/{stem}.cpp").write_text(text)
+    (root / "tutorials/answers").mkdir()
+    (root / "tutorials/answers/07_middle.hpp").write_text(
+        "#pragma once\n// The answers to the exercises.\nint answer();\n\n"
+        "// ## Answers on paper\n//\n// **3.** By chapter 00, $x = 1$.\n")
     (root / "freefem/00_start.edp").write_text("// ### Solve\nreal a = 1;\n")
     (root / "lib/antilock/core/error.hpp").write_text("#pragma once\nclass Error {};\n")
     (root / "tutorials/README.md").write_text("# Tutorials\n\n## The theory as experiments\n\nNone.\n")
@@ -130,6 +134,15 @@ class Pages(unittest.TestCase):
         self.assertEqual(places("24_later"), [])
         self.assertRegex(self.page("00_start"), r'(?s)Needs: nothing,\nat all\..*images/string.*class="live".*The picture')
         self.assertRegex(self.page("07_middle"), r'(?s)Words before.*data-kind="locking".*Words after.*no figure.*### Output.*"convergence"')
+
+    # ---- answers
+
+    def test_the_answers_on_paper_are_folded_under_their_chapter(self):
+        self.assertIn("Answers on paper", self.page("07_middle"))
+        self.assertRegex(self.page("07_middle", "html", "book"),
+                         r'(?s)<details class="answers"><summary>Answers on paper</summary>.*<strong>3\.</strong> By chapter <a [^>]*00_start')
+        self.assertNotIn("The answers to the exercises", self.page("07_middle"))
+        self.assertNotIn("Answers on paper", self.page("00_start"))
 
     # ---- tables and captions
 

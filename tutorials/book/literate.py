@@ -94,6 +94,14 @@ def needs(prose):
     return prose[:start] + prose[end:], prose[start:end]
 
 
+def answers_on_paper(path):
+    """What stands under `## Answers on paper` in the answers of a chapter."""
+    for kind, block in chunks(path.read_text().splitlines()) if path.exists() else []:
+        if kind == "prose" and "## Answers on paper" in block:
+            return block[block.index("## Answers on paper") + 1:]
+    return []
+
+
 GREEK = dict(zip("alpha beta gamma delta epsilon eta kappa lambda mu pi rho sigma Gamma Omega Sigma".split(), "αβγδεηκλμπρσΓΩΣ"))
 SCRIPT = r"(?:\{[^}]*\}|-?\d+(?:\.\d+)?(?!\w)|\([\d/]+\)|-?[A-Za-z0-9]+|[-+](?!\w))"
 SCRIPTS = re.compile(rf"((?<![\w\\])(?:[A-Za-z]|{'|'.join(GREEK)})|\||\)|(?<!\w)\d+(?=\^))((?:[_^]{SCRIPT})+)")

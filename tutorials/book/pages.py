@@ -13,7 +13,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from literate import STILLS, BookError, Page, fence, folded, live_figure, signs
+from literate import STILLS, BookError, Page, answers_on_paper, fence, folded, live_figure, signs
 from library import Library
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -176,6 +176,9 @@ class Book:
         out = [f"# {page.title}", "", *self.relations(stem)]
         out += self.figure(shots[0], eager=True) if shots else []
         out += self.linked(page.body, source.parent)
+        answers = answers_on_paper(source.parent / f"answers/{stem}.hpp")
+        if answers:
+            out += folded("Answers on paper", self.linked(answers, source.parent), "answers")
         if page.runs:
             out += ["## Run it", "", *page.runs]
         for shot in shots[1:]:
