@@ -19,10 +19,13 @@
 namespace antilock {
 namespace {
 
-/// I_0(z) / I_1(z); its asymptotic series where the functions overflow.
+/// I_0(z) / I_1(z), by I_(k-1) / I_k = 2 k / z + I_(k+1) / I_k from far above z down; for large z its asymptotic series.
 double bessel_ratio(double z) {
   if (z > 300) return 1 + 1 / (2 * z) + 3 / (8 * z * z);
-  return std::cyl_bessel_i(0, z) / std::cyl_bessel_i(1, z);
+  const int above = 40 + 2 * static_cast<int>(z);
+  double ratio = 2 * above / z;
+  for (int k = above - 1; k >= 1; --k) ratio = 2 * k / z + 1 / ratio;
+  return ratio;
 }
 
 }  // namespace
