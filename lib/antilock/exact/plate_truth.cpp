@@ -21,7 +21,7 @@ namespace {
 
 /// I_0(z) / I_1(z), by I_(k-1) / I_k = 2 k / z + I_(k+1) / I_k from far above z down; for large z its asymptotic series.
 double bessel_ratio(double z) {
-  if (z > 300) return 1 + 1 / (2 * z) + 3 / (8 * z * z);
+  if (z > 1e4) return 1 + 1 / (2 * z) + 3 / (8 * z * z) + 3 / (8 * z * z * z);
   const int above = 40 + 2 * static_cast<int>(z);
   double ratio = 2 * above / z;
   for (int k = above - 1; k >= 1; --k) ratio = 2 * k / z + 1 / ratio;
