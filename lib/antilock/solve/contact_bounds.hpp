@@ -20,6 +20,8 @@ struct ContactBounds {
   int count() const { return static_cast<int>(lower.size()); }
   double above(int i) const;  ///< the upper bound of i; infinite: none
   double bears(int i) const;  ///< the most that a bound of i bears; infinite: anything
+  /// Whether a piece may have two ends. Lower bounds alone leave room on one side, and never jam a step.
+  bool are_narrow() const { return upper.size() > 0 || most.size() > 0; }
   bool is_equation(int i) const { return lower(i) == above(i); }
   /// The bound at which `held` puts i, and the forces that it may bear there.
   double at(const HeldBounds& held, int i) const;

@@ -86,7 +86,7 @@ class DenseRoad {
       const Eigen::VectorXd change = next - v;
       if (change.dot(gradient + 0.5 * (p_.s * change)) <= 1e-4 * change.dot(gradient)) break;
     }
-    if (halvings > jams)
+    if (halvings > jams && bounds_.are_narrow())
       walk(std::move(pieces), direction);
     else
       v = std::move(next);

@@ -89,7 +89,7 @@ class SparseRoad {
       const Eigen::VectorXd change = next - descent_;
       if (change.dot(gradient + 0.5 * p_.k.times(change)) <= 1e-4 * change.dot(gradient)) break;
     }
-    if (halvings > jams)
+    if (halvings > jams && bounds_.are_narrow())
       walk(std::move(pieces), direction);
     else
       descent_ = std::move(next);
