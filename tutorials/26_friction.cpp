@@ -33,11 +33,11 @@
 // point: $T (v_x - u_x) + g |v_x| - g |u_x| ≥ 0$ for every number $v_x$. With $v_x = 0$ and $v_x = 2 u_x$ it says
 // $T u_x = -g |u_x|$. What is left, $T v_x + g |v_x| ≥ 0$, says $|T| ≤ g$. So there are three cases:
 //
-// $$ \text{stick: } u_x = 0, |T| ≤ g;   \text{slip to the right: } u_x ≥ 0, T = -g;   \text{to the left: } u_x ≤ 0, T = g. $$
+// $$ \text{stick: } u_x = 0, |T| ≤ g;   \text{slip right: } u_x ≥ 0, T = -g;   \text{slip left: } u_x ≤ 0, T = g. $$
 //
 // In contact the displacement has a bound and the force a sign. In friction the force has two bounds and the
-// displacement a sign. In the library a bound with $lower = upper = 0$ says $u_x = 0$; its `force_bound` $g_i = ∫ g φ_i$
-// says that it gives way to more.
+// displacement a sign. In the library a bound with $lower = upper = 0$ says $u_x = 0$; its `force_bound`
+// $g_i = ∫ g φ_i$ says that it gives way to more.
 //
 // - *Active set*: guess the case of every unknown. Where it sticks $u_i = 0$ is known and $T_i$ is found, where it
 // slips $T_i = ±g_i$ is known and $u_i$ is found. What violates its case changes it. It is the loop of chapter 00 with
@@ -52,37 +52,18 @@
 #include <map>
 
 #include "antilock/io/writers.hpp"
-#include "antilock/measure/contact_zone.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/plane_strain.hpp"
 #include "antilock/solve/uzawa.hpp"
-#include "antilock/study/sweep.hpp"
-#include "antilock/study/table.hpp"
-#include "common/slipping_patch.hpp"
-#include "common/tutorial.hpp"
+#include "common/friction.hpp"
 
 using namespace antilock;
-
-// ### Mesh
-// Chapter 23's discretisations, but for the unstructured mesh.
-struct Rubber {
-  std::string name;
-  TriangleMesh mesh;
-  const Element &in_x, &in_y;
-  bool jumps, locks;
-};
-std::vector<Rubber> make_methods(int cells) {
-  const TriangleMesh right = with_free_sides(structured_mesh(cells, Domain{0}));
-  const TriangleMesh crossed = with_free_sides(structured_mesh(cells, Domain{0}, Diagonal::crossed));
-  return {{"P1 right diagonals", right, p1(), p1(), false, true},
-          {"P1 crossed triangles", crossed, p1(), p1(), false, false},
-          {"Crouzeix-Raviart with jumps", right, crouzeix_raviart(), crouzeix_raviart(), true, false},
-          {"Kouhia-Stenberg", right, p1(), crouzeix_raviart(), false, false}};
-}
+using tutorial::Rubber;
 
 double gap(double x) { return (x - 0.5) * (x - 0.5); }                        // of the obstacle below y = 0
 double g(double x) { return std::max(0.0, 0.2 - 5 * std::pow(x - 0.5, 2)); }  // about N/4 on the contact zone
 
+// ### Mesh
+// A `Rubber` is one of chapter 23's discretisations, but for the unstructured mesh.
+//
 // ### Forms
 // What `friction` adds to chapter 23: behind the bounds of $u_y$ those of $u_x$, with $lower = upper = 0$ and
 // `force_bound` $= ∫ g φ_i$.
@@ -95,117 +76,48 @@ VariationalInequality pressed(const Rubber& rubber, const VectorSpace& space, co
   return assemble(scene, space);
 }
 
-// N in all, |T| on one half, and the length on which it sticks though g > 0.
-struct Floor {
-  double normal = 0, tangential = 0, sticks = 0;
-  Floor(const VariationalInequality& problem, const Solution& solution, int cells) {
-    for (Eigen::Index i = 0; i < solution.lambda.size(); ++i) {
-      const bool rubs = std::isfinite(problem.force_bound(i));
-      (rubs ? tangential : normal) += rubs ? std::abs(solution.lambda(i)) / 2 : solution.lambda(i);
-      if (rubs && solution.active[i] && problem.force_bound(i) > 0) sticks += 1.0 / cells;
-    }
-  }
-};
-
-Eigen::MatrixX3d on_floor(const Space& in_x, const VariationalInequality& problem, const Solution& solution);
-void judge(const Table& checks, const Table& forces, const Table& errors, int cells, tutorial::Report& report);
-
 void rub(const tutorial::Options& options, tutorial::Report& report) {
-  const std::map<double, Eigen::Vector2d> reference{
-      {1, {0.16034, 0.01627}}, {1e-4, {0.26073, 0.01222}}, {1e-8, {0.26077, 0.01223}}, {0, {0.26077, 0.01223}}};
-  Table checks(
-      {"element", "unknowns", "patch", "g = 0", "g = 1e6", "steps", "Uzawa steps", "seconds", "Uzawa s", "apart"});
-  Table zones({"x", "g", "minus_g", "T_locked", "T", "u_locked", "u"});
-  Eigen::MatrixX3d locked;
-  Table forces({"element", "lambda", "epsilon", "N", "T", "sticks", "steps", "corrections"});
-  Table errors({"element", "lambda", "epsilon", "locks", "N", "T"});
-  for (const Rubber& rubber : make_methods(options.cells)) {
+  Table checks(tutorial::check_columns), forces(tutorial::floor_columns);
+  std::map<std::string, Eigen::MatrixX3d> floors;  // where each sticks and slips
+  for (const Rubber& rubber : tutorial::structured_rubbers(options.cells)) {
     report.stage(rubber.name);
     const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
     const VectorSpace space{x, y};
 
     // ### Solve
-    // The forces at every λ. All large λ share one factor, and each answer starts from the zones of the one before.
+    // At every λ: $N$ in all, $|T|$ on one half, the length that sticks. All large λ share one factor, and each answer
+    // starts from the zones of the one before.
     Sweep sweep(pressed(rubber, space, g, 1));
     for (const double epsilon : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-20, 0.0}) {
       sweep.set_compliance(epsilon);
       const Solution solution = sweep.solve();
-      const Floor floor(sweep.problem(), solution, options.cells);
-      forces.add({rubber.name, 1 / epsilon, epsilon, floor.normal, floor.tangential, floor.sticks,
-                  solution.counters.contact, solution.counters.corrections});
-      if (const auto known = reference.find(epsilon); known != reference.end())
-        errors.add({rubber.name, 1 / epsilon, epsilon, rubber.locks,
-                    100 * std::abs(floor.normal / known->second(0) - 1),
-                    100 * std::abs(floor.tangential / known->second(1) - 1)});
+      forces.add(tutorial::floor_row(rubber, epsilon, sweep.problem(), solution, options.cells));
     }
 
-    // At the ε asked for, from cold. Beside it, where nothing locks: Uzawa (P1 takes 3e5 steps); $g = 0$, which is chapter
-    // 23; and a great $g$, by which nothing gives way (bonded on both sides P1 cannot move at all).
-    const VariationalInequality problem = pressed(rubber, space, g, options.epsilon);
+    // At the ε asked for, from cold. Beside it, where nothing locks: Uzawa (P1 takes 3e5 steps); $g = 0$, which is
+    // chapter 23; and a great $g$, by which nothing gives way (bonded on both sides P1 cannot move at all).
+    const auto with = [&](const Profile& friction) { return pressed(rubber, space, friction, options.epsilon); };
+    const VariationalInequality problem = with(g);
     Stopwatch watch;
     const Solution solution = active_set(problem);
     const double seconds = watch.lap();
     if (!rubber.locks) {
       const Solution same = uzawa(problem);
       const double of_uzawa = watch.lap();
-      const auto u_for = [&](const Profile& g) { return active_set(pressed(rubber, space, g, options.epsilon)).u; };
-      VariationalInequality bonded = problem;
-      bonded.force_bound.resize(0);
-      const double slides = (u_for([](double) { return 0; }) - u_for({})).cwiseAbs().maxCoeff();
-      const double sticks = (u_for([](double) { return 1e6; }) - active_set(bonded).u).cwiseAbs().maxCoeff();
-      checks.add({rubber.name, problem.free_count(),
-                  tutorial::slipping_patch_error(space, rubber.jumps ? 1 : 0, options.epsilon), slides, sticks,
-                  solution.counters.contact, same.counters.contact, seconds, of_uzawa,
-                  (same.u - solution.u).cwiseAbs().maxCoeff()});
+      const auto [none, bonded] = tutorial::extremes_of_friction(with);
+      const double patch = tutorial::slipping_patch_error(space, rubber.jumps ? 1 : 0, options.epsilon);
+      checks.add({rubber.name, problem.free_count(), patch, none, bonded, solution.counters.contact,
+                  same.counters.contact, seconds, of_uzawa, (same.u - solution.u).cwiseAbs().maxCoeff()});
     }
 
     // ### Output
-    // Where it sticks and slips, for the two that have the same unknowns on the floor.
-    const Eigen::MatrixX3d c = on_floor(x, problem, solution);
-    if (rubber.locks) locked = c;
+    // Drawn are the two that have the same unknowns on the floor.
+    floors[rubber.file] = tutorial::on_floor(x, problem, solution);
     if (rubber.locks) write_freefem_mesh(options.out / "mesh.freefem.msh", rubber.mesh);
-    if (rubber.name == "P1 crossed triangles")
-      for (Eigen::Index i = 0; i < c.rows(); ++i)
-        zones.add({c(i, 0), g(c(i, 0)), -g(c(i, 0)), locked(i, 1), c(i, 1), locked(i, 2), c(i, 2)});
   }
   report.finish();
-  checks.print("", 2);
-  errors.pivot("element", "lambda", "N").print("error of the normal force in %, by lambda");
-  errors.pivot("element", "lambda", "T").print("error of the friction force in %, by lambda");
-  forces.pivot("element", "lambda", "sticks").print("length that sticks, by lambda");
-  zones.write(options.out / "zones.csv");
-  judge(checks, forces, errors, options.cells, report);
-}
-
-void judge(const Table& checks, const Table& forces, const Table& errors, int cells, tutorial::Report& report) {
-  report.claim(checks.most("patch") < 1e-12,
-               "patch test: a block that slips as a whole has its uniform strain to {:.0e}", checks.most("patch"));
-  report.claim(std::max(checks.most("g = 0"), checks.most("g = 1e6")) < 1e-12,
-               "g = 0 is the block without friction to {:.0e}, g = 1e6 the bonded one to {:.0e}", checks.most("g = 0"),
-               checks.most("g = 1e6"));
-  report.claim(checks.most("apart") < 1e-9 && checks.most("steps") <= 10,
-               "active set and Uzawa agree to {:.0e}: {} steps at most against {:.0f} or more", checks.most("apart"),
-               checks.most("steps"), checks.least("Uzawa steps"));
-  const Table robust = errors.where("locks", 0);
-  double corrections = 0, drift = 0;
-  for (const Entry& element : robust.different("element")) {
-    const Table own = forces.where("element", element);
-    const Table limit = own.where_number("epsilon", [](double epsilon) { return epsilon <= 1e-8; });
-    corrections = std::max(corrections, own.most("corrections"));
-    drift = std::max(drift, limit.most("T") / limit.least("T") - 1);
-  }
-  report.claim(corrections <= 5 && drift < 1e-6,
-               "at most {} corrections at any lambda; from lambda = 1e8 to infinity T moves by {:.0e}, like 1/lambda",
-               corrections, drift);
-  report.claim(robust.most("N") < 20.0 / cells, "N is off by {:.2f} % at most, at any lambda of the table",
-               robust.most("N"));
-  // in the cell at either end of the stick zone |T| is between 0 and g: h g / 2, where g = 0.15 and T = 0.0122 in all
-  report.claim(robust.most("T") < 615.0 / cells, "T is off by {:.1f} % at most (half a cell at its end: {:.0f} %)",
-               robust.most("T"), 615.0 / cells);
-  const Table locked = forces.where("element", "P1 right diagonals").where("epsilon", 0);
-  report.claim(locked.number("N") > 2 * 0.2608 && locked.number("T") > 2 * 0.0122,
-               "P1 locks: its contact zone slides to one side; N = {:.2f} and T = {:.4f} are more than twice too large",
-               locked.number("N"), locked.number("T"));
+  tutorial::show_friction(options.out, checks, forces, g, floors.at("p1_right"), floors.at("p1_crossed"));
+  tutorial::judge_friction(checks, forces, options.cells, report);
 }
 
 // ## What came out
@@ -240,14 +152,4 @@ int main(int argc, char** argv) {
                         .most_cells = 128,
                         .exercises = exercises},
                        rub);
-}
-
-// By x: where the unknown is, T per length, and the slip.
-Eigen::MatrixX3d on_floor(const Space& in_x, const VariationalInequality& problem, const Solution& solution) {
-  const Eigen::VectorXd lengths = contact_lengths(in_x);
-  Eigen::MatrixX3d curves(lengths.size(), 3);
-  curves.col(0) = in_x.points().col(0)(in_x.contact());
-  curves.col(1) = solution.lambda.tail(lengths.size()).cwiseQuotient(lengths);
-  curves.col(2) = solution.u(problem.contact).tail(lengths.size());
-  return curves;
 }

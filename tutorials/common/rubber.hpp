@@ -19,8 +19,9 @@ struct Rubber {
   const Element &in_x, &in_y;
   bool jumps, locks;
 };
-/// The five of the chapter, on n x n squares with free sides or gmsh's triangles of that size.
+/// The five of the chapter, on n x n squares with free sides or gmsh's triangles of that size; the four without gmsh's.
 std::vector<Rubber> rubbers(int cells);
+std::vector<Rubber> structured_rubbers(int cells);
 
 /// A uniform strain, u = (.1/(1 + 2 epsilon) x, -.1 y), is in every space: the largest difference of the solution
 /// from it.
