@@ -1,5 +1,6 @@
 #include "common/load_ascent.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -36,20 +37,18 @@ double ErrorUnderContact::operator()(const Eigen::VectorXd& c) {
   return measure_errors(on_.space(), sweep_.solve(), epsilon_, reference(table)).energy;
 }
 
-Ascent ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
+double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
               int steps) {
-  Ascent best;
+  double best = 0;
   for (const Eigen::VectorXd& start : starts) {
     Eigen::VectorXd at = start.normalized();
     double value = error(at), step = 0.3;
-    ++best.evaluations;
     for (int i = 0; i < steps && step > 0.02; ++i) {
       Eigen::VectorXd gradient(at.size());
       for (Eigen::Index k = 0; k < at.size(); ++k)
         gradient(k) = error((at + 1e-3 * Eigen::VectorXd::Unit(at.size(), k)).normalized()) - value;
       const Eigen::VectorXd tried = (at + step * gradient.normalized()).normalized();
       const double there = error(tried);
-      best.evaluations += static_cast<int>(at.size()) + 1;
       if (there > value) {
         at = tried;
         value = there;
@@ -58,10 +57,7 @@ Ascent ascend(const std::function<double(const Eigen::VectorXd&)>& error, const 
         step *= 0.5;
       }
     }
-    if (value > best.error) {
-      best.error = value;
-      best.load = at;
-    }
+    best = std::max(best, value);
   }
   return best;
 }

@@ -25,12 +25,7 @@ class ErrorUnderContact {
 
 /// A maximum of `error` on the unit sphere by ascent: gradient by differences, the step doubled after a success and
 /// halved after a failure, from each start. The largest found: a lower bound of the supremum, no more.
-struct Ascent {
-  double error = 0;
-  Eigen::VectorXd load;
-  int evaluations = 0;
-};
-Ascent ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
+double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
               int steps = 6);
 
 }  // namespace antilock::tutorial
