@@ -40,8 +40,7 @@
 //
 // **How much is lost** is a number too. Babuška and Suri, [3] of the paper, compare at equal unknowns $N$ the worst
 // error with the error where nothing is stiff: the *locking ratio* $\sup_ε E(ε, N) / E(1, N)$. Bounded: free of
-// locking. (They take the supremum over a ball of loads as well, as [chapter 15](15_families_of_loads.cpp) does; here
-// there is one load.)
+// locking. (They take the supremum over a ball of loads too: [chapter 15](15_families_of_loads.cpp).)
 //
 // The computation takes half decades of ε from 1 to 1e-10, and 0. Where a method does not lock, its error changes
 // little between two of them. Where it locks, the loss grows as ε falls (chapter 06), and is largest at 0, which is

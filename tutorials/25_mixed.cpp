@@ -4,8 +4,7 @@
 // Run: 25_mixed --exercise 1
 // Run: 25_mixed --exercise 2
 //
-// Needs: [07](07_kernel.cpp) (inf-sup constant), [11](11_contact_sets.cpp) and [12](12_uniform.cpp) (Theorem 4),
-// [23](23_elasticity.cpp) (rubber).
+// Needs: [07](07_kernel.cpp) (inf-sup), [11](11_contact_sets.cpp), [12](12_uniform.cpp), [23](23_elasticity.cpp).
 //
 // **The pictures.** P1 on the mesh on which it locks, with the stiff strain averaged before it is squared. *Means over
 // boxes of side $2h$ cure, if half of $a_0$ is kept as it is. Each of the others misses one hypothesis.* Then rubber
@@ -35,8 +34,7 @@
 // in Proposition 3. For $ε → \bar ε > 0$, (iv) is the consistency that Proposition 4 needs. *For groups that shrink,
 // (iii) and (iv) are free:* $(B v_h, q) = (P_h B v_h, q) + (B v_h, q - P_h q)$, and $P_h q → q$. What remains is (i)
 // against (ii): with fewer groups $K_{0h}$ grows, and so does what $a_{0h}$ cannot see. The way out (Arnold and
-// Brezzi 1993, for plates) keeps half: $a_1 + ½ a_0 + (ε^{-2} - ½) a_{0h}$. Then (i) holds with half the old α,
-// whatever the groups.
+// Brezzi 1993, for plates) keeps half: $a_1 + ½ a_0 + (ε^{-2} - ½) a_{0h}$. Then (i) holds with half the old α.
 //
 // **Under contact** what mends $B w_h = 0$ in (ii) must not move what touches: the inf-sup constant β of chapter 07 is
 // taken over the $v$ that vanish on the contact set; here in the norms of $a_1$ and of $L^2$.
@@ -92,12 +90,12 @@ Table measure(const Projection& way, int cells, const std::vector<Exact>& truth)
 }
 
 // β with nothing held, and with the contact set of the solution at ε = 0.
+const std::vector<std::string> beta_columns{"name", "h", "contact", "beta"};
 Table inf_sup_constants(const tutorial::Mixed& way) {
-  Table rows({"name", "h", "contact", "beta"});
+  Table rows(beta_columns);
   for (const int n : {4, 8, 12}) {
     const TriangleMesh mesh = with_free_sides(structured_mesh(n, Domain{0}));
-    const Space space(mesh, way.element);
-    const VariationalInequality problem = tutorial::rubber(way, space);  // of chapter 23, ε = 0
+    const VariationalInequality problem = tutorial::rubber(way, Space(mesh, way.element));  // of chapter 23, ε = 0
     for (const bool contact : {false, true}) {
       const std::vector<bool> nothing(problem.contact.size());
       const auto linear = held_in_contact(problem, contact ? active_set(problem).active : nothing);
@@ -110,8 +108,7 @@ Table inf_sup_constants(const tutorial::Mixed& way) {
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<Exact> truth = tutorial::exact_solutions({1, 0.1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-10, 1e-20, 0}, 14);
-  Table layer(tutorial::projection_columns), constants({"name", "h", "contact", "beta"}),
-      forces(tutorial::force_columns);
+  Table layer(tutorial::projection_columns), constants(beta_columns), forces(tutorial::force_columns);
   for (const Projection& way : projections)
     for (int n = 8; n <= options.cells; n *= 2) layer.add(measure(way, n, truth));
   for (const tutorial::Mixed& way : tutorial::mixed_methods()) {
@@ -126,14 +123,13 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // ## What came out
 //
 // (a) A mean over a column sees $u$ on $Σ$ less $u$ on $Γ_C$, and nothing between: (iii) fails, the hidden slope is
-// 0.180 at each $h$, and the error stays at 0.217. The columns solve another problem, even at ε = 1. The other rows
-// of the run's first table: patches ask for as much as the layer has unknowns, so (ii) fails, 0.148 as for P1; they
-// lock later (1/h = 32, ε = 1e-3: 0.056, P1 0.145). Boxes alone leave zigzags that cost next to nothing: (i) fails, α
-// falls like $h^{1.9}$, the error grows from 0.46 to 1.38. Boxes with half kept: (ii) $h^{0.98}$, (iii) $h^{1.05}$,
-// worst error $h^{1.00}$, locking ratio 1.06. They are right for smooth functions, and (ii) asks no more: in the dual
-// norm of chapter 07 their β is 0.73 at every $h$ where boxes end at lines of the mesh, but on this mesh it falls,
-// 0.67, 0.45, 0.26 (contact held: 0.59, 0.40, 0.21). *Price* at 1/h = 128, ε = 1e-6, in seconds (H1 error): boxes
-// 0.17 (0.0145), CR 0.29 (0.0138), P1 on a layered mesh 0.06 (0.0137).
+// 0.180 at each $h$, and the error stays at 0.217. Patches ask for as much as the layer has unknowns, so (ii) fails,
+// 0.148 as for P1; they lock later (1/h = 32, ε = 1e-3: 0.056, P1 0.145). Boxes alone leave zigzags that cost next to
+// nothing: (i) fails, α falls like $h^{1.9}$, the error grows from 0.46 to 1.38. Boxes with half kept: (ii) $h^{0.98}$,
+// (iii) $h^{1.05}$, worst error $h^{1.00}$, locking ratio 1.06. They are right for smooth functions, and (ii) asks no
+// more: in the dual norm of chapter 07 their β is 0.73 at every $h$ where boxes end at lines of the mesh, but on this
+// mesh it falls, 0.67, 0.45, 0.26 (contact held: 0.59, 0.40, 0.21). *Price* at 1/h = 128, ε = 1e-6, in seconds (H1
+// error): boxes 0.17 (0.0145), CR 0.29 (0.0138), P1 on a layered mesh 0.06 (0.0137).
 //
 // (b) No: β of MINI is 0.187 with and without the contact set, of Taylor–Hood 0.280, of CR 0.594 and 0.610 (1/h =
 // 12). Of P1 with a pressure per triangle it falls like $h$, and contact takes 44 % of it (1/h = 12). With a pressure
@@ -142,11 +138,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
-//
 // 1. Boxes of side $h/2$, $h$, $2h$, $4h$: which side is best? Is smaller always better?
-// 2. Hold the sides of the rubber block too. What becomes of β while the groove of the obstacle fills up, and what of
-//    the solution at ε = 0 after that?
+// 2. Hold the rubber's sides too. What becomes of β while the groove fills up, and of the solution at ε = 0 after that?
 // 3. On paper: which problem do the columns solve as $h → 0$?
 
 #include "answers/25_mixed.hpp"

@@ -18,8 +18,7 @@
 // ## Two strings and a glue
 //
 // Nothing here is known to the library. The upper string $u$ is loaded by $q = 32$ downwards. The lower one $w$ lies
-// over an obstacle at $-g = -1/2$. Both have the tension 1, and a thin glue bonds them. With test functions $v$ for $u$
-// and $z$ for $w$:
+// over an obstacle at $-g = -1/2$. Both have tension 1; a glue bonds them. Test functions: $v$ for $u$, $z$ for $w$.
 //
 // $$ a_1 = ∫ u' v' + ∫ w' z',   a_0 = ∫ (u - w)(v - z),   L = -q ∫ v,   K = \{ w ≥ -g \}. $$
 //
@@ -67,12 +66,8 @@ void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem) {
   problem.b = b.sparseView();
 }
 
-// With $A_1$, load, what is held and what is bounded from below, that is all that the solver ever sees. (Bounds from
-// above, on sums of unknowns, and bounds that bear a given force only, as friction in [chapter 26](26_friction.cpp),
-// are three more fields.)
-// $A_1$, $B$ and $M$ by the two helpers at the end; load, what is held, what is bounded from below. That is all that
-// the solver ever sees. (Bounds from above, on sums of unknowns, and bounds that bear a given force only, as friction in
-// [chapter 26](26_friction.cpp), are three more fields.)
+// With $A_1$, load, what is held and what is bounded from below, that is all that the solver sees. (Three more fields
+// hold bounds from above, bounds on sums, and bounds that bear a given force only ([friction](26_friction.cpp)).)
 VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) {
   VariationalInequality problem;
   problem.a1 = sum_over_cells(s, 1, 0);
