@@ -15,7 +15,10 @@ Cholesky::Cholesky(MatrixXd s) : l_(std::move(s)) {
 }
 
 VectorXd Cholesky::half_solve(const VectorXd& right) const { return l_.triangularView<Eigen::Lower>().solve(right); }
-MatrixXd Cholesky::half_solve(const MatrixXd& right) const { return l_.triangularView<Eigen::Lower>().solve(right); }
+MatrixXd Cholesky::half_solve(const MatrixXd& right) const {
+  if (right.cols() == 0) return right;  // Eigen refers to the first entry, here and in solve, whether there is one or not
+  return l_.triangularView<Eigen::Lower>().solve(right);
+}
 
 VectorXd Cholesky::solve(const VectorXd& right) const {
   VectorXd x = half_solve(right);
@@ -24,6 +27,7 @@ VectorXd Cholesky::solve(const VectorXd& right) const {
 }
 
 MatrixXd Cholesky::solve(const MatrixXd& right) const {
+  if (right.cols() == 0) return right;
   MatrixXd x = half_solve(right);
   l_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
   return x;
