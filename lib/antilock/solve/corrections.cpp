@@ -146,9 +146,7 @@ bool Corrections::settled(const Change& change) {
   return error_ <= options_.tolerance && gap_ <= 1e-3 * options_.tolerance;
 }
 
-void Corrections::accelerate() {
-  acceleration_.mix(s_.p, s_.u);
-}
+void Corrections::accelerate() { acceleration_.mix(s_.p, s_.u); }
 
 Solution Corrections::finished() {
   s_.counters.corrections = correction_;
