@@ -106,7 +106,8 @@ TEST(Kkt, ReportsEachConditionByItself) {
   EXPECT_NEAR(kkt_report(s.problem, wrong).complementarity, 0.1 * gap, 1e-12);
 }
 
-// A string between two clamps, pulled by nothing else: what its middle is out of balance counts in units of the reaction.
+// A string between two clamps, pulled by nothing else: what its middle is out of balance counts in units of the
+// reaction.
 TEST(Kkt, AResidualIsMeasuredByTheReactionWhereNoLoadActs) {
   VariationalInequality problem;
   problem.a1 = Eigen::MatrixXd(Eigen::Matrix3d{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}}).sparseView();
