@@ -192,7 +192,7 @@ TEST(Scales, AChainThatIsHardlyHeldNeedsNoOtherFactor) {
         by_long_double += s.counters.factorisations == 1;
       }
   EXPECT_GE(rescued, 4);
-EXPECT_GE(2 * by_long_double, rescued);
+  EXPECT_GE(2 * by_long_double, rescued);
 }
 
 // u_0 hangs on u_1, which B holds at 0, and its bound is 0.005. Before B holds it, u_1 lifts u_0 off; after, u_0 sinks
