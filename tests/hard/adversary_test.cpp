@@ -4,12 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <limits>
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/dependent_rows.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "support/scenes.hpp"
@@ -183,6 +185,21 @@ TEST(Doors, RowsThatAreNearlyDependentAreWarnedOf) {
       EXPECT_TRUE(equal && s.warning.empty()) << apart << s.warning;
     else
       EXPECT_NE(s.warning.find("from dependent"), std::string::npos) << apart;
+  }
+}
+
+// As far as dependent_rows.hpp says: up to 200 rows.
+TEST(Doors, RowsThatAreNearlyDependentAreLookedForAmongTwoHundred) {
+  for (const int rows : {2, 200, 201}) {
+    Eigen::MatrixXd b = Eigen::MatrixXd::Identity(rows, rows);
+    b.row(1) = b.row(0);
+    b(1, 1) = 1e-12;
+    const auto apart = nearly_dependent_rows(
+        problem_of(Eigen::MatrixXd::Identity(rows, rows), Eigen::VectorXd::Zero(rows), b, {}, Eigen::VectorXd(), 0));
+    ASSERT_EQ(apart.has_value(), rows <= 200) << rows;
+    if (apart) {
+      EXPECT_NEAR(*apart, std::sqrt(3) * 1e-12, 1e-15) << rows;  // u_0 has the stiffness 1 + 1 + 1
+    }
   }
 }
 

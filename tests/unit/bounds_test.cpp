@@ -622,6 +622,26 @@ TEST(BoundedUnknowns, RowsThatDependOnEachOtherAreRefused) {
   expect_refused([&] { active_set(springs(Eigen::MatrixXd::Random(5, 4), load)); }, words);
 }
 
+TEST(BoundedUnknowns, RowsThatFillInAreRefusedBeforeTheyFillTheMemory) {
+  // u_k - u_(k+1) >= 0: u_k is the sum of all w from k on, 1500^2 / 2 entries; accepted are 20 per unknown and 1e6
+  constexpr int n = 1500;
+  std::vector<Eigen::Triplet<double>> steps;
+  for (int k = 0; k < n; ++k) {
+    steps.emplace_back(k, k, 1);
+    steps.emplace_back(k, k + 1, -1);
+  }
+  VariationalInequality problem;
+  problem.a1.resize(n + 1, n + 1);
+  problem.a1.setIdentity();
+  problem.a1.makeCompressed();
+  problem.b.resize(0, n + 1);
+  problem.load = Eigen::VectorXd::Ones(n + 1);
+  problem.combinations.resize(n, n + 1);
+  problem.combinations.setFromTriplets(steps.begin(), steps.end());
+  problem.lower = Eigen::VectorXd::Zero(n);
+  expect_refused([&] { BoundedUnknowns{problem}; }, "accepted: rows that share fewer unknowns");
+}
+
 TEST(BoundedUnknowns, TheUnitOfARowDoesNotMatter) {
   Eigen::MatrixXd rows(2, 4);
   rows << 1, -0.5, 0, 0, 0, 0.3, 1, 1;

@@ -367,6 +367,12 @@ TEST(TruthDistance, IsTheNormOfTheDifference) {
   EXPECT_NEAR(h1_distance(unit, none), std::sqrt(square - 2 * unit.energy()), 1e-4 * std::sqrt(square));
 }
 
+TEST(TruthDistance, IsTheSameFromEitherSide) {
+  // a thick layer cuts its series sooner than a thin one
+  const Truth thick(paper_sine_load(), 1, true, 8), thin(paper_sine_load(), 0, true, 8);
+  EXPECT_NEAR(h1_distance(thick, thin), h1_distance(thin, thick), 1e-15);
+}
+
 TEST(TruthDistance, H2NormIsThatOfOneWaveByDifferences) {
   const Truth truth({{{1, {2}}}}, 0.3, false);
   // u = g(y) sin(pi x), g by values at x = 1/2: int g^2 (1 + a^2 + a^4) + g'^2 (1 + 2 a^2) + g''^2, times 1/2. Midpoint

@@ -106,6 +106,42 @@ TEST(Kkt, ReportsEachConditionByItself) {
   EXPECT_NEAR(kkt_report(s.problem, wrong).complementarity, 0.1 * gap, 1e-12);
 }
 
+// A string between two clamps, pulled by nothing else: what its middle is out of balance counts in units of the
+// reaction.
+TEST(Kkt, AResidualIsMeasuredByTheReactionWhereNoLoadActs) {
+  VariationalInequality problem;
+  problem.a1 = Eigen::MatrixXd(Eigen::Matrix3d{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}}).sparseView();
+  problem.b.resize(0, 3);
+  problem.load = Eigen::Vector3d::Zero();
+  problem.fixed = {0, 2};
+  problem.fixed_values = Eigen::Vector2d(1, 0);
+  Solution s = active_set(problem);
+  s.u(1) += 0.5e-8;  // a force of 1e-8; the clamps bear 1/2
+  EXPECT_NEAR(kkt_report(problem, s).residual, 2e-8, 1e-14);
+}
+
+// u_1 is locked under a load of 1e6, u_0 = 1: the scale of u is 1, however much B bears.
+TEST(Kkt, ALoadThatTheStiffFormBearsIsNoMeasureOfU) {
+  VariationalInequality problem;
+  problem.a1 = Eigen::MatrixXd(Eigen::Matrix2d::Identity()).sparseView();
+  problem.b = RowMatrix(Eigen::MatrixXd(Eigen::RowVector2d(0, 1)).sparseView());
+  problem.m = Eigen::VectorXd::Ones(1);
+  problem.compliance = 0;
+  problem.load = Eigen::Vector2d(1, 1e6);
+  problem.contact = {0};
+  problem.lower = Eigen::VectorXd::Zero(1);
+  Solution s;
+  s.u = Eigen::Vector2d(1, 0);
+  s.p = Eigen::VectorXd::Constant(1, 1e6);
+  s.lambda = Eigen::VectorXd::Zero(1);
+  EXPECT_EQ(worst_violation(kkt_report(problem, s)), 0);
+  s.u(1) = 1e-3;
+  EXPECT_NEAR(kkt_report(problem, s).residual, 1e-3, 1e-15);
+  s.u(1) = 0;
+  problem.lower(0) = 1.001;
+  EXPECT_NEAR(kkt_report(problem, s).min_gap, -1e-3 / 1.001, 1e-15);
+}
+
 /// `spoil` the right answer a little: certify must refuse it.
 void refused(const std::string& name, const std::function<void(const Solved&, Solution&)>& spoil,
              double epsilon = 0.1) {

@@ -279,6 +279,22 @@ TEST(EnergyBracket, HoldsWithAGapWithFixedValuesAndAfterAnEarlyStop) {
   }
 }
 
+// A solve that stopped before it began: u = 0, p = 0, and all of the load is left over.
+TEST(EnergyBracket, HoldsWhereAllForcesAreLeftOver) {
+  const Scene scene({paper_load}, StiffLayer{1e-2}, UnilateralContact{});
+  const TriangleMesh mesh = structured_mesh(6);
+  const Space space(mesh, crouzeix_raviart());
+  const VariationalInequality problem = assemble(scene, space);
+  Solution rest = active_set(problem);
+  const double solved = energy_lower_bound(scene, space, problem, rest);
+  rest.u.setZero();
+  rest.p.setZero();
+  rest.lambda.setZero();
+  const double lower = energy_lower_bound(scene, space, problem, rest);
+  EXPECT_LE(lower, energy_bracket(scene, mesh).upper);
+  EXPECT_LE(lower, solved) << "less is known";
+}
+
 TEST(EnergyBracket, RefusesWhatItCannotBound) {
   const TriangleMesh mesh = structured_mesh(4), body = structured_mesh(4, {0});
   const Space conforming(mesh, p1()), nonconforming(mesh, crouzeix_raviart()), on_body(body, crouzeix_raviart());

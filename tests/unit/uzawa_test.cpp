@@ -243,6 +243,54 @@ TEST(Uzawa, OneUnknownStopsAtEitherBound) {
   }
 }
 
+/// 2 u = -10 + lambda, u >= -1.
+VariationalInequality one_spring() {
+  VariationalInequality problem;
+  problem.a1 = Eigen::MatrixXd::Constant(1, 1, 2).sparseView();
+  problem.b.resize(0, 1);
+  problem.load = Eigen::VectorXd{{-10}};
+  problem.contact = {0};
+  problem.lower = Eigen::VectorXd{{-1}};
+  return problem;
+}
+
+TEST(Uzawa, TheDualityGapOfOneSpringIsTheEnergyBetween) {
+  // the first v is -5, with lambda = 0: J(-1) = -9, and the dual energy is J(-5) = -25
+  UzawaOptions options;
+  for (const double energy : {15.9, 16.1}) {
+    options.enough = {energy, 1};
+    EXPECT_EQ(uzawa(one_spring(), options).counters.contact == 0, energy > 16) << energy;
+  }
+}
+
+TEST(Uzawa, AnEquationAloneTakesNoStep) {
+  VariationalInequality problem = one_spring();
+  problem.upper = problem.lower;
+  const Solution s = uzawa(problem);
+  EXPECT_EQ(s.counters.contact, 0);
+  EXPECT_EQ(s.u(0), -1);
+  EXPECT_NEAR(s.lambda(0), 8, 1e-13);
+}
+
+TEST(Uzawa, AsksTheCorrectionsForItsOwnToleranceButNoLessThan1em12) {
+  VariationalInequality problem = one_spring();
+  problem.b = RowMatrix(Eigen::MatrixXd::Ones(1, 1).sparseView());
+  problem.m = Eigen::VectorXd::Ones(1);
+  problem.compliance = 1e-6;
+  UzawaOptions options;
+  options.penalty = 1;
+  for (const double tolerance : {1e-8, 1e-12, 1e-14}) {
+    double asked = 0;
+    options.tolerance = tolerance;
+    options.progress = [&](const Progress& progress) {
+      if (progress.stage == "corrections") asked = progress.asked;
+      return true;
+    };
+    uzawa(problem, options);
+    EXPECT_EQ(asked, std::max(tolerance, 1e-12));
+  }
+}
+
 TEST(Uzawa, NeverReturnsAnUnconvergedAnswer) {
   const TriangleMesh mesh = structured_mesh(8);
   const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 0.1);

@@ -102,7 +102,6 @@ void refine(Level& coarse, ArrayXd& free, VectorXd& c) {
   ArrayXd finer(2 * n + 1);
   for (int j = 0; j <= n; ++j) finer(2 * j) = free(j);
   for (int j = 0; j < n; ++j) finer(2 * j + 1) = std::max(free(j), free(j + 1));
-  finer(0) = finer(2 * n) = 1;
   free = finer;
 }
 

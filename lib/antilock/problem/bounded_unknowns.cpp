@@ -106,7 +106,7 @@ class Elimination {
         const double before = entry;
         entry -= factor * value;
         rows_with_[j].insert(other);
-        if (j != pivot && std::abs(entry) > 1e-15 * (std::abs(before) + std::abs(factor * value))) continue;
+        if (j != pivot && std::abs(entry) > 1e-15 * std::abs(before)) continue;
         row.of_u.erase(j);  // round-off
         rows_with_[j].erase(other);
       }

@@ -35,7 +35,7 @@ Solution Corrections::solve(const ContactSolver& contact) {
     const Change change = correct(residual(), contact);
     if ((settled(change) || drowned(change)) && !hides_a_violation(change, contact)) return finished();
     report(options_.progress, {"corrections", correction_ + 1, error_, options_.tolerance}, s_.solver);
-    accelerate(change);
+    accelerate();
   }
 }
 
@@ -146,9 +146,7 @@ bool Corrections::settled(const Change& change) {
   return error_ <= options_.tolerance && gap_ <= 1e-3 * options_.tolerance;
 }
 
-void Corrections::accelerate(const Change& change) {
-  if (change.p.size() > 0) acceleration_.mix(s_.p, s_.u);
-}
+void Corrections::accelerate() { acceleration_.mix(s_.p, s_.u); }
 
 Solution Corrections::finished() {
   s_.counters.corrections = correction_;

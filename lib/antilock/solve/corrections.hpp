@@ -48,7 +48,7 @@ class Corrections {
   /// What the round-off of the forces, all of one sign, would displace: K^-1 (64 eps (|L| + |A1| |u| + |B'| M |p|)).
   void note_round_off();
   /// Anderson's mix of the last corrections: the start of the next.
-  void accelerate(const Change& change);
+  void accelerate();
   /// What the counters and the report say of the answer.
   Solution finished();
 
