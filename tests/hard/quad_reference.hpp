@@ -2,10 +2,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <boost/multiprecision/eigen.hpp>
-#ifdef __clang__  // has no quadmath.h: the same format in software, slower
-#include <boost/multiprecision/cpp_bin_float.hpp>
-#else
+#if __has_include(<quadmath.h>)
 #include <boost/multiprecision/float128.hpp>
+#else  // the same format, slower: no number of a test depends on which of the two it is
+#include <boost/multiprecision/cpp_bin_float.hpp>
 #endif
 #include <functional>
 #include <vector>
@@ -14,10 +14,10 @@
 
 namespace antilock::hard {
 
-#ifdef __clang__
-using Quad = boost::multiprecision::cpp_bin_float_quad;
-#else
+#if __has_include(<quadmath.h>)
 using Quad = boost::multiprecision::float128;  // 113 bits, 34 digits
+#else
+using Quad = boost::multiprecision::cpp_bin_float_quad;
 #endif
 using QuadVector = Eigen::Matrix<Quad, Eigen::Dynamic, 1>;
 

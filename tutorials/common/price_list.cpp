@@ -122,7 +122,11 @@ void write_machine(const std::filesystem::path& path) {
   table.add({"processor", processor});
   table.add({"cores", std::thread::hardware_concurrency()});
   table.add({"threads of the BLAS", blas_threads ? blas_threads : "as many"});
+#ifdef __clang__
+  table.add({"compiler", __VERSION__});  // its own name is part of it
+#else
   table.add({"compiler", std::string("GCC ") + __VERSION__});
+#endif
   table.add({"Eigen", version(EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)});
   table.add({"CHOLMOD", version(CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)});
   table.add({"date", date.data()});

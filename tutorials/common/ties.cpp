@@ -93,7 +93,8 @@ void draw_ties(const std::filesystem::path& path, const std::vector<std::pair<st
   table.add({"page", "", "", -0.04, -2.5});
   table.add({"page", "", "", right + 0.04, 0.06});
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const auto& [name, mesh] = meshes[m];
+    const std::string& name = meshes[m].first;
+    const TriangleMesh& mesh = meshes[m].second;
     const double left = step * static_cast<double>(m % 2), top = m < 2 ? -0.1 : -1.36;
     const Ties found = ties(mesh);
     for (int t = 0; t < mesh.triangle_count(); ++t) {
