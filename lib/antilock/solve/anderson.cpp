@@ -14,7 +14,7 @@ void Anderson::note(const Eigen::VectorXd& reached, const Eigen::VectorXd& g, co
 double Anderson::contraction() const {
   double most = past_.size() < 2 ? 0.99 : 0.01;
   for (std::size_t i = 1; i < past_.size(); ++i) {
-    const Eigen::VectorXd after = past_[0].reached - past_[i].reached;
+    const auto after = past_[0].reached - past_[i].reached;
     const double apart = (after - past_[0].g + past_[i].g).norm();
     if (apart > 0) most = std::max(most, after.norm() / apart);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "antilock/core/error.hpp"
+#include "antilock/solve/loops_on_one_thread.hpp"
 #include "antilock/solve/supernodes.hpp"
 
 namespace antilock {
@@ -99,7 +100,10 @@ bool CholmodCholesky::analysed() const { return cholmod_->l != nullptr; }
 
 std::optional<int> CholmodCholesky::factorise(SparseMatrix& k) {
   cholmod_sparse whole = view(k);
-  cholmod_factorize(&whole, cholmod_->l, &cholmod_->common);
+  {
+    const LoopsOnOneThread loops;
+    cholmod_factorize(&whole, cholmod_->l, &cholmod_->common);
+  }
   if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
   std::optional<int> column;
   if (cholmod_->common.status == CHOLMOD_NOT_POSDEF)

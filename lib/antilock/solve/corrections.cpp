@@ -40,6 +40,7 @@ Solution Corrections::solve(const ContactSolver& contact) {
 }
 
 SplitResidual Corrections::residual() const {
+  if (correction_ == 0 && s_.u.isZero(0)) return {problem_.load, Eigen::VectorXd::Zero(problem_.b.rows())};
   // with the contact forces so far: where they are far above the load, r without them would keep none of its digits
   return long_double_ ? extended_residual(problem_, s_.u, s_.p, contact_.lambda)
                       : split_residual(problem_, s_.u, s_.p, contact_.lambda);
@@ -48,15 +49,13 @@ SplitResidual Corrections::residual() const {
 Corrections::Change Corrections::correct(SplitResidual r, const ContactSolver& contact) {
   const double delta = factor_.delta();
   const bool stiff = problem_.b.rows() > 0;
-  if (stiff) r.r1.noalias() += problem_.b.transpose() * (problem_.m.cwiseProduct(r.r2) / delta);
+  if (stiff && !r.r2.isZero(0)) r.r1.noalias() += problem_.b.transpose() * (problem_.m.cwiseProduct(r.r2) / delta);
   const HeldBounds before = held_by(contact_);
   Change change;
   change.u = solve_with_factor(r.r1(factor_.numbering().unknown), contact);
   s_.u += change.u;
   if (stiff) {
-    change.p = -r.r2;
-    change.p.noalias() += problem_.b * change.u;
-    change.p /= delta;
+    change.p = (problem_.b * change.u - r.r2) / delta;
     s_.p += change.p;
   }
   change.same_contact =

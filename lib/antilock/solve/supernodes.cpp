@@ -25,6 +25,7 @@ void Supernodes::forward(Eigen::VectorXd& y) const {
   for (int s = 0; s < count; ++s) {
     const Supernode node(*this, s);
     const Eigen::Index height = node.block.rows(), columns = node.block.cols();
+    if (y.segment(node.first, columns).isZero(0)) continue;  // where no load has come yet
     work.head(columns) = y.segment(node.first, columns);
     work.segment(columns, height - columns).setZero();
     for (Eigen::Index j = 0; j < columns; ++j) {
