@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "antilock/core/error.hpp"
@@ -75,6 +76,17 @@ void Level::start_from(const Level& coarse) {
   for (Eigen::Index r = 0; r < state.p.size(); ++r) state.p(r) = coarse.state.p(r / 4);
 }
 
+namespace {
+
+/// The finer piece on every rank, or an Error on every rank.
+Piece refined_together(const Piece& piece) {
+  Piece finer;
+  together([&] { finer = refined(piece); });
+  return finer;
+}
+
+}  // namespace
+
 std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
                                     const NestedOptions& options, NestedReport& report) {
   Stopwatch watch;
@@ -85,13 +97,13 @@ std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coar
         piece_of(coarse, options.share ? options.share(coarse, ranks()) : strips(coarse, ranks(), options.loop.direct),
                  rank(), ranks());
   });
+  watch.lap();
+  const int first = std::max(0, std::min(options.first_level, options.refinements));
+  for (int l = 0; l < first; ++l) piece = refined_together(piece);
+  report.mesh += watch.lap();
   std::unique_ptr<Level> level;
-  for (int l = 0; l <= options.refinements; ++l) {
-    const bool last = l == options.refinements;
-    watch.lap();
-    if (l > 0) together([&] { piece = refined(level ? level->piece : piece); });
-    report.mesh += watch.lap();
-    if (l < options.first_level && !last) continue;
+  for (int l = first;; ++l) {
+    const bool last = l >= options.refinements;
     options.stage(fmt::format("level {} of {}: {} triangles", l, options.refinements,
                               sum(static_cast<long long>(piece.mesh.triangle_count()))));
     watch.lap();
@@ -113,7 +125,11 @@ std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coar
     report.unknowns.push_back(level->problem.rows().total());
     report.linear_iterations += report.last.linear_iterations;
     report.setup += report.last.seconds_setup, report.solve += report.last.seconds_solve;
-    if (!last) options.checkpoint(l, level->contact_set());
+    if (last) break;
+    options.checkpoint(l, level->contact_set());
+    watch.lap();
+    piece = refined_together(level->piece);
+    report.mesh += watch.lap();
   }
   watch.lap();
   report.kkt = certified(level->problem, level->state, options.loop.tolerance, report.warning);

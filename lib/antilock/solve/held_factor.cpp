@@ -1,7 +1,5 @@
 #include "antilock/solve/held_factor.hpp"
 
-#include <utility>
-
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/default_cholesky.hpp"
@@ -10,8 +8,8 @@ namespace antilock {
 
 HeldFactor::HeldFactor() : HeldFactor(std::make_unique<DefaultCholesky>()) {}
 
-std::optional<int> HeldFactor::factorise(SparseMatrix k) {
-  k_ = std::move(k);
+std::optional<int> HeldFactor::factorise(SparseMatrix&& k) {
+  k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved
   held_.assign(k_.cols(), 0);
   if (!cholesky_->analysed()) {
     Stopwatch watch;

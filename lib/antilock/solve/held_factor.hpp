@@ -17,7 +17,7 @@ class HeldFactor {
   explicit HeldFactor(std::unique_ptr<SparseCholesky> cholesky) : cholesky_(std::move(cholesky)) {}
   /// Takes the upper triangle of K and factors it with nothing held; a later one must have the same pattern. Returns the
   /// row of a lost pivot, as SparseCholesky does.
-  std::optional<int> factorise(SparseMatrix k);
+  std::optional<int> factorise(SparseMatrix&& k);
   /// Throws Error where the rest of K is not positive definite.
   void hold(const std::vector<char>& held);
 

@@ -171,9 +171,9 @@ SparseContactAnswer solve_contact(const SparseContactProblem& problem, HeldBound
 HeldBounds nested_start(const SparseContactProblem& problem, int max_steps) {
   constexpr Eigen::Index few = 300;
   const std::size_t count = problem.bounded.size();
-  const HeldBounds none(std::vector<bool>(count, false));
+  HeldBounds none(std::vector<bool>(count, false));
   if (problem.q.size() <= few) return none;
-  const Aggregates aggregates = smoothed_aggregation(problem.k.upper());
+  Aggregates aggregates = smoothed_aggregation(problem.k.upper());
   const SparseMatrix& p = aggregates.prolongation;
   if (3 * p.cols() > 2 * p.rows()) return none;  // nothing to aggregate
 
@@ -191,7 +191,7 @@ HeldBounds nested_start(const SparseContactProblem& problem, int max_steps) {
   HeldFactor k;
   ContactAnswer answer;
   try {
-    if (k.factorise(aggregates.coarse)) return none;
+    if (k.factorise(std::move(aggregates.coarse))) return none;
     SparseContactProblem coarse{k, q, bounded, lower, problem.u_scale};
     coarse.upper = mean_bound(problem.upper, coarse_of, coarse_count);
     coarse.most = sum_of_most(problem.most, coarse_of, coarse_count);
