@@ -20,7 +20,8 @@ struct SceneCheck {
 constexpr double model_bound = 5e-4;
 
 /// Every scene. `mistake`: what model_check.edp is told to do wrong: "nothing", "load" (reaches into the layer),
-/// "stiffness" (1 in the layer) or "obstacle" (from above).
-std::vector<SceneCheck> model_check(const std::filesystem::path& folder, const std::string& mistake = "nothing");
+/// "stiffness" (1 in the layer) or "obstacle" (from above). `cells` of its mesh along the body's lower side.
+std::vector<SceneCheck> model_check(const std::filesystem::path& folder, const std::string& mistake = "nothing",
+                                    int cells = 120);
 
 }  // namespace antilock::freefem

@@ -541,11 +541,12 @@ TEST(ModelCheck, EverySceneIsTheStrongProblemOnTheTrueLayer) {
   }
 }
 
-// The check can fail: each mistake is seen in every scene that it touches.
+// The check can fail: each mistake is seen in every scene that it touches. On half the cells, a quarter of the unknowns:
+// scenes without the mistake are within the same bound there, so what is seen is the mistake.
 TEST(ModelCheck, SeesALoadInTheLayerAMissingStiffnessAndAnObstacleOnTheWrongSide) {
   for (const std::string mistake : {"load", "stiffness", "obstacle"}) {
     const TemporaryFolder folder;
-    for (const freefem::SceneCheck& check : freefem::model_check(folder.path(), mistake)) {
+    for (const freefem::SceneCheck& check : freefem::model_check(folder.path(), mistake, 60)) {
       const bool layer = check.problem.find("layer") != std::string::npos;
       const bool contact = check.problem.find("obstacle") != std::string::npos;
       const bool touched = mistake == "obstacle" ? contact : layer;

@@ -7,6 +7,7 @@
 namespace antilock::test {
 namespace {
 
+using Integer = boost::multiprecision::cpp_int;
 using Number = boost::multiprecision::cpp_rational;
 using Vector = std::vector<Number>;
 using Matrix = std::vector<Vector>;  // rows
@@ -34,12 +35,49 @@ std::vector<std::size_t> reduce(Matrix& a, std::size_t columns) {
   return pivots;
 }
 
-/// The solution of a square system; empty where it is singular.
-std::optional<Vector> solve(Matrix a, const Vector& b) {
-  for (std::size_t i = 0; i < a.size(); ++i) a[i].push_back(b[i]);
-  if (reduce(a, b.size()).size() < b.size()) return std::nullopt;
-  Vector x;
-  for (const Vector& row : a) x.push_back(row.back());
+/// The numbers times the least whole number that makes all of them whole.
+std::vector<Integer> whole(const Vector& numbers) {
+  Integer common = 1;
+  for (const Number& x : numbers)
+    if (common % denominator(x) != 0) common = lcm(common, denominator(x));
+  std::vector<Integer> multiples;
+  multiples.reserve(numbers.size());
+  for (const Number& x : numbers) multiples.push_back(numerator(x) * (common / denominator(x)));
+  return multiples;
+}
+
+/// x_i = numerators[i] / denominator, denominator > 0.
+struct Fractions {
+  std::vector<Integer> numerators;
+  Integer denominator;
+};
+
+/// The solution of a square system; empty where it is singular. Gauss-Jordan without fractions (Bareiss): what a step
+/// divides by is a factor of every entry. Fractions would be reduced at each operation, and that takes ten times as long.
+std::optional<Fractions> solve(const Matrix& a, const Vector& b) {
+  const std::size_t n = b.size();
+  std::vector<std::vector<Integer>> rows;
+  for (std::size_t i = 0; i < n; ++i) {
+    Vector row = a[i];
+    row.push_back(b[i]);
+    rows.push_back(whole(row));
+  }
+  Integer last = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t found = k;
+    while (found < n && rows[found][k] == 0) ++found;
+    if (found == n) return std::nullopt;
+    std::swap(rows[k], rows[found]);
+    const Integer pivot = rows[k][k];
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == k) continue;
+      const Integer factor = rows[i][k];
+      for (std::size_t j = k + 1; j <= n; ++j) rows[i][j] = (pivot * rows[i][j] - factor * rows[k][j]) / last;
+    }
+    last = pivot;
+  }
+  Fractions x{{}, abs(last)};  // the diagonal is `last` in every row by now
+  for (std::size_t i = 0; i < n; ++i) x.numerators.push_back(last < 0 ? Integer(-rows[i][n]) : rows[i][n]);
   return x;
 }
 
@@ -90,6 +128,12 @@ bool both_sides(const std::vector<State>& states, const std::vector<Side>& sides
 std::optional<Vector> minimise(const Matrix& h, const Vector& g, const std::vector<Side>& sides) {
   const std::size_t n = g.size();
   std::vector<State> states(sides.size(), idle);
+  std::vector<std::vector<Integer>> whole_sides;  // c and bound
+  for (const Side& side : sides) {
+    Vector row = side.c;
+    row.push_back(side.bound);
+    whole_sides.push_back(whole(row));
+  }
   do {
     std::vector<std::size_t> held;
     Vector rhs = g;
@@ -109,17 +153,23 @@ std::optional<Vector> minimise(const Matrix& h, const Vector& g, const std::vect
       }
       rhs.push_back(sides[held[k]].bound);
     }
-    const std::optional<Vector> x = solve(kkt, rhs);
+    const std::optional<Fractions> x = solve(kkt, rhs);
     if (!x) continue;  // dependent bounds: a smaller set does as well
     bool right = true;
-    for (std::size_t k = 0; k < held.size(); ++k)
-      right = right && (*x)[n + k] >= 0 && (!sides[held[k]].most || (*x)[n + k] <= *sides[held[k]].most);
-    for (std::size_t i = 0; right && i < sides.size(); ++i) {
-      Number at = 0;
-      for (std::size_t j = 0; j < n; ++j) at += sides[i].c[j] * (*x)[j];
-      right = states[i] == gave_way ? at <= sides[i].bound : at >= sides[i].bound;
+    for (std::size_t k = 0; k < held.size(); ++k) {
+      const Integer& force = x->numerators[n + k];
+      const std::optional<Number>& most = sides[held[k]].most;
+      right = right && force >= 0 && (!most || force * denominator(*most) <= numerator(*most) * x->denominator);
     }
-    if (right) return Vector(x->begin(), x->begin() + static_cast<std::ptrdiff_t>(n));
+    for (std::size_t i = 0; right && i < sides.size(); ++i) {
+      Integer above = -whole_sides[i][n] * x->denominator;
+      for (std::size_t j = 0; j < n; ++j) above += whole_sides[i][j] * x->numerators[j];
+      right = states[i] == gave_way ? above <= 0 : above >= 0;
+    }
+    if (!right) continue;
+    Vector z;
+    for (std::size_t j = 0; j < n; ++j) z.emplace_back(x->numerators[j], x->denominator);
+    return z;
   } while (next_set(states, sides));
   return std::nullopt;
 }
