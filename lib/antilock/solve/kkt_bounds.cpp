@@ -45,8 +45,10 @@ void note_bound(Kkt& kkt, const VariationalInequality& problem, Eigen::Index i, 
     const double scale = std::max(u_scale, std::abs(bound));
     if (!two) kkt.min_pressure = least(kkt.min_pressure, ratio(pressure, force));
     if (!soft) kkt.min_gap = least(kkt.min_gap, ratio(gap, scale));
-    const double idle = soft && gap < 0 ? bears - pressure : pressure;  // what is not borne beyond a bound
-    kkt.complementarity = most(kkt.complementarity, ratio(std::abs(idle * gap), scale * force));
+    // what is not borne beyond a bound; a bound that bears far more than the forces at work is not passed by round-off
+    const bool beyond = soft && gap < 0;
+    const double idle = beyond ? bears - pressure : pressure, unit = beyond ? std::max(force, bears) : force;
+    kkt.complementarity = most(kkt.complementarity, ratio(std::abs(idle * gap), scale * unit));
   };
   if (two) kkt.min_pressure = least(kkt.min_pressure, ratio(std::abs(lambda), force));
   if (soft) kkt.min_pressure = least(kkt.min_pressure, ratio(bears - std::abs(lambda), std::max(force, bears)));
