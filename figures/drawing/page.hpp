@@ -3,18 +3,16 @@
 #include <vtkSmartPointer.h>
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "drawing/bands.hpp"
 #include "drawing/colours.hpp"
 #include "drawing/geometry.hpp"
 #include "drawing/layout.hpp"
 #include "drawing/shapes.hpp"
 #include "drawing/typesetter.hpp"
-
-class vtkContext2D;
 
 namespace antilock::figures {
 
@@ -24,12 +22,10 @@ struct Stroke {
   std::vector<double> dashes = {};  ///< drawn, skipped, drawn, ... in pixels; empty: solid
 };
 
-/// One picture: three-dimensional scenes below, drawing above, text on top. White, units of pixels,
-/// rendered larger and averaged down, which smooths every edge.
+/// One picture: three-dimensional scenes below, drawing above, text on top. White, units of pixels.
 class Page {
  public:
-  static constexpr int oversampling = 3;  ///< pixels rendered per pixel written, each way
-  static constexpr int width = 1920;      ///< of every picture, so that a size of type means the same in all of them
+  static constexpr int width = 1920;  ///< of every picture, so that a size of type means the same in all of them
 
   explicit Page(double height) : height_(static_cast<int>(height)) {}
   int height() const { return height_; }
@@ -67,8 +63,8 @@ class Page {
   };
   std::vector<LaidText> laid_texts() const;
   int height_;
-  std::vector<vtkSmartPointer<vtkRenderer>> scenes_;
-  std::vector<std::function<void(vtkContext2D&)>> strokes_;  // in the order in which they are painted
+  std::vector<Scene> scenes_;
+  std::vector<Piece> pieces_;  // in the order in which they are painted
   std::vector<Text> texts_;
   Typesetter typesetter_;
 };

@@ -33,7 +33,7 @@ void add_lines(vtkRenderer& renderer, const std::vector<std::pair<Vector, Vector
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
   actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
-  actor->GetProperty()->SetLineWidth(static_cast<float>(Page::oversampling * width));
+  actor->GetProperty()->SetLineWidth(static_cast<float>(oversampling * width));
   actor->GetProperty()->LightingOff();
   renderer.AddActor(actor);
 }

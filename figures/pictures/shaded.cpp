@@ -20,7 +20,7 @@ namespace antilock::figures {
 namespace {
 
 using Vector = Eigen::Vector3d;
-constexpr double enlargement = Page::oversampling;  // VTK counts line widths in rendered pixels
+constexpr double enlargement = oversampling;  // VTK counts line widths in rendered pixels
 
 /// The corners of the steps, each a triangle of points and values: an edge that two triangles share
 /// with different values at its ends is a quadrilateral on end, or two triangles that meet where
