@@ -118,7 +118,7 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 // 1. Which costs more energy when the layer is made thinner: $\sin πx$, or $\tilde y \sin πx$ in the layer?
 // 2. On paper: which condition of (21) changes for an obstacle at distance $g$? Which term of the derivation?
 // 3. On paper: write (21) on the unit layer. (There $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$; on $Σ$
-// $∂_n u^+ = ε^{-2} ∂_n u^-$.)
+//    $∂_n u^+ = ε^{-2} ∂_n u^-$.)
 
 #include "answers/01_domain.hpp"
 

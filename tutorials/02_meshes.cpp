@@ -45,8 +45,8 @@
 
 using namespace antilock;
 
-// The dimension of the kernel on the layer, by the rank of a matrix whose rows are $∂_y$ on each triangle (chapter
-// 07).
+// The dimension of the kernel on the layer, by the rank of a matrix whose rows are $∂_y$ on each triangle
+// (chapter 07).
 int kernel_on_layer(const TriangleMesh& mesh) {
   return layer_kernel_dimension(
       assemble(Scene(Body{paper_load}, StiffLayer{0}, UnilateralContact{}), Space(mesh, p1())));

@@ -5,8 +5,8 @@
 // Run: 06_p1_unstructured --exercise 1
 // Run: 06_p1_unstructured --exercise 2
 //
-// Needs: [02](02_meshes.cpp) (kernel, tied triangles), [05](05_p1_structured.cpp) (the limit problem (27), Theorem
-// 4).
+// Needs: [02](02_meshes.cpp) (kernel, tied triangles), [05](05_p1_structured.cpp) (the limit problem (27),
+// Theorem 4).
 // :live: mesh=unstructured
 //
 // **The picture.** Figure 7: the same problem, the same element, about as many triangles as in Figure 5, but the mesh

@@ -93,8 +93,8 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
   };
   for (const Method& method : methods())
     of(method).pivot("cells", "epsilon", "max").print(method.name() + ": L-infinity error against 1/h and epsilon");
-  // The order at the paper's epsilon, from 1/16 on: 2, or 3/2 for CR off the mesh lines, 0 where it locks; the rest is
-  // room for coarse meshes.
+  // The order at the paper's epsilon, from 1/16 on: 2, or 3/2 for CR off the mesh lines, 0 where it locks.
+  // The rest is room for coarse meshes.
   const std::vector<std::pair<double, double>> orders{{1.8, 2.2}, {-0.02, 0.02}, {1.7, 2.2}, {1.4, 2.2}};
   const std::vector<std::string> said{"Theorem 5", "Section 4.1, locks", "Theorem 7", "Theorem 7"};
   const double finest = results.most("cells");
@@ -103,8 +103,8 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
     const Table paper = own.where("epsilon", 1e-6).where_number("cells", [](double cells) { return cells >= 16; });
     report.claim_within(paper.order("max", "h"), orders[i].first, orders[i].second,
                         fmt::format("{}, {}: order in h at epsilon = 1e-6", said[i], method.name()));
-    // On the finest mesh the error hardly depends on epsilon. 1.5: CR on an unstructured mesh settles 40 % above its
-    // value at epsilon = 1e-1, and stays. Locked, it is h^2 against the ridge: hundreds.
+    // On the finest mesh the error hardly depends on epsilon. 1.5: CR on an unstructured mesh settles
+    // 40 % above its value at epsilon = 1e-1, and stays. Locked, it is h^2 against the ridge: hundreds.
     const double ratio = last.most("max") / last.least("max");
     const bool locks = method.name() == "P1 unstructured";
     report.claim(locks ? ratio > 20 : ratio < 1.5, "{}: worst over epsilon / best = {:.3g} at 1/h = {} ({})",

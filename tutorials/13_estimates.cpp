@@ -135,7 +135,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // 1. Move the vertices of the structured mesh by up to $h/5$: slopes are of size $h$. Where is the wall?
 // 2. In the energy norm $M = α = 1$. Where does the locking go? Show $J(v) - J(u) = ½ |u - v|_a^2 + R(v)$ first.
 // 3. On paper: for which $ε(h)$ is (28) useless (its right side does not fall), and for which does it say the truth
-// about P1 on the structured mesh? (Answers: $ε ≤ h^{3/8}$; none, the truth is $h$.)
+//    about P1 on the structured mesh? (Answers: $ε ≤ h^{3/8}$; none, the truth is $h$.)
 
 #include "answers/13_estimates.hpp"
 

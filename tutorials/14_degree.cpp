@@ -52,8 +52,8 @@ using namespace antilock;
 using std::numbers::pi, tutorial::Exact;
 
 // `cost`: $|∂_y I_h w|$ in $L^2$ of the layer, $w = \sin 2πx$. `ridge`: the largest $u_h$ on $Γ_C$. `kernel`:
-// $\dim G_h$ on the layer, counted on the coarsest mesh (a rank has no meaning where $B$ nearly misses many
-// functions).
+// $\dim G_h$ on the layer, counted on the coarsest mesh (a rank has no meaning where $B$
+// nearly misses many functions).
 const std::vector<std::string> columns{"element",  "degree", "mesh", "cells", "h",
                                        "unknowns", "kernel", "cost", "h1",    "ridge"};
 
@@ -106,8 +106,8 @@ void verdicts(const Table& results, const Exact& exact, tutorial::Report& report
     const double p = own.first("degree"), order = own.order("cost", "h");
     report.claim(order > p - 0.1 && order < p + 0.8, "{} unstructured: d/dy I_h w falls like h^{:.2f} (at least h^{})",
                  element.text(), order, p);
-    // What is lost over what is kept is the square of h^p / ε times a number near 1: 1e3 and more, or 1/4 and less,
-    // decide.
+    // What is lost over what is kept is the square of h^p / ε times a number near 1: 1e3 and more,
+    // or 1/4 and less, decide.
     const double ratio = std::pow(1 / finest, p) / exact.epsilon,
                  kept = own.last("ridge") / exact.truth.max_on_contact();
     const auto say = [&](bool holds) {

@@ -1,5 +1,8 @@
 #pragma once
 // The answers to the exercises of 15_families_of_loads, whose page includes this one: to be read after predicting.
+#include <numbers>
+
+using std::numbers::pi;
 
 const std::vector<tutorial::Exercise> exercises{
     {"epsilon = 0, the unstructured mesh of 1/h = 8, the load sin(pi x): does P2 look robust? And on the ball?",

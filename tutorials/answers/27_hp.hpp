@@ -15,9 +15,8 @@ const std::vector<tutorial::Exercise> exercises{
          report.claim_within(rows.order(norm, "h"), low, high, fmt::format("epsilon = {:g}, {}: order", epsilon, norm));
        }
      }},
-    {"The end of contact is known to d only. Layers toward the wrong place, P6: how does the error on Gamma_C depend "
-     "on "
-     "d (epsilon = 1)?",
+    {"The end of contact is known to d only. Layers toward the wrong place, P6, epsilon = 1: how does the error on "
+     "Gamma_C depend on d?",
      "like d^(3/2): the cell that holds the end is about d wide, and an error there is that of a mesh with h = d. The "
      "chapter's levels need no better: each finds the end within its smallest cells",
      [](const tutorial::Options&, tutorial::Report& report) {
@@ -29,4 +28,27 @@ const std::vector<tutorial::Exercise> exercises{
        }
        rows.print();
        report.claim_within(rows.order("contact", "d"), 1, 2, "order in d");
+     }},
+    {"Degrees 1 to 6 on 8 layers, then P6 on 0 to 6 layers, epsilon = 1. Does hp's error follow degree or layers?",
+     "in H1 the degree: with 8 layers from the start it is the same. On Gamma_C each of four layers takes a factor "
+     "near 8 from the error of P6; from there on the degree is what counts",
+     [](const tutorial::Options&, tutorial::Report& report) {
+       const Exact exact(1);
+       std::vector<Level> degrees, layers;
+       for (int p = 1; p <= 6; ++p) degrees.push_back({p, 3, 8});
+       for (int n = 0; n <= 6; ++n) layers.push_back({6, 3, n});
+       const Table both = climb("hp", hp, exact), degree = climb("8 layers", degrees, exact),
+                   layer = climb("P6", layers, exact);
+       for (const Table* rows : {&both, &degree, &layer})
+         rows->select({"series", "degree", "unknowns", "h1", "contact"}).print();
+       double apart = 0;
+       for (int p = 1; p <= 6; ++p) {
+         const double ratio = both.where("degree", p).number("h1") / degree.where("degree", p).number("h1");
+         apart = std::max(apart, std::abs(ratio - 1));
+       }
+       report.claim(apart < 0.02, "hp and the degrees on 8 layers: H1 errors differ by {:.2g} % at most", 100 * apart);
+       const std::vector<double> on_contact = layer.numbers("contact");
+       // q^(-3/2) = 8, on average over four layers
+       report.claim_within(std::pow(on_contact[0] / on_contact[4], 0.25), 6, 10, "P6 on Gamma_C: error per layer");
+       report.claim_within(on_contact[6] / on_contact[4], 0.9, 1.1, "P6 on Gamma_C: six layers over four");
      }}};

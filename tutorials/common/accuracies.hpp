@@ -26,7 +26,8 @@ Table accuracy_rows(const std::string& load, const Exact& exact, const std::stri
 /// The same certificate on gmsh's uniform meshes from 1/8 to 1/finest; the seconds add up, without gmsh's own.
 Table on_uniform_meshes(const std::string& load, const Exact& exact, int finest);
 
-/// Prints what was asked and what it cost; writes answers.csv, price_list.csv and .md, p1.csv and the meshes of the picture.
+/// Prints what was asked and what it cost; writes answers.csv, price_list.csv and .md, p1.csv and the meshes of the
+/// picture.
 void show_accuracies(const std::filesystem::path& out, const Table& answers, const Table& uniform, const Table& p1);
 
 std::vector<Exercise> accuracy_exercises();

@@ -8,6 +8,8 @@
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/space/space.hpp"
 #include "antilock/study/table.hpp"
+#include "common/paper_problem.hpp"
+#include "common/tutorial.hpp"
 
 namespace antilock::tutorial {
 
@@ -28,5 +30,9 @@ OnContact on_contact(const Space& space, const Eigen::VectorXd& u, const Truth& 
 /// Prints the levels of hp at epsilon = 1 and 0; writes results.csv, picture.csv (a panel per mesh, hp on both) and
 /// graded.msh. `results` has the columns above.
 void write_hp(const std::filesystem::path& out, const Table& results, const TriangleMesh& drawn);
+
+/// Claims of the rows at one epsilon: the error per level and the growing order of hp, the order of each graded degree,
+/// the orders of P4 on equal cells, and what hp saves beside them.
+void judge_hp(const Table& results, const Exact& exact, Report& report);
 
 }  // namespace antilock::tutorial

@@ -62,4 +62,9 @@ double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const 
   return best;
 }
 
+double worst_found_in_contact(const Method& method, int cells, double epsilon) {
+  ErrorUnderContact error(method, cells, epsilon);
+  return ascend(std::ref(error), {Eigen::Vector4d::Unit(0), Eigen::Vector4d(1, 1, 0, 0)});
+}
+
 }  // namespace antilock::tutorial

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/nearest.hpp"
 #include "antilock/form/h1_norm.hpp"
@@ -108,6 +109,21 @@ VariationalInequality rubber(const Mixed& way, const Space& space) {
   scene.jump_weight = way.element.conforming() ? 0 : 1;
   scene.continuous_pressure = way.pressure_per_vertex;
   return assemble(scene, {space, space});
+}
+
+Table inf_sup_constants(const Mixed& way) {
+  Table rows(beta_columns);
+  for (const int n : {4, 8, 12}) {
+    const TriangleMesh mesh = with_free_sides(structured_mesh(n, Domain{0}));
+    const VariationalInequality problem = rubber(way, Space(mesh, way.element));
+    for (const bool contact : {false, true}) {
+      const std::vector<bool> nothing(problem.contact.size());
+      const auto linear = held_in_contact(problem, contact ? active_set(problem).active : nothing);
+      const double beta = inf_sup(multiplier_gram(linear, linear.a1), Eigen::MatrixXd(linear.m.asDiagonal()));
+      rows.add({way.name, 1.0 / n, contact ? "contact held" : "contact free", beta});
+    }
+  }
+  return rows;
 }
 
 Table push(const Mixed& way, const Options& options) {

@@ -44,6 +44,10 @@ inline const std::vector<std::string> force_columns{"name",    "unknowns", "lamb
                                                     "percent", "pressure", "corrections", "seconds"};
 /// The block of chapter 23 at epsilon = 0, in the space for both components.
 VariationalInequality rubber(const Mixed& way, const Space& space);
+/// One row per mesh, 1/h = 4, 8, 12: the inf-sup constant of `rubber` in the norms of a1 and of L2, "contact free" with
+/// nothing held, "contact held" with the contact set of the solution held.
+inline const std::vector<std::string> beta_columns{"name", "h", "contact", "beta"};
+Table inf_sup_constants(const Mixed& way);
 /// Pushes it at every epsilon; draws it at 0.
 Table push(const Mixed& way, const Options& options);
 

@@ -65,9 +65,9 @@ class Report {
   bool in_stage_ = false, all_hold_ = true;
 };
 
-/// Parses the command line, runs `body` or the exercise asked for, and turns the outcome into an exit status: 0 all claims
-/// hold, 1 one fails, 2 bad input (one line on standard error), 3 a solver did not converge (one
-/// line that says how far it came).
+/// Parses the command line, runs `body` or the exercise asked for, and turns the outcome into an exit status: 0 all
+/// claims hold, 1 one fails, 2 bad input (one line on standard error), 3 a solver did not converge (one line that says
+/// how far it came).
 int run(int argc, char** argv, const std::string& stem, const std::string& what, Options options,
         const std::function<void(const Options&, Report&)>& body);
 
