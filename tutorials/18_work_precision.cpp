@@ -138,6 +138,7 @@ int main(int argc, char** argv) {
   tutorial::Timing study;
   const auto add_options = [&](tutorial::CommandLine& line) {
     line.add("--limit", study.limit, "seconds after which a run counts as failed", 1e-3, 3600);
+    line.add("--repeats", study.repeats, "runs of each solver; their median is its time", 1, 99);
     line.add("--freefem", study.freefem, "the command freefem/run, to measure FreeFEM's script too");
   };
   return tutorial::run(

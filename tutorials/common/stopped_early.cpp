@@ -6,10 +6,11 @@ Table uzawa_on_its_way(const std::string& method, const VariationalInequality& p
                        const Solution& full, const std::function<double(const Solution&)>& error) {
   Table table({"method", "quantity", "steps", "error"});
   table.add({method, "accurate enough: stop", early.counters.contact, error(early)});
+  PenaltyFactor factor = PenaltyFactor::moderate(problem, {}, ContactRoad::dense);  // one for every stop
   for (double energy = 1e-3; energy > 1e-17; energy /= 4) {
     UzawaOptions options;
     options.enough = {energy, 1e-3};
-    const Solution u = uzawa(problem, options);
+    const Solution u = uzawa(problem, factor, options);
     table.add({method, "error of the iterate", u.counters.contact, error(u)});
     if (u.counters.contact < full.counters.contact)
       table.add({method, "its algebraic part", u.counters.contact, (u.u - full.u).cwiseAbs().maxCoeff()});

@@ -58,27 +58,36 @@ struct Lagrange {
   double value[4], slope[4];
 };
 
-// A row at x: u and its x-slope by Hermite; p, which may jump at the ends of contact, from its values alone.
+// A row at x: u and its x-slope by Hermite; p, which may jump at the ends of contact, from its values alone. Of the five
+// only what is asked for is computed: whole meshes are measured point by point.
 struct Sample {
-  double u, u_x, p, p_x, p_y;
-};
-
-Sample sample(const Row& row, double x) {
-  const int j = std::min(int(x * row.cells), row.cells - 1);
-  const double t = x * row.cells - j, h = 1.0 / row.cells;
-  const Node* node = &row.nodes[j];  // nodes[j] sits at (j - 1) h
-  const Node &left = node[1], &right = node[2];
-  Sample s{};
-  s.u = Hermite(t, h)(left.u, left.u_x, right.u, right.u_x);
-  s.u_x = 6 * t * (1 - t) * (right.u - left.u) / h + (1 - t) * (1 - 3 * t) * left.u_x + t * (3 * t - 2) * right.u_x;
-  const Lagrange weight(t);
-  for (int i = 0; i < 4; ++i) {
-    s.p += weight.value[i] * node[i].p;
-    s.p_x += weight.slope[i] / h * node[i].p;
-    s.p_y += weight.value[i] * node[i].p_y;
+  Sample(const Row& row, double x) : h(1.0 / row.cells) {
+    const int j = std::min(int(x * row.cells), row.cells - 1);
+    t = x * row.cells - j;
+    node = &row.nodes[j];  // nodes[j] sits at (j - 1) h
   }
-  return s;
-}
+  double u() const { return Hermite(t, h)(node[1].u, node[1].u_x, node[2].u, node[2].u_x); }
+  double u_x() const {
+    const Node &left = node[1], &right = node[2];
+    return 6 * t * (1 - t) * (right.u - left.u) / h + (1 - t) * (1 - 3 * t) * left.u_x + t * (3 * t - 2) * right.u_x;
+  }
+  double p() const { return along(Lagrange(t).value, &Node::p); }
+  double p_y() const { return along(Lagrange(t).value, &Node::p_y); }
+  double p_x() const {
+    Lagrange weight(t);
+    for (double& slope : weight.slope) slope /= h;
+    return along(weight.slope, &Node::p);
+  }
+
+ private:
+  double along(const double (&weight)[4], double Node::*part) const {
+    double sum = 0;
+    for (int i = 0; i < 4; ++i) sum += weight[i] * (node[i].*part);
+    return sum;
+  }
+  const Node* node;
+  double t, h;
+};
 
 int largest_wave(const Truth::Data& truth) { return truth.load.empty() ? 1 : truth.load.back().k(); }
 
@@ -146,18 +155,24 @@ struct TruthTable::Grid {
   struct Between {
     Sample below, above;
     double t, h;
+    double scale;  // u_y = scale p
     Hermite in_y() const { return {t, h}; }
+    double value() const { return in_y()(below.u(), scale * below.p(), above.u(), scale * above.p()); }
+    double p() const { return in_y()(below.p(), below.p_y(), above.p(), above.p_y()); }
+    Eigen::Vector2d gradient(double p) const {
+      return {in_y()(below.u_x(), scale * below.p_x(), above.u_x(), scale * above.p_x()), scale * p};
+    }
   };
   Between between(double x, double y) const {
-    const std::vector<Row>& rows = y >= 0 ? body : layer;
+    const Eigen::Vector2d at = inside_domain(x, y);
+    const std::vector<Row>& rows = at.y() >= 0 ? body : layer;
     const auto after =
-        std::upper_bound(rows.begin() + 1, rows.end() - 1, y, [](double at, const Row& row) { return at < row.y; });
+        std::upper_bound(rows.begin() + 1, rows.end() - 1, at.y(), [](double y, const Row& row) { return y < row.y; });
     const Row &below = after[-1], &above = *after;
     const double h = above.y - below.y;
-    return {sample(below, x), sample(above, x), (y - below.y) / h, h};
+    return {Sample(below, at.x()), Sample(above, at.x()), (at.y() - below.y) / h, h,
+            at.y() >= 0 ? 1 : epsilon * epsilon};
   }
-  double slope_scale(double y) const { return y >= 0 ? 1 : epsilon * epsilon; }  // u_y = slope_scale p
-  static double p(const Between& at) { return at.in_y()(at.below.p, at.below.p_y, at.above.p, at.above.p_y); }
 };
 
 TruthTable::TruthTable(const Truth& truth, int finest_cells) : grid_(std::make_unique<Grid>()) {
@@ -184,27 +199,24 @@ TruthTable::~TruthTable() = default;
 TruthTable::TruthTable(TruthTable&&) noexcept = default;
 TruthTable& TruthTable::operator=(TruthTable&&) noexcept = default;
 
-double TruthTable::value(double x, double y) const {
-  const Eigen::Vector2d at = inside_domain(x, y);
-  const auto rows = grid_->between(at.x(), at.y());
-  const double scale = grid_->slope_scale(at.y());
-  return rows.in_y()(rows.below.u, scale * rows.below.p, rows.above.u, scale * rows.above.p);
-}
+double TruthTable::value(double x, double y) const { return grid_->between(x, y).value(); }
 
 Eigen::Vector2d TruthTable::gradient(double x, double y) const {
-  const Eigen::Vector2d at = inside_domain(x, y);
-  const auto rows = grid_->between(at.x(), at.y());
-  const double scale = grid_->slope_scale(at.y());
-  return {rows.in_y()(rows.below.u_x, scale * rows.below.p_x, rows.above.u_x, scale * rows.above.p_x),
-          scale * Grid::p(rows)};
+  const Grid::Between rows = grid_->between(x, y);
+  return rows.gradient(rows.p());
 }
 
 double TruthTable::layer_stress(double x, double y) const {
-  const Eigen::Vector2d at = inside_domain(x, y);
-  if (at.y() > 0)
+  if (inside_domain(x, y).y() > 0)
     throw Error(fmt::format("truth table: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
   // Sigma belongs to the body's rows, where p is the same.
-  return Grid::p(grid_->between(at.x(), at.y()));
+  return grid_->between(x, y).p();
+}
+
+TruthPoint TruthTable::at(double x, double y) const {
+  const Grid::Between rows = grid_->between(x, y);
+  const double p = rows.p();
+  return {rows.value(), rows.gradient(p), p};
 }
 
 }  // namespace antilock

@@ -6,6 +6,13 @@
 
 namespace antilock {
 
+/// What TruthTable knows of one point.
+struct TruthPoint {
+  double value = 0;
+  Eigen::Vector2d gradient = {0, 0};  ///< on Sigma: the body's side
+  double layer_stress = 0;            ///< where y <= 0; above, d/dy u
+};
+
 /// The truth tabulated row by row with fast sine transforms and interpolated in between: for the error of whole meshes,
 /// where summing the series at every point would take longer than the solve.
 ///
@@ -26,6 +33,7 @@ class TruthTable {
   double value(double x, double y) const;
   Eigen::Vector2d gradient(double x, double y) const;  ///< on Sigma: the body's side
   double layer_stress(double x, double y) const;       ///< for y <= 0, else Error
+  TruthPoint at(double x, double y) const;             ///< all three, for little more than one of them
 
  private:
   struct Grid;

@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "antilock/exact/truth_table.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/space/space.hpp"
@@ -14,9 +15,12 @@ struct Reference {
   std::function<double(double x, double y)> value;
   std::function<Eigen::Vector2d(double x, double y)> gradient;
   std::function<double(double x, double y)> layer_stress;  ///< epsilon^-2 d/dy u in the layer, its limit at epsilon = 0
+  /// All three at once, where that is faster than one by one; layer_stress means nothing above the layer. May be empty.
+  std::function<TruthPoint(double x, double y)> at = {};
+  /// What is known of x; the stress in the layer alone.
+  TruthPoint known(const Eigen::Vector2d& x, bool in_layer) const;
 };
 
-class TruthTable;
 /// The tabulated truth as a reference; the table must outlive it.
 Reference reference(const TruthTable& table);
 

@@ -46,8 +46,9 @@ Eigen::VectorXd exact_residual(const Space& space, const Eigen::VectorXd& load, 
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-      Eigen::Vector2d flux = exact.gradient(x(0), x(1));
-      if (in_layer) flux(1) = exact.layer_stress(x(0), x(1));
+      const TruthPoint known = exact.known(x, in_layer);
+      Eigen::Vector2d flux = known.gradient;
+      if (in_layer) flux(1) = known.layer_stress;
       const Eigen::VectorXd work = space.element().derivative(rule.points.row(q)) * (lambda * flux);
       for (Eigen::Index i = 0; i < work.size(); ++i)
         residual(space.unknowns()(t, i)) += rule.weights(q) * mesh.area(t) * work(i);
@@ -64,9 +65,9 @@ Eigen::VectorXd h1_products(const Space& space, const Reference& exact) {
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-      const Eigen::VectorXd product =
-          space.element().basis(rule.points.row(q)) * exact.value(x(0), x(1)) +
-          space.element().derivative(rule.points.row(q)) * (lambda * exact.gradient(x(0), x(1)));
+      const TruthPoint known = exact.known(x, false);
+      const Eigen::VectorXd product = space.element().basis(rule.points.row(q)) * known.value +
+                                      space.element().derivative(rule.points.row(q)) * (lambda * known.gradient);
       for (Eigen::Index i = 0; i < product.size(); ++i)
         products(space.unknowns()(t, i)) += rule.weights(q) * mesh.area(t) * product(i);
     }
