@@ -103,22 +103,6 @@ TEST(Doors, TheWayToAnAnswerMayBeLong) {
   }
 }
 
-TEST(Doors, RowsAreHeldApartOrWarnedOf) {
-  for (const double apart : {1e-6, 1e-7, 1e-8, 1e-9, 3e-10, 1e-11, 1e-13}) {
-    VariationalInequality problem;
-    problem.a1 = Eigen::MatrixXd::Identity(2, 2).sparseView();
-    problem.b = Eigen::MatrixXd{{1, 1}, {1, 1 + apart}}.sparseView();
-    problem.a1.makeCompressed();
-    problem.b.makeCompressed();
-    problem.m = problem.load = Eigen::Vector2d(1, 1);
-    problem.compliance = 0;  // u = 0
-    const Solution s = active_set(problem);
-    if (s.warning.empty()) {
-      EXPECT_LT(s.u.lpNorm<Eigen::Infinity>(), 1e-15 * s.moderate) << apart;
-    }
-  }
-}
-
 TEST(Doors, AFrictionWithoutLimitSticksInEveryElement) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(4, {0}));
   for (const char* name : {"P1", "P2", "CR"})

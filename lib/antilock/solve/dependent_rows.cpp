@@ -23,7 +23,7 @@ std::optional<double> nearly_dependent_rows(const VariationalInequality& problem
     if (b.row(r).squaredNorm() > 0) b.row(r).normalize();
   const Eigen::VectorXd pivots = qr_pivots(b.transpose());
   for (const double pivot : pivots)
-    if (pivot > 1e-14 * pivots(0) && pivot < 3e-9 * pivots(0)) return pivot / pivots(0);
+    if (pivot > 1e-14 * pivots(0) && pivot < 1e-10 * pivots(0)) return pivot / pivots(0);
   return std::nullopt;
 }
 
