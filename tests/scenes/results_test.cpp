@@ -217,6 +217,21 @@ TEST(Warnings, ALoadThatTheQuadratureMissesIsFound) {
   }
 }
 
+// Three discs of force between the points of the rule, in balance: no force, no moment, u = 0 by the quadrature and -7 in
+// truth. And a wave that turns four times in a cell.
+TEST(Warnings, ALoadWithoutForceOrMomentIsFoundBetweenThePoints) {
+  const auto disc = [](int weight, double x, double y) {
+    return fmt::format("{}*((x - {})^2 + (y - {})^2 < 0.003 ? 1000 : 0)", weight, x, y);
+  };
+  const std::string discs =
+      disc(1, 0.6705427, 0.9223774) + " + " + disc(-2, 0.4164415, 0.6715546) + " + " + disc(1, 0.1623403, 0.4207318);
+  for (const auto& [f, cells] : {std::pair(discs, 4), std::pair(std::string("100*sin(64*pi*x)"), 8)}) {
+    const SceneRun run(scene(layer("1e-3"), structured(cells), "", f));
+    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+    EXPECT_NE(run.summary()["warning"].get<std::string>().find("between its points"), std::string::npos) << f;
+  }
+}
+
 TEST(Warnings, AnObstacleBetweenTheContactUnknownsIsFound) {
   for (const std::string& mesh : {structured(8), unstructured(8)}) {
     const SceneRun run(scene(layer("1e-3") + "[contact]\ngap = \"0.01 - exp(-1e8*(x - 0.4567)^2)\"\n", mesh, cr));
@@ -306,6 +321,17 @@ TEST(Results, OfAnEarlierSceneAreReplacedAndTheTableOfAnAbsentContactGoes) {
     ASSERT_EQ(run_scene(in_shell(folder / (name + ".toml")) + " --out " + in_shell(folder / "results"), folder).status,
               0);
   expect_interface(folder / "results");
+}
+
+TEST(Results, OfAnEarlierRunOnSeveralRanksAreNoPictureOfThisOne) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "scene.toml") << scene("", structured(8));
+  std::filesystem::create_directories(folder / "results");
+  for (const std::string name : {"solution.pvtu", "solution_0.vtu", "solution_1.vtu", "other_0.vtu"})
+    std::ofstream(folder / "results" / name) << "earlier";
+  ASSERT_EQ(run_scene(in_shell(folder / "scene.toml") + " --out " + in_shell(folder / "results"), folder).status, 0);
+  EXPECT_EQ(files(folder / "results"),
+            (Keys{"summary.json", "solution.csv", "mesh.msh", "solution.vtu", "other_0.vtu"}));
 }
 
 TEST(Results, OfAFailedRunLeaveEarlierOnesAlone) {

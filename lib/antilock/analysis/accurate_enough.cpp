@@ -1,9 +1,12 @@
 #include "antilock/analysis/accurate_enough.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "antilock/analysis/companion.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/models/anti_plane.hpp"
 
@@ -21,6 +24,9 @@ EnergyBracket energy_bracket(const Scene& scene, const TriangleMesh& mesh) {
 }
 
 AccurateEnough accurate_enough(const EnergyBracket& bracket, double coarser, double share) {
+  if (!(coarser >= 1 && std::isfinite(coarser) && share > 0 && share <= 1))
+    throw Error(fmt::format("accurate enough: {} times as coarse, a share of {}; accepted: 1 or more, above 0 up to 1",
+                            coarser, share));
   const double scale = std::max(std::abs(bracket.upper), std::abs(bracket.lower));
   if (!(bracket.width() > 0)) return {};
   const double relative = share * bracket.width() / (coarser * coarser) / scale;

@@ -25,6 +25,16 @@ void basis_loads(const LoadModes& modes, double x, double y, Eigen::Ref<Eigen::V
 ErrorForm::ErrorForm(const Space& space, LoadModes modes) : space_(space), modes_(std::move(modes)) {
   if (!space.element().conforming() && &space.element() != &crouzeix_raviart())
     throw Error("error form: element " + space.element().name() + "; accepted: conforming ones and CR");
+  const TriangleMesh& mesh = space.mesh();
+  if (modes_.waves() > 4 / mesh.diameter())
+    throw Error(
+        fmt::format("error form: {} waves on edges up to {:.3g} long; accepted: up to {:.0f}, those that the "
+                    "quadrature sees",
+                    modes_.waves(), mesh.diameter(), 4 / mesh.diameter()));
+  const Eigen::RowVector2d least = mesh.vertices.colwise().minCoeff(), most = mesh.vertices.colwise().maxCoeff();
+  if (!((least - Eigen::RowVector2d(0, -1)).norm() < 1e-6 && (most - Eigen::RowVector2d(1, 1)).norm() < 1e-6))
+    throw Error(fmt::format("error form: a mesh of ({:.6g}, {:.6g}) x ({:.6g}, {:.6g}); accepted: (0, 1) x (-1, 1)",
+                            least(0), most(0), least(1), most(1)));
   problem_ = assemble(Scene(Body{[](double, double) { return 0.0; }}, StiffLayer{1}), space);
   integrate_loads();
   if (!space.element().conforming()) interpolate_solutions();

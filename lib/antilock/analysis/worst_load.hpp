@@ -24,8 +24,9 @@ struct WorstLoad {
 /// CR's interpolant I_h u has a_h(u, v_h) = a_h(I_h u, v_h). F is dense, N x n; E is never formed.
 class ErrorForm {
  public:
-  /// modes.waves() from 1 to 2 per cell side; above the load is integrated inexactly. The space must outlive this. Throws
-  /// Error for a space without layer, or of an element that is neither conforming nor CR.
+  /// modes.waves() from 1 to 2 per cell side: above, the load is integrated inexactly. The space must outlive this.
+  /// Throws Error for more than 4 waves per longest edge, a mesh of anything but the two unit squares, a space without
+  /// layer, or of an element that is neither conforming nor CR.
   ErrorForm(const Space& space, LoadModes modes);
 
   /// 0 <= epsilon <= 1, else Error; 1 before the first call.

@@ -27,7 +27,7 @@ double layer_stiffness(double a, double epsilon) {
 // since decay(a, 0) = 1 and -decay'(a, 0) = T. With int cos(mu_m y) decay(a, y) dy = T g_km (by parts, twice):
 //     S f = g f - 2 T R / (T + R) P_k g,    per k a diagonal matrix less one of rank one.
 LoadModes::LoadModes(int waves) : waves_(waves) {
-  if (waves < 1) throw Error(fmt::format("loads: {} waves; accepted: 1 and more", waves));
+  if (waves < 1 || waves > 4096) throw Error(fmt::format("loads: {} waves; accepted: 1 to 4096", waves));
   std::vector<int> k_of, m_of;
   for (int k = 1; k <= waves; ++k)
     for (int m = 1; k * k + (m - 0.5) * (m - 0.5) <= 1.0 * waves * waves; ++m) {
@@ -44,13 +44,19 @@ LoadModes::LoadModes(int waves) : waves_(waves) {
 
 double LoadModes::beyond() const { return 1 / (waves_ * std::numbers::pi); }
 
+void LoadModes::check_size(const Eigen::VectorXd& f) const {
+  if (f.size() != size()) throw Error(fmt::format("loads: {} coefficients; accepted {}", f.size(), size()));
+}
+
 Eigen::VectorXd LoadModes::on_free_sigma(const Eigen::VectorXd& f) const {
+  check_size(f);
   Eigen::VectorXd p = Eigen::VectorXd::Zero(waves_ + 1);
   for (int j = 0; j < size(); ++j) p(k_(j)) += response_(j) * f(j);
   return p;
 }
 
 Eigen::VectorXd LoadModes::taken_away(double epsilon) const {
+  if (!(epsilon >= 0 && epsilon <= 1)) throw Error(fmt::format("loads: epsilon = {}; accepted: 0 to 1", epsilon));
   Eigen::VectorXd share = Eigen::VectorXd::Zero(waves_ + 1);
   for (int k = 1; k <= waves_; ++k) {
     const double r = layer_stiffness(k * std::numbers::pi, epsilon);
@@ -60,7 +66,6 @@ Eigen::VectorXd LoadModes::taken_away(double epsilon) const {
 }
 
 Eigen::VectorXd LoadModes::response(const Eigen::VectorXd& f, double epsilon) const {
-  if (f.size() != size()) throw Error(fmt::format("loads: {} coefficients; accepted {}", f.size(), size()));
   const Eigen::VectorXd share = taken_away(epsilon), p = on_free_sigma(f);
   Eigen::VectorXd s = response_.cwiseProduct(f);
   for (int j = 0; j < size(); ++j)
@@ -81,6 +86,7 @@ Eigen::VectorXd LoadModes::decays(double y) const {
 }
 
 double LoadModes::value(const Eigen::VectorXd& f, double x, double y) const {
+  check_size(f);
   const Eigen::VectorXd sine = sines(x), cosine = cosines(y);
   double sum = 0;
   for (int j = 0; j < size(); ++j) sum += 2 * f(j) * sine(k_(j)) * cosine(m_(j));
@@ -88,6 +94,7 @@ double LoadModes::value(const Eigen::VectorXd& f, double x, double y) const {
 }
 
 Eigen::VectorXd LoadModes::constant_in_y(int k, double amplitude) const {
+  if (k < 1 || k > waves_) throw Error(fmt::format("loads: sin({} pi x); accepted: 1 to {} pi", k, waves_));
   Eigen::VectorXd f = Eigen::VectorXd::Zero(size());
   for (int j = 0; j < size(); ++j)  // int_0^1 cos(mu y) dy = sin(mu) / mu, sin(mu_m) = -(-1)^m
     if (k_(j) == k) f(j) = amplitude * (m_(j) % 2 == 1 ? 1 : -1) / ((m_(j) - 0.5) * std::numbers::pi);

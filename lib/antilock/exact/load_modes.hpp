@@ -13,7 +13,8 @@ namespace antilock {
 /// And what the exact problem (23) without contact does with them, in closed form (derivation in load_modes.cpp).
 class LoadModes {
  public:
-  /// waves >= 1, else Error.
+  /// Throws Error unless 1 <= waves <= 4096. Below, for a load of another number of coefficients than n, and for an
+  /// epsilon outside 0 to 1.
   explicit LoadModes(int waves);
 
   int waves() const { return waves_; }
@@ -28,7 +29,7 @@ class LoadModes {
   Eigen::VectorXd on_free_sigma(const Eigen::VectorXd& f) const;
   /// By k: R / (T + R), the share of it that the layer takes away; T, R: stiffness of body and layer on Sigma.
   Eigen::VectorXd taken_away(double epsilon) const;
-  /// n coefficients of S f: (S f, v) = (u, v) on the body for each load v, u the solution for f. 0 <= epsilon <= 1.
+  /// n coefficients of S f: (S f, v) = (u, v) on the body for each load v, u the solution for f.
   Eigen::VectorXd response(const Eigen::VectorXd& f, double epsilon) const;
 
   /// (waves + 1) values of sin(k pi x), of cos(mu_m y), of decay(k pi, y).
@@ -37,10 +38,11 @@ class LoadModes {
   Eigen::VectorXd decays(double y) const;
   /// The load f at a point of the body.
   double value(const Eigen::VectorXd& f, double x, double y) const;
-  /// The coefficients of amplitude sin(k pi x): a load that does not depend on y.
+  /// The coefficients of amplitude sin(k pi x): a load that does not depend on y. Throws Error unless 1 <= k <= waves.
   Eigen::VectorXd constant_in_y(int k, double amplitude) const;
 
  private:
+  void check_size(const Eigen::VectorXd& f) const;
   int waves_;
   Eigen::VectorXi k_, m_;
   Eigen::VectorXd response_;

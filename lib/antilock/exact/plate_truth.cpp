@@ -54,8 +54,12 @@ PlateTruth::PlateTruth(double thickness, double load, double gap)
     const Free f = free_part(c);
     return fallen(1, f) - fallen(c, f);
   };
+  if (!(thickness >= 0 && thickness <= 10))
+    throw Error(fmt::format("plate: thickness = {}; accepted: 0 to 10", thickness));
+  if (!(gap > 1e-9 * load && std::isfinite(load)))  // contact up to the rim, where fallen(1) - fallen(c) cancels
+    throw Error(fmt::format("plate: gap {} under the load {}; accepted: more than 1e-9 of a finite load", gap, load));
   double low = 1e-3, high = 1 - 1e-9;
-  if (!(load > 0 && gap > 0) || depth(low) < gap)
+  if (!(load > 0 && gap > 0 && depth(low) >= gap))
     throw Error(fmt::format("plate: load {} does not press the plate on the obstacle at {} over a disc", load, -gap));
   while (high - low > 1e-15) {
     const double middle = 0.5 * (low + high);

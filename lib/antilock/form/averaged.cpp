@@ -44,6 +44,13 @@ void check_shares(const FactoredForm& form, const Shares& shares) {
       throw Error(fmt::format("averaged: the shares of row {} sum to {}; accepted: 1", r, sum(r)));
 }
 
+void check_cells(const TriangleMesh& mesh, const FactoredForm& form) {
+  for (const int t : form.cell)
+    if (t < 0 || t >= mesh.triangle_count())
+      throw Error(fmt::format("averaged: a row of B in cell {} of a mesh of {}; accepted: the mesh of the form", t,
+                              mesh.triangle_count()));
+}
+
 }  // namespace
 
 FactoredForm averaged(const FactoredForm& form, const Shares& shares) {
@@ -64,7 +71,11 @@ Shares box_shares(const TriangleMesh& mesh, const FactoredForm& form, double wid
   for (const double length : {width, height})
     if (!(length > 0 && std::isfinite(length)))
       throw Error(fmt::format("box_shares: a box of {} x {}; accepted: positive lengths", width, height));
-  const Eigen::RowVector2d from = mesh.vertices.colwise().minCoeff();
+  const Eigen::RowVector2d from = mesh.vertices.colwise().minCoeff(), size = mesh.vertices.colwise().maxCoeff() - from;
+  if (!(width >= 1e-9 * size(0) && height >= 1e-9 * size(1)))
+    throw Error(fmt::format("box_shares: a box of {} x {} of a mesh of {} x {}; accepted: a billionth of it or more",
+                            width, height, size(0), size(1)));
+  check_cells(mesh, form);
   std::vector<std::pair<long, long>> box;
   for (const int t : form.cell) {
     const Eigen::Vector2d at = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3)) - from.transpose();
@@ -74,6 +85,7 @@ Shares box_shares(const TriangleMesh& mesh, const FactoredForm& form, double wid
 }
 
 Shares vertex_shares(const TriangleMesh& mesh, const FactoredForm& form, const Quadrature& rule) {
+  check_cells(mesh, form);
   const auto points = static_cast<std::size_t>(rule.weights.size());
   std::vector<int> mean(mesh.vertex_count(), -1);
   for (std::size_t r = 0; r < form.cell.size(); ++r) {

@@ -109,6 +109,11 @@ void add_edge_field(ShearRows& rows, const PlateSpace& space, int t) {
 }
 
 void check_elements(const PlateSpace& space) {
+  if (&space.rotation.x.mesh() != &space.mesh() || &space.rotation.y.mesh() != &space.mesh())
+    throw Error("plate: deflection and rotation live on different meshes; accepted: spaces of one mesh");
+  if (&space.rotation.x.element() != &space.rotation.y.element())
+    throw Error("plate: the rotation is of " + space.rotation.x.element().name() + " in x and of " +
+                space.rotation.y.element().name() + " in y; accepted: one element twice");
   const std::string w = space.deflection.element().name(), theta = space.rotation.x.element().name();
   const bool affine = w == "P1" && theta == "P1" && space.rotation.y.element().name() == "P1";
   if (!affine && (space.shear != ShearRule::mean || space.deflection.element().degree() != 1))

@@ -12,6 +12,7 @@ namespace antilock {
 
 // Eigenvalues of the Jacobi matrix of Legendre's polynomials (Golub and Welsch 1969).
 std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n) {
+  if (n < 1 || n > 1000) throw Error(fmt::format("quadrature: Gauss's rule of {} points; accepted: 1 to 1000", n));
   Eigen::MatrixXd jacobi = Eigen::MatrixXd::Zero(n, n);
   for (int k = 1; k < n; ++k) jacobi(k, k - 1) = k / std::sqrt(4.0 * k * k - 1);
   const auto [values, vectors] = symmetric_eigen(jacobi);

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/core/dense.hpp"
+#include "antilock/form/forms.hpp"
+
 namespace antilock {
 namespace {
 
@@ -21,6 +24,19 @@ Eigen::Vector3d spread_point(double k) {
     b = 1 - b;
   }
   return {1 - a - b, a, b};
+}
+
+/// 1, a, b, a a, a b, b b at a point of a triangle with the barycentric coordinates (1 - a - b, a, b).
+Eigen::Matrix<double, 6, 1> quadratics(const Eigen::Vector3d& lambda) {
+  const double a = lambda(1), b = lambda(2);
+  return Eigen::Matrix<double, 6, 1>(1, a, b, a * a, a * b, b * b);
+}
+
+/// From the values at the points of a rule to the quadratic that fits them best.
+Eigen::MatrixXd quadratic_fit(const Quadrature& rule) {
+  Eigen::MatrixXd at_points(rule.weights.size(), 6);
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) at_points.row(q) = quadratics(rule.points.row(q)).transpose();
+  return pseudo_inverse(at_points);
 }
 
 }  // namespace
@@ -63,16 +79,26 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == Region::body) area += mesh.area(t), ++triangles;
 
+  const Quadrature& rule = load_rule(space.element());
+  const Eigen::MatrixXd fit = quadratic_fit(rule);
+  Eigen::VectorXd at_rule(rule.weights.size());
   constexpr int points = 1 << 18;
   Eigen::Vector3d sampled = Eigen::Vector3d::Zero(),
                   size = sampled;  // integrals of f (1, x, y) and of |f| (1, |x|, |y|)
-  double k = 0;
+  double k = 0, unseen = 0;        // integral of |f less what the rule's points say of it|
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != Region::body) continue;
     const int here = std::max(1, static_cast<int>(std::ceil(points * mesh.area(t) / area)));
+    for (Eigen::Index q = 0; q < at_rule.size(); ++q) {
+      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+      at_rule(q) = f(x(0), x(1));
+    }
+    const Eigen::VectorXd quadratic = fit * at_rule;
     for (int i = 0; i < here; ++i) {
-      const Eigen::Vector2d x = point_in(mesh, t, spread_point(++k));
+      const Eigen::Vector3d lambda = spread_point(++k);
+      const Eigen::Vector2d x = point_in(mesh, t, lambda);
       const double part = f(x(0), x(1)) * mesh.area(t) / here;
+      unseen += std::abs(part - quadratics(lambda).dot(quadratic) * mesh.area(t) / here);
       sampled += part * Eigen::Vector3d(1, x(0), x(1));
       size += std::abs(part) * Eigen::Vector3d(1, std::abs(x(0)), std::abs(x(1)));
     }
@@ -89,6 +115,13 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
           : i == 1 ? "x f"
                    : "y f",
           seen(i), sampled(i), k, size(i));
+  // integrals may agree by chance: what lives between the points of the rule, triangle by triangle, is seen by none
+  if (unseen > 0.25 * size(0))
+    return fmt::format(
+        "load.f: the quadrature of this mesh misses the load: {:.0f} % of the integral of |f| lie between its points, "
+        "by "
+        "{:.0f} samples: a finer mesh is needed where the load lives",
+        100 * unseen / size(0), k);
   return "";
 }
 

@@ -110,6 +110,17 @@ Json summary(const SceneFile& file, const Space& space, const VariationalInequal
   return s;
 }
 
+/// What an earlier run on several ranks left in the folder: its pictures would pass for those of this one.
+std::vector<std::string> pieces_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code absent;
+  if (!std::filesystem::exists(folder / "solution.pvtu", absent)) return names;
+  names.push_back("solution.pvtu");
+  const auto piece = [](std::size_t rank) { return fmt::format("solution_{}.vtu", rank); };
+  while (std::filesystem::exists(folder / piece(names.size() - 1), absent)) names.push_back(piece(names.size() - 1));
+  return names;
+}
+
 }  // namespace
 
 std::string question_json(const SceneFile& file) { return question(file).dump(); }
@@ -150,7 +161,9 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
                        {"solve", solve}, {"files", files},       {"total", mesh + assemble + factor + solve + files}};
     write_file(draft / "summary.json", [&](std::ostream& out) { out << json.dump(2) << "\n"; });
   };
-  write_folder(folder, write, contact ? std::vector<std::string>{} : std::vector<std::string>{"contact.csv"});
+  std::vector<std::string> stale = pieces_in(folder);
+  if (!contact) stale.emplace_back("contact.csv");
+  write_folder(folder, write, stale);
 }
 
 }  // namespace antilock

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "antilock/form/quadrature.hpp"
 #include "antilock/measure/contact_edges.hpp"
 #include "antilock/problem/bounds.hpp"
 
@@ -24,11 +25,12 @@ ContactZone contact_zone(const Space& space, const VariationalInequality& proble
 
 Eigen::VectorXd contact_lengths(const Space& space) {
   // int phi_i over the edge: shared by its unknowns as the element's basis says (midpoint: 1; ends: 1/2 each)
+  const auto [points, weights] = gauss_rule(space.element().degree() / 2 + 1);
   Eigen::VectorXd length = Eigen::VectorXd::Zero(space.size());
   for (const ContactEdge& edge : contact_edges(space.mesh())) {
-    const auto at = [&](double s) { return space.element().basis(edge.lambda(s)); };
-    // Boole's rule: exact up to degree 5
-    const Eigen::VectorXd integral = (7 * (at(0) + at(1)) + 12 * at(0.5) + 32 * (at(0.25) + at(0.75))) / 90;
+    Eigen::VectorXd integral = Eigen::VectorXd::Zero(space.element().unknowns());
+    for (Eigen::Index q = 0; q < points.size(); ++q)
+      integral += weights(q) * space.element().basis(edge.lambda(points(q)));
     for (Eigen::Index k = 0; k < integral.size(); ++k)
       length(space.unknowns()(edge.triangle, k)) += edge.length * integral(k);
   }

@@ -1,9 +1,12 @@
 #include "antilock/measure/errors.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "antilock/core/dense.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/problem/bounds.hpp"
@@ -39,6 +42,20 @@ Eigen::MatrixXd layer_stress_values(const Element& element, const Eigen::MatrixX
   return monomials(points, degree) * pseudo_inverse(at_rows);
 }
 
+/// The larger of the two, and no number where one of them is none: std::max would pass over it.
+double larger(double a, double b) { return a >= b ? a : b > a ? b : a + b; }
+
+/// u of the space, p of its layer.
+void check_solution(const Space& space, const Solution& solution) {
+  const auto& region = space.mesh().region;
+  const auto layer = std::count(region.begin(), region.end(), Region::layer);
+  const Eigen::Index rows = layer * strain_rule(space.element()).weights.size();
+  if (solution.u.size() != space.size() || (solution.p.size() != 0 && solution.p.size() != rows))
+    throw Error(
+        fmt::format("errors: a solution of {} unknowns and {} layer stresses; accepted: {} and {}, of this space",
+                    solution.u.size(), solution.p.size(), space.size(), rows));
+}
+
 }  // namespace
 
 TruthPoint Reference::known(const Eigen::Vector2d& x, bool in_layer) const {
@@ -56,6 +73,7 @@ Reference reference(const TruthTable& table) {
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
+  check_solution(space, solution);
   const Quadrature& rule = load_rule(element);
   const Eigen::Index points = rule.weights.size();
   std::vector<Eigen::VectorXd> basis, sample_basis;
@@ -68,7 +86,7 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
 
   Errors errors;
   for (int i = 0; i < space.size(); ++i)
-    errors.max_at_unknowns = std::max(
+    errors.max_at_unknowns = larger(
         errors.max_at_unknowns, std::abs(solution.u(i) - reference.value(space.points()(i, 0), space.points()(i, 1))));
   double l2 = 0, gradient2 = 0, energy2 = 0;
   Eigen::Index row = 0;
@@ -79,7 +97,7 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
     u = solution.u(space.unknowns().row(t));
     for (std::size_t k = 0; k < sample_basis.size(); ++k) {
       const Eigen::Vector2d x = point_in(mesh, t, sample_points()[k]);
-      errors.max = std::max(errors.max, std::abs(u.dot(sample_basis[k]) - reference.value(x(0), x(1))));
+      errors.max = larger(errors.max, std::abs(u.dot(sample_basis[k]) - reference.value(x(0), x(1))));
     }
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     const bool in_layer = mesh.region[t] == Region::layer, stiff = in_layer && solution.p.size() > 0;
@@ -116,6 +134,8 @@ std::vector<double> rates(const std::vector<double>& h, const std::vector<double
 }
 
 double slope(const std::vector<double>& h, const std::vector<double>& errors) {
+  if (h.size() != errors.size())
+    throw Error(fmt::format("slope: {} errors for {} mesh widths; accepted: one per width", errors.size(), h.size()));
   const Eigen::ArrayXd x = Eigen::Map<const Eigen::ArrayXd>(h.data(), static_cast<Eigen::Index>(h.size())).log();
   const Eigen::ArrayXd y =
       Eigen::Map<const Eigen::ArrayXd>(errors.data(), static_cast<Eigen::Index>(errors.size())).log();
@@ -124,6 +144,9 @@ double slope(const std::vector<double>& h, const std::vector<double>& errors) {
 }
 
 double energy(const VariationalInequality& problem, const Solution& solution) {
+  if (solution.u.size() != problem.size() || solution.p.size() != problem.b.rows())
+    throw Error(fmt::format("energy: a solution of {} unknowns and {} rows of B; accepted: {} and {}, of this problem",
+                            solution.u.size(), solution.p.size(), problem.size(), problem.b.rows()));
   const double stiff =
       problem.b.rows() > 0 ? problem.compliance * solution.p.dot(problem.m.cwiseProduct(solution.p)) : 0;
   return 0.5 * (solution.u.dot(problem.a1 * solution.u) + stiff) - problem.load.dot(solution.u) +

@@ -2,12 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "antilock/form/forms.hpp"
 
 namespace antilock {
 namespace {
+
+/// A part of a mesh, as a process of a distributed run has it, ends inside the domain.
+bool is_whole(const TriangleMesh& mesh) {
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_triangles(e, 1) < 0 && mesh.edge_tag[e] == EdgeTag::interior) return false;
+  return true;
+}
 
 void check_fit(const Scene& scene, const Space& space) {
   const auto& region = space.mesh().region;
@@ -17,6 +25,13 @@ void check_fit(const Scene& scene, const Space& space) {
         "scene and mesh: the scene has no layer to mesh, the mesh has a group layer; accepted: a mesh of the body");
   if (!mesh_has_layer && scene.layer_depth() > 0)
     throw Error("scene and mesh: the scene has a layer, the mesh has no group layer, which is needed");
+  // (22) and (23) differ by the depth of their meshes
+  const double lowest = space.mesh().vertices.col(1).minCoeff(), wanted = -scene.layer_depth();
+  if (mesh_has_layer && (lowest < wanted - 1e-6 || (lowest > wanted + 1e-6 && is_whole(space.mesh()))))
+    throw Error(
+        fmt::format("scene and mesh: the mesh reaches down to y = {:.6g}; accepted: y = {:.6g}, the lower side of the "
+                    "layer of this scene",
+                    lowest, wanted));
 }
 
 }  // namespace

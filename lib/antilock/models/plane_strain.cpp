@@ -9,12 +9,26 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/averaged.hpp"
+#include "antilock/form/quadrature.hpp"
 
 namespace antilock {
 
 namespace {
 
-/// The friction bound of every unknown of u_x: int g phi_i, by the midpoint rule on each contact edge.
+/// The mean of every basis function on the edge opposite local vertex i.
+Eigen::VectorXd means_on_edge(const Element& element, int i) {
+  const auto [places, weights] = gauss_rule(element.degree() / 2 + 1);
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(element.unknowns());
+  for (Eigen::Index q = 0; q < places.size(); ++q) {
+    Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+    lambda((i + 1) % 3) = 1 - places(q);
+    lambda((i + 2) % 3) = places(q);
+    means += weights(q) * element.basis(lambda);
+  }
+  return means;
+}
+
+/// The friction bound of every unknown of u_x: int g phi_i, g taken from the midpoint of each contact edge.
 Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(space.size());
   const TriangleMesh& mesh = space.mesh();
@@ -25,9 +39,9 @@ Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
       const Eigen::Vector3d midpoint = 0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(i));
       const double here = g(point_in(mesh, t, midpoint)(0));
       if (!(here >= 0)) throw Error(fmt::format("plane strain: friction bound {}; accepted 0 or more", here));
-      const Eigen::VectorXd basis = space.element().basis(midpoint);
-      for (Eigen::Index k = 0; k < basis.size(); ++k)
-        bounds(space.unknowns()(t, k)) += mesh.edge_length(e) * here * basis(k);
+      const Eigen::VectorXd share = means_on_edge(space.element(), i);
+      for (Eigen::Index k = 0; k < share.size(); ++k)  // an infinite g is for the unknowns on the edge alone
+        if (std::abs(share(k)) > 1e-15) bounds(space.unknowns()(t, k)) += mesh.edge_length(e) * here * share(k);
     }
   return bounds;
 }
@@ -60,6 +74,8 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   if (!std::isfinite(scene.push)) throw Error("plane strain: push is not finite");
   if (!(scene.jump_weight >= 0))
     throw Error(fmt::format("plane strain: jump weight {}; accepted 0 or more", scene.jump_weight));
+  if (&space.x.mesh() != &space.y.mesh())
+    throw Error("plane strain: the two components live on different meshes; accepted: spaces of one mesh");
   const int shift = space.x.size();
   VariationalInequality problem;
   problem.a1 = strain_form(space);

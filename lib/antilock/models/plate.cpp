@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "antilock/core/error.hpp"
@@ -43,6 +44,9 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
     throw Error(fmt::format("plate: thickness = {}; accepted 0 to 1", plate.thickness));
   if (!(plate.poisson >= 0 && plate.poisson < 1))
     throw Error(fmt::format("plate: Poisson's ratio = {}; accepted 0 to less than 1", plate.poisson));
+  for (const Field* field : {&plate.load, &plate.gap, &plate.rim, &plate.rim_slope_x, &plate.rim_slope_y})
+    if (!*field)
+      throw Error("plate: a function is empty; accepted: load, gap and the values on the rim, or their defaults");
   VariationalInequality problem;
   problem.a1 = bending_form(space, plate.poisson);
   FactoredForm shear = shear_form(space);
@@ -61,7 +65,8 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
   std::vector<double> lower;
   for (int i = 0; i < space.deflection.size(); ++i) {
     const double gap = plate.gap(space.deflection.points()(i, 0), space.deflection.points()(i, 1));
-    if (std::isnan(gap)) throw Error("plate: the gap is not a number");
+    if (std::isnan(gap) || gap == -std::numeric_limits<double>::infinity())
+      throw Error(fmt::format("plate: the gap is {}; accepted: a number, or infinity for no obstacle", gap));
     if (fixed.count(i) > 0 || std::isinf(gap)) continue;
     problem.contact.push_back(i);
     lower.push_back(-gap);

@@ -28,8 +28,9 @@ void SceneSweep::set_load(const Field& f) {
 
 void SceneSweep::set_gap(const Profile& gap) {
   if (!scene_.contact()) throw Error("sweep: this scene has no contact; accepted: a scene with an obstacle");
-  scene_ = Scene(scene_.body(), scene_.layer(), UnilateralContact{gap});  // checks the ends
-  problem_.lower = contact_bounds(*scene_.contact(), *space_);
+  const Scene next(scene_.body(), scene_.layer(), UnilateralContact{gap, scene_.contact()->held});  // checks the ends
+  problem_.lower = contact_bounds(*next.contact(), *space_);
+  scene_ = next;
 }
 
 }  // namespace antilock

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <set>
 
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/error.hpp"
@@ -15,11 +17,20 @@
 namespace antilock {
 namespace {
 
-std::string quoted(const std::string& word) {
-  if (word.find_first_of(",\"\n") == std::string::npos) return word;
+std::string in_csv(const std::string& word) {
+  if (word.find_first_of(",\"\n\r") == std::string::npos) return word;
   std::string text = "\"";
   for (const char c : word) text += c == '"' ? std::string("\"\"") : std::string(1, c);
   return text + '"';
+}
+
+/// The first x for which before(x, y) holds for all others; no number where one of them is none, which every comparison
+/// would pass over.
+template <class Before>
+double extreme(const std::vector<double>& all, Before&& before) {
+  for (const double x : all)
+    if (std::isnan(x)) return x;
+  return *std::min_element(all.begin(), all.end(), before);
 }
 
 std::vector<double> some(const Table& table, const std::string& column) {
@@ -41,6 +52,12 @@ std::size_t Table::place(const std::string& column) const {
   if (found == columns_.end())
     throw Error(fmt::format("table: no column '{}'; accepted: {}", column, fmt::join(columns_, ", ")));
   return static_cast<std::size_t>(found - columns_.begin());
+}
+
+Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {
+  for (auto name = columns_.begin(); name != columns_.end(); ++name)
+    if (std::find(columns_.begin(), name, *name) != name)
+      throw Error(fmt::format("table: column '{}' twice; accepted: names that differ", *name));
 }
 
 void Table::add(std::vector<Entry> row) {
@@ -115,21 +132,16 @@ double Table::number(const std::string& column) const {
   return numbers(column).front();
 }
 
-double Table::least(const std::string& column) const {
-  const std::vector<double> all = some(*this, column);
-  return *std::min_element(all.begin(), all.end());
-}
-double Table::most(const std::string& column) const {
-  const std::vector<double> all = some(*this, column);
-  return *std::max_element(all.begin(), all.end());
-}
+double Table::least(const std::string& column) const { return extreme(some(*this, column), std::less<>()); }
+double Table::most(const std::string& column) const { return extreme(some(*this, column), std::greater<>()); }
 double Table::first(const std::string& column) const { return some(*this, column).front(); }
 double Table::last(const std::string& column) const { return some(*this, column).back(); }
 
 double Table::order(const std::string& y, const std::string& x) const {
   for (const std::string& column : {y, x})
     for (const double value : numbers(column))
-      if (!(value > 0)) throw Error(fmt::format("table: order of {} in column '{}'; accepted: > 0", value, column));
+      if (!(value > 0 && std::isfinite(value)))
+        throw Error(fmt::format("table: order of {} in column '{}'; accepted: a number > 0", value, column));
   if (different(x).size() < 2)
     throw Error(
         fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y, x, different(x).size()));
@@ -139,7 +151,11 @@ double Table::order(const std::string& y, const std::string& x) const {
 Table Table::pivot(const std::string& rows, const std::string& across, const std::string& value) const {
   const std::vector<Entry> down = different(rows), right = different(across);
   std::vector<std::string> columns{rows};
-  for (const Entry& entry : right) columns.push_back(entry.text(4));
+  for (const int digits : {4, 0}) {  // rounded, unless two of them become one
+    columns.resize(1);
+    for (const Entry& entry : right) columns.push_back(entry.text(digits));
+    if (std::set<std::string>(columns.begin(), columns.end()).size() == columns.size()) break;
+  }
   Table pivoted(std::move(columns));
   for (const Entry& name : down) {
     const Table line = where(rows, name);
@@ -192,12 +208,15 @@ void Table::print(const std::string& title, int digits) const {
 void Table::write(const std::filesystem::path& path) const {
   write_file(path, [&](std::ostream& out) {
     Text text(out);
-    const auto line = [&](const std::vector<std::string>& words) { text.print("{}\n", fmt::join(words, ",")); };
+    const auto line = [&](std::vector<std::string> words) {
+      for (std::string& word : words) word = in_csv(word);
+      text.print("{}\n", fmt::join(words, ","));
+    };
     line(columns_);
     for (const auto& row : rows_) {
       std::vector<std::string> words;
       words.reserve(row.size());
-      for (const Entry& entry : row) words.push_back(quoted(entry.text()));
+      for (const Entry& entry : row) words.push_back(entry.text());
       line(words);
     }
   });

@@ -32,7 +32,8 @@ class Entry {
 /// the names of those that it has.
 class Table {
  public:
-  explicit Table(std::vector<std::string> columns) : columns_(std::move(columns)) {}
+  /// Throws Error for a name that comes twice.
+  explicit Table(std::vector<std::string> columns);
 
   /// Throws Error unless there is one entry per column.
   void add(std::vector<Entry> row);
@@ -55,8 +56,8 @@ class Table {
   /// none.
   Entry entry(const std::string& column) const;
   double number(const std::string& column) const;
-  /// The smallest, the largest, the first and the last number of a column; throws Error for a table
-  /// without rows.
+  /// The smallest, the largest, the first and the last number of a column; smallest and largest are no
+  /// number where an entry is none. Throws Error for a table without rows.
   double least(const std::string& column) const;
   double most(const std::string& column) const;
   double first(const std::string& column) const;

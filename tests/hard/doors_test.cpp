@@ -1,0 +1,256 @@
+// No quiet wrong answer through any door: what an ordinary mistake at the programming interface comes to. Each of these
+// was once answered with a number, or ended the program.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "antilock/analysis/accurate_enough.hpp"
+#include "antilock/analysis/worst_load.hpp"
+#include "antilock/core/eigenvalues.hpp"
+#include "antilock/exact/load_modes.hpp"
+#include "antilock/exact/plate_truth.hpp"
+#include "antilock/form/averaged.hpp"
+#include "antilock/form/forms.hpp"
+#include "antilock/measure/contact_zone.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/models/plane_strain.hpp"
+#include "antilock/models/plate.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/uzawa.hpp"
+#include "antilock/study/scene_sweep.hpp"
+#include "antilock/study/table.hpp"
+#include "hard/adversary.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock::hard {
+namespace {
+
+using test::expect_refused;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+
+double down(double, double) { return -10; }
+
+/// A chain of n unknowns, all of them pulled by 1 and held at 0 by a friction of g.
+VariationalInequality rubbing_chain(int n, double g) {
+  VariationalInequality problem;
+  Eigen::MatrixXd a1 = 2 * Eigen::MatrixXd::Identity(n, n);
+  a1.diagonal(1).setConstant(-1);
+  a1.diagonal(-1).setConstant(-1);
+  problem.a1 = a1.sparseView();
+  problem.a1.makeCompressed();
+  problem.b.resize(0, n);
+  problem.load = Eigen::VectorXd::Ones(n);
+  for (int i = 0; i < n; ++i) problem.contact.push_back(i);
+  problem.lower = problem.upper = Eigen::VectorXd::Zero(n);
+  problem.force_bound = Eigen::VectorXd::Constant(n, g);
+  return problem;
+}
+
+TEST(Doors, SceneAndMeshAgreeOnTheDepthOfTheLayer) {
+  const TriangleMesh unit = structured_mesh(4), flat = structured_mesh(4, {0.25});
+  const Space on_unit(unit, p1()), on_flat(flat, p1());
+  expect_refused([&] { assemble(Scene(Body{down}, ThinLayer{0.25}), on_unit); }, "accepted: y = -0.25");
+  expect_refused([&] { assemble(Scene(Body{down}, StiffLayer{0.25}), on_flat); }, "accepted: y = -1");
+  EXPECT_NO_THROW(assemble(Scene(Body{down}, ThinLayer{0.25}), on_flat));
+}
+
+TEST(Doors, FrictionMayBearFarMoreThanTheForces) {
+  for (const double g : {10.0, 1e10, 1e15, 1e300}) {
+    EXPECT_EQ(active_set(rubbing_chain(5, g)).u.lpNorm<Eigen::Infinity>(), 0) << g;
+    UzawaOptions few;
+    few.max_steps = 1000;
+    EXPECT_EQ(uzawa(rubbing_chain(5, g), few).u.lpNorm<Eigen::Infinity>(), 0) << g;
+    VariationalInequality two_sided = rubbing_chain(5, g);
+    two_sided.lower.setConstant(-0.3);
+    two_sided.upper.setConstant(0.4);
+    EXPECT_LT((uzawa(two_sided, few).u.array() - 0.4).abs().maxCoeff(), 1e-12) << g;
+  }
+}
+
+TEST(Doors, UzawaKnowsNoUnits) {
+  for (const double unit : {1e-300, 1e-100, 1e100, 1e300}) {
+    VariationalInequality problem = rubbing_chain(5, 0.3 * unit);
+    problem.a1 *= unit;
+    problem.load *= unit;
+    EXPECT_NEAR(uzawa(problem).u.maxCoeff(), 3.15, 1e-8) << unit;
+  }
+}
+
+// 20,000 steps are not enough for the forces, but for the bounds that bear them.
+TEST(Doors, UzawaEndsOnTheBoundsThatItsStepsHaveFound) {
+  for (const unsigned seed : {53U, 177U, 180U, 659U, 714U, 864U}) {
+    const VariationalInequality problem = random_problem(seed);
+    const Judgement judgement = judge(problem, test::exact_answer(problem), true);
+    EXPECT_EQ(judgement.outcome, Outcome::right) << seed << " " << judgement.reason;
+  }
+}
+
+// Rows of B decades apart: on the way to u the mix of the corrections is 1e8 to 1e15 times its size.
+TEST(Doors, TheWayToAnAnswerMayBeLong) {
+  for (const unsigned seed : {454U, 696U, 723U, 914U, 986U, 1132U}) {
+    const VariationalInequality problem = random_problem(seed);
+    const test::ExactAnswer exact = test::exact_answer(problem);
+    for (const bool by_uzawa : {false, true}) {
+      const Judgement judgement = judge(problem, exact, by_uzawa);
+      EXPECT_EQ(judgement.outcome, Outcome::right) << seed << " " << judgement.reason;
+    }
+  }
+}
+
+TEST(Doors, AFrictionWithoutLimitSticksInEveryElement) {
+  const TriangleMesh mesh = with_free_sides(structured_mesh(4, {0}));
+  for (const char* name : {"P1", "P2", "CR"})
+    for (const double g : {1e300, infinity}) {
+      const Space space(mesh, element(name));
+      PlaneStrain scene;
+      scene.epsilon = 0.1;
+      scene.friction = [g](double) { return g; };
+      const VariationalInequality problem = assemble(scene, {space, space});
+      const Eigen::VectorXd u = active_set(problem).u;
+      for (const int i : problem.contact)
+        if (i < space.size()) {
+          EXPECT_LT(std::abs(u(i)), 1e-14) << name;
+        }
+    }
+}
+
+TEST(Doors, TheSpacesOfOneBodyHaveOneMesh) {
+  const TriangleMesh coarse = structured_mesh(2, {0}), fine = structured_mesh(4, {0});
+  const Space a(coarse, p1()), b(fine, p1()), c(coarse, p2());
+  expect_refused([&] { assemble(PlaneStrain{}, {a, b}); }, "different meshes");
+  expect_refused([&] { assemble(Plate{}, PlateSpace{a, {b, b}, ShearRule::exact}); }, "different meshes");
+  expect_refused([&] { assemble(Plate{}, PlateSpace{a, {c, a}, ShearRule::mean}); }, "one element twice");
+}
+
+TEST(Doors, APlateHasALoadAndAnObstacleSomewhere) {
+  const TriangleMesh disc = disc_mesh(3);
+  const Space space(disc, p1());
+  const PlateSpace on{space, {space, space}, ShearRule::edges};
+  Plate plate;
+  plate.gap = [](double, double) { return -infinity; };
+  expect_refused([&] { assemble(plate, on); }, "the gap is -inf");
+  plate = {};
+  plate.load = nullptr;
+  expect_refused([&] { assemble(plate, on); }, "empty");
+}
+
+TEST(Doors, ExactSolutionsRefuseWhatTheyAreNotFor) {
+  for (const double t : {nan, -0.1, infinity}) expect_refused([&] { PlateTruth truth(t); }, "thickness");
+  expect_refused([] { PlateTruth(1e-4, infinity); }, "load");
+  expect_refused([] { PlateTruth(1e-4, 256, 1e-300); }, "gap");
+  const LoadModes modes(3);
+  const Eigen::VectorXd f = Eigen::VectorXd::Ones(modes.size());
+  for (const double epsilon : {nan, -1.0, 2.0, infinity})
+    expect_refused([&] { modes.response(f, epsilon); }, "epsilon");
+  expect_refused([&] { modes.value(f.head(1), 0.5, 0.5); }, "coefficients");
+  expect_refused([&] { modes.constant_in_y(4, 1); }, "accepted: 1 to 3");
+  expect_refused([] { LoadModes(1000000); }, "accepted: 1 to 4096");
+}
+
+TEST(Doors, WorstLoadsAreThoseOfTheUnitSquares) {
+  const TriangleMesh mesh = structured_mesh(4);
+  TriangleMesh wide = mesh;
+  wide.vertices.col(0) *= 2;
+  const Space space(mesh, p1()), on_wide(wide, p1());
+  expect_refused([&] { ErrorForm(space, LoadModes(80)); }, "80 waves");
+  expect_refused([&] { ErrorForm(on_wide, LoadModes(3)); }, "accepted: (0, 1) x (-1, 1)");
+  EXPECT_NO_THROW(ErrorForm(space, LoadModes(8)));
+}
+
+TEST(Doors, EigenvaluesOfAnySizeAndUnit) {
+  const auto times = [](double s) { return [s](const Eigen::VectorXd& x) { return Eigen::VectorXd(s * x); }; };
+  for (const Eigen::Index n : {1, 2, 5}) EXPECT_EQ(largest_eigenvalue(times(0), n), 0);
+  for (const double s : {1e-300, 1e300}) EXPECT_NEAR(largest_eigenvalue(times(s), 4) / s, 1, 1e-12);
+  expect_refused([&] { largest_eigenvalue(times(1), 0); }, "no unknowns");
+  expect_refused([&] { largest_eigenvalue(times(nan), 5); }, "not finite");
+  SparseMatrix one(1, 1), singular(3, 3);
+  one.insert(0, 0) = 3;
+  singular.insert(0, 0) = 3;
+  EXPECT_EQ(largest_eigenvalue(one), 3);
+  EXPECT_NEAR(smallest_eigenvalue(one), 3, 1e-15);
+  expect_refused([&] { smallest_eigenvalue(singular); }, "singular");
+}
+
+TEST(Doors, AveragesOverBoxesThatCanBeCounted) {
+  const TriangleMesh mesh = structured_mesh(4), other = structured_mesh(1);
+  const Space space(mesh, p1());
+  const FactoredForm form = layer_strain(space);
+  expect_refused([&] { box_shares(mesh, form, 1e-30, 0.1); }, "a billionth");
+  expect_refused([&] { box_shares(other, form, 0.1, 0.1); }, "the mesh of the form");
+}
+
+TEST(Doors, ErrorsAndEnergiesAreOfTheirOwnSpace) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space affine(mesh, p1()), broken(mesh, crouzeix_raviart());
+  const VariationalInequality problem = assemble(Scene(Body{down}, StiffLayer{0.1}), affine);
+  const Solution u = active_set(problem);
+  Reference none{[](double x, double) { return x == 0.5 ? nan : 0; },
+                 [](double, double) { return Eigen::Vector2d(0, 0); }, [](double, double) { return 0.0; }};
+  EXPECT_TRUE(std::isnan(measure_errors(affine, u, 0.1, none).max));
+  EXPECT_TRUE(std::isnan(measure_errors(affine, u, 0.1, none).max_at_unknowns));
+  expect_refused([&] { measure_errors(broken, u, 0.1, none); }, "of this space");
+  Solution averaged = u;
+  averaged.p.conservativeResize(3);
+  expect_refused([&] { measure_errors(affine, averaged, 0.1, none); }, "of this space");
+  expect_refused([&] { energy(problem, averaged); }, "of this problem");
+  expect_refused([] { slope({1, 0.5, 0.25}, {1, 0.5}); }, "one per width");
+}
+
+TEST(Doors, ContactLengthsAreThoseOfTheirBasis) {
+  const TriangleMesh mesh = structured_mesh(4);
+  for (int degree = 2; degree <= 6; ++degree) {  // Newton and Cotes: what the clamped ends of Gamma_C keep
+    const double at_end[] = {1.0 / 6, 1.0 / 8, 7.0 / 90, 19.0 / 288, 41.0 / 840};
+    const Space space(mesh, lagrange(degree));
+    EXPECT_NEAR(contact_lengths(space).sum(), 1 - 2 * 0.25 * at_end[degree - 2], 1e-13) << degree;
+    EXPECT_GT(contact_lengths(space).minCoeff(), 0) << degree;
+  }
+}
+
+TEST(Doors, TablesPassOverNothing) {
+  Table table({"h", "e,f"});
+  table.add({1, 1});
+  table.add({0.5, nan});
+  EXPECT_TRUE(std::isnan(table.most("e,f")));
+  EXPECT_TRUE(std::isnan(table.least("e,f")));
+  expect_refused([] { Table({"a", "b", "a"}); }, "'a' twice");
+  Table near({"h", "epsilon", "e"});
+  near.add({1, 1.00001e-3, 5});
+  near.add({1, 1.00002e-3, 6});
+  EXPECT_EQ(near.pivot("h", "epsilon", "e").number("0.00100002"), 6);
+  const auto path = std::filesystem::temp_directory_path() / "antilock_doors.csv";
+  table.write(path);
+  std::ifstream in(path);
+  std::string header;
+  std::getline(in, header);
+  EXPECT_EQ(header, "h,\"e,f\"");
+  std::filesystem::remove(path);
+}
+
+TEST(Doors, ARefusedGapLeavesTheSweepAsItWas) {
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space space(mesh, p1());
+  UnilateralContact apart;
+  apart.held = {0.25};  // of a body that is clamped elsewhere
+  SceneSweep sweep(Scene(Body{down}, StiffLayer{0.1}, apart), space);
+  expect_refused([&] { sweep.set_gap([](double x) { return x == 0.25 ? -1.0 : 1.0; }); }, "gap(0.25)");
+  expect_refused([&] { sweep.set_gap([](double x) { return x == 0.5 ? nan : 0.0; }); }, "not finite");
+  EXPECT_NO_THROW(sweep.set_load(down));
+  EXPECT_NO_THROW(sweep.solve());
+}
+
+TEST(Doors, AnErrorIsAccurateEnoughForASaneShare) {
+  const EnergyBracket bracket{-1, -0.9};
+  for (const double bad : {0.0, -1.0, nan, infinity}) {
+    expect_refused([&] { accurate_enough(bracket, bad); }, "times as coarse");
+    expect_refused([&] { accurate_enough(bracket, 1, bad); }, "a share of");
+  }
+}
+
+}  // namespace
+}  // namespace antilock::hard
