@@ -48,6 +48,7 @@ void draw_body(Page& page, const Frame& at, vtkPolyData& body, const Range& rang
     const vtkIdType* corners = nullptr;
     body.GetCellPoints(cell, size, corners);
     std::vector<Point> triangle;
+    triangle.reserve(4);  // the first corner ends its outline, too
     for (int i = 0; i < 3; ++i) triangle.push_back(at(body.GetPoint(corners[i])[0], body.GetPoint(corners[i])[1]));
     page.fill(triangle, colour_of(pressure->GetTuple1(cell), range));
     triangle.push_back(triangle.front());

@@ -49,6 +49,7 @@ void fill_triangle(Page& page, const std::vector<Corner>& triangle, const Bands&
     const auto part = clipped(clipped(triangle, from, 1), from + bands.step, -1);
     if (part.size() < 3) continue;
     std::vector<Point> corners;
+    corners.reserve(part.size());
     for (const Corner& corner : part) corners.push_back(corner.at);
     page.fill(corners, bands.colour(band));
   }
@@ -123,7 +124,7 @@ Page map_picture(const std::filesystem::path& file, const MapStyle& style) {
   const double left = left_margin(page, y);
   const Box area{left, foot, Page::width - left - scale_room, rows_height};
   const auto boxes = arrange_panels(count, area, gap_x, gap_y);
-  const Axis x = Axis::logarithmic(*x_low, *x_high, 0, static_cast<int>(boxes[0].width / 170));
+  const Axis x = Axis::logarithmic(*x_low, *x_high, 0.0, static_cast<int>(boxes[0].width / 170));
   const auto titles = panels.names([&](const auto& names) {
     return std::all_of(names.begin(), names.end(),
                        [&](const std::string& name) { return page.text_width(name, name_size) <= boxes[0].width; });

@@ -18,6 +18,7 @@ bool selected(const Table& table, std::size_t row, const std::vector<std::string
 
 Meaning row_meaning(const Table& table, std::size_t row, const std::vector<std::string>& columns) {
   std::vector<std::string> entries;
+  entries.reserve(columns.size());
   for (const std::string& column : columns) entries.push_back(table.text(row, column));
   return meaning_of(columns, entries);
 }

@@ -34,8 +34,9 @@ struct Arrangement {
   }
   double height() const { return static_cast<double>(rows) * (cell_height + head); }
   Box cell(std::size_t i) const {
-    return {static_cast<double>(i % columns) * cell_width,
-            static_cast<double>(rows - 1 - i / columns) * (cell_height + head), cell_width, cell_height};
+    const std::size_t above_foot = rows - 1 - i / columns;
+    return {static_cast<double>(i % columns) * cell_width, static_cast<double>(above_foot) * (cell_height + head),
+            cell_width, cell_height};
   }
 };
 

@@ -19,7 +19,7 @@ namespace {
 constexpr double same_place = 1e-8;
 
 std::filesystem::path mesh_in(const std::filesystem::path& folder, const Space& space) {
-  const auto file = folder / "mesh.freefem.msh";
+  auto file = folder / "mesh.freefem.msh";
   write_freefem_mesh(file, space.mesh());
   return file;
 }

@@ -51,7 +51,7 @@ int main(int argc, char** argv) {
     const std::string outcome = outcomes[static_cast<int>(judgement.outcome)];
     ++counts[truth + ": " + outcome];
     if (judgement.outcome == Outcome::refused || judgement.outcome == Outcome::warned)
-      ++reasons[outcome + ": " + without_numbers(judgement.reason).substr(0, 70)];
+      ++reasons[fmt::format("{}: {:.70}", outcome, without_numbers(judgement.reason))];
     if (judgement.outcome == Outcome::quietly_wrong)
       fmt::print("problem {}: {}, error {:.1e}\n", seed, truth, judgement.error);
   }

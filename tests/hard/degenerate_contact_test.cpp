@@ -48,7 +48,7 @@ class Degenerate : public testing::TestWithParam<std::tuple<const char*, double>
   /// Solves, and has quadruple precision prove the answer right: 1e-9 is the solver's promise. The contact set may
   /// differ from the exact one where gap and pressure vanish together; u may not.
   static Solution proved(const VariationalInequality& problem, const ActiveSetOptions& options = {}) {
-    const Solution solution = active_set(problem, options);
+    Solution solution = active_set(problem, options);
     EXPECT_TRUE(solution.warning.empty()) << solution.warning;
     EXPECT_LE(solution.counters.contact, 40) << "contact steps in one correction";
     const QuadSolution exact = settle(problem, solution.active, refined_reference);

@@ -242,8 +242,7 @@ TEST(ManyBounds, EveryStartEndsAtTheSameAnswer) {
   for (int k = 0; k < 6; ++k) {
     ActiveSetOptions options;
     std::vector<bool> start(problem.contact.size(), k == 1);
-    if (k > 1)
-      for (std::size_t i = 0; i < start.size(); ++i) start[i] = engine() % 2 == 0;
+    if (k > 1) std::generate(start.begin(), start.end(), [&] { return engine() % 2 == 0; });
     options.start = start;
     EXPECT_LE(apart(nested, active_set(problem, factor, options)), 1e-13) << k;
   }

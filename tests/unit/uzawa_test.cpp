@@ -171,7 +171,7 @@ TEST(Uzawa, TheStepLengthChangesTheCostNotTheAnswer) {
   const Solution chosen = uzawa(problem);
   // the largest eigenvalue of the compliance bounds the step from above by 2 over it
   const PenaltyFactor factor(problem);
-  const Eigen::MatrixXd l = factor.contact_block();
+  const Eigen::MatrixXd& l = factor.contact_block();
   const double largest = 1 / symmetric_eigenvalues(test::product(l, l.transpose())).minCoeff();
   UzawaOptions options;
   for (const double step : {0.3, 1.0, 1.9}) {

@@ -20,6 +20,7 @@ double Exact::contact_from() const {
 
 std::vector<Exact> exact_solutions(const std::vector<double>& epsilons, int log2_points) {
   std::vector<Exact> all;
+  all.reserve(epsilons.size());
   for (const double epsilon : epsilons) all.emplace_back(epsilon, log2_points);
   return all;
 }

@@ -34,6 +34,7 @@ void write_stages(const std::filesystem::path& folder, int finest, int repeats) 
   Table table({"cells", "mesh", "assembly", "analyse", "factor", "contact", "corrections", "output"});
   for (int n = 16; n <= finest; n *= 2) {
     std::vector<Stages> runs;
+    runs.reserve(repeats);
     for (int i = 0; i < repeats; ++i) runs.push_back(run(n));
     std::sort(runs.begin(), runs.end(), [&](const Stages& a, const Stages& b) { return total(a) < total(b); });
     const auto [mesh, assembly, analyse, factor, contact, corrections, output] = runs[runs.size() / 2];

@@ -93,7 +93,6 @@ void draw_ties(const std::filesystem::path& path, const std::vector<std::pair<st
   table.add({"page", "", "", -0.04, -2.5});
   table.add({"page", "", "", right + 0.04, 0.06});
   for (std::size_t m = 0; m < meshes.size(); ++m) {
-    const std::string& name = meshes[m].first;
     const TriangleMesh& mesh = meshes[m].second;
     const double left = step * static_cast<double>(m % 2), top = m < 2 ? -0.1 : -1.36;
     const Ties found = ties(mesh);
@@ -106,7 +105,8 @@ void draw_ties(const std::filesystem::path& path, const std::vector<std::pair<st
       for (int i = 0; i < 3; ++i) corner("fill", fmt::format("tied{} {}.{}", found.group[t] % 6, m, t), i);
       for (int i = 0; i < 4; ++i) corner("line", fmt::format("axis {}.{}", m, t), i);
     }
-    table.add({"label", "axis", fmt::format("{}: {} {}", name, found.groups, found.groups == 1 ? "group" : "groups"),
+    table.add({"label", "axis",
+               fmt::format("{}: {} {}", meshes[m].first, found.groups, found.groups == 1 ? "group" : "groups"),
                left + 0.5, top + 0.07});
   }
   table.write(path);
