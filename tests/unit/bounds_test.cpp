@@ -786,7 +786,7 @@ TEST(Check, RefusesBoundsThatAreNone) {
   refused([nan](P& p) { p.upper(3) = nan; }, "not finite");
   refused([](P& p) { p.upper.conservativeResize(5); }, "upper has 5 entries");
   refused([](P& p) { p.combinations.resize(1, 3); }, "combinations have 3 columns");
-  const auto with_row = [nan](P& p, double value) {
+  const auto with_row = [](P& p, double value) {
     p.contact.pop_back();
     Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, p.size());
     row(0, p.size() - 2) = 1;

@@ -184,7 +184,7 @@ TEST(Check, RefusesWhatTheClassExcludes) {
   for (const auto& [i, j] : {std::pair{0, 15}, {15, 0}, {5, 3}, {3, 5}}) {
     SCOPED_TRACE(testing::Message() << i << ", " << j);
     refused(
-        [i, j](P& p) {
+        [i = i, j = j](P& p) {
           ASSERT_EQ(p.a1.coeff(i, j), 0);
           p.a1.coeffRef(i, j) = 1;
           p.a1.makeCompressed();
