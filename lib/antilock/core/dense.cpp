@@ -43,14 +43,16 @@ VectorXd symmetric_eigenvalues(const MatrixXd& matrix) {
 }
 
 VectorXd generalised_eigenvalues(const MatrixXd& a, const MatrixXd& b) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(a, b, Eigen::EigenvaluesOnly).eigenvalues();
+  const Cholesky factor(b);  // L^-1 A L^-T has them
+  const MatrixXd half = factor.half_solve(MatrixXd(a.selfadjointView<Eigen::Lower>()));
+  return symmetric_eigenvalues(factor.half_solve(MatrixXd(half.transpose())));
 }
 
 VectorXd least_squares(const MatrixXd& matrix, const VectorXd& right, double threshold) {
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver;
   solver.setThreshold(threshold);
   solver.compute(matrix);
-  return solver.solve(right);
+  return solver.solve(MatrixXd(right));
 }
 
 VectorXd qr_pivots(const MatrixXd& matrix) {
@@ -58,7 +60,8 @@ VectorXd qr_pivots(const MatrixXd& matrix) {
 }
 
 MatrixXd pseudo_inverse(const MatrixXd& matrix) {
-  return Eigen::CompleteOrthogonalDecomposition<MatrixXd>(matrix).pseudoInverse();
+  const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(matrix);
+  return solver.solve(MatrixXd(MatrixXd::Identity(matrix.rows(), matrix.rows())));
 }
 
 }  // namespace antilock

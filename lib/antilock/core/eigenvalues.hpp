@@ -22,8 +22,8 @@ struct Eigenpair {
 Eigenpair largest_eigenpair(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
                             double tolerance = 1e-6, int basis = 30);
 
-/// The smallest one, by inverse iteration on a sparse LU factor: trustworthy only where the matrix itself can be
-/// factored, that is for condition numbers well below 1e16. Throws NotConverged.
+/// The smallest one, by inverse iteration on a sparse Cholesky factor: trustworthy only where the matrix itself can be
+/// factored, that is for condition numbers well below 1e16. Throws Error where it has no factor, NotConverged.
 double smallest_eigenvalue(const SparseMatrix& upper);
 
 }  // namespace antilock
