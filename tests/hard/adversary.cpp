@@ -186,13 +186,14 @@ VariationalInequality random_friction(unsigned seed) {
   return problem;
 }
 
-Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& exact, bool by_uzawa) {
+Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& exact, By solver) {
   Judgement judgement;
   const bool solvable = exact.what == test::Exactly::solved;
   try {
     UzawaOptions options;
     options.max_steps = 20'000;
-    const Solution s = by_uzawa ? uzawa(problem, options) : active_set(problem);
+    options.exact_end = solver == By::uzawa_exact_end;
+    const Solution s = solver == By::active_set ? active_set(problem) : uzawa(problem, options);
     judgement.error = std::numeric_limits<double>::infinity();
     if (solvable) {
       const double difference = (s.u - exact.u).lpNorm<Eigen::Infinity>();

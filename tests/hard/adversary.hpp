@@ -34,7 +34,10 @@ struct Judgement {
   std::string reason;  ///< the message of a refusal or a warning
 };
 
-/// Solves by the active set, or by Uzawa, and compares with rational arithmetic.
-Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& exact, bool by_uzawa);
+/// uzawa_exact_end: with UzawaOptions::exact_end.
+enum class By { active_set, uzawa, uzawa_exact_end };
+
+/// Solves, and compares with rational arithmetic.
+Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& exact, By solver = By::active_set);
 
 }  // namespace antilock::hard

@@ -1,7 +1,8 @@
 // The adversary at length: problems made by chance against rational arithmetic, counted by what became of them.
 //
-// Run: adversary_survey 0 20000            by the active set
-// Run: adversary_survey 0 2000 uzawa       by Uzawa
+// Run: adversary_survey 0 20000              by the active set
+// Run: adversary_survey 0 2000 uzawa         by Uzawa
+// Run: adversary_survey 0 2000 exact-end     by Uzawa that ends on the bounds it has found
 // Run: adversary_survey 0 5000 bounds        with upper bounds and bounds on combinations of unknowns
 // Run: adversary_survey 0 5000 friction      and with bounds that give way
 #include <fmt/format.h>
@@ -29,14 +30,16 @@ std::string without_numbers(const std::string& message) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    fmt::print(stderr,
-               "adversary_survey: accepted: FROM TO [uzawa] [bounds] [friction], the numbers of the problems\n");
+    fmt::print(
+        stderr,
+        "adversary_survey: accepted: FROM TO [uzawa] [exact-end] [bounds] [friction], the numbers of the problems\n");
     return 2;
   }
   const auto from = static_cast<unsigned>(std::atoi(argv[1])), to = static_cast<unsigned>(std::atoi(argv[2]));
   const std::vector<std::string> words(argv + 3, argv + argc);
   const auto asked = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
-  const bool by_uzawa = asked("uzawa"), other_shapes = asked("bounds"), friction = asked("friction");
+  const By solver = asked("exact-end") ? By::uzawa_exact_end : asked("uzawa") ? By::uzawa : By::active_set;
+  const bool other_shapes = asked("bounds"), friction = asked("friction");
   const char* const outcomes[] = {"right", "warned", "refused", "rightly refused", "QUIETLY WRONG"};
   std::map<std::string, int> counts, reasons;
   for (unsigned seed = from; seed < to; ++seed) {
@@ -44,7 +47,7 @@ int main(int argc, char** argv) {
                                                     : other_shapes ? random_bounds(seed)
                                                                    : random_problem(seed);
     const antilock::test::ExactAnswer exact = antilock::test::exact_answer(problem);
-    const Judgement judgement = judge(problem, exact, by_uzawa);
+    const Judgement judgement = judge(problem, exact, solver);
     const std::string truth = exact.what == Exactly::solved       ? "has an answer"
                               : exact.what == Exactly::infeasible ? "infeasible"
                                                                   : "held by nothing";

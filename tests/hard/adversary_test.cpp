@@ -49,7 +49,7 @@ TEST(Adversary, NothingIsQuietlyWrong) {
   for (unsigned seed = 0; seed < 400; ++seed) {
     const VariationalInequality problem = random_problem(seed);
     const test::ExactAnswer exact = test::exact_answer(problem);
-    const Judgement judgement = judge(problem, exact, false);
+    const Judgement judgement = judge(problem, exact);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
     solvable += exact.what == test::Exactly::solved;
     refused += judgement.outcome == Outcome::refused;
@@ -59,14 +59,18 @@ TEST(Adversary, NothingIsQuietlyWrong) {
 }
 
 TEST(Adversary, NothingIsQuietlyWrongByUzawa) {
-  int refused = 0;
+  int refused = 0, refused_at_the_end = 0;
   for (unsigned seed = 0; seed < 600; ++seed) {
     const VariationalInequality problem = random_problem(seed);
-    const Judgement judgement = judge(problem, test::exact_answer(problem), true);
-    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
-    refused += judgement.outcome == Outcome::refused;
+    const test::ExactAnswer exact = test::exact_answer(problem);
+    for (const By solver : {By::uzawa, By::uzawa_exact_end}) {
+      const Judgement judgement = judge(problem, exact, solver);
+      EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+      if (judgement.outcome == Outcome::refused) ++(solver == By::uzawa ? refused : refused_at_the_end);
+    }
   }
-  EXPECT_LE(refused, 8);  // measured over 5000: 0.66 %, the problems that the active set refuses
+  EXPECT_LE(refused, 25);            // measured over 5000: 3.1 % of those with an answer, most for want of more steps
+  EXPECT_LE(refused_at_the_end, 8);  // measured over 5000: 0.66 %, the problems that the active set refuses
 }
 
 /// The same problem for -u: what was a lower bound is an upper one.
@@ -82,9 +86,9 @@ TEST(Adversary, UpperBoundsAreJudgedLikeLowerOnes) {
   for (unsigned seed = 0; seed < 400; ++seed) {
     const VariationalInequality problem = random_problem(seed);
     test::ExactAnswer exact = test::exact_answer(problem);
-    const Judgement of_lower = judge(problem, exact, false);
+    const Judgement of_lower = judge(problem, exact);
     exact.u *= -1;
-    EXPECT_EQ(judge(mirrored(problem), exact, false).outcome, of_lower.outcome) << "seed " << seed << of_lower.reason;
+    EXPECT_EQ(judge(mirrored(problem), exact).outcome, of_lower.outcome) << "seed " << seed << of_lower.reason;
   }
 }
 
@@ -93,7 +97,7 @@ TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrong) {
   for (unsigned seed = 0; seed < 250; ++seed) {
     const VariationalInequality problem = random_bounds(seed);
     const test::ExactAnswer exact = test::exact_answer(problem);
-    const Judgement judgement = judge(problem, exact, false);
+    const Judgement judgement = judge(problem, exact);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
     solvable += exact.what == test::Exactly::solved;
     refused += judgement.outcome == Outcome::refused && judgement.reason.find("combination") == std::string::npos;
@@ -110,7 +114,7 @@ TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrongByUzawa) {
   int refused = 0;
   for (unsigned seed = 0; seed < 600; ++seed) {  // 538: a great load leaves round-off far above a locked u
     const VariationalInequality problem = random_bounds(seed);
-    const Judgement judgement = judge(problem, test::exact_answer(problem), true);
+    const Judgement judgement = judge(problem, test::exact_answer(problem), By::uzawa);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
     refused += judgement.outcome == Outcome::refused && judgement.reason.find("combination") == std::string::npos;
   }
@@ -122,7 +126,7 @@ TEST(Adversary, FrictionIsNotQuietlyWrong) {
   for (unsigned seed = 0; seed < 250; ++seed) {
     const VariationalInequality problem = random_friction(seed);
     const test::ExactAnswer exact = test::exact_answer(problem);
-    const Judgement judgement = judge(problem, exact, false);
+    const Judgement judgement = judge(problem, exact);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
     solvable += exact.what == test::Exactly::solved;
     refused += judgement.outcome == Outcome::refused && judgement.reason.find("combination") == std::string::npos;
@@ -142,7 +146,7 @@ TEST(Adversary, FrictionIsNotQuietlyWrong) {
 TEST(Adversary, FrictionIsNotQuietlyWrongByUzawa) {
   for (unsigned seed = 1000; seed < 1060; ++seed) {
     const VariationalInequality problem = random_friction(seed);
-    const Judgement judgement = judge(problem, test::exact_answer(problem), true);
+    const Judgement judgement = judge(problem, test::exact_answer(problem), By::uzawa);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
   }
 }

@@ -65,6 +65,7 @@ TEST(Doors, FrictionMayBearFarMoreThanTheForces) {
     EXPECT_EQ(active_set(rubbing_chain(5, g)).u.lpNorm<Eigen::Infinity>(), 0) << g;
     UzawaOptions few;
     few.max_steps = 1000;
+    few.exact_end = true;
     EXPECT_EQ(uzawa(rubbing_chain(5, g), few).u.lpNorm<Eigen::Infinity>(), 0) << g;
     VariationalInequality two_sided = rubbing_chain(5, g);
     two_sided.lower.setConstant(-0.3);
@@ -86,7 +87,7 @@ TEST(Doors, UzawaKnowsNoUnits) {
 TEST(Doors, UzawaEndsOnTheBoundsThatItsStepsHaveFound) {
   for (const unsigned seed : {53U, 177U, 180U, 659U, 714U, 864U}) {
     const VariationalInequality problem = random_problem(seed);
-    const Judgement judgement = judge(problem, test::exact_answer(problem), true);
+    const Judgement judgement = judge(problem, test::exact_answer(problem), By::uzawa_exact_end);
     EXPECT_EQ(judgement.outcome, Outcome::right) << seed << " " << judgement.reason;
   }
 }
@@ -96,8 +97,8 @@ TEST(Doors, TheWayToAnAnswerMayBeLong) {
   for (const unsigned seed : {454U, 696U, 723U, 914U, 986U, 1132U}) {
     const VariationalInequality problem = random_problem(seed);
     const test::ExactAnswer exact = test::exact_answer(problem);
-    for (const bool by_uzawa : {false, true}) {
-      const Judgement judgement = judge(problem, exact, by_uzawa);
+    for (const By solver : {By::active_set, By::uzawa_exact_end}) {
+      const Judgement judgement = judge(problem, exact, solver);
       EXPECT_EQ(judgement.outcome, Outcome::right) << seed << " " << judgement.reason;
     }
   }

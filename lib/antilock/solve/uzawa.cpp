@@ -128,7 +128,7 @@ class CondensedUzawa {
       ++answer.steps;
       history.push_back(change);
       const bool settled = change <= options_.tolerance, slow = history.size() > patience && answer.steps % 256 == 1;
-      if ((settled || slow) && !options_.enough)
+      if (options_.exact_end && (settled || slow) && !options_.enough)
         if (std::optional<ContactAnswer> exact = on_bounds_found(p, f, answer.steps)) return std::move(*exact);
       if (settled) break;
       if (answer.steps % 256 == 0)

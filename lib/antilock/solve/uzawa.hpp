@@ -27,6 +27,11 @@ struct UzawaOptions {
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
   std::optional<AccurateEnough> enough;
+  /// Not the paper's: where the steps have settled, and from 8192 steps on where they have not, the bounds that they have
+  /// found are held, up to ten times exchanged, and the rest is solved exactly: the answer, if all its conditions hold to
+  /// round-off. Of 5,000 random problems with an answer (tests/hard) 0.7 % are refused with it, 3 % without. Not with
+  /// `enough`, which asks for less.
+  bool exact_end = false;
   ProgressHook progress = {};  ///< called every 256 steps, and after every correction that is not the last
 };
 
@@ -35,10 +40,8 @@ struct UzawaOptions {
 /// and + min(0, lambda - rho (u - upper)) where there is an upper bound, cut to |lambda| <= force_bound; the linear solve
 /// by Cholesky. Equations (lower = upper) are solved for their lambda. Condensed on Gamma_C (the compliance is dense there
 /// and small) a step costs a product with a C x C matrix; the stiff part is treated by iterated penalty, as in
-/// active_set. Where the steps have settled, and from 8192 steps on where they have not, the bounds that they have found
-/// are held, up to ten times exchanged, and the rest is solved exactly (not with `enough`, which asks for less): the
-/// answer, if all its conditions hold to round-off. history holds one entry per step. Throws NotConverged, with how far
-/// it came, instead of ever returning an unconverged answer. Bounds of other shapes as in active_set.
+/// active_set. history holds one entry per step. Throws NotConverged, with how far it came, instead of ever returning an
+/// unconverged answer. Bounds of other shapes as in active_set.
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options = {});
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options = {});
 
