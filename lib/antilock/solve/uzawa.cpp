@@ -115,7 +115,7 @@ class CondensedUzawa {
     Eigen::VectorXd f = p.q;
     if (before.lambda.size() > 0) f += before.lambda;
     // where the bounds bear all of q, v tends to 0: a hundred thousandth of what q moves is the size of its round-off
-    const double locked = 1e-5 * (compliance_.cwiseAbs() * p.q.cwiseAbs()).maxCoeff();
+    const double locked = options_.exact_end ? 1e-5 * (compliance_.cwiseAbs() * p.q.cwiseAbs()).maxCoeff() : 0;
     while (true) {
       answer.v = compliance_ * f;
       answer.lambda = f - p.q;
