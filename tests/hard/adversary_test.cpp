@@ -69,7 +69,7 @@ TEST(Adversary, NothingIsQuietlyWrongByUzawa) {
       if (judgement.outcome == Outcome::refused) ++(solver == By::uzawa ? refused : refused_at_the_end);
     }
   }
-  EXPECT_LE(refused, 20);            // measured over 5000: 2.6 %, most for want of more than 20,000 steps
+  EXPECT_LE(refused, 20);            // measured over 5000: 2.8 %, most for want of more than 20,000 steps
   EXPECT_LE(refused_at_the_end, 8);  // measured over 5000: 0.66 %, the problems that the active set refuses
 }
 

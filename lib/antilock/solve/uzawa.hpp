@@ -29,7 +29,7 @@ struct UzawaOptions {
   std::optional<AccurateEnough> enough;
   /// Not the paper's: where the steps have settled, and from 8192 steps on where they have not, the bounds that they have
   /// found are held, up to ten times exchanged, and the rest is solved exactly: the answer, if all its conditions hold to
-  /// round-off. Of 5,000 random problems with an answer (tests/hard) 0.7 % are refused with it, 2 to 3 % without. Not with
+  /// round-off. Of 5,000 random problems with an answer (tests/hard) 0.7 % are refused with it, 2.8 % without. Not with
   /// `enough`, which asks for less.
   bool exact_end = false;
   ProgressHook progress = {};  ///< called every 256 steps, and after every correction that is not the last
