@@ -26,8 +26,8 @@ ErrorForm::ErrorForm(const Space& space, LoadModes modes) : space_(space), modes
   if (!space.element().conforming() && &space.element() != &crouzeix_raviart())
     throw Error("error form: element " + space.element().name() + "; accepted: conforming ones and CR");
   const TriangleMesh& mesh = space.mesh();
-  const double most_waves =
-      4.25 / mesh.diameter();  // three for each 1/h of a structured mesh, whose edges are sqrt(2) h
+  // three per cell side of a structured mesh, whose longest edges are sqrt(2) h
+  const double most_waves = 4.25 / mesh.diameter();
   if (modes_.waves() > most_waves)
     throw Error(
         fmt::format("error form: {} waves on edges up to {:.3g} long; accepted: up to {:.0f}, those that the "

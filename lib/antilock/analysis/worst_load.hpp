@@ -25,7 +25,7 @@ struct WorstLoad {
 class ErrorForm {
  public:
   /// modes.waves() from 1 to 2 per cell side: above, the load is integrated inexactly. The space must outlive this.
-  /// Throws Error for more than 4 waves per longest edge, a mesh of anything but the two unit squares, a space without
+  /// Throws Error for more than 4.25 waves per longest edge, a mesh of anything but the two unit squares, a space without
   /// layer, or of an element that is neither conforming nor CR.
   ErrorForm(const Space& space, LoadModes modes);
 

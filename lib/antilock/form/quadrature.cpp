@@ -73,4 +73,16 @@ const Quadrature& triangle_rule(int degree) {
   return rules[degree];
 }
 
+Eigen::VectorXd means_on_edge(const Element& element, int i) {
+  const auto [places, weights] = gauss_rule(element.degree() / 2 + 1);
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(element.unknowns());
+  for (Eigen::Index q = 0; q < places.size(); ++q) {
+    Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+    lambda((i + 1) % 3) = 1 - places(q);
+    lambda((i + 2) % 3) = places(q);
+    means += weights(q) * element.basis(lambda);
+  }
+  return means;
+}
+
 }  // namespace antilock

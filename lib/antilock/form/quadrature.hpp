@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "antilock/core/eigen_memory.hpp"
+#include "antilock/space/element.hpp"
 
 namespace antilock {
 
@@ -22,5 +23,8 @@ const Quadrature& triangle_rule(int degree);
 
 /// Points (n) and weights (n) of Gauss on (0, 1), exact for degree 2n - 1.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n);
+
+/// The mean of every basis function of the element on the edge opposite local vertex i, exact.
+Eigen::VectorXd means_on_edge(const Element& element, int i);
 
 }  // namespace antilock

@@ -119,8 +119,7 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   if (unseen > 0.25 * size(0))
     return fmt::format(
         "load.f: the quadrature of this mesh misses the load: {:.0f} % of the integral of |f| lie between its points, "
-        "by "
-        "{:.0f} samples: a finer mesh is needed where the load lives",
+        "by {:.0f} samples: a finer mesh is needed where the load lives",
         100 * unseen / size(0), k);
   return "";
 }

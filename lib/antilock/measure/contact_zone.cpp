@@ -25,14 +25,10 @@ ContactZone contact_zone(const Space& space, const VariationalInequality& proble
 
 Eigen::VectorXd contact_lengths(const Space& space) {
   // int phi_i over the edge: shared by its unknowns as the element's basis says (midpoint: 1; ends: 1/2 each)
-  const auto [points, weights] = gauss_rule(space.element().degree() / 2 + 1);
   Eigen::VectorXd length = Eigen::VectorXd::Zero(space.size());
   for (const ContactEdge& edge : contact_edges(space.mesh())) {
-    Eigen::VectorXd integral = Eigen::VectorXd::Zero(space.element().unknowns());
-    for (Eigen::Index q = 0; q < points.size(); ++q)
-      integral += weights(q) * space.element().basis(edge.lambda(points(q)));
-    for (Eigen::Index k = 0; k < integral.size(); ++k)
-      length(space.unknowns()(edge.triangle, k)) += edge.length * integral(k);
+    const Eigen::VectorXd mean = means_on_edge(space.element(), edge.opposite);
+    for (Eigen::Index k = 0; k < mean.size(); ++k) length(space.unknowns()(edge.triangle, k)) += edge.length * mean(k);
   }
   return length(space.contact());
 }

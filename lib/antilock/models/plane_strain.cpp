@@ -15,19 +15,6 @@ namespace antilock {
 
 namespace {
 
-/// The mean of every basis function on the edge opposite local vertex i.
-Eigen::VectorXd means_on_edge(const Element& element, int i) {
-  const auto [places, weights] = gauss_rule(element.degree() / 2 + 1);
-  Eigen::VectorXd means = Eigen::VectorXd::Zero(element.unknowns());
-  for (Eigen::Index q = 0; q < places.size(); ++q) {
-    Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-    lambda((i + 1) % 3) = 1 - places(q);
-    lambda((i + 2) % 3) = places(q);
-    means += weights(q) * element.basis(lambda);
-  }
-  return means;
-}
-
 /// The friction bound of every unknown of u_x: int g phi_i, g taken from the midpoint of each contact edge.
 Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
   Eigen::VectorXd bounds = Eigen::VectorXd::Zero(space.size());

@@ -24,8 +24,8 @@ double softest_pivot(const VariationalInequality& problem, PenaltyFactor& factor
 
 /// Whether the round-off of the residual, the same at each correction, would stay in u unseen: some unknown is a
 /// thousand times as stiff as the median, as the corners of flat triangles are, or hardly anything holds the structure:
-/// a pivot is below 1e-5 of what A1 has, so that 1e-16 becomes 1e-11 and more. (The pivots of a penalised K lie apart by nature:
-/// they count beside A1, not beside the largest of K.) Then long double: three digits more.
+/// a pivot is below 1e-5 of what A1 has, so that 1e-16 becomes 1e-11 and more. (The pivots of a penalised K lie apart by
+/// nature: they count beside A1, not beside the largest of K.) Then long double: three digits more.
 bool needs_long_double(const VariationalInequality& problem, PenaltyFactor& factor) {
   const Eigen::VectorXd stiffness = problem.a1.diagonal();
   const double largest = stiffness.maxCoeff();
