@@ -102,9 +102,9 @@ TEST(Assemble, ClampsTheSidesAndTheTopAtZero) {
 }
 
 TEST(Assemble, ThePenaltyFollowsTheMesh) {
-  for (const int cells : {4, 8}) {  // h^2 / 256, h the side of the mean layer triangle
+  for (const int cells : {4, 8}) {  // h^2 / 4096, h the side of the mean layer triangle
     const TriangleMesh mesh = structured_mesh(cells);
-    EXPECT_NEAR(choose_penalty(stiff_problem(Space(mesh, p1()), 0)) * 256 * cells * cells, 1, 1e-12);
+    EXPECT_NEAR(choose_penalty(stiff_problem(Space(mesh, p1()), 0)) * 4096 * cells * cells, 1, 1e-12);
   }
 }
 

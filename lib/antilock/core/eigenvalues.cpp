@@ -82,7 +82,9 @@ double largest_eigenvalue(const Apply& apply, Eigen::Index size, double toleranc
 }
 
 double smallest_eigenvalue(const SparseMatrix& upper) {
-  const Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor(upper);
+  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor;
+  factor.cholmod().print = 0;  // what is wrong is said below
+  factor.compute(upper);
   if (factor.info() != Eigen::Success)
     throw Error(
         "smallest eigenvalue: the matrix is singular to working precision, or not positive definite; accepted: "

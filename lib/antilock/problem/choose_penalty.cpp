@@ -48,7 +48,7 @@ double choose_penalty(const VariationalInequality& problem) {
   if (problem.b.rows() == 0) return 6e-8;  // nothing is penalised
   const RelativeStiffness r = relative_stiffness(problem);
   const double h2 = 2 * problem.m.sum() / static_cast<double>(problem.m.size());
-  return std::max(r.sums * std::min({h2, r.sums, 1.0}) / 256, 6e-8 * r.noise());
+  return std::max(r.sums * std::min({h2, r.sums, 1.0}) / 4096, 6e-8 * r.noise());
 }
 
 double smallest_penalty(const VariationalInequality& problem) { return 1e-13 * relative_stiffness(problem).noise(); }

@@ -34,6 +34,7 @@ cholmod_sparse view(SparseMatrix& k) {
 struct CholmodCholesky::Cholmod {
   cholmod_common common{};
   cholmod_factor* l = nullptr;
+  double rcond = 0;
 
   Cholmod() {
     cholmod_start(&common);
@@ -105,16 +106,18 @@ std::optional<int> CholmodCholesky::factorise(SparseMatrix& k) {
     cholmod_factorize(&whole, cholmod_->l, &cholmod_->common);
   }
   if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
-  std::optional<int> column;
-  if (cholmod_->common.status == CHOLMOD_NOT_POSDEF)
-    column = static_cast<int>(cholmod_->l->minor);
-  else
-    column = cholmod_->supernodes().lost_pivot(k.diagonal()(cholmod_->order()));
-  if (column) column = cholmod_->order()(*column);
-  return column;
+  if (cholmod_->common.status == CHOLMOD_NOT_POSDEF) {
+    cholmod_->rcond = 0;
+    return cholmod_->order()(static_cast<int>(cholmod_->l->minor));
+  }
+  const Eigen::VectorXd pivots = cholmod_->supernodes().pivots();
+  cholmod_->rcond = pivots.size() > 0 ? pivots.minCoeff() / pivots.maxCoeff() : 1;
+  for (Eigen::Index i = 0; i < pivots.size(); ++i)
+    if (const int row = cholmod_->order()(i); !(pivots(i) > lost_pivot * k.coeff(row, row))) return row;
+  return std::nullopt;
 }
 
-double CholmodCholesky::rcond() const { return cholmod_rcond(cholmod_->l, &cholmod_->common); }
+double CholmodCholesky::rcond() const { return cholmod_->rcond; }
 
 Eigen::VectorXd CholmodCholesky::forward(const Eigen::VectorXd& r) const {
   Eigen::VectorXd y = r(cholmod_->order());

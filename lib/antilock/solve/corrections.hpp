@@ -42,7 +42,7 @@ class Corrections {
   /// load, beside which a violation may be less than round-off.
   void require_an_admissible_u(const ContactSolver& contact);
   /// Whether a locked u, which tends to 0, has come down to its round-off: du no longer falls, and the round-off of the
-  /// forces explains it. Leaves a warning where u has fewer than nine digits left.
+  /// forces explains it, and the report would not refuse it. Leaves a warning where u has fewer than nine digits left.
   bool drowned(const Change& change);
   bool zero_is_admissible() const;
   /// What the round-off of the forces, all of one sign, would displace: K^-1 (64 eps (|L| + |A1| |u| + |B'| M |p|)).

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "antilock/solve/sparse_cholesky.hpp"
-
 namespace antilock {
 namespace {
 
@@ -63,14 +61,13 @@ Eigen::MatrixXd Supernodes::trailing_block(int first) const {
   return trailing;
 }
 
-std::optional<int> Supernodes::lost_pivot(const Eigen::VectorXd& diagonal) const {
+Eigen::VectorXd Supernodes::pivots() const {
+  Eigen::VectorXd pivots(size);
   for (int s = 0; s < count; ++s) {
     const Supernode node(*this, s);
-    for (Eigen::Index j = 0; j < node.block.cols(); ++j)
-      if (const double root = node.block(j, j); !(root * root > SparseCholesky::lost_pivot * diagonal(node.first + j)))
-        return static_cast<int>(node.first + j);
+    pivots.segment(node.first, node.block.cols()) = node.block.diagonal().cwiseAbs2();
   }
-  return std::nullopt;
+  return pivots;
 }
 
 }  // namespace antilock

@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <optional>
 
 #include "antilock/core/eigen_memory.hpp"
 
@@ -27,10 +26,8 @@ struct Supernodes {
   /// The trailing block of L (lower triangular) from `first` on.
   Eigen::MatrixXd trailing_block(int first) const;
 
-  /// The first column of L whose pivot is nothing but the round-off of its diagonal entry of the matrix
-  /// (`SparseCholesky::lost_pivot`): the matrix is singular, though its factor came to an end. Empty: there is none.
-  /// `diagonal`: F, in the order of L.
-  std::optional<int> lost_pivot(const Eigen::VectorXd& diagonal) const;
+  /// The pivots of the elimination, the squares of the diagonal of L: F, in the order of L.
+  Eigen::VectorXd pivots() const;
 };
 
 }  // namespace antilock
