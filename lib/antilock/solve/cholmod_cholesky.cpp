@@ -3,6 +3,7 @@
 #include <cholmod.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -34,7 +35,7 @@ cholmod_sparse view(SparseMatrix& k) {
 struct CholmodCholesky::Cholmod {
   cholmod_common common{};
   cholmod_factor* l = nullptr;
-  double rcond = 0;
+  double smallest_pivot = std::numeric_limits<double>::infinity();
 
   Cholmod() {
     cholmod_start(&common);
@@ -107,17 +108,17 @@ std::optional<int> CholmodCholesky::factorise(SparseMatrix& k) {
   }
   if (cholmod_->common.status < CHOLMOD_OK) throw Error("solve: the sparse factorisation failed: out of memory");
   if (cholmod_->common.status == CHOLMOD_NOT_POSDEF) {
-    cholmod_->rcond = 0;
+    cholmod_->smallest_pivot = 0;
     return cholmod_->order()(static_cast<int>(cholmod_->l->minor));
   }
   const Eigen::VectorXd pivots = cholmod_->supernodes().pivots();
-  cholmod_->rcond = pivots.size() > 0 ? pivots.minCoeff() / pivots.maxCoeff() : 1;
+  if (pivots.size() > 0) cholmod_->smallest_pivot = pivots.minCoeff();
   for (Eigen::Index i = 0; i < pivots.size(); ++i)
     if (const int row = cholmod_->order()(i); !(pivots(i) > lost_pivot * k.coeff(row, row))) return row;
   return std::nullopt;
 }
 
-double CholmodCholesky::rcond() const { return cholmod_->rcond; }
+double CholmodCholesky::smallest_pivot() const { return cholmod_->smallest_pivot; }
 
 Eigen::VectorXd CholmodCholesky::forward(const Eigen::VectorXd& r) const {
   Eigen::VectorXd y = r(cholmod_->order());

@@ -16,7 +16,7 @@ class CholmodCholesky final : public SparseCholesky {
   void analyse(SparseMatrix& k, int last) override;
   bool analysed() const override;
   std::optional<int> factorise(SparseMatrix& k) override;
-  double rcond() const override;
+  double smallest_pivot() const override;
   Eigen::VectorXd forward(const Eigen::VectorXd& r) const override;
   Eigen::VectorXd backward(Eigen::VectorXd y) const override;
   Eigen::MatrixXd trailing_block(int first) const override;

@@ -3,6 +3,7 @@
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace antilock {
@@ -59,10 +60,9 @@ std::optional<int> EigenCholesky::factorise(SparseMatrix& k) {
   return std::nullopt;
 }
 
-double EigenCholesky::rcond() const {
-  const Eigen::VectorXd pivots = simplicial_->l().diagonal();
-  const double ratio = pivots.minCoeff() / pivots.maxCoeff();
-  return ratio * ratio;
+double EigenCholesky::smallest_pivot() const {
+  const SparseMatrix& l = simplicial_->l();
+  return l.cols() > 0 ? l.diagonal().cwiseAbs2().minCoeff() : std::numeric_limits<double>::infinity();
 }
 
 Eigen::VectorXd EigenCholesky::forward(const Eigen::VectorXd& r) const {

@@ -26,7 +26,7 @@ class HeldFactor {
   Eigen::VectorXd times(const Eigen::VectorXd& x) const;           ///< K x, the whole K
   Eigen::VectorXd absolute_times(const Eigen::VectorXd& x) const;  ///< |K| x
   const SparseMatrix& upper() const { return k_; }
-  double rcond() const { return cholesky_->rcond(); }
+  double smallest_pivot() const { return cholesky_->smallest_pivot(); }
 
   int refactorisations = 0;  ///< for another set
   double analyse_seconds = 0;

@@ -138,7 +138,7 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
   ++factorisations;
 }
 
-double PenaltyFactor::rcond() const { return held_ ? held_->rcond() : cholesky_->rcond(); }
+double PenaltyFactor::smallest_pivot() const { return held_ ? held_->smallest_pivot() : cholesky_->smallest_pivot(); }
 
 Eigen::VectorXd PenaltyFactor::forward(const Eigen::VectorXd& r) const {
   require_dense();

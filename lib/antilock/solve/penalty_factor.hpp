@@ -55,8 +55,8 @@ class PenaltyFactor {
 
   double delta() const { return delta_; }
   const FreeNumbering& numbering() const { return numbering_; }
-  /// Smallest by largest pivot of K: an upper estimate of 1 / condition number, for next to nothing.
-  double rcond() const;
+  /// The smallest pivot of K: to about a factor of F its smallest eigenvalue, for next to nothing.
+  double smallest_pivot() const;
   /// K^-1 r on the F free places; on the sparse road of the unknowns that are not held, 0 on the held ones.
   Eigen::VectorXd solve(const Eigen::VectorXd& r);
 

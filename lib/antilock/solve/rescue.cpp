@@ -15,21 +15,14 @@ constexpr int patience = 15;
 /// By which a new penalty is smaller. A correction contracts like delta / (delta + sigma): 0.9 becomes 0.12.
 constexpr double smaller_by = 64;
 
-/// The smallest pivot of K = A1 + delta^-1 B' M B, to about a factor of the number of rows a small eigenvalue of A1.
-double softest_pivot(const VariationalInequality& problem, PenaltyFactor& factor) {
-  Eigen::VectorXd diagonal = problem.a1.diagonal();
-  if (problem.b.rows() > 0) diagonal += problem.b.cwiseAbs2().transpose() * problem.m / factor.delta();
-  return factor.rcond() * diagonal.maxCoeff();
-}
-
 /// Whether the round-off of the residual, the same at each correction, would stay in u unseen: some unknown is a
 /// thousand times as stiff as the median, as the corners of flat triangles are, or hardly anything holds the structure:
-/// a pivot is below 1e-5 of what A1 has, so that 1e-16 becomes 1e-11 and more. (The pivots of a penalised K lie apart by
-/// nature: they count beside A1, not beside the largest of K.) Then long double: three digits more.
-bool needs_long_double(const VariationalInequality& problem, PenaltyFactor& factor) {
+/// a pivot of K is below 1e-5 of what A1 has, so that 1e-16 becomes 1e-11 and more. (The pivots of a penalised K lie
+/// apart by nature: they count beside A1, not beside the largest of K.) Then long double: three digits more.
+bool needs_long_double(const VariationalInequality& problem, const PenaltyFactor& factor) {
   const Eigen::VectorXd stiffness = problem.a1.diagonal();
   const double largest = stiffness.maxCoeff();
-  if (factor.rcond() < 1e-5 && softest_pivot(problem, factor) < 1e-5 * largest) return true;
+  if (factor.smallest_pivot() < 1e-5 * largest) return true;
   return 2 * (1e3 * stiffness.array() < largest).count() > stiffness.size();
 }
 

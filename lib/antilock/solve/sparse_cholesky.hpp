@@ -26,8 +26,8 @@ class SparseCholesky {
   /// nothing but round-off (`lost_pivot`); empty: K is positive definite. Throws Error out of memory.
   virtual std::optional<int> factorise(SparseMatrix& k) = 0;
 
-  /// Smallest by largest pivot: an upper estimate of 1 / condition number, for next to nothing.
-  virtual double rcond() const = 0;
+  /// The smallest pivot: to about a factor of F the smallest eigenvalue of K, for next to nothing. Infinite of no rows.
+  virtual double smallest_pivot() const = 0;
   virtual Eigen::VectorXd forward(const Eigen::VectorXd& r) const = 0;  ///< y = L^-1 P r
   virtual Eigen::VectorXd backward(Eigen::VectorXd y) const = 0;        ///< x = P' L'^-1 y
   /// The trailing block of L (lower triangular) from place `first` of the order on.
