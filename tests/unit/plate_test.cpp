@@ -239,7 +239,7 @@ TEST(PlateTruth, SolvesItsEquations) {
 TEST(Plate, AnObstacleThatP1CannotReachIsRefused) {
   const TriangleMesh mesh = disc_mesh(6);
   Plate lifted{.thickness = 0};
-  lifted.gap = [](double, double) { return -0.1; };
+  lifted.gap = [](double x, double y) { return -0.1 * (1 - x * x - y * y); };
   for (const Method& method : {exact_shear, one_point})
     EXPECT_THROW(active_set(assemble(lifted, On(method, mesh).space)), NotConverged) << method.name;
   for (const Method& method : {duran_liberman, arnold_falk})
@@ -253,6 +253,9 @@ TEST(Plate, ValuesOutOfRangeAreRefused) {
     test::expect_refused([&] { assemble(Plate{.thickness = t}, on.space); }, "accepted 0 to 1");
   for (const double nu : {-0.1, 1.0})
     test::expect_refused([&] { assemble(Plate{.poisson = nu}, on.space); }, "Poisson");
+  Plate sunk;  // below the obstacle on a part of the rim
+  sunk.gap = [](double x, double) { return x > 0.9 ? -0.1 : 1.0; };
+  test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at 0.1");
   const On wrong({"", p2(), p2(), ShearRule::mean}, mesh), edges({"", p1(), p1_bubble(), ShearRule::edges}, mesh);
   test::expect_refused([&] { assemble(Plate{}, wrong.space); }, "accepted P1 and P1");
   test::expect_refused([&] { assemble(Plate{}, edges.space); }, "accepted P1 and P1");

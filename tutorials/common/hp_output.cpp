@@ -41,7 +41,8 @@ void judge_hp(const Table& results, const Exact& exact, Report& report) {
   const auto order = [&](int p) {  // in 1/N, from one level to the next
     return std::log(at(p, "h1") / at(p + 1, "h1")) / std::log(at(p + 1, "unknowns") / at(p, "unknowns"));
   };
-  report.claim_within(std::pow(at(2, "h1") / at(6, "h1"), 0.25), 6, 10, here + "hp: H1 error per level (layers: 8)");
+  report.claim_within(std::pow(at(2, "h1") / at(6, "h1"), 0.25), 6, 10,
+                      here + "hp: per level the H1 error falls by a factor of");
   report.claim(order(5) > 2 * order(2), "{}hp: no power of N, order {:.1f} and then {:.1f}", here, order(2), order(5));
   if (exact.epsilon == 1e-20)
     return report.claim_within(at(6, "h1") / results.where("epsilon", 0).where("series", "hp").last("h1"), 0.999, 1.001,

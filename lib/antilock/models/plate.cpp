@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -37,6 +38,26 @@ std::map<int, double> held(const Plate& plate, const PlateSpace& space) {
   return values;
 }
 
+/// The corners of the rim lie on the obstacle or above, to round-off of the largest value; else no plate at all lies
+/// above the obstacle, and only the mesh hides it.
+void require_rim_above(const Plate& plate, const TriangleMesh& mesh) {
+  double largest = 0;
+  for (const auto& at : mesh.vertices.rowwise())
+    if (const double gap = plate.gap(at(0), at(1)); std::isfinite(gap)) largest = std::max(largest, std::abs(gap));
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
+    for (const int corner : mesh.edges.row(e)) {
+      const double x = mesh.vertices(corner, 0), y = mesh.vertices(corner, 1);
+      const double rim = plate.rim(x, y), gap = plate.gap(x, y);
+      if (rim + gap < -1e-12 * std::max(largest, std::abs(rim)))
+        throw Error(
+            fmt::format("plate: the rim is held at w = {:.6g} in ({:.6g}, {:.6g}), below the obstacle at "
+                        "{:.6g}; accepted: on it or above",
+                        rim, x, y, -gap));
+    }
+  }
+}
+
 }  // namespace
 
 VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
@@ -62,6 +83,7 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
     problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
     problem.fixed.push_back(i);
   }
+  require_rim_above(plate, space.mesh());
   std::vector<double> lower;
   for (int i = 0; i < space.deflection.size(); ++i) {
     const double gap = plate.gap(space.deflection.points()(i, 0), space.deflection.points()(i, 1));

@@ -20,7 +20,7 @@ struct Plate {
 
 /// The problem (6) of the plate: a1 the bending form, a0 the shear form of the space, the class parameter t^2; w >= -gap
 /// at every free unknown of w (vertices, for Crouzeix-Raviart the edge midpoints). On clamped edges a Crouzeix-Raviart
-/// unknown is the mean of `rim`. Throws Error for values out of range.
+/// unknown is the mean of `rim`. Throws Error for values out of range and for a rim held below the obstacle.
 VariationalInequality assemble(const Plate& plate, const PlateSpace& space);
 
 }  // namespace antilock
