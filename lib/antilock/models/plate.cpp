@@ -71,8 +71,8 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
   VariationalInequality problem;
   problem.a1 = bending_form(space, plate.poisson);
   FactoredForm shear = shear_form(space);
-  problem.b = std::move(shear.b);
-  problem.m = std::move(shear.m);
+  problem.b.swap(shear.b);
+  problem.m.swap(shear.m);
   problem.compliance = plate.thickness * plate.thickness;  // the class parameter is t^2
   problem.load = Eigen::VectorXd::Zero(space.size());
   problem.load.head(space.deflection.size()) = load_vector(space.deflection, plate.load);

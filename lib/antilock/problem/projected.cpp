@@ -25,9 +25,9 @@ VariationalInequality projected(VariationalInequality problem, const Shares& sha
       for (RowMatrix::InnerIterator entry(root, r); entry; ++entry) entry.valueRef() *= std::sqrt(kept * problem.m(r));
     problem.a1 += SparseMatrix(root.transpose() * root);
   }
-  FactoredForm mean = averaged({std::move(problem.b), (1 - kept) * problem.m, {}}, shares);
-  problem.b = std::move(mean.b);
-  problem.m = std::move(mean.m);
+  FactoredForm mean = averaged({problem.b, (1 - kept) * problem.m, {}}, shares);
+  problem.b.swap(mean.b);
+  problem.m.swap(mean.m);
   return problem;
 }
 
