@@ -9,10 +9,6 @@ namespace antilock {
 /// Throws NotConverged: the contact loop has reached its most steps.
 [[noreturn]] void throw_not_settled(int violations, int count, int steps);
 
-/// Halvings of a projected Newton step after which the unknowns walk straight to the lowest point of their pieces, from one
-/// end of a piece to the next: where S couples them stiffly, projecting one spoils the step of the others.
-constexpr int jams = 3;
-
 /// The primal-dual active set, whatever solves its linear systems. A Road has
 ///     count()      conditions
 ///     solve()      the linear system of the bounds that hold now

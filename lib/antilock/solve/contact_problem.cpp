@@ -9,6 +9,7 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/solve/contact_loop.hpp"
+#include "antilock/solve/projected_newton.hpp"
 
 namespace antilock {
 namespace {
@@ -70,31 +71,16 @@ class DenseRoad {
 
   void exchange(int i) { bounds_.exchange(held_, i, v_(i), lambda_(i), p_.s(i, i)); }
 
-  /// One step of Bertsekas' projected Newton method from a feasible v: it lowers the energy v' S v / 2 - q' v + j(v).
-  /// In the pieces that lead downhill from v the energy is smooth, and they are bounds like any others.
   void descend() {
     if (descent_.size() == 0) descent_ = bounds_.nearest(v_);
-    Eigen::VectorXd& v = descent_;
-    HeldBounds pieces = bounds_.downhill(v, p_.s * v - p_.q);
-    const Eigen::VectorXd gradient = p_.s * v - p_.q - bounds_.given(pieces), direction = newton(pieces, gradient);
-    // Armijo along the projected path; the change of energy from the change of v, so that no digits cancel
-    double t = 1;
-    Eigen::VectorXd next;
-    int halvings = 0;
-    for (; halvings < 60; ++halvings, t /= 2) {
-      next = bounds_.nearest(pieces, v + t * direction);
-      const Eigen::VectorXd change = next - v;
-      if (change.dot(gradient + 0.5 * (p_.s * change)) <= 1e-4 * change.dot(gradient)) break;
-    }
-    if (halvings > jams && bounds_.are_narrow())
-      walk(std::move(pieces), direction);
-    else
-      v = std::move(next);
-    held_ = bounds_.reached(v);
+    held_ = projected_newton_step(*this, descent_);
   }
 
- private:
-  /// The way to where the gradient on the pieces vanishes.
+  // of the projected Newton step
+  Eigen::VectorXd times(const Eigen::VectorXd& v) const { return p_.s * v; }
+  const Eigen::VectorXd& load() const { return p_.q; }
+  auto places() const { return Eigen::seqN(0, count()); }
+  const ContactBounds& bounds() const { return bounds_; }
   Eigen::VectorXd newton(const HeldBounds& pieces, const Eigen::VectorXd& gradient) {
     std::vector<int> free;
     for (int i = 0; i < count(); ++i)
@@ -108,17 +94,7 @@ class DenseRoad {
     return direction;
   }
 
-  /// Straight on, and what ends its piece is held there: the energy falls on every stretch, to its least on what is left.
-  void walk(HeldBounds pieces, Eigen::VectorXd direction) {
-    while (true) {
-      const auto [t, ended] = bounds_.hold_first_end(pieces, descent_, direction);
-      descent_ += t * direction;
-      if (ended < 0) return;
-      descent_(ended) = bounds_.at(pieces, ended);
-      direction = newton(pieces, p_.s * descent_ - p_.q - bounds_.given(pieces));
-    }
-  }
-
+ private:
   /// Where v and the bound count from, and how large the bound is: each bound by itself, so that an obstacle far away in
   /// one place hides no contact in another.
   double noise_at(int i, double bound) const {

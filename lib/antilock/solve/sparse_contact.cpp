@@ -8,6 +8,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/solve/aggregation.hpp"
 #include "antilock/solve/contact_loop.hpp"
+#include "antilock/solve/projected_newton.hpp"
 
 namespace antilock {
 namespace {
@@ -72,37 +73,19 @@ class SparseRoad {
 
   void exchange(int i) { bounds_.exchange(held_, i, x_(p_.bounded[i]), lambda_(i), diagonal_(p_.bounded[i])); }
 
-  /// One step of Bertsekas' projected Newton method from a feasible x: see the dense road.
   void descend() {
     if (descent_.size() == 0) {
       descent_ = x_;
       descent_(p_.bounded) = bounds_.nearest(bounded(x_));
     }
-    HeldBounds pieces = bounds_.downhill(bounded(descent_), bounded(p_.k.times(descent_) - p_.q));
-    const Eigen::VectorXd gradient = gradient_in(pieces), direction = newton(pieces, gradient);
-    double t = 1;
-    Eigen::VectorXd next;
-    int halvings = 0;
-    for (; halvings < 60; ++halvings, t /= 2) {
-      next = descent_ + t * direction;
-      next(p_.bounded) = bounds_.nearest(pieces, bounded(next));
-      const Eigen::VectorXd change = next - descent_;
-      if (change.dot(gradient + 0.5 * p_.k.times(change)) <= 1e-4 * change.dot(gradient)) break;
-    }
-    if (halvings > jams && bounds_.are_narrow())
-      walk(std::move(pieces), direction);
-    else
-      descent_ = std::move(next);
-    held_ = bounds_.reached(bounded(descent_));
+    held_ = projected_newton_step(*this, descent_);
   }
 
- private:
-  Eigen::VectorXd gradient_in(const HeldBounds& pieces) const {
-    Eigen::VectorXd gradient = p_.k.times(descent_) - p_.q;
-    gradient(p_.bounded) -= bounds_.given(pieces);
-    return gradient;
-  }
-
+  // of the projected Newton step
+  Eigen::VectorXd times(const Eigen::VectorXd& x) const { return p_.k.times(x); }
+  const Eigen::VectorXd& load() const { return p_.q; }
+  const std::vector<int>& places() const { return p_.bounded; }
+  const ContactBounds& bounds() const { return bounds_; }
   Eigen::VectorXd newton(const HeldBounds& pieces, const Eigen::VectorXd& gradient) {
     std::vector<char> held(gradient.size(), 0);
     for (int i = 0; i < count(); ++i) held[p_.bounded[i]] = pieces.active[i] ? 1 : 0;
@@ -111,16 +94,7 @@ class SparseRoad {
     return p_.k.solve(-gradient);
   }
 
-  void walk(HeldBounds pieces, Eigen::VectorXd direction) {
-    while (true) {
-      const auto [t, ended] = bounds_.hold_first_end(pieces, bounded(descent_), bounded(direction));
-      descent_ += t * direction;
-      if (ended < 0) return;
-      descent_(p_.bounded[ended]) = bounds_.at(pieces, ended);
-      direction = newton(pieces, gradient_in(pieces));
-    }
-  }
-
+ private:
   Eigen::VectorXd bounded(const Eigen::VectorXd& x) const { return x(p_.bounded); }
 
   /// Round-off of x beside a bound. Where it is known, nothing is added to it: a diagonal entry of K, unlike one of a
