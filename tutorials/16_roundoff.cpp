@@ -92,18 +92,20 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   // None on which P1 locks: whatever goes wrong below is round-off.
   const std::vector<Method> settings{
       {&p1(), structured()}, {&crouzeix_raviart(), structured()}, {&crouzeix_raviart(), unstructured()}};
+  std::vector<Discretisation> on;  // one mesh for every ε
+  for (const Method& method : settings) on.push_back(method.on(options.cells));
   // ### Forms
   // `compare_solvers` assembles (23) at each $ε$ and hands it to every solver.
   Table results({"solver", "element", "mesh", "epsilon", "error", "ended", "wrong", "refused", "seconds", "apart"});
   for (const double epsilon :
        {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-14, 1e-16}) {
     const tutorial::Exact exact(epsilon, 14);
-    for (const Method& method : settings)
+    for (std::size_t i = 0; i < settings.size(); ++i)
       results.add(tutorial::compare_solvers(
-          method, method.on(options.cells).space(), exact,
+          settings[i], on[i].space(), exact,
           [](const auto& problem, const auto& active, double delta) { return cure(problem, active, delta); }));
   }
-  const Table conditions = tutorial::condition_numbers(settings.front().on(options.cells).space());
+  const Table conditions = tutorial::condition_numbers(on.front().space());
   // ### Output
   tutorial::show_round_off(options.out, results, conditions);
   tutorial::judge_split_form(results, conditions, report);

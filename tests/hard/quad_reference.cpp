@@ -5,8 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "antilock/solve/penalty_factor.hpp"
-
 namespace antilock::hard {
 namespace {
 
@@ -41,16 +39,17 @@ std::pair<QuadVector, QuadVector> quad_residual(const VariationalInequality& pro
 }
 
 /// Iterates u += du, p += dp in quadruple precision with any approximate inverse of K = A1 + delta^-1 B' M B: the limit
-/// depends on the residual alone, which is formed in quadruple precision and in split form.
-QuadSolution refine(const VariationalInequality& problem, const std::vector<bool>& active, double delta,
-                    const std::vector<int>& unknown, const std::function<QuadVector(const QuadVector&)>& inverse,
-                    double tolerance, int most) {
+/// depends on the residual alone, which is formed in quadruple precision and in split form, and not on the start.
+QuadSolution refine(const VariationalInequality& problem, const std::vector<bool>& active, const QuadSolution& start,
+                    double delta, const std::vector<int>& unknown,
+                    const std::function<QuadVector(const QuadVector&)>& inverse, double tolerance, int most) {
   const VariationalInequality linear = held(problem, active);
   QuadSolution s;
-  s.u = QuadVector::Zero(problem.size());
+  s.active = active;
+  s.u = start.u.size() > 0 ? start.u : QuadVector(QuadVector::Zero(problem.size()));
+  s.p = start.u.size() > 0 ? start.p : QuadVector(QuadVector::Zero(problem.b.rows()));
   for (std::size_t i = 0; i < linear.fixed.size(); ++i)
     s.u(linear.fixed[i]) = linear.fixed_values(static_cast<Eigen::Index>(i));
-  s.p = QuadVector::Zero(problem.b.rows());
   const QuadVector weight = problem.m.cast<Quad>() / Quad(delta);
   QuadVector r1, r2;
   while (true) {
@@ -114,19 +113,26 @@ VariationalInequality held(VariationalInequality problem, const std::vector<bool
   return problem;
 }
 
-QuadSolution refined_reference(const VariationalInequality& problem, const std::vector<bool>& active) {
+QuadSolution RefinedReference::operator()(const VariationalInequality& problem, const std::vector<bool>& active,
+                                          const QuadSolution& start) {
   const VariationalInequality linear = held(problem, active);
-  PenaltyFactor factor(linear, std::max(1e-8, problem.compliance));
+  const double delta = std::max(1e-8, problem.compliance);
+  if (factor_ && factor_->delta() == delta && active_ == active)
+    factor_->check_fits(linear);
+  else
+    factor_.emplace(linear, delta);
+  active_ = active;
   const auto inverse = [&](const QuadVector& r) {
     const double scale = static_cast<double>(largest(r));
     if (scale == 0) return r;
     const Eigen::VectorXd rounded = (r / Quad(scale)).cast<double>();
-    return QuadVector(factor.backward(factor.forward(rounded)).cast<Quad>() * Quad(scale));
+    return QuadVector(factor_->backward(factor_->forward(rounded)).cast<Quad>() * Quad(scale));
   };
-  return refine(problem, active, factor.delta(), factor.numbering().unknown, inverse, 1e-22, 200);
+  return refine(problem, active, start, delta, factor_->numbering().unknown, inverse, 1e-22, 200);
 }
 
-QuadSolution quad_reference(const VariationalInequality& problem, const std::vector<bool>& active) {
+QuadSolution quad_reference(const VariationalInequality& problem, const std::vector<bool>& active,
+                            const QuadSolution& start) {
   const double delta = std::max(problem.compliance, 1e-14);
   const VariationalInequality linear = held(problem, active);
   const FreeNumbering numbering(linear);
@@ -147,15 +153,21 @@ QuadSolution quad_reference(const VariationalInequality& problem, const std::vec
   k.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<QuadMatrix> factor(k);
   return refine(
-      problem, active, delta, numbering.unknown, [&](const QuadVector& r) { return QuadVector(factor.solve(r)); },
-      1e-26, 60);
+      problem, active, start, delta, numbering.unknown,
+      [&](const QuadVector& r) { return QuadVector(factor.solve(r)); }, 1e-26, 60);
 }
 
-QuadSolution settle(const VariationalInequality& problem, std::vector<bool> active, const Reference& reference) {
+QuadSolution settle(const VariationalInequality& problem, std::vector<bool> active, const Reference& reference,
+                    const QuadSolution& neighbour) {
   for (int sets = 1;; ++sets) {
-    QuadSolution s = reference(problem, active);
+    const bool of_neighbour = active == neighbour.active;
+    QuadSolution s = reference(problem, active, of_neighbour ? neighbour : QuadSolution());
     s.sets = sets;
     if (sets == 100 || std::min(s.min_gap, s.min_pressure) >= -1e-18) return s;
+    if (sets == 1 && neighbour.u.size() > 0 && !of_neighbour) {
+      active = neighbour.active;
+      continue;
+    }
     const Quad gap_slack = Quad(1e-18) * largest(s.u),
                pressure_slack = Quad(1e-18) * largest(problem.load.cast<Quad>());
     for (std::size_t i = 0; i < active.size(); ++i) {

@@ -8,9 +8,11 @@
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #endif
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "antilock/problem/variational_inequality.hpp"
+#include "antilock/solve/penalty_factor.hpp"
 
 namespace antilock::hard {
 
@@ -27,7 +29,8 @@ Quad largest(const QuadVector& v);
 /// The exact solution of the discrete problem, or the proof that it is not: u solves the equations of the given contact
 /// set to `residual`, and where also gap and pressure are not negative it is the one solution of the inequality.
 struct QuadSolution {
-  QuadVector u, p, lambda;
+  QuadVector u{}, p{}, lambda{};
+  std::vector<bool> active{};
   double residual = 0;                   ///< split form, relative
   double min_gap = 0, min_pressure = 0;  ///< relative to the largest |u| and the largest |load|
   int refinements = 0;
@@ -37,18 +40,34 @@ struct QuadSolution {
 /// The problem with its contact unknowns held at their bounds where `active`, free elsewhere: linear.
 VariationalInequality held(VariationalInequality problem, const std::vector<bool>& active);
 
-/// Solves the equations of one contact set.
-using Reference = std::function<QuadSolution(const VariationalInequality&, const std::vector<bool>& active)>;
+/// Solves the equations of one contact set, from the u and p of another answer or, where it is empty, from 0. The start
+/// must belong to the same set: where the rows of B are dependent on the unknowns that are free, a p from elsewhere keeps
+/// for long what no row of B makes.
+using Reference = std::function<QuadSolution(const VariationalInequality&, const std::vector<bool>& active,
+                                             const QuadSolution& start)>;
 
-/// By a sparse Cholesky factor in double precision: iterative refinement, affordable on every mesh.
-QuadSolution refined_reference(const VariationalInequality& problem, const std::vector<bool>& active);
+/// By a sparse Cholesky factor in double precision: iterative refinement, affordable on every mesh. The factor is kept
+/// for the next question if that has the same set and the same delta; it must then have the same A1, B and M, else Error.
+class RefinedReference {
+ public:
+  QuadSolution operator()(const VariationalInequality& problem, const std::vector<bool>& active,
+                          const QuadSolution& start);
+
+ private:
+  std::optional<PenaltyFactor> factor_;
+  std::vector<bool> active_;
+};
 
 /// By a sparse L D L' in quadruple precision, delta so small that nothing is left of it after three corrections.
-QuadSolution quad_reference(const VariationalInequality& problem, const std::vector<bool>& active);
+QuadSolution quad_reference(const VariationalInequality& problem, const std::vector<bool>& active,
+                            const QuadSolution& start = {});
 
 /// Exchanges contact unknowns on the wrong side until gap and pressure have their signs to 1e-18: with that the answer
-/// of `reference` is proved to be the solution. A hundred sets at most; the caller looks at the signs.
-QuadSolution settle(const VariationalInequality& problem, std::vector<bool> active, const Reference& reference);
+/// of `reference` is proved to be the solution. The first set is `active`, the second that of `neighbour`, if there is
+/// one: the answer at another epsilon, from which a question with its set starts. A hundred sets at most; the caller
+/// looks at the signs.
+QuadSolution settle(const VariationalInequality& problem, std::vector<bool> active, const Reference& reference,
+                    const QuadSolution& neighbour = {});
 
 /// Relative distance in the maximum norm.
 double distance(const Eigen::VectorXd& u, const QuadVector& exact);

@@ -5,7 +5,8 @@ const std::vector<tutorial::Exercise> exercises{
     {"Locked P1 along epsilon = h in place of h^2: does its error still stay?",
      "no, it falls; the second term stays, so the third stays too: two large terms nearly cancel",
      [](const tutorial::Options& options, tutorial::Report& report) {
-       const Table terms = three_terms({&p1(), unstructured()}, 1, options.cells, Exact(0, 15));
+       const Exact limit(0, 15);
+       const Table terms = three_terms({&p1(), unstructured()}, path(1, options.cells, limit), limit);
        const auto of = [&](const char* term) { return terms.where("term", term); };
        terms.pivot("h", "term", "value").print();
        report.claim(of("left side").order("value", "h") > 0.5, "the error falls");

@@ -14,26 +14,38 @@ constexpr double nothing = 1e-19;  // factors below are not summed
 
 // sinh(kappa t) / sinh(kappa) for kappa < 1, without the cancellation of exponentials; six terms reach 1e-16.
 double small_ratio(double kappa, double t) {
+  if (kappa == 0) return t;
   const auto sinhc = [](double s) {  // sinh(x) / x by s = x^2
     return 1 + s / 6 * (1 + s / 20 * (1 + s / 42 * (1 + s / 72 * (1 + s / 110 * (1 + s / 156 * (1 + s / 210))))));
   };
   return t * sinhc(kappa * kappa * t * t) / sinhc(kappa * kappa);
 }
 
-// r^k by repeated multiplication, k = 1, 2, ...
+// r^k by repeated multiplication, k = 1, 2, ..., and 0 long before r^k is no normal number any more: a product with such
+// a number takes a hundred times as long as any other.
 struct Powers {
   double r, value = 1;
-  double next() { return value *= r; }
+  double next() {
+    value *= r;
+    if (value < 1e-200) value = 0;
+    return value;
+  }
 };
 
-SineRow empty_row(Eigen::Index size) {
+// Room for the waves whose factor e^{-decay k} is summed, and a few more: far from Gamma_C and Sigma few of all.
+SineRow empty_row(double decay, Eigen::Index all) {
+  const double most = 3 - std::log(nothing) / decay;
+  const Eigen::Index size = decay > 0 && most < static_cast<double>(all) ? static_cast<Eigen::Index>(most) : all;
   return {Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size), Eigen::VectorXd::Zero(size)};
 }
 
-void cut(SineRow& row, Eigen::Index size) {
-  row.u.conservativeResize(size);
-  row.p.conservativeResize(size);
-  row.p_y.conservativeResize(size);
+// Grown, it is filled with zeros.
+void resize(SineRow& row, Eigen::Index size) {
+  for (Eigen::VectorXd* const series : {&row.u, &row.p, &row.p_y}) {
+    const Eigen::Index before = series->size();
+    series->conservativeResize(size);
+    if (size > before) series->tail(size - before).setZero();
+  }
 }
 
 }  // namespace
@@ -43,24 +55,24 @@ double SineRow::a(Eigen::Index k) const { return double(k) * std::numbers::pi; }
 // Body: u_k = w_k sinh(a(1-y)) / sinh(a) + G_k(y), with the sinh ratio (e^{-ay} - e^{-a(2-y)}) / (1 - e^{-2a}).
 SineRow body_row(const Truth::Data& truth, double y) {
   const Eigen::VectorXd& w = truth.on_sigma;
-  SineRow row = empty_row(w.size());
+  SineRow row = empty_row(std::numbers::pi * y, w.size());
   Powers near{std::exp(-std::numbers::pi * y)}, far{std::exp(-std::numbers::pi * (2 - y))};
   Powers twice{std::exp(-2 * std::numbers::pi)};
-  Eigen::Index k = 1, load_end = 1;
-  for (; k < w.size() && near.value > nothing; ++k) {
+  Eigen::Index k = 1;
+  for (; k < row.u.size() && near.value > nothing; ++k) {
     const double e = near.next(), back = far.next(), scale = 1 / (1 - twice.next());
     row.u(k) = w(k) * (e - back) * scale;
     row.p(k) = -row.a(k) * w(k) * (e + back) * scale;
     row.p_y(k) = row.a(k) * row.a(k) * truth.filter(k) * row.u(k);
   }
+  const Eigen::Index load_end = truth.load.empty() ? 1 : truth.load.back().k() + 1;
+  resize(row, std::max(k, load_end));
   for (const LoadResponse& load : truth.load) {
     const double a = row.a(load.k());
     row.u(load.k()) += load.value(y);
     row.p(load.k()) += load.slope(y);
     row.p_y(load.k()) += a * a * load.value(y) - load.force(y);
-    load_end = std::max<Eigen::Index>(load_end, load.k() + 1);
   }
-  cut(row, std::max(k, load_end));
   return row;
 }
 
@@ -68,8 +80,8 @@ SineRow body_row(const Truth::Data& truth, double y) {
 // value on Gamma_C times sinh(kappa (1-eta)) / sinh(kappa), eta = 1 + y. Nothing divides by epsilon: at 0 both are
 // linear in y.
 SineRow layer_row(const Truth::Data& truth, double y) {
-  SineRow row = empty_row(truth.on_sigma.size());
   const double eta = 1 + y, step = truth.epsilon * std::numbers::pi;
+  SineRow row = empty_row(step * std::min(eta, -y), truth.on_sigma.size());
   Powers from_gamma_c{std::exp(-step * eta)}, from_sigma{std::exp(step * y)};
   Eigen::Index k = 1;
   for (; k < row.u.size(); ++k) {
@@ -82,7 +94,7 @@ SineRow layer_row(const Truth::Data& truth, double y) {
     row.p(k) = truth.stress_sigma(k) * sigma + truth.stress_gamma_c(k) * gamma_c;
     row.p_y(k) = row.a(k) * row.a(k) * truth.filter(k) * row.u(k);
   }
-  cut(row, k);
+  resize(row, k);
   return row;
 }
 

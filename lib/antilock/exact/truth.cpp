@@ -69,11 +69,11 @@ VectorXd jump_filter(Eigen::Index size, int n) {
   return filter;
 }
 
-void solve_contact(Truth::Data& data, SineTransform& transform) {
+void solve_contact(Truth::Data& data, const std::vector<Symbols>& symbols, SineTransform& transform) {
   const int n = transform.size();
   VectorXd stiffness = VectorXd::Ones(n + 1), load = VectorXd::Zero(n + 1);
-  for (int k = 1; k < n; ++k) stiffness(k) = Symbols(k, data.epsilon).stiffness;
-  for (const LoadResponse& f : data.load) load(f.k()) = Symbols(f.k(), data.epsilon).load * f.pull();
+  for (int k = 1; k < n; ++k) stiffness(k) = symbols[k].stiffness;
+  for (const LoadResponse& f : data.load) load(f.k()) = symbols[f.k()].load * f.pull();
   ContactLine line = solve_contact_line(stiffness, load);
   data.on_gamma_c = data.displacement = std::move(line.displacement);
   data.stress_gamma_c = data.pressure = std::move(line.pressure);
@@ -84,16 +84,23 @@ void solve_contact(Truth::Data& data, SineTransform& transform) {
 }
 
 // From Gamma_C to Sigma: w = trace c + lift G'(0), stress = G'(0) - T w.
-void lift_to_sigma(Truth::Data& data) {
+void lift_to_sigma(Truth::Data& data, const std::vector<Symbols>& symbols) {
   const Eigen::Index size = data.on_gamma_c.size();
   data.on_sigma = data.stress_sigma = VectorXd::Zero(size);
-  for (Eigen::Index k = 1; k < size; ++k) data.on_sigma(k) = Symbols(int(k), data.epsilon).trace * data.on_gamma_c(k);
-  for (const LoadResponse& f : data.load) {
-    data.on_sigma(f.k()) += Symbols(f.k(), data.epsilon).lift * f.pull();
-    data.stress_sigma(f.k()) = f.pull();
+  for (const LoadResponse& f : data.load) data.stress_sigma(f.k()) = f.pull();
+  for (Eigen::Index k = 1; k < size; ++k) {
+    const Symbols& symbol = symbols[static_cast<std::size_t>(k)];
+    data.on_sigma(k) = symbol.trace * data.on_gamma_c(k) + symbol.lift * data.stress_sigma(k);
+    data.stress_sigma(k) -= data.filter(k) * symbol.body * data.on_sigma(k);
   }
-  for (Eigen::Index k = 1; k < size; ++k)
-    data.stress_sigma(k) -= data.filter(k) * Symbols(int(k), data.epsilon).body * data.on_sigma(k);
+}
+
+/// Of k = 0 to `last`; the first stands for no wave.
+std::vector<Symbols> symbols_to(Eigen::Index last, double epsilon) {
+  std::vector<Symbols> symbols;
+  symbols.reserve(static_cast<std::size_t>(last) + 1);
+  for (int k = 0; k <= last; ++k) symbols.emplace_back(std::max(k, 1), epsilon);
+  return symbols;
 }
 
 // sum_k v_k sin(k pi x) and sum_k a v_k cos(k pi x), by rotation; started anew every 256 steps to keep round-off down.
@@ -161,8 +168,10 @@ Truth::Truth(const SineLoad& load, double epsilon, bool contact, int log2_points
   SineTransform transform(n);
   transform.points_from_modes(data_->displacement);
   const double round_off = 1e-14 * data_->displacement.lpNorm<Eigen::Infinity>();
-  if (contact && data_->displacement.minCoeff() < -round_off) solve_contact(*data_, transform);
-  lift_to_sigma(*data_);
+  const bool touches = contact && data_->displacement.minCoeff() < -round_off;
+  const std::vector<Symbols> symbols = symbols_to(touches ? n : data_->on_gamma_c.size() - 1, epsilon);
+  if (touches) solve_contact(*data_, symbols, transform);
+  lift_to_sigma(*data_, symbols);
 }
 
 Truth::~Truth() = default;

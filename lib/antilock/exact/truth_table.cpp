@@ -120,12 +120,11 @@ class RowSampler {
  private:
   static Eigen::VectorXd fold(const Eigen::VectorXd& modes, int n, double reflected) {
     Eigen::VectorXd folded = Eigen::VectorXd::Zero(n + 1);
-    for (Eigen::Index k = 0; k < modes.size(); ++k) {
-      const Eigen::Index r = k % (2 * n);
-      if (r <= n)
-        folded(r) += modes(k);
-      else
-        folded(2 * n - r) += reflected * modes(k);
+    for (Eigen::Index from = 0; from < modes.size(); from += 2 * n) {
+      const Eigen::Index left = modes.size() - from, up = std::min<Eigen::Index>(left, n + 1),
+                         down = std::min<Eigen::Index>(left - up, n - 1);
+      folded.head(up) += modes.segment(from, up);
+      folded.segment(n - down, down) += reflected * modes.segment(from + n + 1, down).reverse();
     }
     return folded;
   }
