@@ -27,14 +27,16 @@ except ImportError:
 BOOK, NUMBERS = Path(sys.argv[1]).resolve(), sys.argv[2]
 SHOTS = os.environ.get("BOOK_SCREENSHOTS")
 PAGES = sorted(path.stem for path in BOOK.glob("*.html"))
+COPIES = "GPU stall due to ReadPixels"  # the browser's own remark: it copies a figure's canvas into the page
 LIVE = "return [...document.querySelectorAll('div.live')].every((box) => box.dataset.state)"
 
 
 def open_browser():
     options = webdriver.ChromeOptions()
     options.binary_location = "/usr/bin/chromium"
-    # WebGL2 without a graphics card
-    for argument in ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"):
+    # WebGL2 without a graphics card; it draws the figures alone: pages are put together faster without it
+    for argument in ("--headless=new", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+                     "--disable-gpu-compositing"):
         options.add_argument(argument)
     options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
     return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
@@ -69,6 +71,7 @@ class Book(unittest.TestCase):
                                      {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": width < 500})
 
     def show(self, page, width=1280, reduced="no-preference", query=""):
+        self.run_script("document.open(); document.close()")  # nobody looks at the page before in the new width
         self.prefer(reduced=reduced)
         self.turn(width)
         self.browser.get(f"{(BOOK / page).as_uri()}.html{query}")
@@ -76,7 +79,8 @@ class Book(unittest.TestCase):
 
     def said(self):
         """Errors of the console, and requests beyond the folder, since the last call; `asked` keeps what was asked for."""
-        console = [entry["message"] for entry in self.browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
+        console = [entry["message"] for entry in self.browser.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")
+                   and COPIES not in entry["message"]]
         self.asked = asked = set()
         for entry in self.browser.get_log("performance"):
             message = json.loads(entry["message"])["message"]
@@ -198,16 +202,25 @@ CONTRAST = """
   const numbers = (colour) => { const c = colour.match(/[\\d.]+/g).map(Number); return c.length < 4 ? [...c, 1] : c; };
   const part = (v) => ((v /= 255) <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4);
   const light = ([r, g, b]) => 0.2126 * part(r) + 0.7152 * part(g) + 0.0722 * part(b);
-  const poor = {};
+  const papers = new Map();  // the background behind an element, asked for once
+  const paperOf = (at) => {
+    if (!at) return [255, 255, 255, 0];
+    if (!papers.has(at)) {
+      const own = numbers(getComputedStyle(at).backgroundColor);
+      papers.set(at, own[3] === 1 ? own : paperOf(at.parentElement));
+    }
+    return papers.get(at);
+  };
+  const poor = {}, seen = new Set();
   const walker = document.createTreeWalker(document.querySelector("article"), NodeFilter.SHOW_TEXT);
   for (let node; (node = walker.nextNode());) {
     const at = node.parentElement;
-    if (!node.textContent.trim() || at.closest("option, .katex-mathml, script, details:not([open]) > :not(summary), .headerlink")) continue;
+    if (seen.has(at) || !node.textContent.trim()) continue;
+    seen.add(at);
+    if (at.closest("option, .katex-mathml, script, details:not([open]) > :not(summary), .headerlink")) continue;
     const style = getComputedStyle(at);
     if (style.visibility === "hidden" || at.getClientRects().length === 0) continue;
-    let behind = at, paper = [255, 255, 255, 0];
-    for (; behind; behind = behind.parentElement) { paper = numbers(getComputedStyle(behind).backgroundColor); if (paper[3] === 1) break; }
-    const ink = numbers(at instanceof SVGElement ? style.fill : style.color);
+    const ink = numbers(at instanceof SVGElement ? style.fill : style.color), paper = paperOf(at);
     const both = [light(ink), light(paper)].sort((a, b) => b - a), ratio = (both[0] + 0.05) / (both[1] + 0.05);
     if (ratio < 4.5) poor[`${at.tagName}.${at.getAttribute("class")} in ${at.parentElement.getAttribute("class")}: ${ratio.toFixed(2)}`] = 1;
   }

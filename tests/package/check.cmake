@@ -1,7 +1,11 @@
 # What a user of the library does: install it, find_package it from a project of their own, build, run. The project is
 # the README's, word for word. The prefix is moved after the install: nothing in it may know where it was put.
-# Run: cmake -DSOURCE=... -DBUILD=... -DFLAGS=... -DGENERATOR=... -DCOMPILER=... -DEIGEN=... -P check.cmake
+# Run: cmake -DSOURCE=... -DBUILD=... -DFLAGS=... -DGENERATOR=... -DCOMPILER=... -DEIGEN=... [-DCCACHE=...] -P check.cmake
 set(work ${BUILD}/tests/package)
+if(CCACHE)  # what was compiled before is not compiled again, and not in another build folder either
+  set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} ${CCACHE})
+  set(ENV{CCACHE_BASEDIR} ${work})
+endif()
 set(HAS_AVX2 FALSE)  # this machine's processor, where it says so: else the tests with its instructions are left out
 if(EXISTS /proc/cpuinfo)
   file(STRINGS /proc/cpuinfo avx2 REGEX "^flags.* avx2( |$)" LIMIT_COUNT 1)
@@ -67,10 +71,10 @@ foreach(rule ${rules})
   endif()
 endforeach()
 
-# By hand with other flags than the library's: refused by a sentence, which says what to add. That it is enough is seen
-# below, where the package adds it and nothing else.
+# By hand with other flags than the library's: the first that the compiler says is a sentence on what to add. That it is
+# enough is seen below, where the package adds it and nothing else.
 foreach(flags -mavx2 -march=native "-DEIGEN_MAX_ALIGN_BYTES=0" "-DEIGEN_MALLOC_ALREADY_ALIGNED=0")
-  set(compile ${COMPILER} -std=c++20 -fsyntax-only ${flags} -I ${work}/moved/include -isystem ${EIGEN}
+  set(compile ${COMPILER} -std=c++20 -fsyntax-only -Wfatal-errors ${flags} -I ${work}/moved/include -isystem ${EIGEN}
       ${SOURCE}/tests/package/main.cpp)
   if(flags MATCHES "^-m" AND NOT HAS_AVX2)
     continue()

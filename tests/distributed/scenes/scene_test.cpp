@@ -26,12 +26,12 @@ std::string scene_text(const std::string& solver, const std::string& kind, const
          element + "\"\nsolver = \"" + solver + "\"\n" + method;
 }
 
-/// Root may start ranks, and more of them than there are cores. One machine: no network is looked for, and nobody waits
-/// a second for ranks that have ended.
+/// Root may start ranks, and more of them than there are cores; unbound they share them with whatever else runs. One
+/// machine: no network is looked for, and nobody waits a second for ranks that have ended.
 std::string environment() {
   return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-         "OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OMPI_MCA_odls_base_sigkill_timeout=0 "
-         "OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 ";
+         "OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_pml=ob1 "
+         "OMPI_MCA_btl=self,vader OMPI_MCA_odls_base_sigkill_timeout=0 OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 ";
 }
 
 /// A scene and its runs, on as many ranks as asked: 0 is without mpiexec.
