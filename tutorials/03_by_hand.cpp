@@ -28,6 +28,7 @@
 
 #include <Eigen/Dense>
 
+#include "antilock/core/dense.hpp"
 #include "common/by_hand.hpp"
 #include "common/course.hpp"
 
@@ -122,7 +123,7 @@ Answer solve_by_hand(const ByHand& p, double epsilon, double delta, Table& histo
         if (!guess[v]) moves.push_back(v);
       du = -u;  // to 0 where it touches; at the clamped vertices u is 0 already
       du(moves).setZero();
-      const VectorXd inside = MatrixXd(k(moves, moves)).llt().solve(VectorXd((r - k * du)(moves)));
+      const VectorXd inside = Cholesky(k(moves, moves)).solve(VectorXd((r - k * du)(moves)));
       du(moves) = inside;
       const VectorXd lambda = k * du - r;
       for (const int v : p.free)

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <CLI/CLI.hpp>
 #include <new>
 
 #include "antilock/core/result_folder.hpp"
@@ -23,6 +22,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "common/command_line.hpp"
 #include "common/tutorial.hpp"
 #include "petsc/checkpoint.hpp"
 #include "petsc/scene_files.hpp"
@@ -207,23 +207,18 @@ int fail(const std::string& message, int status) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.",
-               "run_scene");
+  tutorial::CommandLine line(
+      "Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.", "run_scene");
+  if (dist::rank() > 0) line.silence();
   std::filesystem::path scene, out;
   Choices choices;
-  app.add_option("SCENE", scene, "the scene file, in TOML")->required();
-  app.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  app.add_flag("--restart", choices.restart, "start from the last level of a run to the same folder that was ended");
-  app.add_option("--most-seconds", choices.most_seconds, "stop a solve that takes longer: status 3");
-  app.add_flag("--direct", choices.direct, "MUMPS in place of multigrid: for layers without columns");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp& request) {
-    return dist::rank() == 0 ? app.exit(request) : 0;
-  } catch (const CLI::ParseError& error) {
-    return fail(std::string("run_scene: ") + error.what() + "; see run_scene --help", 2);
-  }
-  if (app.count("--out") == 0) out = std::filesystem::path("results") / scene.stem();
+  line.add_required("SCENE", scene, "the scene file, in TOML");
+  line.add("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.add("--restart", choices.restart, "start from the last level of a run to the same folder that was ended");
+  line.add("--most-seconds", choices.most_seconds, "stop a solve that takes longer: status 3", 0, choices.most_seconds);
+  line.add("--direct", choices.direct, "MUMPS in place of multigrid: for layers without columns");
+  if (const auto status = line.parse(argc, argv)) return *status;
+  if (!line.given("--out")) out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
     if (dist::rank() == 0) report.finish();

@@ -5,7 +5,6 @@
 // Run: certificate_cost --cells 64 --repeats 1
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -16,6 +15,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/table.hpp"
+#include "common/command_line.hpp"
 
 namespace antilock {
 namespace {
@@ -104,11 +104,11 @@ void adapted_over_uniform(Table& table, int cells, int repeats) {
 int main(int argc, char** argv) {
   int cells = 128, repeats = 3;
   std::filesystem::path out;
-  CLI::App app("what a certificate costs, and what an adapted mesh saves");
-  app.add_option("--cells", cells, "1/h of the uniform mesh")->check(CLI::Range(16, 256))->capture_default_str();
-  app.add_option("--repeats", repeats)->check(CLI::Range(1, 100))->capture_default_str();
-  app.add_option("--out", out, "a table of what was asked and measured, CSV");
-  CLI11_PARSE(app, argc, argv);
+  antilock::tutorial::CommandLine line("What a certificate costs, and what an adapted mesh saves", "certificate_cost");
+  line.add("--cells", cells, "1/h of the uniform mesh", 16, 256);
+  line.add("--repeats", repeats, "runs behind each median", 1, 100);
+  line.add("--out", out, "a table of what was asked and measured, CSV");
+  if (const auto status = line.parse(argc, argv)) return *status;
   antilock::Table table({"what", "asked", "measured"});
   antilock::certificate_over_solve(table, cells, repeats);
   antilock::adapted_over_uniform(table, cells, repeats);

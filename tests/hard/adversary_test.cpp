@@ -16,7 +16,7 @@
 #include "antilock/solve/uzawa.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::hard {
+namespace antilock::hard::adversary_test {
 namespace {
 
 using test::expect_refused;
@@ -278,4 +278,4 @@ TEST(Doors, TheReportPassesOverNothing) {
 }
 
 }  // namespace
-}  // namespace antilock::hard
+}  // namespace antilock::hard::adversary_test

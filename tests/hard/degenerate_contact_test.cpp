@@ -17,7 +17,7 @@
 #include "hard/quad_reference.hpp"
 #include "support/random_contact.hpp"
 
-namespace antilock::hard {
+namespace antilock::hard::degenerate_contact_test {
 namespace {
 
 using std::numbers::pi;
@@ -303,4 +303,4 @@ TEST(Cycling, TheCapIsAFailure) {
 }
 
 }  // namespace
-}  // namespace antilock::hard
+}  // namespace antilock::hard::degenerate_contact_test

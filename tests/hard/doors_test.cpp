@@ -28,7 +28,7 @@
 #include "hard/adversary.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::hard {
+namespace antilock::hard::doors_test {
 namespace {
 
 using test::expect_refused;
@@ -193,7 +193,7 @@ TEST(Doors, ErrorsAndEnergiesAreOfTheirOwnSpace) {
   const Space affine(mesh, p1()), broken(mesh, crouzeix_raviart());
   const VariationalInequality problem = assemble(Scene(Body{down}, StiffLayer{0.1}), affine);
   const Solution u = active_set(problem);
-  Reference none{[](double x, double) { return x == 0.5 ? nan : 0; },
+  antilock::Reference none{[](double x, double) { return x == 0.5 ? nan : 0; },
                  [](double, double) { return Eigen::Vector2d(0, 0); }, [](double, double) { return 0.0; }};
   EXPECT_TRUE(std::isnan(measure_errors(affine, u, 0.1, none).max));
   EXPECT_TRUE(std::isnan(measure_errors(affine, u, 0.1, none).max_at_unknowns));
@@ -256,4 +256,4 @@ TEST(Doors, AnErrorIsAccurateEnoughForASaneShare) {
 }
 
 }  // namespace
-}  // namespace antilock::hard
+}  // namespace antilock::hard::doors_test

@@ -15,7 +15,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 
-namespace antilock {
+namespace antilock::infeasible_test {
 namespace {
 
 VariationalInequality beam(ShearIntegration shear) {
@@ -177,4 +177,4 @@ TEST(Hypotheses, TheEnergyOfALockedProblemTendsToThatOfDoingNothing) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::infeasible_test

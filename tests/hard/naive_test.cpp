@@ -11,7 +11,7 @@
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 
-namespace antilock {
+namespace antilock::naive_test {
 namespace {
 
 struct Setting {
@@ -120,4 +120,4 @@ TEST(Naive, HasNoSumAtEpsilonZeroAndStopsAtItsCap) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::naive_test

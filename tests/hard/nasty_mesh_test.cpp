@@ -16,7 +16,7 @@
 #include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"
 
-namespace antilock::hard {
+namespace antilock::hard::nasty_mesh_test {
 namespace {
 
 std::vector<TaggedEdge> boundary(const TriangleMesh& mesh) {
@@ -340,4 +340,4 @@ TEST(Orientation, TrianglesWithoutAreaAreRefused) {
 }
 
 }  // namespace
-}  // namespace antilock::hard
+}  // namespace antilock::hard::nasty_mesh_test

@@ -11,7 +11,7 @@
 #include "hard/quad_reference.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::hard {
+namespace antilock::hard::scales_test {
 namespace {
 
 /// A1 (full), its load, and the first unknowns kept above `lower`; no stiff form yet.
@@ -284,4 +284,4 @@ TEST(Scales, AFactorOfAnotherProblemIsRefused) {
 }
 
 }  // namespace
-}  // namespace antilock::hard
+}  // namespace antilock::hard::scales_test

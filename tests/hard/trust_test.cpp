@@ -11,7 +11,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 
-namespace antilock {
+namespace antilock::trust_test {
 namespace {
 
 class Trust : public testing::TestWithParam<double> {
@@ -216,4 +216,4 @@ TEST(Report, AFarBoundDoesNotHideABrokenCompliance) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::trust_test

@@ -17,7 +17,7 @@
 #include "hard/quad_reference.hpp"
 #include "support/dense.hpp"
 
-namespace antilock::hard {
+namespace antilock::hard::uniformity_test {
 namespace {
 
 constexpr std::array every_epsilon{1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-16, 1e-20, 0.0};
@@ -220,4 +220,4 @@ TEST(Truth, ErrorIsFlatInEpsilonWhereNothingLocks) {
 }
 
 }  // namespace
-}  // namespace antilock::hard
+}  // namespace antilock::hard::uniformity_test

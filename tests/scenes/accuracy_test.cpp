@@ -10,7 +10,7 @@
 #include "scenes/runner.hpp"
 #include "support/bodies.hpp"
 
-namespace antilock::test {
+namespace antilock::test::accuracy_test {
 namespace {
 
 std::string scene(const std::string& method, const std::string& layer = "epsilon = 1e-6", int cells = 8) {
@@ -91,4 +91,4 @@ TEST(Accuracy, RefusesWithTheKey) {
 }
 
 }  // namespace
-}  // namespace antilock::test
+}  // namespace antilock::test::accuracy_test

@@ -13,7 +13,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "support/dense.hpp"
 
-namespace antilock {
+namespace antilock::agreement_test {
 namespace {
 
 struct Answer {
@@ -199,4 +199,4 @@ TEST(BodyAlone, LiesBetweenTheEnergiesOfP1AndCrouzeixRaviart) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::agreement_test

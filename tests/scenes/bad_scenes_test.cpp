@@ -4,7 +4,7 @@
 
 #include "scenes/runner.hpp"
 
-namespace antilock::test {
+namespace antilock::test::bad_scenes_test {
 namespace {
 
 struct BadScene {
@@ -314,4 +314,4 @@ TEST(BadCommandLine, ResultsThatCannotBeWritten) {
 }
 
 }  // namespace
-}  // namespace antilock::test
+}  // namespace antilock::test::bad_scenes_test

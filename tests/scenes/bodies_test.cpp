@@ -10,7 +10,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "scenes/runner.hpp"
 
-namespace antilock::test {
+namespace antilock::test::bodies_test {
 namespace {
 
 /// A scene on the mesh, written beside it.
@@ -84,4 +84,4 @@ TEST(Bodies, ALayerThatDoesNotFillTheStripBelowIsRefused) {
 }
 
 }  // namespace
-}  // namespace antilock::test
+}  // namespace antilock::test::bodies_test

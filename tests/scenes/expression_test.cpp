@@ -11,7 +11,7 @@
 
 #include "antilock/core/error.hpp"
 
-namespace antilock {
+namespace antilock::expression_test {
 namespace {
 
 double at(const std::string& text, double x, double y) { return Expression(text, {"x", "y"})(x, y); }
@@ -124,4 +124,4 @@ TEST(Expression, TakesAsManyValuesAsItHasNames) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::expression_test

@@ -1,7 +1,7 @@
 // run_scene stopped at any moment: the files of a whole answer, or none, and no draft.
 #include "scenes/runner.hpp"
 
-namespace antilock::test {
+namespace antilock::test::interrupted_test {
 namespace {
 
 TEST(InterruptedRun, LeavesAWholeAnswerOrNothing) {
@@ -31,4 +31,4 @@ TEST(InterruptedRun, LeavesAWholeAnswerOrNothing) {
 }
 
 }  // namespace
-}  // namespace antilock::test
+}  // namespace antilock::test::interrupted_test

@@ -14,7 +14,7 @@
 #include "antilock/space/space.hpp"
 #include "scenes/runner.hpp"
 
-namespace antilock::test {
+namespace antilock::test::results_test {
 namespace {
 
 using Keys = std::set<std::string>;
@@ -402,4 +402,4 @@ TEST(Help, TellsANewcomerEverySectionAndFile) {
 }
 
 }  // namespace
-}  // namespace antilock::test
+}  // namespace antilock::test::results_test

@@ -9,7 +9,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 
-namespace antilock {
+namespace antilock::sweep_test {
 namespace {
 
 double difference(const Solution& a, const Solution& b) {
@@ -134,4 +134,4 @@ TEST(Sweep, RefusesWhatTheSceneDoesNotHave) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::sweep_test

@@ -18,7 +18,7 @@
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::adapt_test {
 namespace {
 
 using test::area;
@@ -289,4 +289,4 @@ TEST(SolveTo, BoundsNeverLieOnTheirWay) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::adapt_test

@@ -11,7 +11,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "support/dense.hpp"
 
-namespace antilock {
+namespace antilock::beam_test {
 namespace {
 
 Beam beam(int cells, double epsilon, ShearIntegration shear) {
@@ -191,4 +191,4 @@ TEST(Beam, RefusesValuesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::beam_test

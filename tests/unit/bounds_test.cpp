@@ -24,7 +24,7 @@
 #include "support/brute_force.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::bounds_test {
 namespace {
 
 using test::expect_refused;
@@ -860,4 +860,4 @@ TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::bounds_test

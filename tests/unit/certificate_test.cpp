@@ -19,7 +19,7 @@
 #include "support/bodies.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::certificate_test {
 namespace {
 
 using test::expect_refused;
@@ -481,4 +481,4 @@ TEST(Certificate, IsNeverBelowTheErrorInThreeHundredCases) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::certificate_test

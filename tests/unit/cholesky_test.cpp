@@ -10,7 +10,7 @@
 #include "antilock/study/method.hpp"
 #include "support/dense.hpp"
 
-namespace antilock {
+namespace antilock::cholesky_test {
 namespace {
 
 VariationalInequality paper_problem(const Space& space, double epsilon) {
@@ -137,4 +137,4 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOnTheSparseRoad) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::cholesky_test

@@ -12,7 +12,7 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::contact_problem_test {
 namespace {
 
 struct Random {
@@ -288,4 +288,4 @@ TEST(ContactProblem, NestedStartTakesEverySize) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::contact_problem_test

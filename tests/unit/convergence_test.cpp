@@ -11,7 +11,7 @@
 #include "support/manufactured.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::convergence_test {
 namespace {
 
 using test::Manufactured;
@@ -223,4 +223,4 @@ TEST(AccuracyTable, AnswersConvergeToTheSeriesWithoutContactToo) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::convergence_test

@@ -18,7 +18,7 @@
 #include "antilock/exact/symbols.hpp"
 #include "antilock/exact/truth_table.hpp"
 
-namespace antilock {
+namespace antilock::exact_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -525,4 +525,4 @@ TEST_P(Table, IsExactlyTheTruthOnItsEdges) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::exact_test

@@ -11,7 +11,7 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::form_test {
 namespace {
 
 using test::expect_refused;
@@ -244,4 +244,4 @@ TEST(Forms, VentcelTermIsTheEnergyOfTheTraceOnSigma) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::form_test

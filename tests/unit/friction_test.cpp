@@ -20,7 +20,7 @@
 #include "support/random_contact.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::friction_test {
 namespace {
 
 using test::expect_refused;
@@ -333,4 +333,4 @@ TEST(Friction, AnInfeasibleProblemIsRefusedWithFrictionToo) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::friction_test

@@ -12,7 +12,7 @@
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::graded_test {
 namespace {
 
 TEST(GradedLines, KeepTheEndsAndThePointAndAscend) {
@@ -107,4 +107,4 @@ TEST(GradedMesh, RefusesWhatHasNoMesh) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::graded_test

@@ -22,7 +22,7 @@
 #include "antilock/space/element.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace antilock {
+namespace antilock::io_test {
 namespace {
 
 using test::contents;
@@ -438,4 +438,4 @@ TEST(WriteDeformedVtu, MovesEveryTriangleWithItsUnknowns) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::io_test

@@ -9,7 +9,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::kkt_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -264,4 +264,4 @@ TEST(Certify, TheRefusalSaysHowFarItCame) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::kkt_test

@@ -15,7 +15,7 @@
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::layered_test {
 namespace {
 
 using test::area;
@@ -128,4 +128,4 @@ TEST(ExtrudedLayer, RefusesWhatItCannotStandUnder) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::layered_test

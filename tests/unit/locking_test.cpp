@@ -15,7 +15,7 @@
 #include "antilock/study/scene_sweep.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::locking_test {
 namespace {
 
 using test::relative_difference;
@@ -294,4 +294,4 @@ TEST(Locking, ComesWithTheFirstJitterAndGrowsWithItsShareOfEpsilon) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::locking_test

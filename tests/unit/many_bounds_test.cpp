@@ -18,7 +18,7 @@
 #include "support/random_contact.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::many_bounds_test {
 namespace {
 
 using test::expect_refused;
@@ -335,4 +335,4 @@ TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::many_bounds_test

@@ -19,7 +19,7 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::measure_test {
 namespace {
 
 using test::stiff_problem;
@@ -481,4 +481,4 @@ TEST(AccurateEnough, SavesCorrectionsAndNoAccuracy) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::measure_test

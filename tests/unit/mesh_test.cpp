@@ -17,7 +17,7 @@
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::mesh_test {
 namespace {
 
 using test::area;
@@ -302,4 +302,4 @@ TEST(Mesh, RefusesRequestsOutOfRange) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::mesh_test

@@ -19,7 +19,7 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::mixed_test {
 namespace {
 
 using test::expect_refused;
@@ -453,4 +453,4 @@ TEST(InfSupUnderContact, IsZeroWhereAConfinedBlockIsHeldAllRound) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::mixed_test

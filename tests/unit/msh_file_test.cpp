@@ -11,7 +11,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace antilock {
+namespace antilock::msh_file_test {
 namespace {
 
 const std::string data = ANTILOCK_TEST_DATA;
@@ -323,4 +323,4 @@ TEST(MshFile, PathsThatAreNoFileAreRefused) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::msh_file_test

@@ -13,7 +13,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/study/method.hpp"
 
-namespace antilock {
+namespace antilock::nearest_test {
 namespace {
 
 Scene scene() { return Scene(Body{paper_load}, StiffLayer{0}, UnilateralContact{}); }
@@ -102,4 +102,4 @@ TEST(StressNorm, IsTheIntegralOfTheLayerStress) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::nearest_test

@@ -11,7 +11,7 @@
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/solve/active_set.hpp"
 
-namespace antilock {
+namespace antilock::plane_strain_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -185,4 +185,4 @@ TEST(PlaneStrain, RefusesValuesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::plane_strain_test

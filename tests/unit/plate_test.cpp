@@ -14,7 +14,7 @@
 #include "antilock/solve/kkt.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::plate_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -262,4 +262,4 @@ TEST(Plate, ValuesOutOfRangeAreRefused) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::plate_test

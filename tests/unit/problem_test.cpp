@@ -10,7 +10,7 @@
 #include "antilock/problem/choose_penalty.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::problem_test {
 namespace {
 
 using test::expect_refused;
@@ -229,4 +229,4 @@ TEST(Check, TakesAnA1OfZerosWhereBHoldsEverything) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::problem_test

@@ -9,7 +9,7 @@
 
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::scene_test {
 namespace {
 
 using test::expect_refused;
@@ -69,4 +69,4 @@ TEST(Scene, RefusesAnObstacleAboveAClampedEnd) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::scene_test

@@ -16,7 +16,7 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::solve_test {
 namespace {
 
 using test::expect_refused;
@@ -423,4 +423,4 @@ TEST(Progress, StopsUzawaAmongItsSteps) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::solve_test

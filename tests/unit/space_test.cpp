@@ -9,7 +9,7 @@
 #include "antilock/form/quadrature.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::space_test {
 namespace {
 
 std::vector<const Element*> elements() {
@@ -211,4 +211,4 @@ TEST(Space, ClampedAndContactUnknownsAreThoseOnTheirEdges) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::space_test

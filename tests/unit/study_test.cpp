@@ -16,7 +16,7 @@
 #include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace antilock {
+namespace antilock::study_test {
 namespace {
 
 std::string message(const std::function<void()>& failing) {
@@ -227,4 +227,4 @@ TEST(SweepOfAnyProblem, Refuses) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::study_test

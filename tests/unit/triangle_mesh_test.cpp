@@ -7,7 +7,7 @@
 
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::triangle_mesh_test {
 namespace {
 
 using test::expect_refused;
@@ -195,4 +195,4 @@ TEST(TriangleMesh, RefusesALayerWithoutBody) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::triangle_mesh_test

@@ -19,7 +19,7 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::uzawa_test {
 namespace {
 
 using test::expect_refused;
@@ -345,4 +345,4 @@ TEST(Uzawa, FollowsThePenaltyWhereTheCorrectionsTakeASmallerOne) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::uzawa_test

@@ -15,7 +15,7 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock {
+namespace antilock::worst_load_test {
 namespace {
 
 using std::numbers::pi;
@@ -182,4 +182,4 @@ TEST(ErrorForm, RefusesWhatItCannotServe) {
 }
 
 }  // namespace
-}  // namespace antilock
+}  // namespace antilock::worst_load_test

@@ -43,13 +43,13 @@ void CommandLine::footer(const std::string& text) { app_->footer(text); }
 
 std::optional<int> CommandLine::parse(int argc, char** argv) {
   const auto refuse = [&](const std::string& message) {
-    fmt::print(stderr, "{}: {} (see --help)\n", name_, printable(message, 4000));
+    if (!silent_) fmt::print(stderr, "{}: {} (see --help)\n", name_, printable(message, 4000));
     return 2;
   };
   try {
     app_->parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
-    return app_->exit(help);
+    return silent_ ? 0 : app_->exit(help);
   } catch (const CLI::ParseError& error) {
     return refuse(error.what());
   }

@@ -30,6 +30,8 @@ class CommandLine {
   void add(const std::string& option, bool& value, const std::string& what);
   /// An argument without an option's name, which must be given.
   void add_required(const std::string& name, std::filesystem::path& value, const std::string& what);
+  /// Nothing is printed: for every rank of a parallel run but the first.
+  void silence() { silent_ = true; }
   /// What --help prints below the options.
   void footer(const std::string& text);
 
@@ -43,6 +45,7 @@ class CommandLine {
   std::unique_ptr<CLI::App> app_;
   std::string name_;
   std::vector<std::pair<std::string, const double*>> numbers_;
+  bool silent_ = false;
 };
 
 }  // namespace antilock::tutorial
