@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -16,9 +18,13 @@
 #include "antilock/mesh/refine.hpp"
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace antilock::mesh_test {
 namespace {
+
+// gmsh works for each of these tests, whatever tests/run keeps (mesh/kept_meshes.hpp)
+[[maybe_unused]] const int nothing_kept = unsetenv("ANTILOCK_MESHES");
 
 using test::area;
 using test::expect_refused;
@@ -199,14 +205,46 @@ TEST(Mesh, UnstructuredIsUnstructured) {
   EXPECT_LT(axis_parallel, 0.2 * mesh.edge_count());
 }
 
+void expect_same(const TriangleMesh& a, const TriangleMesh& b) {
+  EXPECT_TRUE(a.vertices == b.vertices && a.triangles == b.triangles && a.edges == b.edges);
+  EXPECT_TRUE(a.region == b.region && a.edge_tag == b.edge_tag);
+}
+
 TEST(Mesh, TwoCallsGiveTheSameMesh) {
   for (const double depth : {0.0, 0.1, 1.0}) {
     const TriangleMesh a = unstructured_mesh(12, {depth});
     unstructured_mesh(5, {1 - depth});  // nothing of one call may reach the next
     const TriangleMesh b = unstructured_mesh(12, {depth});
-    EXPECT_TRUE(a.vertices == b.vertices && a.triangles == b.triangles && a.edges == b.edges);
-    EXPECT_TRUE(a.region == b.region && a.edge_tag == b.edge_tag);
+    expect_same(a, b);
   }
+}
+
+TEST(Mesh, AKeptMeshIsTheMeshThatGmshMakes) {
+  namespace fs = std::filesystem;
+  const TriangleMesh twelve = unstructured_mesh(12), refined = unstructured_mesh(136),
+                     thin = unstructured_mesh(5, {0.1});
+  const test::TemporaryFolder folder;
+  setenv("ANTILOCK_MESHES", folder.path().c_str(), 1);
+  for (int call = 0; call < 2; ++call) {
+    expect_same(unstructured_mesh(12), twelve);
+    expect_same(unstructured_mesh(136), refined);
+    expect_same(unstructured_mesh(5, {0.1}), thin);
+    EXPECT_EQ(folder.file_count(), 3) << call;
+  }
+  // the second call reads: it takes what stands there
+  const fs::path first = folder / "unstructured_0x1p+0_0x1.5555555555555p-4_0x1.5555555555555p-4";
+  ASSERT_TRUE(fs::exists(first));
+  const auto whole = fs::file_size(first);
+  for (const fs::directory_entry& other : fs::directory_iterator(folder.path()))
+    if (other.path() != first) fs::copy_file(first, other.path(), fs::copy_options::overwrite_existing);
+  expect_same(unstructured_mesh(5, {0.1}), twelve);
+  // what is cut, longer or empty is made anew
+  for (const auto size : std::initializer_list<std::uintmax_t>{whole - 1, whole + 1, whole / 2, 24, 0}) {
+    fs::resize_file(first, size);
+    expect_same(unstructured_mesh(12), twelve);
+    EXPECT_EQ(fs::file_size(first), whole) << size;
+  }
+  unsetenv("ANTILOCK_MESHES");
 }
 
 /// The triangles as sets of points, rounded to 1e-9 (transfinite points are off by about 1e-12), with their regions.

@@ -1,4 +1,6 @@
 // Figure 6: an arbitrary triangulation, compatible with the decomposition into body and layer; gmsh makes it.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <unordered_map>
@@ -6,6 +8,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/gmsh_session.hpp"
+#include "antilock/mesh/kept_meshes.hpp"
 #include "antilock/mesh/refine.hpp"
 
 namespace antilock {
@@ -69,7 +72,7 @@ std::vector<int> elements_of(const GmshSession& gmsh, int dimension, int entity,
 }
 
 /// gmsh's mesh with edges of about h in the body and h_layer along and below Sigma.
-TriangleMesh by_gmsh(double depth, double h, double h_layer) {
+MeshArrays by_gmsh(double depth, double h, double h_layer) {
   const GmshSession gmsh;
   const Curves curves = add_geometry(gmsh, depth, h, h_layer);
   gmsh.generate();
@@ -92,7 +95,7 @@ TriangleMesh by_gmsh(double depth, double h, double h_layer) {
       for (std::size_t i = 0; i < ends.size(); i += 2) tagged.push_back({ends[i], ends[i + 1], tag});
     }
   Triples triangles = Eigen::Map<Triples>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);
-  return make_triangle_mesh(vertices.points, std::move(triangles), std::move(region), tagged, "unstructured mesh");
+  return {vertices.points, std::move(triangles), std::move(region), std::move(tagged)};
 }
 
 }  // namespace
@@ -106,7 +109,11 @@ TriangleMesh unstructured_mesh(int cells, const Domain& domain) {
   const auto fits = [&](int k) { return depth == 0 || (1 << k) * h_layer <= depth; };  // else its triangles were flat
   if (cells > most_by_gmsh)
     while ((most_to_refine << halvings) < cells && fits(halvings + 1)) ++halvings;
-  TriangleMesh mesh = by_gmsh(depth, (1 << halvings) * h, (1 << halvings) * h_layer);
+  const double h_made = (1 << halvings) * h, h_layer_made = (1 << halvings) * h_layer;
+  MeshArrays made = kept_mesh(fmt::format("unstructured_{:a}_{:a}_{:a}", depth, h_made, h_layer_made),
+                              [&] { return by_gmsh(depth, h_made, h_layer_made); });
+  TriangleMesh mesh = make_triangle_mesh(std::move(made.vertices), std::move(made.triangles), std::move(made.region),
+                                         made.tagged, "unstructured mesh");
   for (int i = 0; i < halvings; ++i) mesh = refined(mesh);
   return mesh;
 }
