@@ -76,17 +76,17 @@ class SceneInBands {
   long low_, high_;
 };
 
-/// Averages squares of the large image into rows [from, to) of the image.
+/// Averages squares of the large image (RGBA) into rows [from, to) of the image (RGB).
 void average(const unsigned char* large, vtkImageData& image, int from, int to) {
   const int width = image.GetDimensions()[0];
   for (int y = from; y < to; ++y) {
     auto* out = static_cast<unsigned char*>(image.GetScalarPointer(0, y, 0));
-    const unsigned char* square = large + 3L * oversampling * width * oversampling * (y - from);
-    for (int x = 0; x < width; ++x, square += 3 * oversampling)
+    const unsigned char* square = large + 4L * oversampling * width * oversampling * (y - from);
+    for (int x = 0; x < width; ++x, square += 4 * oversampling)
       for (int channel = 0; channel < 3; ++channel) {
         int sum = 0;
         for (int i = 0; i < oversampling; ++i)
-          for (int j = 0; j < oversampling; ++j) sum += square[3 * (i * oversampling * width + j) + channel];
+          for (int j = 0; j < oversampling; ++j) sum += square[4 * (i * oversampling * width + j) + channel];
         *out++ = static_cast<unsigned char>(sum / (oversampling * oversampling));
       }
   }
@@ -131,8 +131,9 @@ vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Scene>& scenes, 
     sheet->from = from - margin;
     for (const SceneInBands& scene : shown) scene.show(oversampling * (from - margin), oversampling * rendered_rows);
     window->Render();
-    window->GetPixelData(0, oversampling * margin, oversampling * width - 1, oversampling * (margin + band_height) - 1,
-                         0, pixels);
+    // with alpha, as the driver holds them: three channels are packed one pixel at a time
+    window->GetRGBACharPixelData(0, oversampling * margin, oversampling * width - 1,
+                                 oversampling * (margin + band_height) - 1, 0, pixels);
     average(pixels->GetPointer(0), *image, from, std::min(from + band_height, height));
   }
   return image;

@@ -135,13 +135,13 @@ std::optional<std::string> Page::layout_fault() const { return figures::layout_f
 
 double Page::smallest_type() const { return figures::smallest_type(laid_texts(), width); }
 
-void Page::save(const std::filesystem::path& path) const {
+void Page::save(const std::filesystem::path& path, int compression) const {
   const vtkSmartPointer<vtkImageData> image = render_in_bands(scenes_, pieces_, width, height_);
   for (const Text& text : texts_) typesetter_.draw(*image, text.at, text.markup, text.style);
 
   vtkNew<vtkPNGWriter> writer;
   writer->SetInputData(image);
-  writer->SetCompressionLevel(8);  // 9 takes twice as long and saves less than half a per cent
+  writer->SetCompressionLevel(compression);
   writer->WriteToMemoryOn();
   writer->Write();
   const vtkUnsignedCharArray* bytes = writer->GetResult();

@@ -8,6 +8,9 @@ CLI::App* add_picture(CLI::App& app, Request& request, const std::string& name, 
   CLI::App* picture = app.add_subcommand(name, what);
   picture->add_option(input, request.inputs, "the file to read")->required();
   picture->add_option("--out", request.out, "the PNG file to write")->required();
+  picture->add_option("--compression", request.compression, "of the PNG file; less is faster and makes a larger file")
+      ->check(CLI::Range(0, 9))
+      ->capture_default_str();
   picture->add_flag("--check-layout", request.check_layout,
                     "fail where a text is too small, leaves the page, or overlaps another one");
   return picture;

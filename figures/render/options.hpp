@@ -14,6 +14,7 @@ struct Request {
   std::vector<std::string> inputs, titles;
   std::vector<double> range{-0.25, 0.25}, own_range, window{0, 1, -1, 1};
   bool check_layout = false;
+  int compression = 8;
   std::string own_name = "$u$";
   double height_factor = 2;
   int grid = 0;

@@ -41,7 +41,7 @@ int main(int argc, char** argv) {
       if (const auto fault = page.layout_fault()) return fail(*fault);
       fmt::print("smallest type {:.2f} pixels where the picture is {} wide\n", page.smallest_type(), shown_width);
     }
-    page.save(request.out);
+    page.save(request.out, request.compression);
   } catch (const std::exception& error) {
     return fail(error.what());
   }

@@ -25,10 +25,11 @@ const std::vector<std::string> columns{"what",        "ranks",      "cells", "ep
                                        "u_max",       "u_min",      "reason"};
 
 /// One machine: no network is looked for; root may start ranks, and more of them than there are cores, which then give
-/// way to each other while they wait.
+/// way to each other while they wait. Ranks are not bound: one that shares its core with another program would hold up
+/// all of them.
 constexpr auto environment =
     "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-    "OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OPENBLAS_NUM_THREADS=1";
+    "OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OPENBLAS_NUM_THREADS=1";
 
 }  // namespace
 
