@@ -208,7 +208,8 @@ int fail(const std::string& message, int status) {
 
 int run(int argc, char** argv) {
   tutorial::CommandLine line(
-      "Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.", "run_scene");
+      "Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.",
+      "run_scene");
   if (dist::rank() > 0) line.silence();
   std::filesystem::path scene, out;
   Choices choices;

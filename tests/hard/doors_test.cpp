@@ -194,7 +194,7 @@ TEST(Doors, ErrorsAndEnergiesAreOfTheirOwnSpace) {
   const VariationalInequality problem = assemble(Scene(Body{down}, StiffLayer{0.1}), affine);
   const Solution u = active_set(problem);
   antilock::Reference none{[](double x, double) { return x == 0.5 ? nan : 0; },
-                 [](double, double) { return Eigen::Vector2d(0, 0); }, [](double, double) { return 0.0; }};
+                           [](double, double) { return Eigen::Vector2d(0, 0); }, [](double, double) { return 0.0; }};
   EXPECT_TRUE(std::isnan(measure_errors(affine, u, 0.1, none).max));
   EXPECT_TRUE(std::isnan(measure_errors(affine, u, 0.1, none).max_at_unknowns));
   expect_refused([&] { measure_errors(broken, u, 0.1, none); }, "of this space");

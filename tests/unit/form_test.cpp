@@ -17,9 +17,7 @@ namespace {
 using test::expect_refused;
 using test::two_square_meshes;
 
-std::vector<const Element*> elements() {
-  return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart(), &p1_bubble()};
-}
+std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart(), &p1_bubble()}; }
 
 double factorial(int n) { return n < 2 ? 1 : n * factorial(n - 1); }
 
