@@ -50,7 +50,7 @@ Fonts::~Fonts() { FT_Done_FreeType(library_); }  // closes the faces as well
 
 FT_Face Fonts::open(const std::string& name) const {
   FT_Face face = nullptr;
-  const std::string path = std::string(STIX_FONTS) + "/" + name;
+  const std::string path = fmt::format("{}/{}", STIX_FONTS, name);
   if (FT_New_Face(library_, path.c_str(), 0, &face) != 0)
     throw Error(fmt::format("{}: cannot be read as a font; install Debian's fonts-stix", path));
   return face;
