@@ -86,6 +86,7 @@ BruteForce brute_force(const VariationalInequality& problem) {
   BruteForce best;
   // 0: free, 1: at the lower bound, 2: at the upper one, 3: below the lower one, 4: above the upper one
   std::vector<int> set;
+  set.reserve(c);
   for (int i = 0; i < c; ++i) set.push_back(next_state(-1, lower, upper, most, i));
   do {
     std::vector<int> held;

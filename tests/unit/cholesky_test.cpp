@@ -1,4 +1,5 @@
 // Two factors behind one interface: what each promises, and that both give the same answers over the uniformity table.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "antilock/core/dense.hpp"

@@ -242,6 +242,7 @@ std::vector<double> h1_errors(const Space& space) {
   static const std::vector<double> epsilons{1, 1e-1, 1e-2, 1e-4, 1e-8, 0};
   static const std::vector<TruthTable> truth = [] {  // 2^13 points: gradients to 2e-6
     std::vector<TruthTable> tables;
+    tables.reserve(epsilons.size());
     for (const double epsilon : epsilons) tables.emplace_back(Truth(paper_sine_load(), epsilon, true, 13));
     return tables;
   }();

@@ -1,4 +1,5 @@
 // Bounds on many unknowns: the sparse road beside the dense one, problem by problem.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -108,6 +108,7 @@ TEST(Errors, WithoutLayerTheEnergyNormIsTheGradients) {
 TEST(Rates, AreExactForPowersOfH) {
   const std::vector<double> h{0.5, 0.25, 0.1, 0.02};
   std::vector<double> errors;
+  errors.reserve(h.size());
   for (const double one : h) errors.push_back(7 * std::pow(one, 1.5));
   const std::vector<double> r = rates(h, errors);
   ASSERT_EQ(r.size(), 3U);
