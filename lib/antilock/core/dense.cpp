@@ -16,7 +16,8 @@ Cholesky::Cholesky(MatrixXd s) : l_(std::move(s)) {
 
 VectorXd Cholesky::half_solve(const VectorXd& right) const { return l_.triangularView<Eigen::Lower>().solve(right); }
 MatrixXd Cholesky::half_solve(const MatrixXd& right) const {
-  if (right.cols() == 0) return right;  // Eigen refers to the first entry, here and in solve, whether there is one or not
+  if (right.cols() == 0)
+    return right;  // Eigen refers to the first entry, here and in solve, whether there is one or not
   return l_.triangularView<Eigen::Lower>().solve(right);
 }
 

@@ -165,9 +165,8 @@ Solution Corrections::finished() {
   if (s_.warning.empty()) s_.warning = drowned;
   const auto apart = problem_.compliance == 0 ? nearly_dependent_rows(problem_) : std::nullopt;
   if (apart && s_.warning.empty())
-    s_.warning =
-        fmt::format("{}: rows of B are {:.0e} from dependent, trusted 3e-9 and more, or 1e-14 and less (equal)",
-                    s_.solver, *apart);
+    s_.warning = fmt::format(
+        "{}: rows of B are {:.0e} from dependent, trusted 3e-9 and more, or 1e-14 and less (equal)", s_.solver, *apart);
   return std::move(s_);
 }
 
