@@ -194,7 +194,7 @@ TEST(Results, SecondsAddUpToTheWallTime) {
 
 TEST(Results, AToleranceIsTakenAtItsWord) {
   const auto corrections = [](const std::string& tolerance) {
-    const SceneRun run(scene(layer("1e-3") + contact, structured(32), "tolerance = " + tolerance + "\n"));
+    const SceneRun run(scene(layer("1e-6") + contact, unstructured(32), "tolerance = " + tolerance + "\n"));
     EXPECT_EQ(run.outcome.status, 0) << run.outcome.err;
     return run.summary()["iterations"]["corrections"].get<int>();
   };

@@ -83,7 +83,6 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
     problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
     problem.fixed.push_back(i);
   }
-  require_rim_above(plate, space.mesh());
   std::vector<double> lower;
   for (int i = 0; i < space.deflection.size(); ++i) {
     const double gap = plate.gap(space.deflection.points()(i, 0), space.deflection.points()(i, 1));
@@ -93,6 +92,7 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
     problem.contact.push_back(i);
     lower.push_back(-gap);
   }
+  require_rim_above(plate, space.mesh());
   problem.lower = Eigen::Map<const Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
   return problem;
 }
