@@ -130,7 +130,7 @@ void judge(const Table& results, tutorial::Report& report) {
 // without an answer where it is large. (b) In the layer: at ε = 1e-10 Cholesky settles on $u = 0$ there, error 0.045,
 // the whole ridge, and does not complain. The paper's conjugate gradients with ILUT (an incomplete factorisation that
 // drops small entries) give up from ε = 1e-3 on. The split form has the same error to 1 % from 1e-3 to 1e-16, and
-// `cure` agrees with the library to 5e-13. The condition number of $K$ is 6e6 at every ε below 1e-4.
+// `cure` agrees with the library to 5e-13. The condition number of $K$ is 1e8 at every ε below 1e-4.
 //
 // ## Exercises
 //

@@ -125,7 +125,7 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
 // The three elements that do not lock have the forces of the reference (Taylor–Hood on a graded mesh,
 // `freefem/26_friction.edp`) at every λ, with one factor for all large λ and at most 2 corrections. Their normal force
 // is right to 0.3 %. Their friction force is right to 1 % at λ = 1 and to 4 to 7 % in the limit, since an end of the
-// stick zone is known to a cell only. The active set takes 2 or 3 steps, Uzawa 4000 to 9000. Locked P1 slides to one
+// stick zone is known to a cell only. The active set takes 2 or 3 steps, Uzawa 3500 to 8000. Locked P1 slides to one
 // side. Its normal force is 196 % too large; its $T$ is $-g$ throughout, 117 % too large.
 //
 // ## Exercises
