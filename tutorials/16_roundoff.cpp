@@ -93,6 +93,7 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<Method> settings{
       {&p1(), structured()}, {&crouzeix_raviart(), structured()}, {&crouzeix_raviart(), unstructured()}};
   std::vector<Discretisation> on;  // one mesh for every ε
+  on.reserve(settings.size());
   for (const Method& method : settings) on.push_back(method.on(options.cells));
   // ### Forms
   // `compare_solvers` assembles (23) at each $ε$ and hands it to every solver.

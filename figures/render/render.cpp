@@ -19,9 +19,7 @@ int fail(const std::string& message) {
   return 2;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int draw(int argc, char** argv) {
   CLI::App app{"Renders one picture (PNG) from files that the tutorials wrote. Needs a display: see xvfb-run."};
   app.require_subcommand(1);
   Request request;
@@ -33,17 +31,23 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(std::string(error.what()) + " (see --help)");
   }
+  const DisplayConnection display = connect_display();
+  vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said in one line, below
+  const Page page = request.draw();
+  if (request.check_layout) {
+    if (const auto fault = page.layout_fault()) return fail(*fault);
+    fmt::print("smallest type {:.2f} pixels where the picture is {} wide\n", page.smallest_type(), shown_width);
+  }
+  page.save(request.out, request.compression);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
   try {
-    const DisplayConnection display = connect_display();
-    vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said in one line, below
-    const Page page = request.draw();
-    if (request.check_layout) {
-      if (const auto fault = page.layout_fault()) return fail(*fault);
-      fmt::print("smallest type {:.2f} pixels where the picture is {} wide\n", page.smallest_type(), shown_width);
-    }
-    page.save(request.out, request.compression);
+    return draw(argc, argv);
   } catch (const std::exception& error) {
     return fail(error.what());
   }
-  return 0;
 }

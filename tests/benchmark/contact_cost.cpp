@@ -59,6 +59,7 @@ Run run_once(const std::string& element_name, int cells, double epsilon, bool wi
 /// The value below which `part` of the runs lie: 0.5 is the median, 0.25 and 0.75 the quartiles.
 double quantile(const std::vector<Run>& runs, double part, const std::function<double(const Run&)>& value) {
   std::vector<double> values;
+  values.reserve(runs.size());
   for (const Run& run : runs) values.push_back(value(run));
   std::sort(values.begin(), values.end());
   const double place = part * static_cast<double>(values.size() - 1);
@@ -160,6 +161,7 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
     for (const std::string name : {"P1", "CR"}) {
       if (name == "CR" && n != 256) continue;
       std::vector<Run> runs;
+      runs.reserve(repeats);
       for (int i = 0; i < repeats; ++i) runs.push_back(run_once(name, n, 1e-6, true));
       rows.push_back(summary(name, n, runs));
       print(rows.back());

@@ -40,7 +40,7 @@ TEST(Strips, EndAtColumnsAndShareTheTrianglesOut) {
       }
       for (int r = 0; r < count; ++r) {
         // a share is exceeded by less than the fullest columns, of which 24 make the mesh
-        EXPECT_NEAR(size[r], mesh.triangle_count() / count, mesh.triangle_count() / 12);
+        EXPECT_NEAR(size[r], mesh.triangle_count() / (1.0 * count), mesh.triangle_count() / 12.0);
         // no layer triangle reaches over the end of its strip
         if (r > 0) {
           EXPECT_NEAR(left[r], right[r - 1], 1e-12);
@@ -134,7 +134,8 @@ TEST(Together, WhatOneRankThrowsAllThrow) {
 
 /// solve_nested on `coarse`, its failure as text, the same on every rank or the test fails.
 template <class Failure>
-void expect_refused(const Scene& scene, const TriangleMesh& coarse, const Element& element, NestedOptions options) {
+void expect_refused(const Scene& scene, const TriangleMesh& coarse, const Element& element,
+                    const NestedOptions& options) {
   NestedReport report;
   bool refused = false;
   try {

@@ -425,7 +425,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
 TEST(FreeFemScripts, AreReadWithNoOtherFileThanTheOneInclude) {
   int scripts = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ANTILOCK_FREEFEM_FOLDER)) {
-    const std::filesystem::path path = entry.path();
+    const std::filesystem::path& path = entry.path();
     if (path.extension() != ".edp" && path.extension() != ".idp") continue;
     scripts += path.extension() == ".edp";
     std::ifstream in(path);

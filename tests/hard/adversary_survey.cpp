@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
                               : exact.what == Exactly::infeasible ? "infeasible"
                                                                   : "held by nothing";
     const std::string outcome = outcomes[static_cast<int>(judgement.outcome)];
-    ++counts[truth + ": " + outcome];
+    ++counts[fmt::format("{}: {}", truth, outcome)];
     if (judgement.outcome == Outcome::refused || judgement.outcome == Outcome::warned)
       ++reasons[fmt::format("{}: {:.70}", outcome, without_numbers(judgement.reason))];
     if (judgement.outcome == Outcome::quietly_wrong)

@@ -25,7 +25,8 @@ TEST(Accuracy, OfASceneIsProvedInItsSummary) {
     for (const std::string of : {"displacement", "stress"}) {
       const SceneRun run(scene(fmt::format("accuracy = 0.1\nof = \"{}\"", of), fmt::format("epsilon = {}", epsilon)));
       ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
-      const auto summary = run.summary(), proof = summary["certificate"];
+      const auto summary = run.summary();
+      const auto& proof = summary["certificate"];
       EXPECT_EQ(proof["asked"], 0.1);
       EXPECT_EQ(proof["of"], of);
       EXPECT_LE(proof["relative"], 0.1);

@@ -13,7 +13,8 @@ struct BadScene {
   std::string scene;
 };
 
-void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }
+// Google Test asks for a function of this name
+void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }  // NOLINT(readability-identifier-naming)
 
 const std::string load = "[load]\nf = \"1\"\n", mesh = "[mesh]\nkind = \"structured\"\ncells = 8\n";
 
@@ -183,7 +184,7 @@ const std::string square = msh(square_nodes, contact_edge + clamped_edges + squa
 struct BadMesh {
   std::string name, mesh, effects, key = "mesh.file", f = "1";
 };
-void PrintTo(const BadMesh& bad, std::ostream* out) { *out << bad.name; }
+void PrintTo(const BadMesh& bad, std::ostream* out) { *out << bad.name; }  // NOLINT(readability-identifier-naming)
 const std::string scaled_layer = "[layer]\nepsilon = 0.1\n", thin_layer = scaled_layer + "model = \"thin\"\n";
 
 const std::vector<BadMesh> bad_meshes = {

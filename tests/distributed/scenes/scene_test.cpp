@@ -150,8 +150,8 @@ TEST(PetscScene, ResultsNeverReplaceTheMeshTheyCameFrom) {
   const TemporaryFolder folder;
   for (const std::string name : {"solution.pvtu", "solution_0.vtu", "solution_1.vtu", "solution_2.vtu"}) {
     write_msh((folder / name).string(), structured_mesh(4));
-    std::ofstream(folder / "solution_1.vtu", std::ios::app);  // pieces of an earlier run, without a gap
-    std::ofstream(folder / "solution_0.vtu", std::ios::app);
+    // pieces of an earlier run, without a gap
+    const std::ofstream one(folder / "solution_1.vtu", std::ios::app), zero(folder / "solution_0.vtu", std::ios::app);
     std::string text = scene_text("petsc", "file", "P1", 0);
     text.replace(text.find("cells = 0"), 9, "file = \"" + (folder / name).string() + "\"");
     const Runs runs(text);
