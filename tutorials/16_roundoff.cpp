@@ -92,7 +92,7 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   // None on which P1 locks: whatever goes wrong below is round-off.
   const std::vector<Method> settings{
       {&p1(), structured()}, {&crouzeix_raviart(), structured()}, {&crouzeix_raviart(), unstructured()}};
-  std::vector<Discretisation> on;  // one mesh for every ε
+  std::vector<Discretisation> on;  // the same mesh at every ε
   on.reserve(settings.size());
   for (const Method& method : settings) on.push_back(method.on(options.cells));
   // ### Forms
@@ -131,7 +131,7 @@ void judge(const Table& results, tutorial::Report& report) {
 // without an answer where it is large. (b) In the layer: at ε = 1e-10 Cholesky settles on $u = 0$ there, error 0.045,
 // the whole ridge, and does not complain. The paper's conjugate gradients with ILUT (an incomplete factorisation that
 // drops small entries) give up from ε = 1e-3 on. The split form has the same error to 1 % from 1e-3 to 1e-16, and
-// `cure` agrees with the library to 5e-13. The condition number of $K$ is 1e8 at every ε below 1e-4.
+// `cure` agrees with the library to 5e-13. The condition number of $K$ is 1e8 from ε = 1e-4 down.
 //
 // ## Exercises
 //

@@ -135,7 +135,7 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 //
 // (a) None, none and none: it answers within the error of the meshed layer all the same. (b) One for each ε whose
 // square is above the penalty δ, and one for all others. δ is about $h^2/4096$, so the border is ε = $h/64$: at
-// $h = 1/32$ only 0.1 and 0.001 lie above, and three are enough. On corresponding meshes (22) and (23) differ by
+// $h = 1/32$ 0.1 and 0.001 lie above, and three are enough. On corresponding meshes (22) and (23) differ by
 // round-off.
 //
 // ## Exercises

@@ -6,8 +6,9 @@
 
 namespace antilock {
 
-/// Halvings of a projected Newton step after which the unknowns walk straight to the lowest point of their pieces, from one
-/// end of a piece to the next: where A couples them stiffly, projecting one spoils the step of the others.
+/// After more halvings of a projected Newton step than this, where a piece may have two ends, the unknowns walk straight to
+/// the lowest point of their pieces, from one end to the next: where A couples them stiffly, projecting one spoils the step
+/// of the others.
 constexpr int jams = 3;
 
 /// The gradient of x' A x / 2 - q' x + j(x), j smooth on the pieces.
@@ -33,7 +34,7 @@ void walk(Road& road, HeldBounds pieces, Eigen::VectorXd direction, Eigen::Vecto
 
 /// One step of Bertsekas' projected Newton method (SIAM J. Control Optim. 20, 1982) from a feasible x: it lowers the
 /// energy x' A x / 2 - q' x + j(x), j that of the bounds that give way. In the pieces that lead downhill from x the energy
-/// is smooth, and they are bounds like any others. Returns the bounds reached. A Road has
+/// is smooth, and their ends are bounds like any others. Returns the bounds reached. A Road has
 ///     times(x), load()            A x and q
 ///     places(), bounds()          the bounded ones among the unknowns, and their bounds
 ///     newton(pieces, gradient)    the way to where the gradient on the pieces vanishes
