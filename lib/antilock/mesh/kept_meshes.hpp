@@ -16,10 +16,10 @@ struct MeshArrays {
 };
 
 /// What `make` makes. Where the environment variable ANTILOCK_MESHES names a folder, the arrays are kept there under
-/// `name`, and whoever asks for that name again reads them, in this program or in another one; a file of another
-/// size than its counts promise is made anew. Meant for one run of many programs: tests/run, whose tests ask 1,100 times for 50
-/// meshes, empties the folder before. A name must therefore say everything that the mesh depends on but gmsh itself.
-/// Throws Error where the folder cannot be written.
+/// `name`, and whoever asks for that name again reads them, in this program or in another one. So a name must say
+/// everything that the mesh depends on but gmsh itself. A file of another size than its counts promise is made anew.
+/// Meant for one run of many programs: tests/run, whose 300 programs ask 1,100 times for 50 meshes, empties the folder
+/// before. Throws Error where the folder cannot be written.
 MeshArrays kept_mesh(const std::string& name, const std::function<MeshArrays()>& make);
 
 }  // namespace antilock
