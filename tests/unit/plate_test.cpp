@@ -256,6 +256,16 @@ TEST(Plate, ValuesOutOfRangeAreRefused) {
   Plate sunk;  // below the obstacle on a part of the rim
   sunk.gap = [](double x, double) { return x > 0.9 ? -0.1 : 1.0; };
   test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at 0.1");
+  sunk.gap = [](double x, double) { return x < 0 ? 0.1 : 1e13; };  // large elsewhere: hides nothing
+  sunk.rim = [](double, double) { return -1.0; };
+  test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at -0.1");
+  TriangleMesh rounded = mesh;  // an obstacle that meets the rim, whose corners are where they are to 1e-9
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == EdgeTag::clamped)
+      rounded.vertices.row(mesh.edges(e, 0)) = (1 - 1e-9) * mesh.vertices.row(mesh.edges(e, 0));
+  Plate touching;
+  touching.gap = [](double x, double y) { return -0.1 * (1 - x * x - y * y); };
+  EXPECT_NO_THROW(assemble(touching, On(arnold_falk, rounded).space));
   const On wrong({"", p2(), p2(), ShearRule::mean}, mesh), edges({"", p1(), p1_bubble(), ShearRule::edges}, mesh);
   test::expect_refused([&] { assemble(Plate{}, wrong.space); }, "accepted P1 and P1");
   test::expect_refused([&] { assemble(Plate{}, edges.space); }, "accepted P1 and P1");

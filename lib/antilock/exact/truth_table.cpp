@@ -124,7 +124,7 @@ class RowSampler {
       const Eigen::Index left = modes.size() - from, up = std::min<Eigen::Index>(left, n + 1),
                          down = std::min<Eigen::Index>(left - up, n - 1);
       folded.head(up) += modes.segment(from, up);
-      folded.segment(n - down, down) += reflected * modes.segment(from + n + 1, down).reverse();
+      if (down > 0) folded.segment(n - down, down) += reflected * modes.segment(from + n + 1, down).reverse();
     }
     return folded;
   }

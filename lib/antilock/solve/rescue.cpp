@@ -20,8 +20,8 @@ constexpr double smaller_by = 64;
 /// a pivot of K is below 1e-5 of what A1 has, so that 1e-16 becomes 1e-11 and more. (The pivots of a penalised K lie
 /// apart by nature: they count beside A1, not beside the largest of K.) Then long double: three digits more.
 bool needs_long_double(const VariationalInequality& problem, const PenaltyFactor& factor) {
-  const Eigen::VectorXd stiffness = problem.a1.diagonal();
-  const double largest = stiffness.maxCoeff();
+  const Eigen::VectorXd stiffness = Eigen::VectorXd(problem.a1.diagonal())(factor.numbering().unknown);
+  const double largest = stiffness.size() > 0 ? stiffness.maxCoeff() : 0;
   if (factor.smallest_pivot() < 1e-5 * largest) return true;
   return 2 * (1e3 * stiffness.array() < largest).count() > stiffness.size();
 }

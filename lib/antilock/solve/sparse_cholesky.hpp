@@ -14,7 +14,7 @@ class SparseCholesky {
   virtual ~SparseCholesky() = default;
 
   /// A pivot below this part of its diagonal entry of K is nothing but the round-off of that entry. Sound problems stay
-  /// above 1e-11, on meshes and layers of every kind.
+  /// above 1e-12, on meshes and layers of every kind.
   static constexpr double lost_pivot = 64 * std::numeric_limits<double>::epsilon();
 
   /// Orders and analyses the pattern of K. `last` > 0: the last rows of K stay the last ones, in their order, and the
