@@ -142,6 +142,12 @@ bool Corrections::settled(const Change& change) {
 
 void Corrections::accelerate() { acceleration_.mix(s_.p, s_.u); }
 
+void Corrections::report_conditions() {
+  if (contact_.lambda.size() > 0) s_.lambda = contact_.lambda;
+  s_.moderate = u_first_;
+  s_.kkt = kkt_report_unchecked(problem_, s_);
+}
+
 Solution Corrections::finished() {
   // asked of the answer alone: on its way there the mix may pass through any size
   if (const double u = s_.u.lpNorm<Eigen::Infinity>(); u_first_ > 0 && u > runaway * u_first_)
@@ -156,11 +162,9 @@ Solution Corrections::finished() {
   s_.counters.solves = factor_.solves - s_.counters.solves;  // since the start
   s_.seconds.analyse = factor_.analyse_seconds;
   s_.seconds.factor = factor_.factor_seconds;
-  if (contact_.lambda.size() > 0) s_.lambda = contact_.lambda;
   s_.active = contact_.active;
-  s_.moderate = u_first_;
   const std::string drowned = s_.warning;
-  s_.kkt = kkt_report_unchecked(problem_, s_);
+  report_conditions();
   require_trusted(s_, TrustLevels{.refused = options_.refused});
   if (s_.warning.empty()) s_.warning = drowned;
   const auto apart = problem_.compliance == 0 ? nearly_dependent_rows(problem_) : std::nullopt;

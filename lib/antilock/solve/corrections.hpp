@@ -49,6 +49,8 @@ class Corrections {
   void note_round_off();
   /// Anderson's mix of the last corrections: the start of the next.
   void accelerate();
+  /// The KKT report of u, p and the contact forces as they are.
+  void report_conditions();
   /// What the counters and the report say of the answer.
   Solution finished();
 

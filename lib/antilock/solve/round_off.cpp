@@ -72,10 +72,8 @@ bool Corrections::drowned(const Change& change) {
   const double noise = noise_.lpNorm<Eigen::Infinity>();
   if (!(step <= noise && gap_ * u_scale_ <= noise)) return false;
   // where B is nearly dependent, u may come down slowly: not what the report would refuse
-  Solution as_is = s_;
-  if (contact_.lambda.size() > 0) as_is.lambda = contact_.lambda;
-  as_is.moderate = u_first_;
-  if (worst_violation(kkt_report_unchecked(problem_, as_is)) > options_.refused) return false;
+  report_conditions();
+  if (worst_violation(s_.kkt) > options_.refused) return false;
   // a u below that round-off counts as 0, but what round-off a great load leaves may be far above that of u
   if (u_now > noise ? step > 1e-9 * u_now : u_now > 1e-15 * u_first_)
     s_.warning =
