@@ -51,6 +51,17 @@ int main() {
 // Needs: [07](07_middle.cpp).
 //
 // No figure here.
+//
+// Words before the pictures.
+// :figure: ties
+//
+// Words between.
+// :figure: first string
+//
+// Words before the table.
+// :output: two rows
+//
+// Words at the end.
 int main() {}
 """,
 }
@@ -73,7 +84,13 @@ def small_repository(root):
         (root / f"tutorials/{page}.md").write_text(f"# The {page}\n\nNone.\n")
     for still in STILLS:
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{still}.png")
-    (root / "figures/table.csv").write_text("image,figure,tutorial,freefem,render,caption\nstring,,00_start,,,A string\n")
+    for picture in ("ties", "first"):
+        Image.new("RGB", (4, 4)).save(root / f"figures/images/{picture}.png")
+    (root / "figures/table.csv").write_text(
+        "image,figure,tutorial,freefem,render,caption\nstring,,00_start,,,A string\n"
+        "first,,24_later,,,The first\nties,,24_later,,,The ties\ntop,,24_later,,,On top\n".replace("top,", "hero,"))
+    (root / "results/logs").mkdir(parents=True)
+    (root / "results/logs/24_later.log").write_text("24_later: a run\n\n  two rows of it\na  1\nb  2\n\nVERDICT holds: all\n")
     for script in ("live.js", "live_data.js"):
         (root / f"build/book-parts/static/{script}").touch()
 
@@ -135,6 +152,16 @@ class Pages(unittest.TestCase):
         self.assertRegex(self.page("00_start"), r'(?s)Needs: nothing,\nat all\..*images/string.*class="live".*The picture')
         self.assertRegex(self.page("07_middle"), r'(?s)Words before.*data-kind="locking".*Words after.*no figure.*### Output.*"convergence"')
 
+    # ---- pictures and output
+
+    def test_a_picture_and_a_table_stand_where_their_line_stands(self):
+        self.assertRegex(self.page("24_later"),
+                         r"(?s)images/hero.*before the pictures.*images/ties.*Words between.*container} pictures"
+                         r".*images/first.*images/string.*before the table.*```text\n  two rows of it\na  1\nb  2\n```"
+                         r".*at the end.*## What it prints.*\*\*holds\*\*")
+        self.assertEqual(self.page("24_later").count("{figure}"), 4)
+        self.assertEqual(self.page("24_later").count("two rows of it"), 2)  # there, and in all that it printed
+
     # ---- answers
 
     def test_the_answers_on_paper_are_folded_under_their_chapter(self):
@@ -185,6 +212,10 @@ class Pages(unittest.TestCase):
                 ("mesh=round is no setting of locking; accepted: mesh=structured|", chapter, "// :live: mesh=round"),
                 ("cells=9 is no setting of string; accepted: none", "tutorials/24_later.cpp", "// :live: string cells=9"),
                 ("a page holds one figure of a kind", chapter, "// :live: string"),
+                (":figure: tree: no picture of figures/table.csv", chapter, "// :figure: tree"),
+                ("24_later.cpp: :figure: ties: it stands on the page already", "tutorials/24_later.cpp", "// :figure: ties"),
+                ("24_later.cpp: no line places the picture more", "figures/table.csv", "more,,24_later,,,Another"),
+                ("24_later.cpp: :output: three: no line of", "tutorials/24_later.cpp", "// :output: three"),
                 ('step "Dance"', "freefem/00_start.edp", "// ### Dance")):
             with self.subTest(line=line):
                 self.refused(says, file, line, self.pages)

@@ -5,12 +5,14 @@
 - `### Solve` in the C++ finds `// ### Solve` in the FreeFEM twin, which is folded under it.
 - `Run: COMMAND    what it does` lines become a table; includes are folded away.
 - `:live: string` places a live figure, `:live: mesh=layered cells=32` the one of P1 and Crouzeix-Raviart with its settings.
+- `:figure: NAME ...` places pictures of figures/table.csv, `:output:` what the program printed: pages.py puts them in.
 """
 import html
 import re
 
 HEADING = re.compile(r"#{1,4} ")
 LIVE = re.compile(r":live:\s*(.*)$")
+PLACE = re.compile(r":(live|figure|output):\s*(.*)$")
 
 
 class BookError(Exception):
@@ -90,7 +92,7 @@ def needs(prose):
     start = next((i for i, line in enumerate(prose) if line.startswith("Needs: ")), None)
     if start is None:
         return prose, []
-    end = next((i for i in range(start, len(prose)) if not prose[i].strip() or LIVE.match(prose[i])), len(prose))
+    end = next((i for i in range(start, len(prose)) if not prose[i].strip() or PLACE.match(prose[i])), len(prose))
     return prose[:start] + prose[end:], prose[start:end]
 
 

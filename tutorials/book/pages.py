@@ -13,7 +13,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from literate import STILLS, BookError, Page, answers_on_paper, fence, folded, live_figure, signs
+from literate import PLACE, STILLS, BookError, Page, answers_on_paper, fence, folded, live_figure, signs
 from library import Library
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -134,16 +134,29 @@ class Book:
             path.write_text(text)
 
     def log(self, stem):
-        """What the program printed, and its verdicts."""
+        """What the program printed: its lines, and the verdicts among them. None where it has not run."""
         path = ROOT / f"results/logs/{stem}.log"
         if not path.exists():
             if not self.without_runs:
                 self.complain(f"results/logs/{stem}.log is missing; figures/reproduce writes it")
-            return []
+            return None
         text = path.read_text().replace(f"{ROOT}/", "")
-        lines = [line.rstrip() for line in re.sub(r"\r[^\n]*", "", text).splitlines()]
+        return [line.rstrip() for line in re.sub(r"\r[^\n]*", "", text).splitlines()]
+
+    def output(self, stem, title=""):
+        """What the program printed: the table below the line that begins with `title`, or everything, the verdicts first."""
+        lines = self.log(stem)
+        if lines is None:
+            return []
+        if title:
+            start = next((i for i, line in enumerate(lines) if line.strip().startswith(title)), None)
+            if start is None:
+                self.complain(f"{stem}.cpp: :output: {title}: no line of results/logs/{stem}.log begins so")
+                return []
+            end = next((i for i in range(start, len(lines)) if not lines[i]), len(lines))
+            return fence("text", lines[start:end])
         verdicts = [line for line in lines if line.startswith("VERDICT")]
-        out = ["## What it prints", ""]
+        out = []
         if verdicts:
             out += ["```{list-table}", ":class: verdicts", ":widths: 12 88", ""]
             for line in verdicts:
@@ -161,6 +174,32 @@ class Book:
     def pictures_of(self, stem):
         return [row for row in self.table if stem in row["tutorial"].split()]
 
+    def placed(self, lines, stem):
+        """The page with the pictures and the output that its lines place: (lines, names of these pictures, all of the output?)."""
+        out, names, whole, fenced = [], [], False, False
+        for line in lines:
+            fenced ^= line.startswith("```")
+            place = None if fenced else PLACE.match(line)
+            if not place:
+                out.append(line)
+            elif place[1] == "output":
+                whole |= not place[2]
+                out += self.output(stem, place[2])
+            else:
+                rows = [self.shot(stem, name, names) for name in place[2].split()]
+                pictures = [line for row in rows if row for line in self.figure(row, eager=not names)]
+                names += place[2].split()
+                out += [":::{container} pictures", *pictures, ":::", ""] if len(rows) > 1 else pictures
+        return out, names, whole
+
+    def shot(self, stem, name, before):
+        row = next((row for row in self.table if row["image"] == name), None)
+        if row is None:
+            self.complain(f"{stem}.cpp: :figure: {name}: no picture of figures/table.csv")
+        if name in before:
+            self.complain(f"{stem}.cpp: :figure: {name}: it stands on the page already")
+        return row
+
     def relations(self, stem):
         """What the chapter needs, in its own words, and where it leads to."""
         page = self.pages[stem]
@@ -171,11 +210,15 @@ class Book:
         return [":::{container} relations", *self.linked(out, ROOT / "tutorials"), ":::", ""] if out else []
 
     def chapter(self, source):
+        """The first picture that no line places stands on top. Where a page places pictures, it places all others."""
         stem, page = source.stem, self.pages[source.stem]
-        shots = self.pictures_of(stem)
+        body, names, output = self.placed(self.linked(page.body, source.parent), stem)
+        shots = [row for row in self.pictures_of(stem) if row["image"] not in names]
+        if names and len(shots) > 1:
+            self.complain(f"{stem}.cpp: no line places the picture {shots[1]['image']}; accepted: :figure: {shots[1]['image']}")
         out = [f"# {page.title}", "", *self.relations(stem)]
         out += self.figure(shots[0], eager=True) if shots else []
-        out += self.linked(page.body, source.parent)
+        out += body
         answers = answers_on_paper(source.parent / f"answers/{stem}.hpp")
         if answers:
             out += folded("Answers on paper", self.linked(answers, source.parent), "answers")
@@ -183,9 +226,10 @@ class Book:
             out += ["## Run it", "", *page.runs]
         for shot in shots[1:]:
             out += self.figure(shot)
-        out += self.log(stem)
-        twin = ROOT / f"freefem/{stem}.edp"
+        printed = [] if output else self.output(stem)
+        out += ["## What it prints", "", *printed] if printed else []
         out += ["## The sources", ""]
+        twin = ROOT / f"freefem/{stem}.edp"
         if twin.exists() and not page.twin:
             whole = twin.read_text().splitlines()
             out += folded(f"The FreeFEM twin as it is: freefem/{stem}.edp, {len(whole)} lines", fence("freefem", whole), "twin")
