@@ -138,7 +138,7 @@ TEST_P(Models, VentcelWithoutContactConvergesWithOrderTwo) {
 }
 
 TEST(RigidLimit, IsVentcelOnAStructuredMesh) {
-  // (24) on columns of cells: the layer's only freedom is a value a column, whose stiffness is that of the line Sigma
+  // (24) on columns of cells: the layer's only freedom is one value per column, whose stiffness is that of the line Sigma
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
     const Answer ventcel = answer(VentcelLayer{}, structured_mesh(32, {0}), *element);
     const Answer limit = answer(StiffLayer{0}, structured_mesh(32), *element);

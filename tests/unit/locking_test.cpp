@@ -83,7 +83,7 @@ TEST(Locking, IsTheDimensionOfTheKernelOfA0) {
   for (const int cells : {8, 16}) {
     for (const Diagonal diagonal : {Diagonal::right, Diagonal::left}) {
       const TriangleMesh mesh = structured_mesh(cells, {}, diagonal);
-      EXPECT_EQ(kernel_dimension(Space(mesh, p1())), cells - 1);                    // one function a column
+      EXPECT_EQ(kernel_dimension(Space(mesh, p1())), cells - 1);                    // one function per column
       EXPECT_EQ(kernel_dimension(Space(mesh, crouzeix_raviart())), cells * cells);  // N_T / 2
     }
     const TriangleMesh mesh = unstructured_mesh(cells);

@@ -3,7 +3,7 @@
 
 namespace antilock {
 
-/// Gram matrix of what a space can see of multipliers q, one value a row of B:
+/// Gram matrix of what a space can see of multipliers q, one value per row of B:
 ///     q' G q = sup_v (q, B v)_M^2 / norm(v, v)   over the free v,   G = M B norm^-1 B' M.
 /// `norm`: N x N Gram matrix of the space's norm. `merged` rows of B in turn share one multiplier (the triangles of a
 /// refined mesh inside their ancestor): G is R / merged square, dense. Throws Error for a malformed problem, a norm
