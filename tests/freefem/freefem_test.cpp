@@ -123,17 +123,18 @@ INSTANTIATE_TEST_SUITE_P(FreeFem, Solutions,
                            return std::get<0>(info.param).name() + power;
                          });
 
-// The plain sum A1 + epsilon^-2 A0, as FreeFEM users write it, against the split form here.
-struct PlainSum {
+// The plain sum A1 + epsilon^-2 A0, as FreeFEM users write it (stiff = "sum"), or FreeFEM's own split form ("mixed"),
+// against the split form here.
+struct Against {
   freefem::Comparison comparison;
   double residual;
 };
-PlainSum plain_sum(const Setting& setting, double epsilon) {
+Against against_ours(const Setting& setting, double epsilon, const std::string& stiff) {
   const TriangleMesh mesh = setting.mesh(16);
   const Space space(mesh, element(setting.element));
   const VariationalInequality problem = assemble(contact_scene(epsilon), space);
   const TemporaryFolder folder;
-  const auto theirs = freefem::solve(setting.script(), space, epsilon, folder.path(), {"-stiff", "sum"});
+  const auto theirs = freefem::solve(setting.script(), space, epsilon, folder.path(), {"-stiff", stiff});
   return {freefem::compare(space, problem, active_set(problem), theirs), theirs.residual};
 }
 
@@ -141,19 +142,21 @@ PlainSum plain_sum(const Setting& setting, double epsilon) {
 TEST(PlainSum, IsRightWhileEpsilonIsLarge) {
   for (const Setting& setting : settings)
     for (const double epsilon : {1.0, 1e-1, 1e-2}) {
-      const PlainSum sum = plain_sum(setting, epsilon);
+      const Against sum = against_ours(setting, epsilon, "sum");
       EXPECT_LE(sum.comparison.difference, 1e-9) << setting << " " << epsilon;
       EXPECT_EQ(sum.comparison.contact_disagree, 0) << setting << " " << epsilon;
     }
 }
 
-// Measured: 6e-5 to 2e-4. Locked P1 is spared: its answer on the layer is 0, which no round-off can spoil.
+// Beside the split form, which does not drift: the difference of the sum is 4e7 to 5e9 times as large, its residual 3e8 to
+// 9e10 times (measured with seven kernels of OpenBLAS). Which share of the 2e-4 that the sum rounds away shows in u is
+// chance. Locked P1 is spared: its answer on the layer is 0, which no round-off can spoil.
 TEST(PlainSum, DriftsAtThePapersEpsilon) {
   for (const Setting& setting : settings) {
     if (setting.locks()) continue;
-    const PlainSum sum = plain_sum(setting, 1e-6);
-    EXPECT_GE(sum.comparison.difference, 1e-6) << setting;
-    EXPECT_GE(sum.residual, 1e-5) << setting;  // and its residual says so
+    const Against sum = against_ours(setting, 1e-6, "sum"), split = against_ours(setting, 1e-6, "mixed");
+    EXPECT_GE(sum.comparison.difference / split.comparison.difference, 1e6) << setting;
+    EXPECT_GE(sum.residual / split.residual, 1e6) << setting;  // and its residual says so
   }
 }
 
@@ -161,7 +164,7 @@ TEST(PlainSum, HasNothingLeftAtEpsilon1eMinus8) {
   for (const Setting& setting : settings) {
     if (setting.locks()) continue;
     try {
-      EXPECT_GE(plain_sum(setting, 1e-8).residual, 1e-2) << setting;
+      EXPECT_GE(against_ours(setting, 1e-8, "sum").residual, 1e-2) << setting;
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find("lost its digits"), std::string::npos) << error.what();
     }

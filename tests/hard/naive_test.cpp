@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -30,16 +32,19 @@ double distance(const Eigen::VectorXd& u, const Eigen::VectorXd& right) {
   return (u - right).lpNorm<Eigen::Infinity>() / right.lpNorm<Eigen::Infinity>();
 }
 
+// The sum A1 + epsilon^-2 A0 rounds A1 by eps / epsilon^2, and so the equations hold to a small multiple of that. Measured
+// with seven kernels of OpenBLAS: up to 4.6 eps / epsilon^2; the bound is 14 times that.
 TEST(Naive, IsRightWhereEpsilonIsModerate) {
   for (const Setting& s : settings()) {
     const Space space(s.mesh, *s.element);
     for (const double epsilon : {1.0, 1e-1, 1e-2}) {
+      const double rounded = std::numeric_limits<double>::epsilon() / (epsilon * epsilon);
       const VariationalInequality problem = paper_problem(space, epsilon);
       for (const SummedFactor kind : {SummedFactor::cholesky, SummedFactor::lu}) {
         const NaiveAnswer answer = naive_summed_solve(problem, kind);
         EXPECT_EQ(answer.end, NaiveEnd::settled);
-        EXPECT_LT(distance(answer.solution.u, active_set(problem).u), 1e-9);  // round-off / epsilon^2 = 1e-12
-        EXPECT_LT(worst_violation(answer.solution.kkt), 1e-11);
+        EXPECT_LT(distance(answer.solution.u, active_set(problem).u), 1e-9);  // rounded: 2e-12 at 1e-2
+        EXPECT_LT(worst_violation(answer.solution.kkt), 64 * rounded) << answer.solution.solver << " at " << epsilon;
       }
     }
   }
