@@ -72,7 +72,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   const Solution solution = uzawa(problem, factor, uzawa_options);
   const Solution direct = active_set(problem, factor);
   const double difference = (solution.u - direct.u).cwiseAbs().maxCoeff() / direct.u.cwiseAbs().maxCoeff();
-  const Errors errors = tutorial::Exact(options.epsilon).errors(fine.space(), solution);
+  const Errors errors = tutorial::Exact(tutorial::paper_scene(options.epsilon)).errors(fine.space(), solution);
   Table steps({"epsilon", "cells", "h", "steps"}), history({"epsilon", "step", "change"});
   for (const double epsilon : {1.0, 1e-6}) {
     for (int n = 16; n <= std::min(128, options.cells); n *= 2)

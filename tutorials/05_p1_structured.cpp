@@ -51,7 +51,7 @@ Table sweep_epsilon(const Space& space) {
   Table sweep({"epsilon", "error"});
   for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0.0}) {
     const Solution solution = active_set(assemble(tutorial::paper_scene(epsilon), space));
-    sweep.add({epsilon, tutorial::Exact(epsilon).errors(space, solution).max_at_unknowns});
+    sweep.add({epsilon, tutorial::Exact(tutorial::paper_scene(epsilon)).errors(space, solution).max_at_unknowns});
   }
   return sweep;
 }
@@ -64,7 +64,7 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   const VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), space);
   // ### Solve
   const Solution solution = active_set(problem);
-  const tutorial::Exact exact(options.epsilon);
+  const tutorial::Exact exact(tutorial::paper_scene(options.epsilon));
   const Errors errors = exact.errors(space, solution);
   const Table sweep = sweep_epsilon(space), stress = tutorial::stress_by_depth(space, solution);
 

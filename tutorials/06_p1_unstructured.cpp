@@ -74,7 +74,7 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   // problem that has the wrong solution.
   const Solution solution = active_set(problem);
   const Solution dirichlet = active_set(dirichlet_laplace(problem, space));
-  const tutorial::Exact exact(options.epsilon);
+  const tutorial::Exact exact(tutorial::paper_scene(options.epsilon));
   const Errors errors = exact.errors(space, solution);
 
   // ### Output

@@ -91,7 +91,7 @@ Table jitter_study(int n) {
   ActiveSetOptions patient;  // functions that are almost in the kernel are corrected slowly
   patient.corrections.max_corrections = 5000;
   for (const double epsilon : {1e-2, 1e-3, 1e-4, 1e-5}) {
-    const tutorial::Exact exact(epsilon);
+    const tutorial::Exact exact(tutorial::paper_scene(epsilon));
     for (const double t : {1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.2}) {
       const Discretisation on(jittered_mesh(n, t), p1());
       SceneSweep sweep(scene, on.space());

@@ -67,7 +67,7 @@ Eigen::VectorXd edge_means(const Space& space, const Field& v) {
 
 // Lemma 2 in numbers: strain and smallest value on $Γ_C$ of $I_h u^0$, and its distance from $u^0$, the truth.
 Table interpolate(const std::vector<int>& cells, const Element& element) {
-  const tutorial::Exact limit(0);
+  const tutorial::Exact limit(tutorial::paper_scene(0));
   Table table({"cells", "h", "strain", "smallest", "distance"});
   for (const int n : cells) {
     const Discretisation on = Method{&element, unstructured()}.on(n);
@@ -94,7 +94,7 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
   const VariationalInequality p1_problem = assemble(scene, conforming.space()), problem = assemble(scene, space);
   // ### Solve
   const Solution p1_solution = active_set(p1_problem), solution = active_set(problem);
-  const tutorial::Exact exact(options.epsilon);
+  const tutorial::Exact exact(tutorial::paper_scene(options.epsilon));
   const Errors p1_errors = exact.errors(conforming.space(), p1_solution), errors = exact.errors(space, solution);
   const Table lemma = interpolate({8, 16, 32, 64}, crouzeix_raviart());
 

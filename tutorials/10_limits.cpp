@@ -107,7 +107,7 @@ struct OnPath {
 std::vector<OnPath> path(double k, int finest, const Exact& limit) {
   std::vector<OnPath> all;
   for (int n = 8; n <= finest; n *= 2) {
-    Exact exact(std::pow(n, -k), 15);
+    Exact exact(tutorial::paper_scene(std::pow(n, -k)), 15);
     const double first_term = h1_distance(exact.truth, limit.truth);
     all.push_back({n, std::move(exact), first_term});
   }
@@ -128,7 +128,7 @@ Table three_terms(const Method& method, const std::vector<OnPath>& path, const E
 }
 
 void limits(const tutorial::Options& options, tutorial::Report& report) {
-  const Exact limit(0, 15);
+  const Exact limit(tutorial::paper_scene(0), 15);
   const std::vector<OnPath> h_squared = path(2, options.cells, limit);
   Table curves({"method", "epsilon", "distance", "stiff"}), terms({"method", "h", "term", "value"});
   for (const Method& method : methods()) {

@@ -89,7 +89,7 @@ Table measure(const Method& method, int cells, const Exact& u, const Exact& u0) 
 void verdict(const Method& method, const Table& own, tutorial::Report& report);
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
-  const Exact u(options.epsilon), u0(0);
+  const Exact u(tutorial::paper_scene(options.epsilon)), u0(tutorial::paper_scene(0));
   std::vector<Method> all = methods();
   all.push_back({&p2(), structured()});
   Table results(columns);

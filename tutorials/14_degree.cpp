@@ -81,7 +81,7 @@ Table solve(const Method& method, int cells, double epsilon, const Field& load, 
 void verdicts(const Table& results, const Exact& exact, tutorial::Report& report);
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
-  const Exact exact(options.epsilon);
+  const Exact exact(tutorial::paper_scene(options.epsilon));
   Table results(columns);
   for (const Method& method : methods({&p1(), &p2(), &p3(), &p4()}))
     for (int n = 4; n <= options.cells; n *= 2) results.add(solve(method, n, options.epsilon, paper_load, exact));

@@ -100,7 +100,7 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   Table results({"solver", "element", "mesh", "epsilon", "error", "ended", "wrong", "refused", "seconds", "apart"});
   for (const double epsilon :
        {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-14, 1e-16}) {
-    const tutorial::Exact exact(epsilon, 14);
+    const tutorial::Exact exact(tutorial::paper_scene(epsilon), 14);
     for (std::size_t i = 0; i < settings.size(); ++i)
       results.add(tutorial::compare_solvers(
           settings[i], on[i].space(), exact,

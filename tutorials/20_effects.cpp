@@ -73,7 +73,7 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
 // **One question, three models of the layer**: (23) at a small ε, (24) on the layer's mesh, (25) without one. All are
 // held against the truth at that ε, so the last two show the error of their model as well.
 void three_models(const tutorial::Options& options, tutorial::Report& report) {
-  const Exact exact(options.epsilon, 14), limit(0, 14);
+  const Exact exact(tutorial::paper_scene(options.epsilon), 14), limit(tutorial::paper_scene(0), 14);
   Table table(tutorial::model_columns);
   for (const auto& [name, layer] : std::vector<std::pair<std::string, Layer>>{
            {"scaled", StiffLayer{options.epsilon}}, {"limit", StiffLayer{0}}, {"ventcel", VentcelLayer{}}})

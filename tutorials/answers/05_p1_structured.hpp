@@ -8,7 +8,7 @@ const std::vector<tutorial::Exercise> exercises{
        const auto error = [&](Diagonal diagonal) {
          const Discretisation on = Method{&p1(), structured({}, diagonal)}.on(options.cells);
          const Solution solution = active_set(assemble(tutorial::paper_scene(1e-6), on.space()));
-         return tutorial::Exact(1e-6).errors(on.space(), solution).max_at_unknowns;
+         return tutorial::Exact(tutorial::paper_scene(1e-6)).errors(on.space(), solution).max_at_unknowns;
        };
        report.claim_within(error(Diagonal::left) / error(Diagonal::right), 0.5, 1.5, "error left / error right:");
      }},

@@ -7,7 +7,7 @@ const std::vector<tutorial::Exercise> exercises{
     {"Refine from 1/h = 32 to 64 at epsilon = 1e-6. What happens to the error, what to the small rest of the ridge?",
      "the error stays within 1 %; the rest grows like h^-3, eight times (a factor 2 for the mesh)",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const tutorial::Exact exact(1e-6);
+       const tutorial::Exact exact(tutorial::paper_scene(1e-6));
        double error[2], rest[2];
        for (const int k : {0, 1}) {
          const Discretisation on = Method{&p1(), unstructured()}.on(32 << k);
@@ -23,7 +23,7 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options& options, tutorial::Report& report) {
        const Discretisation on(layered_mesh(options.cells), p1());
        const Solution solution = active_set(assemble(tutorial::paper_scene(1e-6), on.space()));
-       const double h = 1.0 / options.cells, error = tutorial::Exact(1e-6).errors(on.space(), solution).max_at_unknowns;
+       const double h = 1.0 / options.cells, error = tutorial::Exact(tutorial::paper_scene(1e-6)).errors(on.space(), solution).max_at_unknowns;
        report.claim_within(error / (h * h), 0, 4, "error / h^2:");
      }}};
 

@@ -17,7 +17,7 @@ const std::vector<tutorial::Exercise> exercises{
        const auto error = [](int cells, double epsilon) {
          const Discretisation on = Method{&crouzeix_raviart(), structured()}.on(cells);
          const Solution solution = active_set(assemble(tutorial::paper_scene(epsilon), on.space()));
-         return tutorial::Exact(epsilon).errors(on.space(), solution).max_at_unknowns;
+         return tutorial::Exact(tutorial::paper_scene(epsilon)).errors(on.space(), solution).max_at_unknowns;
        };
        const double on_64 = error(64, 1e-6);
        report.claim_within(error(32, 1e-6) / on_64, 2.7, 4.2, "error on 1/32 / error on 1/64:");

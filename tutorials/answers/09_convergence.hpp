@@ -6,7 +6,7 @@
 std::vector<tutorial::Exercise> exercises() {
   const auto largest_error = [](const Method& method, int cells, double epsilon) {
     const Discretisation on = method.on(cells);
-    return tutorial::Exact(epsilon)
+    return tutorial::Exact(tutorial::paper_scene(epsilon))
         .errors(on.space(), active_set(assemble(tutorial::paper_scene(epsilon), on.space())))
         .max;
   };

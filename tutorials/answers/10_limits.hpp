@@ -5,7 +5,7 @@ const std::vector<tutorial::Exercise> exercises{
     {"Locked P1 along epsilon = h in place of h^2: does its error still stay?",
      "no, it falls; the second term stays, so the third stays too: two large terms nearly cancel",
      [](const tutorial::Options& options, tutorial::Report& report) {
-       const Exact limit(0, 15);
+       const Exact limit(tutorial::paper_scene(0), 15);
        const Table terms = three_terms({&p1(), unstructured()}, path(1, options.cells, limit), limit);
        const auto of = [&](const char* term) { return terms.where("term", term); };
        terms.pivot("h", "term", "value").print();

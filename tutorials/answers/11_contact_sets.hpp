@@ -28,7 +28,7 @@ const std::vector<tutorial::Exercise> exercises{
     {"Move the vertices of the structured mesh by up to h/10. Does K_0h of P1 approach K_0?",
      "no: its kernel functions vanish on the layer from the first shift on, so u^0 there is missed, 0.126",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const Exact u0(0, 15);
+       const Exact u0(tutorial::paper_scene(0), 15);
        const MeshFamily jittered{"jittered", [](int cells) { return jittered_mesh(cells, 0.1); }};
        const Table table = distances({&p1(), jittered}, u0.reference(), Within::k_0h);
        table.print();

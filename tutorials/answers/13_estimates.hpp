@@ -20,7 +20,7 @@ const std::vector<tutorial::Exercise> exercises{
     {"In the energy norm M = α = 1. Where does the locking go? (Show J(v) - J(u) = |u - v|^2 / 2 + R(v) first.)",
      "into the first infimum: it is about J(u_h) - J(u), which does not fall for locked P1, and like h^2 otherwise",
      [](const tutorial::Options& options, tutorial::Report& report) {
-       const Exact exact(1e-6);
+       const Exact exact(tutorial::paper_scene(1e-6));
        Table rows({"mesh", "h", "excess"});
        for (const MeshFamily& family : {structured(), unstructured()})
          for (int n = 8; n <= options.cells; n *= 2) {

@@ -10,7 +10,7 @@ const std::vector<tutorial::Exercise> exercises{
        const SineLoad one_hump{{{1, {10}}}};
        for (const auto& [load, name, low, high] :
             {std::tuple{paper_sine_load(), "sin(2 pi x)", 0.0, 0.1}, {one_hump, "sin(pi x)", 0.9, 1.1}}) {
-         const Exact exact(Truth(load, 1e-4, true, 15));
+         const Exact exact(Scene(Body{load}, StiffLayer{1e-4}, UnilateralContact{}), 15);
          for (const Element* element : {&p1(), &p2()}) {
            const Table row = solve({element, unstructured()}, 4, 1e-4, load, exact);
            const bool p1_used = element == &p1();

@@ -8,7 +8,7 @@ const std::vector<tutorial::Exercise> exercises{
      "r^(3/2) starts at a corner of the cells and is no polynomial either: 3/2 on Gamma_C stays",
      [](const tutorial::Options&, tutorial::Report& report) {
        for (const auto& [epsilon, norm, low, high] : {std::tuple{1.0, "contact", 1.25, 1.75}, {0.0, "h1", 1.75, 2.5}}) {
-         const Exact exact(epsilon);
+         const Exact exact(tutorial::paper_scene(epsilon));
          Table rows(hp_columns);
          for (const int n : {16, 32}) rows.add(solve("P4", {4, n, 0}, exact.contact_from(), exact));
          rows.select({"epsilon", "h", "unknowns", "h1", "contact"}).print();
@@ -20,7 +20,7 @@ const std::vector<tutorial::Exercise> exercises{
      "like d^(3/2): the cell that holds the end is about d wide, and an error there is that of a mesh with h = d. The "
      "chapter's levels need no better: each finds the end within its smallest cells",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const Exact exact(1);
+       const Exact exact(tutorial::paper_scene(1));
        Table rows({"d", "contact", "found"});
        for (const double d : {0.1, 0.03, 0.01}) {
          const Table row = solve("P6", hp.back(), exact.contact_from() + d, exact);
@@ -33,7 +33,7 @@ const std::vector<tutorial::Exercise> exercises{
      "in H1 the degree: with 8 layers from the start it is the same. On Gamma_C each of four layers takes a factor "
      "near 8 from the error of P6; from there on the degree is what counts",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const Exact exact(1);
+       const Exact exact(tutorial::paper_scene(1));
        std::vector<Level> degrees, layers;
        for (int p = 1; p <= 6; ++p) degrees.push_back({p, 3, 8});
        for (int n = 0; n <= 6; ++n) layers.push_back({6, 3, n});

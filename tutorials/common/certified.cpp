@@ -80,7 +80,7 @@ void write_pictures(const std::filesystem::path& out) {
 // u and p are multiplied by 1.01: r grows from lambda to lambda + 0.01 A u, so that r1 = 0.01 A u on the free edges off
 // Gamma_C, and rho = 0.01 |u|_a up to what the clamped and touching edges take.
 void scaled_solution(const Options&, Report& report) {
-  const Exact exact(1e-2, 14);
+  const Exact exact(paper_scene(1e-2), 14);
   Solved run(paper_scene(exact.epsilon), unstructured_mesh(32));
   const Certificate before = run.certified();
   run.solution.u *= 1.01;

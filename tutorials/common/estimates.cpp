@@ -15,8 +15,8 @@ const std::vector<std::string> estimate_columns{"element", "mesh",  "epsilon", "
 
 std::vector<Case> cases() {
   std::vector<Case> all;
-  for (int k = 0; k <= 12; ++k) all.emplace_back(std::pow(10.0, -0.25 * k), 14);
-  for (const double epsilon : {1e-4, 1e-6}) all.emplace_back(epsilon, 14);
+  for (int k = 0; k <= 12; ++k) all.emplace_back(paper_scene(std::pow(10.0, -0.25 * k)), 14);
+  for (const double epsilon : {1e-4, 1e-6}) all.emplace_back(paper_scene(epsilon), 14);
   return all;
 }
 

@@ -19,21 +19,23 @@ namespace antilock::tutorial {
 ///     K           = { v >= 0 on Gamma_C, v = 0 on Gamma_D }
 Scene paper_scene(double epsilon);
 
-/// The exact solution of (23) for one epsilon, ready for whole meshes.
+/// The exact solution of a scene with a scaled layer, ready for whole meshes. It is made from the scene that is solved,
+/// so that nothing is measured against the truth of another load.
 struct Exact {
-  /// The series has 2^log2_points points; 14 give gradients to 1e-6.
-  explicit Exact(double epsilon, int log2_points = 17);
-  /// Under another load.
-  explicit Exact(Truth exact);
+  /// Throws Error for a scene whose truth is not known: its layer is a StiffLayer, its load `paper_load` or a SineLoad,
+  /// its obstacle, if any, at the distance 0. The series has 2^log2_points points; 14 give gradients to 1e-6.
+  explicit Exact(Scene scene, int log2_points = 17);
 
   Errors errors(const Space& space, const Solution& solution) const;
   Reference reference() const { return antilock::reference(table); }
   double contact_from() const;  ///< the left end of the contact zone; 1 where there is none
 
+  Scene scene;
   double epsilon;
   Truth truth;
   TruthTable table;
 };
+/// Those of `paper_scene` for each epsilon.
 std::vector<Exact> exact_solutions(const std::vector<double>& epsilons, int log2_points = 17);
 
 }  // namespace antilock::tutorial

@@ -16,7 +16,7 @@ std::vector<double> half_decades() {
 }
 
 Table distances_to_limit(const Method& method, int finest) {
-  const Exact u0(0, 15);
+  const Exact u0(paper_scene(0), 15);
   Table rows({"h", "distance"});
   for (int n = finest / 4; n <= finest; n *= 2) {
     const Discretisation on = method.on(n);
