@@ -57,7 +57,7 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
   const int n = options.cells;
   const std::vector<std::pair<std::string, TriangleMesh>> four{{"structured", structured_mesh(n)},
                                                                {"unstructured", unstructured_mesh(n)},
-                                                               {"staggered", tutorial::staggered_mesh(n)},
+                                                               {"staggered", rows_mesh(n, n)},
                                                                {"layered", layered_mesh(n)}};
   // ### Solve
   Table table({"mesh", "triangles", "smallest angle", "groups", "kernel"});

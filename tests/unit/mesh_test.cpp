@@ -13,7 +13,7 @@
 #include <numbers>
 #include <set>
 
-#include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/families.hpp"
 #include "antilock/mesh/gmsh_session.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "support/measures.hpp"
@@ -232,7 +232,7 @@ TEST(Mesh, AKeptMeshIsTheMeshThatGmshMakes) {
     EXPECT_EQ(folder.file_count(), 3) << call;
   }
   // the second call reads: it takes what stands there
-  const fs::path first = folder / "unstructured_0x1p+0_0x1.5555555555555p-4_0x1.5555555555555p-4";
+  const fs::path first = folder / "unstructured6_0x1p+0_0x1.5555555555555p-4_0x1.5555555555555p-4";
   ASSERT_TRUE(fs::exists(first));
   const auto whole = fs::file_size(first);
   for (const fs::directory_entry& other : fs::directory_iterator(folder.path()))
@@ -327,6 +327,58 @@ TEST(Mesh, JitterMovesTheInsideAloneAndTurnsNoTriangleOver) {
   for (const EdgeTag tag : {EdgeTag::sigma, EdgeTag::clamped, EdgeTag::contact})
     EXPECT_EQ(length(moved, tag), length(straight, tag));
   expect_refused([] { jittered_mesh(4, 0.3); }, "jitter 0.3");
+}
+
+/// The layer's triangles: how many, and how many of them have a vertical edge.
+std::array<int, 2> with_vertical_edge(const TriangleMesh& mesh) {
+  std::array<int, 2> count{};
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] == Region::body) continue;
+    const auto upright = [&](int i, int j) {  // gmsh places points to about 1e-12
+      return std::abs(mesh.vertices(mesh.triangles(t, i), 0) - mesh.vertices(mesh.triangles(t, j), 0)) < 1e-9;
+    };
+    ++count[0], count[1] += upright(0, 1) || upright(1, 2) || upright(2, 0);
+  }
+  return count;
+}
+
+TEST(Mesh, FamiliesAreWhatTheirNamesSay) {
+  std::map<std::string, double> share;
+  for (const int n : {1, 2, 7, 16})
+    for (const MeshFamily& family : mesh_families()) {
+      const TriangleMesh mesh = family.mesh(n);
+      EXPECT_EQ(mesh.vertex_count() - mesh.edge_count() + mesh.triangle_count(), 1) << family.name;
+      for (const Region region : {Region::body, Region::layer})  // a sum of some thousand areas
+        EXPECT_NEAR(area(mesh, region), 1, 1e-12) << family.name;
+      for (const EdgeTag tag : {EdgeTag::sigma, EdgeTag::contact}) EXPECT_NEAR(length(mesh, tag), 1, 1e-13);
+      EXPECT_NEAR(length(mesh, EdgeTag::clamped), 5, 1e-13) << family.name;
+      EXPECT_LE(mesh.diameter(), 2.0 / n) << family.name;
+      const auto [all, vertical] = with_vertical_edge(mesh);
+      share[family.name] = static_cast<double>(vertical) / all;
+    }
+  for (const char* name : {"structured", "layered", "columns"}) EXPECT_EQ(share[name], 1) << name;
+  // per row 2 n + 1 triangles, the two at its ends lean on the sides of the layer
+  for (const char* name : {"rows", "staggered"}) EXPECT_DOUBLE_EQ(share[name], 2.0 / 33) << name;
+  EXPECT_GT(share["unstructured"], 2 * share["delaunay"]);  // Frontal-Delaunay begins at the boundary
+  expect_refused([] { mesh_family("hexagons"); }, "accepted: structured, layered, columns");
+  expect_refused([] { rows_mesh(0, 4); }, "accepted 1 to 2048");
+}
+
+TEST(Mesh, LatticesAreOfCongruentTriangles) {
+  const double h = 1.0 / 8, height = 1.0 / 9;
+  for (const TriangleMesh& mesh : {rows_mesh(8, 9), columns_mesh(8, 9)}) {
+    int whole = 0;
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.region[t] == Region::body || mesh.area(t) < 0.4 * h * height) continue;  // half of one
+      std::array<double, 3> length{};
+      for (int i = 0; i < 3; ++i) length[i] = mesh.edge_length(mesh.triangle_edges(t, i));
+      std::sort(length.begin(), length.end());
+      EXPECT_NEAR(length[0], h, 1e-15);
+      EXPECT_NEAR(length[2], std::hypot(h / 2, height), 1e-15);
+      ++whole;
+    }
+    EXPECT_EQ(whole, 9 * 15);
+  }
 }
 
 TEST(Mesh, RefusesRequestsOutOfRange) {

@@ -1,5 +1,4 @@
 #pragma once
-#include "common/ties.hpp"
 
 // The answers to the exercises of 07_kernel, whose page includes this one: to be read after predicting.
 
@@ -7,7 +6,7 @@ const std::vector<tutorial::Exercise> exercises{
     {"The staggered mesh of chapter 02 is as regular as a mesh can be. The kernel on its layer, for P1 and for CR?",
      "P1: 0. CR: N_T / 2, on this mesh as on any",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const TriangleMesh mesh = tutorial::staggered_mesh(8);
+       const TriangleMesh mesh = mesh_family("staggered").mesh(8);
        const auto triangles = static_cast<double>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
        report.claim_within(layer_kernel_dimension(assemble(scene, Space(mesh, p1()))), 0, 0, "P1:");
        report.claim_within(layer_kernel_dimension(assemble(scene, Space(mesh, crouzeix_raviart()))) / triangles, 0.5,

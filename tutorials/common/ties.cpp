@@ -3,62 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
 
-#include "antilock/core/error.hpp"
-#include "antilock/mesh/generate.hpp"
 #include "antilock/study/table.hpp"
 
 namespace antilock::tutorial {
-
-TriangleMesh staggered_mesh(int cells) {
-  if (cells < 2 || cells % 2 != 0)
-    throw Error(fmt::format("a staggered mesh of {} cells; accepted: an even number", cells));
-  const double h = 1.0 / cells;
-  std::vector<std::vector<int>> rows;  // vertices from left to right, rows from Gamma_C upwards
-  std::vector<Eigen::RowVector2d> at;
-  for (int j = -cells; j <= cells; ++j) {
-    const bool shifted = j < 0 && (j + cells) % 2 == 1;
-    rows.emplace_back();
-    for (int i = 0; i <= cells + (shifted ? 1 : 0); ++i) {
-      const double x = shifted ? std::clamp(i - 0.5, 0.0, static_cast<double>(cells)) : i;
-      rows.back().push_back(static_cast<int>(at.size()));
-      at.emplace_back(x * h, j * h);
-    }
-  }
-  std::vector<std::array<int, 3>> triangles;
-  std::vector<Region> region;
-  std::vector<TaggedEdge> tagged;
-  const auto tag = [&](const std::vector<int>& row, EdgeTag as) {
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) tagged.push_back({row[i], row[i + 1], as});
-  };
-  for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
-    const std::vector<int>&low = rows[j], &high = rows[j + 1];
-    for (std::size_t l = 0, u = 0; l + 1 < low.size() || u + 1 < high.size();) {  // zip the two rows together
-      const auto middle = [&](const std::vector<int>& row, std::size_t i) {
-        return at[row[i]].x() + at[row[i + 1]].x();
-      };
-      const bool below = u + 1 == high.size() || (l + 1 < low.size() && middle(low, l) <= middle(high, u));
-      triangles.push_back({low[l], below ? low[l + 1] : high[u + 1], high[u]});
-      below ? ++l : ++u;
-      region.push_back(at[high[0]].y() > 0 ? Region::body : Region::layer);
-    }
-    tagged.push_back({low.front(), high.front(), EdgeTag::clamped});
-    tagged.push_back({low.back(), high.back(), EdgeTag::clamped});
-  }
-  tag(rows.front(), EdgeTag::contact);
-  tag(rows.back(), EdgeTag::clamped);
-  tag(rows[static_cast<std::size_t>(cells)], EdgeTag::sigma);
-  Points vertices(at.size(), 2);
-  for (std::size_t i = 0; i < at.size(); ++i) vertices.row(static_cast<Eigen::Index>(i)) = at[i];
-  Triples corners(triangles.size(), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    for (int i = 0; i < 3; ++i) corners(static_cast<Eigen::Index>(t), i) = triangles[t][static_cast<std::size_t>(i)];
-  return make_triangle_mesh(vertices, corners, region, tagged, "staggered mesh");
-}
 
 Ties ties(const TriangleMesh& mesh) {
   std::vector<int> leader(mesh.triangle_count());

@@ -8,10 +8,6 @@
 
 namespace antilock::tutorial {
 
-/// The structured mesh with every second row of the layer's vertices shifted by half a cell: no edge inside its layer is
-/// vertical. The number of cells per unit side must be even, else Error.
-TriangleMesh staggered_mesh(int cells);
-
 /// The layer's triangles in groups: two that share an edge which is not vertical are tied together, and so are those that
 /// they are tied to. A group's number per triangle, from 0 on from left to right; -1 in the body.
 struct Ties {

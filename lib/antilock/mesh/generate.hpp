@@ -25,11 +25,21 @@ TriangleMesh structured_mesh(int cells, const Domain& domain = {}, Diagonal diag
 /// triangle may turn over).
 TriangleMesh jittered_mesh(int cells, double amount);
 
-/// The unstructured mesh of Figure 6, by gmsh (Frontal-Delaunay, one thread, fixed seed): the same mesh at every call.
+/// The lattices: a layer of `rows` rows of isosceles triangles with the base 1/cells, which lies across and alternates
+/// above and below, so no edge inside is vertical; or the same turned by 90 degrees, `columns` columns with upright
+/// bases. Congruent but for the halves at the ends of each row or column. The body has squares cut by a diagonal. Throws
+/// Error unless 1 <= cells <= 2048.
+TriangleMesh rows_mesh(int cells, int rows);
+TriangleMesh columns_mesh(int cells, int columns);
+
+enum class Mesher { mesh_adapt = 1, delaunay = 5, frontal = 6 };  ///< gmsh's own numbers
+
+/// The unstructured mesh of Figure 6, by gmsh (one thread, fixed seed): the same mesh at every call. Frontal-Delaunay
+/// begins at the boundary: most triangles of the layer then have a vertical edge, which Delaunay and MeshAdapt avoid.
 /// In a thin layer the cells shrink to half its depth. Beyond 128 cells gmsh makes the mesh of cells / 2, / 4 or / 8 (the
 /// first that is at most 80, or the last that leaves a layer one cell deep) and every triangle is then cut into four by its midpoints, as often: the angles are those
 /// of the coarse mesh, and inside its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
-TriangleMesh unstructured_mesh(int cells, const Domain& domain = {});
+TriangleMesh unstructured_mesh(int cells, const Domain& domain = {}, Mesher mesher = Mesher::frontal);
 
 /// The disc of radius 1, its rim clamped: 6 rings^2 triangles with edges of about 1/rings and nearly equal angles. Its
 /// boundary is the polygon through 6 rings points of the circle. Throws Error unless 1 <= rings <= 512.

@@ -60,7 +60,6 @@ GmshSession::GmshSession() {
   set("General.Terminal", 0);
   set("General.NumThreads", 1);  // the mesh depends on the number of threads
   set("Mesh.RandomSeed", 1);
-  set("Mesh.Algorithm", 6);  // Frontal-Delaunay
   set("Mesh.MeshSizeExtendFromBoundary", 1);
   call<decltype(gmshModelAdd)>("gmshModelAdd", "antilock");
 }

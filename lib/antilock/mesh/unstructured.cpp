@@ -72,8 +72,9 @@ std::vector<int> elements_of(const GmshSession& gmsh, int dimension, int entity,
 }
 
 /// gmsh's mesh with edges of about h in the body and h_layer along and below Sigma.
-MeshArrays by_gmsh(double depth, double h, double h_layer) {
+MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
   const GmshSession gmsh;
+  gmsh.set("Mesh.Algorithm", static_cast<int>(mesher));
   const Curves curves = add_geometry(gmsh, depth, h, h_layer);
   gmsh.generate();
 
@@ -100,7 +101,7 @@ MeshArrays by_gmsh(double depth, double h, double h_layer) {
 
 }  // namespace
 
-TriangleMesh unstructured_mesh(int cells, const Domain& domain) {
+TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
   check_mesh_request(cells, 512, domain);
   const double depth = domain.layer_depth, h = 1.0 / cells, h_layer = depth > 0 ? std::min(h, depth / 2) : h;
   // gmsh's seconds grow faster than its triangles: 0.5 s at 64 cells, 4 at 128, 28 at 256
@@ -110,8 +111,9 @@ TriangleMesh unstructured_mesh(int cells, const Domain& domain) {
   if (cells > most_by_gmsh)
     while ((most_to_refine << halvings) < cells && fits(halvings + 1)) ++halvings;
   const double h_made = (1 << halvings) * h, h_layer_made = (1 << halvings) * h_layer;
-  MeshArrays made = kept_mesh(fmt::format("unstructured_{:a}_{:a}_{:a}", depth, h_made, h_layer_made),
-                              [&] { return by_gmsh(depth, h_made, h_layer_made); });
+  MeshArrays made =
+      kept_mesh(fmt::format("unstructured{}_{:a}_{:a}_{:a}", static_cast<int>(mesher), depth, h_made, h_layer_made),
+                [&] { return by_gmsh(depth, h_made, h_layer_made, mesher); });
   TriangleMesh mesh = make_triangle_mesh(std::move(made.vertices), std::move(made.triangles), std::move(made.region),
                                          made.tagged, "unstructured mesh");
   for (int i = 0; i < halvings; ++i) mesh = refined(mesh);

@@ -2,14 +2,6 @@
 
 namespace antilock {
 
-MeshFamily structured(const Domain& domain, Diagonal diagonal) {
-  return {"structured", [=](int cells) { return structured_mesh(cells, domain, diagonal); }};
-}
-
-MeshFamily unstructured(const Domain& domain) {
-  return {"unstructured", [=](int cells) { return unstructured_mesh(cells, domain); }};
-}
-
 Discretisation::Discretisation(TriangleMesh mesh, const Element& element)
     : mesh_(std::make_shared<const TriangleMesh>(std::move(mesh))), space_(*mesh_, element) {}
 

@@ -1,24 +1,12 @@
 #pragma once
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/families.hpp"
 #include "antilock/space/space.hpp"
 
 namespace antilock {
-
-/// A family of meshes: a name, and one mesh per number of cells per unit side (h = 1/cells). A
-/// family of one's own is one line:
-/// `MeshFamily{"jittered", [](int cells) { return jittered_mesh(cells, 0.1); }}`.
-struct MeshFamily {
-  std::string name;
-  std::function<TriangleMesh(int cells)> mesh;
-};
-/// The meshes of Figure 3 and of Figure 6.
-MeshFamily structured(const Domain& domain = {}, Diagonal diagonal = Diagonal::right);
-MeshFamily unstructured(const Domain& domain = {});
 
 /// A mesh and the space on it, kept together: the space looks at the mesh.
 class Discretisation {

@@ -21,7 +21,7 @@ std::map<std::pair<int, bool>, SentMesh> sent_meshes;  // by cells, and whether 
 }  // namespace
 
 // gmsh is not in the page: it made these meshes when the book was built. Their tags follow from where the edges lie.
-TriangleMesh unstructured_mesh(int cells, const Domain& domain) {
+TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher) {
   const bool layer = domain.layer_depth > 0;
   const auto sent = sent_meshes.find({cells, layer});
   if (sent == sent_meshes.end())
