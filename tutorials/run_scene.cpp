@@ -65,6 +65,7 @@ Written to the results folder: summary.json; solution.csv (x,y,u); contact.csv (
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too).
 In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
+blas is the library of dense linear algebra, its kernels and threads;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level; warning says what to doubt: an answer above the trusted error, a load that the mesh misses.
 Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8

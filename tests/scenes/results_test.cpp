@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <set>
 
+#include "antilock/core/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/mesh/msh_file.hpp"
@@ -49,8 +51,8 @@ void expect_interface(const std::filesystem::path& results) {
   const bool has_layer = std::count(effects.begin(), effects.end(), "layer") == 1;
   const bool has_contact = std::count(effects.begin(), effects.end(), "contact") == 1;
   EXPECT_EQ(effects.size(), static_cast<std::size_t>(has_layer + has_contact));
-  Keys top = {"element", "solver", "epsilon", "h",          "dofs",    "effects", "energy",
-              "u_max",   "u_min",  "kkt",     "iterations", "seconds", "warning", "scene"};
+  Keys top = {"element", "solver", "epsilon",    "h",    "dofs",    "effects", "energy", "u_max",
+              "u_min",   "kkt",    "iterations", "blas", "seconds", "warning", "scene"};
   Keys written = {"summary.json", "solution.csv", "mesh.msh", "solution.vtu"};
   if (has_contact) {
     top.insert("contact");
@@ -61,6 +63,7 @@ void expect_interface(const std::filesystem::path& results) {
   EXPECT_EQ(files(results), written);
   EXPECT_EQ(s["epsilon"].is_null(), !has_layer);
   EXPECT_EQ(keys(s["iterations"]), (Keys{"contact", "corrections"}));
+  EXPECT_EQ(keys(s["blas"]), (Keys{"name", "kernel", "threads"}));
   EXPECT_EQ(keys(s["seconds"]), (Keys{"mesh", "assemble", "factor", "solve", "files", "total"}));
   double stages = 0;
   for (const std::string stage : {"mesh", "assemble", "factor", "solve", "files"}) {
@@ -181,6 +184,20 @@ TEST(Results, NameTheWholeQuestion) {
   const auto told = again.summary()["scene"];
   EXPECT_EQ(told["mesh"], (nlohmann::json{{"kind", "file"}, {"file", (plain.results / "mesh.msh").string()}}));
   EXPECT_TRUE(told["layer"].is_null() && told["gap"].is_null());
+}
+
+// OpenBLAS takes the kernels that OPENBLAS_CORETYPE names, and any x86-64 executes those of Prescott.
+TEST(Results, NameTheKernelsInUse) {
+  if (blas().kernel.empty()) GTEST_SKIP() << "another BLAS than OpenBLAS";
+  const char* const given = std::getenv("OPENBLAS_CORETYPE");
+  const std::string before = given ? given : "";
+  ::setenv("OPENBLAS_CORETYPE", "Prescott", 1);
+  const SceneRun run(scene(contact, structured(4)));
+  given ? ::setenv("OPENBLAS_CORETYPE", before.c_str(), 1) : ::unsetenv("OPENBLAS_CORETYPE");
+  const auto used = run.summary()["blas"];
+  EXPECT_EQ(used["kernel"], "Prescott");
+  EXPECT_EQ(used["name"], blas().name);
+  EXPECT_GE(used["threads"].get<int>(), 1);
 }
 
 TEST(Results, SecondsAddUpToTheWallTime) {

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <thread>
 #include <tuple>
 
 #include "antilock/core/atomic_file.hpp"
+#include "antilock/core/blas.hpp"
 #include "antilock/study/table.hpp"
 #include "common/timed_runs.hpp"
 
@@ -116,12 +116,14 @@ void write_machine(const std::filesystem::path& path) {
   std::array<char, 32> date{};
   const std::time_t now = std::time(nullptr);
   std::strftime(date.data(), date.size(), "%F %R UTC", std::gmtime(&now));
-  const char* blas_threads = std::getenv("OPENBLAS_NUM_THREADS");
+  const Blas used = blas();
   Table table({"what", "value"});
   const auto version = [](auto a, auto b, auto c) { return fmt::format("{}.{}.{}", a, b, c); };
   table.add({"processor", processor});
   table.add({"cores", std::thread::hardware_concurrency()});
-  table.add({"threads of the BLAS", blas_threads ? blas_threads : "as many"});
+  table.add({"BLAS", fmt::format("{} with {} kernels on {} threads", used.name,
+                                 used.kernel.empty() ? "unknown" : used.kernel, used.threads)});
+  if (!used.wider.empty()) table.add({"wider kernels than these", fmt::format("OPENBLAS_CORETYPE={}", used.wider)});
 #ifdef __clang__
   table.add({"compiler", __VERSION__});  // its own name is part of it
 #else

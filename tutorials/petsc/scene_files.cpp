@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "antilock/core/atomic_file.hpp"
+#include "antilock/core/blas.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/distributed/kkt_report.hpp"
 #include "antilock/distributed/ranks.hpp"
@@ -134,6 +135,8 @@ Json summary(const SceneFile& file, const Level& level, const NestedReport& repo
     s["kkt"] = {{"residual", report.kkt.residual}};
   }
   s["iterations"] = {{"contact", report.last.sets + 1}, {"corrections", report.last.corrections}};
+  const Blas used = blas();
+  s["blas"] = {{"name", used.name}, {"kernel", used.kernel}, {"threads", used.threads}};
   s["parallel"] = {{"ranks", ranks()},
                    {"petsc", petsc_version()},
                    {"levels", levels},

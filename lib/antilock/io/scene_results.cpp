@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "antilock/core/atomic_file.hpp"
+#include "antilock/core/blas.hpp"
 #include "antilock/core/result_folder.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/expression.hpp"
@@ -107,6 +108,8 @@ Json summary(const SceneFile& file, const Space& space, const VariationalInequal
     s["kkt"] = {{"residual", solution.kkt.residual}};
   }
   s["iterations"] = {{"contact", solution.counters.contact}, {"corrections", solution.counters.corrections}};
+  const Blas used = blas();
+  s["blas"] = {{"name", used.name}, {"kernel", used.kernel}, {"threads", used.threads}};
   return s;
 }
 
