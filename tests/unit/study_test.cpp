@@ -100,6 +100,12 @@ TEST(Table, FindsTheOrderOfAPowerLaw) {
   Table noisy({"x", "y"});
   for (const auto& [x, y] : {std::pair{1.0, 2.0}, {1.0, 0.5}, {8.0, 128.0}, {8.0, 32.0}}) noisy.add({x, y});
   EXPECT_NEAR(noisy.order("y", "x"), 2, 1e-13);
+  Table bent({"x", "y"});
+  for (const auto& [x, y] : {std::pair{1.0, 1.0}, {2.0, 2.0}, {4.0, 16.0}}) bent.add({x, y});
+  ASSERT_EQ(bent.pairwise_orders("y", "x").size(), 2u);
+  EXPECT_NEAR(bent.pairwise_orders("y", "x")[0], 1, 1e-13);
+  EXPECT_NEAR(bent.pairwise_orders("y", "x")[1], 3, 1e-13);
+  EXPECT_THROW(noisy.pairwise_orders("y", "x"), Error);  // two rows of one x
 }
 
 TEST(Table, PivotsToOneQuantityAgainstTwo) {

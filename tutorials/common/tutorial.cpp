@@ -1,6 +1,7 @@
 #include "common/tutorial.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cstdio>
 
@@ -65,6 +66,15 @@ void Report::not_judged(const std::string& why) {
 
 void Report::claim_within(double value, double low, double high, const std::string& what) {
   claim(value >= low && value <= high, fmt::format("{} {:.4g} (accepted {:.4g} to {:.4g})", what, value, low, high));
+}
+
+void Report::claim_order(const Table& rows, const std::string& y, const std::string& x, double low, double high,
+                         const std::string& what) {
+  if (rows.size() < 4) return not_judged(fmt::format("{}: an order needs four rows, here are {}", what, rows.size()));
+  const double order = rows.order(y, x);
+  claim(order >= low && order <= high,
+        fmt::format("{}: order {:.2f} ({:.2f} from row to row; accepted {:.2f} to {:.2f})", what, order,
+                    fmt::join(rows.pairwise_orders(y, x), ", "), low, high));
 }
 
 int run(int argc, char** argv, const std::string& stem, const std::string& what, Options options,

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/study/table.hpp"
 #include "common/command_line.hpp"
 
 namespace antilock::tutorial {
@@ -53,6 +54,10 @@ class Report {
   }
   /// A claim that a number lies in an interval; its line ends with the number and the interval.
   void claim_within(double value, double low, double high, const std::string& what);
+  /// A claim that the order of y in x, a least-squares slope, lies in an interval; its line ends with the order, with
+  /// those from row to row, and with the interval. Not judged from fewer than four rows.
+  void claim_order(const Table& rows, const std::string& y, const std::string& x, double low, double high,
+                   const std::string& what);
   /// A claim that this run cannot decide, and why: a line `NOT JUDGED: ...`. Nothing is left out in
   /// silence.
   void not_judged(const std::string& why);

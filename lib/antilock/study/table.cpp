@@ -148,6 +148,16 @@ double Table::order(const std::string& y, const std::string& x) const {
   return slope(numbers(x), numbers(y));
 }
 
+std::vector<double> Table::pairwise_orders(const std::string& y, const std::string& x) const {
+  std::vector<double> orders;
+  for (int i = 0; i + 1 < size(); ++i) {
+    Table pair(columns_);
+    pair.rows_ = {rows_[i], rows_[i + 1]};
+    orders.push_back(pair.order(y, x));
+  }
+  return orders;
+}
+
 Table Table::pivot(const std::string& rows, const std::string& across, const std::string& value) const {
   const std::vector<Entry> down = different(rows), right = different(across);
   std::vector<std::string> columns{rows};

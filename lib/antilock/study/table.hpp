@@ -65,6 +65,8 @@ class Table {
   /// The order of convergence: least-squares slope of log(y) against log(x). Throws Error where
   /// there are fewer than two different x, or a number is not positive.
   double order(const std::string& y, const std::string& x) const;
+  /// The same between each two rows that follow each other. Throws Error as `order` does, and for two rows of one x.
+  std::vector<double> pairwise_orders(const std::string& y, const std::string& x) const;
   /// One row per different entry of `rows`, one column per different entry of `across`, filled with
   /// `value`: a table of an error against h and epsilon. Throws Error where a place is filled
   /// twice; an empty place holds no text.
