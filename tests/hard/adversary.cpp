@@ -192,7 +192,6 @@ Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& e
   try {
     UzawaOptions options;
     options.max_steps = 20'000;
-    options.exact_end = solver == By::uzawa_exact_end;
     const Solution s = solver == By::active_set ? active_set(problem) : uzawa(problem, options);
     judgement.error = std::numeric_limits<double>::infinity();
     if (solvable) {

@@ -34,8 +34,7 @@ struct Judgement {
   std::string reason;  ///< the message of a refusal or a warning
 };
 
-/// uzawa_exact_end: with UzawaOptions::exact_end.
-enum class By { active_set, uzawa, uzawa_exact_end };
+enum class By { active_set, uzawa };
 
 /// Solves, and compares with rational arithmetic.
 Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& exact, By solver = By::active_set);

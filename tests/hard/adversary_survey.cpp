@@ -2,7 +2,6 @@
 //
 // Run: adversary_survey 0 20000              by the active set
 // Run: adversary_survey 0 2000 uzawa         by Uzawa
-// Run: adversary_survey 0 2000 exact-end     by Uzawa that ends on the bounds it has found
 // Run: adversary_survey 0 5000 bounds        with upper bounds and bounds on combinations of unknowns
 // Run: adversary_survey 0 5000 friction      and with bounds that give way
 #include <fmt/format.h>
@@ -32,13 +31,13 @@ int main(int argc, char** argv) {
   if (argc < 3) {
     fmt::print(
         stderr,
-        "adversary_survey: accepted: FROM TO [uzawa] [exact-end] [bounds] [friction], the numbers of the problems\n");
+        "adversary_survey: accepted: FROM TO [uzawa] [bounds] [friction], the numbers of the problems\n");
     return 2;
   }
   const auto from = static_cast<unsigned>(std::atoi(argv[1])), to = static_cast<unsigned>(std::atoi(argv[2]));
   const std::vector<std::string> words(argv + 3, argv + argc);
   const auto asked = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
-  const By solver = asked("exact-end") ? By::uzawa_exact_end : asked("uzawa") ? By::uzawa : By::active_set;
+  const By solver = asked("uzawa") ? By::uzawa : By::active_set;
   const bool other_shapes = asked("bounds"), friction = asked("friction");
   const char* const outcomes[] = {"right", "warned", "refused", "rightly refused", "QUIETLY WRONG"};
   std::map<std::string, int> counts, reasons;

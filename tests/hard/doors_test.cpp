@@ -63,14 +63,11 @@ TEST(Doors, SceneAndMeshAgreeOnTheDepthOfTheLayer) {
 TEST(Doors, FrictionMayBearFarMoreThanTheForces) {
   for (const double g : {10.0, 1e10, 1e15, 1e300}) {
     EXPECT_EQ(active_set(rubbing_chain(5, g)).u.lpNorm<Eigen::Infinity>(), 0) << g;
-    UzawaOptions few;
-    few.max_steps = 1000;
-    few.exact_end = true;
-    EXPECT_EQ(uzawa(rubbing_chain(5, g), few).u.lpNorm<Eigen::Infinity>(), 0) << g;
     VariationalInequality two_sided = rubbing_chain(5, g);
     two_sided.lower.setConstant(-0.3);
     two_sided.upper.setConstant(0.4);
-    EXPECT_LT((uzawa(two_sided, few).u.array() - 0.4).abs().maxCoeff(), 1e-12) << g;
+    // it ends with a step of 1e-10 |u|, from which the error differs by its contraction
+    EXPECT_LT((uzawa(two_sided).u.array() - 0.4).abs().maxCoeff(), 1e-9) << g;
   }
 }
 
@@ -83,26 +80,12 @@ TEST(Doors, UzawaKnowsNoUnits) {
   }
 }
 
-// 20,000 steps are not enough for the forces, but for the bounds that bear them.
-TEST(Doors, UzawaEndsOnTheBoundsThatItsStepsHaveFound) {
-  for (const unsigned seed : {53U, 177U, 180U, 659U, 714U, 864U}) {
-    const VariationalInequality problem = random_problem(seed);
-    const Judgement judgement = judge(problem, test::exact_answer(problem), By::uzawa_exact_end);
-    EXPECT_EQ(judgement.outcome, Outcome::right) << seed << " " << judgement.reason;
-  }
-}
-
 // Rows of B decades apart: on the way to u the mix of the corrections is 1e8 to 1e15 times its size.
 TEST(Doors, TheWayToAnAnswerMayBeLong) {
   for (const unsigned seed : {454U, 696U, 723U, 914U, 986U, 1132U}) {
     const VariationalInequality problem = random_problem(seed);
-    const test::ExactAnswer exact = test::exact_answer(problem);
-    for (const By solver : {By::active_set, By::uzawa_exact_end}) {
-      const Judgement judgement = judge(problem, exact, solver);
-      // 696 ends on the border of what is trusted, 1e-9: its report says 2e-10 to 6e-8, by the penalty
-      const bool on_the_border = seed == 696 && judgement.outcome == Outcome::warned;
-      EXPECT_TRUE(judgement.outcome == Outcome::right || on_the_border) << seed << " " << judgement.reason;
-    }
+    const Judgement judgement = judge(problem, test::exact_answer(problem));
+    EXPECT_EQ(judgement.outcome, Outcome::right) << seed << " " << judgement.reason;
   }
 }
 

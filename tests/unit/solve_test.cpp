@@ -301,10 +301,10 @@ TEST(ActiveSet, ZeroLoadGivesZero) {
 TEST(Anderson, TheContractionIsThatOfThePlainSteps) {
   const Eigen::VectorXd rate = Eigen::Vector4d(0.9, 0.1, 0.08, 0.05), fixed_point = Eigen::Vector4d(1, 1, -2, 3);
   Anderson anderson(6);
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(4), companion = x;
+  Twice x(Eigen::VectorXd::Zero(4)), companion = x;
   double before = 1;
   for (int step = 0; step < 5; ++step) {
-    const Eigen::VectorXd g = (1 - rate.array()) * (fixed_point - x).array();
+    const Eigen::VectorXd g = (1 - rate.array()) * (fixed_point - x.high).array();
     x += g;
     companion += g;
     anderson.note(x, g, companion);
@@ -318,7 +318,7 @@ TEST(Anderson, TheContractionIsThatOfThePlainSteps) {
     }
     before = g.norm();
     anderson.mix(x, companion);
-    EXPECT_EQ(x, companion) << "mixed with the same weights";
+    EXPECT_EQ(x.high, companion.high) << "mixed with the same weights";
   }
 }
 
@@ -375,8 +375,7 @@ TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
     const Eigen::VectorXd truth = Cholesky(k(unknown, unknown)).solve(r);
     EXPECT_LT(relative_difference(x, truth), 1e-10) << delta;
   }
-  EXPECT_EQ(factor.factorisations, 3);
-  EXPECT_EQ(factor.solves, 2);
+  EXPECT_EQ(factor.work().factorisations, 3);
 }
 
 TEST(Progress, IsReportedOncePerCorrectionAndStopsTheSolve) {

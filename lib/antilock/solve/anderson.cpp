@@ -6,22 +6,22 @@
 
 namespace antilock {
 
-void Anderson::note(const Eigen::VectorXd& reached, const Eigen::VectorXd& g, const Eigen::VectorXd& companion) {
-  past_.push_front({reached, g, companion});
+void Anderson::note(const Twice& reached, const Eigen::VectorXd& g, const Twice& companion) {
+  past_.push_front({reached, companion, g});
   if (static_cast<int>(past_.size()) > depth_) past_.pop_back();
 }
 
 double Anderson::contraction() const {
   double most = past_.size() < 2 ? 0.99 : 0.01;
   for (std::size_t i = 1; i < past_.size(); ++i) {
-    const auto after = past_[0].reached - past_[i].reached;
+    const Eigen::VectorXd after = past_[0].reached - past_[i].reached;
     const double apart = (after - past_[0].g + past_[i].g).norm();
     if (apart > 0) most = std::max(most, after.norm() / apart);
   }
   return std::min(most, 0.99);
 }
 
-void Anderson::mix(Eigen::VectorXd& reached, Eigen::VectorXd& companion) const {
+void Anderson::mix(Twice& reached, Twice& companion) const {
   const auto others = static_cast<Eigen::Index>(past_.size()) - 1;
   if (others < 1) return;
   const Eigen::VectorXd& g = past_[0].g;
@@ -33,8 +33,8 @@ void Anderson::mix(Eigen::VectorXd& reached, Eigen::VectorXd& companion) const {
   const Eigen::MatrixXd normal = difference.transpose() * difference;
   const Eigen::VectorXd gamma = least_squares(normal, difference.transpose() * g, 1e-10).cwiseQuotient(scale);
   for (Eigen::Index i = 0; i < others; ++i) {
-    reached -= gamma(i) * (past_[0].reached - past_[i + 1].reached);
-    companion -= gamma(i) * (past_[0].companion - past_[i + 1].companion);
+    reached += -gamma(i) * (past_[0].reached - past_[i + 1].reached);
+    companion += -gamma(i) * (past_[0].companion - past_[i + 1].companion);
   }
 }
 

@@ -1,8 +1,7 @@
 #pragma once
-#include <Eigen/Core>
 #include <deque>
 
-#include "antilock/core/eigen_memory.hpp"
+#include "antilock/core/twice.hpp"
 
 namespace antilock {
 
@@ -13,7 +12,7 @@ class Anderson {
   explicit Anderson(int depth) : depth_(depth) {}
 
   /// Notes a plain step: `reached` = x + g from some x, and `companion`, a vector that depends affinely on x.
-  void note(const Eigen::VectorXd& reached, const Eigen::VectorXd& g, const Eigen::VectorXd& companion);
+  void note(const Twice& reached, const Eigen::VectorXd& g, const Twice& companion);
 
   /// By how much a plain step brings two starts closer, at worst over the last start and those before it; 0.01 to 0.99,
   /// and 0.99 where there is only one. It holds wherever the starts came from. (The ratio of two steps |g| does not: a
@@ -21,14 +20,15 @@ class Anderson {
   double contraction() const;
 
   /// Mixes the noted iterates: `reached` and, with the same weights, `companion` become the next start.
-  void mix(Eigen::VectorXd& reached, Eigen::VectorXd& companion) const;
+  void mix(Twice& reached, Twice& companion) const;
 
   /// Forgets the past: after a change of the iteration itself (another contact set), it would only mislead.
   void restart() { past_.clear(); }
 
  private:
   struct Iterate {
-    Eigen::VectorXd reached, g, companion;
+    Twice reached, companion;
+    Eigen::VectorXd g;
   };
   int depth_;
   std::deque<Iterate> past_;  ///< the last one first

@@ -23,7 +23,7 @@ std::optional<double> nearly_dependent_rows(const VariationalInequality& problem
     if (b.row(r).squaredNorm() > 0) b.row(r).normalize();
   const Eigen::VectorXd pivots = qr_pivots(b.transpose());
   for (const double pivot : pivots)
-    if (pivot > 1e-14 && pivot < 3e-9) return pivot;
+    if (pivot > 2e-15 && pivot < 3e-9) return pivot;
   return std::nullopt;
 }
 

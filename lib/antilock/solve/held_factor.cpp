@@ -14,7 +14,7 @@ std::optional<int> HeldFactor::factorise(SparseMatrix&& k) {
   if (!cholesky_->analysed()) {
     Stopwatch watch;
     cholesky_->analyse(k_, 0);
-    analyse_seconds = watch.seconds();
+    analyse_seconds_ = watch.seconds();
   }
   return cholesky_->factorise(k_);
 }
@@ -26,7 +26,7 @@ void HeldFactor::hold(const std::vector<char>& held) {
     for (SparseMatrix::InnerIterator it(rest, j); it; ++it)
       if (it.row() != j && (held[j] != 0 || held[it.row()] != 0)) it.valueRef() = 0;
   held_ = held;
-  ++refactorisations;
+  ++refactorisations_;
   if (cholesky_->factorise(rest)) throw Error("contact: K on the unknowns that are not held is not positive definite");
 }
 

@@ -28,12 +28,14 @@ class HeldFactor {
   const SparseMatrix& upper() const { return k_; }
   double smallest_pivot() const { return cholesky_->smallest_pivot(); }
 
-  int refactorisations = 0;  ///< for another set
-  double analyse_seconds = 0;
+  int refactorisations() const { return refactorisations_; }  ///< so far, each for another set
+  double analyse_seconds() const { return analyse_seconds_; }
 
  private:
   SparseMatrix k_;
   std::vector<char> held_;
+  int refactorisations_ = 0;
+  double analyse_seconds_ = 0;
   std::unique_ptr<SparseCholesky> cholesky_;
 };
 

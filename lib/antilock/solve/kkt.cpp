@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 #include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/kkt_bounds.hpp"
+#include "antilock/solve/residual.hpp"
 
 namespace antilock {
 namespace {
@@ -24,35 +24,6 @@ void require_sizes(const VariationalInequality& problem, const Solution& s) {
     return;
   throw Error(fmt::format("kkt: u, p and lambda have {}, {} and {} entries; accepted {}, {} and {}", s.u.size(),
                           s.p.size(), s.lambda.size(), problem.size(), problem.b.rows(), problem.bound_count()));
-}
-
-/// The residual with every product and sum in Scalar, rounded once at the end: one walk over A1 and one over B.
-template <class Scalar>
-SplitResidual residual_in(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
-                          const Eigen::VectorXd& lambda) {
-  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> r1 = problem.load.cast<Scalar>();
-  for (Eigen::Index j = 0; j < problem.a1.cols(); ++j)
-    for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) r1(a.row()) -= static_cast<Scalar>(a.value()) * u(j);
-  Eigen::VectorXd r2(problem.b.rows());
-  for (Eigen::Index row = 0; row < problem.b.rows(); ++row) {
-    const Scalar stress = static_cast<Scalar>(problem.m(row)) * p(row);
-    Scalar strain = 0;
-    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) {
-      strain += static_cast<Scalar>(b.value()) * u(b.col());
-      r1(b.col()) -= b.value() * stress;
-    }
-    r2(row) = static_cast<double>(static_cast<Scalar>(problem.compliance) * p(row) - strain);
-  }
-  if (lambda.size() > 0) {
-    for (std::size_t i = 0; i < problem.contact.size(); ++i)
-      r1(problem.contact[i]) += lambda(static_cast<Eigen::Index>(i));
-    const Eigen::Index rows = problem.combinations.rows();
-    if (rows > 0) r1 += problem.combinations.cast<Scalar>().transpose() * lambda.tail(rows).template cast<Scalar>();
-  }
-  if constexpr (std::is_same_v<Scalar, double>)
-    return {std::move(r1), std::move(r2)};
-  else
-    return {r1.template cast<double>(), std::move(r2)};
 }
 
 /// What the report compares, found in one walk over A1 and one over B.
@@ -112,12 +83,7 @@ double single_displacement(const VariationalInequality& problem, const Parts& pa
 
 SplitResidual split_residual(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
                              const Eigen::VectorXd& lambda) {
-  return residual_in<double>(problem, u, p, lambda);
-}
-
-SplitResidual extended_residual(const VariationalInequality& problem, const Eigen::VectorXd& u,
-                                const Eigen::VectorXd& p, const Eigen::VectorXd& lambda) {
-  return residual_in<long double>(problem, u, p, lambda);
+  return exact_residual(problem, u, p, lambda);
 }
 
 Eigen::VectorXd absolute_row_sums(const RowMatrix& b) {

@@ -12,9 +12,6 @@ struct SplitResidual {
 };
 SplitResidual split_residual(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
                              const Eigen::VectorXd& lambda);
-/// The same in long double, for corrections that round-off in the residual itself keeps from settling (slivers).
-SplitResidual extended_residual(const VariationalInequality& problem, const Eigen::VectorXd& u,
-                                const Eigen::VectorXd& p, const Eigen::VectorXd& lambda);
 
 /// What a row of B makes of the largest u = 1: the unit of its strain. 1 for a row without entries.
 Eigen::VectorXd absolute_row_sums(const RowMatrix& b);

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -22,29 +20,18 @@ const VariationalInequality& checked(const VariationalInequality& problem) {
   return problem;
 }
 
-/// Of the bits of A1, B and M (FNV-1a, an entry at a time): equal for equal matrices, and for no others in practice. Four
-/// hashes side by side, each of every fourth entry: a multiplication need not wait for the one before.
-std::uint64_t fingerprint(const VariationalInequality& problem) {
-  std::array<std::uint64_t, 4> hash;
-  hash.fill(0xcbf29ce484222325);
-  const auto add = [](std::uint64_t& lane, std::uint64_t bits) { lane = (lane ^ bits) * 0x100000001b3; };
-  const auto add_all = [&](const auto* entries, Eigen::Index count, const auto& bits) {
-    Eigen::Index i = 0;
-    for (; i + 4 <= count; i += 4)
-      for (int lane = 0; lane < 4; ++lane) add(hash[lane], bits(entries[i + lane]));
-    for (; i < count; ++i) add(hash[0], bits(entries[i]));
-    add(hash[0], static_cast<std::uint64_t>(count));
-  };
-  const auto of_value = [](double value) { return std::bit_cast<std::uint64_t>(value); };
-  const auto of_place = [](int place) { return static_cast<std::uint64_t>(place); };
-  add_all(problem.a1.valuePtr(), problem.a1.nonZeros(), of_value);
-  add_all(problem.b.valuePtr(), problem.b.nonZeros(), of_value);
-  add_all(problem.m.data(), problem.m.size(), of_value);
-  add_all(problem.a1.innerIndexPtr(), problem.a1.nonZeros(), of_place);
-  add_all(problem.b.innerIndexPtr(), problem.b.nonZeros(), of_place);
-  for (int lane = 1; lane < 4; ++lane) add(hash[0], hash[lane]);
-  return hash[0];
+/// Equal bit for bit, stored zeros and all: one walk over both.
+template <class Sparse>
+bool same(const Sparse& one, const Sparse& other) {
+  const Eigen::Index n = one.nonZeros();
+  return one.rows() == other.rows() && one.cols() == other.cols() && n == other.nonZeros() &&
+         std::equal(one.valuePtr(), one.valuePtr() + n, other.valuePtr()) &&
+         std::equal(one.innerIndexPtr(), one.innerIndexPtr() + n, other.innerIndexPtr()) &&
+         std::equal(one.outerIndexPtr(), one.outerIndexPtr() + one.outerSize(), other.outerIndexPtr());
 }
+
+/// By which delta grows where K has no positive pivots: as much as a later one is smaller (iterated_penalty.cpp).
+constexpr double larger_by = 64;
 
 /// Whether the contact problem takes the sparse road (see ContactRoad).
 bool takes_sparse(ContactRoad road, const FreeNumbering& numbering) {
@@ -57,12 +44,18 @@ bool takes_sparse(ContactRoad road, const FreeNumbering& numbering) {
 
 PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road,
                              std::unique_ptr<SparseCholesky> cholesky)
-    : numbering_(problem), matrices_(fingerprint(problem)) {
+    : numbering_(problem), a1_(problem.a1), b_(problem.b), m_(problem.m) {
   if (takes_sparse(road, numbering_))
     held_.emplace(std::move(cholesky));
   else
     cholesky_ = std::move(cholesky);
-  factorise(problem, delta);
+  // beside a B' M B / delta above 1e14 A1 no digit of A1 is left: any larger delta gives the same answer
+  for (int times = 0;; ++times) try {
+      factorise(problem, delta * std::pow(larger_by, times));
+      return;
+    } catch (const Error&) {
+      if (times == 4 || problem.b.rows() == 0 || !std::isfinite(delta)) throw;
+    }
 }
 
 PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road)
@@ -83,8 +76,12 @@ PenaltyFactor PenaltyFactor::moderate(const VariationalInequality& problem, std:
 void PenaltyFactor::check_fits(const VariationalInequality& problem) const {
   check_data(problem);
   check_unknowns(problem);
-  if (fingerprint(problem) != matrices_)
+  if (!owns(problem))
     throw Error("solve: the factor is of another A1, B or M; accepted: the factor of this problem's matrices");
+}
+
+bool PenaltyFactor::owns(const VariationalInequality& problem) const {
+  return same(problem.a1, a1_) && same(problem.b, b_) && problem.m == m_;
 }
 
 void PenaltyFactor::check_unknowns(const VariationalInequality& problem) const {
@@ -98,10 +95,9 @@ void PenaltyFactor::check_unknowns(const VariationalInequality& problem) const {
 }
 
 void PenaltyFactor::refactor(const VariationalInequality& problem, double delta) {
-  const std::uint64_t matrices = fingerprint(problem);
-  if (matrices != matrices_) {
+  if (!owns(problem)) {
     check(problem);
-    matrices_ = matrices;
+    a1_ = problem.a1, b_ = problem.b, m_ = problem.m;
   }
   check_unknowns(problem);
   factorise(problem, delta);
@@ -116,12 +112,12 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
   Stopwatch watch;
   if (held_) {
     lost = held_->factorise(std::move(k));
-    analyse_seconds = held_->analyse_seconds;
-    factor_seconds = watch.lap() - analyse_seconds;
+    work_.analyse_seconds = held_->analyse_seconds();
+    work_.factor_seconds = watch.lap() - work_.analyse_seconds;
   } else {
     if (!cholesky_->analysed()) {
       cholesky_->analyse(k, static_cast<int>(k.cols()) - numbering_.interior);
-      analyse_seconds = watch.lap();
+      work_.analyse_seconds = watch.lap();
     }
     lost = cholesky_->factorise(k);
   }
@@ -133,9 +129,9 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
         delta, numbering_.unknown[*lost]));
   if (!held_) {
     contact_block_ = cholesky_->trailing_block(numbering_.interior);
-    factor_seconds = watch.lap();
+    work_.factor_seconds = watch.lap();
   }
-  ++factorisations;
+  ++work_.factorisations;
 }
 
 double PenaltyFactor::smallest_pivot() const { return held_ ? held_->smallest_pivot() : cholesky_->smallest_pivot(); }
@@ -145,14 +141,12 @@ Eigen::VectorXd PenaltyFactor::forward(const Eigen::VectorXd& r) const {
   return cholesky_->forward(r);
 }
 
-Eigen::VectorXd PenaltyFactor::backward(Eigen::VectorXd y) {
+Eigen::VectorXd PenaltyFactor::backward(Eigen::VectorXd y) const {
   require_dense();
-  ++solves;
   return cholesky_->backward(std::move(y));
 }
 
-Eigen::VectorXd PenaltyFactor::solve(const Eigen::VectorXd& r) {
-  ++solves;
+Eigen::VectorXd PenaltyFactor::solve(const Eigen::VectorXd& r) const {
   return held_ ? held_->solve(r) : cholesky_->backward(cholesky_->forward(r));
 }
 

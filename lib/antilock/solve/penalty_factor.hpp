@@ -1,6 +1,5 @@
 #pragma once
 #include <Eigen/Core>
-#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -58,7 +57,7 @@ class PenaltyFactor {
   /// The smallest pivot of K: to about a factor of F its smallest eigenvalue, for next to nothing.
   double smallest_pivot() const;
   /// K^-1 r on the F free places; on the sparse road of the unknowns that are not held, 0 on the held ones.
-  Eigen::VectorXd solve(const Eigen::VectorXd& r);
+  Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
 
   /// The sparse road's K, which holds unknowns; nullptr on the dense one.
   HeldFactor* held() { return held_ ? &*held_ : nullptr; }
@@ -67,13 +66,16 @@ class PenaltyFactor {
   /// y = L^-1 P r for r on the F free places; the last C entries of y belong to the contact unknowns, in their order.
   Eigen::VectorXd forward(const Eigen::VectorXd& r) const;
   /// x = P' L'^-1 y.
-  Eigen::VectorXd backward(Eigen::VectorXd y);
+  Eigen::VectorXd backward(Eigen::VectorXd y) const;
   /// C x C lower triangular trailing block of L.
   const Eigen::MatrixXd& contact_block() const;
 
-  int factorisations = 0;                          ///< numeric factorisations of the whole K so far
-  int solves = 0;                                  ///< forward + backward pairs so far
-  double analyse_seconds = 0, factor_seconds = 0;  ///< of the last analysis and factorisation
+  /// What it has done so far.
+  struct Work {
+    int factorisations = 0;                          ///< numeric ones of the whole K
+    double analyse_seconds = 0, factor_seconds = 0;  ///< of the last analysis and factorisation
+  };
+  const Work& work() const { return work_; }
 
  private:
   /// Of a problem that has passed `check`.
@@ -81,12 +83,17 @@ class PenaltyFactor {
                 std::unique_ptr<SparseCholesky> cholesky);
   static PenaltyFactor moderate(const VariationalInequality& problem, std::optional<double> penalty, ContactRoad road,
                                 std::unique_ptr<SparseCholesky> cholesky);
+  /// Whether A1, B and M are the ones that it was made of, to the last bit.
+  bool owns(const VariationalInequality& problem) const;
   void check_unknowns(const VariationalInequality& problem) const;
   void require_dense() const;
   void factorise(const VariationalInequality& problem, double delta);
   FreeNumbering numbering_;
   double delta_ = 0;
-  std::uint64_t matrices_ = 0;                ///< fingerprint of the A1, B and M that it was made of
+  SparseMatrix a1_;                           ///< A1, B and M that it was made of
+  RowMatrix b_;
+  Eigen::VectorXd m_;
+  Work work_;
   std::unique_ptr<SparseCholesky> cholesky_;  ///< the dense road's
   std::optional<HeldFactor> held_;            ///< the sparse road's
   Eigen::MatrixXd contact_block_;

@@ -13,7 +13,7 @@
 namespace antilock {
 namespace {
 
-constexpr double unit = 64 * std::numeric_limits<double>::epsilon();
+constexpr double round_off = 64 * std::numeric_limits<double>::epsilon();
 
 /// The road of `settle` on all F places, by a sparse factor of those that are not held.
 class SparseRoad {
@@ -53,10 +53,10 @@ class SparseRoad {
     Eigen::VectorXd pushed = Eigen::VectorXd::Zero(x_.size());
     for (int i = 0; i < count(); ++i) {
       const int place = p_.bounded[i];
-      pushed(place) = unit * (diagonal_(place) * size(place) + std::abs(p_.q(place)) + std::abs(given(i)));
+      pushed(place) = round_off * (diagonal_(place) * size(place) + std::abs(p_.q(place)) + std::abs(given(i)));
     }
     moved_ = bounded(p_.k.solve(pushed)).cwiseAbs();
-    noise_lambda_ = unit * (bounded(p_.k.absolute_times(size) + p_.q.cwiseAbs()) + given.cwiseAbs());
+    noise_lambda_ = round_off * (bounded(p_.k.absolute_times(size) + p_.q.cwiseAbs()) + given.cwiseAbs());
     ++steps_;
   }
 
@@ -101,7 +101,7 @@ class SparseRoad {
   /// Schur complement, holds the penalty, and what it makes of round-off may hide a violation.
   double noise_at(int i, double bound) const {
     const double place = std::abs(from_(p_.bounded[i]) + bound);
-    return p_.noise.size() > 0 ? unit * place + p_.noise(i) : unit * std::max(place, p_.u_scale) + moved_(i);
+    return (p_.noise.size() > 0 ? round_off * place + p_.noise(i) : round_off * std::max(place, p_.u_scale)) + moved_(i);
   }
 
   const SparseContactProblem& p_;

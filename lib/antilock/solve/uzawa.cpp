@@ -89,48 +89,23 @@ class CondensedUzawa {
   std::vector<double> history;
 
  private:
-  /// Steps, of all corrections, from which on they are known to be slow.
-  static constexpr std::size_t patience = 8192;
-  static constexpr int most_exchanges = 10;
-
-  /// The steps find the bounds that bear long before their forces: with those held, the rest is one linear system. Where
-  /// a bound is still wrong, it is exchanged. The solution, if every condition holds to round-off.
-  std::optional<ContactAnswer> on_bounds_found(const ContactProblem& p, const Eigen::VectorXd& f, int steps) const {
-    ContactAnswer found;
-    found.v = compliance_ * f;
-    take_bounds(p, f, found);
-    try {
-      found = solve_contact(p, held_by(found), most_exchanges);
-    } catch (const Error&) {
-      return {};
-    }
-    found.steps = steps;
-    return found;
-  }
-
   ContactAnswer stepped(const ContactProblem& p, const ContactAnswer& before) {
     if (factor_.delta() != delta_) condense(p.s);  // the corrections may have taken another penalty
     ContactAnswer answer;
     // the step is taken on f = q + lambda >= q: where the obstacle bears a great load, little is left of the two
     Eigen::VectorXd f = p.q;
     if (before.lambda.size() > 0) f += before.lambda;
-    // where the bounds bear all of q, v tends to 0: a hundred thousandth of what q moves is the size of its round-off
-    const double locked = options_.exact_end ? 1e-5 * (compliance_.cwiseAbs() * p.q.cwiseAbs()).maxCoeff() : 0;
     while (true) {
       answer.v = compliance_ * f;
       answer.lambda = f - p.q;
       if (options_.enough && answer.steps % 32 == 0 && duality_gap(p, answer) <= options_.enough->energy) break;
       const Eigen::VectorXd next = projected_step(p, f, answer.v);
-      const double scale =
-          std::max({answer.v.cwiseAbs().maxCoeff(), p.u_scale, locked});  // bounds far from v do not count
+      const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), p.u_scale);  // bounds far from v do not count
       const double change = scale > 0 ? (next - f).cwiseAbs().cwiseQuotient(rho_).maxCoeff() / scale : 0;
       f = next;
       ++answer.steps;
       history.push_back(change);
-      const bool settled = change <= options_.tolerance, slow = history.size() > patience && answer.steps % 256 == 1;
-      if (options_.exact_end && (settled || slow) && !options_.enough)
-        if (std::optional<ContactAnswer> exact = on_bounds_found(p, f, answer.steps)) return std::move(*exact);
-      if (settled) break;
+      if (change <= options_.tolerance) break;
       if (answer.steps % 256 == 0)
         report(options_.progress, {"contact", static_cast<int>(history.size()), change, options_.tolerance}, "uzawa");
       const bool late = answer.steps % 256 == 0 && watch_.seconds() > options_.max_seconds;

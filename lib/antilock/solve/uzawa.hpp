@@ -27,11 +27,6 @@ struct UzawaOptions {
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
   std::optional<AccurateEnough> enough;
-  /// Not the paper's: where the steps have settled, and from 8192 steps on where they have not, the bounds that they have
-  /// found are held, up to ten times exchanged, and the rest is solved exactly: the answer, if all its conditions hold to
-  /// round-off. Of 5,000 random problems with an answer (tests/hard) 0.7 % are refused with it, 2.8 % without. Not with
-  /// `enough`, which asks for less.
-  bool exact_end = false;
   ProgressHook progress = {};  ///< called every 256 steps, and after every correction that is not the last
 };
 
