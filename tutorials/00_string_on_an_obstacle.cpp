@@ -1,7 +1,6 @@
 // # A string on an obstacle
 //
 // Run: 00_string_on_an_obstacle                 32 cells; a moment
-// Run: 00_string_on_an_obstacle --cells 8       few enough to follow each node
 // Run: 00_string_on_an_obstacle --exercise 1
 // Run: 00_string_on_an_obstacle --exercise 2
 // Run: 00_string_on_an_obstacle --exercise 3
@@ -9,12 +8,13 @@
 // Needs: one course on finite elements (hat functions, the matrix of a form). It is the first chapter.
 // :live: string
 //
-// **The picture.** A string is held at both ends. The load `f(x) = 10 sin(2πx)` lifts its left half and presses its
-// right half on a floor at height 0. *The string touches the floor in one piece, and the floor pushes exactly there.*
-// The next picture shows how the active set below finds that piece, the last one the same with two nodes only.
+// A string is held at both ends. The load $f(x) = 10 \sin 2πx$ lifts its left half and presses its right half on a
+// floor at height 0. Without the floor it would be a sine.
 //
-// **Predict, before you read on.** (a) The load points down from `x = 1/2` on. Does the string touch the floor from
-// there on? (b) How large is the pressure of the floor where the string lies on it?
+// **Predict, before you read on.** On 32 cells the string has 31 nodes between its ends. (a) A node touches the floor
+// or it does not: there are $2^{31}$ sets of nodes that might touch. How many of them must a program try? (b) The
+// second program below guesses the forces of the floor and corrects them step by step. Halve the cells: how many times
+// as many steps does a further digit cost?
 //
 // ## An energy, and a cone
 //
@@ -22,40 +22,54 @@
 //
 // $$ J(v) = ½ a(v, v) - L(v),   a(u, v) = ∫_0^1 u' v' dx,   L(v) = ∫_0^1 f v dx. $$
 //
-// The floor allows only the shapes in $K = \{ v : v ≥ 0 \}$. $K$ is *convex*: the straight way between two of its
+// The first term is what it costs to stretch the string, the second what the load gains when the string gives way. The
+// floor allows only the shapes in $K = \{ v : v ≥ 0 \}$. This set is *convex*: the straight way between two of its
 // shapes stays in it. It is even a *cone*: with $v$ it contains $t v$ for every $t ≥ 0$.
 //
-// **Why $v - u$ and not $v$.** Let $u$ be the minimiser and $v$ any shape in $K$. Then $u + t(v - u)$ lies in $K$ for
-// $0 ≤ t ≤ 1$, and its energy is not below that of $u$:
+// **Why $v - u$ and not $v$.** Without a floor one finds the shape of least energy as one finds the lowest point of a
+// parabola: the derivative of $J$ is 0 in every direction $v$, and $a(u, v) = L(v)$ for all $v$. Here this is too
+// much. If the string lies on the floor at its best shape $u$, a lower one may well have less energy, but it is not
+// allowed, and the derivative in that direction says nothing. So ask only about directions that stay in $K$. All of
+// them are of one kind: choose any allowed shape $v$ and go from $u$ straight towards it. The direction is $v - u$,
+// the points on the way are $u + t (v - u)$, and they are in $K$ for $0 ≤ t ≤ 1$, because $K$ is convex. As $u$ has
+// the least energy in $K$, the energy on the way is not below that of $u$:
 //
 // $$ 0 ≤ J(u + t(v - u)) - J(u) = t (a(u, v - u) - L(v - u)) + ½ t^2 a(v - u, v - u). $$
 //
-// Divide by $t$ and let $t → 0$. What is left is a *variational inequality*:
+// Divide by $t$ and let $t → 0$: the last term vanishes, and the slope in the direction $v - u$ is not negative.
 //
 // $$ u ∈ K,   a(u, v - u) ≥ L(v - u)   for all v ∈ K. $$
 //
-// Without the floor one may go in the direction $v - u$ and back, and $≥$ becomes $=$. Where the string touches the
-// floor, only the way up is allowed. Geometrically: let $w$ be the string without a floor, $L(v) = a(w, v)$. Then
+// This is a *variational inequality*. It loses nothing: with $t = 1$ in the line before it, it says $J(v) ≥ J(u)$ for
+// each $v$ in $K$. Where the string is free, $v$ may be a little above or a little below $u$. Both signs of $v - u$ are
+// allowed, and $≥$ becomes the familiar $=$. Where the string touches, only the way up is allowed, and $≥$ is all that
+// can be said. So one inequality holds an equation where nothing touches and a sign where something does. Where one
+// ends and the other begins is part of the answer.
+//
+// **The same as a picture.** Let $w$ be the string without a floor: $L(v) = a(w, v)$ for all $v$. Then
 // $a(w - u, v - u) ≤ 0$: seen from $u$, the way to $w$ makes no acute angle with the way to any $v$ in $K$. So $u$ is
-// the *projection* of $w$ onto $K$, its nearest element when lengths are measured by $a(v, v)^{1/2}$ (last picture).
+// the *projection* of $w$ onto $K$: its nearest element, when lengths are measured by $a(v, v)^{1/2}$.
+// :figure: projection
 //
 // **The multiplier is the contact force.** Now let $u$ and $v$ be linear between nodes $x_i = i h$, so that
-// $u = ∑ u_i φ_i$ with the hat functions $φ_i$. Such a $u$ is in $K$ if no $u_i$ is negative. Write $u$ for the
-// vector of the $u_i$ too. With the matrix $A_{ij} = a(φ_i, φ_j)$ and the vector $b_i = L(φ_i)$ the inequality reads
-// $(A u - b)^T (v - u) ≥ 0$. Call $λ = A u - b$ the *multiplier*. It is the force that is missing for equilibrium:
-// the force of the floor. Put $v = u + φ_i$ into the inequality: $λ_i ≥ 0$. Put $v = 0$: $λ^T u ≤ 0$. Put $v = 2u$:
-// $λ^T u ≥ 0$. So $λ^T u = 0$. No term $λ_i u_i$ of this sum is negative, so each is 0. For every inner node
+// $u = ∑ u_i φ_i$ with the hat functions $φ_i$. Such a $u$ is in $K$ if no $u_i$ is negative. Write $u$ for the vector
+// of the $u_i$ too. With the matrix $A_{ij} = a(φ_i, φ_j)$ and the vector $b_i = L(φ_i)$ the inequality reads
+// $(A u - b)^T (v - u) ≥ 0$. Call $λ = A u - b$ the *multiplier*: $A u = b + λ$, so it is the force that is missing for
+// equilibrium, and only the floor can exert it. What is known of it follows from three shapes $v$. Put $v = u + φ_i$:
+// $λ_i ≥ 0$. Put $v = 0$: $λ^T u ≤ 0$. Put $v = 2u$: $λ^T u ≥ 0$. So $λ^T u = 0$, and as no term $λ_i u_i$ of this sum is
+// negative, each is 0. For every inner node
 //
 // $$ u_i ≥ 0,   λ_i ≥ 0,   λ_i u_i = 0,   A u = b + λ. $$
 //
 // The string is not below the floor; the floor only pushes; it pushes only where it is touched. Two numbers that are
 // not negative and have the product 0 are called *complementary*. The four together are the *KKT conditions* of
-// Karush, Kuhn and Tucker. Both programs below look for this pair $(u, λ)$.
+// Karush, Kuhn and Tucker. Both programs below look for this pair.
 
 #include <numbers>
 
 #include "antilock/core/dense.hpp"
-#include "common/string_output.hpp"
+#include "backstage/00_pictures.hpp"
+#include "backstage/00_string.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;
@@ -90,6 +104,11 @@ struct Answer {
 // **Active set.** Guess which nodes touch. There $u_i = $ floor; elsewhere $λ_i = 0$, and the equation gives $u$.
 // Then look at the signs: a node that sank below the floor should have touched; a node that the floor would have to
 // pull should not. When the guess repeats itself, all signs are right. The guess is called the *active set*.
+// :figure: string_steps
+//
+// It does repeat itself. Force pushes up everywhere: no entry of $A^{-1}$ is negative (such an $A$ is an *M-matrix*).
+// From the second guess on, each shape is the one before without the pull of the nodes that were let go. So it lies
+// above the one before, and no node comes back: the set can only shrink. For other matrices the loop may go round.
 Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
   Answer answer;
@@ -115,14 +134,20 @@ Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
 }
 
 // **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor,
-// push more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$, $ρ$ the length of
-// the step. The maximum is the projection onto the cone $λ ≥ 0$. $u - floor$ is the gradient in $λ$ of
-// $½ (b + λ)^T A^{-1} (b + λ) - floor ∑ λ_i$, so this is a *projected gradient* method. Its operator is $A^{-1}$, the
-// *compliance*: force in, displacement out. $A$ has the eigenvalues $4 \sin^2(kπh/2)/h$, so those of $A^{-1}$ lie
-// between about $h/4$ and $1/(π² h)$. A step multiplies the part of the error with the eigenvalue $σ$ by $1 - ρσ$. So
-// every $ρ < 2π² h$, which is 2 / largest $σ$, is safe. The part with the smallest $σ$ is the slowest: its factor is
-// $1 - ρ h/4$, at best about $1 - π² h²/2$. So halve $h$, and there are four times as many steps. The *condition
-// number* $κ$ = largest / smallest eigenvalue, here $4/(π² h²)$, says it in one number: the factor is $1 - 2/κ$.
+// push more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$, with a number $ρ$ of
+// our choice, the length of the step. A pair that no step changes satisfies the KKT conditions: where $λ_i > 0$ it has
+// $u_i = floor$, and where $λ_i = 0$ it has $u_i ≥ floor$. The steps get there because each goes downhill, in
+//
+// $$ D(λ) = ½ (b + λ)^T A^{-1} (b + λ) - floor ∑ λ_i,   λ ≥ 0, $$
+//
+// the energy that the string stores, less the work of the floor (the *dual* energy). Its gradient in $λ$ is
+// $A^{-1} (b + λ) - floor = u - floor$. The step goes against it, and the maximum projects back onto $λ ≥ 0$: this is a
+// *projected gradient* method. Its operator is $A^{-1}$, the *compliance*: force in, displacement out. A step multiplies
+// the part of the error that belongs to the eigenvalue $σ$ of $A^{-1}$ by $1 - ρσ$. $A$ has the eigenvalues
+// $4 \sin^2(kπh/2)/h$, so the $σ$ lie between about $h/4$ and $1/(π² h)$. Every $ρ < 2π² h$, which is 2 / largest $σ$, is
+// safe. The part with the smallest $σ$ is the slowest: its factor is $1 - ρ h/4$, at best about $1 - π² h²/2$. So halve
+// $h$, and a digit takes four times as many steps. The *condition number* $κ$ = largest / smallest eigenvalue, here
+// $4/(π² h²)$, says it in one number: the factor is $1 - 2/κ$.
 Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
   const Cholesky factor(s.a);
   Answer answer{s.b, 0 * s.b};
@@ -135,38 +160,53 @@ Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
   return answer;
 }
 
-// ### Output
-// **The truth.** Where the string is free $-u'' = f$, so $u = α \sin 2πx + s x$ with $α = 10/(4π²)$ and a slope $s$
-// still to be found. Contact starts at $c$: $u(c) = 0$. A kink at $c$ would be a jump of $u'$ from a negative value
-// up to 0. Only a force that pulls the string down could hold it there, and the floor does not pull. So $u'(c) = 0$.
-// Both together say $\tan z = z$ for $z = 2πc$, so $c = 0.715148...$
+// **The truth.** Where the string is free it is $U(x) = α \sin 2πx + s x$ with $α = 10/(4π²)$, since $-u'' = f$. Contact
+// starts at $c$: $U(c) = 0$. A kink at $c$ would be a jump of $u'$ from a negative value up to 0, which only a pull can
+// hold. So $U'(c) = 0$. Both together say $\tan z = z$ for $z = 2πc$: $c = 0.715148...$ and $s = -2πα \cos z$.
+//
+// **The discrete string.** With exact loads a free string is exact at its nodes. So left of the first node
+// $x_j$ that touches it is $U(x_i) - U(x_j) x_i/x_j$, which solves $-u'' = f$ and is 0 at both ends. As $U$ and $U'$ are
+// 0 at $c$, its error is about $|f(c)| (x_j - c)²/2$. The signs are right only if $x_j$ is the node next to $c$.
 void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& report) {
   const String s = hang(options.cells);
+  const double rho = 1.9 * pi * pi * s.h;
   std::vector<VectorXd> guesses;
-  const Answer active = active_set_by_hand(s, guesses), uzawa = uzawa_by_hand(s, 1.9 * pi * pi * s.h, 1e-10);
+  const Answer active = active_set_by_hand(s, guesses), uzawa = uzawa_by_hand(s, rho, 1e-10);
   fmt::print("  linear solves: active set {}, Uzawa {}\n", active.solves, uzawa.solves);
-  tutorial::write_string(options.out, guesses, active.lambda);
-
-  const double from = tutorial::contact_starts(active.lambda), c = tutorial::string_touches_from(0);
-  report.claim(active.u.minCoeff() >= 0 && active.lambda.minCoeff() >= 0 && active.u.dot(active.lambda) == 0,
-               "u >= 0, lambda >= 0 and lambda u = 0 at every node, exactly");
-  report.claim(std::abs(from - c) <= s.h, "contact starts at x = {:.4f}, truth {:.4f} (h = {:.4f})", from, c, s.h);
-  // With exact loads P1 is exact at the nodes of a free string. The end of contact is off by at most h, and u'' jumps
-  // there by |f(c)| = 9.76: the error is at most 9.76 h^2 / 2.
-  report.claim_within(tutorial::string_error(active.u) / (s.h * s.h), 0, 4.9, "largest error at the nodes / h^2:");
-  // Uzawa stops when a step moves less than 1e-10; each later step is (1 - pi^2 h^2 / 2) times the one before.
-  report.claim_within((uzawa.u - active.u).lpNorm<Eigen::Infinity>(), 0, 2e-10 / (pi * pi * s.h * s.h),
-                      "Uzawa comes to the same string:");
+  // ### Output
+  const double from = tutorial::contact_starts(active.lambda), c = tutorial::touches_from(0);
+  VectorXd exact = active.u, expected = active.u;
+  for (int i = 0; i < active.u.size(); ++i) {
+    const double x = (i + 1) * s.h;
+    exact(i) = x < c ? tutorial::free_part(x) : 0;
+    expected(i) = x < from ? tutorial::free_part(x) - tutorial::free_part(from) * x / from : 0;
+  }
+  tutorial::write_string(options.out, guesses, active.lambda, exact);
+  tutorial::write_projection(options.out / "projection.csv");
+  const double left_over = (s.a * active.u - s.b - active.lambda).cwiseAbs().maxCoeff();
+  report.claim(active.u.minCoeff() >= 0 && active.lambda.minCoeff() >= 0 && active.u.dot(active.lambda) == 0 &&
+                   left_over <= 1e-12,  // round-off: 2e-14 on 128 cells
+               "KKT: the signs exactly, A u = b + lambda to {:.0e} (proved)", left_over);
+  report.claim_within((active.u - expected).cwiseAbs().maxCoeff(), 0, 1.5e-13, "u is what it must be, up to (proved)");
+  report.claim(std::abs(from - c) <= 0.6 * s.h, "contact from {:.4f} on, the node next to {:.4f} (proved)", from, c);
+  // Where the floor pushes u should be 0, and Uzawa's last change is that u. It is largest there: A is an M-matrix.
+  report.claim_within((uzawa.u - active.u).lpNorm<Eigen::Infinity>(), 0, 1.001e-10,
+                      "Uzawa's string is off by at most its last change (proved):");
+  if (options.cells < 16) return report.not_judged("the price of a digit: from 16 cells on");
+  const int two_digits = uzawa_by_hand(s, rho, 1e-12).solves - uzawa.solves;
+  report.claim_within(two_digits * rho * s.h / 4 / std::log(100), 0.85, 1.15,
+                      "two further digits cost ln(100) / (rho h / 4) steps (observed): times");
 }
 
 // ## What came out
+// :output:
 //
-// The active set needs fewer than ten linear solves, Uzawa 2,737, for the same string. (a) No: contact starts at
-// 0.7151, since the lifted half pulls its neighbour up. (b) Where the string lies flat $u'' = 0$: the pressure is $-f$.
+// (a) Nine of $2^{31}$. Each guess corrects the one before, and they only shrink. (b) Four times as many: the law of
+// the last verdict is $1/h²$. Contact starts at 0.7151 and not at $1/2$, where the load turns down, since the lifted
+// half pulls its neighbour up. Where the string lies flat $u'' = 0$, so the pressure is $-f$: from the first touch on,
+// the floor carries the whole load.
 //
 // ## Exercises
-//
-// Predict first. `--exercise N` prints the prediction and its outcome; the answers are in `answers/`.
 //
 // 1. Double the load. What happens to $u$, to the forces, to the contact set?
 // 2. Lower the floor to $-0.05$. $K$ is no cone any more. Where does contact start? Does it reach $x = 1$?

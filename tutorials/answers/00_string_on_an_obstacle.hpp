@@ -22,7 +22,7 @@ std::vector<tutorial::Exercise> exercises() {
        [=](const tutorial::Options& options, tutorial::Report& report) {
          const String s = hang(options.cells, 10, -0.05);
          const Answer low = solve(s);
-         report.claim_within(tutorial::contact_starts(low.lambda) - tutorial::string_touches_from(0.05), -s.h, s.h,
+         report.claim_within(tutorial::contact_starts(low.lambda) - tutorial::touches_from(0.05), -s.h, s.h,
                              "start - c:");
          report.claim(low.lambda(low.lambda.size() - 1) == 0, "the last node is free");
        }},

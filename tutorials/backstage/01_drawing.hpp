@@ -1,13 +1,23 @@
-#include "common/drawing.hpp"
-
-#include <Eigen/Dense>
+#pragma once
+// Figures 1 and 2 as shapes.
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "antilock/study/table.hpp"
 
 namespace antilock::tutorial {
 
-void write_drawing(const std::filesystem::path& path, double depth, const DomainNames& names) {
+/// What the parts are called: Figure 1 with epsilon in the names, Figure 2 without.
+struct DomainNames {
+  std::string layer, ends, contact, depth, note;
+};
+
+/// The domain with a layer of this depth, as a table of shapes: kind, name (its first word chooses
+/// the colour), label, x, y; one row per corner. figures/pictures/domain.cpp reads it. The obstacle
+/// is drawn apart from Gamma_C, to be seen; in the problem they touch where u = 0.
+inline void write_drawing(const std::filesystem::path& path, double depth, const DomainNames& names) {
   Table table({"kind", "name", "label", "x", "y"});
   const auto points = [&](const char* kind, const char* name, const std::vector<Eigen::Vector2d>& corners) {
     for (const auto& corner : corners) table.add({kind, name, "", corner.x(), corner.y()});
