@@ -17,13 +17,20 @@ const std::vector<tutorial::Exercise> exercises{
      "4 groups, one per strip between the lines; exactly 3 kernel functions, one per line",
      [](const tutorial::Options&, tutorial::Report& report) {
        const TriangleMesh mesh = with_lines(16, 3);
-       report.claim_within(tutorial::ties(mesh).groups, 4, 4, "groups:");
+       report.claim_within(tied(mesh).count, 4, 4, "groups:");
        report.claim_within(kernel_on_layer(mesh), 3, 3, "dimension of the kernel on the layer:");
      }},
     {"Turn the diagonals of the structured mesh (left), or draw both (crossed). How many groups?",
      "one per column, as before: diagonals tie within a column, vertical lines part the columns",
      [](const tutorial::Options& options, tutorial::Report& report) {
        for (const Diagonal diagonal : {Diagonal::left, Diagonal::crossed})
-         report.claim_within(tutorial::ties(structured_mesh(options.cells, {}, diagonal)).groups, options.cells,
+         report.claim_within(tied(structured_mesh(options.cells, {}, diagonal)).count, options.cells,
                              options.cells, "groups:");
      }}};
+
+// ## Answers on paper
+//
+// **3.** $1$ and $x$: one pair $(a, b)$ is left, and nothing holds it. If the layer alone is free at its sides, the answer
+// is 0 again. The corners $(0,0)$ and $(1,0)$ belong to the clamped sides of the body, so $a = 0$ and $a + b = 0$.
+//
+// **4.** One, and its multiples: $a + b x + c x²$ has three numbers, the two ends fix two of them, and $x(1 - x)$ is left.
