@@ -1,8 +1,7 @@
 #include "common/paper_problem.hpp"
 
-#include <fmt/format.h>
-
 #include "antilock/core/error.hpp"
+#include "antilock/exact/sine_load.hpp"
 
 namespace antilock::tutorial {
 
@@ -10,16 +9,13 @@ Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{ep
 
 namespace {
 
-Truth truth_of(const Scene& scene, int log2_points) {
-  const Field& load = scene.body().load;
-  const auto* sines = load.target<SineLoad>();
-  const auto* function = load.target<double (*)(double, double)>();
-  if (!std::holds_alternative<StiffLayer>(scene.layer()) || (!sines && !(function && *function == paper_load)))
-    throw Error("exact: the truth of this scene is not known; accepted: a StiffLayer, and the load paper_load or a SineLoad");
-  for (int j = 0; scene.contact() && j <= 256; ++j)
-    if (const double gap = scene.contact()->gap(j / 256.0); gap != 0)
-      throw Error(fmt::format("exact: the obstacle is {} away at x = {}; accepted: 0", gap, j / 256.0));
-  return {sines ? *sines : paper_sine_load(), *scene.epsilon(), scene.contact().has_value(), log2_points};
+Truth known_truth(const Scene& scene, int log2_points) {
+  std::optional<Truth> truth = truth_of(scene, log2_points);
+  if (!truth)
+    throw Error(
+        "exact: the truth of this scene is not known; accepted: a StiffLayer, a load that is a sum of sines, and "
+        "the obstacle, if any, at the distance 0");
+  return std::move(*truth);
 }
 
 }  // namespace
@@ -27,7 +23,7 @@ Truth truth_of(const Scene& scene, int log2_points) {
 Exact::Exact(Scene scene, int log2_points)
     : scene(std::move(scene)),
       epsilon(this->scene.epsilon().value_or(0)),
-      truth(truth_of(this->scene, log2_points)),
+      truth(known_truth(this->scene, log2_points)),
       table(truth) {}
 
 Errors Exact::errors(const Space& space, const Solution& solution) const {

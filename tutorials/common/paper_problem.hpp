@@ -22,8 +22,8 @@ Scene paper_scene(double epsilon);
 /// The exact solution of a scene with a scaled layer, ready for whole meshes. It is made from the scene that is solved,
 /// so that nothing is measured against the truth of another load.
 struct Exact {
-  /// Throws Error for a scene whose truth is not known: its layer is a StiffLayer, its load `paper_load` or a SineLoad,
-  /// its obstacle, if any, at the distance 0. The series has 2^log2_points points; 14 give gradients to 1e-6.
+  /// Throws Error for a scene whose truth is not known (exact/sine_load.hpp says which is). The series has 2^log2_points
+  /// points; 14 give gradients to 1e-6.
   explicit Exact(Scene scene, int log2_points = 17);
 
   Errors errors(const Space& space, const Solution& solution) const;

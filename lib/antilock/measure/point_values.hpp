@@ -1,0 +1,34 @@
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// Where a point lies in a mesh, and what a discrete function is there. The mesh and the space must outlive it.
+class PointValues {
+ public:
+  explicit PointValues(const Space& space);
+
+  /// The triangle that holds x (round-off 1e-12 of its size outside counts as in it) and its barycentric coordinates there;
+  /// empty outside the mesh. On an edge: the triangle of the smallest number.
+  struct Place {
+    int triangle;
+    Eigen::Vector3d lambda;
+  };
+  std::optional<Place> locate(const Eigen::Vector2d& x) const;
+
+  /// u: N values, one per unknown. Crouzeix-Raviart is the value in the located triangle.
+  double value(const Eigen::VectorXd& u, const Place& at) const;
+  Eigen::Vector2d gradient(const Eigen::VectorXd& u, const Place& at) const;
+
+ private:
+  int column(double x) const;
+  const Space* space_;
+  double left_, width_;                   // of the strips in x
+  std::vector<std::vector<int>> strips_;  // the triangles that touch each
+};
+
+}  // namespace antilock

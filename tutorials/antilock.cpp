@@ -1,0 +1,68 @@
+// antilock: doors for other people's answers. One program, one word for what is asked.
+//
+// Run:    antilock truth tutorials/scenes/figure8.toml < points.csv     the exact solution at points
+// Run:    antilock sweep tutorials/scenes/figure7.toml --epsilon 1:1e-6:7
+//
+// Every subcommand ends with status 0, or with one line on standard error and nothing written: status 2 for a question
+// that cannot be asked, 3 for a solve that did not get there.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <new>
+
+#include "antilock/io/expression.hpp"
+#include "common/hand_over.hpp"
+#include "doors/doors.hpp"
+
+namespace {
+
+struct Door {
+  const char* name;
+  std::function<int(int, char**)> open;
+  const char* what;
+};
+
+const std::vector<Door>& doors() {
+  using namespace antilock;
+  static const std::vector<Door> all{
+      {"run",
+       [](int, char** argv) -> int {
+         tutorial::become("run_scene", argv);
+         throw Error("antilock run: run_scene is not beside this program; accepted: the folder of both");
+       },
+       "answer a scene: run_scene, the same options"},
+      {"truth", doors::truth, "the exact solution of a scene at given points"},
+      {"sweep", doors::sweep, "a scene over epsilons and meshes: one table"}};
+  return all;
+}
+
+int help(std::FILE* where, int status) {
+  fmt::print(where, "antilock SUBCOMMAND ...; each has --help\n");
+  for (const Door& door : doors()) fmt::print(where, "  {:<10} {}\n", door.name, door.what);
+  return status;
+}
+
+int fail(const std::string& message, int status) {
+  fmt::print(stderr, "{}\n", antilock::printable(message, 4000));
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) return help(stderr, 2);
+  if (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h")) return help(stdout, 0);
+  try {
+    for (const Door& door : doors())
+      if (!std::strcmp(argv[1], door.name)) return door.open(argc - 1, argv + 1);
+    return fail(std::string("antilock: \"") + argv[1] + "\" is unknown; accepted: run, truth, sweep (see --help)", 2);
+  } catch (const antilock::NotConverged& failure) {
+    return fail(failure.what(), 3);
+  } catch (const std::bad_alloc&) {
+    return fail("antilock: out of memory; accepted: fewer cells or points", 3);
+  } catch (const std::exception& error) {
+    return fail(error.what(), 2);
+  }
+}

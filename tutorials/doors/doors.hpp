@@ -1,0 +1,21 @@
+#pragma once
+/// What the subcommands of `antilock` share. Each takes the command line from its own name on, and returns the status:
+/// 0 answered, 2 bad input, 3 not solved to the tolerance. 2 and 3 throw Error and NotConverged; `antilock` prints them.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "antilock/adapt/solve_to.hpp"
+#include "antilock/io/scene_file.hpp"
+
+namespace antilock::doors {
+
+int truth(int argc, char** argv);
+int sweep(int argc, char** argv);
+int judge(int argc, char** argv);
+int lockcheck(int argc, char** argv);
+
+/// The scene solved to a proved relative error of `accuracy` in the energy norm, from its own first mesh.
+CertifiedSolution certified(const SceneFile& file, double accuracy);
+
+}  // namespace antilock::doors

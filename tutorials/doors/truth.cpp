@@ -1,0 +1,138 @@
+// antilock truth SCENE.toml < points.csv: the exact solution of a scene at given points.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/exact/sine_load.hpp"
+#include "antilock/exact/truth_table.hpp"
+#include "antilock/io/csv_reader.hpp"
+#include "antilock/measure/point_values.hpp"
+#include "common/command_line.hpp"
+#include "doors/doors.hpp"
+
+namespace antilock::doors {
+namespace {
+
+using nlohmann::json;
+
+/// One row of the answer; p in the layer alone.
+struct Row {
+  double u = 0;
+  Eigen::Vector2d gradient = {0, 0};
+  std::optional<double> p = {};
+};
+
+/// What is known beside the values at the points: numbers with their accuracies, and how they were found.
+struct Known {
+  std::vector<Row> rows;
+  json summary;
+};
+
+const char* const outside = "outside the domain; accepted: points of the closed body and, with a layer, of the layer";
+
+// Up to this many points each is summed on its own, a millisecond each; beyond, the table is cheaper, 0.1 s to build.
+constexpr Eigen::Index few = 256;
+
+Known by_series(const Truth& truth, const Eigen::MatrixXd& points, bool layer) {
+  Known known;
+  std::optional<TruthTable> table;
+  if (points.rows() > few) table.emplace(truth);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const double x = points(i, 0), y = points(i, 1);
+    if (!(x >= 0 && x <= 1 && y <= 1 && y >= (layer ? -1 : 0)))
+      throw Error(fmt::format("points: ({}, {}) is {}", x, y, outside));
+    Row row{table ? table->value(x, y) : truth.value(x, y), table ? table->gradient(x, y) : truth.gradient(x, y)};
+    if (layer && y <= 0) row.p = table ? table->layer_stress(x, y) : truth.layer_stress(x, y);
+    known.rows.push_back(row);
+  }
+  json zones = json::array();
+  for (const auto& [from, to] : truth.contact_zones()) zones.push_back({from, to});
+  const int n = 1 << 17;
+  known.summary = {{"kind", "exact"},
+                   {"energy", truth.energy()},
+                   {"contact", zones},
+                   {"max_on_contact", truth.max_on_contact()},
+                   {"accuracy",
+                    {{"u", 1e-8},
+                     {"gradient", fmt::format("4e-6 of the largest; 5e-4 within 1e-4 of an end of contact")},
+                     {"p", "1e-6; 1e-4 near an end of contact, where it jumps at epsilon = 0"},
+                     {"contact", 1.0 / n},
+                     {"energy", 1e-8}}}};
+  return known;
+}
+
+Known by_certificate(const SceneFile& file, double accuracy, const Eigen::MatrixXd& points) {
+  const CertifiedSolution found = certified(file, accuracy);
+  Known known;
+  const Space space(found.mesh, crouzeix_raviart());
+  const PointValues at(space);
+  const bool scaled = std::holds_alternative<StiffLayer>(file.scene.layer());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const auto place = at.locate(points.row(i).transpose());
+    if (!place) throw Error(fmt::format("points: ({}, {}) is {}", points(i, 0), points(i, 1), outside));
+    Row row{at.value(found.cr.u, *place), at.gradient(found.cr.u, *place)};
+    if (scaled && found.mesh.region[place->triangle] == Region::layer) {
+      const auto& region = found.mesh.region;  // p: one value per layer triangle, in their order
+      row.p = found.cr.p(std::count(region.begin(), region.begin() + place->triangle, Region::layer));
+    }
+    known.rows.push_back(row);
+  }
+  const Certificate& proof = found.certificate;
+  known.summary = {
+      {"kind", "certified"},
+      {"energy", {proof.energy_lower, proof.energy_upper}},
+      {"bound", proof.gradient},
+      {"relative", proof.relative(Quantity::displacement)},
+      {"accuracy", "bound: of the energy norm of the error of the gradients, proved; of a value nothing is proved"},
+      {"warning", found.warning}};
+  return known;
+}
+
+}  // namespace
+
+CertifiedSolution certified(const SceneFile& file, double accuracy) {
+  return solve_to(file.scene, make_mesh(file), Accuracy{accuracy, Quantity::displacement, file.method.most_unknowns});
+}
+
+int truth(int argc, char** argv) {
+  tutorial::CommandLine line(
+      "The solution of a scene at given points. Standard input: CSV with the header x,y. Standard output: CSV with the "
+      "header "
+      "x,y,u,u_x,u_y,p. p is the layer stress, epsilon^-2 u_y, and empty in the body; on the contact boundary -p is "
+      "the "
+      "pressure. On Sigma, u_y is the body's.",
+      "antilock truth");
+  std::filesystem::path scene, summary;
+  double accuracy = 1e-2;
+  line.add_required("SCENE", scene, "the scene file, in TOML (run_scene --help)");
+  line.add("--accuracy", accuracy, "where no series is known: the proved relative error of the certified answer", 1e-4,
+           0.5);
+  line.add("--summary", summary, "a JSON file: energy J, ends of contact, and the accuracy of every number");
+  line.footer(
+      "A load that is a sum of sines in x with polynomials in y has an exact solution, a series (scaled layer or its "
+      "limit, "
+      "obstacle at the distance 0). Any other scene is solved to a proved accuracy.\n"
+      "Example: printf 'x,y\\n0.25,-1\\n' | antilock truth tutorials/scenes/figure8.toml");
+  if (const auto status = line.parse(argc, argv)) return *status;
+  const SceneFile file = read_scene_file(scene);
+  const Eigen::MatrixXd points = read_csv(std::cin, "standard input", {"x", "y"});
+  const std::optional<Truth> series = truth_of(file.scene);
+  const Known known = series ? by_series(*series, points, std::holds_alternative<StiffLayer>(file.scene.layer()))
+                             : by_certificate(file, accuracy, points);
+  if (!summary.empty()) write_file(summary, [&](std::ostream& out) { out << known.summary.dump(2) << '\n'; });
+  fmt::print("x,y,u,u_x,u_y,p\n");
+  for (std::size_t i = 0; i < known.rows.size(); ++i) {
+    const Row& row = known.rows[i];
+    const auto n = static_cast<Eigen::Index>(i);
+    fmt::print("{},{},{},{},{},{}\n", points(n, 0), points(n, 1), row.u, row.gradient(0), row.gradient(1),
+               row.p ? fmt::format("{}", *row.p) : "");
+  }
+  fmt::print(stderr, "antilock truth: {}, J = {}\n", known.summary["kind"].get<std::string>(),
+             known.summary["energy"].dump());
+  return 0;
+}
+
+}  // namespace antilock::doors
