@@ -34,6 +34,7 @@ const std::vector<Door>& doors() {
        },
        "answer a scene: run_scene, the same options"},
       {"truth", doors::truth, "the exact solution of a scene at given points"},
+      {"judge", doors::judge, "how far another program's answer is from the exact solution"},
       {"sweep", doors::sweep, "a scene over epsilons and meshes: one table"}};
   return all;
 }

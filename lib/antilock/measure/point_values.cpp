@@ -28,13 +28,13 @@ int PointValues::column(double x) const {
   return std::clamp(static_cast<int>((x - left_) / width_), 0, static_cast<int>(strips_.size()) - 1);
 }
 
-std::optional<PointValues::Place> PointValues::locate(const Eigen::Vector2d& x) const {
+std::optional<PointValues::Place> PointValues::locate(const Eigen::Vector2d& x, double outside) const {
   const TriangleMesh& mesh = space_->mesh();
   for (const int t : strips_[static_cast<std::size_t>(column(x(0)))]) {
     const Eigen::Vector2d corner = mesh.vertices.row(mesh.triangles(t, 0));
     Eigen::Vector3d lambda = barycentric_gradients(mesh, t) * (x - corner);
     lambda(0) += 1;
-    if (lambda.minCoeff() >= -1e-12) return Place{t, lambda};
+    if (lambda.minCoeff() >= -outside) return Place{t, lambda};
   }
   return {};
 }

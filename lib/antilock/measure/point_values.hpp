@@ -12,13 +12,13 @@ class PointValues {
  public:
   explicit PointValues(const Space& space);
 
-  /// The triangle that holds x (round-off 1e-12 of its size outside counts as in it) and its barycentric coordinates there;
+  /// The triangle that holds x (up to `outside` of its size beyond its edges counts as in it) and its barycentric coordinates there;
   /// empty outside the mesh. On an edge: the triangle of the smallest number.
   struct Place {
     int triangle;
     Eigen::Vector3d lambda;
   };
-  std::optional<Place> locate(const Eigen::Vector2d& x) const;
+  std::optional<Place> locate(const Eigen::Vector2d& x, double outside = 1e-12) const;
 
   /// u: N values, one per unknown. Crouzeix-Raviart is the value in the located triangle.
   double value(const Eigen::VectorXd& u, const Place& at) const;

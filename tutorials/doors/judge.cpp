@@ -1,0 +1,159 @@
+// antilock judge SCENE.toml MESH.msh U.csv: how far another program's answer is from the exact solution.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "antilock/analysis/companion.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/exact/sine_load.hpp"
+#include "antilock/io/csv_reader.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/measure/point_values.hpp"
+#include "antilock/mesh/msh_file.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "common/command_line.hpp"
+#include "doors/doors.hpp"
+
+namespace antilock::doors {
+namespace {
+
+/// The values of the file by unknown of the space; empty where a point of the file is none of its unknowns. The digits
+/// of a file are cut off: a point is an unknown where it is within 1e-6 of the triangle's size.
+std::optional<Eigen::VectorXd> values_on(const Space& space, const Eigen::MatrixXd& rows) {
+  if (rows.rows() != space.size()) return {};
+  constexpr double digits = 1e-6;
+  const PointValues at(space);
+  const Eigen::MatrixX3d nodes = space.element().nodes();
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(space.size());
+  std::vector<char> met(static_cast<std::size_t>(space.size()), 0);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const auto place = at.locate(rows.row(i).head(2).transpose(), digits);
+    if (!place) return {};
+    int unknown = -1;
+    for (Eigen::Index k = 0; k < nodes.rows(); ++k)
+      if ((nodes.row(k).transpose() - place->lambda).lpNorm<Eigen::Infinity>() < 2 * digits)
+        unknown = space.unknowns()(place->triangle, k);
+    if (unknown < 0 || met[static_cast<std::size_t>(unknown)]++) return {};
+    u(unknown) = rows(i, 2);
+  }
+  return u;
+}
+
+/// |v|_a of a discrete function; infinite at compliance 0 unless B v = 0 to round-off.
+double energy_norm(const VariationalInequality& problem, const Eigen::VectorXd& v) {
+  const Eigen::VectorXd slope = problem.b * v;
+  const double stiff = slope.dot(problem.m.cwiseProduct(slope)), soft = v.dot(problem.a1 * v);
+  if (problem.compliance > 0) return std::sqrt(soft + stiff / problem.compliance);
+  return stiff <= 1e-24 * soft ? std::sqrt(soft) : std::numeric_limits<double>::infinity();
+}
+
+struct Bound {
+  double value;
+  std::string of;  // what it bounds, and why it holds
+};
+
+/// Conforming: v is raised into K where it is not there, and J(v) - J(u) >= |u - v|_a^2 / 2, since u minimises J over K.
+Bound conforming_bound(const Scene& scene, const Space& space, const VariationalInequality& problem, Eigen::VectorXd v,
+                       double energy_lower) {
+  const Eigen::VectorXd given = v;
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i) v(problem.fixed[i]) = problem.fixed_values(Eigen::Index(i));
+  if (scene.contact()) {
+    const Eigen::VectorXd lower = admissible_bounds(*scene.contact(), space);
+    for (std::size_t i = 0; i < problem.contact.size(); ++i)
+      v(problem.contact[i]) = std::max(v(problem.contact[i]), lower(Eigen::Index(i)));
+  }
+  const double norm = energy_norm(problem, v), moved = energy_norm(problem, v - given);
+  const double j = norm * norm / 2 - problem.load.dot(v);
+  return {std::sqrt(2 * std::max(0.0, j - energy_lower)) + moved,
+          fmt::format("|u - v|_a, from J(v) and the proved lower bound {:.9g} of J{}", energy_lower,
+                      moved > 0 ? fmt::format(", and {:.2g} for the way into K", moved) : "")};
+}
+
+/// Nonconforming: the certificate of our own Crouzeix-Raviart answer on this mesh, and the distance of the two.
+Bound nonconforming_bound(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                          const Eigen::VectorXd& v) {
+  const Solution own = active_set(problem);
+  const double certified = certify(scene, space, problem, own).gradient, apart = energy_norm(problem, own.u - v);
+  return {certified + apart, fmt::format("the broken energy norm of u - v: {:.4g} proved of Antilock's "
+                                         "Crouzeix-Raviart answer on this mesh, and {:.2g} "
+                                         "between the two",
+                                         certified, apart)};
+}
+
+double largest(const std::vector<int>& unknowns, const Eigen::VectorXd& u) {
+  double most = 0;
+  for (const int i : unknowns) most = std::max(most, std::abs(u(i)));
+  return most;
+}
+
+}  // namespace
+
+int judge(int argc, char** argv) {
+  tutorial::CommandLine line(
+      "Another program's answer to a scene, on its own mesh: its errors, a proved bound, what it keeps of the "
+      "layer's displacement, and whether it locks.",
+      "antilock judge");
+  std::filesystem::path scene, mesh_file, answer, out;
+  double accuracy = 1e-2;
+  std::string row;
+  line.add_required("SCENE", scene, "the scene file, in TOML (run_scene --help); its [mesh] is not used");
+  line.add_required("MESH", mesh_file, "MSH 2.2 or 4.1, with the groups body, layer, clamped, contact");
+  line.add_required("U", answer,
+                    "CSV with the header x,y,u: one row per vertex (P1) or per edge midpoint (CR), in any order");
+  line.add("--accuracy", accuracy, "to which the energy's lower bound is proved, relative, in the energy norm", 1e-4,
+           0.5);
+  line.add("--json", out, "the same numbers as a JSON file");
+  line.add("--row", row, "NAME of the code: prints a row for the table of codes as well");
+  if (const auto status = line.parse(argc, argv)) return *status;
+
+  const SceneFile file = read_scene_file(scene);
+  const TriangleMesh mesh = read_msh(mesh_file.string());
+  const Eigen::MatrixXd rows = read_csv(answer.string(), {"x", "y", "u"});
+  std::optional<Space> space;
+  std::optional<Eigen::VectorXd> u;
+  for (const Element* element : {&p1(), &crouzeix_raviart()})
+    if (!u) u = values_on(space.emplace(mesh, *element), rows);
+  if (!u)
+    throw Error(fmt::format(
+        "{}: {} rows that fit neither the {} vertices nor the {} edge midpoints of {}; accepted: one row per "
+        "vertex or one per midpoint",
+        answer.string(), rows.rows(), mesh.vertex_count(), mesh.edge_count(), mesh_file.string()));
+  const VariationalInequality problem = assemble(file.scene, *space);
+  Solution v;
+  v.u = *u;
+  v.p = problem.compliance > 0 ? Eigen::VectorXd(problem.b * v.u / problem.compliance)
+                               : Eigen::VectorXd::Zero(problem.b.rows());
+
+  const std::string element = space->element().name();
+  nlohmann::json found = {{"element", element}, {"unknowns", space->free_count()}, {"h", mesh.diameter()}};
+  fmt::print("{}: {}, {} unknowns\n", answer.string(), element, space->free_count());
+  if (const std::optional<Truth> truth = truth_of(file.scene)) {
+    const TruthTable table(*truth);
+    const Errors e = measure_errors(*space, v, truth->epsilon(), reference(table));
+    found["errors"] = {
+        {"max_at_unknowns", e.max_at_unknowns}, {"max", e.max}, {"l2", e.l2}, {"h1", e.h1}, {"energy", e.energy}};
+    fmt::print(
+        "  errors (exact): {:.4g} at the unknowns, {:.4g} in the maximum norm, {:.4g} L2, {:.4g} H1, {:.4g} energy "
+        "norm\n",
+        e.max_at_unknowns, e.max, e.l2, e.h1, e.energy);
+  }
+  const CertifiedSolution certified = solve_to(file.scene, mesh, Accuracy{accuracy});
+  const Bound bound = space->element().conforming()
+                          ? conforming_bound(file.scene, *space, problem, v.u, certified.certificate.energy_lower)
+                          : nonconforming_bound(file.scene, *space, problem, v.u);
+  found["bound"] = bound.value;
+  fmt::print("  proved: at most {:.4g} ({})\n", bound.value, bound.of);
+  if (file.scene.layer_depth() > 0 && file.scene.contact()) {
+    const Space reference(certified.mesh, crouzeix_raviart());
+    const double ridge = largest(reference.contact(), certified.cr.u);
+    const double kept = ridge > 0 ? largest(space->contact(), v.u) / ridge : 1;
+    found["kept"] = kept;
+    fmt::print("  kept of the largest displacement on the contact boundary: {:.4g} %\n", 100 * kept);
+  }
+  if (!out.empty()) write_file(out, [&](std::ostream& stream) { stream << found.dump(2) << '\n'; });
+  return 0;
+}
+
+}  // namespace antilock::doors
