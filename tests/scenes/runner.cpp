@@ -10,11 +10,20 @@
 
 namespace antilock::test {
 
-Outcome run_scene(const std::string& arguments, const TemporaryFolder& log) {
+namespace {
+
+Outcome run(const std::string& program, const std::string& arguments, const TemporaryFolder& log) {
   const std::string command =
-      in_shell(RUN_SCENE) + " " + arguments + " >" + in_shell(log / "out") + " 2>" + in_shell(log / "err");
+      in_shell(program) + " " + arguments + " >" + in_shell(log / "out") + " 2>" + in_shell(log / "err");
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(log / "out"), contents(log / "err")};
+}
+
+}  // namespace
+
+Outcome run_scene(const std::string& arguments, const TemporaryFolder& log) { return run(RUN_SCENE, arguments, log); }
+Outcome run_antilock(const std::string& arguments, const TemporaryFolder& log) {
+  return run(ANTILOCK_PROGRAM, arguments, log);
 }
 
 SceneRun::SceneRun(const std::string& scene, const std::string& file) {

@@ -19,6 +19,8 @@ inline std::string in_shell(const std::string& text) { return "'" + text + "'"; 
 
 /// Runs run_scene with the given arguments (already quoted), its output caught beside `folder`'s results.
 Outcome run_scene(const std::string& arguments, const TemporaryFolder& log);
+/// The same of antilock, the program with subcommands.
+Outcome run_antilock(const std::string& arguments, const TemporaryFolder& log);
 
 /// A scene text, run in a folder of its own: the scene file alone stands in `input`, the results go to `results`.
 class SceneRun {

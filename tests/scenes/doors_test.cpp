@@ -1,0 +1,163 @@
+// antilock, the program with subcommands: its numbers against the exact solution, its refusals from outside.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "antilock/exact/sine_load.hpp"
+#include "antilock/exact/truth_table.hpp"
+#include "antilock/io/writers.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "scenes/runner.hpp"
+
+namespace antilock::test {
+namespace {
+
+std::string scene(double epsilon, const std::string& f = "10*sin(2*pi*x)") {
+  return fmt::format("[load]\nf = \"{}\"\n[layer]\nepsilon = {}\n[contact]\n[mesh]\nkind = \"structured\"\ncells = 8\n",
+                     f, epsilon);
+}
+
+class Door : public testing::Test {
+ protected:
+  std::string file(const std::string& name, const std::string& text) {
+    std::ofstream(folder / name, std::ios::binary) << text;
+    return in_shell((folder / name).string());
+  }
+  Outcome ask(const std::string& arguments) { return run_antilock(arguments, log); }
+  TemporaryFolder folder, log;
+};
+
+TEST(SineLoad, IsRecognisedAndNothingElseIs) {
+  const Field sines = [](double x, double y) {
+    return 3 * y * y * std::sin(M_PI * x) - (1 - y) * std::sin(31 * M_PI * x);
+  };
+  const std::optional<SineLoad> found = as_sine_load(sines);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->modes.size(), 2u);
+  for (const double x : {0.1, 0.77})
+    for (const double y : {0.0, 0.3, 1.0})
+      EXPECT_NEAR((*found)(x, y), sines(x, y), 1e-11);  // 1e-13 of its size, 13 nodes
+  EXPECT_FALSE(as_sine_load([](double x, double) { return x; }));
+  EXPECT_FALSE(as_sine_load([](double x, double y) { return std::sin(M_PI * x) * std::exp(9 * y); }));
+  EXPECT_FALSE(as_sine_load([](double x, double) { return std::sin(33 * M_PI * x); }));
+}
+
+TEST_F(Door, TruthGivesTheExactSolutionAtPoints) {
+  const std::string points = file("points.csv", "x,y\n0.25,-1\n0.25,0.5\n0.9,-1\n");
+  const Outcome told = ask("truth " + file("scene.toml", scene(1e-2)) + " --summary " +
+                           in_shell((folder / "s.json").string()) + " < " + points);
+  ASSERT_EQ(told.status, 0) << told.err;
+  const Truth truth(paper_sine_load(), 1e-2);
+  const std::string line = fmt::format("0.25,-1,{},{},", truth.value(0.25, -1), truth.gradient(0.25, -1)(0));
+  EXPECT_NE(told.out.find("x,y,u,u_x,u_y,p\n"), std::string::npos);
+  // a mode's sampled profile is right to 1e-13: the first 10 digits are the same
+  EXPECT_NE(told.out.find(line.substr(0, 20)), std::string::npos) << told.out;
+  const auto summary = nlohmann::json::parse(contents(folder / "s.json"));
+  EXPECT_EQ(summary["kind"], "exact");
+  EXPECT_NEAR(summary["energy"], truth.energy(), 1e-12);
+  EXPECT_NEAR(summary["contact"][0][0], 0.69753, 1e-5);  // five digits are printed in the project's table of truths
+}
+
+TEST_F(Door, TruthOfAnyOtherLoadIsCertified) {
+  const std::string points = file("points.csv", "x,y\n0.25,-0.5\n");
+  const Outcome told = ask("truth " + file("scene.toml", scene(1e-2, "x*sin(pi*x)")) + " --accuracy 0.1 --summary " +
+                           in_shell((folder / "s.json").string()) + " < " + points);
+  ASSERT_EQ(told.status, 0) << told.err;
+  const auto summary = nlohmann::json::parse(contents(folder / "s.json"));
+  EXPECT_EQ(summary["kind"], "certified");
+  EXPECT_LE(summary["relative"], 0.1);
+  EXPECT_LT(summary["energy"][0], summary["energy"][1]);
+}
+
+/// An answer of the library's, as another program would hand it in: its rows in another order, twelve digits.
+void hand_in(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u) {
+  std::ofstream out(path);
+  out << "x,y,u\n";
+  for (Eigen::Index i = space.size(); i-- > 0;)
+    out << fmt::format("{:.12g},{:.12g},{:.12g}\n", space.points()(i, 0), space.points()(i, 1), u(i));
+}
+
+TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {
+  const double epsilon = 1e-3;
+  const TruthTable truth(Truth(paper_sine_load(), epsilon));
+  for (const auto& [element, mesh, locks] : {std::tuple{&p1(), structured_mesh(16), false},
+                                             {&p1(), jittered_mesh(16, 0.2), true},
+                                             {&crouzeix_raviart(), jittered_mesh(16, 0.2), false}}) {
+    const Space space(mesh, *element);
+    const Solution answer = active_set(assemble(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space));
+    write_msh(folder / "mesh.msh", mesh);
+    hand_in(folder / "u.csv", space, answer.u);
+    const Outcome told =
+        ask("judge " + file("scene.toml", scene(epsilon)) + " " + in_shell(folder / "mesh.msh") + " " +
+            in_shell(folder / "u.csv") + " --accuracy 0.03 --json " + in_shell(folder / "judged.json"));
+    ASSERT_EQ(told.status, 0) << told.err;
+    const auto judged = nlohmann::json::parse(contents(folder / "judged.json"));
+    const double energy = measure_errors(space, answer, epsilon, reference(truth)).energy;
+    // twelve digits of u leave 1e-12 h^-1 epsilon^-1 of the slope that the energy norm counts
+    EXPECT_NEAR(judged["errors"]["energy"], energy, 1e-7);
+    EXPECT_GE(judged["bound"], energy);
+    // P1: the lower bound of J is proved to 3 %, so the square root of J(v) - J loses little. CR: the certificate's root 2
+    EXPECT_LE(judged["bound"], (element->conforming() ? 1.05 : 1.6) * energy);
+    if (locks)
+      EXPECT_LT(judged["kept"], 0.05);
+    else
+      EXPECT_NEAR(judged["kept"], 1, 0.05);
+  }
+}
+
+TEST_F(Door, JudgeLiftsAnAnswerOutOfTheObstacleAndSaysSo) {
+  const TriangleMesh mesh = structured_mesh(8);
+  const Space space(mesh, p1());
+  Eigen::VectorXd u = active_set(assemble(Scene({paper_load}, StiffLayer{0.1}, UnilateralContact{}), space)).u;
+  for (const int i : space.contact()) u(i) -= 1e-3;
+  write_msh(folder / "mesh.msh", mesh);
+  hand_in(folder / "u.csv", space, u);
+  const Outcome told = ask("judge " + file("scene.toml", scene(0.1)) + " " + in_shell(folder / "mesh.msh") + " " +
+                           in_shell(folder / "u.csv") + " --accuracy 0.2");
+  ASSERT_EQ(told.status, 0) << told.err;
+  EXPECT_NE(told.out.find("for the way into K"), std::string::npos) << told.out;
+}
+
+TEST_F(Door, SweepIsTheSceneAskedAgainAndAgain) {
+  const Outcome told = ask("sweep " + file("scene.toml", scene(1)) +
+                           " --epsilon 1,1e-3,0 --cells 8,16 --at 0.25,-1 --out " + in_shell(folder / "sweep.csv"));
+  ASSERT_EQ(told.status, 0) << told.err;
+  const Csv table = read_csv(folder / "sweep.csv");
+  ASSERT_EQ(table.rows.rows(), 6);
+  const TriangleMesh mesh = structured_mesh(16);
+  const Space space(mesh, p1());
+  const Solution answer = active_set(assemble(Scene({paper_load}, StiffLayer{1e-3}, UnilateralContact{}), space));
+  int at = -1;
+  for (int i = 0; i < space.size(); ++i)
+    if (space.points()(i, 0) == 0.25 && space.points()(i, 1) == -1) at = i;
+  EXPECT_EQ(table.header.rfind("cells,epsilon,unknowns,u_at,ridge,kept", 0), 0u);
+  EXPECT_NEAR(table.rows(4, 3), answer.u(at), 1e-9);  // both are solved to 1e-10
+}
+
+TEST_F(Door, RefusesInOneLine) {
+  const std::string good = file("scene.toml", scene(1e-2)), points = file("points.csv", "x,y\n0.25,-1\n");
+  for (const auto& [arguments, says] :
+       {std::pair<std::string, std::string>{"", "antilock SUBCOMMAND"},
+        {"fly", "\"fly\" is unknown"},
+        {"truth " + good + " < " + file("a.csv", "x,z\n1,2\n"), "accepted: the header x,y"},
+        {"truth " + good + " < " + file("b.csv", "x,y\n1,two\n"), "line 2: \"two\" is no finite number"},
+        {"truth " + good + " < " + file("c.csv", "x,y\n0.5,-2\n"), "outside the domain"},
+        {"truth /nowhere.toml < " + points, "/nowhere.toml"},
+        {"sweep " + good + " --epsilon 1:2", "accepted: FROM:TO:COUNT"},
+        {"sweep " + good + " --epsilon 2", "epsilon = 2 is out of range"},
+        {"sweep " + good + " --at 3,3", "outside the mesh"},
+        {"judge " + good + " " + points + " " + points, "points.csv"}}) {
+    const Outcome told = ask(arguments);
+    EXPECT_EQ(told.status, 2) << arguments;
+    EXPECT_EQ(told.out, "") << arguments;
+    EXPECT_NE(told.err.find(says), std::string::npos) << arguments << ": " << told.err;
+  }
+}
+
+}  // namespace
+}  // namespace antilock::test
