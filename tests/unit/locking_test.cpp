@@ -10,6 +10,7 @@
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/errors.hpp"
+#include "antilock/mesh/families.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/scene_sweep.hpp"
@@ -292,6 +293,31 @@ TEST(Locking, ComesWithTheFirstJitterAndGrowsWithItsShareOfEpsilon) {
   EXPECT_GT(some, 0.9);
   EXPECT_NEAR(half, 0.3, 0.2);  // t h = 1.25 epsilon: neither all nor nothing
   EXPECT_LT(most, 0.05);
+}
+
+TEST(BendingLength, IsTheSlopeOfAParabolasInterpolant) {
+  const double h = 1.0 / 8;
+  for (const MeshFamily& family : mesh_families()) {
+    const TriangleMesh mesh = family.mesh(8);
+    double sum = 0;
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      const Eigen::Matrix<double, 3, 2> gradients = barycentric_gradients(mesh, t);
+      double slope = 0, around = 1;
+      for (int i = 0; i < 3; ++i) {
+        slope += 0.5 * std::pow(mesh.vertices(mesh.triangles(t, i), 0), 2) * gradients(i, 1);  // w'' = 1
+        around *= mesh.edge_length(mesh.triangle_edges(t, i));
+      }
+      EXPECT_NEAR(bending_length(mesh, t), std::abs(slope), 1e-13) << family.name;
+      EXPECT_LE(bending_length(mesh, t), around / (4 * mesh.area(t)) * (1 + 1e-12)) << family.name;  // circumradius
+      if (mesh.region[t] == Region::layer) sum += mesh.area(t) * slope * slope;
+    }
+    EXPECT_NEAR(bending_length(mesh), std::sqrt(sum), 1e-13) << family.name;  // the layer has the area 1
+  }
+  for (const char* name : {"structured", "layered", "columns"})  // gmsh places points to about 1e-12
+    EXPECT_LT(bending_length(mesh_family(name).mesh(8)), 1e-11) << name;
+  // h^2 / (8 H) in a row of triangles of base h and height H; the halves at the ends lean on the sides
+  EXPECT_NEAR(bending_length(mesh_family("staggered").mesh(8)), std::sqrt(15.0 / 16) * h / 8, 1e-15);
+  EXPECT_EQ(bending_length(structured_mesh(4, {0})), 0);
 }
 
 }  // namespace

@@ -3,31 +3,11 @@
 #include <cmath>
 
 #include "antilock/core/eigenvalues.hpp"
-#include "antilock/io/vtu_grid.hpp"
+#include "antilock/io/writers.hpp"
 #include "antilock/mesh/layered.hpp"
 
 namespace antilock::tutorial {
 namespace {
-
-/// Three points per triangle, so that the field may jump from one triangle to the next; t x 3 values at the corners.
-void write_corners(const std::filesystem::path& file, const TriangleMesh& mesh, const Eigen::MatrixX3d& corners) {
-  const int count = mesh.triangle_count();
-  VtuGrid grid;
-  grid.points.resize(3 * count, 2);
-  grid.triangles.resize(count, 3);
-  Eigen::MatrixXd value(3 * count, 1), region(count, 1);
-  for (int t = 0; t < count; ++t) {
-    for (int i = 0; i < 3; ++i) {
-      grid.points.row(3 * t + i) = mesh.vertices.row(mesh.triangles(t, i));
-      grid.triangles(t, i) = 3 * t + i;
-      value(3 * t + i) = corners(t, i);
-    }
-    region(t) = static_cast<int>(mesh.region[t]);
-  }
-  grid.point_data.push_back({"u", value});
-  grid.cell_data.push_back({"region", region, true});
-  write_grid(file, grid);
-}
 
 /// One component of sigma; in the layer the second one is the stress p.
 Eigen::MatrixX3d component(const TriangleMesh& mesh, const EquilibratedFlux& flux, int k) {
@@ -73,8 +53,8 @@ void write_pictures(const std::filesystem::path& out) {
   density("width_p1_layered.vtu", layered, layered.p1_certified());
   const EquilibratedFlux flux =
       equilibrated_flux(scene, unstructured.on.space(), unstructured.problem, unstructured.solution);
-  write_corners(out / "flux_x.vtu", unstructured.on.mesh(), component(unstructured.on.mesh(), flux, 0));
-  write_corners(out / "flux_y.vtu", unstructured.on.mesh(), component(unstructured.on.mesh(), flux, 1));
+  write_vtu(out / "flux_x.vtu", unstructured.on.mesh(), component(unstructured.on.mesh(), flux, 0));
+  write_vtu(out / "flux_y.vtu", unstructured.on.mesh(), component(unstructured.on.mesh(), flux, 1));
 }
 
 // u and p are multiplied by 1.01: r grows from lambda to lambda + 0.01 A u, so that r1 = 0.01 A u on the free edges off
@@ -199,7 +179,7 @@ void write_density(const std::filesystem::path& file, const TriangleMesh& mesh, 
   Eigen::MatrixX3d corners(mesh.triangle_count(), 3);
   for (int t = 0; t < mesh.triangle_count(); ++t)
     corners.row(t).setConstant(std::log10(std::max(indicator(t) / mesh.area(t), 1e-12)));
-  write_corners(file, mesh, corners);
+  write_vtu(file, mesh, corners);
 }
 
 std::vector<Exercise> certificate_exercises() {

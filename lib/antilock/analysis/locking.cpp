@@ -23,6 +23,21 @@ int stiff_unknowns(const VariationalInequality& problem) {
 
 }  // namespace
 
+double bending_length(const TriangleMesh& mesh, int triangle) {
+  const auto x = [&](int corner) { return mesh.vertices(mesh.triangles(triangle, corner % 3), 0); };
+  double product = 1;
+  for (int i = 0; i < 3; ++i) product *= std::abs(x(i) - x(i + 1));
+  return product / (4 * mesh.area(triangle));
+}
+
+double bending_length(const TriangleMesh& mesh) {
+  double sum = 0, area = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer)
+      sum += mesh.area(t) * std::pow(bending_length(mesh, t), 2), area += mesh.area(t);
+  return area > 0 ? std::sqrt(sum / area) : 0;
+}
+
 double LockingDiagnosis::order() const {
   if (locks() || coarse == 0) return 0;
   return std::log(static_cast<double>(fine) / coarse) / std::log(static_cast<double>(fine_unknowns) / coarse_unknowns);

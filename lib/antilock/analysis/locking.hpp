@@ -1,9 +1,18 @@
 #pragma once
 #include <string>
 
+#include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 
 namespace antilock {
+
+/// The slope d/dy of P1's interpolant of w(x) on a triangle is +-k_T w'', exactly where w is a parabola:
+/// k_T = abc / (4 area), with a, b, c the extents of the three sides in x. That is the formula of the circumradius, which
+/// it never exceeds, and 0 where a side is vertical. A length.
+double bending_length(const TriangleMesh& mesh, int triangle);
+/// Its root mean square over the layer, k: P1 resists bending there as if (k / epsilon)^2 |u_xx|^2 stood in its energy.
+/// 0 for a mesh without a layer.
+double bending_length(const TriangleMesh& mesh);
 
 /// Whether a discretisation can follow the limit epsilon -> 0, from its kernel alone, before anything is solved. In (23)
 /// the whole kernel G_h of a0 says nothing: every unknown of the body is in it, on every mesh. What decides is the kernel

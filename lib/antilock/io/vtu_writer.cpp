@@ -20,6 +20,13 @@ VtuGrid torn_grid(const TriangleMesh& mesh) {
   return grid;
 }
 
+void add_regions(VtuGrid& grid, const TriangleMesh& mesh) {
+  Eigen::VectorXd region(mesh.triangle_count());
+  for (int t = 0; t < mesh.triangle_count(); ++t) region(t) = static_cast<int>(mesh.region[t]);
+  grid.cell_data.push_back({"region", region, true});
+  grid.region_names = {"none", "body", "layer"};
+}
+
 /// The values of u at the points of torn_grid (for CR they are m_j + m_k - m_i).
 Eigen::VectorXd corner_values(const Space& space, const Eigen::VectorXd& u) {
   const Element& element = space.element();
@@ -74,11 +81,17 @@ void write_vtu(const std::filesystem::path& path, const Space& space, const Eige
   VtuGrid grid = shared ? VtuGrid{mesh.vertices, mesh.triangles, {}, {}} : torn_grid(mesh);
   grid.point_data.push_back({"u", shared ? Eigen::VectorXd(u.head(mesh.vertex_count())) : corner_values(space, u)});
   if (more.pressure.size() > 0) grid.point_data.push_back({"pressure", point_pressure(space, more.pressure)});
-  Eigen::VectorXd region(mesh.triangle_count());
-  for (int t = 0; t < mesh.triangle_count(); ++t) region(t) = static_cast<int>(mesh.region[t]);
-  grid.cell_data.push_back({"region", region, true});
-  grid.region_names = {"none", "body", "layer"};
+  add_regions(grid, mesh);
   if (more.p.size() > 0) grid.cell_data.push_back({"p", more.p});
+  write_grid(path, grid);
+}
+
+void write_vtu(const std::filesystem::path& path, const TriangleMesh& mesh, const Eigen::MatrixX3d& corners) {
+  const Eigen::VectorXd values = corners.transpose().reshaped();
+  check_values(path, "u", "per corner", values, 3 * mesh.triangle_count());
+  VtuGrid grid = torn_grid(mesh);
+  grid.point_data.push_back({"u", values});
+  add_regions(grid, mesh);
   write_grid(path, grid);
 }
 

@@ -30,6 +30,8 @@ struct VtuFields {
 /// Crouzeix-Raviart fields keep their jumps; P1 and P2 fields share their vertices, and P2 is shown there alone.
 void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u,
                const VtuFields& more = {});
+/// VTU of a field that is affine on each triangle and jumps between them: T x 3 values at the corners, point data `u`.
+void write_vtu(const std::filesystem::path& path, const TriangleMesh& mesh, const Eigen::MatrixX3d& corners);
 /// VTU of a body deformed by u (not magnified): the points where it moved them, three per triangle, point data
 /// `displacement`, cell data `pressure` (one value per triangle).
 void write_deformed_vtu(const std::filesystem::path& path, const VectorSpace& space, const Eigen::VectorXd& u,
