@@ -131,6 +131,7 @@ int end_of_child(int signal, const std::function<void(const std::function<void()
   EXPECT_EQ(::pipe(pipe.data()), 0);
   const pid_t child = ::fork();
   if (child == 0) {
+    if (signal != 0) std::signal(signal, SIG_DFL);  // a shell lets what it starts in the background ignore SIGINT
     try {
       act([&] {
         (void)!::write(pipe[1], "x", 1);
