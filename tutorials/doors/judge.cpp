@@ -152,6 +152,11 @@ int judge(int argc, char** argv) {
     found["kept"] = kept;
     fmt::print("  kept of the largest displacement on the contact boundary: {:.4g} %\n", 100 * kept);
   }
+  if (!row.empty())
+    fmt::print("| {} | {} | {} | {:.3g} | {} |\n", row, element,
+               found.contains("errors") ? fmt::format("{:.3g}", found["errors"]["max_at_unknowns"].get<double>())
+                                        : "not known",
+               bound.value, found.contains("kept") ? fmt::format("{:.1f} %", 100 * found["kept"].get<double>()) : "");
   if (!out.empty()) write_file(out, [&](std::ostream& stream) { stream << found.dump(2) << '\n'; });
   return 0;
 }

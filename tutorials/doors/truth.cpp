@@ -107,9 +107,11 @@ int truth(int argc, char** argv) {
       "antilock truth");
   std::filesystem::path scene, summary;
   double accuracy = 1e-2;
+  int digits = 17;
   line.add_required("SCENE", scene, "the scene file, in TOML (run_scene --help)");
   line.add("--accuracy", accuracy, "where no series is known: the proved relative error of the certified answer", 1e-4,
            0.5);
+  line.add("--digits", digits, "significant digits; 17 read back as the same double", 4, 17);
   line.add("--summary", summary, "a JSON file: energy J, ends of contact, and the accuracy of every number");
   line.footer(
       "A load that is a sum of sines in x with polynomials in y has an exact solution, a series (scaled layer or its "
@@ -127,8 +129,9 @@ int truth(int argc, char** argv) {
   for (std::size_t i = 0; i < known.rows.size(); ++i) {
     const Row& row = known.rows[i];
     const auto n = static_cast<Eigen::Index>(i);
-    fmt::print("{},{},{},{},{},{}\n", points(n, 0), points(n, 1), row.u, row.gradient(0), row.gradient(1),
-               row.p ? fmt::format("{}", *row.p) : "");
+    const auto text = [digits](double value) { return fmt::format("{:.{}g}", value, digits); };
+    fmt::print("{},{},{},{},{},{}\n", points(n, 0), points(n, 1), text(row.u), text(row.gradient(0)),
+               text(row.gradient(1)), row.p ? text(*row.p) : "");
   }
   fmt::print(stderr, "antilock truth: {}, J = {}\n", known.summary["kind"].get<std::string>(),
              known.summary["energy"].dump());
