@@ -7,11 +7,11 @@
 //
 // Needs: [00](00_string_on_an_obstacle.cpp) (contact), [01](01_domain.cpp) ((23)), [02](02_meshes.cpp) (P1, kernel).
 //
-// **The picture.** The displacement `u` of body and layer on a coarse mesh, drawn as a height. *Everything in it is
-// computed in this file, without the library's elements, forms and solvers. At the end the library finds the same.*
+// **The picture.** The displacement $u$ of body and layer on a coarse mesh, drawn as a height. It is computed in this
+// file, without the library's elements, forms and solvers. At the end the library finds the same.
 //
-// **Predict.** (a) How many entries that are not 0 has the row of the stiff form that belongs to one triangle? (b)
-// The factor `ε⁻²` goes to infinity as `ε → 0`. Does the *layer stress* `p = ε⁻² ∂_y u` go there too?
+// **Predict.** (a) How many entries that are not 0 has the row of the stiff form that belongs to one triangle? (b) The
+// factor $ε^{-2}$ goes to infinity as $ε → 0$. Does the *layer stress* $p = ε^{-2} ∂_y u$ go there too?
 //
 // ## From (23) to matrices
 //
@@ -29,7 +29,8 @@
 #include <Eigen/Dense>
 
 #include "antilock/core/dense.hpp"
-#include "common/by_hand.hpp"
+#include "antilock/io/writers.hpp"
+#include "backstage/03_loads.hpp"
 #include "common/course.hpp"
 
 using namespace antilock;
@@ -87,28 +88,44 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
 //
 // $$ A_1 u + B^T M p = L + λ,   B u = ε² p. $$
 //
-// No large number is left. One matrix is factored, with a moderate number $δ$ in place of $ε²$:
-// $K = A_1 + δ^{-1} B^T M B$ (a matrix; the set of (23) has the same letter). Given $u$ and $p$, what the two
-// equations leave over, their *residuals*, is
+// No large number is left, and no division by $ε$. One matrix is factored, with a moderate number $δ$ where $ε²$ stood:
+//
+// $$ A_δ = A_1 + δ^{-1} B^T M B. $$
+//
+// It would solve another problem, that of a softer layer. So its answer is corrected until the two equations hold. What
+// they leave over for a given $u$ and $p$ are their *residuals*:
 //
 // $$ r_1 = L - A_1 u - B^T M p + λ,   r_2 = ε² p - B u. $$
 //
-// One *correction* solves $K du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$. Insert both: after it
+// One *correction* solves $A_δ du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$. Insert both: after it
 // $r_1 = 0$ and $r_2 = (ε² - δ) dp$. With $δ = ε²$ nothing would be left over. When $r_1 = r_2 = 0$ and the signs on
-// $Γ_C$ are right, $u$ and $p$ solve (26), whatever $δ$ was. This is the *iterated penalty* method. Let $r_1 = 0$, as
-// after the first correction, and let $r_2$ be an eigenvector of $B A_1^{-1} B^T M$ with the eigenvalue $σ$. A
-// correction multiplies it by $(δ - ε²)/(δ + σ)$. A small $δ$ is fast, but too small a $δ$ rounds the digits of
-// $A_1$ away again.
+// $Γ_C$ are right, $u$ and $p$ solve (26), whatever $δ$ was. This is the *iterated penalty* method.
 //
-// **The contact loop**, in each correction: the $λ$ in $r_1$ is not known beforehand. Guess which vertices of $Γ_C$
-// touch. There $u + du = 0$, and the row of the vertex gives $λ$. Elsewhere $λ = 0$, and the row is an equation for
-// $du$. Solve, and look at the signs (chapter 00).
+// How fast? Let $r_1 = 0$, as after the first correction, and let $r_2$ be an eigenvector of $B A_1^{-1} B^T M$ with
+// the eigenvalue $σ$. A correction multiplies it by
+//
+// $$ \frac{δ - ε²}{δ + σ}. $$
+//
+// A small $δ$ is fast, but too small a $δ$ rounds the digits of $A_1$ away again.
+//
+// **The contact loop** runs in each correction, since the $λ$ in $r_1$ is not known beforehand. It is that of chapter
+// 00. Guess which vertices of $Γ_C$ touch. There $u + du = 0$, and the row of the vertex gives $λ$. Elsewhere $λ = 0$,
+// and the row is an equation for $du$. Solve, and look at the signs. So there are two loops, one in the other:
+//
+// ```text
+// repeat                            until du no longer counts
+//   r1 without lambda, r2           from u and p
+//   repeat                          until the guess repeats itself
+//     du = -u where it touches, A_delta du = r elsewhere
+//     new guess by the signs of lambda and u + du
+//   u += du,  p += (B du - r2) / delta
+// ```
 struct Answer {
   VectorXd u, stress;
 };
 Answer solve_by_hand(const ByHand& p, double epsilon, double delta, Table& history) {
   delta = std::max(epsilon * epsilon, delta);  // never below epsilon^2, which is stiff enough
-  const MatrixXd k = p.a1 + p.b.transpose() * p.m.asDiagonal() * p.b / delta;
+  const MatrixXd a_delta = p.a1 + p.b.transpose() * p.m.asDiagonal() * p.b / delta;
   VectorXd u = VectorXd::Zero(p.load.size()), stress = VectorXd::Zero(p.m.size()), du = u;
   std::vector<char> touches(p.load.size(), 0);
   for (int correction = 0; correction == 0 || du.lpNorm<Eigen::Infinity>() > 1e-14; ++correction) {
@@ -123,9 +140,9 @@ Answer solve_by_hand(const ByHand& p, double epsilon, double delta, Table& histo
         if (!guess[v]) moves.push_back(v);
       du = -u;  // to 0 where it touches; at the clamped vertices u is 0 already
       du(moves).setZero();
-      const VectorXd inside = Cholesky(k(moves, moves)).solve(VectorXd((r - k * du)(moves)));
+      const VectorXd inside = Cholesky(a_delta(moves, moves)).solve(VectorXd((r - a_delta * du)(moves)));
       du(moves) = inside;
-      const VectorXd lambda = k * du - r;
+      const VectorXd lambda = a_delta * du - r;
       for (const int v : p.free)
         if (p.contact[v]) touches[v] = guess[v] ? lambda(v) > 0 : u(v) + du(v) < -1e-15;
     }
@@ -136,34 +153,55 @@ Answer solve_by_hand(const ByHand& p, double epsilon, double delta, Table& histo
   return {u, stress};
 }
 
+// The layer stress for smaller and smaller ε, down to the rigid layer: largest value, and how far it is from that.
+Table layer_stress(const ByHand& problem) {
+  Table stresses({"epsilon", "largest B u", "largest p", "p - p at 0"}), unread({"correction", "contact steps", "du"});
+  const VectorXd rigid = solve_by_hand(problem, 0, 1e-4, unread).stress;
+  for (const double epsilon : {1e-1, 1e-2, 3e-3, 1e-3, 3e-4, 0.0}) {
+    const Answer answer = solve_by_hand(problem, epsilon, 1e-4, unread);
+    stresses.add({epsilon, (problem.b * answer.u).cwiseAbs().maxCoeff(), answer.stress.cwiseAbs().maxCoeff(),
+                  (answer.stress - rigid).cwiseAbs().maxCoeff()});
+  }
+  return stresses;
+}
+
 void by_hand(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
   const TriangleMesh mesh = structured_mesh(options.cells);
   const ByHand problem = assemble_by_hand(mesh);
   Table history({"correction", "contact steps", "du"});
   const VectorXd u = solve_by_hand(problem, options.epsilon, 1e-4, history).u;
+  const Table stresses = layer_stress(problem);
 
   // ### Output
-  history.print("The corrections");
+  history.print("the corrections");
   history.write(options.out / "corrections.csv");
-  const Space space(mesh, p1());  // and now the library, from the scene to the answer
+  stresses.print("the layer stress");
+  const Space space(mesh, p1());  // says which vertex carries which number, for the picture
+  write_solution_csv(options.out / "solution.csv", space, u);
+  write_vtu(options.out / "solution.vtu", space, u);
+
+  // And now the library, from the scene to the answer.
   const VariationalInequality same = assemble(tutorial::paper_scene(options.epsilon), space);
-  const Solution solution = active_set(same);
-  tutorial::write_results(options.out, space, same, solution);
   const double matrices = (MatrixXd(same.a1) - problem.a1).cwiseAbs().maxCoeff();
   const double rows = (MatrixXd(same.b) - problem.b).cwiseAbs().maxCoeff();
-  const double apart = (solution.u - u).lpNorm<Eigen::Infinity>() / u.lpNorm<Eigen::Infinity>();
-  report.claim(matrices <= 1e-13 && rows <= 1e-12, "A1 and B are the library's, to {:.0e} and {:.0e}", matrices, rows);
-  report.claim(apart <= 1e-12, "u is the library's to {:.0e}, relative", apart);
+  const double apart = (active_set(same).u - u).lpNorm<Eigen::Infinity>() / u.lpNorm<Eigen::Infinity>();
+  report.claim(matrices <= 1e-13 && rows <= 1e-12, "A1 and B are the library's, to {:.0e} and {:.0e} (proved)",
+               matrices, rows);
+  report.claim(apart <= 1e-12, "u is the library's to {:.0e}, relative (proved: (26) has one solution)", apart);
+  const Table small = stresses.where_number("epsilon", [](double epsilon) { return 0 < epsilon && epsilon < 0.05; });
+  report.claim_order(small, "p - p at 0", "epsilon", 1.9, 2.1, "p tends to the stress of the rigid layer (observed)");
 }
 
 // ## What came out
+// :output:
 //
 // (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference of $u$ along it,
-// divided by its length $h$. So one row of $B$ couples two vertices of one vertical line, and never two lines. This
-// is chapter 02's kernel again: one function per line. (b) No. $p$ tends to the stress of the rigid limit $ε = 0$;
-// only its factors $ε^{-2}$ and $B u$ go to infinity and to 0. The `du` of the corrections fall by a constant factor.
-// After the first one the contact set hardly moves: one contact step is enough.
+// divided by its length $h$. So one row of $B$ couples two vertices of one vertical line, and never two lines. This is
+// chapter 02's kernel again: one function per line. (b) No, as the second table shows. $B u$ falls like $ε²$, and $p$,
+// their quotient, tends to the stress of the rigid layer. It is what holds the layer straight, and this takes a finite
+// force. The `du` of the corrections fall by a constant factor. After the first correction the contact set hardly
+// moves: one contact step is enough.
 //
 // ## Exercises
 //
@@ -175,6 +213,6 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "03_by_hand", "Figure 5 on a coarse mesh, every step written out",
-                       {.cells = 8, .least_cells = 2, .most_cells = 16, .exercises = exercises},
+                       {.cells = 8, .least_cells = 4, .most_cells = 16, .exercises = exercises},
                        by_hand);  // dense matrices
 }
