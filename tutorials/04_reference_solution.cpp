@@ -1,124 +1,179 @@
 // # The reference solution
 //
-// Run: 04_reference_solution                          epsilon = 1e-6, h = 1/256; about ten seconds
+// Run: 04_reference_solution                          epsilon = 1e-6, h = 1/256; about two seconds
 // Run: 04_reference_solution --epsilon 1 --cells 64
 // Run: 04_reference_solution --exercise 1
 // Run: 04_reference_solution --exercise 2
 //
-// Needs: [00](00_string_on_an_obstacle.cpp) (Uzawa, compliance, condition number), [03](03_by_hand.cpp) (split form).
+// Needs: [00](00_string_on_an_obstacle.cpp) (complementarity, Uzawa), [01](01_domain.cpp) ((21), (23)),
+// [03](03_by_hand.cpp) (split form, layer stress).
 //
-// **The pictures.** Figure 4: a hill over the left half of the body, where the load lifts it, and a valley over the
-// right half, where it presses the body on the obstacle. On the layer "its value along the normal to Σ is constant
-// and nonnegative over Ω⁻" (Section 4.1). *The solution on the layer is a ridge: a function of `x` alone, 0 from
-// `x = 0.702` on, where it touches, the *contact zone*.* The other pictures show how Uzawa came to it: step by step,
-// and how many steps on which mesh.
+// **The picture.** Figure 4, a very fine mesh: a hill over the left half of the body, where the load lifts it, and a
+// valley over the right half, where it presses the body on the obstacle. On the layer "its value along the normal to Σ
+// is constant and nonnegative over Ω⁻" (Section 4.1). So the layer shows a ridge, a function of $x$ alone.
 //
-// **Predict.** (a) For the string, halving `h` cost four times as many steps. Here the contact boundary carries a
-// body that is 1 thick. At `ε = 1`, does halving `h` cost as much? (b) And at `ε = 10⁻⁶`, where the layer is rigid
-// across?
+// **Predict.** Push the layer from below, on $Γ_C$, with the pressure $\sin kπx$, which has $k$ half waves, and look how
+// far it gives way. (a) At $ε = 1$ layer and body are of one stuff. Twice as many half waves: how many times as stiff is
+// the answer? (b) And at $ε = 10^{-6}$, where the layer cannot vary across?
 //
-// ## How the paper computes it
+// ## A truth without a mesh
 //
-// "Unilateral contact problems generally do not admit analytical solution" (Section 4.1), so the paper takes P1 on a
-// very fine uniform mesh, and Uzawa's algorithm: guess the contact pressure $λ ≥ 0$ on $Γ_C$, and repeat
+// "Unilateral contact problems generally do not admit analytical solution" (Section 4.1). So the paper solves on a very
+// fine mesh, by Uzawa's algorithm (chapter 18 measures what that costs), and takes this for the truth. Ours needs no
+// mesh. All of it follows from two ordinary differential equations, and every verdict of this course rests on them.
 //
-// $$ a(u^k, v) = (f, v) + (λ^k, v)_{Γ_C} for all v,   λ^{k+1} = \max(0, λ^k - ρ u^k). $$
+// All displacements are 0 at $x = 0$ and at $x = 1$, in the body and in the layer. So write them as sums of sines,
 //
-// This is chapter 00's loop. The operator behind it is the *compliance* of $Γ_C$: pressure in, displacement there
-// out. Its inverse is the *Schur complement* of $Γ_C$: what the matrix says about these unknowns when all others are
-// eliminated. Here it is formed once, so that a step costs next to nothing; the paper solves the whole system in each
-// step. With the best $ρ$ the error falls by $(κ - 1)/(κ + 1)$ per step, $κ$ the condition number. An error of $tol$
-// takes about $(κ/2) \ln(1/tol)$ steps.
+// $$ u(x, y) = ∑_k u_k(y) \sin kπx,   f = ∑_k f_k(y) \sin kπx,   a = kπ. $$
 //
-// **How large is $κ$?** Press with $\sin kπx$, which has $k$ half waves. A mesh carries $k = 1$ to about $1/h$. At
-// $ε = 1$ the answer goes into the depth only as far as a half wave is long. The stiffness is $≈ kπ$, so $κ$ =
-// largest / smallest $~ 1/h$. As $ε → 0$ the layer cannot vary across, and its own energy along $x$, $a_x^-$,
-// decides. It is the energy of a string: stiffness $≈ (kπ)^2$, and $κ ~ 1/h^2$.
+// Two derivatives in $x$ multiply a sine by $-a^2$. So (21) on the unit layer (exercise 3 of chapter 01) becomes one
+// equation per $k$ in the body, $-Δu = f$, and one in the layer, $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$:
 //
-// **The truth.** $u = 0$ at $x = 0$ and at $x = 1$, in body and layer. So write $u = ∑_k u_k(y) \sin kπx$. Inside
-// body and layer (23) becomes one ordinary differential equation in $y$ per $k$, solved in closed form. Left open is
-// the contact: the displacement $u$ and the pressure $λ$ on $Γ_C$, with $u ≥ 0$, $λ ≥ 0$, $λ u = 0$. This is one
-// complementarity problem in $x$ alone. `lib/antilock/exact` solves it to 8 digits. No mesh is involved. Every
-// discrete solution of this course is measured against it, the paper's reference solution too.
+// $$ u_k'' = a^2 u_k - f_k   (0 < y < 1),   ε^{-2} u_k'' = a^2 u_k   (-1 < y < 0). $$
+//
+// Both are solved by $\sinh$ and $\cosh$. On $Σ$ two things pass from the layer to the body: the displacement
+// $w = u_k(0)$, and the layer stress $p = ε^{-2} ∂_y u$, which must be the slope $∂_y u^+$ of the body. On top $u_k = 0$.
+//
+// **The body.** Hold $Σ$ at $w$. Without a load $u_k = w \sinh(a(1 - y))/\sinh a$, whose slope on $Σ$ is $-T w$. With
+// $w = 0$ the load alone leaves a slope there, the pull $g$:
+//
+// $$ ∂_y u^+ = g - T w,   T = a \coth a,   g = ∫_0^1 f_k(y) \frac{\sinh(a(1 - y))}{\sinh a} dy. $$
+//
+// **The layer.** Let $c = u_k(-1)$ be the displacement on $Γ_C$ and $λ$ the pressure there. The outward normal points
+// down, so $p = -λ$ on $Γ_C$. With $κ = ε a$ and $z = a/ε$ the solution that starts so is, at the height $η = 1 + y$,
+//
+// $$ u_k = c \cosh κη - (λ/z) \sinh κη,   p = z c \sinh κη - λ \cosh κη. $$
+//
+// **Together.** At $η = 1$ put this $u_k$ for $w$ and this $p$ for $∂_y u^+$ into the body's line, and solve for $λ$:
+//
+// $$ λ = s c - q,   s_k(ε) = z \frac{T + z \tanh κ}{z + T \tanh κ},   q = \frac{g}{\cosh κ + (T/z) \sinh κ}. $$
+//
+// This is all that the obstacle feels of body and layer. The *symbol* $s_k(ε)$ is the stiffness against $k$ half waves.
+// For $ε → 0$, $z \tanh κ → a^2$ and $s_k → T + a^2$. A rigid layer resists like a string: $a^2$ comes from its own
+// energy along $x$. And $T ≈ a$ is the body's. But for $κ > 1$, so for waves shorter than $ε$ is thick, $\tanh κ ≈ 1$ and
+// $s_k ≈ a/ε$: such a wave dies out in the layer before it reaches $Σ$.
+// :figure: modes
+//
+// **The contact.** Left open are $c(x) = ∑ c_k \sin kπx$, the displacement on $Γ_C$, and the pressure
+// $λ(x) = ∑ (s_k c_k - q_k) \sin kπx$, with
+//
+// $$ c ≥ 0,   λ ≥ 0,   λ c = 0. $$
+//
+// This is chapter 00's complementarity in $x$ alone, with another matrix. `lib/antilock/exact` solves it at $2^{17}$
+// points by chapter 00's active set, to 8 digits of $u$. From $c$ and $λ$ all $u_k$ follow in closed form.
+
+#include <numbers>
 
 #include "antilock/solve/uzawa.hpp"
+#include "backstage/04_modes.hpp"
 #include "common/course.hpp"
 
 using namespace antilock;
+using std::numbers::pi;
 
-const Method p1_structured{&p1(), structured()};
-
-std::vector<double> uzawa_history(double epsilon, int cells, double tolerance) {  // the change of u in each step
-  UzawaOptions options;
-  options.tolerance = tolerance;
-  return uzawa(assemble(tutorial::paper_scene(epsilon), p1_structured.on(cells).space()), options).history;
+double symbol(int k, double epsilon) {
+  const double a = k * pi, t = a / std::tanh(a);
+  if (epsilon == 0) return t + a * a;
+  const double z = a / epsilon, tanh = std::tanh(epsilon * a);
+  return z * (t + z * tanh) / (z + t * tanh);
 }
-int uzawa_steps(double epsilon, int cells, double tolerance) {
-  return static_cast<int>(uzawa_history(epsilon, cells, tolerance).size());
+
+// ### Mesh
+// **The library in ten lines.** From here on chapters compute with the library. These are its words, in the order of
+// the data: a *scene* (what is to be solved) and a *method* (an element and a family of meshes) know nothing of each
+// other; a *discretisation* is the method at one $h$; `assemble` brings scene and discretisation together, as chapter
+// 03's `assemble_by_hand` does; the solver knows only the matrices.
+struct Solved {
+  Scene scene;
+  Discretisation on;              // a mesh, and the space of the unknowns on it
+  VariationalInequality problem;  // A1; B, M and epsilon^2 in front of them; the load; which unknowns may touch
+  Solution solution;              // u, the layer stress p, the pressure lambda, how well the conditions hold
+};
+const Method p1_structured{&p1(), structured()};  // an element, and one mesh per 1/h
+Solved solve(const Scene& scene, int cells) {
+  const Discretisation on = p1_structured.on(cells);
+  // ### Forms
+  const VariationalInequality problem = assemble(scene, on.space());
+  // ### Solve
+  return {scene, on, problem, active_set(problem)};  // chapter 03's two loops
+}
+
+// The stiffness of the mesh against $\sin kπx$: push with this pressure, without an obstacle, and see how far it gives.
+double discrete_symbol(int k, double epsilon, int cells) {
+  const Discretisation on = p1_structured.on(cells);
+  VariationalInequality problem =
+      assemble(Scene(Body{[](double, double) { return 0.0; }}, StiffLayer{epsilon}), on.space());
+  const double h = 1.0 / cells, a = k * pi, integral = (2 - 2 * std::cos(a * h)) / (a * a * h);  // chapter 00
+  for (const int v : on.space().contact()) problem.load(v) = integral * std::sin(a * on.space().points()(v, 0));
+  const int highest = on.space().contact()[static_cast<std::size_t>(cells / (2 * k)) - 1];  // x = 1/(2 k)
+  return 1 / active_set(problem).u(highest);
 }
 
 void reference_solution(const tutorial::Options& options, tutorial::Report& report) {
-  // ### Mesh
-  const Discretisation fine = p1_structured.on(options.cells);
-  // ### Forms
-  const VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), fine.space());
+  const double epsilon = options.epsilon, h = 1.0 / options.cells;
+  const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});  // body, layer, contact: (23)
+  const Solved fine = solve(scene, options.cells);
+  const Space& space = fine.on.space();
+  const tutorial::Exact exact(scene);  // the truth of this scene; refused where it is not known
+  const Errors errors = exact.errors(space, fine.solution);
 
-  // ### Solve
-  // The tolerance is far below the error of the mesh.
-  report.stage("Uzawa, 1/h = " + std::to_string(options.cells));
-  PenaltyFactor factor(problem);
-  UzawaOptions uzawa_options;
-  uzawa_options.tolerance = 1e-8;
-  const Solution solution = uzawa(problem, factor, uzawa_options);
-  const Solution direct = active_set(problem, factor);
-  const double difference = (solution.u - direct.u).cwiseAbs().maxCoeff() / direct.u.cwiseAbs().maxCoeff();
-  const Errors errors = tutorial::Exact(tutorial::paper_scene(options.epsilon)).errors(fine.space(), solution);
-  Table steps({"epsilon", "cells", "h", "steps"}), history({"epsilon", "step", "change"});
-  for (const double epsilon : {1.0, 1e-6}) {
-    for (int n = 16; n <= std::min(128, options.cells); n *= 2)
-      steps.add({epsilon, n, 1.0 / n, uzawa_steps(epsilon, n, 1e-12)});
-    const std::vector<double> changes = uzawa_history(epsilon, std::min(64, options.cells), 1e-8);
-    for (std::size_t i = 0; i < changes.size(); i += 1 + i / 50) history.add({epsilon, i + 1, changes[i]});
-  }
-
+  Table symbols({"epsilon", "k", "s_k", "on 1/h = 64", "off by (a h)^2 times"});
+  for (const double one : {1.0, 0.1, 1e-6})
+    for (const int k : {1, 2, 4, 8}) {
+      const double s = symbol(k, one), found = discrete_symbol(k, one, 64);
+      symbols.add({one, k, s, found, (found / s - 1) / std::pow(k * pi / 64, 2)});
+    }
   // ### Output
-  report.finish();
-  tutorial::present(options.out, fine.space(), problem, solution, "reference solution", errors);
-  fmt::print("  Uzawa took {} steps, the active set {}\n", solution.counters.contact, direct.counters.contact);
-  steps.print("Uzawa steps against 1/h");
-  history.write(options.out / "history.csv");
-  steps.write(options.out / "steps.csv");
+  tutorial::present(options.out, space, fine.problem, fine.solution, "reference solution", errors);
+  tutorial::modes({1.0, 0.1}, symbol).write(options.out / "modes.csv");
+  symbols.print("the symbol, by formula and by P1 on a mesh");
 
-  const double h = 1.0 / options.cells, lowest = solution.u(problem.contact).minCoeff();
-  report.claim_within(errors.max_at_unknowns / (h * h), 0, 1, "error of the reference solution / h^2:");
-  // Uzawa's step in the gap bounds its error up to the few contact points that it still moves: a factor 10.
-  report.claim_within(difference, 0, 10 * uzawa_options.tolerance, "Uzawa and the active set differ by (relative)");
-  report.claim(lowest >= -1e-7, "nonnegative on Gamma_C (smallest value {:.1e})", lowest);
-  if (options.cells < 64) return report.not_judged("how the steps grow: three meshes from 1/h = 16 on tell");
-  // kappa ~ h^-1 and h^-2. The logarithm takes 0.25 off the second: the slowest wave is as long as a cell, and its
-  // share of the error falls itself, like h^(7/2). The rest is room for three meshes.
-  report.claim_within(-steps.where("epsilon", 1.0).order("steps", "h"), 0.8, 1.1,
-                      "epsilon = 1: steps grow like 1/h to the");
-  report.claim_within(-steps.where("epsilon", 1e-6).order("steps", "h"), 1.6, 2, "epsilon = 1e-6: like 1/h to the");
+  // For a block P1's stiffness is a (1 + (a h)^2 / 6), for a string it is a^2 exactly (both from one row of the matrix).
+  const Table block = symbols.where("epsilon", 1.0), rigid = symbols.where("epsilon", 1e-6);
+  report.claim_within(block.most("off by (a h)^2 times") * 6, 0.98, 1.02,
+                      "epsilon = 1: off by (a h)^2 / 6 (proved), times");
+  double law = 0;
+  for (const Table& row : rigid.rows()) {
+    const double a = row.number("k") * pi, share = a / std::tanh(a) / row.number("s_k");  // of the body, T / s_k
+    law = std::max(law, std::abs(row.number("off by (a h)^2 times") * 6 / share - 1));
+  }
+  report.claim(law < 0.05, "epsilon = 1e-6: off by T / s_k of that, up to {:.0f} per cent (proved)", 100 * law);
+  report.claim_within(errors.max_at_unknowns / (h * h), 0.16, 0.8, "error of the reference solution / h^2 (observed):");
+  double across = 0;  // between Sigma and Gamma_C, on one vertical line; the stress is at most 1.7 in size
+  for (int i = 0; i <= options.cells; ++i)
+    across = std::max(across, std::abs(fine.solution.u(i) - fine.solution.u(i + options.cells * (options.cells + 1))));
+  report.claim(across <= 1.7 * epsilon * epsilon + 1e-13,
+               "constant across the layer up to {:.0e} (proved: p is finite)", across);
+  const auto& c = fine.problem.contact;
+  report.claim(fine.solution.u(c).minCoeff() >= 0, "nonnegative on Gamma_C (proved: u is in K_h)");
+  const double from = contact_zone(space, fine.problem, fine.solution).from.value_or(1);
+  report.claim_within((from - exact.contact_from()) / h, -1, 1, "start of contact - truth, in cells (observed):");
+  // It stops where a step moves less than 1e-10 of u in the gap, which is its error on Gamma_C (chapter 00).
+  const Solved coarse = solve(scene, std::min(64, options.cells));
+  const Eigen::VectorXd as_the_paper = uzawa(coarse.problem).u;
+  const double apart = (as_the_paper - coarse.solution.u).cwiseAbs().maxCoeff() / as_the_paper.cwiseAbs().maxCoeff();
+  report.claim(apart <= 2e-10, "Uzawa, the paper's way, finds the same up to {:.0e}, on 1/h = 64 (observed)", apart);
 }
 
 // ## What came out
+// :output: the symbol
 //
-// (a) No: at $ε = 1$ halving $h$ doubles the steps. (b) At $ε = 10^{-6}$ it makes them 3.5 times as many, almost
-// four: 48,303 steps at $1/h = 256$, where the active set needs a handful. Uzawa restarts with each correction of
-// chapter 03: the teeth in the picture of its history.
+// (a) Twice, a little less for the longest waves: at $ε = 1$ a wave goes into the depth as far as it is long. (b) Three
+// to four times: $s_k ≈ a + a^2$, the string's $a^2$ takes over. At $ε = 0.1$ long waves see a string, short ones an
+// elastic block. Figure 4's solution is as far from the truth as a P1 solution on $1/h = 256$ is, some $5·10^{-6}$: from
+// now on every error is measured against the sine series and not against it. The contact zone begins at $x = 0.702$.
+// :output: error against the truth
 //
 // ## Exercises
 //
-// 1. At $ε = 1$, $1/h = 64$: what do two further digits cost, from $10^{-8}$ to $10^{-10}$, and to $10^{-12}$?
-// 2. The steps on $1/h = 32$ are known, at $ε = 1$ and at $10^{-6}$. How many on $1/h = 64$?
-// 3. Replace `uzawa` by `uzawa_cg_ilut` (`solve/exhibits`): the paper's own linear solver, conjugate gradients with an
-//    incomplete factorisation (ILUT, chapter 16). Try `--epsilon 1 --cells 16`, then `1e-6`.
+// 1. Turn the load to $-10 \sin πx$. Where does the body touch? How far does the ridge rise? How far off is P1?
+// 2. How far does $ε = 0.1$ let half waves see a string: for which $k$ has $s_k$ lost half of $T + a^2$?
+// 3. On paper: derive $T = a \coth a$, and $s_k(1) = a \coth 2a$. Why must this be so?
 
 #include "answers/04_reference_solution.hpp"
 
 int main(int argc, char** argv) {
   return tutorial::run(argc, argv, "04_reference_solution",
-                       "Figure 4: the reference solution by Uzawa on a very fine mesh",
-                       {.cells = 256, .exercises = exercises}, reference_solution);
+                       "Figure 4: the reference solution on a very fine mesh, and a truth without a mesh",
+                       {.cells = 256, .least_cells = 4, .exercises = exercises}, reference_solution);
 }

@@ -2,20 +2,34 @@
 // The answers to the exercises of 04_reference_solution, whose page includes this one: to be read after predicting.
 
 const std::vector<tutorial::Exercise> exercises{
-    {"At epsilon = 1, 1/h = 64: what do two further digits cost, from 1e-8 to 1e-10, and from 1e-10 to 1e-12?",
-     "both times the same number of steps, (kappa / 2) ln(100)",
+    {"Turn the load to -10 sin(pi x). Where does the body touch? How far does the ridge rise? How far off is P1?",
+     "everywhere; not at all: u is 0 on the layer, and the body is that of a clamped lower side. The error falls like "
+     "h^2, as before",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const int first = uzawa_steps(1, 64, 1e-8), second = uzawa_steps(1, 64, 1e-10),
-                 third = uzawa_steps(1, 64, 1e-12);
-       fmt::print("  {} steps to 1e-8, {} more to 1e-10, {} more to 1e-12\n", first, second - first, third - second);
-       report.claim_within(static_cast<double>(third - second) / (second - first), 0.9, 1.1, "second price / first:");
+       const Scene scene(Body{SineLoad{{{1, {-10}}}}}, StiffLayer{1e-6}, UnilateralContact{});
+       const tutorial::Exact exact(scene);
+       report.claim(exact.contact_from() < 1e-4, "contact begins at {:.0e}", exact.contact_from());
+       report.claim(exact.truth.max_on_contact() < 1e-12, "the ridge rises to {:.0e}", exact.truth.max_on_contact());
+       Table errors({"h", "error"});
+       for (const int n : {8, 16, 32, 64}) {
+         const Solved on = solve(scene, n);
+         errors.add({1.0 / n, exact.errors(on.on.space(), on.solution).max_at_unknowns});
+       }
+       report.claim_order(errors, "error", "h", 1.9, 2.1, "P1");
      }},
-    {"At epsilon = 1, 1/h = 32 the steps are known. How many at 1/h = 64? And at epsilon = 1e-6?",
-     "twice as many; and a little less than four times as many",
+    {"How far does epsilon = 0.1 let half waves see a string: for which k has s_k lost half of T + a^2?",
+     "from k = 6 on: there kappa = epsilon a is 1.9, and tanh(kappa) / kappa about 1/2",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const auto grown = [](double epsilon) {
-         return static_cast<double>(uzawa_steps(epsilon, 64, 1e-12)) / uzawa_steps(epsilon, 32, 1e-12);
-       };
-       report.claim_within(grown(1), 1.7, 2.4, "factor at epsilon = 1:");
-       report.claim_within(grown(1e-6), 3, 4, "factor at epsilon = 1e-6:");
+       int k = 1;
+       while (symbol(k, 0.1) > 0.5 * symbol(k, 0)) ++k;
+       report.claim_within(k, 6, 6, "half is lost from k =");
      }}};
+
+// ## Answers on paper
+//
+// **3.** Without a load the body's equation is $u_k'' = a^2 u_k$, $u_k(1) = 0$: $u_k = w \sinh(a(1 - y))/\sinh a$. Its
+// slope at $y = 0$ is $-a w \coth a$. At $ε = 1$, $z = κ = a$, and with $t = \tanh a$
+//
+// $$ s_k = a \frac{a/t + a t}{a + a} = \frac{a}{2} (t + 1/t) = a \coth 2a. $$
+//
+// Body and layer of one stuff are one body of the depth 2, held on top: the same formula, with 2 in place of 1.
