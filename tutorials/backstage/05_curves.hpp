@@ -1,17 +1,21 @@
-#include "common/layer_curves.hpp"
-
+#pragma once
+// What chapter 05 reads off its solution, and what its pictures are drawn from.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/study/table.hpp"
 #include "common/paper_problem.hpp"
 
 namespace antilock::tutorial {
 
-Table on_contact(const std::vector<double>& epsilons, const Space& space) {
+/// u and the contact pressure on Gamma_C, each over its largest value, one row per contact unknown: x, u0, u1, ...,
+/// pressure0, pressure1, ... in the order of the epsilons.
+inline Table on_contact(const std::vector<double>& epsilons, const Space& space) {
   std::vector<std::string> columns{"x"};
   for (const char* kind : {"u", "pressure"})
     for (std::size_t k = 0; k < epsilons.size(); ++k) columns.push_back(fmt::format("{}{}", kind, k));
@@ -19,6 +23,7 @@ Table on_contact(const std::vector<double>& epsilons, const Space& space) {
   for (const double epsilon : epsilons) {
     const VariationalInequality problem = assemble(paper_scene(epsilon), space);
     found.push_back(contact_table(space, problem, active_set(problem)));
+    for (const int column : {1, 2}) found.back().col(column) /= found.back().col(column).maxCoeff();
   }
   Table table(columns);
   for (Eigen::Index i = 0; i < found[0].rows(); ++i) {
@@ -30,7 +35,24 @@ Table on_contact(const std::vector<double>& epsilons, const Space& space) {
   return table;
 }
 
-Table stress_by_depth(const Space& space, const Solution& solution) {
+/// Sawteeth with n = 4, 8, 16 teeth and the slopes +-1 as shapes that figures/pictures/domain.cpp reads.
+inline Table sawteeth() {
+  Table table({"kind", "name", "label", "x", "y"});
+  for (const auto& [x, y] : {std::pair{-0.03, -0.6}, {1.03, 0.16}}) table.add({"page", "", "", x, y});
+  for (int row = 0; row < 3; ++row) {
+    const int n = 4 << row;
+    const double foot = -0.24 * row;
+    for (const double x : {0.0, 1.0}) table.add({"line", fmt::format("axis {}", n), "", x, foot});
+    for (int k = 0; k <= 2 * n; ++k)
+      table.add({"line", fmt::format("sigma {}", n), "", 0.5 * k / n, foot + (k % 2 == 0 ? 0 : 0.5 / n)});
+    table.add({"label", "axis", fmt::format("largest value 1/{}, slopes 1 and −1", 2 * n), 0.5, foot - 0.045});
+  }
+  return table;
+}
+
+/// The layer stress of P1 on a structured mesh (Figure 3) in the top, the middle and the bottom row of cells, one row per
+/// inner vertical line: x, top, middle, bottom.
+inline Table stress_by_depth(const Space& space, const Solution& solution) {
   const TriangleMesh& mesh = space.mesh();
   const int n = static_cast<int>(std::lround(std::sqrt(solution.p.size() / 2.0)));  // n x n cells, two triangles each
   Eigen::MatrixXd p = Eigen::MatrixXd::Zero(n, n);
