@@ -35,6 +35,7 @@ const std::vector<Door>& doors() {
        "answer a scene: run_scene, the same options"},
       {"truth", doors::truth, "the exact solution of a scene at given points"},
       {"judge", doors::judge, "how far another program's answer is from the exact solution"},
+      {"lockcheck", doors::lockcheck, "whether the matrices of another program lock"},
       {"sweep", doors::sweep, "a scene over epsilons and meshes: one table"}};
   return all;
 }
@@ -58,7 +59,9 @@ int main(int argc, char** argv) {
   try {
     for (const Door& door : doors())
       if (!std::strcmp(argv[1], door.name)) return door.open(argc - 1, argv + 1);
-    return fail(std::string("antilock: \"") + argv[1] + "\" is unknown; accepted: run, truth, sweep (see --help)", 2);
+    return fail(std::string("antilock: \"") + argv[1] +
+                    "\" is unknown; accepted: run, truth, judge, lockcheck, sweep (see --help)",
+                2);
   } catch (const antilock::NotConverged& failure) {
     return fail(failure.what(), 3);
   } catch (const std::bad_alloc&) {

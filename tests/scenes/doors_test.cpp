@@ -139,6 +139,52 @@ TEST_F(Door, SweepIsTheSceneAskedAgainAndAgain) {
   EXPECT_NEAR(table.rows(4, 3), answer.u(at), 1e-9);  // both are solved to 1e-10
 }
 
+/// Matrix Market, as any program exports it.
+void export_matrix(const std::filesystem::path& path, const SparseMatrix& matrix) {
+  std::ofstream out(path);
+  out << fmt::format("%%MatrixMarket matrix coordinate real general\n% a comment\n{} {} {}\n", matrix.rows(),
+                     matrix.cols(), matrix.nonZeros());
+  for (int j = 0; j < matrix.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator it(matrix, j); it; ++it)
+      out << fmt::format("{} {} {}\n", it.row() + 1, it.col() + 1, it.value());
+}
+
+TEST_F(Door, LockcheckDiagnosesAndSolvesMatrices) {
+  const auto hand_over = [&](const std::string& name, const TriangleMesh& mesh) {
+    const Space space(mesh, p1());
+    const VariationalInequality problem = assemble(Scene({paper_load}, StiffLayer{1}, UnilateralContact{}), space);
+    export_matrix(folder / (name + "a1"), problem.a1);
+    export_matrix(folder / (name + "b"), SparseMatrix(problem.b));
+    export_matrix(folder / (name + "m"), SparseMatrix(Eigen::MatrixXd(problem.m).sparseView()));
+    export_matrix(folder / (name + "load"), SparseMatrix(Eigen::MatrixXd(problem.load).sparseView()));
+    std::ofstream fixed(folder / (name + "fixed")), bounds(folder / (name + "bounds"));
+    fixed << "unknown,value\n";
+    for (const int i : problem.fixed) fixed << i << ",0\n";
+    bounds << "unknown,lower\n";
+    for (const int i : problem.contact) bounds << i << ",0\n";
+    return active_set([&] {
+             VariationalInequality limit = problem;
+             limit.compliance = 0;
+             return limit;
+           }())
+        .u;
+  };
+  const auto path = [&](const std::string& name) { return in_shell(folder / name); };
+  for (const bool locks : {true, false}) {
+    const auto mesh = [&](int cells) { return locks ? jittered_mesh(cells, 0.2) : structured_mesh(cells); };
+    const Eigen::VectorXd u = hand_over("", mesh(6));
+    hand_over("fine_", mesh(12));
+    const Outcome told = ask("lockcheck " + path("a1") + " " + path("b") + " " + path("m") + " " + path("load") +
+                             " --fixed " + path("fixed") + " --bounds " + path("bounds") + " --finer " +
+                             path("fine_a1") + " " + path("fine_b") + " " + path("fine_m") + " --finer-fixed " +
+                             path("fine_fixed") + " --finer-bounds " + path("fine_bounds") + " --out " + path("u.csv"));
+    ASSERT_EQ(told.status, 0) << told.err;
+    EXPECT_EQ(told.out.find("locks completely") != std::string::npos, locks) << told.out;
+    const Eigen::MatrixXd answers = read_csv(folder / "u.csv").rows;
+    EXPECT_LE((answers.col(2).tail(u.size()) - u).cwiseAbs().maxCoeff(), 1e-10);  // the same matrices, to 17 digits
+  }
+}
+
 TEST_F(Door, RefusesInOneLine) {
   const std::string good = file("scene.toml", scene(1e-2)), points = file("points.csv", "x,y\n0.25,-1\n");
   for (const auto& [arguments, says] :
@@ -151,6 +197,10 @@ TEST_F(Door, RefusesInOneLine) {
         {"sweep " + good + " --epsilon 1:2", "accepted: FROM:TO:COUNT"},
         {"sweep " + good + " --epsilon 2", "epsilon = 2 is out of range"},
         {"sweep " + good + " --at 3,3", "outside the mesh"},
+        {"lockcheck " + file("bad.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 1\n3 1 1\n") + " " +
+             points + " " + points,
+         "bad.mtx: line 3: the entry (3, 1) of a matrix 2 x 2"},
+        {"lockcheck " + points + " " + points + " " + points, "no Matrix Market header"},
         {"judge " + good + " " + points + " " + points, "points.csv"}}) {
     const Outcome told = ask(arguments);
     EXPECT_EQ(told.status, 2) << arguments;

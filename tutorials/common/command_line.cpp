@@ -31,6 +31,10 @@ void CommandLine::add(const std::string& option, std::filesystem::path& value, c
   app_->add_option(option, value, what)->capture_default_str();
 }
 
+void CommandLine::add(const std::string& option, std::vector<std::filesystem::path>& values, const std::string& what) {
+  app_->add_option(option, values, what)->expected(static_cast<int>(values.size()));
+}
+
 void CommandLine::add(const std::string& option, bool& value, const std::string& what) {
   app_->add_flag(option, value, what);
 }

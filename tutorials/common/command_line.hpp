@@ -26,6 +26,8 @@ class CommandLine {
   void add(const std::string& option, int& value, const std::string& what, int least, int most);
   void add(const std::string& option, std::string& value, const std::string& what);
   void add(const std::string& option, std::filesystem::path& value, const std::string& what);
+  /// As many paths as `values` has, or none.
+  void add(const std::string& option, std::vector<std::filesystem::path>& values, const std::string& what);
   /// A flag: true where it stands on the command line.
   void add(const std::string& option, bool& value, const std::string& what);
   /// An argument without an option's name, which must be given.

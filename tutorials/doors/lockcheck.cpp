@@ -1,0 +1,133 @@
+// antilock lockcheck A1.mtx B.mtx M.mtx LOAD.mtx: whether the matrices of another program lock.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include "antilock/analysis/locking.hpp"
+#include "antilock/io/csv_reader.hpp"
+#include "antilock/io/matrix_market.hpp"
+#include "antilock/io/writers.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/study/sweep.hpp"
+#include "antilock/study/table.hpp"
+#include "common/command_line.hpp"
+#include "doors/doors.hpp"
+
+namespace antilock::doors {
+namespace {
+
+/// The files of one problem; empty: not given.
+struct Files {
+  std::filesystem::path a1, b, m, load, fixed, bounds;
+};
+
+int unknown(const std::filesystem::path& path, double number, Eigen::Index size) {
+  if (number != std::floor(number) || number < 0 || number >= double(size))
+    throw Error(fmt::format("{}: unknown {}; accepted: whole numbers from 0 to {}", path.string(), number, size - 1));
+  return static_cast<int>(number);
+}
+
+/// Rows of a CSV by unknown, ascending; the columns after the first are optional from the right.
+Eigen::MatrixXd by_unknown(const std::filesystem::path& path, std::vector<std::string> header, Eigen::Index size) {
+  std::ifstream in(path);
+  if (!in) throw Error(path.string() + ": cannot be opened; accepted: a CSV file");
+  std::string first;
+  std::getline(in, first);
+  if (header.size() == 3 && std::count(first.begin(), first.end(), ',') == 1) header.pop_back();
+  Eigen::MatrixXd rows = read_csv(path.string(), header);
+  std::vector<Eigen::Index> order(static_cast<std::size_t>(rows.rows()));
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) { return rows(i, 0) < rows(j, 0); });
+  const Eigen::MatrixXd sorted = rows(order, Eigen::all);
+  for (Eigen::Index i = 0; i < sorted.rows(); ++i) unknown(path, sorted(i, 0), size);
+  return sorted;
+}
+
+VariationalInequality read_problem(const Files& files) {
+  VariationalInequality problem;
+  problem.a1 = read_matrix(files.a1.string());
+  problem.b = read_matrix(files.b.string());
+  problem.m = read_vector(files.m.string());
+  const Eigen::Index n = problem.a1.rows();
+  problem.load = files.load.empty() ? Eigen::VectorXd::Zero(n) : read_vector(files.load.string());
+  if (!files.fixed.empty()) {
+    const Eigen::MatrixXd rows = by_unknown(files.fixed, {"unknown", "value"}, n);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) problem.fixed.push_back(static_cast<int>(rows(i, 0)));
+    problem.fixed_values = rows.col(1);
+  }
+  if (!files.bounds.empty()) {
+    const Eigen::MatrixXd rows = by_unknown(files.bounds, {"unknown", "lower", "upper"}, n);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) problem.contact.push_back(static_cast<int>(rows(i, 0)));
+    problem.lower = rows.col(1);
+    if (rows.cols() == 3) problem.upper = rows.col(2);
+  }
+  try {
+    check(problem);
+  } catch (const Error& error) {
+    throw Error(fmt::format("{}, {}, {}: {}", files.a1.string(), files.b.string(), files.m.string(), error.what()));
+  }
+  return problem;
+}
+
+void add_files(tutorial::CommandLine& line, Files& files, const std::string& prefix) {
+  line.add(prefix + "fixed", files.fixed, "CSV unknown,value: what is prescribed; unknowns count from 0");
+  line.add(prefix + "bounds", files.bounds, "CSV unknown,lower or unknown,lower,upper: what is bounded");
+}
+
+}  // namespace
+
+int lockcheck(int argc, char** argv) {
+  tutorial::CommandLine line(
+      "Whether a discretisation locks, from its matrices alone: a1(u, v) + compliance^-1 (B u, M B v) = L(v), with "
+      "bounds. "
+      "Prints the diagnosis, and with a load the answers for compliance 1 to 0.",
+      "antilock lockcheck");
+  Files files, finer;
+  std::filesystem::path out;
+  line.add_required("A1", files.a1, "Matrix Market, N x N, symmetric");
+  line.add_required("B", files.b, "Matrix Market, R x N: one row per strain that becomes stiff");
+  line.add_required("M", files.m, "Matrix Market, R entries, positive: one per row of B (areas of cells)");
+  line.add("LOAD", files.load, "Matrix Market, N entries");
+  add_files(line, files, "--");
+  std::vector<std::filesystem::path> fine(3);
+  line.add("--finer", fine, "A1 B M of the same discretisation on a finer mesh: only two show what grows");
+  add_files(line, finer, "--finer-");
+  line.add("--out", out, "CSV compliance,unknown,u of the answers");
+  line.footer(
+      "Export with scipy: scipy.io.mmwrite(\"A1.mtx\", A1). Keep the stiff form in factors: B and M, never B' M B.");
+  if (const auto status = line.parse(argc, argv)) return *status;
+
+  const VariationalInequality problem = read_problem(files);
+  if (problem.b.rows() == 0) throw Error(files.b.string() + ": no row: nothing becomes stiff; accepted: a B with rows");
+  if (line.given("--finer")) {
+    finer.a1 = fine[0], finer.b = fine[1], finer.m = fine[2];
+    fmt::print("{}\n", diagnose_locking(problem, read_problem(finer)).text());
+  }
+  if (files.load.empty()) return 0;
+
+  Sweep sweep(problem);
+  Table table({"compliance", "energy", "largest_u", "corrections", "kkt"});
+  std::vector<std::pair<double, Eigen::VectorXd>> answers;
+  for (const double compliance : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 0.0}) {
+    sweep.set_compliance(compliance);
+    const Solution solution = sweep.solve();
+    table.add({compliance, energy(sweep.problem(), solution), solution.u.lpNorm<Eigen::Infinity>(),
+               solution.counters.corrections, solution.kkt.residual});
+    answers.emplace_back(compliance, solution.u);
+  }
+  table.print("the answers as the compliance tends to 0");
+  if (!out.empty()) {
+    Eigen::MatrixXd rows(static_cast<Eigen::Index>(answers.size()) * problem.size(), 3);
+    Eigen::Index row = 0;
+    for (const auto& [compliance, u] : answers)
+      for (Eigen::Index i = 0; i < u.size(); ++i) rows.row(row++) << compliance, double(i), u(i);
+    write_csv(out, {"compliance", "unknown", "u"}, rows);
+  }
+  return 0;
+}
+
+}  // namespace antilock::doors
