@@ -6,7 +6,7 @@
 // Run: 14_degree --exercise 1
 //
 // Needs: [07](07_kernel.cpp) for $G_h$ and its dimension, [11](11_contact_sets.cpp) for $K_h ⊄ K$,
-// [13](13_estimates.cpp) for the wall.
+// [06](06_p1_unstructured.cpp) for the wall.
 //
 // **The picture.** Error against unknowns for the degrees 1 to 4 at ε = 1e-4. *On the structured mesh every degree
 // converges at once. On the unstructured mesh the error of degree $p$ stays until $h^p$ is below ε: a higher degree

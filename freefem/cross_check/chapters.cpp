@@ -147,7 +147,7 @@ Numbers kernels(int cells, const std::filesystem::path& folder) {
 Numbers estimates(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
   write_freefem_mesh(folder / "mesh.freefem.msh", mesh);
-  run("13_estimates", {"-mesh", folder / "mesh.freefem.msh", "-out", folder});
+  run("31_promises", {"-mesh", folder / "mesh.freefem.msh", "-out", folder});
   const Table table = read_table(folder / "estimates.csv", 1);
   const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
   const Space conforming(mesh, p1()), broken(mesh, crouzeix_raviart());

@@ -400,7 +400,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"07_kernel", {"kernel.csv", "ties_structured.eps", "ties_unstructured.eps"}},
       {"10_limits", {"limits.csv"}},
       {"12_uniform", {"uniform.csv"}},
-      {"13_estimates", {"estimates.csv", "lost.eps"}},
+      {"31_promises", {"estimates.csv", "lost.eps"}},
       {"17_certificate", {"results.csv"}},
       {"11_contact_sets", {"results.csv"}},
       {"14_degree", {"results.csv"}},

@@ -2,33 +2,31 @@
 // The answers to the exercises of 13_estimates, whose page includes this one: to be read after predicting.
 
 const std::vector<tutorial::Exercise> exercises{
-    {"Move the vertices of the structured mesh by up to h/5: nothing cancels any more, slopes are of size h. Where "
-     "is the wall?",
-     "q tends to 1: half is lost at epsilon ~ h, worse than on the meshes of gmsh",
+    {"In the norm of the energy M = alpha = 1. For P1, what do J(u_h) - J(u) and its order tell on the two meshes?",
+     "(13) is then about J(u_h) - J(u) itself. It falls like h^2 on the structured mesh. On the unstructured mesh it "
+     "stays: the locking is in the first infimum",
      [](const tutorial::Options& options, tutorial::Report& report) {
-       const MeshFamily jittered{"jittered", [](int cells) { return jittered_mesh(cells, 0.2); }};
-       Table lost({"curve", "inverse_epsilon", "x"}),
-           rows[]{Table(tutorial::estimate_columns), Table(tutorial::estimate_columns)};
-       const std::vector<Case> truth = tutorial::cases();
-       for (int n = 8; n <= options.cells; n *= 2)
-         for (const bool cr : {false, true})
-           rows[cr].add(both_sides({cr ? &crouzeix_raviart() : &p1(), jittered}, n, truth));
-       const Table walls = tutorial::walls(rows[false], rows[true], lost);
-       walls.print();
-       report.claim_within(walls.order("half lost at epsilon", "h"), 0.8, 1.3, "q =");
-     }},
-    {"In the energy norm M = α = 1. Where does the locking go? (Show J(v) - J(u) = |u - v|^2 / 2 + R(v) first.)",
-     "into the first infimum: it is about J(u_h) - J(u), which does not fall for locked P1, and like h^2 otherwise",
-     [](const tutorial::Options& options, tutorial::Report& report) {
-       const Exact exact(tutorial::paper_scene(1e-6));
+       const Scene scene = tutorial::paper_scene(1e-6);
+       const Exact exact(scene);
        Table rows({"mesh", "h", "excess"});
        for (const MeshFamily& family : {structured(), unstructured()})
-         for (int n = 8; n <= options.cells; n *= 2) {
+         for (int n = 4; n <= options.cells; n *= 2) {
            const Discretisation on(family.mesh(n), p1());
-           const VariationalInequality problem = assemble(tutorial::paper_scene(1e-6), on.space());
+           const VariationalInequality problem = assemble(scene, on.space());
            rows.add({family.name, 1.0 / n, energy(problem, active_set(problem)) - exact.truth.energy()});
          }
        rows.pivot("h", "mesh", "excess").print("J(u_h) - J(u)");
-       report.claim_within(rows.where("mesh", "structured").order("excess", "h"), 1.8, 2.2, "structured: order");
-       report.claim(rows.where("mesh", "unstructured").least("excess") > 8e-3, "unstructured: it stays");
+       report.claim_order(rows.where("mesh", "structured"), "excess", "h", 1.8, 2.1, "structured (observed)");
+       // What is left is E / 2 of chapter 06, half the energy that the layer sets free by giving.
+       report.claim_within(rows.where("mesh", "unstructured").last("excess"), 8e-3, 12e-3, "unstructured, finest:");
      }}};
+
+// ## Answers on paper
+//
+// **2.** The first term is at most $M ‖u - v_h‖_h ‖v_h - u_h‖_h$. With $s t ≤ α s^2/2 + t^2/(2α)$ for
+// $s = ‖v_h - u_h‖_h$ it becomes half of the left side and $M^2 ‖u - v_h‖_h^2/(2α)$. Divided by $α/2$ this is
+// $(M/α)^2 ‖u - v_h‖_h^2$: the constant is quadratic. The symmetric form is not treated well by this road, since its
+// energy is not used.
+//
+// **3.** The unknowns of P2 on $Γ_C$ are vertices and midpoints. A parabola that is not negative at three points may dip
+// below 0 between two of them, so $K_h ⊄ K$, and the work of the pressure on such a dip is negative.
