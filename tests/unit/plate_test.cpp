@@ -8,6 +8,7 @@
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/exact/plate_truth.hpp"
+#include "antilock/form/quadrature.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -100,6 +101,31 @@ TEST(Plate, BendsExactlyWithConstantCurvature) {
         for (int k = 0; k < mesh.triangle_count(); ++k) area += mesh.area(k);
         EXPECT_NEAR(s.u.dot(problem.a1 * s.u), (0.7 * 7 + 0.3) * area, 1e-10);
       }
+}
+
+TEST(Plate, TheEdgeRuleHasTheExactShearOfItsOwnFields) {
+  // w = 0, theta = -(a + b (-y, x)): the shear strain a + b (-y, x) is in every triangle's space of the edge rule, and
+  // the form is its exact integral, by a rule of degree 5. The polar moment of each triangle is in it, in b alone.
+  for (const TriangleMesh& mesh : {disc_mesh(3), clamped(unstructured_mesh(6, Domain{0}))})
+    for (const Eigen::Vector3d& field : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.3, -0.7, 2)}) {
+      const On on(duran_liberman, mesh);
+      const auto strain = [&](const Eigen::Vector2d& x) {
+        return Eigen::Vector2d(field(0) - field(2) * x(1), field(1) + field(2) * x(0));
+      };
+      Eigen::VectorXd u = Eigen::VectorXd::Zero(on.space.size());
+      for (int i = 0; i < mesh.vertex_count(); ++i) {
+        const Eigen::Vector2d theta = -strain(mesh.vertices.row(i));
+        u(on.space.theta_x() + i) = theta(0);
+        u(on.space.theta_y() + i) = theta(1);
+      }
+      double exact = 0;
+      for (int t = 0; t < mesh.triangle_count(); ++t)
+        for (Eigen::Index q = 0; q < radon_rule().weights.size(); ++q)
+          exact += mesh.area(t) * radon_rule().weights(q) *
+                   strain(point_in(mesh, t, radon_rule().points.row(q))).squaredNorm();
+      const FactoredForm shear = shear_form(on.space);
+      EXPECT_NEAR(shear.m.dot(Eigen::VectorXd((shear.b * u).cwiseAbs2())), exact, 1e-12 * exact);
+    }
 }
 
 TEST(Plate, P1CannotBendAtAllInTheLimit) {
