@@ -60,8 +60,10 @@ const Row rows[] = {
     {"MINI", "MINI", "", {blue, circle, 8}},
     {"Taylor-Hood", "Taylor–Hood", "", {indigo, down_triangle, 6}},
     {"CR with jumps", "Crouzeix–Raviart with jumps", "CR", {green, diamond, 6}},
-    {"contact free", "nothing held", "", {grey, circle, 5}},
-    {"contact held", "contact set held", "", {blue, circle, 5}},
+    {"CR with jumps, load on fluxes", "Crouzeix–Raviart, load on fluxes", "", {black, triangle, 6}},
+    {"nothing", "nothing held", "", {grey, circle, 5}},
+    {"contact set", "contact set held", "", {blue, circle, 5}},
+    {"all of Gamma_C", "$Γ_C$ held", "", {blue, square, 5}},
     // elements of the plate
     {"P1 with exact shear", "$P_1$, exact shear", "", {vermillion, square, 10}},
     {"P1 with one-point shear", "$P_1$, shear at one point", "", {olive, down_triangle, 6}},
