@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 #include "antilock/core/dense.hpp"
 #include "antilock/form/quadrature.hpp"
@@ -53,9 +54,10 @@ TEST(Quadrature, MidpointRuleIsExactToDegreeTwoAndNoFurther) {
 }
 
 TEST(Quadrature, EveryTriangleRuleIsExactToItsDegree) {
+  const double round_off = 64 * std::numeric_limits<double>::epsilon();  // weights that sum to 1; measured 6.5 eps
   for (int degree = 0; degree <= 12; ++degree) {
     const Quadrature& rule = triangle_rule(degree);
-    for (int lower = 0; lower <= degree; ++lower) EXPECT_LT(worst_mean(rule, lower), 2e-15) << degree;
+    for (int lower = 0; lower <= degree; ++lower) EXPECT_LT(worst_mean(rule, lower), round_off) << degree;
     EXPECT_GT(rule.weights.minCoeff(), 0) << degree;  // M of the factored form must be positive
     EXPECT_GE(rule.points.minCoeff(), 0) << degree;
   }

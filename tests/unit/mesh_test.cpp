@@ -125,7 +125,7 @@ TEST(Mesh, HIsTheRequestedOne) {
     // gmsh keeps edges near the size asked for: never twice it, and about 2 to 2.6 cells^2 triangles a square
     const TriangleMesh mesh = unstructured_mesh(cells);
     EXPECT_LT(mesh.diameter(), 2.0 / cells);
-    EXPECT_GE(mesh.diameter(), 1.0 / cells);
+    EXPECT_GE(mesh.diameter(), (1 - 1e-14) / cells);  // gmsh puts that edge on the boundary
   }
   const TriangleMesh mesh = unstructured_mesh(16);
   EXPECT_GT(mesh.triangle_count(), 2 * 2 * 16 * 16);
