@@ -66,7 +66,10 @@ gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.m
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too).
 In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
 blas is the library of dense linear algebra, its kernels and threads;
-scene is the question in full; certificate, with an accuracy, is what was proved, level by level; warning says what to doubt: an answer above the trusted error, a load that the mesh misses.
+locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
+motion that is lost at least (proved, for P1 and P2 in a layer without columns), kept is 1 - lost_energy;
+scene is the question in full; certificate, with an accuracy, is what was proved, level by level; warning says what to
+doubt: a layer that locks, an answer above the trusted error, a load that the mesh misses.
 Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8
 )help";
@@ -127,13 +130,27 @@ Solution solve(const VariationalInequality& problem, const MethodRequest& method
 /// Both texts, or the one that is not empty.
 std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : "; ") + b; }
 
+/// What the layer says of locking joins the warnings; all is written, and the warnings are printed.
+void told(const std::filesystem::path& out, const SceneFile& file, Answer& answer, tutorial::Report& report,
+          const CertifiedSolution* certified = nullptr) {
+  Stopwatch watch;
+  std::optional<LayerReport> layer = report_layer(file.scene, answer.space, answer.problem, answer.solution);
+  if (layer) answer.warning = joined(layer->warning, answer.warning);
+  answer.seconds.solve += watch.lap();
+  report.stage("files");
+  SceneSummary summary = summary_of(file, answer);
+  summary.layer = std::move(layer);
+  write_scene_results(out, file, answer, summary, certified);
+  report.finish();
+  if (!answer.warning.empty()) fmt::print("  warning: {}\n", answer.warning);
+}
+
 /// An accuracy is asked for: the mesh is the first one, and every level says how far it came.
 void answer_certified(const SceneFile& file, const TriangleMesh& first, const std::filesystem::path& out,
                       tutorial::Report& report, double mesh_seconds, double most_seconds) {
   const Stopwatch watch;
   const MethodRequest& method = file.method;
   report.stage(fmt::format("solve to a relative error of {:g}", *method.accuracy));
-  double factor = 0;
   const auto progress = [&](const Level& level) {
     const std::string quote = level.quoted_unknowns > 0 ? fmt::format(", about {:.0f} unknowns and {:.2g} s in the end",
                                                                       level.quoted_unknowns, level.quoted_seconds)
@@ -144,7 +161,7 @@ void answer_certified(const SceneFile& file, const TriangleMesh& first, const st
                                      watch.seconds(), level.relative, level.unknowns, *method.accuracy),
                          level.relative, 0);
   };
-  const CertifiedSolution found = [&] {
+  CertifiedSolution found = [&] {
     try {
       const Accuracy accuracy{*method.accuracy, method.of, method.most_unknowns, {}, method.tolerance};
       return solve_to(file.scene, first, accuracy, progress);
@@ -155,16 +172,12 @@ void answer_certified(const SceneFile& file, const TriangleMesh& first, const st
       throw Error(what.rfind(file.name, 0) == 0 ? what : file.name + ": method.accuracy: " + what);
     }
   }();
-  const Space space(found.mesh, crouzeix_raviart());
-  const VariationalInequality problem = assemble(file.scene, space);
-  factor = found.cr.seconds.analyse + found.cr.seconds.factor;
-  const RunSeconds seconds{mesh_seconds, 0, factor, watch.seconds() - factor};
-  report.stage("files");
-  write_scene_results(out, file, space, problem, found.cr, seconds, found.warning, &found);
-  report.finish();
-  if (!found.warning.empty()) fmt::print("  warning: {}\n", found.warning);
+  const SolveSeconds& spent = found.cr.solution.seconds;
+  const double factor = spent.analyse + spent.factor;
+  found.cr.seconds = {mesh_seconds, 0, factor, watch.seconds() - factor};
+  told(out, file, found.cr, report, &found);
   fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
-             found.certificate.relative(method.of), found.history.size(), space.free_count(), out.string());
+             found.certificate.relative(method.of), found.history.size(), found.cr.space.free_count(), out.string());
 }
 
 void answer(const std::filesystem::path& scene, const std::filesystem::path& out, tutorial::Report& report,
@@ -178,34 +191,30 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
 
   report.stage("mesh");
-  const TriangleMesh mesh = make_mesh(file);
+  const auto mesh = std::make_shared<const TriangleMesh>(make_mesh(file));
   seconds.mesh = watch.lap();
 
-  if (file.method.accuracy) return answer_certified(file, mesh, out, report, seconds.mesh, most_seconds);
+  if (file.method.accuracy) return answer_certified(file, *mesh, out, report, seconds.mesh, most_seconds);
 
-  report.stage(fmt::format("assembly: {} on {} triangles", file.method.element, mesh.triangle_count()));
-  const Space space(mesh, element(file.method.element));
+  report.stage(fmt::format("assembly: {} on {} triangles", file.method.element, mesh->triangle_count()));
+  const Space space(*mesh, element(file.method.element));
   if (space.free_count() == 0)
     throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
-  const VariationalInequality problem = assemble(file.scene, space);
-  std::string warning = load_warning(file, space, problem);
-  seconds.assemble = watch.lap();
+  Answer answer{mesh, space, assemble(file.scene, space), {}, seconds, ""};
+  const std::string load = load_warning(file, space, answer.problem);
+  answer.seconds.assemble = watch.lap();
 
-  report.stage(fmt::format("solve: {}, {} unknowns", file.method.solver, problem.free_count()));
-  Solution solution;
+  report.stage(fmt::format("solve: {}, {} unknowns", file.method.solver, answer.problem.free_count()));
   try {
-    solution = solve(problem, file.method, follower(most_seconds));
+    answer.solution = solve(answer.problem, file.method, follower(most_seconds));
   } catch (const NotConverged& failure) {
     throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
   }
-  warning = joined(joined(solution.warning, warning), gap_warning(file, space, solution));
-  seconds.factor = solution.seconds.analyse + solution.seconds.factor;
-  seconds.solve = watch.lap() - seconds.factor;
-
-  report.stage("files");
-  write_scene_results(out, file, space, problem, solution, seconds, warning);
-  report.finish();
-  if (!warning.empty()) fmt::print("  warning: {}\n", warning);
+  const Solution& solution = answer.solution;
+  answer.warning = joined(joined(solution.warning, load), gap_warning(file, space, solution));
+  answer.seconds.factor = solution.seconds.analyse + solution.seconds.factor;
+  answer.seconds.solve = watch.lap() - answer.seconds.factor;
+  told(out, file, answer, report);
   fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", solution.u.minCoeff(),
              solution.u.maxCoeff(), solution.counters.contact, solution.counters.corrections, out.string());
 }

@@ -105,7 +105,6 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   const auto say = [&](const std::string& what) {
     if (dist::rank() == 0) report.stage(what);
   };
-  dist::RunClock clock;
   Stopwatch watch;
   std::optional<SceneFile> file;
   dist::NestedOptions options;
@@ -187,11 +186,11 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   });
   warning = solved.warning.empty() ? dist::first_said(warning) : solved.warning;
   // what is left of the wall time belongs to the stages in between: files are counted apart
-  clock.mesh = before + solved.mesh, clock.assemble = solved.assemble, clock.factor = solved.setup;
-  clock.solve = watch.lap() - solved.mesh - solved.assemble - solved.setup;
+  const double rest = watch.lap() - solved.mesh - solved.assemble - solved.setup;
+  const RunSeconds seconds{before + solved.mesh, solved.assemble, solved.setup, rest};
 
   say("files");
-  dist::write_scene_files(out, *file, *level, solved, h.refinements + 1, warning, clock);
+  dist::write_scene_files(out, *file, *level, solved, h.refinements + 1, warning, seconds);
   forget();
   if (dist::rank() > 0) return;
   report.finish();

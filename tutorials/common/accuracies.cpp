@@ -132,8 +132,8 @@ void spike(const Options&, Report& report) {
                "the first mesh has {} unknowns, not {}: 64 x 64 samples per triangle found the spike",
                found.history.front().unknowns, asked_for);
   double least = 1;
-  for (int t = 0; t < found.mesh.triangle_count(); ++t) least = std::min(least, found.mesh.area(t));
-  report.claim(found.warning.empty() && least < 0.002 * 0.002,
+  for (int t = 0; t < found.cr.mesh->triangle_count(); ++t) least = std::min(least, found.cr.mesh->area(t));
+  report.claim(found.cr.warning.empty() && least < 0.002 * 0.002,
                "no warning is left, and the smallest triangle has the area {:.1e}", least);
 }
 
@@ -157,9 +157,9 @@ Table accuracy_rows(const std::string& load, const Exact& exact, const std::stri
   Table rows(accuracy_columns);
   rows.add(row(answer, "bound", answer.bound));
   if (load != "paper") return rows;
-  const Space space(found.mesh, crouzeix_raviart());
   const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
-  rows.add(row(answer, "error", relative_error(exact, load_scene(load, exact.epsilon), space, found.cr, v, of)));
+  rows.add(row(answer, "error",
+               relative_error(exact, load_scene(load, exact.epsilon), found.cr.space, found.cr.solution, v, of)));
   return rows;
 }
 
@@ -207,7 +207,7 @@ void show_accuracies(const std::filesystem::path& out, const Table& answers, con
     const bool bisect = growth == Growth::bisect;
     const CertifiedSolution found =
         solve_to(scene, unstructured_mesh(8, {bisect ? 1.0 : 0.0}), {0.15, Quantity::displacement, 2e6, growth});
-    write_density(out / (bisect ? "bisected.vtu" : "extruded.vtu"), found.mesh, found.certificate.indicator);
+    write_density(out / (bisect ? "bisected.vtu" : "extruded.vtu"), *found.cr.mesh, found.certificate.indicator);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "antilock/analysis/companion.hpp"
+#include "antilock/analysis/lost_energy.hpp"
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/io/csv_reader.hpp"
@@ -146,11 +147,15 @@ int judge(int argc, char** argv) {
   found["bound"] = bound.value;
   fmt::print("  proved: at most {:.4g} ({})\n", bound.value, bound.of);
   if (file.scene.layer_depth() > 0 && file.scene.contact()) {
-    const Space reference(certified.mesh, crouzeix_raviart());
-    const double ridge = largest(reference.contact(), certified.cr.u);
+    const double ridge = largest(certified.cr.space.contact(), certified.cr.solution.u);
     const double kept = ridge > 0 ? largest(space->contact(), v.u) / ridge : 1;
     found["kept"] = kept;
     fmt::print("  kept of the largest displacement on the contact boundary: {:.4g} %\n", 100 * kept);
+  }
+  if (const auto layer = report_layer(file.scene, *space, problem, v)) {
+    const std::string& said = layer->warning.empty() ? layer->diagnosis : layer->warning;
+    found["diagnosis"] = said;
+    fmt::print("  layer: {}\n", said);
   }
   if (!row.empty())
     fmt::print("| {} | {} | {} | {:.3g} | {} |\n", row, element,

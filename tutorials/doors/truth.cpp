@@ -67,16 +67,16 @@ Known by_series(const Truth& truth, const Eigen::MatrixXd& points, bool layer) {
 Known by_certificate(const SceneFile& file, double accuracy, const Eigen::MatrixXd& points) {
   const CertifiedSolution found = certified(file, accuracy);
   Known known;
-  const Space space(found.mesh, crouzeix_raviart());
+  const auto& [mesh, space, problem, solution, seconds, warning] = found.cr;
   const PointValues at(space);
   const bool scaled = std::holds_alternative<StiffLayer>(file.scene.layer());
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const auto place = at.locate(points.row(i).transpose());
     if (!place) throw Error(fmt::format("points: ({}, {}) is {}", points(i, 0), points(i, 1), outside));
-    Row row{at.value(found.cr.u, *place), at.gradient(found.cr.u, *place)};
-    if (scaled && found.mesh.region[place->triangle] == Region::layer) {
-      const auto& region = found.mesh.region;  // p: one value per layer triangle, in their order
-      row.p = found.cr.p(std::count(region.begin(), region.begin() + place->triangle, Region::layer));
+    Row row{at.value(solution.u, *place), at.gradient(solution.u, *place)};
+    if (scaled && mesh->region[place->triangle] == Region::layer) {
+      const auto& region = mesh->region;  // p: one value per layer triangle, in their order
+      row.p = solution.p(std::count(region.begin(), region.begin() + place->triangle, Region::layer));
     }
     known.rows.push_back(row);
   }
@@ -87,7 +87,7 @@ Known by_certificate(const SceneFile& file, double accuracy, const Eigen::Matrix
       {"bound", proof.gradient},
       {"relative", proof.relative(Quantity::displacement)},
       {"accuracy", "bound: of the energy norm of the error of the gradients, proved; of a value nothing is proved"},
-      {"warning", found.warning}};
+      {"warning", warning}};
   return known;
 }
 

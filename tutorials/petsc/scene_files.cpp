@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "antilock/core/atomic_file.hpp"
-#include "antilock/core/blas.hpp"
-#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/kkt_report.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/distributed/whole_files.hpp"
@@ -19,12 +17,6 @@ namespace antilock::distributed {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
-
-double finite(const char* what, double value) {
-  if (!std::isfinite(value)) throw NotConverged(std::string(what) + " of the answer is not finite", value, 0);
-  return value;
-}
 
 /// J(u) = a(u, u)/2 - L(u), the stiff part as compliance p' M p: a sum over the pieces.
 double energy_of_all(const Level& level) {
@@ -107,43 +99,27 @@ void write_pvtu(const fs::path& path, bool contact) {
 }
 
 /// Every number of the summary that all ranks must form together.
-Json summary(const SceneFile& file, const Level& level, const NestedReport& report, int levels,
-             const std::string& warning) {
-  const auto or_null = [](const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); };
-  Json s;
-  s["element"] = file.method.element;
-  s["solver"] = file.method.solver;
-  s["epsilon"] = or_null(file.scene.epsilon());
+SceneSummary summary_of_all(const SceneFile& file, const Level& level, const NestedReport& report, int levels,
+                            const std::string& warning) {
+  SceneSummary s;
   const bool from_file = file.mesh.kind == MeshRequest::Kind::file;
-  s["h"] = from_file ? largest(level.piece.mesh.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
-  s["dofs"] = level.problem.rows().total();
-  s["effects"] = file.scene.effects();
-  s["energy"] = finite("the energy", energy_of_all(level));
-  s["u_max"] = finite("the maximum", largest(level.state.u.maxCoeff()));
-  s["u_min"] = finite("the minimum", -largest(-level.state.u.minCoeff()));
+  s.h = from_file ? largest(level.piece.mesh.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
+  s.unknowns = level.problem.rows().total();
+  s.energy = energy_of_all(level);
+  s.u_max = largest(level.state.u.maxCoeff());
+  s.u_min = -largest(-level.state.u.minCoeff());
   if (file.scene.contact()) {
     const ContactSet set = level.contact_set();
-    std::optional<double> from, to;
+    s.zone.points = static_cast<int>(set.x.size());
+    s.zone.active = static_cast<int>(set.count());
     for (std::size_t i = 0; i < set.x.size(); ++i)
-      if (set.active[i] != 0) from = from.value_or(set.x[i]), to = set.x[i];
-    s["contact"] = {{"points", set.x.size()}, {"active", set.count()}, {"from", or_null(from)}, {"to", or_null(to)}};
-    s["kkt"] = {{"min_gap", report.kkt.min_gap},
-                {"min_pressure", report.kkt.min_pressure},
-                {"complementarity", report.kkt.complementarity},
-                {"residual", report.kkt.residual}};
-  } else {
-    s["kkt"] = {{"residual", report.kkt.residual}};
+      if (set.active[i] != 0) s.zone.from = s.zone.from.value_or(set.x[i]), s.zone.to = set.x[i];
   }
-  s["iterations"] = {{"contact", report.last.sets + 1}, {"corrections", report.last.corrections}};
-  const Blas used = blas();
-  s["blas"] = {{"name", used.name}, {"kernel", used.kernel}, {"threads", used.threads}};
-  s["parallel"] = {{"ranks", ranks()},
-                   {"petsc", petsc_version()},
-                   {"levels", levels},
-                   {"linear_iterations", report.linear_iterations},
-                   {"memory_mb", peak_megabytes()}};
-  s["warning"] = warning;
-  s["scene"] = Json::parse(question_json(file));
+  s.kkt = report.kkt;
+  s.contact_steps = report.last.sets + 1;
+  s.corrections = report.last.corrections;
+  s.parallel = {ranks(), petsc_version(), levels, report.linear_iterations, peak_megabytes()};
+  s.warning = warning;
   return s;
 }
 
@@ -157,10 +133,10 @@ std::vector<std::string> piece_files(const fs::path& folder) {
 }
 
 void write_scene_files(const fs::path& folder, const SceneFile& file, const Level& level, const NestedReport& report,
-                       int levels, const std::string& warning, const RunClock& clock) {
+                       int levels, const std::string& warning, const RunSeconds& seconds) {
   const bool contact = file.scene.contact().has_value();
   const bool csv = level.problem.rows().total() <= most_csv_unknowns;
-  Json json = summary(file, level, report, levels, warning);
+  const SceneSummary summary = summary_of_all(file, level, report, levels, warning);
   const Stopwatch files;
   const auto write = [&](const fs::path& draft) {
     if (csv) write_solution_csv_together(draft / "solution.csv", level.piece, level.space, level.state.u);
@@ -173,9 +149,7 @@ void write_scene_files(const fs::path& folder, const SceneFile& file, const Leve
       if (rank() > 0) return;
       write_pvtu(draft / "solution.pvtu", contact);
       if (contact) write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
-      json["seconds"] = {{"mesh", clock.mesh},   {"assemble", clock.assemble}, {"factor", clock.factor},
-                         {"solve", clock.solve}, {"files", files.seconds()},   {"total", clock.total.seconds()}};
-      write_file(draft / "summary.json", [&](std::ostream& out) { out << json.dump(2) << "\n"; });
+      write_summary(draft / "summary.json", file, summary, seconds, files.seconds());
     });
   };
   std::vector<std::string> stale = {"solution.vtu"};

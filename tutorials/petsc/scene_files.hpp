@@ -3,23 +3,17 @@
 #include <string>
 #include <vector>
 
-#include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/io/scene_file.hpp"
+#include "antilock/measure/answer.hpp"
 
 namespace antilock::distributed {
-
-/// Wall seconds of a run, as summary.json has them.
-struct RunClock {
-  double mesh = 0, assemble = 0, factor = 0, solve = 0;
-  Stopwatch total;
-};
 
 /// The answer of all ranks in one folder, all files or none: summary.json, solution.csv (up to a million unknowns),
 /// contact.csv (with contact), mesh.msh, solution.pvtu with a piece per rank. Columns and keys are those of a run
 /// without MPI. Every rank must call it; throws on every rank alike.
 void write_scene_files(const std::filesystem::path& folder, const SceneFile& file, const Level& level,
-                       const NestedReport& report, int levels, const std::string& warning, const RunClock& clock);
+                       const NestedReport& report, int levels, const std::string& warning, const RunSeconds& seconds);
 
 /// solution.pvtu and its pieces: those that write_scene_files writes to the folder and those there that it removes.
 std::vector<std::string> piece_files(const std::filesystem::path& folder);

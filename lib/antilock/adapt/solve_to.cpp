@@ -144,60 +144,65 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     throw Error("accuracy: there is no scaled layer to extrude; accepted: growth by bisection");
   const bool layer_may_lock = stiff != nullptr && stiff->epsilon <= thin;
   const double epsilon = scene.epsilon().value_or(1);
-  CertifiedSolution result;
+  std::vector<Level> history;
   TriangleMesh body = longest_edge_first(growth == Growth::extrude ? body_of(first) : first);
   const int most_triangles = static_cast<int>(std::min(accuracy.most_unknowns / 3, 1e9));  // about 3/2 edges each
-  result.warning = resolve_load(body, scene.body().load, most_triangles);
+  const std::string warning = resolve_load(body, scene.body().load, most_triangles);
   GrowingMesh now;
   now.mesh = growth == Growth::extrude ? extruded(body, epsilon) : body;
   now.body = std::move(body);
 
   ContactSet contact_set;
-  std::optional<CorrectionOptions> corrections;
   while (true) {
     const Space space(now.mesh, crouzeix_raviart());
     if (space.free_count() > accuracy.most_unknowns) {
-      if (result.history.empty())
+      if (history.empty())
         throw Error(
             fmt::format("accuracy: most_unknowns = {:.0f} cannot hold the first mesh, which has {} unknowns; "
                         "accepted: at least as many, or a coarser first mesh",
                         accuracy.most_unknowns, space.free_count()));
-      refuse(accuracy, result.history, fmt::format("the next mesh has {}", space.free_count()));
+      refuse(accuracy, history, fmt::format("the next mesh has {}", space.free_count()));
     }
-    const VariationalInequality problem = assemble(scene, space);
+    VariationalInequality problem = assemble(scene, space);
     PenaltyFactor factor(problem);
     ActiveSetOptions options;
     if (scene.contact()) options.start = contact_set.on(space);
+    Solution solution;
     Companion v;
+    Certificate certificate;
     for (double tolerance = std::min(1e-2 * accuracy.relative, accuracy.tolerance);; tolerance *= 1e-2) {
       options.corrections = corrections_to(std::max(tolerance, CorrectionOptions{}.tolerance));
-      result.cr = active_set(problem, factor, options);
-      options.start = result.cr.active;
-      v = strip_companion(scene, space, problem, result.cr, {}, !layer_may_lock);
-      result.certificate = certify(scene, space, problem, result.cr, {.factor = &factor, .companion = &v});
-      const bool enough = result.certificate.imbalance <= 0.1 * result.certificate.mismatch;
+      solution = active_set(problem, factor, options);
+      options.start = solution.active;
+      v = strip_companion(scene, space, problem, solution, {}, !layer_may_lock);
+      certificate = certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});
+      const bool enough = certificate.imbalance <= 0.1 * certificate.mismatch;
       if (enough || tolerance <= CorrectionOptions{}.tolerance) break;
     }
-    contact_set.keep(space, result.cr);
+    contact_set.keep(space, solution);
     seconds += watch.lap();
-    const double relative = result.certificate.relative(accuracy.of);
-    result.history.push_back({space.free_count(), result.certificate.bound(accuracy.of), relative, seconds});
-    quote(result.history, accuracy.relative);
-    if (progress) progress(result.history.back());
+    const double relative = certificate.relative(accuracy.of);
+    history.push_back({space.free_count(), certificate.bound(accuracy.of), relative, seconds});
+    quote(history, accuracy.relative);
+    if (progress) progress(history.back());
     if (relative <= accuracy.relative) {
-      result.companion.solver = "strip";
-      result.companion.u = std::move(v.at_vertices);
-      result.companion.p = std::move(v.stress);
+      Solution companion;
+      companion.solver = "strip";
+      companion.u = std::move(v.at_vertices);
+      companion.p = std::move(v.stress);
       if (v.layer)
         for (int i = 0; i < now.mesh.vertex_count(); ++i)
-          if (now.mesh.vertices(i, 1) < 0) result.companion.u(i) = v.layer->value(now.mesh.vertices.row(i).transpose());
-      result.cr.warning.clear();  // the certificate counts what the corrections left
-      result.mesh = std::move(now.mesh);
-      return result;
+          if (now.mesh.vertices(i, 1) < 0) companion.u(i) = v.layer->value(now.mesh.vertices.row(i).transpose());
+      solution.warning.clear();  // the certificate counts what the corrections left
+      const auto mesh = std::make_shared<const TriangleMesh>(std::move(now.mesh));
+      return {{mesh, Space(*mesh, crouzeix_raviart()), std::move(problem), std::move(solution), {}, warning},
+              std::move(companion),
+              std::move(certificate),
+              std::move(history)};
     }
-    if (const double needed = result.history.back().quoted_unknowns; needed > accuracy.most_unknowns)
-      refuse(accuracy, result.history, fmt::format("about {:.2g} are needed", needed));
-    now = grown(now, growth, epsilon, result.certificate.indicator, marking(result.history, now.marks));
+    if (const double needed = history.back().quoted_unknowns; needed > accuracy.most_unknowns)
+      refuse(accuracy, history, fmt::format("about {:.2g} are needed", needed));
+    now = grown(now, growth, epsilon, certificate.indicator, marking(history, now.marks));
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "antilock/adapt/marking.hpp"
 #include "antilock/analysis/certificate.hpp"
-#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/measure/answer.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/solve/solution.hpp"
 
@@ -32,13 +32,12 @@ struct Level {
 
 /// The answer and its proof.
 struct CertifiedSolution {
-  TriangleMesh mesh;
-  Solution cr;         ///< Crouzeix-Raviart on it
+  Answer cr;  ///< Crouzeix-Raviart on the last mesh; its warning is empty, or what the certificate cannot see of
+              ///< the load
   Solution companion;  ///< the displacement that is certified: u at the vertices, p per layer triangle; where the layer
                        ///< is bisected at small epsilon it lives on columns there, u interpolates it and p is empty
   Certificate certificate;
   std::vector<Level> history;
-  std::string warning;  ///< empty, or what the certificate cannot see of the load
 };
 
 /// Refines until the certificate says that the accuracy asked is reached, the algebraic error stopped at a tenth of the

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "antilock/core/error.hpp"
 #include "antilock/mesh/layered.hpp"
@@ -108,34 +109,51 @@ bool same_layer(const TriangleMesh& mesh, const TriangleMesh& columns) {
 
 }  // namespace
 
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& prescribed) {
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const std::vector<Chord>& chords, int count) {
   constexpr int samples = 32;
-  const TriangleMesh& mesh = space.mesh();
-  std::vector<int> place(mesh.vertex_count(), -1);
-  for (std::size_t i = 0; i < space.contact().size(); ++i) place[space.contact()[i]] = static_cast<int>(i);
-  Eigen::VectorXd lower = contact_bounds(contact, space), raise = Eigen::VectorXd::Zero(lower.size());
-  Eigen::VectorXd beside = lower;  // next to a clamped end the free vertex alone can lift v
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-    const std::array<int, 2> ends{mesh.edges(e, 0), mesh.edges(e, 1)};
-    const double from = mesh.vertices(ends[0], 0), to = mesh.vertices(ends[1], 0);
-    const double gap_from = contact.gap(from), gap_to = contact.gap(to);
+  Eigen::VectorXd lower = Eigen::VectorXd::Constant(count, -std::numeric_limits<double>::infinity());
+  Eigen::VectorXd raise = Eigen::VectorXd::Zero(count),
+                  beside = lower;  // beside a clamped end one vertex lifts v alone
+  for (const Chord& chord : chords) {
+    const auto gap_at = [&](double theta) {
+      const double x = (1 - theta) * chord.x[0] + theta * chord.x[1], gap = contact.gap(x);
+      if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
+      return gap;
+    };
+    const std::array<double, 2> gap_of{gap_at(0), gap_at(1)};
+    for (int end = 0; end < 2; ++end)
+      if (chord.place[end] >= 0) lower(chord.place[end]) = -gap_of[end];
     for (int k = 1; k < samples; ++k) {
-      const double theta = static_cast<double>(k) / samples, gap = contact.gap(from + theta * (to - from));
-      if (!std::isfinite(gap)) throw Error("contact: the gap is not finite between two vertices of Gamma_C");
-      const double overshoot = (1 - theta) * gap_from + theta * gap_to - gap;
+      const double theta = static_cast<double>(k) / samples;
+      const double gap = gap_at(theta) + 4 * theta * (1 - theta) * chord.bubble;
+      const double overshoot = (1 - theta) * gap_of[0] + theta * gap_of[1] - gap;
       for (int end = 0; end < 2; ++end) {
-        const int here = place[ends[end]], other = place[ends[1 - end]];
+        const int here = chord.place[end], other = chord.place[1 - end];
         if (here < 0) continue;
         const double weight = end == 0 ? 1 - theta : theta;  // of this end's value at the sample
         if (other >= 0)
           raise(here) = std::max(raise(here), overshoot);
         else
-          beside(here) = std::max(beside(here), (-gap - (1 - weight) * at(prescribed, mesh, ends[1 - end])) / weight);
+          beside(here) = std::max(beside(here), (-gap - (1 - weight) * chord.held[1 - end]) / weight);
       }
     }
   }
   return (lower + raise).cwiseMax(beside);
+}
+
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& prescribed) {
+  const TriangleMesh& mesh = space.mesh();
+  std::vector<int> place(mesh.vertex_count(), -1);
+  for (std::size_t i = 0; i < space.contact().size(); ++i) place[space.contact()[i]] = static_cast<int>(i);
+  std::vector<Chord> chords;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const int from = mesh.edges(e, 0), to = mesh.edges(e, 1);
+    chords.push_back({{place[from], place[to]},
+                      {mesh.vertices(from, 0), mesh.vertices(to, 0)},
+                      {at(prescribed, mesh, from), at(prescribed, mesh, to)}});
+  }
+  return admissible_bounds(contact, chords, static_cast<int>(space.contact().size()));
 }
 
 Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <optional>
+#include <vector>
 
 #include "antilock/analysis/column_function.hpp"
 #include "antilock/problem/variational_inequality.hpp"
@@ -21,6 +23,16 @@ struct Companion {
 /// alone: -gap, raised by what the chord of the gap overshoots on both sides; the gap is sampled at 32 points per edge.
 /// `prescribed`: v at the clamped ends (empty: 0).
 Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& prescribed = {});
+
+/// A piece of Gamma_C on which v is affine, but for a bubble.
+struct Chord {
+  std::array<int, 2> place;    ///< of its two ends among the bounds; -1: v is prescribed there
+  std::array<double, 2> x;     ///< of its two ends
+  std::array<double, 2> held;  ///< v at an end whose place is -1
+  double bubble = 0;           ///< v has 4 s (1 - s) times it in addition, s from 0 to 1 along the chord
+};
+/// The same for `count` values of v on chords.
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const std::vector<Chord>& chords, int count);
 
 /// The strip: v is the average of u_CR at the body's vertices off Sigma, and on Sigma and in the layer the function of
 /// least energy in K, by active set. The scaled layer has columns for it under the vertices of Sigma (mesh/layered.hpp),

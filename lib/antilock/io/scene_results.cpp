@@ -12,7 +12,6 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
 
 namespace antilock {
@@ -84,35 +83,6 @@ Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p)
   return stress;
 }
 
-Json summary(const SceneFile& file, const Space& space, const VariationalInequality& problem,
-             const Solution& solution) {
-  Json s;
-  s["element"] = file.method.element;
-  s["solver"] = file.method.solver;
-  s["epsilon"] = or_null(file.scene.epsilon());
-  s["h"] = mesh_width(file, space.mesh());
-  s["dofs"] = solution.counters.unknowns;
-  s["effects"] = file.scene.effects();
-  s["energy"] = finite("the energy", energy(problem, solution));
-  s["u_max"] = finite("the maximum", solution.u.maxCoeff());
-  s["u_min"] = finite("the minimum", solution.u.minCoeff());
-  if (file.scene.contact()) {
-    const ContactZone zone = contact_zone(space, problem, solution);
-    s["contact"] = {
-        {"points", zone.points}, {"active", zone.active}, {"from", or_null(zone.from)}, {"to", or_null(zone.to)}};
-    s["kkt"] = {{"min_gap", solution.kkt.min_gap},
-                {"min_pressure", solution.kkt.min_pressure},
-                {"complementarity", solution.kkt.complementarity},
-                {"residual", solution.kkt.residual}};
-  } else {
-    s["kkt"] = {{"residual", solution.kkt.residual}};
-  }
-  s["iterations"] = {{"contact", solution.counters.contact}, {"corrections", solution.counters.corrections}};
-  const Blas used = blas();
-  s["blas"] = {{"name", used.name}, {"kernel", used.kernel}, {"threads", used.threads}};
-  return s;
-}
-
 /// What an earlier run on several ranks left in the folder: its pictures would pass for those of this one.
 std::vector<std::string> pieces_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;
@@ -126,7 +96,68 @@ std::vector<std::string> pieces_in(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::string question_json(const SceneFile& file) { return question(file).dump(); }
+SceneSummary summary_of(const SceneFile& file, const Answer& answer) {
+  const Solution& solution = answer.solution;
+  SceneSummary s;
+  s.h = mesh_width(file, *answer.mesh);
+  s.unknowns = solution.counters.unknowns;
+  s.energy = energy(answer.problem, solution);
+  s.u_max = solution.u.maxCoeff();
+  s.u_min = solution.u.minCoeff();
+  if (file.scene.contact()) s.zone = contact_zone(answer.space, answer.problem, solution);
+  s.kkt = solution.kkt;
+  s.contact_steps = solution.counters.contact;
+  s.corrections = solution.counters.corrections;
+  s.warning = answer.warning;
+  return s;
+}
+
+void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
+                   const RunSeconds& seconds, double files, const CertifiedSolution* certified) {
+  Json s;
+  s["element"] = file.method.element;
+  s["solver"] = file.method.solver;
+  s["epsilon"] = or_null(file.scene.epsilon());
+  s["h"] = summary.h;
+  s["dofs"] = summary.unknowns;
+  s["effects"] = file.scene.effects();
+  s["energy"] = finite("the energy", summary.energy);
+  s["u_max"] = finite("the maximum", summary.u_max);
+  s["u_min"] = finite("the minimum", summary.u_min);
+  if (file.scene.contact()) {
+    const ContactZone& zone = summary.zone;
+    s["contact"] = {
+        {"points", zone.points}, {"active", zone.active}, {"from", or_null(zone.from)}, {"to", or_null(zone.to)}};
+    s["kkt"] = {{"min_gap", summary.kkt.min_gap},
+                {"min_pressure", summary.kkt.min_pressure},
+                {"complementarity", summary.kkt.complementarity},
+                {"residual", summary.kkt.residual}};
+  } else {
+    s["kkt"] = {{"residual", summary.kkt.residual}};
+  }
+  s["iterations"] = {{"contact", summary.contact_steps}, {"corrections", summary.corrections}};
+  const Blas used = blas();
+  s["blas"] = {{"name", used.name}, {"kernel", used.kernel}, {"threads", used.threads}};
+  if (summary.layer) {
+    const std::optional<double>& lost = summary.layer->lost;
+    s["locking"] = {{"diagnosis", summary.layer->diagnosis},
+                    {"kept", lost ? Json(1 - *lost) : Json(nullptr)},
+                    {"lost_energy", or_null(lost)}};
+  }
+  if (summary.parallel)
+    s["parallel"] = {{"ranks", summary.parallel->ranks},
+                     {"petsc", summary.parallel->petsc},
+                     {"levels", summary.parallel->levels},
+                     {"linear_iterations", summary.parallel->linear_iterations},
+                     {"memory_mb", summary.parallel->memory_mb}};
+  if (certified != nullptr) s["certificate"] = certificate(file, *certified);
+  s["warning"] = summary.warning;
+  s["scene"] = question(file);
+  const auto& [mesh, assemble, factor, solve] = seconds;
+  s["seconds"] = {{"mesh", mesh},   {"assemble", assemble}, {"factor", factor},
+                  {"solve", solve}, {"files", files},       {"total", mesh + assemble + factor + solve + files}};
+  write_file(path, [&](std::ostream& out) { out << s.dump(2) << "\n"; });
+}
 
 void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
                        std::vector<std::string> more) {
@@ -138,31 +169,22 @@ void check_inputs_stay(const std::filesystem::path& folder, const std::filesyste
                                 printable(input.string(), 1000)));
 }
 
-void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Space& space,
-                         const VariationalInequality& problem, const Solution& solution, const RunSeconds& seconds,
-                         const std::string& warning, const CertifiedSolution* certified) {
+void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
+                         const SceneSummary& summary, const CertifiedSolution* certified) {
   const Stopwatch watch;
-  Json json = summary(file, space, problem, solution);
-  if (certified != nullptr) json["certificate"] = certificate(file, *certified);
-  json["warning"] = warning;
-  json["scene"] = question(file);
   const bool contact = file.scene.contact().has_value();
   const auto write = [&](const std::filesystem::path& draft) {
-    write_solution_csv(draft / "solution.csv", space, solution.u);
-    VtuFields more{layer_stress(space.mesh(), solution.p), {}};
+    write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
+    VtuFields more{layer_stress(*answer.mesh, answer.solution.p), {}};
     if (contact) {
-      Eigen::MatrixX3d table = contact_table(space, problem, solution);
+      Eigen::MatrixX3d table = contact_table(answer.space, answer.problem, answer.solution);
       table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
       write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
       more.pressure = table.col(2);
     }
-    write_msh(draft / "mesh.msh", space.mesh());
-    write_vtu(draft / "solution.vtu", space, solution.u, more);
-    const auto& [mesh, assemble, factor, solve] = seconds;
-    const double files = watch.seconds();  // the summary itself is the last file
-    json["seconds"] = {{"mesh", mesh},   {"assemble", assemble}, {"factor", factor},
-                       {"solve", solve}, {"files", files},       {"total", mesh + assemble + factor + solve + files}};
-    write_file(draft / "summary.json", [&](std::ostream& out) { out << json.dump(2) << "\n"; });
+    write_msh(draft / "mesh.msh", *answer.mesh);
+    write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
+    write_summary(draft / "summary.json", file, summary, answer.seconds, watch.seconds(), certified);
   };
   std::vector<std::string> stale = pieces_in(folder);
   if (!contact) stale.emplace_back("contact.csv");
