@@ -103,6 +103,7 @@ TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {
     EXPECT_GE(judged["bound"], energy);
     // P1: the lower bound of J is proved to 3 %, so the square root of J(v) - J loses little. CR: the certificate's root 2
     EXPECT_LE(judged["bound"], (element->conforming() ? 1.05 : 1.6) * energy);
+    EXPECT_EQ(told.out.find("P1 locks in this layer") != std::string::npos, locks) << told.out;
     if (locks)
       EXPECT_LT(judged["kept"], 0.05);
     else
