@@ -157,10 +157,6 @@ int judge(int argc, char** argv) {
     found["diagnosis"] = said;
     fmt::print("  layer: {}\n", said);
   }
-  if (const auto layer = report_layer(file.scene, *space, problem, v)) {
-    found["locking"] = {{"diagnosis", layer->diagnosis}, {"warning", layer->warning}};
-    fmt::print("  {}\n", layer->warning.empty() ? layer->diagnosis : layer->warning);
-  }
   if (!row.empty())
     fmt::print("| {} | {} | {} | {:.3g} | {} |\n", row, element,
                found.contains("errors") ? fmt::format("{:.3g}", found["errors"]["max_at_unknowns"].get<double>())
