@@ -252,7 +252,7 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
       freefem::effects(cells, 1e-2, folder));
   add("07_kernel", fmt::format("P1 by ties to h = 1/{}; P1 and CR by rank at h = 1/4: dimensions", half),
       freefem::kernels(half, folder));
-  add("10_limits", fmt::format("P1, CR, both meshes, h = 1/{}, 9 epsilons: distance to the limit", half),
+  add("30_propositions", fmt::format("P1, CR, both meshes, h = 1/{}, 9 epsilons: distance to the limit", half),
       freefem::limits(half, folder));
   const std::vector<freefem::Numbers> errors = freefem::worst_errors(folder);
   for (const int i : {0, 1})

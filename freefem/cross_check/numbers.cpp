@@ -124,7 +124,7 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
 
 Numbers limits(int cells, const std::filesystem::path& folder) {
   const TriangleMesh structured = structured_mesh(cells), unstructured = unstructured_mesh(cells);
-  run("10_limits", {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
+  run("30_propositions", {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
   const Table table = results(folder / "limits.csv", 36, 2);
   const Reference zero{[](double, double) { return 0.0; },
                        [](double, double) { return Eigen::Vector2d::Zero().eval(); },

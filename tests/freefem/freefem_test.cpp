@@ -398,7 +398,7 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"09_convergence", {"results.csv", "error_against_epsilon.eps"}},
       {"20_effects", {"effects.csv", "scene1.eps", "scene8.eps"}},
       {"07_kernel", {"kernel.csv", "ties_structured.eps", "ties_unstructured.eps"}},
-      {"10_limits", {"limits.csv"}},
+      {"30_propositions", {"limits.csv"}},
       {"12_uniform", {"uniform.csv"}},
       {"31_promises", {"estimates.csv", "lost.eps"}},
       {"17_certificate", {"results.csv"}},

@@ -101,5 +101,30 @@ TEST(StressNorm, IsTheIntegralOfTheLayerStress) {
   }
 }
 
+// The limit on the layer is a function of x, and u^0 - u^c on the body is its harmonic extension: both by midpoints.
+TEST(LayerNorm, AndWhatClampingCostsAreIntegralsOfTheLimit) {
+  constexpr double pi = std::numbers::pi;
+  const Truth limit(paper_sine_load(), 0, true, 14);
+  constexpr int n = 400;
+  double layer = 0;
+  for (int i = 0; i < n; ++i) {
+    const double x = (i + 0.5) / n;
+    layer += (std::pow(limit.value(x, -0.5), 2) + std::pow(limit.gradient(x, -0.5).x(), 2)) / n;
+  }
+  EXPECT_NEAR(layer_norm(limit), std::sqrt(layer), 1e-4 * std::sqrt(layer));  // the rules' h^2
+  double body = 0;
+  for (int k = 1; k <= 60; ++k) {  // the waves of u^0 on Sigma fall like k^-3
+    double w = 0, square = 0;
+    for (int i = 0; i < n; ++i) w += 2.0 / n * limit.value((i + 0.5) / n, 0) * std::sin(k * pi * (i + 0.5) / n);
+    for (int j = 0; j < 4 * n; ++j) {
+      const double a = k * pi, y = (j + 0.5) / (4 * n), scale = 1 / std::sinh(a);
+      const double v = scale * std::sinh(a * (1 - y)), slope = a * scale * std::cosh(a * (1 - y));
+      square += (v * v + a * a * v * v + slope * slope) / (4 * n);
+    }
+    body += 0.5 * w * w * square;
+  }
+  EXPECT_NEAR(clamped_distance(limit), std::sqrt(layer + body), 1e-4 * std::sqrt(layer));
+}
+
 }  // namespace
 }  // namespace antilock::nearest_test

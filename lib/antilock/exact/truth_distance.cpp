@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "antilock/exact/truth_data.hpp"
 
@@ -64,6 +65,23 @@ double h2_norm(const Truth& truth) {
 
 double stress_norm(const Truth& truth) {
   return std::sqrt(integral([&](double t) { return 0.5 * layer_row(truth.data(), t - 1).p.squaredNorm(); }));
+}
+
+double layer_norm(const Truth& truth) {
+  const Truth::Data& data = truth.data();
+  const SineRow none{};
+  return std::sqrt(integral(
+      [&](double t) { return row_square(layer_row(data, t - 1), data.epsilon * data.epsilon, none, 0); }));
+}
+
+double clamped_distance(const Truth& limit) {
+  const Eigen::VectorXd& w = limit.data().on_sigma;
+  double sum = std::pow(layer_norm(limit), 2);
+  for (Eigen::Index k = 1; k < w.size(); ++k) {  // 1/2 w^2 (int |grad|^2 + int v^2 of sinh(a (1 - y)) / sinh(a))
+    const double a = static_cast<double>(k) * std::numbers::pi, coth = 1 / std::tanh(a);
+    sum += 0.5 * w(k) * w(k) * (a * coth + 0.5 * (coth / a - 1 / std::pow(std::sinh(a), 2)));
+  }
+  return std::sqrt(sum);
 }
 
 }  // namespace antilock

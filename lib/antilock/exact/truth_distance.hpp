@@ -15,4 +15,12 @@ double h2_norm(const Truth& truth);
 /// epsilon^2 |p|^2.
 double stress_norm(const Truth& truth);
 
+/// ||u||_{1,Omega-}, body left out, by the same rule: what is lost where a locked layer does not move.
+double layer_norm(const Truth& truth);
+
+/// ||u - v||_{1,Omega} for the v that is 0 on the layer and solves -Delta v = f on the body clamped on Sigma, too: how far
+/// from the limit u (epsilon = 0) a method tends to that locks altogether. In the body u - v is the sum of
+/// w_k sin(k pi x) sinh(a (1 - y)) / sinh(a), w_k the waves of u on Sigma.
+double clamped_distance(const Truth& limit);
+
 }  // namespace antilock
