@@ -53,3 +53,8 @@ const std::vector<tutorial::Exercise> exercises{
          report.claim_within((s.u - exact).lpNorm<Eigen::Infinity>(), 0, 0.125 / (n * n) + 1e-9,
                              fmt::format("{}: end moves by {:.6f}; error, at most h^2/8", s.solver, s.u(n)));
      }}};
+
+// ## Answers on paper
+//
+// **3.** Where the rubber sticks, $u_x = 0$ is a constraint and $T$ is its multiplier: it is found. Where it slips $T = ±g$
+// is a load that is given, and $u_x$ is found. The unknown of the problem is which of the two holds where.

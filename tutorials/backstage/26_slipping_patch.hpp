@@ -1,5 +1,4 @@
-#include "common/slipping_patch.hpp"
-
+#pragma once
 #include <algorithm>
 #include <functional>
 
@@ -7,10 +6,9 @@
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock::tutorial {
-namespace {
 
 /// The load of a force per length on one component, on all edges of the boundary.
-Eigen::VectorXd boundary_load(const Space& space, const std::function<double(const Eigen::Vector2d&)>& force) {
+inline Eigen::VectorXd boundary_load(const Space& space, const std::function<double(const Eigen::Vector2d&)>& force) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());
   const TriangleMesh& mesh = space.mesh();
   for (int t = 0; t < mesh.triangle_count(); ++t)
@@ -24,9 +22,10 @@ Eigen::VectorXd boundary_load(const Space& space, const std::function<double(con
   return load;
 }
 
-}  // namespace
-
-double slipping_patch_error(const VectorSpace& space, double jump_weight, double epsilon) {
+/// The largest error of u in a patch test with friction and slip, which elements that hold affine functions pass: the unit
+/// square is pressed by 0.1 on a flat floor with g = 0.1, its left side is dragged to the right, and everything slips,
+/// u = (0.05 + a x + g y, -0.1 y), a = 0.1 / (1 + 2 epsilon). Top and sides get their share of g as a load.
+inline double slipping_patch_error(const VectorSpace& space, double jump_weight, double epsilon) {
   constexpr double rubs = 0.1, slip = 0.05;
   const Space &x = space.x, &y = space.y;
   PlaneStrain scene;  // flat obstacle, touching
