@@ -33,9 +33,7 @@
 // Whether contact itself costs an order is a question of its own: it does not. Belhachmi and Ben Belgacem (2003) prove
 // optimal orders for P2 if $u$ is smooth enough, and Drouet and Hild (2015) for P1 and P2 without any assumption on the
 // contact set. What limits the order is how smooth $u$ is. (For CR with Raviart–Thomas fluxes the error of a scalar
-// Signorini problem is even given by an identity: Bartels, Gudi and Kaltenbach 2024.) A thin layer that ends at a corner
-// has singular functions of its own, with powers that depend on the layer (Caloz, Costabel, Dauge and Vial 2006); here
-// body and layer end on straight clamped sides.
+// Signorini problem is even given by an identity: Bartels, Gudi and Kaltenbach 2024.)
 //
 // ## Layers
 //
