@@ -25,8 +25,12 @@
 //
 // the paper's class with $a_0 = ∫ \operatorname{div} u \operatorname{div} v$ and the class parameter $1/λ$. On a P1
 // or CR triangle $\operatorname{div} u$ is constant: one row of $B$ per triangle, $2n^2$ conditions. P1 has two
-// unknowns per vertex that is not held: $2n(n + 1)$. On parallel triangles $2n$ functions are left. That is a vanishing
-// share under refinement, too few. Three cures:
+// unknowns per vertex that is not held: $2n(n + 1)$. On parallel triangles $2n$ functions are left.
+//
+// Is that too few? In chapter 07 structured P1 keeps $n - 1$ of $2n^2$ unknowns, and it is robust. There $G$ holds functions
+// of one variable, and $n - 1$ values describe them. Here $G$ holds the fields that keep the volume. In the plane these are
+// $u = (∂_y φ, -∂_x φ)$ with a *stream function* $φ(x, y)$. A function of two variables asks for about $n^2$ values, and
+// $2n$ of them cannot do. Three cures leave about $n^2$ or more:
 //
 // - *crossed triangles*: each square is cut by both diagonals, and one of its four conditions follows from the other
 // three;
@@ -36,11 +40,13 @@
 //
 // Two checks need no reference: a *patch test* (a uniform strain must come out exactly on any mesh) and the number of
 // motions without energy. The reference of the contact force is Taylor–Hood, P2 with a continuous P1 pressure, on
-// graded meshes (`freefem/23_elasticity.edp`).
+// graded meshes (`freefem/23_elasticity.edp`). (In the file for pictures the pressure of P1 on crossed triangles is the mean
+// over each square. Triangle by triangle it carries a checkerboard in every square: the fourth condition, which follows
+// from the other three, has no pressure of its own. What that means is the subject of [pressures](32_pressure.cpp).)
 
+#include "backstage/23_elasticity.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/study/sweep.hpp"
-#include "common/rubber.hpp"
 
 using namespace antilock;
 using tutorial::Rubber;
@@ -103,34 +109,46 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
 
 void judge(const Table& checks, const Table& forces, int cells, tutorial::Report& report) {
   const Table jumping = checks.where("element", "Crouzeix-Raviart with jumps");
-  report.claim(checks.most("patch") < 1e-12, "patch test: every method has the uniform strain to {:.0e}",
+  report.claim(checks.most("patch") < 1e-12, "(proved) patch test: every method has the uniform strain to {:.0e}",
                checks.most("patch"));
   report.claim(jumping.number("without_jumps") == 2 * cells && checks.most("zero_modes") == 0,
-               "motions of no energy: {} = 2n without jumps, {} in every method here", jumping.number("without_jumps"),
-               checks.most("zero_modes"));
+               "(observed) motions of no energy: {} = 2n without jumps, {} in every method here",
+               jumping.number("without_jumps"), checks.most("zero_modes"));
+  const auto kernel = [&](const char* element) { return checks.where("element", element).number("kernel"); };
+  report.claim(
+      kernel("P1 right diagonals") == 2 * cells && kernel("P1 crossed triangles") == cells * (cells + 2),
+      "(observed) dim G_h of P1: {} = 2n on parallel triangles, {} on arbitrary ones, {} = n^2 + 2n on crossed ones",
+      kernel("P1 right diagonals"), kernel("P1 unstructured"), kernel("P1 crossed triangles"));
   const Table free = forces.where("locks", 0), known = free.where("known", 1);
   const double corrections = free.most("corrections"), worst = std::max(known.most("percent"), -known.least("percent"));
-  report.claim(corrections <= 5, "at most {} corrections at any lambda where nothing locks", corrections);
+  report.claim(corrections <= 4, "(observed) {} corrections at most at any lambda where nothing locks", corrections);
   if (cells < 8) return report.not_judged("the contact force: fewer than 8 cells do not tell locked from inexact");
-  const double locked = forces.where("locks", 1).where("epsilon", 0).least("percent");
-  report.claim(locked > 100, "P1 on parallel or arbitrary triangles locks: force {:.0f} % too large or more", locked);
-  report.claim(worst < 16.0 / cells, "the other three are off by {:.2f} % at most, at any lambda of the table", worst);
+  const Table limit = forces.where("locks", 1).where("epsilon", 0), soft = forces.where("locks", 1).where("epsilon", 1);
+  report.claim(
+      limit.least("percent") > 150 && soft.most("percent") < 60.0 / cells,
+      "(observed) P1 on parallel or arbitrary triangles locks: force {:.0f} % too large or more in the limit, right "
+      "to {:.2f} % at lambda = 1",
+      limit.least("percent"), soft.most("percent"));
+  // The end of contact is known to a cell: a multiple of $h$ that jumps from mesh to mesh.
+  report.claim(worst < 22.0 / cells,
+               "(observed) the other three are off by {:.0f} h per cent, at any lambda of the table", worst * cells);
 }
 
 // ## What came out
 //
 // (a) $2n^2$ conditions and about as many unknowns. (b) As many conditions, and three times as many unknowns. Where
-// nothing locks the force is right to 16/n per cent at every λ, in at most 2 corrections. P1 on parallel or arbitrary
+// nothing locks the force is right to 11 h per cent at every λ ($h = 1/32$), in at most 2 corrections. P1 on parallel or arbitrary
 // triangles is right at λ = 1, and more than 100 % off in the limit. The pressure of P1 reaches 46 in stripes, where
 // the true one stays below 0.7.
+//
+// :figure: elasticity_force
 //
 // ## Exercises
 //
 // 1. CR penalises its jumps with weight 1. Between weight 0.1 and 10, how much does the contact force change, on 8
 //    and on 16 cells?
-// 2. Count what is left at 1/h = 4 and 8: does $\dim G_h$ of P1 grow like the unknowns under refinement? And of CR?
-// 3. On paper: in a crossed square, why does the fourth condition follow from three? (Sum up $± \operatorname{div} u$
-//    around the centre.)
+// 2. Count what is left at 1/h = 4 and 8: how does $\dim G_h$ of P1 grow under refinement? And that of CR?
+// 3. On paper: in a crossed square, why does the fourth condition follow from three?
 
 #include "answers/23_elasticity.hpp"
 

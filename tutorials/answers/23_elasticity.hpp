@@ -26,8 +26,8 @@ const std::vector<tutorial::Exercise> exercises{
        report.claim(coarse < 0.2 && fine < 0.65 * coarse,
                     "weights 0.1 and 10 differ by {:.1f} % on 8 cells, {:.1f} % on 16", 100 * coarse, 100 * fine);
      }},
-    {"Count what is left at 1/h = 4 and 8: does dim G_h of P1 grow like the unknowns under refinement? And of CR?",
-     "P1 on parallel diagonals: like n, a vanishing share of 2 n^2 unknowns; CR: like n^2",
+    {"Count what is left at 1/h = 4 and 8: how does dim G_h of P1 grow under refinement? And that of CR?",
+     "P1 on parallel diagonals: like n, where a stream function needs n^2; CR: like n^2",
      [](const tutorial::Options&, tutorial::Report& report) {
        const auto kernel = [&](const std::string& name, int cells) {
          const Rubber rubber = named(name, cells);

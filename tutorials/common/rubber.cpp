@@ -5,7 +5,6 @@
 #include <map>
 
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/solve/active_set.hpp"
 
@@ -67,34 +66,6 @@ double percent_too_large(double force, double epsilon) {
       {1, 0.158792}, {1e-2, 0.255738}, {1e-4, 0.259131}, {1e-8, 0.259166}, {0, 0.259166}};
   const auto known = reference.find(epsilon);
   return known == reference.end() ? std::numeric_limits<double>::quiet_NaN() : 100 * (force / known->second - 1);
-}
-
-namespace {
-
-Eigen::VectorXd pressure(const Rubber& rubber, const Solution& solution) {
-  Eigen::VectorXd p = -solution.p;
-  if (rubber.file == "p1_crossed")
-    for (Eigen::Index square = 0; square < p.size() / 4; ++square)
-      p.segment<4>(4 * square).setConstant(p.segment<4>(4 * square).mean());
-  return p;
-}
-
-}  // namespace
-
-void write_block(const std::filesystem::path& out, const Rubber& rubber, const VectorSpace& space,
-                 const Solution& solution) {
-  write_deformed_vtu(out / (rubber.file + ".vtu"), space, solution.u, pressure(rubber, solution));
-  if (rubber.file == "p1_right") write_freefem_mesh(out / "mesh.freefem.msh", rubber.mesh);
-}
-
-void show_rubber(const std::filesystem::path& out, const Table& checks, const Table& forces, const Profile& gap) {
-  checks.print("", 2);
-  forces.where("known", 1).pivot("element", "lambda", "percent").print("error of the contact force in %, by lambda");
-  forces.pivot("element", "lambda", "corrections").print("corrections, by lambda");
-  forces.select({"element", "lambda", "epsilon", "force", "corrections"}).write(out / "force.csv");
-  Table obstacle({"x", "y"});
-  for (int i = 0; i <= 40; ++i) obstacle.add({-0.1 + 0.03 * i, -gap(-0.1 + 0.03 * i)});
-  obstacle.write(out / "obstacle.csv");
 }
 
 }  // namespace antilock::tutorial

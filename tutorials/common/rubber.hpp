@@ -10,7 +10,7 @@
 
 namespace antilock::tutorial {
 
-// What chapter 23 leaves out of its page.
+// What chapters 23 and 26 share.
 
 /// A discretisation: triangles, an element per component, and whether edges need their jumps penalised.
 struct Rubber {
@@ -36,13 +36,5 @@ double bulge(const Space& space, const Eigen::VectorXd& u, double side);
 /// The contact force of Taylor-Hood on graded meshes (freefem/23_elasticity.edp), at epsilon = 1, 1e-2, 1e-4, 1e-8, 0:
 /// how much too large a force is, in per cent; 0 / 0 where it is not known.
 double percent_too_large(double force, double epsilon);
-
-/// Writes the deformed block with its pressure -lambda div u. On crossed triangles, which carry a checkerboard in every
-/// square, the mean over the square.
-void write_block(const std::filesystem::path& out, const Rubber& rubber, const VectorSpace& space,
-                 const Solution& solution);
-
-/// Writes force.csv, and obstacle.csv of the picture; prints the tables of the chapter.
-void show_rubber(const std::filesystem::path& out, const Table& checks, const Table& forces, const Profile& gap);
 
 }  // namespace antilock::tutorial

@@ -1,28 +1,42 @@
-#include "common/two_strings.hpp"
-
-#include <fmt/format.h>
-
+#pragma once
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
-#include "antilock/core/error.hpp"
-#include "antilock/solve/active_set.hpp"
+#include "antilock/core/matrix.hpp"
 
 namespace antilock::tutorial {
 
-double hat(int cells, int i, double x) {
+/// The unknowns of two strings on [0, 1], held or not: upper(0) ... upper(upper_cells()), then lower(0) ...
+/// lower(cells).
+struct Strings {
+  int cells, more = 1;  ///< cells of the lower string, and how many more the upper one has
+  int upper_cells() const { return cells + more; }
+  int upper(int i) const { return i; }
+  int lower(int i) const { return upper_cells() + 1 + i; }
+  int size() const { return upper_cells() + cells + 2; }
+};
+
+/// The hat function of corner i of a string of so many cells, at x.
+inline double hat(int cells, int i, double x) {
   const double t = x * cells;
   return std::max(0.0, t < i ? t - (i - 1) : i + 1 - t);
 }
 
-Eigen::RowVectorXd difference(const Strings& s, double x) {
+/// (u - w)(x) as a row over all unknowns: the hat functions of the upper string, less those of the lower one.
+inline Eigen::RowVectorXd difference(const Strings& s, double x) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(s.size());
   for (int i = 0; i <= s.upper_cells(); ++i) row(s.upper(i)) = hat(s.upper_cells(), i, x);
   for (int i = 0; i <= s.cells; ++i) row(s.lower(i)) = -hat(s.cells, i, x);
   return row;
 }
 
-std::vector<Place> gauss_points(const Strings& s) {
+/// A place of [0, 1] and its weight.
+struct Place {
+  double x, weight;
+};
+/// Two Gauss points on each piece between neighbouring corners of either string: exact for products of broken lines.
+inline std::vector<Place> gauss_points(const Strings& s) {
   std::vector<double> corners;
   for (int i = 0; i <= s.cells; ++i) corners.push_back(static_cast<double>(i) / s.cells);
   for (int i = 1; i < s.upper_cells(); ++i) corners.push_back(static_cast<double>(i) / s.upper_cells());
@@ -37,7 +51,8 @@ std::vector<Place> gauss_points(const Strings& s) {
   return places;
 }
 
-SparseMatrix sum_over_cells(const Strings& s, double of_derivatives, double of_values) {
+/// of_derivatives (int u' v' + int w' z') + of_values (int u v + int w z), as a matrix over all unknowns.
+inline SparseMatrix sum_over_cells(const Strings& s, double of_derivatives, double of_values) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int cells, auto&& unknown) {
     const double h = 1.0 / cells;
@@ -52,38 +67,6 @@ SparseMatrix sum_over_cells(const Strings& s, double of_derivatives, double of_v
   SparseMatrix sum(s.size(), s.size());
   sum.setFromTriplets(entries.begin(), entries.end());
   return sum;
-}
-
-Table energies(const VariationalInequality& problem) {
-  std::vector<double> epsilons;
-  for (int k = 0; k <= 12; ++k) epsilons.push_back(std::pow(10.0, -k));
-  epsilons.push_back(0);
-  Table table({"epsilon", "energy", "max |u|", "corrections", "KKT"});
-  for (const EnergyRow& row : energy_against_epsilon(problem, epsilons))
-    table.add({row.epsilon, row.energy, row.moved, row.corrections, row.violation});
-  return table;
-}
-
-void print_glue(const std::string& name, const Hypotheses& h, int finer_kernel, const Table& energies,
-                const Solution& solution, double rigid_force) {
-  energies.print(
-      fmt::format("{}: (H1) coercivity {:.3f}; (H2) kernel {} of {} unknowns ({} on the mesh twice as fine); K "
-                  "and G meet to {:.0e}",
-                  name, h.coercivity, h.kernel, h.free, finer_kernel, h.distance));
-  const Kkt& k = solution.kkt;
-  fmt::print(
-      "  contact force {:.4f} (rigid glue: {:.4f}), KKT: gap {:.0e}, pressure {:.0e}, complementarity {:.0e}, "
-      "residual {:.0e}\n\n",
-      solution.lambda.sum(), rigid_force, k.min_gap, k.min_pressure, k.complementarity, k.residual);
-}
-
-std::string refusal(const VariationalInequality& problem) {
-  try {
-    active_set(problem);
-  } catch (const NotConverged& no) {
-    return no.what();
-  }
-  return "";
 }
 
 }  // namespace antilock::tutorial

@@ -1,0 +1,49 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "antilock/analysis/hypotheses.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/study/table.hpp"
+
+namespace antilock::tutorial {
+
+/// A problem at every class parameter from 1 to 1e-12, and at 0: epsilon, energy, "max |u|", corrections, KKT.
+inline Table energies(const VariationalInequality& problem) {
+  std::vector<double> epsilons;
+  for (int k = 0; k <= 12; ++k) epsilons.push_back(std::pow(10.0, -k));
+  epsilons.push_back(0);
+  Table table({"epsilon", "energy", "max |u|", "corrections", "KKT"});
+  for (const EnergyRow& row : energy_against_epsilon(problem, epsilons))
+    table.add({row.epsilon, row.energy, row.moved, row.corrections, row.violation});
+  return table;
+}
+
+/// Prints what one glue came to: its hypotheses, its energies, and the answer with the KKT report; `rigid_force` is the
+/// contact force under a rigid glue.
+inline void print_glue(const std::string& name, const Hypotheses& h, int finer_kernel, const Table& energies,
+                       const Solution& solution, double rigid_force) {
+  energies.print(
+      fmt::format("{}: (H1) coercivity {:.3f}; (H2) kernel {} of {} unknowns ({} on the mesh twice as fine); K "
+                  "and G meet to {:.0e}",
+                  name, h.coercivity, h.kernel, h.free, finer_kernel, h.distance));
+  const Kkt& k = solution.kkt;
+  fmt::print(
+      "  contact force {:.4f} (rigid glue: {:.4f}), KKT: gap {:.0e}, pressure {:.0e}, complementarity {:.0e}, "
+      "residual {:.0e}\n\n",
+      solution.lambda.sum(), rigid_force, k.min_gap, k.min_pressure, k.complementarity, k.residual);
+}
+
+/// What the solver says of a problem that it does not solve; empty where it solves it.
+inline std::string refusal(const VariationalInequality& problem) {
+  try {
+    active_set(problem);
+  } catch (const NotConverged& no) {
+    return no.what();
+  }
+  return "";
+}
+
+}  // namespace antilock::tutorial
