@@ -139,6 +139,8 @@ const Row rows[] = {
     {"structured", "structured mesh", "structured", {blue, circle, 6}},
     {"unstructured", "unstructured mesh", "unstructured", {vermillion, square, 6}},
     {"layered", "layered mesh", "layered", {olive, down_triangle, 6}},
+    {"columns", "columns", "", {green, diamond, 7}},
+    {"rows", "rows", "", {purple, triangle, 7}},
     {"equal cells", "equal cells", "", {vermillion, square, 6}},
     {"graded", "graded toward the end of contact", "graded", {blue, circle, 6}},
     {"load paper", "load of every chapter", "smooth load", {blue, circle, 6}},

@@ -259,6 +259,8 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
     add("12_uniform",
         fmt::format("{} structured, h = 1/8, 6 epsilons: worst H1 error against P1 on h = 1/32", i == 0 ? "P1" : "CR"),
         errors[i]);
+  add("33_order_h", "P1 and CR structured, h = 1/8, 6 epsilons: energy norm of the error, P1 on h = 1/32 for the truth",
+      freefem::energy_errors(folder));
   add("31_promises", fmt::format("P1 and CR unstructured, h = 1/{}, 13 epsilons to 1e-6: largest u on Gamma_C", half),
       freefem::estimates(half, folder));
   add("17_certificate", fmt::format("P1 and CR unstructured, h = 1/{}, 5 epsilons: bracket, certified bound", half),

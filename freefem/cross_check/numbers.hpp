@@ -48,6 +48,9 @@ Numbers limits(int cells, const std::filesystem::path& folder);
 /// 12: the worst broken H1 error over epsilon on the structured mesh of 1/h = 8, against P1 on one four times finer.
 /// P1, then CR.
 std::vector<Numbers> worst_errors(const std::filesystem::path& folder);
+/// 33: the energy norm of the error on the structured mesh of 1/h = 8, against P1 on one four times finer, six epsilons;
+/// P1 and CR.
+Numbers energy_errors(const std::filesystem::path& folder);
 /// 13: largest u on Gamma_C, P1 and CR on an unstructured mesh, epsilon from 1 to 1e-6 (relative to the largest).
 Numbers estimates(int cells, const std::filesystem::path& folder);
 /// 11: distances of a fine mesh's u to K_h and of its u^0 to K_0h, P1 on the structured mesh of 1/h = 8.

@@ -25,6 +25,7 @@ class ByPlace {
     for (int t = 0; t < space.mesh().triangle_count(); ++t) {
       const Eigen::Vector2d c = centre(t);
       triangles_[square(c(0), c(1))].push_back(t);
+      rows_.push_back(t == 0 ? 0 : rows_.back() + (space.mesh().region[t - 1] == Region::layer ? 1 : 0));
     }
   }
   double value(const Eigen::VectorXd& u, double x, double y) const {
@@ -36,6 +37,9 @@ class ByPlace {
     const Eigen::VectorXd local = u(space_.unknowns().row(t));
     return (space_.element().derivative(lambda) * barycentric_gradients(space_.mesh(), t)).transpose() * local;
   }
+
+  /// The stress in the layer, one value per triangle of it.
+  double stress(const Eigen::VectorXd& p, double x, double y) const { return p(rows_[place(x, y).first]); }
 
  private:
   Eigen::Vector2d centre(int t) const { return point_in(space_.mesh(), t, Eigen::Vector3d::Constant(1.0 / 3)); }
@@ -56,6 +60,7 @@ class ByPlace {
   const Space& space_;
   int cells_;
   std::vector<std::vector<int>> triangles_;  ///< of each square
+  std::vector<int> rows_;                    ///< of each triangle: how many of the layer come before it
 };
 
 }  // namespace
@@ -97,6 +102,39 @@ std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
     both.push_back(numbers);
   }
   return both;
+}
+
+Numbers energy_errors(const std::filesystem::path& folder) {
+  const int cells = 8;
+  run("33_order_h", {"-cells", std::to_string(cells), "-out", folder});
+  const Table table = read_table(folder / "errors.csv", 3);
+  if (table.rows.rows() != 12) throw Error(fmt::format("errors.csv: {} rows; accepted 12", table.rows.rows()));
+  const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
+  const Space fine_space(fine, p1());
+  const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
+  SceneSweep fine_sweep(scene, fine_space);
+  Numbers numbers;
+  Eigen::Index row = 0;
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const Space space(mesh, *element);
+    SceneSweep sweep(scene, space);
+    const ByPlace by_place(space, cells);
+    for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 0.0}) {
+      sweep.set_epsilon(epsilon);
+      fine_sweep.set_epsilon(epsilon);
+      const Solution solution = sweep.solve();
+      numbers.solved(space, solution);
+      numbers.took(table.names[row].substr(0, table.names[row].find(' ')));
+      const Reference coarse{[&](double x, double y) { return by_place.value(solution.u, x, y); },
+                             [&](double x, double y) { return by_place.gradient(solution.u, x, y); },
+                             [&](double x, double y) { return by_place.stress(solution.p, x, y); }};
+      numbers.relative(fmt::format("{}, epsilon = {:g}", element->name(), epsilon),
+                       measure_errors(fine_space, fine_sweep.solve(), epsilon, coarse).energy,
+                       table.column("error")(row++));
+    }
+  }
+  numbers.freefem_seconds = table.column("seconds").sum();
+  return numbers;
 }
 
 Numbers contact_sets(const std::filesystem::path& folder) {

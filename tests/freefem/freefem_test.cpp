@@ -594,6 +594,17 @@ TEST(FreeFemScripts, TheWorstErrorOverEpsilonIsTheSame) {
   }
 }
 
+// The error in the energy norm at each epsilon, structured meshes, against P1 on a mesh four times finer; below h |f| times
+// what chapter 33 proves.
+TEST(FreeFemScripts, TheEnergyErrorIsTheSame) {
+  const TemporaryFolder folder;
+  const freefem::Numbers errors = freefem::energy_errors(folder.path());
+  expect_same(errors, 1e-10);
+  const double unit = std::sqrt(2.0) / 8 * std::sqrt(50.0);
+  for (const freefem::Number& error : errors.all)
+    EXPECT_LT(error.theirs, (error.name.starts_with("CR") ? 1.7 : 1.3) * unit) << error.name;
+}
+
 // The worst load of a ball: power iteration there, Lanczos here, one discrete problem. Power iteration stops at a change of
 // 1e-12 of the square; at its slowest, 0.9 per step, 1e-11 is left. Against the ball in closed form: the reference's own
 // share in the square is 1/16, as above; 5 %. Locked P1 on FreeFEM's own mesh is never below l_1 = 0.10945 less that.

@@ -19,7 +19,7 @@ from library import Library
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 15),
          ("What accuracy costs", 16, 21), ("The class", 22, 99)]
-EXTRA = ["howto_scene", "howto_matrices", "lab", "dataset", "errata", "glossary", "notation"]
+EXTRA = ["howto_scene", "howto_matrices", "lab", "dataset", "uniform_rate", "errata", "glossary", "notation"]
 WIDTH, HEIGHT = 1200, 1000  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
 
 
@@ -75,7 +75,7 @@ class Book:
             if fenced or line.startswith(("    ", "<", "```")):
                 out.append(line)
                 continue
-            parts = re.split(r"(`[^`]*`|\$[^$]*\$)", line)
+            parts = re.split(r"(`[^`]*`|\$\$[^$]*\$\$|\$[^$]*\$)", line)
             joined = "\0".join(parts[1::2])
             text = "\1".join(parts[0::2])
 

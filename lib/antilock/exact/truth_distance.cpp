@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "antilock/exact/truth_data.hpp"
+#include "antilock/form/quadrature.hpp"
 
 namespace antilock {
 namespace {
@@ -30,16 +31,21 @@ double row_square_2(const SineRow& row, double scale) {
   return sum;
 }
 
-// Gauss' rule of two points on cells that shrink by half towards both ends of (0, 1), 12 times, each in two parts: high
-// waves live within 1/k of Sigma and, in the layer, within 1/(epsilon k) of either side. Good to 1e-4.
+// k pi by k
+Eigen::ArrayXd waves(const SineRow& row) { return Eigen::ArrayXd::LinSpaced(row.u.size(), 0, row.a(row.u.size() - 1)); }
+
+// Gauss' rule on cells that shrink by half towards both ends of (0, 1), 16 times: high waves live within 1/k of Sigma
+// and, in the layer, within 1/(epsilon k) of either side. Good to 1e-6.
 template <class Row>
 double integral(Row&& row) {
+  static const auto rule = gauss_rule(5);
   double sum = 0, from = 0;
-  for (int cell = 12; cell >= 1; --cell) {
-    const double to = std::ldexp(1.0, -cell), half = 0.25 * (to - from);
-    for (const double middle : {from + half, to - half})
-      for (const double t : {middle - half / std::sqrt(3.0), middle + half / std::sqrt(3.0)})
-        sum += half * (row(t) + row(1 - t));
+  for (int cell = 16; cell >= 1; --cell) {
+    const double to = std::ldexp(1.0, -cell);
+    for (Eigen::Index q = 0; q < rule.first.size(); ++q) {
+      const double t = from + (to - from) * rule.first(q);
+      sum += (to - from) * rule.second(q) * (row(t) + row(1 - t));
+    }
     from = to;
   }
   return sum;
@@ -82,6 +88,24 @@ double clamped_distance(const Truth& limit) {
     sum += 0.5 * w(k) * w(k) * (a * coth + 0.5 * (coth / a - 1 / std::pow(std::sinh(a), 2)));
   }
   return std::sqrt(sum);
+}
+
+Regularity regularity(const Truth& truth) {
+  const Truth::Data& data = truth.data();
+  const double e2 = data.epsilon * data.epsilon;
+  Regularity squares;
+  squares.body = integral([&](double y) {
+    const SineRow row = body_row(data, y);
+    const Eigen::ArrayXd a = waves(row);
+    return 0.5 * ((a * a * row.u.array()).square() + 2 * (a * row.p.array()).square() + row.p_y.array().square()).sum();
+  });
+  squares.stress_x = integral([&](double t) {
+    const SineRow row = layer_row(data, t - 1);
+    return 0.5 * (waves(row) * row.p.array()).square().sum();
+  });
+  squares.layer =
+      integral([&](double t) { return 0.5 * layer_row(data, t - 1).p_y.squaredNorm(); }) + e2 * squares.stress_x;
+  return squares;
 }
 
 }  // namespace antilock
