@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/SPQRSupport>
+#include <algorithm>
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
@@ -38,7 +39,7 @@ int kernel_dimension(const VariationalInequality& problem) {
   return problem.free_count() - static_cast<int>(qr.rank());
 }
 
-int layer_kernel_dimension(VariationalInequality problem) {
+VariationalInequality stiff_part(VariationalInequality problem) {
   check(problem);
   std::vector<char> held(problem.size(), 1);
   for (Eigen::Index row = 0; row < problem.b.rows(); ++row)
@@ -48,12 +49,29 @@ int layer_kernel_dimension(VariationalInequality problem) {
   for (int i = 0; i < problem.size(); ++i)
     if (held[i]) problem.fixed.push_back(i);
   problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  for (Eigen::Index row = 0; row < problem.combinations.rows(); ++row)  // what they combine counts as bounded
+    for (RowMatrix::InnerIterator entry(problem.combinations, row); entry; ++entry)
+      problem.contact.push_back(static_cast<int>(entry.col()));
+  std::sort(problem.contact.begin(), problem.contact.end());
+  problem.contact.erase(std::unique(problem.contact.begin(), problem.contact.end()), problem.contact.end());
   std::erase_if(problem.contact, [&](int i) { return held[i] != 0; });
   problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
   problem.force_bound.resize(0);
   problem.upper.resize(0);  // no bound has a part in the kernel of B
   problem.combinations.resize(0, 0);
-  return kernel_dimension(problem);
+  return problem;
+}
+
+int layer_kernel_dimension(const VariationalInequality& problem) { return kernel_dimension(stiff_part(problem)); }
+
+int trace_dimension(const VariationalInequality& stiff) {
+  VariationalInequality held = stiff;
+  held.fixed.insert(held.fixed.end(), stiff.contact.begin(), stiff.contact.end());
+  std::sort(held.fixed.begin(), held.fixed.end());
+  held.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(held.fixed.size()));
+  held.contact.clear();
+  held.lower.resize(0);
+  return kernel_dimension(stiff) - (held.free_count() > 0 ? kernel_dimension(held) : 0);
 }
 
 Eigen::MatrixXd kernel_basis(const VariationalInequality& problem) {

@@ -8,9 +8,14 @@ namespace antilock {
 /// malformed problem.
 int kernel_dimension(const VariationalInequality& problem);
 
-/// The same of the layer alone: without the unknowns that stand in no row of B (an entry that is zero counts), which
-/// are in every kernel.
-int layer_kernel_dimension(VariationalInequality problem);
+/// The stiff part alone: the unknowns that stand in no row of B (an entry that is zero counts), which are in every
+/// kernel, are held at 0. Its `contact` are the bounded unknowns of the stiff part, those of combinations, too.
+VariationalInequality stiff_part(VariationalInequality problem);
+/// kernel_dimension of the stiff part.
+int layer_kernel_dimension(const VariationalInequality& problem);
+/// Of a stiff part: the dimension of the trace of its kernel on the bounded unknowns, how many independent motions of
+/// the bounds cost nothing at compliance 0. The kernel, less the part of it that is 0 on all bounds.
+int trace_dimension(const VariationalInequality& stiff);
 
 /// An orthonormal basis of G_h, N x kernel_dimension, zero on the fixed unknowns. Dense: for small problems.
 Eigen::MatrixXd kernel_basis(const VariationalInequality& problem);

@@ -4,25 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <optional>
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/solve/active_set.hpp"
 
 namespace antilock {
-namespace {
-
-/// Unknowns that are free and stand in a row of B.
-int stiff_unknowns(const VariationalInequality& problem) {
-  std::vector<char> stiff(problem.size(), 0);
-  for (Eigen::Index row = 0; row < problem.b.rows(); ++row)
-    for (RowMatrix::InnerIterator entry(problem.b, row); entry; ++entry) stiff[entry.col()] = 1;
-  for (const int i : problem.fixed) stiff[i] = 0;
-  return static_cast<int>(std::count(stiff.begin(), stiff.end(), 1));
-}
-
-}  // namespace
-
 double bending_length(const TriangleMesh& mesh, int triangle) {
   const auto x = [&](int corner) { return mesh.vertices(mesh.triangles(triangle, corner % 3), 0); };
   double product = 1;
@@ -38,27 +26,88 @@ double bending_length(const TriangleMesh& mesh) {
   return area > 0 ? std::sqrt(sum / area) : 0;
 }
 
-double LockingDiagnosis::order() const {
-  if (locks() || coarse == 0) return 0;
-  return std::log(static_cast<double>(fine) / coarse) / std::log(static_cast<double>(fine_unknowns) / coarse_unknowns);
+namespace {
+
+/// What a force of 1, spread over the bounds, moves them on average, without bounds and loads. Empty: they are held by
+/// nothing else, or the solve does not get there.
+std::optional<double> flexibility(VariationalInequality problem, const std::vector<int>& bounds, double compliance) {
+  problem.load.setZero();
+  for (const int i : bounds) problem.load(i) = 1.0 / static_cast<double>(bounds.size());
+  problem.contact.clear();
+  problem.lower.resize(0), problem.upper.resize(0), problem.force_bound.resize(0), problem.combinations.resize(0, 0);
+  problem.fixed_values.setZero();
+  problem.compliance = compliance;
+  try {
+    return active_set(problem).u.dot(problem.load);
+  } catch (const Error&) {
+    return {};
+  }
 }
 
+}  // namespace
+
 std::string LockingDiagnosis::text() const {
-  return fmt::format("kernel on the stiff part: {} of {} unknowns, then {} of {}: {}", coarse, coarse_unknowns, fine,
-                     fine_unknowns,
-                     fine == 0 ? "empty, it locks completely"
-                     : locks() ? "it does not grow, it locks"
-                               : "it grows");
+  const std::string counts =
+      fmt::format("motions {}without strain: {} of {}, then {} of {}",
+                  bounded ? "of the bounds " : "of the stiff part ", coarse, coarse_bounds, fine, fine_bounds);
+  const std::string range = compliance > 0 ? fmt::format(" (from a compliance of about {:.0e} down)", compliance) : "";
+  switch (verdict()) {
+    case Verdict::locks_completely:
+      return counts + ": none, it locks completely" + range;
+    case Verdict::locks:
+      if (fine > coarse)
+        return counts +
+               fmt::format(": they grow, but refinement softens the answer by {:.0f} %: it locks", 100 * softening) +
+               range;
+      return counts + ": they do not grow, it locks" + range;
+    case Verdict::locks_in_part:
+      return counts + ": more and more bounds cannot move, it locks in part" + range;
+    case Verdict::does_not_lock_for_this_reason:
+      break;
+  }
+  return counts + ": they grow, it does not lock for this reason";
+}
+
+Verdict LockingDiagnosis::verdict() const {
+  if (fine == 0) return Verdict::locks_completely;
+  if (fine <= coarse) return Verdict::locks;
+  const int more_dead = (fine_bounds - fine) - (coarse_bounds - coarse);
+  if (bounded && more_dead > telling * (fine_bounds - coarse_bounds)) return Verdict::locks_in_part;
+  return compliance > 0 ? Verdict::locks : Verdict::does_not_lock_for_this_reason;
 }
 
 LockingDiagnosis diagnose_locking(const VariationalInequality& coarse, const VariationalInequality& fine) {
   for (const auto* problem : {&coarse, &fine})
     if (problem->b.rows() == 0) throw Error("diagnose_locking: B has no rows; accepted: a problem with a stiff form");
-  const LockingDiagnosis found{layer_kernel_dimension(coarse), layer_kernel_dimension(fine), stiff_unknowns(coarse),
-                               stiff_unknowns(fine)};
-  if (found.fine_unknowns <= found.coarse_unknowns)
-    throw Error(fmt::format("diagnose_locking: {} stiff unknowns, then {}; accepted: more on the second mesh",
-                            found.coarse_unknowns, found.fine_unknowns));
+  VariationalInequality first = stiff_part(coarse), second = stiff_part(fine);
+  LockingDiagnosis found;
+  found.bounded = !first.contact.empty() && !second.contact.empty();
+  if (!found.bounded)
+    for (VariationalInequality* stiff : {&first, &second}) {
+      stiff->contact.clear();
+      for (int i = 0; i < stiff->size(); ++i)
+        if (!std::binary_search(stiff->fixed.begin(), stiff->fixed.end(), i)) stiff->contact.push_back(i);
+      stiff->lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stiff->contact.size()));
+    }
+  found.coarse_bounds = static_cast<int>(first.contact.size());
+  found.fine_bounds = static_cast<int>(second.contact.size());
+  if (found.coarse_bounds == 0 || found.fine_bounds <= found.coarse_bounds)
+    throw Error(fmt::format("diagnose_locking: {} {}, then {}; accepted: more on the second mesh", found.coarse_bounds,
+                            found.bounded ? "bounds on the stiff part" : "stiff unknowns", found.fine_bounds));
+  found.coarse = trace_dimension(first);
+  found.fine = trace_dimension(second);
+  const auto ratio = [&](double compliance) -> std::optional<double> {
+    const auto on_coarse = flexibility(coarse, first.contact, compliance);
+    const auto on_fine = on_coarse ? flexibility(fine, second.contact, compliance) : std::nullopt;
+    if (!on_fine || !(*on_coarse > 0) || !(*on_fine > 0)) return {};
+    return *on_fine / *on_coarse;
+  };
+  const std::optional<double> soft = ratio(1);
+  for (int decade = 1; soft && decade <= 6 && found.compliance == 0; ++decade) {
+    const double compliance = std::pow(10, -decade);
+    found.softening = ratio(compliance).value_or(0) / *soft - 1;
+    if (found.softening > std::max(LockingDiagnosis::telling, std::abs(*soft - 1))) found.compliance = compliance;
+  }
   return found;
 }
 

@@ -14,24 +14,40 @@ double bending_length(const TriangleMesh& mesh, int triangle);
 /// 0 for a mesh without a layer.
 double bending_length(const TriangleMesh& mesh);
 
-/// Whether a discretisation can follow the limit epsilon -> 0, from its kernel alone, before anything is solved. In (23)
-/// the whole kernel G_h of a0 says nothing: every unknown of the body is in it, on every mesh. What decides is the kernel
-/// on the stiff part, the unknowns that stand in a row of B (the layer), and whether it grows under refinement: the
-/// functions of K_0 that it must approach (Theorem 4) are infinitely many.
-struct LockingDiagnosis {
-  int coarse = 0, fine = 0;                    ///< dim of the kernel on the stiff part, on a mesh and on a finer one
-  int coarse_unknowns = 0, fine_unknowns = 0;  ///< free unknowns of the stiff part
+enum class Verdict { locks_completely, locks, locks_in_part, does_not_lock_for_this_reason };
 
-  /// It locks: the kernel on the stiff part is 0, or does not grow. (That it grows is necessary, not sufficient: its
-  /// functions must come near every one of K_0, too.)
-  bool locks() const { return fine == 0 || fine <= coarse; }
-  /// The kernel grows like unknowns^order: 1/2 for P1 in columns, 1 for Crouzeix-Raviart; 0 where it locks.
-  double order() const;
+/// Whether a discretisation can follow the limit compliance -> 0, before anything is solved. The dimension of the kernel
+/// G_h of B does not decide: in (23) the body's unknowns are in it on every mesh, and in a coating of plane strain u_x has
+/// a rich kernel where u_y, which bears the contact, has none. What decides is the trace of G_h on the bounded unknowns.
+/// - none: as compliance -> 0 the bounds do not move (Proposition 1: u_h tends to a function of G_h). Proved.
+/// - no more on the finer mesh: K_0 has infinitely many independent traces; m + 1 of them cannot all be limits of
+///   functions whose traces have the dimension m, so that some load locks. Proved, if the number stays m on all meshes.
+/// - more, and bounds without a motion of their own in proportion: a part of the boundary is held (counterexample to "it
+///   grows": a layer with columns under one half of it and tied triangles under the other).
+/// - more, but refinement makes the bounds softer under a force at a small compliance than it does at compliance 1: a
+///   stiffness of the mesh is in the way. Observed, not proved. (Counterexample to "it grows": P1 for rubber with free
+///   sides has motions of every bound that reach one triangle deep.)
+/// - else: no locking for this reason. That is necessary for uniform convergence, not sufficient: the traces must come
+///   near every one of K_0, too (Theorem 4).
+/// B is the one of the limit: rows that depend on a thickness are asked for at thickness 0.
+struct LockingDiagnosis {
+  int coarse = 0, fine = 0;                ///< dimension of the trace on the bounds, on a mesh and on a finer one
+  int coarse_bounds = 0, fine_bounds = 0;  ///< bounded unknowns of the stiff part
+  bool bounded = true;   ///< false: nothing stiff is bounded, and all of the stiff part stands for the bounds
+  double softening = 0;  ///< flexibility under a force on the bounds, on the finer mesh over the coarser one, over the
+                         ///< same at compliance 1, less 1: of `compliance`, else of 1e-6
+  double compliance =
+      0;  ///< which compliances locking concerns: the first of 1e-1 to 1e-6 where the softening is above
+          ///< a twentieth and above what refinement changes at compliance 1; 0: none
+  static constexpr double telling = 0.05;  ///< a twentieth is no matter of the mesh width
+
+  Verdict verdict() const;
+  bool locks() const { return verdict() != Verdict::does_not_lock_for_this_reason; }
   std::string text() const;  ///< one line: both counts, and what they mean
 };
 
-/// `coarse` and `fine` are the same method on a mesh and on a finer one. Throws Error where a problem is malformed or has
-/// nothing stiff (no row of B), or where `fine` has not more unknowns in its stiff part.
+/// `coarse` and `fine` are the same method on a mesh and on a finer one. Throws Error where a problem is malformed, has
+/// nothing stiff (no row of B), or where `fine` has not more bounds there.
 LockingDiagnosis diagnose_locking(const VariationalInequality& coarse, const VariationalInequality& fine);
 
 }  // namespace antilock
