@@ -1,24 +1,19 @@
 # The room lib/antilock/distributed: PETSc over MPI, where it is asked for or found. Where it is built, there is a target
 # antilock::distributed.
-set(found FALSE)
-if(ANTILOCK_DISTRIBUTED)
-  find_package(PkgConfig QUIET)
-  if(PkgConfig_FOUND)
-    pkg_check_modules(PETSc QUIET IMPORTED_TARGET GLOBAL PETSc>=3.18)
-  endif()
+find_package(PkgConfig QUIET)
+if(ANTILOCK_DISTRIBUTED AND PkgConfig_FOUND)
+  pkg_check_modules(PETSc QUIET IMPORTED_TARGET GLOBAL PETSc>=3.18)
   find_package(MPI QUIET COMPONENTS CXX)
-  if(PETSc_FOUND AND MPI_CXX_FOUND)
-    set(found TRUE)
-    set_target_properties(MPI::MPI_CXX PROPERTIES IMPORTED_GLOBAL TRUE)
-  elseif(NOT ANTILOCK_DISTRIBUTED STREQUAL "AUTO")
+endif()
+if(NOT (PETSc_FOUND AND MPI_CXX_FOUND))
+  if(ANTILOCK_DISTRIBUTED AND NOT ANTILOCK_DISTRIBUTED STREQUAL "AUTO")
     message(FATAL_ERROR "ANTILOCK_DISTRIBUTED=${ANTILOCK_DISTRIBUTED}: PETSc (3.18 or later, by pkg-config) or MPI is missing; "
                         "`.ci/install distributed` installs both")
   endif()
-endif()
-if(NOT found)
   message(STATUS "PETSc over MPI: not built (ANTILOCK_DISTRIBUTED=${ANTILOCK_DISTRIBUTED}); solver = \"petsc\" and its tests are left out")
   return()
 endif()
+set_target_properties(MPI::MPI_CXX PROPERTIES IMPORTED_GLOBAL TRUE)
 message(STATUS "PETSc over MPI: built with PETSc ${PETSc_VERSION}")
 
 # Debian's own flags for the hardening of its packages, which are no part of PETSc's interface: with them GCC refuses the

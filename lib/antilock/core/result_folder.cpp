@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& folder, const std::string& reason) {
+[[noreturn]] void refuse_folder(const fs::path& folder, const std::string& reason) {
   throw Error(fmt::format("{}: {}; accepted: a folder that can be made and written", folder.string(), reason));
 }
 
@@ -27,10 +27,10 @@ void check_folder(const fs::path& folder) {
   try {
     part = existing_part(folder);
   } catch (const fs::filesystem_error& failure) {
-    refuse(folder, failure.code().message());
+    refuse_folder(folder, failure.code().message());
   }
-  if (!fs::is_directory(part, error)) refuse(folder, part.string() + " is no folder");
-  if (::access(part.c_str(), W_OK | X_OK) != 0) refuse(folder, part.string() + " cannot be written");
+  if (!fs::is_directory(part, error)) refuse_folder(folder, part.string() + " is no folder");
+  if (::access(part.c_str(), W_OK | X_OK) != 0) refuse_folder(folder, part.string() + " cannot be written");
 }
 
 void write_folder(const fs::path& folder, const std::function<void(const fs::path&)>& write,
@@ -45,11 +45,11 @@ void write_folder(const fs::path& folder, const std::function<void(const fs::pat
     std::vector<fs::path> names;
     for (const auto& file : fs::directory_iterator(draft.path())) names.push_back(file.path().filename());
     for (const fs::path& name : names)
-      if (fs::is_directory(folder / name)) refuse(folder, name.string() + " is a folder there");
+      if (fs::is_directory(folder / name)) refuse_folder(folder, name.string() + " is a folder there");
     for (const fs::path& name : names) fs::rename(draft.path() / name, folder / name);
     for (const std::string& name : stale) fs::remove(folder / name);
   } catch (const fs::filesystem_error& error) {
-    refuse(folder, error.code().message());
+    refuse_folder(folder, error.code().message());
   }
 }
 
