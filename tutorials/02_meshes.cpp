@@ -120,10 +120,12 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
     const Groups groups = tied(mesh);
     table.add({name, mesh.triangle_count(), tutorial::smallest_angle(mesh), groups.vertical, groups.count,
                kernel_on_layer(mesh)});
-    // ### Output
-    write_msh(options.out / (name + ".msh"), mesh);  // for this library and others
-    write_freefem_mesh(options.out / (name + ".freefem.msh"), mesh);
     layers.push_back({name, mesh, groups.leader, groups.count});
+  }
+  // ### Output
+  for (const tutorial::Layer& layer : layers) {
+    write_msh(options.out / (layer.name + ".msh"), layer.mesh);  // for this library and others
+    write_freefem_mesh(options.out / (layer.name + ".freefem.msh"), layer.mesh);
   }
   table.print("four meshes of the same domain");
   table.write(options.out / "meshes.csv");

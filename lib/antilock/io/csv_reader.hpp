@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "antilock/core/eigen_memory.hpp"
+
 namespace antilock {
 
 /// A table of finite numbers with this header line, comma separated, one row per line; empty lines are passed over. Throws
