@@ -76,8 +76,8 @@ double stress_norm(const Truth& truth) {
 double layer_norm(const Truth& truth) {
   const Truth::Data& data = truth.data();
   const SineRow none{};
-  return std::sqrt(integral(
-      [&](double t) { return row_square(layer_row(data, t - 1), data.epsilon * data.epsilon, none, 0); }));
+  return std::sqrt(
+      integral([&](double t) { return row_square(layer_row(data, t - 1), data.epsilon * data.epsilon, none, 0); }));
 }
 
 double clamped_distance(const Truth& limit) {
