@@ -39,7 +39,8 @@
 //
 // $$ ‖u^ε - u_h^ε‖_h ≤ C (ε^{-1} h + h^{3/4}), $$
 //
-// which is small *once $h ≪ ε$*. This is the paper's sentence after (28), and it is right.
+// which is small *once $h ≪ ε$*. This is the paper's sentence after (28), and it is right. (For P1 even
+// $C (1 + ε^{-1}) h$ is proved on any mesh with good angles, in [the chapter on order h](33_order_h.cpp).)
 //
 // ## Is the $ε^{-1}$ real?
 //
@@ -194,7 +195,8 @@ void judge(const Table& lost, const Table& walls, const Table& flat, tutorial::R
 // $0.4 h$ and $0.9 h$: there it is exactly what is needed. On Frontal-Delaunay's $h ≪ ε^{2/3}$ is enough. On columns
 // nothing is needed. In all cases $k$ knew it before anything was solved: the wall is at 0.8 to 1.05 times $5.84 k$.
 // It is a little to the left of the law where the triangles differ, because $u_h$ may lean on the better ones among
-// them, and the interpolant may not.
+// them, and the interpolant may not. The same $k$ costs CR a quarter of an order in the layer: that is proved on rows
+// ([order h](33_order_h.cpp)), and a conjecture elsewhere.
 //
 // ## Exercises
 //
