@@ -203,6 +203,19 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 // force. The `du` of the corrections fall by a constant factor. After the first correction the contact set hardly
 // moves: one contact step is enough.
 //
+// ## The same loop in the library
+//
+// `active_set` runs these two loops on sparse matrices, with every kind of bound. Side by side:
+//
+// | here | in `lib/antilock/solve` | what is added there |
+// |---|---|---|
+// | `touches` | `stairs.hpp` | which *piece* a bound is on: two bounds and friction are longer stairs |
+// | the inner loop | `contact.hpp` | where the guess wanders, one vertex moves at a time, and so it ends (proof there) |
+// | `r2` and `r` | `residual.hpp` | $u$ and $p$ are pairs of doubles: no digit of a residual is lost |
+// | `Cholesky`, one per guess | `penalty_factor.hpp` | one sparse factor, the vertices of $Γ_C$ last |
+// | the outer loop | `iterated_penalty.hpp` | the next start is mixed from the last few (Anderson) |
+// | `du > 1e-14` | `judge.hpp`, `kkt.hpp` | the last $du$ says how right $u$ is, a report afterwards whether all holds |
+//
 // ## Exercises
 //
 // 1. $δ = 10^{-2}$ in place of $10^{-4}$. The same $u$? As many corrections?

@@ -17,6 +17,7 @@
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/residual.hpp"
 #include "antilock/solve/kkt.hpp"
 
 namespace antilock::distributed {

@@ -186,6 +186,33 @@ VariationalInequality random_friction(unsigned seed) {
   return problem;
 }
 
+VariationalInequality random_corner(unsigned seed) {
+  Dice dice(seed ^ 0x9e3779b9u);
+  const unsigned kind = seed % 4;
+  VariationalInequality problem = kind == 3 ? random_bounds(seed) : random_problem(seed);
+  const int n = problem.size(), rows = static_cast<int>(problem.b.rows());
+  if (rows == 0) return problem;
+  Eigen::MatrixXd a1 = problem.a1, b = problem.b;
+  if (kind == 0) {  // B u = g
+    for (double& value : problem.fixed_values) value = few_digits(dice.symmetric());
+    b.row(0).setZero();
+    for (const int i : problem.fixed) b(0, i) = 1 + dice.below(3);
+  } else if (kind == 1 && rows > 1) {
+    b.row(rows - 1) = b.row(0);
+    b(rows - 1, dice.below(n)) += std::exp2(-10 - dice.below(30));
+    problem.compliance = 0;
+  } else if (kind == 2) {
+    const Eigen::VectorXd flat = Eigen::VectorXd::NullaryExpr(n, [&](auto) { return few_digits(dice.symmetric()); });
+    a1 = flat * flat.transpose() + std::exp2(-20 - dice.below(20)) * Eigen::MatrixXd::Identity(n, n);
+  }
+  if (kind == 0 || kind == 3) problem.compliance = 1e-14;
+  problem.a1 = a1.sparseView();
+  problem.b = b.sparseView();
+  problem.a1.makeCompressed();
+  problem.b.makeCompressed();
+  return problem;
+}
+
 Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& exact, By solver) {
   Judgement judgement;
   const bool solvable = exact.what == test::Exactly::solved;

@@ -20,6 +20,11 @@ VariationalInequality random_bounds(unsigned seed);
 /// some the very force at which the bound gives way.
 VariationalInequality random_friction(unsigned seed);
 
+/// Problem number `seed` of a fourth list: corners of the first two. Rows of B on prescribed values alone, at compliance
+/// 1e-14; rows of B between 1e-12 and 1e-3 from dependent; an A1 that is singular but for 1e-12 to 1e-6 of it; combinations
+/// at compliance 1e-14.
+VariationalInequality random_corner(unsigned seed);
+
 enum class Outcome {
   right,         ///< u to 1e-6 of its largest entry, no warning
   warned,        ///< answered with a warning

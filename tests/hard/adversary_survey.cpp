@@ -4,6 +4,7 @@
 // Run: adversary_survey 0 2000 uzawa         by Uzawa
 // Run: adversary_survey 0 5000 bounds        with upper bounds and bounds on combinations of unknowns
 // Run: adversary_survey 0 5000 friction      and with bounds that give way
+// Run: adversary_survey 0 5000 corners       rows on prescribed values, nearly dependent, nearly singular, tiny compliance
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,22 +30,21 @@ std::string without_numbers(const std::string& message) {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    fmt::print(
-        stderr,
-        "adversary_survey: accepted: FROM TO [uzawa] [bounds] [friction], the numbers of the problems\n");
+    fmt::print(stderr, "adversary_survey: accepted: FROM TO [uzawa] [bounds | friction | corners], the numbers\n");
     return 2;
   }
   const auto from = static_cast<unsigned>(std::atoi(argv[1])), to = static_cast<unsigned>(std::atoi(argv[2]));
   const std::vector<std::string> words(argv + 3, argv + argc);
   const auto asked = [&](const char* word) { return std::find(words.begin(), words.end(), word) != words.end(); };
   const By solver = asked("uzawa") ? By::uzawa : By::active_set;
-  const bool other_shapes = asked("bounds"), friction = asked("friction");
+  const auto problem_of = asked("friction")  ? random_friction
+                          : asked("bounds")  ? random_bounds
+                          : asked("corners") ? random_corner
+                                             : random_problem;
   const char* const outcomes[] = {"right", "warned", "refused", "rightly refused", "QUIETLY WRONG"};
   std::map<std::string, int> counts, reasons;
   for (unsigned seed = from; seed < to; ++seed) {
-    const antilock::VariationalInequality problem = friction       ? random_friction(seed)
-                                                    : other_shapes ? random_bounds(seed)
-                                                                   : random_problem(seed);
+    const antilock::VariationalInequality problem = problem_of(seed);
     const antilock::test::ExactAnswer exact = antilock::test::exact_answer(problem);
     const Judgement judgement = judge(problem, exact, solver);
     const std::string truth = exact.what == Exactly::solved       ? "has an answer"

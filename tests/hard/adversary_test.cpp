@@ -44,30 +44,64 @@ Eigen::Matrix3d chain() {
   return a1;
 }
 
-TEST(Adversary, NothingIsQuietlyWrong) {
-  int solvable = 0, refused = 0;
-  for (unsigned seed = 0; seed < 400; ++seed) {
-    const VariationalInequality problem = random_problem(seed);
+/// Problems number `from` to `to` of a list by a solver, and how many of them may be refused though they have an answer, or
+/// warned of though it is right: ten times the share measured over 5000 problems by the active set. Uzawa gives up on more,
+/// for want of more than 20,000 steps.
+struct Sample {
+  std::string name;
+  VariationalInequality (*problem)(unsigned seed);
+  By solver;
+  unsigned from, to;
+  int refused, warned;
+};
+
+class Adversary : public testing::TestWithParam<Sample> {};
+
+TEST_P(Adversary, FindsNothingWrongInSilence) {
+  const Sample& sample = GetParam();
+  int solvable = 0, refused = 0, warned = 0;
+  for (unsigned seed = sample.from; seed < sample.to; ++seed) {
+    const VariationalInequality problem = sample.problem(seed);
     const test::ExactAnswer exact = test::exact_answer(problem);
-    const Judgement judgement = judge(problem, exact);
+    const Judgement judgement = judge(problem, exact, sample.solver);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
     solvable += exact.what == test::Exactly::solved;
     refused += judgement.outcome == Outcome::refused;
+    warned += judgement.outcome == Outcome::warned && judgement.error <= 1e-6;
   }
-  EXPECT_GT(solvable, 340);  // measured over 5000: 91 % have an answer
-  EXPECT_LE(refused, 8);     // measured over 5000: 1 % of them are refused
+  EXPECT_GT(2 * solvable, static_cast<int>(sample.to - sample.from));
+  EXPECT_LE(refused, sample.refused);
+  EXPECT_LE(warned, sample.warned);
 }
 
-TEST(Adversary, NothingIsQuietlyWrongByUzawa) {
-  int refused = 0;
-  for (unsigned seed = 0; seed < 600; ++seed) {
-    const VariationalInequality problem = random_problem(seed);
-    const test::ExactAnswer exact = test::exact_answer(problem);
-    const Judgement judgement = judge(problem, exact, By::uzawa);
-    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
-    refused += judgement.outcome == Outcome::refused;
+INSTANTIATE_TEST_SUITE_P(Lists, Adversary,
+                         testing::Values(Sample{"lower", random_problem, By::active_set, 0, 400, 8, 4},
+                                         Sample{"shapes", random_bounds, By::active_set, 0, 250, 5, 4},
+                                         Sample{"friction", random_friction, By::active_set, 0, 250, 5, 4},
+                                         Sample{"corners", random_corner, By::active_set, 0, 400, 8, 8},
+                                         Sample{"lower_uzawa", random_problem, By::uzawa, 0, 600, 40, 20},
+                                         Sample{"shapes_uzawa", random_bounds, By::uzawa, 0, 600, 60, 20},
+                                         Sample{"friction_uzawa", random_friction, By::uzawa, 1000, 1060, 20, 10}),
+                         [](const auto& sample) { return sample.param.name; });
+
+// The lists hold what they are made for.
+TEST(AdversaryLists, HaveBoundsOfEveryShape) {
+  int two_sided = 0, combined = 0, slips = 0, sticks = 0;
+  for (unsigned seed = 0; seed < 250; ++seed) {
+    const VariationalInequality shapes = random_bounds(seed), friction = random_friction(seed);
+    two_sided += shapes.upper.size() > 0;
+    combined += shapes.combinations.rows() > 0;
+    const test::ExactAnswer exact = test::exact_answer(friction);
+    if (exact.what != test::Exactly::solved) continue;
+    const Eigen::VectorXd values = bounded_values(friction, exact.u);
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      if (std::isfinite(friction.force_bound(i)) && friction.lower(i) == friction.upper(i))
+        ++(values(i) == friction.lower(i) ? sticks : slips);
   }
-  EXPECT_LE(refused, 20);  // measured over 5000: 2.8 %, most for want of more than 20,000 steps
+  EXPECT_GT(two_sided, 150);
+  EXPECT_GT(combined, 80);
+  EXPECT_GT(slips, 60);
+  EXPECT_GT(sticks, 60);
 }
 
 /// The same problem for -u: what was a lower bound is an upper one.
@@ -79,72 +113,13 @@ VariationalInequality mirrored(VariationalInequality problem) {
   return problem;
 }
 
-TEST(Adversary, UpperBoundsAreJudgedLikeLowerOnes) {
+TEST(Mirror, UpperBoundsAreJudgedLikeLowerOnes) {
   for (unsigned seed = 0; seed < 400; ++seed) {
     const VariationalInequality problem = random_problem(seed);
     test::ExactAnswer exact = test::exact_answer(problem);
     const Judgement of_lower = judge(problem, exact);
     exact.u *= -1;
     EXPECT_EQ(judge(mirrored(problem), exact).outcome, of_lower.outcome) << "seed " << seed << of_lower.reason;
-  }
-}
-
-TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrong) {
-  int solvable = 0, refused = 0, two_sided = 0, combined = 0;
-  for (unsigned seed = 0; seed < 250; ++seed) {
-    const VariationalInequality problem = random_bounds(seed);
-    const test::ExactAnswer exact = test::exact_answer(problem);
-    const Judgement judgement = judge(problem, exact);
-    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
-    solvable += exact.what == test::Exactly::solved;
-    refused += judgement.outcome == Outcome::refused && judgement.reason.find("combination") == std::string::npos;
-    two_sided += problem.upper.size() > 0;
-    combined += problem.combinations.rows() > 0;
-  }
-  EXPECT_GT(solvable, 150);
-  EXPECT_GT(two_sided, 150);
-  EXPECT_GT(combined, 80);
-  EXPECT_LE(refused, 5);  // but for rows that depend on other bounds
-}
-
-TEST(Adversary, BoundsOfOtherShapesAreNotQuietlyWrongByUzawa) {
-  int refused = 0;
-  for (unsigned seed = 0; seed < 600; ++seed) {  // 538: a great load leaves round-off far above a locked u
-    const VariationalInequality problem = random_bounds(seed);
-    const Judgement judgement = judge(problem, test::exact_answer(problem), By::uzawa);
-    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
-    refused += judgement.outcome == Outcome::refused && judgement.reason.find("combination") == std::string::npos;
-  }
-  EXPECT_LE(refused, 40);  // measured over 5000: 5.9 %
-}
-
-TEST(Adversary, FrictionIsNotQuietlyWrong) {
-  int solvable = 0, refused = 0, slips = 0, sticks = 0;
-  for (unsigned seed = 0; seed < 250; ++seed) {
-    const VariationalInequality problem = random_friction(seed);
-    const test::ExactAnswer exact = test::exact_answer(problem);
-    const Judgement judgement = judge(problem, exact);
-    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
-    solvable += exact.what == test::Exactly::solved;
-    refused += judgement.outcome == Outcome::refused && judgement.reason.find("combination") == std::string::npos;
-    if (exact.what != test::Exactly::solved) continue;
-    const Eigen::VectorXd values = bounded_values(problem, exact.u);
-    for (Eigen::Index i = 0; i < values.size(); ++i) {
-      if (std::isinf(problem.force_bound(i)) || problem.lower(i) != problem.upper(i)) continue;
-      ++(values(i) == problem.lower(i) ? sticks : slips);
-    }
-  }
-  EXPECT_GT(solvable, 150);
-  EXPECT_GT(slips, 60);
-  EXPECT_GT(sticks, 60);
-  EXPECT_LE(refused, 5);  // measured over 2000: 0.5 %
-}
-
-TEST(Adversary, FrictionIsNotQuietlyWrongByUzawa) {
-  for (unsigned seed = 1000; seed < 1060; ++seed) {
-    const VariationalInequality problem = random_friction(seed);
-    const Judgement judgement = judge(problem, test::exact_answer(problem), By::uzawa);
-    EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
   }
 }
 

@@ -12,7 +12,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/contact_problem.hpp"
+#include "antilock/solve/dense_contact.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/random_contact.hpp"
@@ -205,13 +205,13 @@ TEST_P(Degenerate, TheWorstStartsEndInTheSameAnswer) {
   for (const std::vector<bool>& start :
        {std::vector<bool>(c, true), std::vector<bool>(c, false), alternating, opposite}) {
     ActiveSetOptions options;
-    options.start = start;
+    options.start = held_at_lower(start);
     const Solution s = proved(paper, options);
     EXPECT_EQ(s.active, best.active);
     EXPECT_LT(largest_difference(s.u, best.u), 1e-9 * best.u.lpNorm<Eigen::Infinity>());
   }
   ActiveSetOptions impatient;
-  impatient.start = opposite;
+  impatient.start = held_at_lower(opposite);
   impatient.max_steps = 1;
   EXPECT_THROW(active_set(paper, impatient), NotConverged) << "a cap that is reached is a failure, not an answer";
 }
@@ -271,10 +271,11 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
     const int n = contact.size();
     const Eigen::MatrixXd& s = contact.s;
     const Eigen::VectorXd &q = contact.q, &lower = contact.lower;
-    const ContactProblem problem{s, q, lower, 0};
+    DenseContact system(s, q);
     cycles += !plain_settles(s, q);
     for (const bool start : {false, true}) {
-      const ContactAnswer answer = solve_contact(problem, std::vector<bool>(n, start), 500);
+      const ContactAnswer answer =
+          solve_contact(system, {lower}, Pieces(n, start ? Piece::at_lower : Piece::between), 500);
       most = std::max(most, answer.steps);
       // relative to the condition number, 1e7 at most: 64 round-offs of S v moved by S^-1
       const double v_scale = answer.v.lpNorm<Eigen::Infinity>(), f_scale = s.cwiseAbs().maxCoeff() * v_scale + 1;
@@ -292,14 +293,15 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
 TEST(Cycling, TheCapIsAFailure) {
   const Eigen::MatrixXd s = Eigen::MatrixXd::Identity(4, 4);
   const Eigen::VectorXd q = Eigen::Vector4d(1, -1, 1, -1), lower = Eigen::Vector4d::Zero();
+  DenseContact system(s, q);
   try {
-    solve_contact({s, q, lower, 0}, std::vector<bool>(4, false), 1);
+    solve_contact(system, {lower}, Pieces(4, Piece::between), 1);
     FAIL() << "one step is not enough";
   } catch (const NotConverged& failure) {
     EXPECT_EQ(failure.steps, 1);
     EXPECT_DOUBLE_EQ(failure.reached, 0.5);
   }
-  EXPECT_EQ(solve_contact({s, q, lower, 0}, std::vector<bool>(4, false), 2).steps, 2);
+  EXPECT_EQ(solve_contact(system, {lower}, Pieces(4, Piece::between), 2).steps, 2);
 }
 
 }  // namespace

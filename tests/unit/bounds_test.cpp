@@ -12,16 +12,16 @@
 #include "antilock/form/elasticity_forms.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/models/plane_strain.hpp"
-#include "antilock/problem/bounded_unknowns.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/contact_problem.hpp"
+#include "antilock/solve/dense_contact.hpp"
 #include "antilock/solve/exhibits/summed_matrix.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
-#include "antilock/solve/handed_back.hpp"
 #include "antilock/solve/kkt.hpp"
+#include "antilock/solve/residual.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "antilock/study/sweep.hpp"
 #include "support/brute_force.hpp"
+#include "support/exact_rational.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::bounds_test {
@@ -43,7 +43,11 @@ RowMatrix rows_of(const Eigen::MatrixXd& rows) {
 struct Box {
   Eigen::MatrixXd s;
   Eigen::VectorXd q, lower, upper;
-  ContactProblem problem() const { return {s, q, lower, 1, {}, {}, upper}; }
+  ContactAnswer solve(const Pieces& start, int max_steps = 1000) const {
+    DenseContact system(s, q);
+    return solve_contact(system, {lower, upper}, start, max_steps);
+  }
+  Pieces nested() const { return DenseContact(s, q).nested_start({lower, upper}, 200); }
 };
 
 /// S = A A' + I / 100; a third of the bounds from below alone, a sixth from above alone, a few equations.
@@ -70,7 +74,7 @@ void expect_right(const Box& box, const ContactAnswer& answer, double tolerance)
   const Eigen::VectorXd lambda = box.s * answer.v - box.q;
   EXPECT_LT((lambda - answer.lambda).lpNorm<Eigen::Infinity>(), tolerance);
   for (int i = 0; i < box.q.size(); ++i) {
-    const bool low = answer.active[i] && !answer.above[i], high = answer.active[i] && answer.above[i];
+    const bool low = answer.pieces[i] == Piece::at_lower, high = answer.pieces[i] == Piece::at_upper;
     EXPECT_GE(answer.v(i), box.lower(i) - tolerance);
     EXPECT_LE(answer.v(i), box.upper(i) + tolerance);
     if (low) {
@@ -94,12 +98,9 @@ TEST(Box, EveryStartLeadsToTheOneAnswer) {
     const Box box = random_box(5, seed);
     Eigen::VectorXd v;
     for (int start = 0; start < 243; start += 7) {  // of 3^5
-      HeldBounds held(std::vector<bool>(5), std::vector<bool>(5));
-      for (int i = 0, digits = start; i < 5; ++i, digits /= 3) {
-        held.active[i] = digits % 3 > 0;
-        held.above[i] = digits % 3 == 2;
-      }
-      const ContactAnswer answer = solve_contact(box.problem(), held, 1000);
+      Pieces pieces;
+      for (int i = 0, digits = start; i < 5; ++i, digits /= 3) pieces.push_back(static_cast<Piece>(digits % 3 - 1));
+      const ContactAnswer answer = box.solve(pieces);
       expect_right(box, answer, 1e-11);  // strictly convex: what meets the conditions is the answer
       if (v.size() > 0) {
         EXPECT_LT((answer.v - v).lpNorm<Eigen::Infinity>(), 1e-11) << seed;
@@ -112,22 +113,22 @@ TEST(Box, EveryStartLeadsToTheOneAnswer) {
 TEST(Box, BadlyConditionedOnesDoNotCycle) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const Box box = random_box(12, seed, 4);
-    expect_right(box, solve_contact(box.problem(), std::vector<bool>(12, false), 200), 1e-8);
-    expect_right(box, solve_contact(box.problem(), nested_start(box.problem(), 200), 200), 1e-8);
+    expect_right(box, box.solve(Pieces(12, Piece::between), 200), 1e-8);
+    expect_right(box, box.solve(box.nested(), 200), 1e-8);
   }
 }
 
-TEST(Box, AWrongSideCostsOneStep) {
+TEST(Box, AWrongSideCostsAStepPerPiece) {
   Box box;
   box.s = Eigen::MatrixXd::Identity(9, 9);
   box.q = Eigen::VectorXd::Constant(9, 5);
   box.lower = Eigen::VectorXd::Constant(9, -1);
   box.upper = Eigen::VectorXd::Constant(9, 1);
-  const ContactAnswer answer = solve_contact(box.problem(), std::vector<bool>(9, true), 10);
-  EXPECT_EQ(answer.steps, 2);
+  const ContactAnswer answer = box.solve(Pieces(9, Piece::at_lower), 10);
+  EXPECT_EQ(answer.steps, 3);  // at_lower, between, at_upper
   EXPECT_EQ(answer.v, box.upper);
-  EXPECT_EQ(answer.above, std::vector<bool>(9, true));
-  EXPECT_EQ(solve_contact(box.problem(), {answer.active, answer.above}, 10).steps, 1);
+  EXPECT_EQ(answer.pieces, Pieces(9, Piece::at_upper));
+  EXPECT_EQ(box.solve(answer.pieces, 10).steps, 1);
 }
 
 // ---- A string between a floor and a ceiling.
@@ -222,8 +223,9 @@ TEST(StringBetweenFloorAndCeiling, TheNestedStartKnowsTheSides) {
   const String string;
   Eigen::MatrixXd s = Eigen::MatrixXd(string.problem.a1).block(1, 1, string.n - 1, string.n - 1);
   const Eigen::VectorXd q = string.problem.load.segment(1, string.n - 1);
-  const ContactProblem p{s, q, string.problem.lower, 1, {}, {}, string.problem.upper};
-  EXPECT_LE(solve_contact(p, nested_start(p, 100), 100).steps, 3);
+  const Stairs stairs{string.problem.lower, string.problem.upper, {}};
+  DenseContact system(s, q);
+  EXPECT_LE(solve_contact(system, stairs, system.nested_start(stairs, 100), 100).steps, 3);
 }
 
 TEST(StringBetweenFloorAndCeiling, ASweepKeepsTheSides) {
@@ -254,7 +256,7 @@ TEST(StringBetweenFloorAndCeiling, AStartAtBoundsThatAreGoneIsNoHarm) {
     ActiveSetOptions options;
     options.road = road;
     EXPECT_LT(relative_difference(active_set(string.problem, options).u, string.u), 1e-13);
-    options.start = HeldBounds(std::vector<bool>(string.n - 1, true), std::vector<bool>(string.n - 1, true));
+    options.start = Pieces(string.n - 1, Piece::at_upper);
     EXPECT_LT(relative_difference(active_set(string.problem, options).u, string.u), 1e-13);
     EXPECT_LT(relative_difference(active_set(from_below, options).u, below), 1e-13);
     VariationalInequality far = from_below;
@@ -512,14 +514,11 @@ TEST(BlockOnASlope, IsTheFlatOneTurned) {
         EXPECT_EQ(s.active, flat.active);
         EXPECT_EQ(s.warning, "");
         EXPECT_LT(worst_violation(s.kkt), 1e-9);
-        // the equations are as sparse as before: the slope couples the two displacements of a point
-        const BoundedUnknowns basis(slope.problem);
-        EXPECT_LT(basis.problem.a1.nonZeros(), 1.1 * static_cast<double>(slope.problem.a1.nonZeros()));
       }
     }
 }
 
-// ---- The change of unknowns.
+// ---- Bounds on combinations.
 
 /// Three points (u_x, u_y) on springs.
 VariationalInequality springs(const Eigen::MatrixXd& rows, const Eigen::VectorXd& load) {
@@ -534,7 +533,7 @@ VariationalInequality springs(const Eigen::MatrixXd& rows, const Eigen::VectorXd
   return problem;
 }
 
-TEST(BoundedUnknowns, APointInAGrooveStandsOnBothWalls) {
+TEST(Combinations, APointInAGrooveStandsOnBothWalls) {
   // walls of normals (sin a, cos a) and (-sin a, cos a): no unknown is one wall's alone. Pressed into the edge u = 0.
   const double a = 0.7;
   Eigen::MatrixXd walls(2, 2);
@@ -552,97 +551,41 @@ TEST(BoundedUnknowns, APointInAGrooveStandsOnBothWalls) {
   EXPECT_LT((t.lambda - Eigen::Vector2d(0.1, 0)).norm(), 1e-15);
 }
 
-TEST(BoundedUnknowns, AreTheSameProblem) {
-  // a chain of differences, two rows that share their unknowns, units from 1e-6 to 1e6
-  std::mt19937 engine(5);
-  std::normal_distribution<double> normal;
-  const int n = 9;
-  Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(5, n);
-  rows(0, 1) = rows(1, 2) = rows(2, 3) = 1;
-  rows(0, 0) = rows(1, 1) = rows(2, 2) = -1;
-  rows(3, 5) = rows(4, 5) = 0.6;
-  rows(3, 6) = 0.8;
-  rows(4, 6) = -0.8;
-  rows(4, 8) = 0.25;
-  for (int k = 0; k < 5; ++k) rows.row(k) *= std::pow(10, 3 * (k - 2));
-  VariationalInequality problem = springs(rows, Eigen::VectorXd::NullaryExpr(n, [&] { return normal(engine); }));
-  problem.a1 = Eigen::MatrixXd(Eigen::MatrixXd::Identity(n, n) * 3 + Eigen::MatrixXd::Ones(n, n)).sparseView();
-  problem.b = rows_of(Eigen::MatrixXd::NullaryExpr(3, n, [&] { return normal(engine); }));
-  problem.m = Eigen::Vector3d(1, 2, 3);
-  problem.fixed = {8};
-  problem.fixed_values = Eigen::VectorXd::Constant(1, 0.5);
-  problem.contact = {4};
-  problem.lower = Eigen::VectorXd::NullaryExpr(6, [&] { return normal(engine); });
-  const BoundedUnknowns basis(problem);
-  ASSERT_EQ(basis.problem.contact.size(), 6U);
-  EXPECT_EQ(basis.problem.combinations.rows(), 0);
-  EXPECT_NO_THROW(check(basis.problem));
-  for (int trial = 0; trial < 5; ++trial) {
-    Eigen::VectorXd w = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(engine); });
-    w(8) = 0.5;
-    const Eigen::VectorXd u = basis.t * w;
-    EXPECT_EQ(u(8), 0.5);
-    const Eigen::VectorXd slack_u = slack(problem, u).cwiseProduct(basis.scale), slack_w = slack(basis.problem, w);
-    EXPECT_LT((slack_u - slack_w).lpNorm<Eigen::Infinity>(), 1e-13 * slack_w.lpNorm<Eigen::Infinity>());
-    EXPECT_NEAR(u.dot(problem.a1 * u), w.dot(basis.problem.a1 * w), 1e-12 * u.squaredNorm());
-    EXPECT_LT((problem.b * u - basis.problem.b * w).norm(), 1e-13 * u.norm() * 10);
-    EXPECT_NEAR(problem.load.dot(u), basis.problem.load.dot(w), 1e-12 * u.norm());
-  }
-  EXPECT_LT((basis.scale.array().log2() - basis.scale.array().log2().round()).abs().maxCoeff(), 1e-15);
-}
-
-TEST(BoundedUnknowns, RowsThatDependOnEachOtherAreRefused) {
-  const Eigen::Vector4d load(1, 2, 3, 4);
-  const std::string words = "has no unknown of its own";
+TEST(Combinations, MayShareUnknownsAndDependOnEachOther) {
+  const Eigen::Vector4d load(1, -2, 3, -4);
+  const auto right = [](const VariationalInequality& problem) {
+    const test::ExactAnswer truth = test::exact_answer(problem);
+    ASSERT_EQ(truth.what, test::Exactly::solved);
+    for (const Solution& s : {active_set(problem), uzawa(problem)})
+      EXPECT_LT((s.u - truth.u).lpNorm<Eigen::Infinity>(), 1e-8 * truth.u.lpNorm<Eigen::Infinity>()) << s.solver;
+  };
   Eigen::MatrixXd rows(3, 4);
   rows << 1, -1, 0, 0, 0, 1, -1, 0, 1, 0, -1, 0;  // the third is the sum of the others
-  expect_refused([&] { active_set(springs(rows, load)); }, words);
-  expect_refused([&] { uzawa(springs(rows, load)); }, words);
+  right(springs(rows, load));
   rows(2, 2) = -1 + 1e-3;
-  EXPECT_NO_THROW(active_set(springs(rows, load)));
-  rows(2, 2) = -1 + 1e-13;
-  expect_refused([&] { active_set(springs(rows, load)); }, words);
+  right(springs(rows, load));
   // all unknowns of a row are bounded by themselves, or fixed
   VariationalInequality problem = springs(rows.topRows(1), load);
   problem.contact = {0, 1};
   problem.lower.setZero(3);
-  expect_refused([&] { active_set(problem); }, words);
+  right(problem);
   problem.contact = {0};
   problem.lower.setZero(2);
   problem.fixed = {1};
-  problem.fixed_values = Eigen::VectorXd::Zero(1);
-  expect_refused([&] { active_set(problem); }, words);
+  problem.fixed_values = Eigen::VectorXd::Constant(1, 0.25);
+  right(problem);
   problem.contact.clear();
   problem.lower.setZero(1);
-  EXPECT_NO_THROW(active_set(problem));
   problem.fixed = {0, 1};
   problem.fixed_values.setZero(2);
   expect_refused([&] { active_set(problem); }, "holds no free unknown");
   // more rows than unknowns
-  expect_refused([&] { active_set(springs(Eigen::MatrixXd::Random(5, 4), load)); }, words);
+  Eigen::MatrixXd many(5, 4);
+  many << 1, 0.5, 0, 0, 0, 1, 0.25, 0, 0, 0, 1, 0.5, 1, 1, 1, 1, 0.5, 0, 0, -1;
+  right(springs(many, load));
 }
 
-TEST(BoundedUnknowns, RowsThatFillInAreRefusedBeforeTheyFillTheMemory) {
-  // u_k - u_(k+1) >= 0: u_k is the sum of all w from k on, 1500^2 / 2 entries; accepted are 20 per unknown and 1e6
-  constexpr int n = 1500;
-  std::vector<Eigen::Triplet<double>> steps;
-  for (int k = 0; k < n; ++k) {
-    steps.emplace_back(k, k, 1);
-    steps.emplace_back(k, k + 1, -1);
-  }
-  VariationalInequality problem;
-  problem.a1.resize(n + 1, n + 1);
-  problem.a1.setIdentity();
-  problem.a1.makeCompressed();
-  problem.b.resize(0, n + 1);
-  problem.load = Eigen::VectorXd::Ones(n + 1);
-  problem.combinations.resize(n, n + 1);
-  problem.combinations.setFromTriplets(steps.begin(), steps.end());
-  problem.lower = Eigen::VectorXd::Zero(n);
-  expect_refused([&] { BoundedUnknowns{problem}; }, "accepted: rows that share fewer unknowns");
-}
-
-TEST(BoundedUnknowns, TheUnitOfARowDoesNotMatter) {
+TEST(Combinations, TheUnitOfARowDoesNotMatter) {
   Eigen::MatrixXd rows(2, 4);
   rows << 1, -0.5, 0, 0, 0, 0.3, 1, 1;
   VariationalInequality problem = springs(rows, Eigen::Vector4d(-1, 2, -3, 0.5));
@@ -842,21 +785,13 @@ TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
   EXPECT_EQ(contact_zone(space, above, s).active, std::count(s.active.begin(), s.active.end(), true));
   const std::string words = "accepted: bounds on unknowns";
   const Solution c = active_set(combined);
-  PenaltyFactor factor(combined);
-  expect_refused([&] { active_set(combined, factor); }, words);
-  expect_refused([&] { uzawa(combined, factor); }, words);
-  expect_refused([&] { Sweep{combined}; }, words);
   expect_refused([&] { contact_table(space, combined, c); }, words);
   expect_refused([&] { contact_zone(space, combined, c); }, words);
-  // and the way that is named there
-  const BoundedUnknowns basis(combined);
-  PenaltyFactor of_basis(basis.problem);
-  EXPECT_EQ(handed_back(combined, basis, active_set(basis.problem, of_basis)).u, c.u);
-  Solution doubted = active_set(basis.problem, of_basis);
-  doubted.warning = "what the solver says";
-  EXPECT_EQ(handed_back(combined, basis, doubted).warning, doubted.warning);
-  expect_refused([&] { handed_back(String().problem, basis, active_set(basis.problem, of_basis)); },
-                 "of another problem");
+  // a combination of one unknown is that unknown, by a factor made before and in a sweep, too
+  PenaltyFactor factor(combined);
+  const Eigen::VectorXd u = active_set(assemble(scene, space)).u;
+  for (const Solution& answer : {c, active_set(combined, factor), uzawa(combined, factor), Sweep(combined).solve()})
+    EXPECT_LT(relative_difference(answer.u, u), 1e-8) << answer.solver;
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 // The contact problem on Gamma_C: a linear complementarity problem, solved from any start.
-#include "antilock/solve/contact_problem.hpp"
-#include "antilock/solve/contact_loop.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/solve/dense_contact.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,11 @@ namespace {
 struct Random {
   Eigen::MatrixXd s;
   Eigen::VectorXd q, lower;
-  ContactProblem problem() const { return {s, q, lower, 1}; }
+  ContactAnswer solve(const Pieces& start, int max_steps = 1000) const {
+    DenseContact system(s, q);
+    return solve_contact(system, {lower}, start, max_steps);
+  }
+  Pieces nested() const { return DenseContact(s, q).nested_start({lower}, 1000); }
 };
 
 /// S = A A' + I / 100, dense, not an M-matrix. With a `rank` of A below `size` plain active-set exchanges may cycle.
@@ -47,12 +51,13 @@ ContactAnswer enumerate(const Random& r) {
     const Eigen::VectorXd x = test::lu_solve(system, rhs);  // v - lower, or lambda: both must be nonnegative
     if (x.minCoeff() < -1e-12) continue;
     ++found;
-    answer.active.assign(n, false);
+    answer.pieces.assign(n, Piece::between);
     answer.v = r.lower;
     answer.lambda = Eigen::VectorXd::Zero(n);
     for (int i = 0; i < n; ++i) {
-      answer.active[i] = (set >> i) & 1U;
-      (answer.active[i] ? answer.lambda(i) : answer.v(i)) += x(i);
+      const bool held = (set >> i) & 1U;
+      if (held) answer.pieces[i] = Piece::at_lower;
+      (held ? answer.lambda(i) : answer.v(i)) += x(i);
     }
   }
   EXPECT_EQ(found, 1);
@@ -64,11 +69,11 @@ TEST(ContactProblem, FindsTheOneAnswerFromEveryStart) {
     const Random r = random_problem(2 + static_cast<int>(seed % 7), seed);
     const ContactAnswer truth = enumerate(r);
     const auto n = r.q.size();
-    std::vector<bool> alternating(n);
-    for (Eigen::Index i = 0; i < n; ++i) alternating[i] = i % 2 == 0;
-    for (const auto& start : {std::vector<bool>(n, false), std::vector<bool>(n, true), alternating}) {
-      const ContactAnswer answer = solve_contact(r.problem(), start, 1000);
-      EXPECT_EQ(answer.active, truth.active) << "seed " << seed;
+    Pieces alternating(n, Piece::between);
+    for (Eigen::Index i = 0; i < n; i += 2) alternating[i] = Piece::at_lower;
+    for (const auto& start : {Pieces(n, Piece::between), Pieces(n, Piece::at_lower), alternating}) {
+      const ContactAnswer answer = r.solve(start);
+      EXPECT_EQ(answer.pieces, truth.pieces) << "seed " << seed;
       // condition of S: up to about 1e4 for these
       EXPECT_LT((answer.v - truth.v).cwiseAbs().maxCoeff(), 1e-9 * (1 + truth.v.norm())) << "seed " << seed;
       EXPECT_LT((answer.lambda - truth.lambda).cwiseAbs().maxCoeff(), 1e-9 * (1 + truth.lambda.norm()));
@@ -79,7 +84,7 @@ TEST(ContactProblem, FindsTheOneAnswerFromEveryStart) {
 TEST(ContactProblem, TheConditionsHoldOnLargeProblems) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     const Random r = random_problem(80, seed);
-    const ContactAnswer answer = solve_contact(r.problem(), std::vector<bool>(80, false), 100000);
+    const ContactAnswer answer = r.solve(Pieces(80, Piece::between), 100000);
     const double scale = answer.lambda.maxCoeff();
     EXPECT_GE(answer.lambda.minCoeff(), -1e-12 * scale);
     EXPECT_GE((answer.v - r.lower).minCoeff(), -1e-12 * answer.v.cwiseAbs().maxCoeff());
@@ -110,7 +115,7 @@ TEST(ContactProblem, SinglePivotsEndWhatWholeSetExchangesRepeatForEver) {
     const Random r = random_problem(10, seed, 6);
     if (plain_exchanges_end(r)) continue;
     ++cycles;
-    const ContactAnswer answer = solve_contact(r.problem(), std::vector<bool>(10, false), 1000);
+    const ContactAnswer answer = r.solve(Pieces(10, Piece::between), 1000);
     EXPECT_GE(answer.lambda.minCoeff(), -1e-9) << seed;
     EXPECT_GE((answer.v - r.lower).minCoeff(), -1e-9) << seed;
   }
@@ -119,8 +124,8 @@ TEST(ContactProblem, SinglePivotsEndWhatWholeSetExchangesRepeatForEver) {
 
 TEST(ContactProblem, StartingAtTheAnswerTakesOneStep) {
   const Random r = random_problem(8, 5);
-  const ContactAnswer first = solve_contact(r.problem(), std::vector<bool>(8, false), 1000);
-  const ContactAnswer again = solve_contact(r.problem(), first.active, 1000);
+  const ContactAnswer first = r.solve(Pieces(8, Piece::between), 1000);
+  const ContactAnswer again = r.solve(first.pieces);
   EXPECT_GT(first.steps, 1);
   EXPECT_EQ(again.steps, 1);
   EXPECT_EQ(again.v, first.v);
@@ -129,86 +134,66 @@ TEST(ContactProblem, StartingAtTheAnswerTakesOneStep) {
 TEST(ContactProblem, AllFreeAndAllHeld) {
   Random r = random_problem(6, 7);
   r.lower.setConstant(-1e6);
-  EXPECT_EQ(solve_contact(r.problem(), std::vector<bool>(6, true), 1000).active, std::vector<bool>(6, false));
+  EXPECT_EQ(r.solve(Pieces(6, Piece::at_lower), 1000).pieces, Pieces(6, Piece::between));
   r.s = Eigen::MatrixXd::Identity(6, 6);
   r.lower.setConstant(1e6);
-  const ContactAnswer held = solve_contact(r.problem(), std::vector<bool>(6, false), 1000);
-  EXPECT_EQ(held.active, std::vector<bool>(6, true));
+  const ContactAnswer held = r.solve(Pieces(6, Piece::between), 1000);
+  EXPECT_EQ(held.pieces, Pieces(6, Piece::at_lower));
   EXPECT_EQ(held.v, r.lower);
 }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-const Eigen::VectorXd none;
 
-TEST(ContactBounds, NearestAndReachedAreTheProjectionAndItsSides) {
-  // below, at the lower bound, between, at the upper bound, above; an equation; no lower bound; no upper bound
-  const Eigen::VectorXd lower{{0, 0, 0, 0, 0, 1, -infinity, 0}}, upper{{1, 1, 1, 1, 1, 1, 1, infinity}};
-  const ContactBounds bounds{lower, upper, none};
-  const Eigen::VectorXd v{{-2, 0, 0.5, 1, 3, 7, -9, 9}};
-  const Eigen::VectorXd nearest = bounds.nearest(v);
-  EXPECT_EQ(nearest, (Eigen::VectorXd{{0, 0, 0.5, 1, 1, 1, -9, 9}}));
-  for (const Eigen::VectorXd& at : {v, nearest}) {
-    const HeldBounds held = bounds.reached(at);
-    EXPECT_EQ(held.active, (std::vector<bool>{true, true, false, true, true, true, false, false}));
-    EXPECT_FALSE(held.above[0] || held.above[1] || held.above[2] || held.above[6] || held.above[7]);
-    EXPECT_TRUE(held.above[3] && held.above[4]);
-    for (const int i : {0, 1, 3, 4}) EXPECT_EQ(bounds.at(held, i), nearest(i)) << i;
-  }
-  const ContactBounds floor{lower, none, none};
-  EXPECT_EQ(floor.nearest(v), (Eigen::VectorXd{{0, 0, 0.5, 1, 3, 7, -9, 9}}));
-  EXPECT_TRUE(floor.reached(v).above.empty());
-}
-
-TEST(ContactBounds, AStartAsksForBoundsThatThereAre) {
-  // two-sided, from below, from above, an equation
-  const Eigen::VectorXd lower{{0, 0, -infinity, 1}}, upper{{1, infinity, 1, 1}};
-  const ContactBounds bounds{lower, upper, none};
-  const HeldBounds all = bounds.allowed(HeldBounds(std::vector<bool>(4, true), std::vector<bool>(4, true)));
-  EXPECT_EQ(all.active, std::vector<bool>(4, true));
-  EXPECT_EQ(all.above, (std::vector<bool>{true, false, true, true}));
-  const HeldBounds low = bounds.allowed(std::vector<bool>(4, true));
-  EXPECT_EQ(low.above, (std::vector<bool>{false, false, true, false}));
-  const HeldBounds free = bounds.allowed(std::vector<bool>(4, false));
-  EXPECT_EQ(free.active, (std::vector<bool>{false, false, false, true}));
-  EXPECT_EQ(free.above, std::vector<bool>(4, false));
-}
-
-TEST(ContactBounds, AnUnknownThatIsLetGoCrossesOnlyWhereItsForceTakesItAcross) {
-  // one unknown, stiffness 2, bounds 0 and 1: a force of 2 moves it from one bound to the other
-  const Eigen::VectorXd lower{{0}}, upper{{1}};
-  const ContactBounds bounds{lower, upper, none};
-  for (const bool above : {false, true})
-    for (const double force : {1.9, 2.1}) {
-      HeldBounds held({true}, {above});
-      bounds.exchange(held, 0, above ? 1 : 0, above ? force : -force, 2);
-      EXPECT_EQ(held.active[0], force > 2) << above;
-      EXPECT_EQ(held.above[0], force > 2 && !above) << above;
+// Below a bound that gives way, at it, between, at the upper bound, above it: v rises and lambda falls.
+TEST(Stairs, ValuesRiseAndForcesFallFromPieceToPiece) {
+  const Stairs stairs{Eigen::VectorXd{{0}}, Eigen::VectorXd{{1}}, Eigen::VectorXd{{3}}};
+  const Pieces all{Piece::below, Piece::at_lower, Piece::between, Piece::at_upper, Piece::above};
+  double v = -infinity, lambda = infinity;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto [low, high] = stairs.found(0, all[k]);
+    const double given = stairs.given(0, all[k]);
+    EXPECT_GE(is_held(all[k]) ? given : low, v);
+    EXPECT_LE(is_held(all[k]) ? high : given, lambda);
+    v = is_held(all[k]) ? given : high, lambda = is_held(all[k]) ? low : given;
+    if (k > 0) {
+      EXPECT_EQ(stairs.next(0, all[k], false), all[k - 1]);
+      EXPECT_EQ(stairs.next(0, all[k - 1], true), all[k]);
     }
-  for (const double v : {-0.5, 1.5}) {  // free, and beyond a bound: held there
-    HeldBounds held({false}, {false});
-    bounds.exchange(held, 0, v, 0, 2);
-    EXPECT_TRUE(held.active[0]);
-    EXPECT_EQ(held.above[0], v > 1);
   }
+  EXPECT_EQ(v, infinity);
+  EXPECT_EQ(lambda, -3);
 }
 
-TEST(ContactProblem, ViolationsBelowTheRoundOffOfTheWholeProblemAreNotFollowed) {
-  // v = -1e-10 under a bound of 0: a violation where the largest |u| is 1, round-off where it is 1e6 or is known to be
-  const Eigen::MatrixXd s = Eigen::MatrixXd::Identity(1, 1);
-  const Eigen::VectorXd q{{-1e-10}}, lower{{0}};
-  EXPECT_TRUE(solve_contact({s, q, lower, 1}, std::vector<bool>{false}, 10).active[0]);
-  EXPECT_FALSE(solve_contact({s, q, lower, 1e6}, std::vector<bool>{false}, 10).active[0]);
-  ContactProblem known{s, q, lower, 1e6};
-  known.noise = Eigen::VectorXd{{1e-12}};
-  EXPECT_TRUE(solve_contact(known, std::vector<bool>{false}, 10).active[0]);
-  known.noise = Eigen::VectorXd{{1e-9}};
-  EXPECT_FALSE(solve_contact(known, std::vector<bool>{false}, 10).active[0]);
+TEST(Stairs, AnEquationHasThreePiecesAndNothingBetween) {
+  const Stairs stairs{Eigen::VectorXd{{2}}, Eigen::VectorXd{{2}}, Eigen::VectorXd{{3}}};
+  EXPECT_EQ(stairs.next(0, Piece::below, true), Piece::at_lower);
+  EXPECT_EQ(stairs.next(0, Piece::at_lower, true), Piece::above);
+  EXPECT_EQ(stairs.next(0, Piece::above, false), Piece::at_lower);
+  EXPECT_EQ(stairs.next(0, Piece::at_lower, false), Piece::below);
+  EXPECT_EQ(stairs.found(0, Piece::at_lower).low, -3);
+  EXPECT_EQ(stairs.found(0, Piece::at_lower).high, 3);
+}
+
+TEST(Stairs, AStartAsksForPiecesThatThereAre) {
+  // two-sided, from below, from above, an equation; each bears anything, then each gives way
+  const Eigen::VectorXd lower{{0, 0, -infinity, 1}}, upper{{1, infinity, 1, 1}};
+  using P = Piece;
+  const Stairs none{Eigen::VectorXd{{-infinity}}};  // a coarse start may ask for a bound that is not there
+  for (const P asked : {P::at_lower, P::at_upper, P::above}) EXPECT_EQ(none.there_are({asked}), Pieces{P::between});
+  const Stairs hard{lower, upper, {}}, soft{lower, upper, Eigen::VectorXd::Ones(4)};
+  EXPECT_EQ(hard.there_are(Pieces(4, P::at_upper)), (Pieces{P::at_upper, P::at_lower, P::at_upper, P::at_lower}));
+  EXPECT_EQ(hard.there_are(Pieces(4, P::at_lower)), (Pieces{P::at_lower, P::at_lower, P::at_upper, P::at_lower}));
+  EXPECT_EQ(hard.there_are(Pieces(4, P::between)), (Pieces{P::between, P::between, P::between, P::at_lower}));
+  EXPECT_EQ(hard.there_are(Pieces(4, P::below)), (Pieces{P::between, P::between, P::between, P::at_lower}));
+  EXPECT_EQ(soft.there_are(Pieces(4, P::below)), (Pieces{P::below, P::below, P::between, P::below}));
+  EXPECT_EQ(soft.there_are(Pieces(4, P::above)), (Pieces{P::above, P::between, P::above, P::above}));
+  test::expect_refused([&] { hard.there_are(Pieces(3, P::between)); }, "3 pieces; accepted one per bound, 4");
 }
 
 TEST(ContactProblem, TooFewStepsIsAFailureThatSaysHowFarItCame) {
   const Random r = random_problem(8, 5);
   try {
-    solve_contact(r.problem(), std::vector<bool>(8, false), 1);
+    r.solve(Pieces(8, Piece::between), 1);
     FAIL() << "an unconverged answer was returned";
   } catch (const NotConverged& error) {
     EXPECT_EQ(error.steps, 1);
@@ -235,9 +220,9 @@ Random obstacle(int n) {
 TEST(ContactProblem, NestedStartMakesTheStepsIndependentOfH) {
   for (const int n : {15, 31, 63, 64, 127, 255, 256}) {
     const Random r = obstacle(n);
-    const ContactAnswer cold = solve_contact(r.problem(), std::vector<bool>(n, false), 1000);
-    const ContactAnswer nested = solve_contact(r.problem(), nested_start(r.problem(), 1000), 1000);
-    EXPECT_EQ(nested.active, cold.active) << n;
+    const ContactAnswer cold = r.solve(Pieces(n, Piece::between), 1000);
+    const ContactAnswer nested = r.solve(r.nested());
+    EXPECT_EQ(nested.pieces, cold.pieces) << n;
     EXPECT_LE(nested.steps, 4) << n;
     if (n > 100) {
       EXPECT_GT(cold.steps, 3 * nested.steps) << n;
@@ -266,13 +251,11 @@ Random beam(int n) {
 TEST(ContactProblem, NestedStartServesABeamToo) {
   for (const int n : {31, 63, 127, 255}) {
     const Random r = beam(n);
-    const ContactAnswer nested = solve_contact(r.problem(), nested_start(r.problem(), 1000), 1000);
+    const ContactAnswer nested = r.solve(r.nested());
     EXPECT_LE(nested.steps, 12) << n;
-    const double start = nested.active.empty()
-                             ? 0
-                             : static_cast<double>(std::find(nested.active.begin(), nested.active.end(), true) -
-                                                   nested.active.begin() + 1) /
-                                   (n + 1);
+    const double start = static_cast<double>(std::find(nested.pieces.begin(), nested.pieces.end(), Piece::at_lower) -
+                                             nested.pieces.begin() + 1) /
+                         (n + 1);
     EXPECT_NEAR(start, 1.0 / 3, 2.0 / (n + 1)) << n;  // (72 gap / load)^(1/4)
   }
 }
@@ -280,10 +263,9 @@ TEST(ContactProblem, NestedStartServesABeamToo) {
 TEST(ContactProblem, NestedStartTakesEverySize) {
   for (int n = 1; n < 40; ++n) {
     const Random r = obstacle(n);
-    const std::vector<bool> start = nested_start(r.problem(), 1000).active;
+    const Pieces start = r.nested();
     ASSERT_EQ(static_cast<int>(start.size()), n);
-    EXPECT_EQ(solve_contact(r.problem(), start, 1000).active,
-              solve_contact(r.problem(), std::vector<bool>(n, false), 1000).active);
+    EXPECT_EQ(r.solve(start).pieces, r.solve(Pieces(n, Piece::between)).pieces);
   }
 }
 

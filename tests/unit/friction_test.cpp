@@ -12,7 +12,8 @@
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/handed_back.hpp"
+#include "antilock/solve/dense_contact.hpp"
+#include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "antilock/study/sweep.hpp"
 #include "support/brute_force.hpp"
@@ -192,10 +193,9 @@ TEST(Friction, TheLoopEndsOnProblemsOnWhichExchangesCycle) {
       upper(i) = 0;
       most(i) = 0.5 * std::abs(normal(engine));
     }
-    ContactProblem p{random.s, random.q, random.lower, 1};
-    p.upper = upper;
-    p.most = most;
-    const ContactAnswer answer = solve_contact(p, std::vector<bool>(n, trial % 2 == 1), 300);
+    DenseContact system(random.s, random.q);
+    const Pieces start(n, trial % 2 == 1 ? Piece::at_lower : Piece::between);
+    const ContactAnswer answer = solve_contact(system, {random.lower, upper, most}, start, 300);
     const Eigen::VectorXd residual = random.s * answer.v - random.q - answer.lambda;
     EXPECT_LT(residual.lpNorm<Eigen::Infinity>(), 1e-8) << trial;
     for (int i = 0; i < n; ++i) {
@@ -308,8 +308,8 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
   expect_refused([&] { contact_zone(space, good, active_set(good)); }, "friction is not known here");
   expect_refused([&] { require_lower_bounds(good, "certificate"); }, "certificate: friction is not known here");
   ActiveSetOptions options;
-  options.start = HeldBounds(std::vector<bool>(4), {}, std::vector<int>(3));
-  expect_refused([&] { active_set(good, options); }, "3 entries for bounds that give way");
+  options.start = Pieces(3, Piece::between);
+  expect_refused([&] { active_set(good, options); }, "3 pieces; accepted one per bound, 4");
   VariationalInequality loose = good;  // nothing but friction holds it: its A1 is singular
   loose.fixed.clear();
   loose.fixed_values.resize(0);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/residual.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::kkt_test {

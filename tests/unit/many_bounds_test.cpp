@@ -172,31 +172,34 @@ TEST(ManyBounds, TheNestedStartKeepsTheStepsFew) {
     const Outcome o = by(ContactRoad::automatic, membrane_over_obstacle(n));
     ASSERT_EQ(o.refusal, "");
     EXPECT_LE(o.s.counters.contact, 9) << n;  // measured: 4, 4, 6
-    EXPECT_EQ(o.s.counters.factorisations, o.s.counters.contact + 1) << n;
+    if (n > 45) {  // beyond 2000 bounds the start factors smaller matrices of its own
+      EXPECT_EQ(o.s.counters.factorisations, o.s.counters.contact + 1) << n;
+    }
     EXPECT_EQ(o.s.warning, "");
   }
 }
 
 /// Every unknown is bounded.
-HeldBounds nested_start_of(const VariationalInequality& problem) {
+Pieces nested_start_of(const VariationalInequality& problem) {
   HeldFactor k;
   EXPECT_FALSE(k.factorise(SparseMatrix(problem.a1.triangularView<Eigen::Upper>())));
-  return nested_start(SparseContactProblem{k, problem.load, problem.contact, problem.lower, 0}, 100);
+  return SparseContact(k, problem.load, problem.contact).nested_start({problem.lower}, 100);
 }
 
 TEST(ManyBounds, TheNestedStartIsMostOfTheContactSetAndLittleElse) {
   const VariationalInequality problem = membrane_over_obstacle(28);
-  const std::vector<bool> start = nested_start_of(problem).active, active = active_set(problem).active;
+  const Pieces start = nested_start_of(problem);
+  const std::vector<bool> active = active_set(problem).active;
   int found = 0, contact = 0, elsewhere = 0;
   for (int i = 0; i < problem.size(); ++i) {
     contact += active[i];
-    found += active[i] && start[i];
-    elsewhere += !active[i] && start[i];
+    found += active[i] && is_held(start[i]);
+    elsewhere += !active[i] && is_held(start[i]);
   }
   EXPECT_GE(3 * found, 2 * contact);                              // measured: 108 of 145
   EXPECT_LE(elsewhere, 5);                                        // measured: 2
-  const VariationalInequality small = membrane_over_obstacle(8);  // 49 unknowns: nothing is coarsened
-  EXPECT_EQ(nested_start_of(small).active, std::vector<bool>(small.size(), false));
+  const VariationalInequality small = membrane_over_obstacle(3);  // 4 bounds: no smaller problem
+  EXPECT_EQ(nested_start_of(small), Pieces(small.size(), Piece::between));
 }
 
 // All of the membrane lies on the floor but where the floor has a hole: a start must not hold what no bound bears, in
@@ -206,9 +209,9 @@ TEST(ManyBounds, TheNestedStartHoldsNoBoundThatIsNotThere) {
   for (const int hole : {0, 29}) {
     problem.lower.setZero();
     problem.lower(hole) = -std::numeric_limits<double>::infinity();
-    const std::vector<bool> start = nested_start_of(problem).active;
-    EXPECT_FALSE(start[hole]) << hole;
-    EXPECT_GT(std::count(start.begin(), start.end(), true), 700) << hole;  // of 729
+    const Pieces start = nested_start_of(problem);
+    EXPECT_FALSE(is_held(start[hole])) << hole;
+    EXPECT_GT(std::count(start.begin(), start.end(), Piece::at_lower), 700) << hole;  // of 729
   }
 }
 
@@ -244,7 +247,7 @@ TEST(ManyBounds, EveryStartEndsAtTheSameAnswer) {
     ActiveSetOptions options;
     std::vector<bool> start(problem.contact.size(), k == 1);
     if (k > 1) std::generate(start.begin(), start.end(), [&] { return engine() % 2 == 0; });
-    options.start = start;
+    options.start = held_at_lower(start);
     EXPECT_LE(apart(nested, active_set(problem, factor, options)), 1e-13) << k;
   }
 }
@@ -262,15 +265,16 @@ TEST(ManyBounds, NothingCycles) {
     std::vector<int> bounded(n);
     std::iota(bounded.begin(), bounded.end(), 0);
     for (const bool start : {false, true}) {
-      const SparseContactAnswer answer =
-          solve_contact(SparseContactProblem{k, q, bounded, lower, 0}, std::vector<bool>(n, start), 500);
+      SparseContact system(k, q, bounded);
+      const ContactAnswer answer =
+          solve_contact(system, {lower}, Pieces(n, start ? Piece::at_lower : Piece::between), 500);
       // relative to the condition number, 1e7 at most
-      const Eigen::VectorXd& v = answer.contact.v;
+      const Eigen::VectorXd& v = answer.v;
       const double v_scale = v.lpNorm<Eigen::Infinity>(), f_scale = s.cwiseAbs().maxCoeff() * v_scale + 1;
       EXPECT_GE(v.minCoeff(), -1e-6 * v_scale) << trial;
       EXPECT_GE((s * v - q).minCoeff(), -1e-10 * f_scale) << trial;
-      EXPECT_LE(v.cwiseProduct(answer.contact.lambda).lpNorm<Eigen::Infinity>(), 1e-10 * v_scale * f_scale) << trial;
-      EXPECT_LE(answer.contact.steps, 200) << trial;
+      EXPECT_LE(v.cwiseProduct(answer.lambda).lpNorm<Eigen::Infinity>(), 1e-10 * v_scale * f_scale) << trial;
+      EXPECT_LE(answer.steps, 200) << trial;
     }
   }
 }

@@ -178,7 +178,7 @@ TEST(ActiveSet, TheStartDoesNotMatter) {
   const VariationalInequality problem = stiff_problem(space, 1e-2);
   const Solution one = active_set(problem);
   const auto c = problem.contact.size();
-  for (const auto& start : {std::vector<bool>(c, false), std::vector<bool>(c, true), one.active}) {
+  for (const auto& start : {Pieces(c, Piece::between), Pieces(c, Piece::at_lower), one.pieces}) {
     ActiveSetOptions options;
     options.start = start;
     const Solution solution = active_set(problem, options);
@@ -186,8 +186,8 @@ TEST(ActiveSet, TheStartDoesNotMatter) {
     EXPECT_EQ(solution.active, one.active);
   }
   ActiveSetOptions options;
-  options.start = std::vector<bool>(c + 1, false);
-  expect_refused([&] { active_set(problem, options); }, "active set: the start has");
+  options.start = Pieces(c + 1, Piece::between);
+  expect_refused([&] { active_set(problem, options); }, "contact: the start has");
 }
 
 TEST(ActiveSet, CostsNoMoreThanTheEffectsPresent) {
@@ -266,7 +266,7 @@ TEST(ActiveSet, NeverReturnsAnUnconvergedAnswer) {
 
   options = {};
   options.max_steps = 1;
-  options.start = std::vector<bool>(problem.contact.size(), true);
+  options.start = Pieces(problem.contact.size(), Piece::at_lower);
   EXPECT_THROW(active_set(problem, options), NotConverged);
 }
 

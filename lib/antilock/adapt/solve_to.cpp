@@ -67,28 +67,28 @@ TriangleMesh body_of(const TriangleMesh& mesh) {
                             "body");
 }
 
-/// A contact set from one mesh to the next, by x: in contact where the nearest unknowns on both sides are.
+/// A contact set from one mesh to the next, by x: on the piece of the nearest unknowns on both sides, where they agree.
 class ContactSet {
  public:
   void keep(const Space& space, const Solution& solution) {
     x_.clear();
     for (const int i : space.contact()) x_.push_back(space.points()(i, 0));
-    active_ = solution.active;
+    pieces_ = solution.pieces;
   }
-  std::optional<std::vector<bool>> on(const Space& space) const {
-    if (x_.empty() || active_.size() != x_.size()) return std::nullopt;
-    std::vector<bool> start;
+  std::optional<Pieces> on(const Space& space) const {
+    if (x_.empty()) return std::nullopt;
+    Pieces start;
     for (const int i : space.contact()) {
       const auto right = std::lower_bound(x_.begin(), x_.end(), space.points()(i, 0)) - x_.begin();
       const auto last = static_cast<std::ptrdiff_t>(x_.size()) - 1;
-      start.push_back(active_[std::min(right, last)] && active_[std::max<std::ptrdiff_t>(right - 1, 0)]);
+      start.push_back(agreed(pieces_[std::min(right, last)], pieces_[std::max<std::ptrdiff_t>(right - 1, 0)]));
     }
     return start;
   }
 
  private:
   std::vector<double> x_;
-  std::vector<bool> active_;
+  Pieces pieces_;
 };
 
 /// What the levels so far say of the one that will be the last: N grows like relative^(-1/rate), rate 1/2 for a mesh
@@ -173,7 +173,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     for (double tolerance = std::min(1e-2 * accuracy.relative, accuracy.tolerance);; tolerance *= 1e-2) {
       options.corrections = corrections_to(std::max(tolerance, CorrectionOptions{}.tolerance));
       solution = active_set(problem, factor, options);
-      options.start = solution.active;
+      options.start = solution.pieces;
       v = strip_companion(scene, space, problem, solution, {}, !layer_may_lock);
       certificate = certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});
       const bool enough = certificate.imbalance <= 0.1 * certificate.mismatch;

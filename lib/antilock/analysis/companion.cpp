@@ -50,14 +50,14 @@ Eigen::VectorXd averages(const Space& space, const Solution& solution, const std
 }
 
 /// The triangles of the mesh that a strip solve needs, as a mesh of their own, with the old numbers of its vertices.
-struct Piece {
+struct CutOut {
   TriangleMesh mesh;
   std::vector<int> old_vertex;
 };
 
 /// The body's triangles with a vertex on `line`, and the layer's where it is to be kept.
-Piece cut_piece(const TriangleMesh& mesh, const std::vector<char>& line, bool keep_layer) {
-  Piece piece;
+CutOut cut_out(const TriangleMesh& mesh, const std::vector<char>& line, bool keep_layer) {
+  CutOut piece;
   std::vector<int> kept, number(mesh.vertex_count(), -1), owners(mesh.edge_count(), 0);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const auto v = mesh.triangles.row(t);
@@ -168,7 +168,7 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
   std::vector<char> on_line(mesh.vertex_count(), 0);
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_tag[e] == line_tag) on_line[mesh.edges(e, 0)] = on_line[mesh.edges(e, 1)] = 1;
-  Piece piece = cut_piece(mesh, on_line, stiff == nullptr);
+  CutOut piece = cut_out(mesh, on_line, stiff == nullptr);
   const TriangleMesh& cut = piece.mesh;
   const TriangleMesh columns = stiff != nullptr ? extruded(cut, stiff->epsilon) : cut;
 

@@ -32,7 +32,8 @@ double distance_to_kernel(const VariationalInequality& problem) {
   unloaded.compliance = 1e-9;
   const Solution s = active_set(unloaded);
   const double u = s.u.lpNorm<Eigen::Infinity>();
-  const Eigen::VectorXd strain = (problem.b * s.u).cwiseQuotient(absolute_row_sums(problem.b));
+  const Eigen::VectorXd unit = problem.b.cwiseAbs() * Eigen::VectorXd::Ones(problem.size());  // of a row, for |u| = 1
+  const Eigen::VectorXd strain = (problem.b * s.u).cwiseQuotient(unit.cwiseMax(std::numeric_limits<double>::min()));
   return u > 0 ? strain.lpNorm<Eigen::Infinity>() / u : 0;
 }
 

@@ -37,10 +37,18 @@ struct VariationalInequality {
   Eigen::VectorXd upper = {};        ///< C, or empty: none. +infinity: no bound from above; = lower: an equation
   Eigen::VectorXd force_bound = {};  ///< C, or empty: none. The most that a bound bears, 0 or more; +infinity: anything
   RowMatrix combinations = {};  ///< x N, or empty: a row c bounds c . u, such as the normal displacement on a slope or
-                                ///< the gap between two bodies (bounded_unknowns.hpp says which rows are accepted)
+                                ///< the gap between two bodies
+
+  int ties = 0;  ///< the last rows of B have compliance 0, whatever `compliance` is: B u = 0 there
 
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(fixed.size()); }
+  /// R, the compliance of each row of B.
+  Eigen::VectorXd compliances() const {
+    Eigen::VectorXd rows = Eigen::VectorXd::Constant(b.rows(), compliance);
+    rows.tail(ties).setZero();
+    return rows;
+  }
   int bound_count() const { return static_cast<int>(contact.size()) + static_cast<int>(combinations.rows()); }
 };
 

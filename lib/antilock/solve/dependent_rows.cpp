@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "antilock/core/dense.hpp"
 
@@ -9,14 +10,19 @@ namespace antilock {
 
 std::optional<double> nearly_dependent_rows(const VariationalInequality& problem) {
   constexpr Eigen::Index most = 200;
-  if (problem.b.rows() < 2 || std::min<Eigen::Index>(problem.b.rows(), problem.free_count()) > most ||
-      std::max<Eigen::Index>(problem.b.rows(), problem.size()) > 10 * most)
+  std::vector<int> rows;  // of compliance 0: the others decide nothing
+  for (int row = problem.compliance == 0 ? 0 : static_cast<int>(problem.b.rows()) - problem.ties;
+       row < problem.b.rows(); ++row)
+    rows.push_back(row);
+  if (rows.size() < 2 || std::min<Eigen::Index>(std::ssize(rows), problem.free_count()) > most ||
+      std::max<Eigen::Index>(std::ssize(rows), problem.size()) > 10 * most)
     return std::nullopt;
-  Eigen::MatrixXd b = problem.b;
+  Eigen::MatrixXd b = Eigen::MatrixXd(problem.b)(rows, Eigen::all);
+  const Eigen::VectorXd m = problem.m(rows);
   for (const int i : problem.fixed) b.col(i).setZero();
   const Eigen::VectorXd a1 = problem.a1.diagonal().cwiseAbs();
   for (Eigen::Index j = 0; j < b.cols(); ++j) {
-    const double stiffness = a1(j) + b.col(j).cwiseAbs2().dot(problem.m);
+    const double stiffness = a1(j) + b.col(j).cwiseAbs2().dot(m);
     if (stiffness > 0) b.col(j) /= std::sqrt(stiffness);
   }
   for (Eigen::Index r = 0; r < b.rows(); ++r)

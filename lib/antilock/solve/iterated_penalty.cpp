@@ -8,11 +8,14 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/anderson.hpp"
+#include "antilock/solve/dense_contact.hpp"
+#include "antilock/solve/judge.hpp"
+#include "antilock/solve/kkt.hpp"
 #include "antilock/solve/residual.hpp"
-#include "antilock/solve/verifier.hpp"
+#include "antilock/solve/sparse_contact.hpp"
+#include "antilock/solve/tied.hpp"
 
 namespace antilock {
 namespace {
@@ -29,15 +32,16 @@ class IteratedPenalty {
                   const CorrectionOptions& options, const std::string& name)
       : problem_(problem),
         factor_(factor),
-        solve_contact_(contact),
+        contact_solver_(contact),
         options_(options),
         u_(Eigen::VectorXd::Zero(problem.size())),
         p_(Eigen::VectorXd::Zero(problem.b.rows())) {
     u_.high(problem.fixed) = problem.fixed_values;
     s_.solver = name;
-    take(factor.delta());
+    note_factor();
   }
 
+  /// u, p and lambda of the last correction, the counters and the forward error; the judgement is the caller's.
   Solution solve() {
     for (int correction = 0;; ++correction) {
       const Correction step = correct(exact_residual(problem_, u_, p_, contact_.lambda), correction);
@@ -46,6 +50,7 @@ class IteratedPenalty {
       const Accuracy now = accuracy(problem_, u_, step.u, step.left_of_r2, rate(moved), s_.moderate, options_);
       s_.history.push_back(largest > 0 ? moved / largest : 0);
       s_.counters.corrections = correction;
+      s_.error = now.error;
       if (now.error <= options_.tolerance && now.open <= 1) return finished();
       if (correction % 5 == 4) require_an_admissible_u(problem_, u_.high, s_);
       if (correction >= options_.max_corrections || !std::isfinite(moved))
@@ -56,7 +61,7 @@ class IteratedPenalty {
                            std::max(now.error, options_.tolerance * now.open), correction);
       report(options_.progress, {"corrections", correction + 1, now.error, options_.tolerance}, s_.solver);
       acceleration_.mix(p_, u_);
-      if (correction % patience == patience - 1) take(factor_.delta() / smaller_by);
+      if (correction % patience == patience - 1) take_a_smaller_penalty();
     }
   }
 
@@ -69,48 +74,48 @@ class IteratedPenalty {
   /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp = (B du - r2) / delta.
   Correction correct(SplitResidual r, int correction) {
     const std::vector<int>&unknown = factor_.numbering().unknown, &contact = problem_.contact;
-    if (p_.size() > 0) r.r1 += problem_.b.transpose() * (problem_.m.cwiseProduct(r.r2) / factor_.delta());
-    const auto from_u = [&](const Eigen::VectorXd& bound) -> Eigen::VectorXd {  // the bounds of du
-      return bound.size() > 0 ? Eigen::VectorXd(bound - u_.high(contact) - u_.low(contact)) : bound;
-    };
-    const Eigen::VectorXd lower = from_u(problem_.lower), upper = from_u(problem_.upper);
-    const HeldBounds before = held_by(contact_);
+    const Eigen::VectorXd& delta = factor_.deltas();
+    if (p_.size() > 0) r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2).cwiseQuotient(delta);
+    if (contact_.lambda.size() > 0) r.r1(contact) -= contact_.lambda;  // r holds them already; contact asks for all
+    const Eigen::VectorXd u_c = u_.high(contact), low_c = u_.low(contact);
+    const Stairs stairs = Stairs{problem_.lower, problem_.upper, problem_.force_bound}.from(u_c).from(low_c);
+    const Pieces before = contact_.pieces;
     Correction step{Eigen::VectorXd::Zero(problem_.size()), {}};
-    const Eigen::VectorXd du = factor_.held() != nullptr ? sparse_road(r.r1(unknown), lower, upper, correction)
-                                                         : dense_road(r.r1(unknown), lower, upper, correction);
-    step.u(unknown) = du;
+    step.u(unknown) = factor_.held() != nullptr ? sparse_road(r.r1(unknown), stairs, correction)
+                                                : dense_road(r.r1(unknown), stairs, correction);
     u_ += step.u;
-    for (Eigen::Index i = 0; i < lower.size(); ++i)  // what is held stands where its bound is, to the last digit
-      if (contact_.v(i) == lower(i))
-        u_.set(contact[i], problem_.lower(i));
-      else if (upper.size() > 0 && contact_.v(i) == upper(i))
-        u_.set(contact[i], problem_.upper(i));
+    for (std::size_t i = 0; i < contact.size(); ++i)  // what is held stands where its bound is, to the last digit
+      if (const auto k = static_cast<int>(i);
+          is_held(contact_.pieces[i]) && contact_.v(k) == stairs.given(k, contact_.pieces[i]))
+        u_.set(contact[i], contact_.pieces[i] == Piece::at_lower ? problem_.lower(k) : problem_.upper(k));
     if (p_.size() == 0) return step;
-    const Eigen::VectorXd dp = (problem_.b * step.u - r.r2) / factor_.delta();
+    const Eigen::VectorXd dp = (problem_.b * step.u - r.r2).cwiseQuotient(delta);
     p_ += dp;
-    step.left_of_r2 = (problem_.compliance - factor_.delta()) * dp;
-    if (contact_.active != before.active || contact_.above != before.above || contact_.beyond != before.beyond)
-      acceleration_.restart();
+    step.left_of_r2 = (problem_.compliances() - delta).cwiseProduct(dp);
+    if (contact_.pieces != before) acceleration_.restart();
     acceleration_.note(p_, dp, u_);
     return step;
   }
 
-  /// The contact problem condensed on Gamma_C, the last C places of the factor.
-  Eigen::VectorXd dense_road(Eigen::VectorXd r, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int correction) {
-    const Eigen::Index c = lower.size();
+  void ask(ContactSystem& system, const Stairs& stairs, int correction) {
+    contact_ = contact_solver_({system, stairs, contact_, correction, u_.high.lpNorm<Eigen::Infinity>()});
+  }
+
+  /// The contact problem condensed on the bounded unknowns, the last C places of the factor.
+  Eigen::VectorXd dense_road(Eigen::VectorXd r, const Stairs& stairs, int correction) {
+    const Eigen::Index c = stairs.count();
     Stopwatch watch;
-    // what acts on Gamma_C itself stays out of the factor: a great load there, which the obstacle bears, would leave
-    // its round-off on the neighbours
-    const Eigen::VectorXd r_c = r.tail(c), none = Eigen::VectorXd::Zero(c);
+    // what acts on a bounded unknown itself stays out of the factor: a great load there, which the bound bears, would
+    // leave its round-off on the neighbours
+    const Eigen::VectorXd r_c = r.tail(c);
     r.tail(c).setZero();
     Eigen::VectorXd y = factor_.forward(r);
     s_.seconds.solve += watch.lap();
     if (c > 0) {
       const auto l = factor_.contact_block().triangularView<Eigen::Lower>();
-      Eigen::VectorXd q = r_c + l * y.tail(c);
-      if (contact_.lambda.size() > 0) q -= contact_.lambda;  // r holds them already; contact asks for all
-      const double size = u_.high.lpNorm<Eigen::Infinity>();
-      contact_ = solve_contact_.dense({schur_, q, lower, size, {}, none, upper, problem_.force_bound}, contact_, correction);
+      const Eigen::VectorXd q = r_c + l * y.tail(c);
+      DenseContact system(schur_, q);
+      ask(system, stairs, correction);
       y.tail(c) = l.transpose() * contact_.v;
       s_.seconds.contact += watch.lap();
     }
@@ -120,18 +125,14 @@ class IteratedPenalty {
   }
 
   /// The same on all free places.
-  Eigen::VectorXd sparse_road(Eigen::VectorXd r, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int correction) {
+  Eigen::VectorXd sparse_road(const Eigen::VectorXd& r, const Stairs& stairs, int correction) {
     const Stopwatch watch;
-    std::vector<int> bounded(problem_.contact.size());
+    std::vector<int> bounded(stairs.count());
     std::iota(bounded.begin(), bounded.end(), factor_.numbering().interior);
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(lower.size());
-    if (contact_.lambda.size() > 0) r.tail(lower.size()) -= contact_.lambda;
-    const double size = u_.high.lpNorm<Eigen::Infinity>();
-    SparseContactAnswer answer = solve_contact_.sparse(
-        {*factor_.held(), r, bounded, lower, size, {}, none, upper, problem_.force_bound}, contact_, correction);
-    contact_ = std::move(answer.contact);
+    SparseContact system(*factor_.held(), r, bounded);
+    ask(system, stairs, correction);
     s_.seconds.contact += watch.seconds();
-    return std::move(answer.x);
+    return system.x();
   }
 
   /// By how much a correction brings u closer: as the past tells; at first, without B, the round-off of the factor.
@@ -142,20 +143,25 @@ class IteratedPenalty {
     return moved < before ? std::clamp(moved / before, 0.01, 0.99) : 0.99;
   }
 
-  /// Another penalty, no smaller than the compliance and than what leaves a factor digits of A1.
-  void take(double delta) {
-    const double before = factor_.delta();
-    delta = std::max({delta, problem_.compliance, std::min(before, smallest_penalty(problem_))});
-    if (delta < before) try {
-        factor_.refactor(problem_, delta);
-      } catch (const Error&) {  // flat cells: no positive pivots
-        factor_.refactor(problem_, before);
-      }
+  /// No smaller than the compliance, and than what leaves a factor digits of A1.
+  void take_a_smaller_penalty() {
+    const double before = factor_.delta(), compliance = problem_.b.rows() > problem_.ties ? problem_.compliance : 0;
+    const double delta = std::max({before / smaller_by, compliance, std::min(before, smallest_penalty(problem_))});
+    if (problem_.b.rows() == 0 || delta >= before) return;
+    try {
+      factor_.refactor(problem_, delta);
+    } catch (const Error&) {  // flat cells: no positive pivots
+      factor_.refactor(problem_, before);
+    }
+    note_factor();
+    acceleration_.restart();
+  }
+
+  void note_factor() {
     const Stopwatch watch;
-    if (const bool dense = factor_.held() == nullptr; dense && factor_.contact_block().size() > 0)
+    if (factor_.held() == nullptr && factor_.contact_block().size() > 0)
       schur_ = factor_.contact_block().triangularView<Eigen::Lower>() * factor_.contact_block().transpose();
     s_.seconds.contact += watch.seconds();
-    acceleration_.restart();
   }
 
   Solution finished() {
@@ -165,21 +171,21 @@ class IteratedPenalty {
     s_.counters.solves = s_.counters.corrections + 1;
     s_.seconds.analyse = factor_.work().analyse_seconds;
     s_.seconds.factor = factor_.work().factor_seconds;
-    s_.active = contact_.active;
+    for (const Piece piece : contact_.pieces) s_.active.push_back(is_held(piece));
+    s_.pieces = std::move(contact_.pieces);
     s_.u = std::move(u_.high);
     s_.p = std::move(p_.high);
     s_.lambda = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(problem_.bound_count());
-    judge(problem_, factor_, options_.refused, s_);
     return std::move(s_);
   }
 
   const VariationalInequality& problem_;
   PenaltyFactor& factor_;
-  const ContactSolver& solve_contact_;
+  const ContactSolver& contact_solver_;
   const CorrectionOptions& options_;
   Solution s_;             ///< what is counted
   Twice u_, p_;            ///< N, R
-  ContactAnswer contact_;  ///< of the last correction: forces, contact set
+  ContactAnswer contact_;  ///< of the last correction
   Eigen::MatrixXd schur_;  ///< C x C, S = L_C L_C', of the factor as it is now; empty on the sparse road
   Anderson acceleration_{6};
 };
@@ -195,8 +201,15 @@ CorrectionOptions corrections_to(double asked) {
 
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name) {
-  require_bounds_on_unknowns(problem, name);
-  return IteratedPenalty(problem, factor, contact, options, name).solve();
+  const Tied tied(problem);
+  Solution answer = IteratedPenalty(*tied, factor, contact, options, name).solve();
+  answer.warning = doubt(*tied, factor, answer);
+  answer.u.conservativeResize(problem.size());
+  answer.p.conservativeResize(problem.b.rows());
+  answer.lambda = tied.forces(std::move(answer.lambda));
+  answer.kkt = kkt_report_unchecked(problem, answer);
+  require_trusted(answer, TrustLevels{.refused = options.refused});
+  return answer;
 }
 
 }  // namespace antilock

@@ -9,14 +9,10 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/kkt_bounds.hpp"
-#include "antilock/solve/residual.hpp"
+#include "antilock/solve/kkt_rows.hpp"
 
 namespace antilock {
 namespace {
-
-using scale_free::most;
-using scale_free::ratio;
 
 /// The report is asked of foreign answers too.
 void require_sizes(const VariationalInequality& problem, const Solution& s) {
@@ -26,72 +22,39 @@ void require_sizes(const VariationalInequality& problem, const Solution& s) {
                           s.p.size(), s.lambda.size(), problem.size(), problem.b.rows(), problem.bound_count()));
 }
 
-/// What the report compares, found in one walk over A1 and one over B.
-struct Parts {
-  Eigen::VectorXd r1;        ///< N, the residual of the forces
-  Eigen::VectorXd terms;     ///< N, the sum of the absolute values of its terms but lambda
-  Eigen::VectorXd borne;     ///< N, (B' M p)_i
-  Eigen::VectorXd diagonal;  ///< N, of A1
-  Eigen::VectorXd stiff;     ///< N, the diagonal of B' M B
-  double strain = 0;         ///< the largest |r2| in units of its row
-};
-
-Parts parts(const VariationalInequality& problem, const Solution& s) {
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem.size());
-  Parts parts{problem.load, problem.load.cwiseAbs(), zero, zero, zero};
-  for (Eigen::Index j = 0; j < problem.a1.cols(); ++j)
-    for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) {
-      const double term = a.value() * s.u(j);
-      parts.r1(a.row()) -= term;
-      parts.terms(a.row()) += std::abs(term);
-      if (a.row() == j) parts.diagonal(j) = a.value();
-    }
-  for (Eigen::Index row = 0; row < problem.b.rows(); ++row) {
-    const double m = problem.m(row), stress = m * s.p(row);
-    double strain = 0, unit = 0;
-    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) {
-      const double term = b.value() * stress;
-      strain += b.value() * s.u(b.col());
-      unit += std::abs(b.value());
-      parts.borne(b.col()) += term;
-      parts.terms(b.col()) += std::abs(term);
-      parts.stiff(b.col()) += b.value() * b.value() * m;
-    }
-    const double r2 = std::abs(problem.compliance * s.p(row) - strain);
-    parts.strain = most(parts.strain, unit == 0 ? r2 : r2 / unit);
-  }
-  parts.r1 -= parts.borne;
-  if (s.lambda.size() > 0) parts.r1 += bound_forces(problem, s.lambda);
-  return parts;
-}
-
-/// The largest displacement that a load, as far as neither lambda nor B' M p bears it, would give its unknown if all the
-/// others were held: a scale, from below.
-double single_displacement(const VariationalInequality& problem, const Parts& parts, const Eigen::VectorXd& lambda) {
-  Eigen::VectorXd forces = problem.load;
-  if (lambda.size() > 0) forces += bound_forces(problem, lambda);
-  for (const int i : problem.fixed) forces(i) = 0;
-  double largest = 0;
-  for (Eigen::Index i = 0; i < forces.size(); ++i)
-    if (parts.diagonal(i) > 0)
-      largest =
-          std::max(largest, std::min(std::abs(forces(i)), std::abs(forces(i) - parts.borne(i))) / parts.diagonal(i));
+/// The largest force of a single bound on each unknown, N.
+Eigen::VectorXd largest_bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda) {
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(problem.size());
+  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
+  for (Eigen::Index i = 0; i < contact; ++i) largest(problem.contact[i]) = std::abs(lambda(i));
+  for (Eigen::Index row = 0; row < problem.combinations.rows(); ++row)
+    for (RowMatrix::InnerIterator c(problem.combinations, row); c; ++c)
+      largest(c.col()) = std::max(largest(c.col()), std::abs(c.value() * lambda(contact + row)));
   return largest;
 }
 
+/// min_gap, min_pressure and complementarity, each bound in its own units.
+void report_bounds(Kkt& kkt, const VariationalInequality& problem, const Solution& solution, const KktRows& rows) {
+  if (problem.bound_count() == 0) return;
+  const Stairs stairs{problem.lower, problem.upper, problem.force_bound};
+  const Eigen::VectorXd values = bounded_values(problem, solution.u);
+  const int contact = static_cast<int>(problem.contact.size());
+  kkt.min_gap = kkt.min_pressure = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < stairs.count(); ++i) {
+    double strain = i < contact ? 1 : 0;
+    double force = i < contact ? rows.forces()(problem.contact[i]) : std::numeric_limits<double>::infinity();
+    if (i >= contact)
+      for (RowMatrix::InnerIterator c(problem.combinations, i - contact); c; ++c) {
+        if (c.value() == 0) continue;
+        strain += std::abs(c.value());
+        force = std::min(force, rows.forces()(c.col()) / std::abs(c.value()));
+      }
+    rows.note_bound(kkt, stairs, i, values(i), solution.lambda(i), strain, force);
+  }
+  if (kkt.min_gap == std::numeric_limits<double>::infinity()) kkt.min_gap = 0;  // every bound gives way
+}
+
 }  // namespace
-
-SplitResidual split_residual(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
-                             const Eigen::VectorXd& lambda) {
-  return exact_residual(problem, u, p, lambda);
-}
-
-Eigen::VectorXd absolute_row_sums(const RowMatrix& b) {
-  Eigen::VectorXd sums = b.cwiseAbs() * Eigen::VectorXd::Ones(b.cols());
-  for (double& sum : sums)
-    if (sum == 0) sum = 1;
-  return sums;
-}
 
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   check_data(problem);
@@ -106,30 +69,18 @@ Kkt kkt_report_unchecked(const VariationalInequality& problem, const Solution& s
     kkt.residual = std::numeric_limits<double>::infinity();
     return kkt;
   }
-  Parts part = parts(problem, solution);
-  double reaction = 0;
-  for (const int i : problem.fixed) {  // what the clamp bears: a force, not an error
-    reaction = std::max(reaction, std::abs(part.r1(i)));
-    part.r1(i) = 0;
+  std::vector<char> fixed(problem.size(), 0);
+  bool moved = false;
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
+    fixed[problem.fixed[i]] = 1;
+    moved = moved || u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i));
   }
-  const Eigen::VectorXd borne = largest_bound_forces(problem, lambda);
-  const double f_scale = std::max(problem.load.lpNorm<Eigen::Infinity>(), borne.lpNorm<Eigen::Infinity>());
-  // a locked u may tend to 0: then its size before, or what the loads would do to one free unknown, tells what is large
-  const double u_scale =
-      std::max({u.lpNorm<Eigen::Infinity>(), 1e-6 * solution.moderate, single_displacement(problem, part, lambda)});
-  // a great force somewhere must hide nothing where all forces are small
-  Eigen::VectorXd own = part.terms.cwiseMax(u_scale * (part.diagonal.cwiseAbs() + part.stiff)).cwiseMax(borne);
-  for (Eigen::Index i = 0; i < own.size(); ++i) {
-    // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
-    const double beyond = most(std::abs(part.r1(i)) - 8 * std::numeric_limits<double>::epsilon() * part.terms(i), 0);
-    kkt.residual = most(kkt.residual, ratio(beyond, std::min(own(i), std::max(f_scale, reaction))));
-  }
-  kkt.residual = most(kkt.residual, ratio(part.strain, u_scale));
+  const KktRows rows(kkt_parts(problem, u, p), bound_forces(problem, lambda), largest_bound_forces(problem, lambda),
+                     fixed, std::max(u.lpNorm<Eigen::Infinity>(), 1e-6 * solution.moderate), 0,
+                     [](double value) { return value; });
   // the prescribed values hold exactly or not at all
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    if (u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i)))
-      kkt.residual = std::max(kkt.residual, 1.0);
-  report_bounds(kkt, problem, solution, u_scale, own.cwiseMin(f_scale));
+  kkt.residual = moved ? std::max(rows.residual(), 1.0) : rows.residual();
+  report_bounds(kkt, problem, solution, rows);
   return kkt;
 }
 

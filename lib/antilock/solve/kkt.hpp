@@ -4,18 +4,6 @@
 
 namespace antilock {
 
-/// What the equations in split form leave over, on all N unknowns and R rows, E' lambda the forces of the bounds
-/// (bound_forces; none where lambda is empty):
-///     r1 = L + E' lambda - A1 u - B' M p   (on fixed unknowns: minus the reaction)      r2 = compliance p - B u
-struct SplitResidual {
-  Eigen::VectorXd r1, r2;
-};
-SplitResidual split_residual(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p,
-                             const Eigen::VectorXd& lambda);
-
-/// What a row of B makes of the largest u = 1: the unit of its strain. 1 for a row without entries.
-Eigen::VectorXd absolute_row_sums(const RowMatrix& b);
-
 /// The report. Each number is relative, so that scaling the load by any factor leaves it unchanged:
 ///
 /// | row                       | numerator                 | scale               | why                                |

@@ -20,7 +20,8 @@ FreeNumbering::FreeNumbering(const VariationalInequality& problem) : place(probl
   }
 }
 
-SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering, double delta) {
+SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering,
+                              const Eigen::VectorXd& deltas) {
   const int size = static_cast<int>(numbering.unknown.size());
   const SparseMatrix b_by_column = problem.b;
   SparseMatrix k(size, size);
@@ -43,7 +44,7 @@ SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNu
     };
     for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) add(static_cast<int>(a.row()), a.value());
     for (SparseMatrix::InnerIterator r(b_by_column, j); r; ++r) {
-      const double weight = problem.m(r.row()) * r.value() / delta;
+      const double weight = problem.m(r.row()) * r.value() / deltas(r.row());
       for (RowMatrix::InnerIterator b(problem.b, r.row()); b; ++b) add(static_cast<int>(b.col()), weight * b.value());
     }
     std::sort(touched.begin(), touched.end());

@@ -13,8 +13,13 @@ struct FreeNumbering {
   int interior = 0;          ///< F - C: the contact unknowns stand at interior, interior + 1, ...
 };
 
-/// Upper triangle (F x F, in the places of FreeNumbering) of K = A1 + delta^-1 B' M B on the free unknowns.
+/// Upper triangle (F x F, in the places of FreeNumbering) of K = A1 + B' M diag(deltas)^-1 B on the free unknowns.
 /// Only the factorisation may see this sum: in it A1 has lost digits to delta^-1 (tutorial 16: the round-off trap).
-SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering, double delta);
+SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering,
+                              const Eigen::VectorXd& deltas);
+/// The same with one delta for all R rows.
+inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering, double delta) {
+  return penalised_matrix(problem, numbering, Eigen::VectorXd(Eigen::VectorXd::Constant(problem.b.rows(), delta)));
+}
 
 }  // namespace antilock

@@ -11,6 +11,7 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/default_cholesky.hpp"
+#include "antilock/solve/tied.hpp"
 
 namespace antilock {
 namespace {
@@ -44,17 +45,21 @@ bool takes_sparse(ContactRoad road, const FreeNumbering& numbering) {
 
 PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road,
                              std::unique_ptr<SparseCholesky> cholesky)
-    : numbering_(problem), a1_(problem.a1), b_(problem.b), m_(problem.m) {
+    : PenaltyFactor(Tied(problem), delta, road, std::move(cholesky)) {}
+
+PenaltyFactor::PenaltyFactor(const Tied& problem, double delta, ContactRoad road,
+                             std::unique_ptr<SparseCholesky> cholesky)
+    : numbering_(*problem), a1_(problem->a1), b_(problem->b), m_(problem->m), first_delta_(delta) {
   if (takes_sparse(road, numbering_))
     held_.emplace(std::move(cholesky));
   else
     cholesky_ = std::move(cholesky);
   // beside a B' M B / delta above 1e14 A1 no digit of A1 is left: any larger delta gives the same answer
   for (int times = 0;; ++times) try {
-      factorise(problem, delta * std::pow(larger_by, times));
+      factorise(*problem, delta * std::pow(larger_by, times));
       return;
     } catch (const Error&) {
-      if (times == 4 || problem.b.rows() == 0 || !std::isfinite(delta)) throw;
+      if (times == 4 || problem->b.rows() == 0 || !std::isfinite(delta)) throw;
     }
 }
 
@@ -75,8 +80,9 @@ PenaltyFactor PenaltyFactor::moderate(const VariationalInequality& problem, std:
 
 void PenaltyFactor::check_fits(const VariationalInequality& problem) const {
   check_data(problem);
-  check_unknowns(problem);
-  if (!owns(problem))
+  const Tied tied(problem);
+  check_unknowns(*tied);
+  if (!owns(*tied))
     throw Error("solve: the factor is of another A1, B or M; accepted: the factor of this problem's matrices");
 }
 
@@ -94,20 +100,23 @@ void PenaltyFactor::check_unknowns(const VariationalInequality& problem) const {
                     problem.contact.size()));
 }
 
-void PenaltyFactor::refactor(const VariationalInequality& problem, double delta) {
-  if (!owns(problem)) {
-    check(problem);
-    a1_ = problem.a1, b_ = problem.b, m_ = problem.m;
+void PenaltyFactor::refactor(const VariationalInequality& of, double delta) {
+  const Tied problem(of);
+  if (!owns(*problem)) {
+    check(of);
+    a1_ = problem->a1, b_ = problem->b, m_ = problem->m;
   }
-  check_unknowns(problem);
-  factorise(problem, delta);
+  check_unknowns(*problem);
+  factorise(*problem, delta);
 }
 
 void PenaltyFactor::factorise(const VariationalInequality& problem, double delta) {
   if (!(delta > 0 && std::isfinite(delta)))
     throw Error(fmt::format("solve: delta = {}; accepted: a positive number", delta));
   delta_ = delta;
-  SparseMatrix k = penalised_matrix(problem, numbering_, delta);
+  deltas_.setConstant(problem.b.rows(), delta);
+  deltas_.tail(problem.ties).setConstant(delta / first_delta_);
+  SparseMatrix k = penalised_matrix(problem, numbering_, deltas_);
   std::optional<int> lost;
   Stopwatch watch;
   if (held_) {

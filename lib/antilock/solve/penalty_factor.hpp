@@ -10,6 +10,8 @@
 
 namespace antilock {
 
+class Tied;
+
 /// How the contact problem of a correction is solved.
 ///
 /// dense: the contact unknowns come last in the factor, everything else is eliminated once, and the contact iteration
@@ -53,6 +55,9 @@ class PenaltyFactor {
   void refactor(const VariationalInequality& problem, double delta);
 
   double delta() const { return delta_; }
+  /// The delta of each row: delta(), and 1 for those that tie combinations (tied.hpp), as many times smaller as delta()
+  /// is later.
+  const Eigen::VectorXd& deltas() const { return deltas_; }
   const FreeNumbering& numbering() const { return numbering_; }
   /// The smallest pivot of K: to about a factor of F its smallest eigenvalue, for next to nothing.
   double smallest_pivot() const;
@@ -78,6 +83,7 @@ class PenaltyFactor {
   const Work& work() const { return work_; }
 
  private:
+  PenaltyFactor(const Tied& problem, double delta, ContactRoad road, std::unique_ptr<SparseCholesky> cholesky);
   /// Of a problem that has passed `check`.
   PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road,
                 std::unique_ptr<SparseCholesky> cholesky);
@@ -89,10 +95,11 @@ class PenaltyFactor {
   void require_dense() const;
   void factorise(const VariationalInequality& problem, double delta);
   FreeNumbering numbering_;
-  double delta_ = 0;
   SparseMatrix a1_;                           ///< A1, B and M that it was made of
   RowMatrix b_;
   Eigen::VectorXd m_;
+  double first_delta_, delta_ = 0;
+  Eigen::VectorXd deltas_;                    ///< R
   Work work_;
   std::unique_ptr<SparseCholesky> cholesky_;  ///< the dense road's
   std::optional<HeldFactor> held_;            ///< the sparse road's

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "antilock/core/eigen_memory.hpp"
+#include "antilock/solve/stairs.hpp"
 
 namespace antilock {
 
@@ -36,9 +37,12 @@ struct Solution {
   Eigen::VectorXd p;         ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
   Eigen::VectorXd lambda;    ///< C contact forces, one per bound (a force; measure/ turns it to a density): >= 0 at a
                              ///< lower bound, <= 0 at an upper one
-  std::vector<bool> active;  ///< C: in contact, with either bound
+  Pieces pieces;             ///< C: the piece of its stair that each bound is on; empty where the solver knows none
+  std::vector<bool> active;  ///< C: in contact, with either bound: is_held(pieces[i])
   double moderate = 0;       ///< largest |u| with the moderate penalty in place of the compliance: the size of u before
                              ///< it locks, where it is known (0: it is not)
+  double error = 0;  ///< forward error of u: the last correction, with the contraction that was measured, leaves no more
+                     ///< in the maximum norm, relative to the largest |u|. It holds for the contact set found
   Kkt kkt;
   Counters counters;
   SolveSeconds seconds;

@@ -1,38 +1,33 @@
 #pragma once
-#include <vector>
-
-#include "antilock/solve/contact_problem.hpp"
+#include "antilock/solve/contact.hpp"
 #include "antilock/solve/held_factor.hpp"
 
 namespace antilock {
 
-/// The contact problem on all F places, for many bounds: find x with lower <= x <= upper on the bounded places and
-///     lambda = K x - q >= 0 where x = lower,  <= 0 where x = upper,  = 0 between and on all other places.
-/// Bounds give way as in the dense one.
-struct SparseContactProblem {
-  HeldFactor& k;
-  const Eigen::VectorXd& q;         ///< F
-  const std::vector<int>& bounded;  ///< C places
-  const Eigen::VectorXd& lower;     ///< C; -infinity: none
-  double u_scale;                   ///< largest |u| of the whole problem: gaps far below it are round-off
-  Eigen::VectorXd from = {};        ///< F, where x and lower count from (empty: 0): round-off is that of from + x
-  Eigen::VectorXd noise = {};       ///< C, the round-off of each bounded x where it is known
-  Eigen::VectorXd upper = {};       ///< C, or empty: none; +infinity: none here
-  Eigen::VectorXd most = {};        ///< C, or empty: the most that a bound bears; +infinity: anything
+/// A contact problem on all F unknowns of a sparse K, for many bounds: K is factored anew with every set, without the
+/// unknowns that it holds.
+class SparseContact final : public ContactSystem {
+ public:
+  /// All must outlive it. q: F entries; bounded: the C places of the bounded unknowns.
+  SparseContact(HeldFactor& k, const Eigen::VectorXd& q, const std::vector<int>& bounded)
+      : k_(k), q_(q), bounded_(bounded) {}
+
+  Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override;
+  /// A start that needs no mesh. Up to 2000 bounds, every second one alone is kept, and K stays whole: right for every K,
+  /// and the factors are cheap. Beyond, K is coarsened by smoothed aggregation (Vanek, Mandel, Brezina 1996), the same problem
+  /// solved there, in the same way down to a few hundred unknowns, and a bound starts on the piece of all coarse ones
+  /// that its unknown depends on, where they agree. Rather too small a set than too large: a hole in it is filled in a
+  /// step or two, what is too much is given up one row of cells at a time. Aggregation supposes that constants cost no
+  /// energy; where they do (beams, plates: their rotations) the bounds are halved, however many there are.
+  Pieces nested_start(const Stairs& stairs, int max_steps) override;
+
+  const Eigen::VectorXd& x() const { return x_; }  ///< F, of the last `solve`
+
+ private:
+  HeldFactor& k_;
+  const Eigen::VectorXd& q_;
+  const std::vector<int>& bounded_;
+  Eigen::VectorXd x_;
 };
-
-struct SparseContactAnswer {
-  ContactAnswer contact;  ///< v and lambda on the bounded places
-  Eigen::VectorXd x;      ///< F
-};
-
-/// As the dense one (contact_problem.hpp), with the same questions and the same safeguard. Throws NotConverged.
-SparseContactAnswer solve_contact(const SparseContactProblem& problem, HeldBounds start, int max_steps);
-
-/// A start that needs no mesh: K is coarsened by smoothed aggregation (Vanek, Mandel, Brezina 1996), the same problem
-/// solved there, in the same way down to a few hundred unknowns, and an unknown starts in contact where every coarse one
-/// that it depends on is. Rather too small a set than too large: a hole in it is filled in a step or two, what is too
-/// much is given up one row of cells at a time. Where aggregation does not fit K (a beam) the start is merely a poor one.
-HeldBounds nested_start(const SparseContactProblem& problem, int max_steps);
 
 }  // namespace antilock

@@ -13,7 +13,6 @@ namespace antilock {
 
 Sweep::Sweep(VariationalInequality problem) : problem_(std::move(problem)) {
   check(problem_);
-  require_bounds_on_unknowns(problem_, "sweep");
 }
 
 void Sweep::set_compliance(double compliance) {
@@ -69,15 +68,10 @@ Solution Sweep::solve(ActiveSetOptions options) {
     factor_.emplace(problem_, delta);
   else if (problem_.b.rows() > 0 && factor_->delta() != delta)
     factor_->refactor(problem_, delta);
-  if (!options.start) options.start = contact_set_;
+  if (!options.start) options.start = pieces_;
 
   Solution solution = active_set(problem_, *factor_, options);
-  contact_set_.emplace(solution.active, std::vector<bool>(problem_.upper.size()),
-                       std::vector<int>(problem_.force_bound.size()));
-  for (Eigen::Index i = 0; i < problem_.upper.size(); ++i)
-    contact_set_->above[i] = solution.active[i] && solution.lambda(i) < 0;
-  for (Eigen::Index i = 0; i < problem_.force_bound.size(); ++i)
-    if (!solution.active[i] && solution.lambda(i) != 0) contact_set_->beyond[i] = solution.lambda(i) > 0 ? -1 : 1;
+  pieces_ = solution.pieces;
   solution.counters.factorisations = factor_->work().factorisations - factorisations_before;
   if (solution.counters.factorisations == 0) solution.seconds.factor = 0;
   if (factorisations_before > 0) solution.seconds.analyse = 0;

@@ -18,7 +18,7 @@ namespace antilock {
 /// it for a scene.
 class Sweep {
  public:
-  /// Throws Error as `check` does, and for bounds on combinations (solve/handed_back.hpp).
+  /// Throws Error as `check` does.
   explicit Sweep(VariationalInequality problem);
 
   /// Another value of the class parameter, 0 to 1. Throws Error where nothing is stiff (B has no
@@ -45,7 +45,7 @@ class Sweep {
 
  private:
   std::optional<PenaltyFactor> factor_;
-  std::optional<HeldBounds> contact_set_;
+  std::optional<Pieces> pieces_;
   Counters total_;
 };
 

@@ -1,0 +1,54 @@
+#include "antilock/solve/dense_contact.hpp"
+
+#include <optional>
+
+#include "antilock/core/dense.hpp"
+#include "antilock/core/error.hpp"
+
+namespace antilock {
+namespace {
+
+Cholesky factor_of(const Eigen::MatrixXd& s) {
+  Cholesky factor(s);
+  if (!factor.positive_definite()) throw Error("contact: the Schur complement is not positive definite");
+  return factor;
+}
+
+}  // namespace
+
+Equilibrium DenseContact::solve(const std::vector<char>& held, const Eigen::VectorXd& given) {
+  std::vector<int> free, fixed;
+  for (int i = 0; i < static_cast<int>(held.size()); ++i) (held[i] != 0 ? fixed : free).push_back(i);
+  Equilibrium now{given, given, Eigen::VectorXd::Zero(given.size())};
+  std::optional<Cholesky> factor;
+  if (!free.empty()) {
+    Eigen::VectorXd rhs = q_(free) + given(free);
+    if (!fixed.empty()) rhs.noalias() -= s_(free, fixed) * given(fixed);
+    factor = factor_of(s_(free, free));
+    const Eigen::VectorXd v = factor->solve(rhs);
+    now.v(free) = v;
+  }
+  if (!fixed.empty()) now.lambda(fixed) = s_(fixed, Eigen::all) * now.v - q_(fixed);
+  // each force by the terms of its own row: one stiff unknown must not hide the pull on a soft one
+  now.round_off = Equilibrium::unit * (s_.cwiseAbs() * now.v.cwiseAbs() + q_.cwiseAbs());
+  if (factor) {
+    const Eigen::VectorXd moved = factor->solve(Eigen::VectorXd(now.round_off(free))).cwiseAbs();
+    now.round_off(free) = moved;
+  }
+  return now;
+}
+
+Pieces DenseContact::nested_start(const Stairs& stairs, int max_steps) {
+  const int fine = stairs.count(), coarse = fine / 2;
+  if (fine <= 8) return Pieces(fine, Piece::between);
+  const auto kept = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
+  const Cholesky factor = factor_of(s_(others, others));
+  const Eigen::MatrixXd half = factor.half_solve(Eigen::MatrixXd(s_(others, kept)));
+  const Eigen::VectorXd half_q = factor.half_solve(Eigen::VectorXd(q_(others)));
+  const Eigen::MatrixXd s = Eigen::MatrixXd(s_(kept, kept)) - half.transpose() * half;
+  const Eigen::VectorXd q = Eigen::VectorXd(q_(kept)) - half.transpose() * half_q;
+  DenseContact smaller(s, q);
+  return start_by_halves(stairs, smaller, max_steps);
+}
+
+}  // namespace antilock

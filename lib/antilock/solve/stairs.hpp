@@ -1,0 +1,58 @@
+#pragma once
+#include <Eigen/Core>
+#include <vector>
+
+#include "antilock/core/eigen_memory.hpp"
+
+namespace antilock {
+
+/// On which piece of its stair a bounded value v stands, lambda the force of the bound on it:
+///
+///     below      v <= lower, lambda = +bears        the bound from below gives way
+///     at_lower   v = lower,  0 <= lambda <= bears   (of either sign where lower = upper: an equation)
+///     between    lower <= v <= upper, lambda = 0
+///     at_upper   v = upper, -bears <= lambda <= 0
+///     above      v >= upper, lambda = -bears        the bound from above gives way
+///
+/// Along the stair, from below to above, v rises and lambda falls. On every second piece v is given and lambda is found;
+/// on the others it is the other way round.
+enum class Piece : signed char { below = -2, at_lower = -1, between = 0, at_upper = 1, above = 2 };
+using Pieces = std::vector<Piece>;
+
+/// Whether v is given there.
+inline bool is_held(Piece piece) { return piece == Piece::at_lower || piece == Piece::at_upper; }
+
+/// C stairs. A bound from below, two bounds, an equation, friction: each is a list of the pieces above that it has.
+struct Stairs {
+  Eigen::VectorXd lower;       ///< C; -infinity: none
+  Eigen::VectorXd upper = {};  ///< C, or empty: none; +infinity: none here
+  Eigen::VectorXd bears = {};  ///< C, or empty: the most that a bound bears; +infinity: anything
+
+  struct Interval {
+    double low, high;
+  };
+
+  int count() const { return static_cast<int>(lower.size()); }
+  double above(int i) const;  ///< the upper bound of i; infinite: none
+  double most(int i) const;   ///< what bound i bears; infinite: anything
+  bool is_equation(int i) const { return lower(i) == above(i); }
+  /// What `piece` gives: v where it holds, else lambda.
+  double given(int i, Piece piece) const;
+  /// Where the other one of v and lambda must lie.
+  Interval found(int i, Piece piece) const;
+  /// The next piece of stair i towards larger values, or towards smaller ones. Asked where there is one.
+  Piece next(int i, Piece piece, bool up) const;
+  /// The pieces that there are, nearest to those asked for; an equation holds unless it gives way. Throws Error where
+  /// `asked` has not one entry per stair.
+  Pieces there_are(Pieces asked) const;
+  /// The same stairs for v - u_i, or of some of the bounds.
+  Stairs from(const Eigen::VectorXd& u) const;
+  Stairs of(const std::vector<int>& bounds) const;
+};
+
+/// at_lower where `active`, else between: a start for bounds from below.
+Pieces held_at_lower(const std::vector<bool>& active);
+/// The piece of a bound between two others: theirs where they agree, else between.
+inline Piece agreed(Piece one, Piece other) { return one == other ? one : Piece::between; }
+
+}  // namespace antilock
