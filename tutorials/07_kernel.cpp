@@ -8,9 +8,10 @@
 // Needs: [02](02_meshes.cpp) (kernel, ties), [03](03_by_hand.cpp) (B), [05](05_p1_structured.cpp) (Theorem 4),
 // [06](06_p1_unstructured.cpp) (locking).
 //
-// **The pictures.** One function of the kernel, and what is left of `sin πx` in it, for three methods. *The kernel of
-// P1 on the unstructured mesh is 0 on the layer: the picture is empty.* The last picture leads from one mesh to the
-// other: the vertices of the structured mesh are moved by `t h`, and the displacement is lost little by little.
+// **The picture.** One function of the kernel, and what is left of `sin πx` in it, for three methods. *What is not in
+// the kernel cannot survive ε → 0.*
+//
+// :figure: kernel
 //
 // **Predict.** (a) P2, quadratic functions, on the unstructured mesh: is its kernel 0 on the layer, too? (b) Move
 // every vertex of the structured mesh by a millionth of `h`: does P1 lock?
@@ -19,40 +20,35 @@
 //
 // In the limit the answer lies in $G_h = \{ v ∈ V_h : ∂_y v = 0 \text{ in the layer} \}$. It holds all functions of
 // the body that are 0 on $Σ$, on every mesh: its full dimension tells nothing. What counts is **the kernel on the
-// layer**, and **whether it grows under refinement**. $K_{0h}$ is to approach $K_0$ (Theorem 4), and $K_0$ holds
-// infinitely many functions of $x$. So a method whose kernel does not grow locks. (If it grows in the left half of
-// the layer alone, the method locks in the right half: growth is necessary, not sufficient.) Count it by algebra:
-// the columns of $B$ that belong to unknowns of the layer that are not clamped, less their rank.
+// layer**, and **whether it grows under refinement**.
+//
+// Why must it grow? Suppose that it has at most $m$ dimensions on every mesh, and take $m + 1$ loads whose limits $u^0$
+// are independent functions on the layer. There are such loads, because $K_0$ holds infinitely many functions of $x$. On
+// each mesh the $m + 1$ discrete limits lie in a space of $m$ dimensions, so one of their combinations is 0. If all of them
+// converged, some combination of the $m + 1$ exact limits would be 0, too, and they are independent. So *for some load* the
+// method does not converge at ε = 0: it locks. (Growth is necessary and not sufficient. If the kernel grows in the
+// left half of the layer alone, the method locks in the right half.)
+//
+// Count it by algebra: the columns of $B$ that belong to unknowns of the layer that are not clamped, less their rank.
 //
 // | method | dimension on the layer | why |
 // |---|---|---|
 // | P1, structured, $1/h = n$ | $n - 1$ | one hat per inner vertical line |
 // | P1, unstructured | 0 | one group of tied triangles, 0 at both ends |
 // | P2, unstructured | 1 | $∂_y v = 0$ leaves $v = a + b x + c x^2$: $x(1 - x)$, however small $h$ is |
-// | CR, any mesh | $N_T/2$ | 3/2 free edges per layer triangle, less one condition $∂_y v = 0$ per triangle |
+// | CR, equal spacing at the sides | $N_T/2$ | 3/2 free edges per layer triangle, less one condition per triangle |
 //
 // (An inner edge belongs to two triangles: 3/2 per triangle. Of the boundary edges those on the two sides are clamped
-// and those on top and bottom are free. They are equally many here, so 3/2 is exact.)
+// and those on top and bottom are free. They are equally many on the meshes of this square, so 3/2 is exact.)
 //
 // CR, the element of Crouzeix and Raviart, is affine on each triangle and continuous at the midpoints of the edges
 // only: one unknown per edge ([08](08_crouzeix_raviart.cpp) draws it). $N_T$ is the number of triangles of the layer.
-//
-// **A second question: which stresses are seen?** A displacement $v$ *sees* the stress $q$ if $(q, ∂_y v) ≠ 0$: the
-// stress then does work on it. The *inf-sup constant* of $B$ is the largest $β$ with
-// $\max_v (q, ∂_y v)/|v|_{1,h} ≥ β ‖q‖$ for every stress $q$, constant on triangles; $|v|_{1,h}$ is the norm of $∇v$,
-// taken triangle by triangle. With $‖q‖$ the same maximum over *all* displacements (the *dual norm*), $β = 1$ says:
-// whatever stress some displacement sees, a discrete one sees as well. For CR $β ≥ 1$ on every mesh: the
-// interpolation of chapter 08 keeps $(q, ∂_y v)$ and does not enlarge $|v|_1$ (a property that carries Fortin's
-// name). For P1 the rows of $B$ depend on each other (chapter 03: two triangles share each vertical edge). Some stress
-// is then not seen at all, and $β = 0$. This holds on the structured mesh too, where nothing locks. The theory of
-// mixed methods ([chapter 25](25_mixed.cpp)) shows that a $β$ above a positive number for all $h$ excludes locking.
-// Here it is not necessary.
 
+#include "backstage/07_kernel.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/locking.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "common/course.hpp"
-#include "common/kernel_pictures.hpp"
 
 using namespace antilock;
 
@@ -84,10 +80,11 @@ LockingDiagnosis diagnose(const Method& method) {
 }
 
 // From Figure 3 to Figure 6: every inner vertex is moved by up to $t h$, at random. The kernel on the layer is 0 at
-// the first $t > 0$. But a function of $x$ is only missed by a slope of size $t h$, at the price $ε^{-2} (t h)^2$:
-// the error rises like $(t h/ε)^2$, until all is lost. Locking comes little by little; its cause does not.
+// the first $t > 0$. But [chapter 06](06_p1_unstructured.cpp) says what a small error costs: a triangle whose vertical
+// edge leans by $t h$ has a bending length $k_T$ of the size of $t h$, and lost over kept is $(5.84 k/ε)^2$. So the loss
+// grows like $(t h/ε)^2$, until all is lost. Locking comes little by little; its cause does not.
 Table jitter_study(int n) {
-  Table table({"t", "epsilon", "kernel", "lost", "lost_to_kept"});
+  Table table({"t", "epsilon", "kernel", "lost", "lost_to_kept", "law"});
   ActiveSetOptions patient;  // functions that are almost in the kernel are corrected slowly
   patient.corrections.max_corrections = 5000;
   for (const double epsilon : {1e-2, 1e-3, 1e-4, 1e-5}) {
@@ -97,7 +94,8 @@ Table jitter_study(int n) {
       SceneSweep sweep(scene, on.space());
       sweep.set_epsilon(epsilon);
       const double lost = exact.errors(on.space(), sweep.solve(patient)).max_at_unknowns / exact.truth.max_on_contact();
-      table.add({t, epsilon, layer_kernel_dimension(sweep.problem()), lost, lost / (1 - lost)});
+      table.add({t, epsilon, layer_kernel_dimension(sweep.problem()), lost, lost / (1 - lost),
+                 std::pow(5.836 * bending_length(on.mesh()) / epsilon, 2)});
     }
   }
   return table;
@@ -105,7 +103,6 @@ Table jitter_study(int n) {
 
 void explain(const tutorial::Options& options, tutorial::Report& report) {
   const Table counts = count_kernels(options.cells), jitter = jitter_study(16);
-  const double p1_seen = tutorial::inf_sup_constant(p1_columns, 8), cr_seen = tutorial::inf_sup_constant(cr_any, 8);
   // ### Output
   for (const Method& method : {p1_columns, p1_any, cr_any})
     tutorial::draw_kernel(options.out, method.on(8).space(), method.name());
@@ -115,25 +112,32 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
   jitter.write(options.out / "jitter.csv");
   for (const Method& method : all) fmt::print("  {:<16} {}\n", method.name(), diagnose(method).text());
 
-  report.claim(counts.numbers("kernel") == counts.numbers("predicted"), "every count is the predicted one");
+  report.claim(counts.numbers("kernel") == counts.numbers("predicted"), "every count is the predicted one (proved)");
   report.claim(diagnose(p1_any).locks() && diagnose(p2_any).locks() && !diagnose(p1_columns).locks() &&
                    !diagnose(cr_columns).locks() && !diagnose(cr_any).locks(),
-               "the kernel on the layer does not grow for P1 and P2 unstructured, and grows for the others");
-  report.claim(cr_seen > 1 - 1e-9 && p1_seen == 0, "inf-sup constants: {:.4f} for CR (at least 1), {} for P1", cr_seen,
-               p1_seen);
-  report.claim(jitter.most("kernel") == 0, "the kernel on the layer is 0 at the first t = 1e-6");
-  // The order in t where more than round-off and less than all is lost.
-  const Table some = jitter.where_number("lost_to_kept", [](double x) { return x > 0.1 && x < 10; });
-  for (const double epsilon : {1e-3, 1e-4, 1e-5})
-    report.claim_within(some.where("epsilon", epsilon).order("lost_to_kept", "t"), 1.8, 2.05,
-                        fmt::format("epsilon = {}: lost / kept grows like t to the", epsilon));
+               "the kernel on the layer does not grow for P1 and P2 unstructured, and grows for the others (proved)");
+  report.claim(jitter.most("kernel") == 0, "the kernel on the layer is 0 at the first t = 1e-6 (proved)");
+  // The law is that of chapter 06, made without contact, which leaves up to twice as much where most is lost. Where less
+  // than a tenth is lost, or all but a tenth, the usual error of P1 hides it.
+  Table some({"t", "epsilon", "off"});
+  for (const Table& row : jitter.where_number("lost_to_kept", [](double x) { return x > 0.1 && x < 12; }).rows())
+    some.add({row.number("t"), row.number("epsilon"), row.number("lost_to_kept") / row.number("law")});
+  report.claim(some.size() >= 12 && some.least("off") > 0.4 && some.most("off") < 1.2,
+               "lost / kept over (5.84 k / epsilon)^2: {:.2f} to {:.2f} at {} places (observed; accepted 0.4 to 1.2)",
+               some.least("off"), some.most("off"), some.size());
 }
 
 // ## What came out
 //
+// :output: dimension of the kernel
+//
 // (a) No, one parabola is left; but it stays one when $h$ falls, and P2 locks too, unless $u^0$ happens to be that
 // parabola. (b) Yes, as $ε → 0$ on this mesh: the kernel on the layer is 0, so at $ε = 0$ all is lost. At
-// $ε = 10^{-3}$ a millionth of $h$ costs nothing yet, since $t h/ε$ is still small.
+// $ε = 10^{-3}$ a millionth of $h$ costs nothing yet, since $k$ is small against ε.
+//
+// :figure: jitter
+//
+// :output: moved by
 //
 // ## Exercises
 //

@@ -9,8 +9,10 @@
 // [08](08_crouzeix_raviart.cpp) (CR, Theorem 7, broken norms).
 //
 // **The picture.** Figure 9: the largest error, the norm of $L^∞(Ω)$, against $h$, for five $ε$. Four methods are
-// shown, P1 and CR on both kinds of mesh; the paper's caption counts three. *Where a method converges uniformly, the
-// lines of all $ε$ lie on top of each other. For P1 on unstructured meshes they fan out.*
+// shown, P1 and CR on both kinds of mesh; the paper's caption counts three. *Where the five lines of a method lie on top
+// of each other, its error does not depend on ε.*
+//
+// :figure: figure9
 //
 // **Predict.** (a) P1 interpolates with the error $h^2$. Which slope do the lines have? And that of P1 on unstructured
 // meshes at $ε = 10^{-6}$? (b) The paper: "The P1 nonconforming method on structured meshes is even slightly better
@@ -21,17 +23,21 @@
 //
 // **Uniform** means: one bound for all $ε$, so that the *worst* error over $ε$ tends to 0 with $h$. A method can
 // converge for each $ε$ and yet not uniformly. P1 unstructured does: by the law of chapter 06 the share $x/(1 + x)$
-// of the ridge is lost, $x = (h^{3/2}/ε)^2$. For each $ε > 0$ it tends to 0; but at every $h$ there is an $ε$ at
-// which nearly all is lost.
+// of the ridge is lost, $x = (5.84 k/ε)^2$, and the bending length $k$ of the mesh falls with $h$. For each $ε > 0$ the
+// loss tends to 0; but at every $h$ there is an $ε$ at which nearly all is lost.
 //
 // **The orders.** Interpolation has order 2 in the largest error and order 1 in the gradient. The end of contact may
 // take some of the 2. For $ε > 0$ the solution $u^ε$ is there like $r^{3/2}$, $r$ the distance from it: its second
 // derivative is not bounded. This part reaches about as far as $ε$. For $ε = 0$ the second derivative jumps, as for
-// chapter 00's string. Where no mesh line passes near, an order between 3/2 and 2 is left.
+// chapter 00's string. On the one element where it jumps a piecewise affine function errs by a multiple of $h^2$ still,
+// but the multiple depends on where in the element the jump lies. And CR asks $v ≥ 0$ at midpoints alone, so its contact
+// may end half an element too early or too late. Both make the error rough in $h$: the slope from one mesh to the next is
+// then anywhere between 3/2 and 2 and more, although no law with 3/2 is behind it.
 //
 // **P1 against CR.** Both gradients are constant per triangle. That of $I_h u$ for CR is the mean of $∇u$, the best
 // constant (chapter 08). So no function that is affine per triangle, P1 or CR, comes nearer to $∇u$. This is about
-// the interpolant; the solution $u_h$ is another function, and its error is measured below. In the values CR may lose:
+// the interpolants. The solutions compare, too: without contact, the error of CR's gradient is at most a constant times
+// that of P1's, plus how much the load varies inside a triangle (Braess, Calcolo 46, 2009). In the values CR may lose:
 // it is exact for means over edges, and its error is largest at the corners, where it jumps.
 //
 // **Computed once.** $a_1$ and $a_0$ do not contain $ε$: a mesh is assembled once for five $ε$, and the small ones
@@ -41,7 +47,6 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "common/course.hpp"
-#include "common/gradients.hpp"
 
 using namespace antilock;
 
@@ -87,22 +92,34 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   verdicts(results, truth, report);
 }
 
+// The error of the gradient alone, from those of the norm and of the values: CR over P1.
+Table gradient_ratios(const Table& one, const Table& other) {
+  const auto gradient = [](const Table& row) {
+    return std::sqrt(std::pow(row.number("h1"), 2) - std::pow(row.number("l2"), 2));
+  };
+  Table ratios({"cells", "epsilon", "ratio"});
+  for (const Table& row : one.rows()) {
+    const Table there = other.where("cells", row.entry("cells")).where("epsilon", row.entry("epsilon"));
+    ratios.add({row.entry("cells"), row.entry("epsilon"), gradient(there) / gradient(row)});
+  }
+  return ratios;
+}
+
 void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, tutorial::Report& report) {
   const auto of = [&](const Method& method) {
     return results.where("element", method.element->name()).where("mesh", method.family.name);
   };
   for (const Method& method : methods())
     of(method).pivot("cells", "epsilon", "max").print(method.name() + ": L-infinity error against 1/h and epsilon");
-  // The order at the paper's epsilon, from 1/16 on: 2, or 3/2 for CR off the mesh lines, 0 where it locks.
-  // The rest is room for coarse meshes.
-  const std::vector<std::pair<double, double>> orders{{1.8, 2.2}, {-0.02, 0.02}, {1.7, 2.2}, {1.4, 2.2}};
+  // The order at the paper's epsilon, from 1/16 on: 2; rough for CR off the mesh lines; 0 where it locks. Observed.
+  const std::vector<std::pair<double, double>> orders{{1.85, 2.1}, {-0.02, 0.02}, {1.7, 2.2}, {1.4, 2.1}};
   const std::vector<std::string> said{"Theorem 5", "Section 4.1, locks", "Theorem 7", "Theorem 7"};
   const double finest = results.most("cells");
   for (std::size_t i = 0; const Method& method : methods()) {
     const Table own = of(method), last = own.where("cells", finest);
     const Table paper = own.where("epsilon", 1e-6).where_number("cells", [](double cells) { return cells >= 16; });
-    report.claim_within(paper.order("max", "h"), orders[i].first, orders[i].second,
-                        fmt::format("{}, {}: order in h at epsilon = 1e-6", said[i], method.name()));
+    report.claim_order(paper, "max", "h", orders[i].first, orders[i].second,
+                       fmt::format("{}, {}, epsilon = 1e-6", said[i], method.name()));
     // On the finest mesh the error hardly depends on epsilon. 1.5: CR on an unstructured mesh settles
     // 40 % above its value at epsilon = 1e-1, and stays. Locked, it is h^2 against the ridge: hundreds.
     const double ratio = last.most("max") / last.least("max");
@@ -117,10 +134,10 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
                    1 / finest);
     ++i;
   }
-  const Table gradients = tutorial::gradient_ratios(of({&p1(), structured()}), of({&crouzeix_raviart(), structured()}));
+  const Table gradients = gradient_ratios(of({&p1(), structured()}), of({&crouzeix_raviart(), structured()}));
   gradients.pivot("cells", "epsilon", "ratio").print("structured meshes: error of the gradient, CR / P1");
   // 1: the paper's words; CR's gradient is the better one.
-  report.claim_within(gradients.most("ratio"), 0, 1, "Section 4.2, in the H1 seminorm: CR / P1 at most");
+  report.claim_within(gradients.most("ratio"), 0.85, 1, "Section 4.2, in the H1 seminorm (observed): CR / P1 at most");
 }
 
 // ## What came out
@@ -129,9 +146,12 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
 //
 // All of this is measured. (What is proved of orders, in the energy norm: [order h](33_order_h.cpp).)
 // (a) Slope 2, a little less for CR on unstructured meshes; slope 0 where it locks, at $ε = 10^{-4}$ and $10^{-6}$.
-// At $10^{-2}$ P1 unstructured "locks already" (caption of Figure 9) on coarse meshes, and recovers where
-// $h^{3/2} < ε$. (b) In the gradient's: there CR has 0.90 to 0.95 of P1's error. In the largest error, which Figure 9
-// shows, it is about 1.6 times worse with our load, and the paper's sentence does not hold.
+// At $10^{-2}$ P1 unstructured "locks already" (caption of Figure 9) on coarse meshes, and recovers where the wall,
+// $5.84 k$, has moved to the left of $10^{-2}$. (b) In the gradient's: there CR has 0.90 to 0.95 of P1's error. In the
+// largest error, which Figure 9 shows, it is about 1.6 times worse. So the paper's sentence does not hold for our load in
+// that norm; the load of the paper is not known.
+//
+// :output: structured meshes
 //
 // ## Exercises
 //

@@ -8,12 +8,12 @@
 
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/adapt/solve_to.hpp"
+#include "antilock/analysis/exact_errors.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "common/exact_errors.hpp"
 #include "support/bodies.hpp"
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
@@ -118,7 +118,7 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
         EXPECT_GE(found.certificate.relative(of), asked / 2) << at;
         const auto& [mesh, space, problem, solution, seconds, warning] = found.cr;
         const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
-        const auto exact = tutorial::exact_errors(*mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
+        const auto exact = exact_errors(*mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
         EXPECT_LE(exact.displacement, found.certificate.displacement) << at;
         EXPECT_LE(exact.gradient, found.certificate.gradient) << at;
         EXPECT_LE(exact.stress, found.certificate.stress) << at;
@@ -275,8 +275,7 @@ TEST(SolveTo, BoundsNeverLieOnTheirWay) {
         }
         const Companion v = strip_companion(scene, space, problem, solution);
         const Certificate found = certify(scene, space, problem, solution, {.companion = &v});
-        const auto exact =
-            tutorial::exact_errors(now.mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
+        const auto exact = exact_errors(now.mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
         EXPECT_GE(found.gradient, exact.gradient) << epsilon << k << level;
         EXPECT_GE(found.displacement, exact.displacement) << epsilon << k << level;
         EXPECT_GE(found.stress, exact.stress) << epsilon << k << level;

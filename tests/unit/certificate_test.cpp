@@ -9,13 +9,13 @@
 #include "antilock/analysis/certificate.hpp"
 #include "antilock/analysis/certified_distance.hpp"
 #include "antilock/analysis/energy_bracket.hpp"
+#include "antilock/analysis/exact_errors.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "common/exact_errors.hpp"
 #include "support/bodies.hpp"
 #include "support/scenes.hpp"
 
@@ -23,8 +23,6 @@ namespace antilock::certificate_test {
 namespace {
 
 using test::expect_refused;
-using tutorial::exact_errors;
-using tutorial::ExactErrors;
 
 /// One question with its answer, and room for what a test does to it.
 struct Answered {

@@ -4,13 +4,13 @@
 #include <limits>
 #include <map>
 
+#include "antilock/analysis/exact_errors.hpp"
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/certified.hpp"
-#include "common/exact_errors.hpp"
 
 namespace antilock::tutorial {
 namespace {

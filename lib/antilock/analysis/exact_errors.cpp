@@ -1,19 +1,13 @@
-#pragma once
-#include "antilock/analysis/certificate.hpp"
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/analysis/exact_errors.hpp"
+
+#include <cmath>
+
 #include "antilock/form/quadrature.hpp"
 
-namespace antilock::tutorial {
+namespace antilock {
 
-/// The errors that a certificate bounds, by a rule of degree 8 against the truth of the scaled layer.
-struct ExactErrors {
-  double gradient = 0;      ///< |A grad u - S_h|
-  double displacement = 0;  ///< |u - v|_a
-  double stress = 0;        ///< |A grad u - (sigma + A grad v) / 2|; 0 where v has columns of its own
-};
-
-inline ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const Companion& v,
-                                const TruthTable& truth) {
+ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const Companion& v,
+                         const TruthTable& truth) {
   const Quadrature& rule = triangle_rule(8);
   double cr = 0, conforming = 0, middle = 0;
   const auto exact = [&](const Eigen::Vector2d& x, bool layer) {
@@ -56,4 +50,4 @@ inline ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux
   return {std::sqrt(cr), std::sqrt(conforming), v.layer ? 0 : std::sqrt(middle)};
 }
 
-}  // namespace antilock::tutorial
+}  // namespace antilock

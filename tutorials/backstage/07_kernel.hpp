@@ -1,19 +1,20 @@
-#include "common/kernel_pictures.hpp"
-
+#pragma once
 #include <cctype>
+#include <filesystem>
 #include <numbers>
+#include <string>
 
-#include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/form/forms.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "common/paper_problem.hpp"
 
 namespace antilock::tutorial {
 
-void draw_kernel(const std::filesystem::path& out, const Space& space, std::string name) {
+/// Two functions of G_h, the kernel of the paper's stiff form on this space: the orthogonal projections onto it of one
+/// unknown in the middle of the layer (scaled to 1), and of sin(pi x). Files NAME_local.vtu and NAME_sine.vtu, NAME in
+/// small letters with _ in place of blanks.
+inline void draw_kernel(const std::filesystem::path& out, const Space& space, std::string name) {
   for (char& c : name) c = c == ' ' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const Eigen::MatrixXd basis = kernel_basis(assemble(paper_scene(0), space));
   const auto projection = [&](const Eigen::VectorXd& v) { return Eigen::VectorXd(basis * (basis.transpose() * v)); };
@@ -28,14 +29,6 @@ void draw_kernel(const std::filesystem::path& out, const Space& space, std::stri
   const auto x = space.points().col(0).array(), y = space.points().col(1).array();
   write_vtu(out / (name + "_local.vtu"), space, local);
   write_vtu(out / (name + "_sine.vtu"), space, projection((std::numbers::pi * x).sin() * (1 - y.max(0.0))));
-}
-
-double inf_sup_constant(const Method& method, int n) {
-  const auto seminorm = [](const Space& space) { return gradient_form(space, {1, 1}, {1, 1}); };
-  const Discretisation on = method.on(n), almost_all(refined(refined(on.mesh())), p1());
-  const Eigen::MatrixXd dual =
-      multiplier_gram(assemble(paper_scene(0), almost_all.space()), seminorm(almost_all.space()), 16);
-  return inf_sup(multiplier_gram(assemble(paper_scene(0), on.space()), seminorm(on.space())), dual);
 }
 
 }  // namespace antilock::tutorial
