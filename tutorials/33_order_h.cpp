@@ -53,9 +53,9 @@
 //
 // ## Rows: one number in two roles
 //
-// Interpolate a bend $w(x)$ on rows of triangles with base $h$ and height $H$. By [chapter 06](06_p1_unstructured.cpp)
+// Interpolate a bend $w(x)$ on rows of triangles with base $b$ and height $H$. By [chapter 06](06_p1_unstructured.cpp)
 // P1 gets the slope $-k w''$ on triangles that point up and $+k w''$ on the others, with the bending length
-// $k = h^2/(8H)$. For P1 this is an energy of bending $(k/ε)^2 ‖w''‖^2$: it locks. For CR multiply the slope by
+// $k = b^2/(8H)$. For P1 this is an energy of bending $(k/ε)^2 ‖w''‖^2$: it locks. For CR multiply the slope by
 // $χ = ±1$ (up, down): $(χ ∂_y w, 0)$ is the gradient of an $e_h ∈ V_h$ that $a_0$ does not see. Test with it
 // (*Proposition E*): where $∂_{xx} u$ jumps by $J$, the part $S^-$ of $|e|_a$ in the layer is at least of size $|J| k^{3/4}$.
 
