@@ -79,10 +79,10 @@ double symbol(int k, double epsilon) {
 }
 
 // ### Mesh
-// **The library in ten lines.** From here on chapters compute with the library. These are its words, in the order of
-// the data: a *scene* (what is to be solved) and a *method* (an element and a family of meshes) know nothing of each
-// other; a *discretisation* is the method at one $h$; `assemble` brings scene and discretisation together, as chapter
-// 03's `assemble_by_hand` does; the solver knows only the matrices.
+// **The library in ten lines.** From here on chapters compute with the library. These are its words, as the data go. A
+// *scene* (chapter 20) is what is to be solved. A *method*, an element and a family of meshes, knows nothing of it. A
+// *discretisation* is the method at one $h$. `assemble` brings both together, as chapter 03's `assemble_by_hand` does. The
+// solver knows only the matrices.
 struct Solved {
   Scene scene;
   Discretisation on;              // a mesh, and the space of the unknowns on it

@@ -74,7 +74,7 @@ Table count_kernels(int finest) {
   return counts;
 }
 
-// The library's diagnosis: of the kernel on two meshes, the trace on $Γ_C$.
+// The library's diagnosis: of the kernel on two meshes, the trace (chapter 10) on $Γ_C$.
 LockingDiagnosis diagnose(const Method& method) {
   return diagnose_locking(assemble(scene, method.on(4).space()), assemble(scene, method.on(8).space()));
 }
