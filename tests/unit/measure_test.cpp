@@ -429,7 +429,7 @@ TEST(ContactTrace, TheConstantIsTheLargestHiddenPartOfSampledFunctions) {
       }
       const Eigen::MatrixXd norm = Eigen::MatrixXd(h1_norm(space))(free, free);
       const double largest = generalised_eigenvalues(test::product(samples.transpose(), samples), norm).maxCoeff();
-      const double constant = negative_part_constant(space, stiff_problem(space, 1), h1_norm(space));
+      const double constant = negative_part(space, stiff_problem(space, 1), h1_norm(space)).constant;
       EXPECT_NEAR(constant / std::sqrt(largest), 1, 5e-3) << name << element->name();  // midpoint sums: 32^-2
     }
 }
@@ -439,7 +439,7 @@ TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
     for (const Element* element : {&p1(), &p2(), &crouzeix_raviart()}) {
       const Space space(mesh, *element);
       const Eigen::SparseMatrix<double> norm = h1_norm(space);
-      const double constant = negative_part_constant(space, stiff_problem(space, 1), norm);
+      const double constant = negative_part(space, stiff_problem(space, 1), norm).constant;
       double closest = 0;
       for (int k = 1; k <= 20; ++k) {
         Eigen::VectorXd v(space.size());  // of K_h, otherwise wild
@@ -455,7 +455,7 @@ TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
     }
   const TriangleMesh mesh = structured_mesh(2);
   const Space cubic(mesh, p3());
-  test::expect_refused([&] { negative_part_constant(cubic, stiff_problem(cubic, 1), h1_norm(cubic)); }, "P3");
+  test::expect_refused([&] { negative_part(cubic, stiff_problem(cubic, 1), h1_norm(cubic)); }, "P3");
 }
 
 TEST(AccurateEnough, SavesCorrectionsAndNoAccuracy) {

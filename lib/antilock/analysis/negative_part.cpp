@@ -6,13 +6,14 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/measure/contact_edges.hpp"
+#include "antilock/solve/active_set.hpp"
 
 namespace antilock {
 
-double negative_part_constant(const Space& space, VariationalInequality problem, const SparseMatrix& norm) {
+NegativePart negative_part(const Space& space, VariationalInequality problem, const SparseMatrix& norm) {
   const Element& element = space.element();
   const bool quadratic = element.degree() == 2;
-  if (element.conforming() && element.degree() == 1) return 0;
+  if (element.conforming() && element.degree() == 1) return {};
   if (element.degree() > 2)
     throw Error("negative part on Gamma_C: element " + element.name() + " is not accepted; P1, P2 or CR");
   const std::vector<ContactEdge> edges = contact_edges(space.mesh());
@@ -28,8 +29,16 @@ double negative_part_constant(const Space& space, VariationalInequality problem,
   problem.b.resize(static_cast<Eigen::Index>(edges.size()), space.size());
   problem.b.setFromTriplets(entries.begin(), entries.end());
   problem.m = Eigen::VectorXd::Ones(problem.b.rows());
-  const Eigen::MatrixXd seen = multiplier_gram(problem, norm);  // sup |B v|^2 / |v|_h^2 is its largest eigenvalue
-  return std::sqrt(symmetric_eigenvalues(seen).maxCoeff());
+  // sup |B v|^2 / |v|_h^2 is the largest eigenvalue mu of B norm^-1 B'; it is reached where norm v = B' x
+  const SymmetricEigen seen = symmetric_eigen(multiplier_gram(problem, norm));
+  const double largest = seen.values.tail(1)(0);
+  problem.load = problem.b.transpose() * seen.vectors.rightCols(1);
+  problem.a1 = norm;
+  problem.b.resize(0, problem.size());
+  problem.m.resize(0);
+  problem.contact.clear();
+  problem.lower.resize(0);
+  return {std::sqrt(largest), active_set(problem).u / std::sqrt(largest)};
 }
 
 }  // namespace antilock

@@ -1,5 +1,5 @@
-#include "common/contact_sets_output.hpp"
-
+#pragma once
+// What chapter 11 draws.
 #include <string>
 #include <vector>
 
@@ -7,11 +7,13 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/method.hpp"
+#include "antilock/study/table.hpp"
+#include "common/paper_problem.hpp"
 
 namespace antilock::tutorial {
-namespace {
 
-Table by_quantity(const Table& results) {
+/// One row per quantity (to_k, to_k0, c_h, k_h), method and mesh, without what is 0 up to round-off.
+inline Table by_quantity(const Table& results) {
   Table table({"quantity", "element", "mesh", "cells", "h", "value"});
   for (const Table& row : results.rows())
     for (const auto& [quantity, column] : {std::pair{"distance from $u$ to $K_h$", "to_k"},
@@ -24,7 +26,8 @@ Table by_quantity(const Table& results) {
   return table;
 }
 
-Table traces(const Exact& u, int cells) {
+/// u_h on Gamma_C around the end of contact, of P1, CR (unstructured: it slopes) and P2, beside the truth.
+inline Table traces(const Exact& u, int cells) {
   std::vector<Eigen::MatrixX3d> trace;
   for (const Method& method :
        {Method{&p1(), structured()}, {&crouzeix_raviart(), unstructured()}, {&p2(), structured()}}) {
@@ -38,11 +41,14 @@ Table traces(const Exact& u, int cells) {
   return table;
 }
 
-}  // namespace
-
-void write_contact_sets(const std::filesystem::path& out, const Table& results, const Exact& u) {
+/// results.csv, trace.csv, and dip.csv: a v_h of Crouzeix-Raviart on Gamma_C.
+inline void write_contact_sets(const std::filesystem::path& out, const Table& results, const Exact& u,
+                               const Eigen::MatrixX3d& dip) {
   by_quantity(results).write(out / "results.csv");
   traces(u, 16).write(out / "trace.csv");
+  Table table({"x", "v"});
+  for (Eigen::Index i = 0; i < dip.rows(); ++i) table.add({dip(i, 0), dip(i, 1)});
+  table.write(out / "dip.csv");
 }
 
 }  // namespace antilock::tutorial
