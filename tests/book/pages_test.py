@@ -12,6 +12,9 @@ from pathlib import Path
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tutorials/book"))
+from pages import EXTRA  # noqa: E402
+
 STILLS = ("hero", "string", "figure9", "roundoff")
 CHAPTERS = {
     "00_start": """// # A first chapter
@@ -80,7 +83,8 @@ def small_repository(root):
     (root / "freefem/00_start.edp").write_text("// ### Solve\nreal a = 1;\n")
     (root / "lib/antilock/core/error.hpp").write_text("#pragma once\nclass Error {};\n")
     (root / "tutorials/README.md").write_text("# Tutorials\n\n## The theory as experiments\n\nNone.\n")
-    for page in ("errata", "glossary", "notation"):
+    (root / "tutorials/book/index.md").write_text("# The index\n\nBegin with [a start](00_start.cpp).\n\n:live:\n\n:chapters:\n")
+    for page in EXTRA:
         (root / f"tutorials/{page}.md").write_text(f"# The {page}\n\nNone.\n")
     for still in STILLS:
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{still}.png")

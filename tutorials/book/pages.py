@@ -262,7 +262,7 @@ class Book:
         self.write("gallery", out)
 
     def index(self):
-        text = (ROOT / "tutorials/book/index.md").read_text()
+        text = "\n".join(self.linked((ROOT / "tutorials/book/index.md").read_text().splitlines(), ROOT / "tutorials"))
         trees = []
         for i, (caption, first, last) in enumerate(PARTS):
             names = [name for name in self.names if first <= int(name[:2]) <= last]
