@@ -21,7 +21,7 @@ namespace antilock {
 namespace {
 
 /// Corrections with one penalty: a new factor costs as much as 10 to 20 (measured at 1/h = 128).
-constexpr int patience = 15;
+constexpr int corrections_per_penalty = 15;
 /// By which the next penalty is smaller. A correction contracts like delta / (delta + sigma): 0.9 becomes 0.12.
 constexpr double smaller_by = 64;
 
@@ -61,7 +61,7 @@ class IteratedPenalty {
                            std::max(now.error, options_.tolerance * now.open), correction);
       report(options_.progress, {"corrections", correction + 1, now.error, options_.tolerance}, s_.solver);
       acceleration_.mix(p_, u_);
-      if (correction % patience == patience - 1) take_a_smaller_penalty();
+      if (correction % corrections_per_penalty == corrections_per_penalty - 1) take_a_smaller_penalty();
     }
   }
 

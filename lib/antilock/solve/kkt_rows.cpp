@@ -7,7 +7,7 @@
 namespace antilock {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// 0 / 0 is a condition met exactly.
 double ratio(double value, double scale) { return value == 0 ? 0.0 : value / scale; }
@@ -66,7 +66,7 @@ KktRows::KktRows(const KktParts& parts, const Eigen::VectorXd& bounds, const Eig
   forces_ = own.cwiseMin(scales_.forces);
   for (Eigen::Index i = 0; i < own.size(); ++i) {
     if (fixed[i] != 0) {
-      forces_(i) = infinity;  // the clamp bears any
+      forces_(i) = unbounded;  // the clamp bears any
       continue;
     }
     // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
