@@ -1,6 +1,6 @@
 # SuiteSparse::SuiteSparse: CHOLMOD, SPQR and UMFPACK over OpenBLAS (Debian ships no CMake config for them).
 # OpenBLAS is named explicitly: with the reference BLAS the Cholesky factor takes 2 to 3 times as long. So is gomp, the OpenMP
-# library of CHOLMOD, whose threads solve/cholmod_cholesky.cpp limits.
+# library of CHOLMOD, whose threads solve/detail/cholmod_cholesky.cpp limits.
 find_path(SuiteSparse_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
 set(SuiteSparse_LIBRARIES "")
 set(required SuiteSparse_INCLUDE_DIR)

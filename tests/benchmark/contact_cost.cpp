@@ -15,7 +15,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/loops_on_one_thread.hpp"
+#include "antilock/solve/detail/loops_on_one_thread.hpp"
 #include "benchmark/unconstrained_cholesky.hpp"
 #include "common/command_line.hpp"
 

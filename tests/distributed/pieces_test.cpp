@@ -17,8 +17,8 @@
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/residual.hpp"
 #include "antilock/solve/kkt.hpp"
+#include "antilock/solve/residual.hpp"
 
 namespace antilock::distributed {
 namespace {

@@ -198,8 +198,10 @@ VariationalInequality random_corner(unsigned seed) {
     b.row(0).setZero();
     for (const int i : problem.fixed) b(0, i) = 1 + dice.below(3);
   } else if (kind == 1 && rows > 1) {
+    a1.setIdentity();  // in other units of an unknown, rows that differ may count as equal
+    problem.m.setOnes();
     b.row(rows - 1) = b.row(0);
-    b(rows - 1, dice.below(n)) += std::exp2(-10 - dice.below(30));
+    b(rows - 1, dice.below(n)) *= 1 + std::exp2(-10 - dice.below(30));
     problem.compliance = 0;
   } else if (kind == 2) {
     const Eigen::VectorXd flat = Eigen::VectorXd::NullaryExpr(n, [&](auto) { return few_digits(dice.symmetric()); });

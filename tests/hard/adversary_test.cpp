@@ -11,7 +11,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/dependent_rows.hpp"
+#include "antilock/solve/detail/dependent_rows.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "support/scenes.hpp"

@@ -12,7 +12,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/dense_contact.hpp"
+#include "antilock/solve/detail/dense_contact.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/random_contact.hpp"

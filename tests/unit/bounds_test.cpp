@@ -13,7 +13,7 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/dense_contact.hpp"
+#include "antilock/solve/detail/dense_contact.hpp"
 #include "antilock/solve/exhibits/summed_matrix.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/kkt.hpp"

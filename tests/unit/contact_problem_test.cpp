@@ -1,6 +1,6 @@
 // The contact problem on Gamma_C: a linear complementarity problem, solved from any start.
 #include "antilock/core/error.hpp"
-#include "antilock/solve/dense_contact.hpp"
+#include "antilock/solve/detail/dense_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,7 +12,7 @@
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/dense_contact.hpp"
+#include "antilock/solve/detail/dense_contact.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "antilock/study/sweep.hpp"

@@ -12,7 +12,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/sparse_contact.hpp"
+#include "antilock/solve/detail/sparse_contact.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "hard/adversary.hpp"
 #include "support/membrane.hpp"
@@ -172,7 +172,7 @@ TEST(ManyBounds, TheNestedStartKeepsTheStepsFew) {
     const Outcome o = by(ContactRoad::automatic, membrane_over_obstacle(n));
     ASSERT_EQ(o.refusal, "");
     EXPECT_LE(o.s.counters.contact, 9) << n;  // measured: 4, 4, 6
-    if (n > 45) {  // beyond 2000 bounds the start factors smaller matrices of its own
+    if (n > 45) {                             // beyond 2000 bounds the start factors smaller matrices of its own
       EXPECT_EQ(o.s.counters.factorisations, o.s.counters.contact + 1) << n;
     }
     EXPECT_EQ(o.s.warning, "");

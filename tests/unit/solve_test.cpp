@@ -9,7 +9,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/anderson.hpp"
+#include "antilock/solve/detail/anderson.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "support/brute_force.hpp"

@@ -129,8 +129,7 @@ void check_bounds(const VariationalInequality& problem) {
 
 void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who) {
   if (problem.combinations.rows() > 0)
-    throw Error(who +
-                ": bounds on combinations are not known here; accepted: bounds on unknowns");
+    throw Error(who + ": bounds on combinations are not known here; accepted: bounds on unknowns");
 }
 
 void require_firm_bounds(const VariationalInequality& problem, const std::string& who) {

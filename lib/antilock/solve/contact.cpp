@@ -25,7 +25,7 @@ std::vector<Move> moves(const Stairs& stairs, const Pieces& pieces, const Equili
     const bool held = is_held(pieces[i]);
     const double value = held ? now.lambda(i) : now.v(i);
     const auto [low, high] = stairs.found(i, pieces[i]);
-    const bool under = value < low - now.round_off(i), over = value > high + now.round_off(i);
+    const bool under = value<low - now.round_off(i), over = value> high + now.round_off(i);
     if (under || over) moves.push_back({i, stairs.next(i, pieces[i], held == under)});  // too little force: v must rise
   }
   return moves;
@@ -79,7 +79,8 @@ Pieces start_by_halves(const Stairs& stairs, ContactSystem& coarse, int max_step
   const Pieces pieces = solve_contact(coarse, fewer, std::nullopt, max_steps).pieces;
   Pieces start;
   for (int i = 0; i < count; ++i)
-    start.push_back(agreed(pieces[std::min(i / 2, fewer.count() - 1)], pieces[std::clamp((i - 1) / 2, 0, fewer.count() - 1)]));
+    start.push_back(
+        agreed(pieces[std::min(i / 2, fewer.count() - 1)], pieces[std::clamp((i - 1) / 2, 0, fewer.count() - 1)]));
   return stairs.there_are(std::move(start));
 }
 

@@ -2,7 +2,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/solve/default_cholesky.hpp"
+#include "antilock/solve/detail/default_cholesky.hpp"
 
 namespace antilock {
 

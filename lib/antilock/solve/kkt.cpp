@@ -9,7 +9,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/kkt_rows.hpp"
+#include "antilock/solve/detail/kkt_rows.hpp"
 
 namespace antilock {
 namespace {

@@ -18,7 +18,8 @@ struct FreeNumbering {
 SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering,
                               const Eigen::VectorXd& deltas);
 /// The same with one delta for all R rows.
-inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering, double delta) {
+inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering,
+                                     double delta) {
   return penalised_matrix(problem, numbering, Eigen::VectorXd(Eigen::VectorXd::Constant(problem.b.rows(), delta)));
 }
 

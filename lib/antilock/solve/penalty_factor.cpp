@@ -10,8 +10,8 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
-#include "antilock/solve/default_cholesky.hpp"
-#include "antilock/solve/tied.hpp"
+#include "antilock/solve/detail/default_cholesky.hpp"
+#include "antilock/solve/detail/tied.hpp"
 
 namespace antilock {
 namespace {

@@ -95,11 +95,11 @@ class PenaltyFactor {
   void require_dense() const;
   void factorise(const VariationalInequality& problem, double delta);
   FreeNumbering numbering_;
-  SparseMatrix a1_;                           ///< A1, B and M that it was made of
+  SparseMatrix a1_;  ///< A1, B and M that it was made of
   RowMatrix b_;
   Eigen::VectorXd m_;
   double first_delta_, delta_ = 0;
-  Eigen::VectorXd deltas_;                    ///< R
+  Eigen::VectorXd deltas_;  ///< R
   Work work_;
   std::unique_ptr<SparseCholesky> cholesky_;  ///< the dense road's
   std::optional<HeldFactor> held_;            ///< the sparse road's

@@ -24,21 +24,31 @@ double Stairs::most(int i) const { return bears.size() > 0 ? bears(i) : infinity
 
 double Stairs::given(int i, Piece piece) const {
   switch (piece) {
-    case Piece::below: return most(i);
-    case Piece::at_lower: return lower(i);
-    case Piece::at_upper: return upper(i);
-    case Piece::above: return -most(i);
-    default: return 0;
+    case Piece::below:
+      return most(i);
+    case Piece::at_lower:
+      return lower(i);
+    case Piece::at_upper:
+      return upper(i);
+    case Piece::above:
+      return -most(i);
+    default:
+      return 0;
   }
 }
 
 Stairs::Interval Stairs::found(int i, Piece piece) const {
   switch (piece) {
-    case Piece::below: return {-infinity, lower(i)};
-    case Piece::at_lower: return {is_equation(i) ? -most(i) : 0, most(i)};
-    case Piece::at_upper: return {-most(i), 0};
-    case Piece::above: return {above(i), infinity};
-    default: return {lower(i), above(i)};
+    case Piece::below:
+      return {-infinity, lower(i)};
+    case Piece::at_lower:
+      return {is_equation(i) ? -most(i) : 0, most(i)};
+    case Piece::at_upper:
+      return {-most(i), 0};
+    case Piece::above:
+      return {above(i), infinity};
+    default:
+      return {lower(i), above(i)};
   }
 }
 

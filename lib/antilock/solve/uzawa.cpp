@@ -10,7 +10,7 @@
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/solve/dense_contact.hpp"
+#include "antilock/solve/detail/dense_contact.hpp"
 #include "antilock/solve/iterated_penalty.hpp"
 
 namespace antilock {

@@ -11,9 +11,7 @@
 
 namespace antilock {
 
-Sweep::Sweep(VariationalInequality problem) : problem_(std::move(problem)) {
-  check(problem_);
-}
+Sweep::Sweep(VariationalInequality problem) : problem_(std::move(problem)) { check(problem_); }
 
 void Sweep::set_compliance(double compliance) {
   if (problem_.b.rows() == 0)

@@ -1,4 +1,4 @@
-#include "antilock/solve/cholmod_cholesky.hpp"
+#include "antilock/solve/detail/cholmod_cholesky.hpp"
 
 #include <cholmod.h>
 
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "antilock/core/error.hpp"
-#include "antilock/solve/loops_on_one_thread.hpp"
-#include "antilock/solve/supernodes.hpp"
+#include "antilock/solve/detail/loops_on_one_thread.hpp"
+#include "antilock/solve/detail/supernodes.hpp"
 
 namespace antilock {
 namespace {

@@ -1,4 +1,4 @@
-#include "antilock/solve/tied.hpp"
+#include "antilock/solve/detail/tied.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "antilock/solve/dependent_rows.hpp"
+#include "antilock/solve/detail/dependent_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "antilock/solve/kkt_rows.hpp"
+#include "antilock/solve/detail/kkt_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +54,8 @@ KktRows::KktRows(const KktParts& parts, const Eigen::VectorXd& bounds, const Eig
   for (Eigen::Index i = 0; i < pulled.size(); ++i) {
     if (fixed[i] != 0) reaction = std::max(reaction, std::abs(r1(i)));  // a force, not an error
     if (fixed[i] == 0 && parts.diagonal(i) > 0)
-      single = std::max(single, std::min(std::abs(pulled(i)), std::abs(pulled(i) - parts.borne(i))) / parts.diagonal(i));
+      single =
+          std::max(single, std::min(std::abs(pulled(i)), std::abs(pulled(i) - parts.borne(i))) / parts.diagonal(i));
   }
   const auto largest = [](const Eigen::VectorXd& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0; };
   scales_.u = over_all(std::max(largest_u, single));

@@ -1,4 +1,4 @@
-#include "antilock/solve/anderson.hpp"
+#include "antilock/solve/detail/anderson.hpp"
 
 #include <algorithm>
 

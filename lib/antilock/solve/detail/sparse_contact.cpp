@@ -1,15 +1,18 @@
-#include "antilock/solve/sparse_contact.hpp"
+#include "antilock/solve/detail/sparse_contact.hpp"
 
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "antilock/core/error.hpp"
-#include "antilock/solve/aggregation.hpp"
+#include "antilock/solve/detail/aggregation.hpp"
 
 namespace antilock {
 namespace {
 
 /// Of the members of each coarse bound: their sum, or their mean. Infinite where one of them is.
-Eigen::VectorXd sums(const Eigen::VectorXd& of_fine, const std::vector<int>& coarse_of, Eigen::Index coarse, bool mean) {
+Eigen::VectorXd sums(const Eigen::VectorXd& of_fine, const std::vector<int>& coarse_of, Eigen::Index coarse,
+                     bool mean) {
   if (of_fine.size() == 0) return {};
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(coarse), members = sum;
   for (Eigen::Index i = 0; i < of_fine.size(); ++i) {
@@ -19,11 +22,12 @@ Eigen::VectorXd sums(const Eigen::VectorXd& of_fine, const std::vector<int>& coa
   return mean ? Eigen::VectorXd(sum.cwiseQuotient(members)) : sum;
 }
 
-/// Whether a constant costs no energy but near what is fixed, as aggregation supposes: where more than a third of the rows
-/// of K do not sum to nearly 0, it does (in a beam the rotations, half of all unknowns).
+/// Whether a constant costs no energy but near what is fixed, as aggregation supposes: where a third of the rows of K or
+/// more do not sum to 0, half of the digits apart, it does (in a beam the rotations, half of all unknowns).
 bool constants_are_free(const SparseMatrix& upper) {
   const Eigen::VectorXd sums = upper.selfadjointView<Eigen::Upper>() * Eigen::VectorXd::Ones(upper.cols());
-  return 3 * (sums.array().abs() > 0.5 * upper.diagonal().array()).count() < upper.cols();
+  const double half_the_digits = std::sqrt(std::numeric_limits<double>::epsilon());
+  return 3 * (sums.array().abs() > half_the_digits * upper.diagonal().array()).count() < upper.cols();
 }
 
 }  // namespace

@@ -44,7 +44,8 @@ class KktRows {
   double residual() const { return residual_; }
   /// The rows of bound i, whose value is `value`: each gap by its own bound, so that a far obstacle hides no near one.
   /// `strain`: what the bounded value is at most where no |u| is above 1; `force`: a lambda that nobody would overlook.
-  void note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, double lambda, double strain, double force) const;
+  void note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, double lambda, double strain,
+                  double force) const;
 
  private:
   KktScales scales_;

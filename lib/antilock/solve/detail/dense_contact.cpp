@@ -1,4 +1,4 @@
-#include "antilock/solve/dense_contact.hpp"
+#include "antilock/solve/detail/dense_contact.hpp"
 
 #include <optional>
 

@@ -1,4 +1,4 @@
-#include "antilock/solve/eigen_cholesky.hpp"
+#include "antilock/solve/detail/eigen_cholesky.hpp"
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>

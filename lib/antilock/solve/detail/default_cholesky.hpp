@@ -1,8 +1,8 @@
 #pragma once
 #ifdef ANTILOCK_WITHOUT_CHOLMOD  // the build for the browser says so
-#include "antilock/solve/eigen_cholesky.hpp"
+#include "antilock/solve/detail/eigen_cholesky.hpp"
 #else
-#include "antilock/solve/cholmod_cholesky.hpp"
+#include "antilock/solve/detail/cholmod_cholesky.hpp"
 #endif
 
 namespace antilock {

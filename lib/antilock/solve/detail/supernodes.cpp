@@ -1,4 +1,4 @@
-#include "antilock/solve/supernodes.hpp"
+#include "antilock/solve/detail/supernodes.hpp"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "antilock/solve/aggregation.hpp"
+#include "antilock/solve/detail/aggregation.hpp"
 
 namespace antilock {
 namespace {
