@@ -88,11 +88,11 @@ Table solve_both(const std::string& family, int cells, const std::vector<Exact>&
   return rows;
 }
 
-// The bending length k of the rows, whose base is 1/cells.
+// The bending length $k$ of the rows, whose base is 1/cells.
 double k_of_rows(int cells) { return std::lround(2 * cells / std::sqrt(3)) / (8.0 * cells * cells); }
 
-// Proposition E with a bend w across the end x* of contact: S^- is at least int chi d/dx u d/dy w over the norm of
-// d/dy w, for every h and every w of compact support. This w is the best one in x of those that are sin(pi y) in y.
+// Proposition E with a bend $w$ across the end $x^*$ of contact: $S^- ≥ |∫ χ ∂_x u ∂_y w| / ‖∂_y w‖$ for every $h$ and
+// every $w$ of compact support. This $w$ is the best one in $x$ of those that are $\sin πy$ in $y$.
 double lower_bound(const Exact& exact, const TriangleMesh& mesh, int cells) {
   const double scale = std::sqrt(std::numbers::pi / k_of_rows(cells) / 2);
   const auto w = [&](int vertex) {
@@ -117,8 +117,8 @@ double lower_bound(const Exact& exact, const TriangleMesh& mesh, int cells) {
   return std::abs(work) / std::sqrt(energy);
 }
 
-// P1 without contact at epsilon = k / rho: the share of the ridge sin(a x) that rows keep, against columns under the
-// same body, over the share that a bending stiffness (k / epsilon)^2 would leave.
+// P1 without contact at $ε = k/ρ$: the share of the ridge $\sin ax$ that rows keep, against columns under the same body,
+// over the share that the law leaves.
 double kept_over_law(double rho, int cells) {
   const double a = 2 * std::numbers::pi, stiffness = a / std::tanh(a) + a * a;  // of the body, of the layer
   const Scene free(Body{paper_load}, StiffLayer{k_of_rows(cells) / rho});

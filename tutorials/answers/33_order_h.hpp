@@ -80,3 +80,8 @@ const std::vector<tutorial::Exercise> exercises{
            bounds.where("epsilon", 0).most("p at Sigma") < 1.1 * bounds.where("epsilon", 0.1).most("p at Sigma"),
            "it does not grow below epsilon = 0.1");
      }}};
+
+// ## Answers on paper
+//
+// **4.** Only for $P_t u ∈ K$. With a gap this asks for $P_t u ≥ -g$. From $u ≥ -g$ follows $P_t u ≥ -P_t g$, since heat
+// keeps an order between two functions. So $P_t g ≤ g$ is enough. It holds for each concave $g ≥ 0$, which only cools.

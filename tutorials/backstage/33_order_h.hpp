@@ -32,7 +32,11 @@ inline Table in_units(const Table& all, double load_norm) {
 /// Prints the finest mesh in units; writes results.csv, errors.csv (of the structured mesh) and layer.csv.
 inline void show_orders(const std::filesystem::path& out, const Table& all, const Table& units, const Table& limit) {
   units.where("cells", all.most("cells"))
-      .print("the finest mesh (proved for the structured mesh: 1.7, 1.3, 1, 0.601, 0.56, 0.56)", 3);
+      .print(
+          "the finest mesh, T_C and Lemma B in (h |f|)^2, the rest in h |f|, half in (h/pi) |f| (proved on the "
+          "structured "
+          "mesh: 1.7, 1.3, 1, 0.601, 0.56, 0.56)",
+          3);
   Table errors({"element", "mesh", "epsilon", "cells", "h", "error"});
   for (const Table& row : all.where("mesh", "structured").rows())
     for (const char* element : {"CR", "P1"})
