@@ -42,8 +42,11 @@
 //
 // ## Why reduced integration converges uniformly
 //
-// Reduced integration is not another $V_h$, as in the chapters before. It is another form, $a_{0h} = ∫ (w' - P θ)(v' - P
-// φ)$, where $P$ takes the mean on each cell. [Chapter 25](25_mixed.cpp) proves Theorem 4 for such forms under four
+// Reduced integration is not another $V_h$, as in the chapters before. It is another form,
+//
+// $$ a_{0h} = ∫ (w' - P θ)(v' - P φ), $$
+//
+// where $P$ takes the mean on each cell. [Chapter 25](25_mixed.cpp) proves Theorem 4 for such forms under four
 // conditions, (i) to (iv). The beam fulfils them, with the obstacle:
 //
 // - (i) *$a_1 + a_{0h}$ is coercive, with one constant for all $h$.* $a_1$ bounds $θ$, because $θ$ is clamped. And
@@ -185,7 +188,7 @@ void judge_uniform(const Table& full, const Table& reduced, tutorial::Report& re
 
 // ## What came out
 //
-// :output: reduced integration
+// :output: reduced integration: the
 //
 // (a) None but 0, and at ε = 0 the beam does not move. (b) $n - 2$ = 30. At ε = 1e-4 full integration is 1.81 times too
 // stiff, and its error of $w$ is 15 times that of reduced integration. Over all ε the error of reduced integration has

@@ -230,7 +230,7 @@ void judge(const Table& beta, const Table& forces, const Table& worst, const Tab
 
 // ## What came out
 //
-// :output: inf-sup constant
+// :output: inf-sup constant, held: all of Gamma_C
 //
 // (a) No. Where β does not fall without contact it does not fall with it, on these four meshes: with all of $Γ_C$ held it is
 // 0.186 for MINI, 0.280 for Taylor–Hood and 0.58 for CR. (Exercise 1 shows a block in which contact destroys it.) P1 with a
@@ -238,9 +238,9 @@ void judge(const Table& beta, const Table& forces, const Table& worst, const Tab
 // where Taylor–Hood has 1.0, and yet its force is right to 0.9 % at 1/h = 32: a force does not show the noise. The numbers of
 // unknowns differ: P1 has 2112, MINI and CR 6208, Taylor–Hood 8320.
 //
-// :figure: mixed_pressure
-//
 // :figure: inf_sup
+//
+// :output: moved by one gradient
 //
 // (b) It does not move. MINI, Taylor–Hood and CR do, and what they move by does not depend on λ once $λ > 1/h$. CR, which has
 // the largest β, moves most: the two properties have nothing to do with each other. With its load on the fluxes CR moves by
