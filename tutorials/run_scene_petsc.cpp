@@ -185,12 +185,14 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
     if (warning.empty() && file->scene.contact()) warning = gap_warning(*file, level->space, here);
   });
   warning = solved.warning.empty() ? dist::first_said(warning) : solved.warning;
+  const std::optional<LayerReport> layer = dist::layer_report_of_all(*file, h.coarse, h.refinements, *level);
+  if (layer && !layer->warning.empty()) warning = layer->warning + (warning.empty() ? "" : "; " + warning);
   // what is left of the wall time belongs to the stages in between: files are counted apart
   const double rest = watch.lap() - solved.mesh - solved.assemble - solved.setup;
   const RunSeconds seconds{before + solved.mesh, solved.assemble, solved.setup, rest};
 
   say("files");
-  dist::write_scene_files(out, *file, *level, solved, h.refinements + 1, warning, seconds);
+  dist::write_scene_files(out, *file, *level, solved, h.refinements + 1, layer, warning, seconds);
   forget();
   if (dist::rank() > 0) return;
   report.finish();

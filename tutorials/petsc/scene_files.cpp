@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
+#include "antilock/analysis/ties.hpp"
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/kkt_report.hpp"
@@ -12,6 +14,8 @@
 #include "antilock/distributed/whole_files.hpp"
 #include "antilock/io/scene_results.hpp"
 #include "antilock/io/writers.hpp"
+#include "antilock/mesh/refine.hpp"
+#include "antilock/models/anti_plane.hpp"
 
 namespace antilock::distributed {
 namespace {
@@ -100,8 +104,9 @@ void write_pvtu(const fs::path& path, bool contact) {
 
 /// Every number of the summary that all ranks must form together.
 SceneSummary summary_of_all(const SceneFile& file, const Level& level, const NestedReport& report, int levels,
-                            const std::string& warning) {
+                            const std::optional<LayerReport>& layer, const std::string& warning) {
   SceneSummary s;
+  s.layer = layer;
   const bool from_file = file.mesh.kind == MeshRequest::Kind::file;
   s.h = from_file ? largest(level.piece.mesh.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
   s.unknowns = level.problem.rows().total();
@@ -125,6 +130,38 @@ SceneSummary summary_of_all(const SceneFile& file, const Level& level, const Nes
 
 }  // namespace
 
+std::optional<LayerReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
+                                               const Level& level) {
+  const Scene& scene = file.scene;
+  const bool may_lock = scene.layer_depth() > 0 && level.space.element().conforming() && !in_columns(coarse);
+  std::vector<double> values;
+  for (int i = 0; may_lock && i < level.space.size(); ++i)
+    values.insert(values.end(), {level.space.points()(i, 0), level.space.points()(i, 1), level.state.u(i)});
+  values = gathered(values);
+  std::optional<LayerReport> report;
+  together([&] {
+    if (rank() > 0) return;
+    TriangleMesh mesh = coarse;
+    for (int i = 0; may_lock && i < refinements; ++i) mesh = refined(mesh);
+    const Space space(mesh, level.space.element());
+    VariationalInequality problem;
+    Solution whole;
+    if (may_lock) {
+      // the pieces and this mesh were refined apart: their points agree to round-off
+      const auto key = [](double x, double y) { return std::pair(std::llround(1e9 * x), std::llround(1e9 * y)); };
+      std::map<std::pair<long long, long long>, double> at;
+      for (std::size_t i = 0; i < values.size(); i += 3) at[key(values[i], values[i + 1])] = values[i + 2];
+      problem = assemble(scene, space);
+      whole.u.resize(space.size());
+      for (int i = 0; i < space.size(); ++i) whole.u(i) = at.at(key(space.points()(i, 0), space.points()(i, 1)));
+      whole.p = Eigen::VectorXd::Zero(problem.b.rows());
+      if (problem.compliance > 0) whole.p = problem.b * whole.u / problem.compliance;
+    }
+    report = report_layer(scene, space, problem, whole);
+  });
+  return report;
+}
+
 std::vector<std::string> piece_files(const fs::path& folder) {
   std::vector<std::string> names = {"solution.pvtu"};
   std::error_code none;
@@ -133,10 +170,11 @@ std::vector<std::string> piece_files(const fs::path& folder) {
 }
 
 void write_scene_files(const fs::path& folder, const SceneFile& file, const Level& level, const NestedReport& report,
-                       int levels, const std::string& warning, const RunSeconds& seconds) {
+                       int levels, const std::optional<LayerReport>& layer, const std::string& warning,
+                       const RunSeconds& seconds) {
   const bool contact = file.scene.contact().has_value();
   const bool csv = level.problem.rows().total() <= most_csv_unknowns;
-  const SceneSummary summary = summary_of_all(file, level, report, levels, warning);
+  const SceneSummary summary = summary_of_all(file, level, report, levels, layer, warning);
   const Stopwatch files;
   const auto write = [&](const fs::path& draft) {
     if (csv) write_solution_csv_together(draft / "solution.csv", level.piece, level.space, level.state.u);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "antilock/analysis/lost_energy.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/io/scene_file.hpp"
 #include "antilock/measure/answer.hpp"
@@ -13,7 +14,13 @@ namespace antilock::distributed {
 /// contact.csv (with contact), mesh.msh, solution.pvtu with a piece per rank. Columns and keys are those of a run
 /// without MPI. Every rank must call it; throws on every rank alike.
 void write_scene_files(const std::filesystem::path& folder, const SceneFile& file, const Level& level,
-                       const NestedReport& report, int levels, const std::string& warning, const RunSeconds& seconds);
+                       const NestedReport& report, int levels, const std::optional<LayerReport>& layer,
+                       const std::string& warning, const RunSeconds& seconds);
+
+/// What the answer says of its own locking, on rank 0 (empty on the others). `coarse` is the mesh that was refined so many
+/// times; where it can lock, the whole answer is brought together. Every rank must call it.
+std::optional<LayerReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
+                                               const Level& level);
 
 /// solution.pvtu and its pieces: those that write_scene_files writes to the folder and those there that it removes.
 std::vector<std::string> piece_files(const std::filesystem::path& folder);

@@ -377,18 +377,14 @@ std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, 
         element.name() + " does not lock: half a motion without strain per layer triangle, on any mesh (Theorem 7)",
         {},
         ""};
-  const int columns = static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma));
   if (in_columns(mesh))
-    return LayerReport{
-        fmt::format("{} does not lock here: the layer has {} columns, free of each other", element.name(), columns),
-        {},
-        ""};
+    return LayerReport{element.name() + " does not lock here: the columns of the layer are free of each other", {}, ""};
   LayerReport report;
   const int groups = tied_groups(mesh);
   report.diagnosis = fmt::format(
       "below {} edges of Sigma the layer's triangles are tied into {} group{} by edges that are not vertical; without "
       "strain {} is one polynomial of degree {} in x on each",
-      columns, groups, groups == 1 ? "" : "s", element.name(), element.degree());
+      std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), groups, groups == 1 ? "" : "s", element.name(), element.degree());
   if (element.degree() > 2) return report;
   report.lost = lost_energy(scene, space, problem, solution).share();
   if (*report.lost < telling) {
