@@ -63,7 +63,8 @@ shape on and above y = 0 with a bottom edge on that line; all of that edge is co
 
 Written to the results folder: summary.json; solution.csv (x,y,u); contact.csv (x,gap,pressure; with contact only), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
-solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too).
+solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
+render surface DIR/solution.vtu --out picture.png
 In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
 blas is the library of dense linear algebra, its kernels and threads;
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
@@ -143,6 +144,8 @@ void told(const std::filesystem::path& out, const SceneFile& file, Answer& answe
   write_scene_results(out, file, answer, summary, certified);
   report.finish();
   if (!answer.warning.empty()) fmt::print("  warning: {}\n", answer.warning);
+  const std::string name = (out / "solution").string();
+  fmt::print("  a picture of it: render surface {0}.vtu --out {0}.png\n", name);
 }
 
 /// An accuracy is asked for: the mesh is the first one, and every level says how far it came.

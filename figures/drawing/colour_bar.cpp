@@ -8,23 +8,23 @@
 
 namespace antilock::figures {
 
-void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name,
-                     const std::optional<Beyond>& beyond) {
+void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name, const Beyond& beyond) {
   constexpr int steps = 256;
   for (int i = 0; i < steps; ++i)
     page.fill(Box{box.x, box.y + box.height * i / steps, box.width, box.height / steps + 1.0},
               viridis((i + 0.5) / steps));
   page.rectangle(box, {2.5});
-  double head = 0;
-  if (beyond) {
-    head = 0.9 * box.width;
-    const auto tip = [&](double base, double side, const Colour& colour) {
-      const std::vector<Point> corners{{box.x, base}, {box.right(), base}, {box.centre().x, base + side * head}};
-      page.fill(corners, colour);
+  const double head = beyond.above ? 0.9 * box.width : 0;
+  if (beyond.above || beyond.below) {
+    const auto tip = [&](double base, double side, const std::optional<Colour>& colour) {
+      if (!colour) return;
+      const std::vector<Point> corners{
+          {box.x, base}, {box.right(), base}, {box.centre().x, base + side * 0.9 * box.width}};
+      page.fill(corners, *colour);
       page.line({corners[0], corners[2], corners[1]}, {2.5});
     };
-    tip(box.top(), 1, beyond->above);
-    tip(box.y, -1, beyond->below);
+    tip(box.top(), 1, beyond.above);
+    tip(box.y, -1, beyond.below);
   }
   const Axis axis = Axis::linear(range.low, range.high);
   for (const Tick& tick : axis.ticks()) {
@@ -33,6 +33,14 @@ void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::
     page.text({box.right() + 24, y}, tick.label, {number_size, {0, Anchor::Height::middle}});
   }
   page.text({box.centre().x, box.top() + head + 30}, name, {name_size, {0.5}});
+}
+
+Beyond beyond(const Range& range, const Range& data) {
+  const double slack = 0.01 * (range.high - range.low);
+  Beyond marks;
+  if (data.low < range.low - slack) marks.below = viridis(0);
+  if (data.high > range.high + slack) marks.above = viridis(1);
+  return marks;
 }
 
 void check(const Range& range) {

@@ -11,15 +11,17 @@ struct Range {
   double low, high;
 };
 
-/// Colours of what lies outside a range, where that is to be seen.
+/// Colours of what lies outside a range, where something does.
 struct Beyond {
-  Colour below, above;
+  std::optional<Colour> below, above;
 };
+/// The marks for data of which a hundredth of the range or more lies outside, in the colours of its ends.
+Beyond beyond(const Range& range, const Range& data);
 
 /// A vertical bar of viridis with its numbers to the right and its name above; `beyond` adds a head
-/// at each end.
+/// at an end that has something outside.
 void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name,
-                     const std::optional<Beyond>& beyond = {});
+                     const Beyond& beyond = {});
 
 /// Throws Error unless the range has two finite ends, the smaller first.
 void check(const Range& range);

@@ -32,11 +32,11 @@ struct Frame {
 };
 
 /// Outside the scale: tension (or less than the scale begins with), and more than it ends with.
-const Beyond beyond{{0.72, 0.72, 0.72}, palette::vermillion};
+const Beyond heads{Colour{0.72, 0.72, 0.72}, palette::vermillion};
 
 Colour colour_of(double pressure, const Range& range) {
-  return pressure < range.low    ? beyond.below
-         : pressure > range.high ? beyond.above
+  return pressure < range.low    ? *heads.below
+         : pressure > range.high ? *heads.above
                                  : viridis((pressure - range.low) / (range.high - range.low));
 }
 
@@ -101,7 +101,7 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
               {name_size, {0.5}, 0, palette::ink, body_width});
   }
   draw_colour_bar(page, {Page::width - bar_room + 80.0, foot + 0.2 * body_height, 56, 0.55 * body_height}, style.range,
-                  style.name, beyond);
+                  style.name, heads);
   return page;
 }
 

@@ -11,6 +11,7 @@
 #include <vtkUnstructuredGrid.h>
 #include <vtkXMLUnstructuredGridReader.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "antilock/core/error.hpp"
@@ -86,6 +87,13 @@ vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path) {
   surface->GetPointData()->SetScalars(u);
   return surface;
 }
+
+Range range_of(vtkPolyData& solution) {
+  const double* ends = solution.GetPointData()->GetScalars()->GetRange();
+  return {ends[0], ends[1]};
+}
+
+Range joined(const Range& a, const Range& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
 
 vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path) {
   const auto grid = read_grid(path);

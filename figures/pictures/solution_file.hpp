@@ -4,6 +4,8 @@
 
 #include <filesystem>
 
+#include "drawing/colour_bar.hpp"
+
 namespace antilock::figures {
 
 /// Reads a VTU file of triangles with point data `u`: a surface in the plane z = 0 whose scalars
@@ -14,5 +16,10 @@ vtkSmartPointer<vtkPolyData> read_solution(const std::filesystem::path& path);
 /// The same for a deformed body: cell data `pressure` are the cells' scalars, point data
 /// `displacement` (three components) say how the points got where they are.
 vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path);
+
+/// The smallest and the largest u of a solution.
+Range range_of(vtkPolyData& solution);
+/// The smallest range that holds both.
+Range joined(const Range& a, const Range& b);
 
 }  // namespace antilock::figures

@@ -49,24 +49,34 @@ vtkBoundingBox domain_of(vtkPolyData& solution) {
 }  // namespace
 
 Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& style) {
-  check(style.range);
+  if (style.range) check(*style.range);
   if (style.last_range) check(*style.last_range);
   std::vector<vtkSmartPointer<vtkPolyData>> solutions;
   vtkBoundingBox all;  // so that they share a scale
+  const std::size_t count = surfaces.size();
+  Range data{1e300, -1e300};
   for (const Surface& surface : surfaces) {
     solutions.push_back(read_solution(surface.solution));
     all.AddBox(domain_of(*solutions.back()));
+    const bool own = style.last_range && solutions.size() == count;
+    if (!own) data = joined(data, range_of(*solutions.back()));
   }
-  const std::size_t count = surfaces.size();
+  constexpr Range paper{-0.25, 0.25};
+  const Beyond outside = beyond(paper, data);
+  const bool fits = !outside.below && !outside.above;
+  const Range shared = style.range.value_or(fits ? paper : data);
+  check(shared);
+  const Beyond marks = beyond(shared, data);
   const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
   const Arrangement at(count, titled, style.last_range.has_value());
   const RoomDetail detail = at.columns == 1 ? RoomDetail::full : at.columns == 2 ? RoomDetail::few : RoomDetail::least;
   Page page(at.height());
 
-  const double drawn_height = style.height_factor * (style.range.high - style.range.low);
+  const double span = shared.high - shared.low, factor = style.range || fits ? 2 : 1 / span;
+  const double drawn_height = style.height_factor.value_or(factor) * span;
   for (std::size_t i = 0; i < count; ++i) {
     const bool own = style.last_range && i + 1 == count;
-    const Range range = own ? *style.last_range : style.range;
+    const Range range = own ? *style.last_range : shared;
     const Box cell = at.cell(i);
     const Room room = make_room(domain_of(*solutions[i]), range, drawn_height, detail);
     const double left = widest_number(page, room.u) + 65, below = 130;
@@ -87,13 +97,13 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
   }
   if (at.bar_aside) {
     const Box first = at.cell(at.columns - 1);
-    draw_colour_bar(page, {first.right() + 20, first.y + 0.2 * first.height, 56, 0.6 * first.height}, style.range,
-                    "$u$");
+    draw_colour_bar(page, {first.right() + 20, first.y + 0.2 * first.height, 56, 0.6 * first.height}, shared, "$u$",
+                    marks);
   }
   if (at.bar_in_cell) {
     const Box empty = at.cell(count);
-    draw_colour_bar(page, {empty.centre().x - 60, empty.y + 0.2 * empty.height, 56, 0.6 * empty.height}, style.range,
-                    "$u$");
+    draw_colour_bar(page, {empty.centre().x - 60, empty.y + 0.2 * empty.height, 56, 0.6 * empty.height}, shared, "$u$",
+                    marks);
   }
   return page;
 }

@@ -41,9 +41,10 @@ void add_pictures(CLI::App& app, Request& request) {
   auto* surface =
       add_picture(app, request, "surface", "solutions as surfaces, side by side (Figures 4, 5, 7, 8)", "SOLUTION.vtu");
   surface->add_option("--title", request.titles, "one title per solution");
-  surface->add_option("--range", request.range, "smallest and largest u of the scale")
-      ->expected(2)
-      ->capture_default_str();
+  surface
+      ->add_option("--range", request.range,
+                   "smallest and largest u of the scale (default: -0.25 0.25, or the data's where they leave it)")
+      ->expected(2);
   surface->add_option("--last-range", request.own_range, "draw the last surface on this scale of its own")->expected(2);
   surface->add_option("--last-name", request.own_name, "what that scale measures")->capture_default_str();
   surface->add_option("--height", request.height_factor, "length drawn for one unit of u")
@@ -52,7 +53,8 @@ void add_pictures(CLI::App& app, Request& request) {
       ->check(CLI::Range(1, 256));
   surface->callback([&] {
     request.draw = [&] {
-      SurfaceStyle style{{request.range[0], request.range[1]}, request.height_factor};
+      SurfaceStyle style{.height_factor = request.height_factor};
+      if (!request.range.empty()) style.range = Range{request.range[0], request.range[1]};
       if (request.grid > 0) style.grid = request.grid;
       if (!request.own_range.empty()) style.last_range = {request.own_range[0], request.own_range[1]};
       style.last_name = request.own_name;
@@ -65,12 +67,12 @@ void add_pictures(CLI::App& app, Request& request) {
   plan->add_option("--row-title", request.plan.row_titles, "one title per row");
   plan->add_option("--range", request.range, "smallest and largest u of the colours")->expected(2)->required();
   plan->add_option("--name", request.plan.name, "what the colours are")->capture_default_str();
-  plan->add_option("--window", request.window, "x from and to, y from and to")->expected(4);
+  plan->add_option("--window", request.window, "x from and to, y from and to (default: of the data)")->expected(4);
   plan->callback([&] {
     request.draw = [&] {
       const auto& w = request.window;
       request.plan.range = {request.range[0], request.range[1]};
-      request.plan.x = {w[0], w[1]}, request.plan.y = {w[2], w[3]};
+      if (!w.empty()) request.plan.x = Range{w[0], w[1]}, request.plan.y = Range{w[2], w[3]};
       return plan_picture(titled(request), request.plan);
     };
   });

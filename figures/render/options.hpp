@@ -1,6 +1,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,11 @@ namespace antilock::figures {
 struct Request {
   std::string out, title;
   std::vector<std::string> inputs, titles;
-  std::vector<double> range{-0.25, 0.25}, own_range, window{0, 1, -1, 1};
+  std::vector<double> range, own_range, window;
   bool check_layout = false;
   int compression = 8;
   std::string own_name = "$u$";
-  double height_factor = 2;
+  std::optional<double> height_factor;
   int grid = 0;
   ChartStyle chart;
   PlanStyle plan;
