@@ -124,7 +124,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
       symbols.add({one, k, s, found, (found / s - 1) / std::pow(k * pi / 64, 2)});
     }
   // ### Output
-  tutorial::present(options.out, space, fine.problem, fine.solution, "reference solution", errors);
+  tutorial::present(options.out, exact.scene, space, fine.problem, fine.solution, "reference solution", errors);
   tutorial::modes({1.0, 0.1}, symbol).write(options.out / "modes.csv");
   symbols.print("the symbol, by formula and by P1 on a mesh");
 

@@ -104,7 +104,7 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   const Table off = off_the_line(stress, solution.lambda, exact.truth, h);
 
   // ### Output
-  tutorial::present(options.out, space, problem, solution, "P1, structured", errors);
+  tutorial::present(options.out, exact.scene, space, problem, solution, "P1, structured", errors);
   sweep.print("error at the unknowns against epsilon");
   fmt::print("  stress: off the line {:.0e}, off -lambda {:.0e}, off the exact one on Sigma {:.3f}\n", off.most("line"),
              off.most("bottom"), off.most("top"));

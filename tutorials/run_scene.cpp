@@ -69,7 +69,8 @@ In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh
 blas is the library of dense linear algebra, its kernels and threads;
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
 motion that is lost at least (proved, for P1 and P2 in a layer without columns), kept is 1 - lost_energy;
-scene is the question in full; certificate, with an accuracy, is what was proved, level by level; warning says what to
+scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
+polygon of the mesh, with load and gap as sampled; warning says what to
 doubt: a layer that locks, an answer above the trusted error, a load that the mesh misses.
 Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8
@@ -178,6 +179,7 @@ void answer_certified(const SceneFile& file, const TriangleMesh& first, const st
   const SolveSeconds& spent = found.cr.solution.seconds;
   const double factor = spent.analyse + spent.factor;
   found.cr.seconds = {mesh_seconds, 0, factor, watch.seconds() - factor};
+  found.cr.warning = joined(found.cr.warning, polygon_warning(file, first));
   told(out, file, found.cr, report, &found);
   fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
              found.certificate.relative(method.of), found.history.size(), found.cr.space.free_count(), out.string());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "antilock/analysis/lost_energy.hpp"
 #include "antilock/io/writers.hpp"
 
 namespace antilock::tutorial {
@@ -44,9 +45,12 @@ void print_errors(const std::string& what, const Errors& e) {
              e.energy);
 }
 
-void present(const std::filesystem::path& out, const Space& space, const VariationalInequality& problem,
-             const Solution& solution, const std::string& what, const Errors& errors) {
+void present(const std::filesystem::path& out, const Scene& scene, const Space& space,
+             const VariationalInequality& problem, const Solution& solution, const std::string& what,
+             const Errors& errors) {
   print_solution(space, problem, solution);
+  if (const auto layer = report_layer(scene, space, problem, solution))
+    fmt::print("  layer: {}\n", layer->warning.empty() ? layer->diagnosis : layer->warning);
   print_errors(what, errors);
   write_results(out, space, problem, solution);
 }

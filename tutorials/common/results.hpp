@@ -5,6 +5,7 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/problem/variational_inequality.hpp"
+#include "antilock/scene/scene.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/space/space.hpp"
 
@@ -19,8 +20,9 @@ void write_results(const std::filesystem::path& out, const Space& space, const V
 /// by stage.
 void print_solution(const Space& space, const VariationalInequality& problem, const Solution& solution);
 
-/// The three of them for one solved scene: prints how it was solved and its errors, writes its files.
-void present(const std::filesystem::path& out, const Space& space, const VariationalInequality& problem,
+/// The three of them for one solved scene: prints how it was solved, what it says of its own locking, and its errors;
+/// writes its files.
+void present(const std::filesystem::path& out, const Scene& scene, const Space& space, const VariationalInequality& problem,
              const Solution& solution, const std::string& what, const Errors& errors);
 
 /// Prints the errors in every norm, absolute.

@@ -124,6 +124,31 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   return "";
 }
 
+std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
+  if (file.mesh.kind != MeshRequest::Kind::file) return "";
+  constexpr double corner = 0.7071;  // the cosine of 45 degrees, what a regular octagon turns by
+  std::vector<Eigen::RowVector2d> turn(mesh.vertex_count(), Eigen::RowVector2d::Zero());
+  std::vector<double> cosine(mesh.vertex_count(), 1);  // of the turn at a vertex of the boundary
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_triangles(e, 1) >= 0) continue;
+    const int a = mesh.edges(e, 0), b = mesh.edges(e, 1);
+    const Eigen::RowVector2d along = (mesh.vertices.row(b) - mesh.vertices.row(a)).normalized();
+    for (const auto& [vertex, away] : {std::pair(a, along), std::pair<int, Eigen::RowVector2d>(b, -along)}) {
+      if (turn[vertex] == Eigen::RowVector2d::Zero())
+        turn[vertex] = away;
+      else
+        cosine[vertex] = -turn[vertex].dot(away);
+    }
+  }
+  const auto curved =
+      std::count_if(cosine.begin(), cosine.end(), [&](double c) { return c > corner - 1e-4 && c < 1 - 1e-6; });
+  if (curved < 6) return "";
+  return fmt::format(
+      "mesh.file: the boundary turns a little at {} vertices, as the mesh of a curve does; what is proved is proved of "
+      "this polygon",
+      curved);
+}
+
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
   if (!file.scene.contact()) return "";
   const TriangleMesh& mesh = space.mesh();

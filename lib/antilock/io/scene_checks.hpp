@@ -21,6 +21,10 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh);
 /// twentieth of the integral of |f|, they are named. A spike narrower than that remains unseen.
 std::string load_warning(const SceneFile& file, const Space& space, const VariationalInequality& problem);
 
+/// Empty, or a line about a boundary of a mesh from a file that looks like a curve: at six vertices or more it turns by an
+/// angle up to that of a regular octagon. What is proved is proved of the polygon.
+std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh);
+
 /// Empty, or a line about an obstacle that is missed between the contact unknowns: the largest depth to which u_h sinks
 /// into it, looked for at a hundred thousand places of Gamma_C, if above a twentieth of max |u_h|.
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution);

@@ -65,6 +65,7 @@ Json certificate(const SceneFile& file, const CertifiedSolution& certified) {
           {"bound", finite("the certified error", proof.bound(file.method.of))},
           {"energy_lower", proof.energy_lower},
           {"energy_upper", proof.energy_upper},
+          {"proved_of", "the polygon of the mesh, with load and gap as sampled"},
           {"levels", levels}};
 }
 
