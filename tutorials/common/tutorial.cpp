@@ -59,6 +59,16 @@ void Report::claim(bool holds, const std::string& what) {
   all_hold_ = all_hold_ && holds;
 }
 
+void Report::claim_orders(const Table& rows, const std::string& y, double low, double high, const std::string& what) {
+  std::string orders;
+  bool hold = rows.size() > 1;
+  for (const double order : rows.pairwise_orders(y, "h")) {
+    orders += fmt::format("{}{:.2f}", orders.empty() ? "" : ", ", order);
+    hold = hold && order >= low && order <= high;
+  }
+  claim(hold, fmt::format("{}: orders in h {} (accepted {:g} to {:g}; observed)", what, orders, low, high));
+}
+
 void Report::not_judged(const std::string& why) {
   finish();
   fmt::print("NOT JUDGED: {}\n", why);

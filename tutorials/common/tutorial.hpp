@@ -54,6 +54,8 @@ class Report {
   }
   /// A claim that a number lies in an interval; its line ends with the number and the interval.
   void claim_within(double value, double low, double high, const std::string& what);
+  /// The same of the orders of `y` in h between each row and the next; they are observed.
+  void claim_orders(const Table& rows, const std::string& y, double low, double high, const std::string& what);
   /// A claim that the order of y in x, a least-squares slope, lies in an interval; its line ends with the order, with
   /// those from row to row, and with the interval. Not judged from fewer than four rows.
   void claim_order(const Table& rows, const std::string& y, const std::string& x, double low, double high,

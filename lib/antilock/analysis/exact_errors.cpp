@@ -9,7 +9,7 @@ namespace antilock {
 ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const Companion& v,
                          const TruthTable& truth) {
   const Quadrature& rule = triangle_rule(8);
-  double cr = 0, conforming = 0, middle = 0;
+  double cr = 0, balanced = 0, conforming = 0, middle = 0;
   const auto exact = [&](const Eigen::Vector2d& x, bool layer) {
     const TruthPoint found = truth.at(x(0), x(1));
     return layer ? Eigen::Vector2d(found.gradient(0), found.layer_stress) : found.gradient;
@@ -33,6 +33,7 @@ ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux,
       const Eigen::Vector2d u = exact(point_in(mesh, t, rule.points.row(q)), layer), s = flux.cell[t].s;
       const Eigen::Vector2d sigma = layer ? s : Eigen::Vector2d(s + tau.row(q).transpose());
       cr += w * body.squared(u - s);
+      balanced += w * body.squared(u - sigma);
       if (layer && v.layer) continue;
       conforming += w * body.squared(u - gradient);
       middle += w * body.squared(u - (sigma + gradient) / 2);
@@ -47,7 +48,7 @@ ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux,
             columns.area(t) * rule.weights(q) * flux.law.squared(u - v.layer->flux_of(t - v.layer->first_triangle()));
       }
   }
-  return {std::sqrt(cr), std::sqrt(conforming), v.layer ? 0 : std::sqrt(middle)};
+  return {std::sqrt(cr), std::sqrt(balanced), std::sqrt(conforming), v.layer ? 0 : std::sqrt(middle)};
 }
 
 }  // namespace antilock

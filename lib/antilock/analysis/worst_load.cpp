@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
@@ -20,7 +23,47 @@ void basis_loads(const LoadModes& modes, double x, double y, Eigen::Ref<Eigen::V
   for (int j = 0; j < modes.size(); ++j) values(j) = 2 * sine(modes.k()(j)) * cosine(modes.m()(j));
 }
 
+/// 2 |e_k|_a^2 of e_k = psi_k sin(k pi x) in the body, sin(k pi x) in the layer: a coth a of the body, a^2 of the layer.
+double energy_of_wave(int k) {
+  const double a = k * std::numbers::pi;
+  return a / std::tanh(a) + a * a;
+}
+
 }  // namespace
+
+double loss_of_wave(int k) {
+  const double a = k * std::numbers::pi, square = (1 / std::tanh(a) - a / std::pow(std::sinh(a), 2)) / (2 * a);
+  return std::sqrt(square / energy_of_wave(k));
+}
+
+// The functions lost are z = sum c_k e_k with a(z, v) = 0 for the kept traces v: in the basis e_k / |e_k|_a, orthonormal
+// in a, with |z|^2 = sum l_k^2 c_k^2, they are orthogonal to the vectors (energy_of_wave^(1/2) int v sin(k pi x))_k.
+double loss_of_degree(int p) {
+  const int waves = 64, points = 1024;
+  Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(waves, p - 1), lost = Eigen::MatrixXd::Zero(waves, waves);
+  for (int k = 1; k <= waves; ++k) {
+    lost(k - 1, k - 1) = std::pow(loss_of_wave(k), 2);
+    for (int j = 0; j < p - 1; ++j)
+      for (int i = 1; i < points; ++i) {
+        const double x = 1.0 * i / points, v = x * (1 - x) * std::pow(2 * x - 1, j);
+        kept(k - 1, j) += std::sqrt(energy_of_wave(k)) * v * std::sin(k * std::numbers::pi * x);
+      }
+  }
+  if (p > 1) {
+    const Eigen::MatrixXd traces = kept.transpose(), gram = traces * kept;
+    const Eigen::MatrixXd off = Eigen::MatrixXd::Identity(waves, waves) - kept * Cholesky(gram).solve(traces);
+    lost = off * lost * off;
+  }
+  return std::sqrt(symmetric_eigenvalues(lost).maxCoeff());
+}
+
+double width_of_ball(int n) {
+  std::vector<int> squares;
+  for (int k = 1; k * k < 2 * n + 8; ++k)  // more than n + 1 of them lie in this square, their first n + 1 in it
+    for (int m = 1; m * m < 2 * n + 8; ++m) squares.push_back(k * k + m * m);
+  std::nth_element(squares.begin(), squares.begin() + n, squares.end());
+  return 1 / (std::numbers::pi * std::sqrt(squares[n]));
+}
 
 ErrorForm::ErrorForm(const Space& space, LoadModes modes) : space_(space), modes_(std::move(modes)) {
   if (!space.element().conforming() && &space.element() != &crouzeix_raviart())

@@ -15,6 +15,17 @@ struct WorstLoad {
   Eigen::VectorXd load;  ///< of norm 1, in LoadModes
 };
 
+/// l_k: the error at epsilon = 0 under psi_k sin(k pi x) / |psi_k|, psi_k = sinh(k pi (1 - y)) / sinh(k pi), of a method
+/// whose functions are all 0 on the layer. A conforming method with d functions there loses at least l_{d+1} on the
+/// ball. k >= 1, falling.
+double loss_of_wave(int k);
+/// What P_p on an unstructured mesh loses on the ball at epsilon = 0 as h -> 0, and never less: a body resolved exactly
+/// whose traces on Sigma are x (1 - x) times polynomials of degree p - 2; for p = 1 they are 0. By 64 waves; p from 1.
+double loss_of_degree(int p);
+/// The width of the ball: no conforming space with n functions on the body has a smaller worst error, for any epsilon.
+/// 1 / (pi (k^2 + m^2)^(1/2)), the last of the first n + 1 sines sin(k pi x) sin(m pi y). n >= 0.
+double width_of_ball(int n);
+
 /// The error of (23) without contact as a quadratic form in the load f = LoadModes:
 ///
 ///     |u - u_h|^2 = f' E f,  E = S - F' A^-1 F                                   V_h in V: by Galerkin's orthogonality

@@ -93,6 +93,12 @@ double LoadModes::value(const Eigen::VectorXd& f, double x, double y) const {
   return sum;
 }
 
+Eigen::VectorXd LoadModes::wave(int k, int m) const {
+  for (int j = 0; j < size(); ++j)
+    if (k_(j) == k && m_(j) == m) return Eigen::VectorXd::Unit(size(), j);
+  throw Error(fmt::format("loads: wave ({}, {}); accepted: k^2 + (m - 1/2)^2 up to {}^2", k, m, waves_));
+}
+
 Eigen::VectorXd LoadModes::constant_in_y(int k, double amplitude) const {
   if (k < 1 || k > waves_) throw Error(fmt::format("loads: sin({} pi x); accepted: 1 to {} pi", k, waves_));
   Eigen::VectorXd f = Eigen::VectorXd::Zero(size());

@@ -38,6 +38,8 @@ class LoadModes {
   Eigen::VectorXd decays(double y) const;
   /// The load f at a point of the body.
   double value(const Eigen::VectorXd& f, double x, double y) const;
+  /// The basis load 2 sin(k pi x) cos(mu_m y). Throws Error where it is cut.
+  Eigen::VectorXd wave(int k, int m) const;
   /// The coefficients of amplitude sin(k pi x): a load that does not depend on y. Throws Error unless 1 <= k <= waves.
   Eigen::VectorXd constant_in_y(int k, double amplitude) const;
 

@@ -1,13 +1,10 @@
-#include "common/load_ascent.hpp"
+#include "antilock/analysis/load_ascent.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "antilock/exact/truth_table.hpp"
-#include "antilock/measure/errors.hpp"
-
-namespace antilock::tutorial {
+namespace antilock {
 
 SineLoad load_of_modes(const Eigen::VectorXd& c) {
   const double square = std::pow(std::numbers::pi / 2, 2);
@@ -22,19 +19,6 @@ SineLoad load_of_modes(const Eigen::VectorXd& c) {
     load.modes.push_back({k, cosine});
   }
   return load;
-}
-
-ErrorUnderContact::ErrorUnderContact(const Method& method, int cells, double epsilon)
-    : on_(method.on(cells)),
-      epsilon_(epsilon),
-      sweep_(Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}), on_.space()) {}
-
-double ErrorUnderContact::operator()(const Eigen::VectorXd& c) {
-  const SineLoad load = load_of_modes(c);
-  const Truth truth(load, epsilon_, true, 9);  // a few thousandths of the error: the search has to be quick
-  const TruthTable table(truth, 1 << 8);
-  sweep_.set_load(load);
-  return measure_errors(on_.space(), sweep_.solve(), epsilon_, reference(table)).energy;
 }
 
 double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
@@ -62,9 +46,4 @@ double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const 
   return best;
 }
 
-double worst_found_in_contact(const Method& method, int cells, double epsilon) {
-  ErrorUnderContact error(method, cells, epsilon);
-  return ascend(std::ref(error), {Eigen::Vector4d::Unit(0), Eigen::Vector4d(1, 1, 0, 0)});
-}
-
-}  // namespace antilock::tutorial
+}  // namespace antilock
