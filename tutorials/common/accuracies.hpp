@@ -23,13 +23,13 @@ extern const std::vector<std::string> accuracy_columns;
 /// The bound of an answer, and for the paper's load its error.
 Table accuracy_rows(const std::string& load, const Exact& exact, const std::string& method, double asked, Quantity of,
                     const CertifiedSolution& found);
+/// The certificate of a scene on a mesh.
+Certificate certified(const Scene& scene, const TriangleMesh& mesh);
 /// The same certificate on gmsh's uniform meshes from 1/8 to 1/finest; the seconds add up, without gmsh's own.
 Table on_uniform_meshes(const std::string& load, const Exact& exact, int finest);
 
 /// Prints what was asked and what it cost; writes answers.csv, price_list.csv and .md, p1.csv and the meshes of the
 /// picture.
 void show_accuracies(const std::filesystem::path& out, const Table& answers, const Table& uniform, const Table& p1);
-
-std::vector<Exercise> accuracy_exercises();
 
 }  // namespace antilock::tutorial
