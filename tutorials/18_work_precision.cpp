@@ -22,18 +22,32 @@
 // median of five runs, mesh and assembly apart. A run that fails, or takes longer than the limit, is drawn as failed;
 // where time was the reason, finer meshes are not tried. No verdict is about seconds, which depend on the machine.
 //
+// ## How many steps
+//
+// The active set guesses which points touch; from the contact set of a coarser mesh the guess is nearly right. Uzawa
+// moves pressures instead. The operator behind it is the *compliance* of $Γ_C$: pressure in, displacement out. With the
+// best step the error falls by $(κ - 1)/(κ + 1)$ per step, $κ$ the condition number of the compliance, so that an error
+// of $tol$ takes about $(κ/2) \ln(1/tol)$ steps (chapter 00).
+//
+// How large is $κ$? Chapter 04 has the stiffness of $Γ_C$ against a pressure $\sin kπx$: about $kπ$ at ε = 1, where the
+// answer goes into the depth only as far as a half wave is long, and about $(kπ)^2$ for a rigid layer, which resists
+// like a string. A mesh carries $k = 1$ to about $1/h$. Hence $κ ∼ 1/h$ at ε = 1, and $κ ∼ 1/h^2$ as ε → 0.
+//
 // ## When to stop
 //
 // By the triangle inequality $|u_k - u| ≤ |u_k - u_h| + |u_h - u|$, and only the first term falls with the steps $k$.
 // Once it is below the second, more steps do not bring $u_k$ nearer to $u$. Neither is known, since neither $u$ nor
 // $u_h$ is; two computable numbers stand for them.
 //
-// *The duality gap* stands for the first. $J(v)$ is above $J(u_h)$ for each $v$ in $K_h$. For each pressure $μ ≥ 0$
-// the smallest value of $J(v) - μ v$ over all $v$, the *dual energy* of $μ$, is below $J(u_h)$, since $μ u_h ≥ 0$.
-// Take for $v$ the iterate pushed out of the obstacle, for $μ$ its pressure: this is at least $½ |v - u_h|_a^2$.
+// *The duality gap* stands for the first. On one side, $J(v)$ is above $J(u_h)$ for each $v$ in $K_h$. On the other,
+// take a pressure $μ ≥ 0$: the smallest value of $J(v) - μ v$ over all $v$, the *dual energy* of $μ$, is below
+// $J(u_h)$, since $μ u_h ≥ 0$. Take for $v$ the iterate pushed out of the obstacle, for $μ$ its pressure. Then
 //
-// *The energy bracket* of [chapter 17](17_certificate.cpp) stands for the second: it holds $J(u)$, its width is of
-// order $h^2$, and a mesh twice as coarse gives it at a quarter of the price; its width is then divided by 4.
+// $$ J(v) - \text{dual energy of } μ ≥ J(v) - J(u_h) ≥ ½ |v - u_h|_a^2   (proved). $$
+//
+// *The energy bracket* of [chapter 17](17_certificate.cpp) stands for the second: it holds $J(u)$, and its width is of
+// order $h^2$. A mesh twice as coarse gives it at a quarter of the price. Its width is then divided by 4. This is an
+// extrapolation: the order is observed, and where a method locks it is wrong.
 //
 // *The rule.* Let $b$ be the width over $|J|$. The largest error of $u_h$ is of relative order $b$, its energy error of
 // order $b^{1/2}$. Uzawa stops when the duality gap is at most $(b/20)^2 |J|$. Then $|v - u_h|_a$ is at most
@@ -75,6 +89,20 @@ void add(tutorial::Timing& study, const Method& method, const TriangleMesh& mesh
   }
 }
 
+// **How many steps**: Uzawa to 12 digits, the tolerance 1e-12 on the step in the gap.
+Table count_steps(int finest) {
+  Table steps({"epsilon", "h", "steps"});
+  for (const double epsilon : {1.0, 1e-6})
+    for (int n = 16; n <= finest; n *= 2) {
+      const Discretisation on(structured_mesh(n), p1());
+      UzawaOptions options;
+      options.tolerance = 1e-12;
+      steps.add(
+          {epsilon, 1.0 / n, uzawa(assemble(tutorial::paper_scene(epsilon), on.space()), options).counters.contact});
+    }
+  return steps;
+}
+
 // **Stop when it is accurate enough**: Uzawa's two errors step by step, and where the bracket stops it.
 Table stop_early(const Method& method, int cells, const Exact& exact, tutorial::Report& report) {
   const Scene scene = tutorial::paper_scene(exact.epsilon);
@@ -86,8 +114,8 @@ Table stop_early(const Method& method, int cells, const Exact& exact, tutorial::
   const Solution full = uzawa(problem), early = uzawa(problem, options);
   const double of_full = error(full), of_early = error(early);
   report.claim(of_early < 1.01 * of_full && 2 * early.counters.contact < full.counters.contact,
-               "{}, accurate enough: Uzawa stops after {} steps, not {}, at {:.4f} of the error", method.name(),
-               early.counters.contact, full.counters.contact, of_early / of_full);
+               "{}, accurate enough: Uzawa stops after {} steps, not {}, at {:.4f} of the error (observed)",
+               method.name(), early.counters.contact, full.counters.contact, of_early / of_full);
   return tutorial::uzawa_on_its_way(method.name(), problem, early, full, error);
 }
 
@@ -112,6 +140,13 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
                "no time buys accuracy from P1 on the unstructured mesh at epsilon = 1e-6: {:.1e} relative, "
                "Crouzeix-Raviart {:.1e}",
                locked, free);
+  const Table steps = count_steps(std::min(2 * options.cells, 128));
+  steps.pivot("h", "epsilon", "steps").print("Uzawa's steps to 12 digits, by h and epsilon", 6);
+  steps.write(options.out / "steps.csv");
+  // κ ∼ h^-1 and h^-2. The logarithm takes up to 0.4 off the second: the slowest wave is as long as a cell, and its share
+  // of the error falls itself, like h^(7/2), so that fewer digits of it are left to gain.
+  report.claim_orders(steps.where("epsilon", 1.0), "steps", -1.2, -0.75, "Uzawa at epsilon = 1: steps");
+  report.claim_orders(steps.where("epsilon", 1e-6), "steps", -2.05, -1.6, "Uzawa at epsilon = 1e-6: steps");
   Table stopping({"method", "quantity", "steps", "error"});
   const Exact& exact = truth[1];                       // ε = 1e-2
   const int most_cells = std::min(options.cells, 64);  // finer, the last steps are minutes
@@ -123,10 +158,20 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
 // ## What came out
 //
 // (a) The linear solves of the active set do not grow. It needs at most 4 contact steps, on fine meshes 1 or 2, since
-// it starts from the contact set of a coarser one. Uzawa's steps grow with the condition number of the compliance of
-// $Γ_C$: each time $h$ is halved, by the factor 2 at ε = 1 and by almost 4 at 1e-6 (chapter 04). With the paper's
-// linear solver Uzawa gives up at small ε. (b) No: it comes to a level line. The bracket stops Uzawa there, after less
-// than half of the steps, within 1 % of the error. `price_list.md` says what 1e-2, 1e-3 and 1e-4 cost, or "never".
+// it starts from the contact set of a coarser one. Uzawa's steps grow by the factor 2 at ε = 1 and by almost 4 at 1e-6
+// each time $h$ is halved.
+//
+// :output: Uzawa's steps to 12 digits
+//
+// :figure: uzawa_steps
+//
+// Once more, at 1/h = 256, this would make some 200,000 steps at ε = 1e-6 (extrapolated). With the paper's linear solver Uzawa gives up at small ε.
+// (b) No: it comes to a level line. The bracket stops Uzawa there, after less than half of the steps, within 1 % of the
+// error. `price_list.md` says what 1e-2, 1e-3 and 1e-4 cost, or "never".
+//
+// :figure: stopping
+//
+// :figure: stages
 //
 // ## Exercises
 //

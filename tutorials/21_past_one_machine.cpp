@@ -23,25 +23,36 @@
 // second machine helps little: the order of elimination is found on one processor, and the last and largest blocks of
 // the factor wait for all others.
 //
-// The iterated penalty needs $K^{-1}$ on residuals alone, and each correction repairs what the last one left over. Four
-// digits are enough. Conjugate gradients give them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it
+// The iterated penalty needs $K^{-1}$ on residuals alone. Each correction repairs what the last one left over, and that
+// includes what a careless solve with $K$ left over. So four digits per correction are enough. Conjugate gradients give them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it
 // reads from $K$ which unknowns hang together, merges them into a coarser problem, and so on until one is left that
-// is solved at once. Contact set and penalty are corrected in one loop, from $A_1$, $B$, $M$ and $p$, never from $K$:
+// is solved at once. Contact set and penalty are corrected in one loop. What is left over is formed from $A_1$, $B$, $M$
+// and $p$, not from $K$, since $K$ has lost digits (chapter 16):
 //
 // $$ r_1 = L - A_1 u - B' M p,   r_2 = ε^2 p - B u. $$
 //
-// A point stays in contact where $-r_1$ presses, and comes into contact where $u < -\text{gap}$. Then
-// $K\,du = r_1 + δ^{-1} B' M r_2$ off the contact set and $du = -\text{gap} - u$ on it; $u ← u + du$,
-// $p ← p + δ^{-1} (B\,du - r_2)$. The penalty $δ = h^2/256$ follows the mesh. Each level of refinement begins with the
-// contact set of the level before.
+// In balance $r_1$ is $-λ$: on a touching point it is what the obstacle adds, with the other sign. So a point stays in
+// contact where $-r_1 > 0$ presses, and comes into contact where $u < -\text{gap}$. Off this set one correction solves
+//
+// $$ K\,du = r_1 + δ^{-1} B' M r_2,   u ← u + du,   p ← p + δ^{-1} (B\,du - r_2), $$
+//
+// as `cure` does in chapter 16, and on it $du = -\text{gap} - u$. The penalty $δ = h^2/256$ follows the mesh. Each level of
+// refinement begins with the contact set of the level before.
 //
 // ## Why columns: the kernel again
 //
 // Multigrid must keep on its coarse problems what $K$ hardly charges: the kernel of $B$ on the layer. For P1 in columns
 // that is one function per column, and the unknowns that hang together through $δ^{-1}$ are those of one column.
 // Merged, they are still in the kernel. Without columns Crouzeix-Raviart has one such function per two triangles
-// (chapter 07). No way of merging unknowns keeps them: every multigrid that was tried needs 500 iterations and more.
-// The cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the factor (exercise 2); they send
+// (chapter 07), each spread over several triangles. None of the algebraic multigrids that we tried merges unknowns so
+// that they stay in this kernel: each needed 500 iterations and more (observed).
+//
+// This says nothing against multigrid that *knows* the kernel. For elasticity that is nearly incompressible, the same
+// difficulty, Schöberl (1999) smooths on patches that hold the kernel's functions, and prolongs so that the kernel stays
+// the kernel; the number of iterations then does not depend on the parameter (proved there). Farrell, Mitchell, Scott
+// and Wechsung (2020) do so on meshes of macro elements. Both need the meshes and the patches, not the matrix alone.
+//
+// Our cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the factor (exercise 2); they send
 // each other its numbers by MPI. A *strip* is here the part of the mesh between two vertical lines that one rank
 // owns, not the strip of chapter 17. BDDC factors each strip by itself. It took 5 to 9 iterations up to 1/h = 256 and
 // broke down at 1.8 million unknowns; it is not offered.
@@ -112,18 +123,21 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
   const Table without = on_ranks({"multigrid", 1, 32, epsilon}), split = on_ranks({"SNESVI, split", 1, 32, 1e-6}),
               coarse = on_ranks({"SNESVI, summed", 1, 32, 1e-2}), summed = on_ranks({"SNESVI, summed", 1, 32, 1e-6});
   const Solution u = serial(structured_mesh(options.cells), p1(), epsilon);
-  tutorial::write_scaling(options.out, {{"strong scaling", strong}, {"weak scaling", weak}, {"columns cut", cut}});
+  tutorial::write_scaling(options.out, strong, weak, cut);
   report.finish();
   for (const Table& runs : {strong, weak, cut, without, split, coarse, summed}) tutorial::print_runs(runs);
 
   report.claim_within(std::abs(strong.most("u_max") / u.u.maxCoeff() - 1), 0, 1e-9,
-                      "any ranks: away from the serial u by");
-  report.claim_within(std::max(strong.most("most"), weak.most("most")), 1, 15, "iterations per correction, at most");
-  report.claim_within(cut.last("iterations") / strong.last("iterations"), 1.5, 20, "cut columns: iterations times");
-  report.claim(without.entry("reason") == "gave_up", "multigrid fails on a layer without columns");
-  report.claim(coarse.number("u_max") > 0 && summed.number("u_max") == 0, "SNESVI, summed: solves 1e-2, loses 1e-6");
+                      "any ranks: away from the serial u by (observed)");
+  report.claim_within(std::max(strong.most("most"), weak.most("most")), 1, 10,
+                      "iterations per correction, at most (observed)");
+  report.claim_within(cut.last("iterations") / strong.last("iterations"), 1.5, 4,
+                      "cut columns: iterations times (observed)");
+  report.claim(without.entry("reason") == "gave_up", "BoomerAMG fails on a layer without columns (observed)");
+  report.claim(coarse.number("u_max") > 0 && summed.number("u_max") == 0,
+               "SNESVI, summed: solves 1e-2, loses 1e-6 (observed)");
   report.claim_within(split.number("u_max") / coarse.number("u_max"), 0.95, 1.05,
-                      "SNESVI, split at 1e-6 over summed at 1e-2");
+                      "SNESVI, split at 1e-6 over summed at 1e-2 (observed)");
 }
 
 // ## What came out
@@ -133,8 +147,10 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 //
 // ## Exercises
 //
-// On paper: how many columns must the coarse mesh have for 1,024 ranks, and how
-// often is it refined for $10^9$ unknowns? (1,024 columns, P1 has 2 n^2 unknowns: 1/h = 22,400, between 4 and 5 times.)
+// 1. Take ε = 0 in place of 1e-6. What becomes of the iterations?
+// 2. Take MUMPS in place of multigrid on the layer without columns. Does the loop settle, and on which $u$?
+// 3. On paper: how many columns must the coarse mesh have for 1,024 ranks, and how often is it refined for $10^9$
+//    unknowns?
 
 #include "answers/21_past_one_machine.hpp"
 

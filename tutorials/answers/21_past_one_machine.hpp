@@ -15,3 +15,8 @@ const std::vector<tutorial::Exercise> exercises{
        report.claim_within(direct.number("corrections"), 1, 10, "corrections");
        report.claim_within(std::abs(direct.number("u_max") / u - 1), 0, 1e-9, "away from the serial u by");
      }}};
+
+// ## Answers on paper
+//
+// **3.** A strip owns whole columns, so 1,024 ranks need 1,024 of them. P1 has about $2 n^2$ unknowns, $n = 1/h$: $10^9$ of
+// them ask for $n = 22,400$. That is 1,024 doubled 4 times (16,384) or 5 times (32,768).

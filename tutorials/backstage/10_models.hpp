@@ -4,9 +4,16 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/method.hpp"
 #include "antilock/study/table.hpp"
-#include "common/effects.hpp"
+#include "common/paper_problem.hpp"
 
 namespace antilock::tutorial {
+
+/// The largest difference of two columns in a row.
+inline double most_apart(const Table& table, const std::string& one, const std::string& other) {
+  double apart = 0;
+  for (const Table& row : table.rows()) apart = std::max(apart, std::abs(row.number(one) - row.number(other)));
+  return apart;
+}
 
 /// P1 on the structured mesh of a scene: with a layer of its depth, or without one.
 inline Discretisation p1_for(const Scene& scene, int cells) {

@@ -119,18 +119,16 @@ std::vector<int> chessboard(const TriangleMesh& mesh, int ranks) {
 
 std::vector<int> all_on_the_first(const TriangleMesh& mesh, int) { return std::vector<int>(mesh.triangle_count(), 0); }
 
-void write_scaling(const std::filesystem::path& folder, const std::vector<std::pair<std::string, Table>>& studies) {
-  Table scaling({"study", "ranks", "quantity", "value"});
-  const std::array<std::array<const char*, 2>, 3> quantities = {{{"iterations", "iterations, all corrections"},
-                                                                 {"seconds", "time / time of one rank"},
-                                                                 {"megabytes", "memory of a rank / of one alone"}}};
-  for (const auto& [column, quantity] : quantities)
-    for (const auto& [study, runs] : studies)
-      for (const Table& run : runs.rows()) {
-        const bool counted = std::string(column) == "iterations", timed = std::string(column) == "seconds";
-        if (timed && run.number("ranks") > std::thread::hardware_concurrency()) continue;
-        scaling.add({study, run.entry("ranks"), quantity, run.number(column) / (counted ? 1 : runs.first(column))});
-      }
+void write_scaling(const std::filesystem::path& folder, const Table& strong, const Table& weak, const Table& cut) {
+  Table scaling({"ranks", "strong", "weak", "cut", "strong_memory", "weak_memory", "cut_memory"});
+  for (const Table& run : strong.rows()) {
+    const Entry ranks = run.entry("ranks");
+    std::vector<Entry> row{ranks};
+    for (const Table* runs : {&strong, &weak, &cut}) row.push_back(runs->where("ranks", ranks).entry("iterations"));
+    for (const Table* runs : {&strong, &weak, &cut})
+      row.emplace_back(runs->where("ranks", ranks).number("megabytes") / runs->first("megabytes"));
+    scaling.add(row);
+  }
   scaling.write(folder / "scaling.csv");
 }
 

@@ -50,8 +50,8 @@ void print_runs(const Table& runs);
 std::vector<int> chessboard(const TriangleMesh& mesh, int ranks);
 std::vector<int> all_on_the_first(const TriangleMesh& mesh, int ranks);
 
-/// scaling.csv, as the picture takes it (study, ranks, quantity, value): iterations for every number of ranks, seconds
-/// and memory per rank over those of one rank, seconds up to as many ranks as this machine has cores.
-void write_scaling(const std::filesystem::path& folder, const std::vector<std::pair<std::string, Table>>& studies);
+/// scaling.csv, as the picture takes it: per number of ranks the iterations of all corrections on one mesh, with as many
+/// unknowns per rank, and on one mesh with columns cut; and the memory of the largest rank over that of one alone.
+void write_scaling(const std::filesystem::path& folder, const Table& strong, const Table& weak, const Table& cut);
 
 }  // namespace antilock::tutorial
