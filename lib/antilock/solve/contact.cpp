@@ -51,8 +51,10 @@ ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const s
     const bool fewer = wrong.size() < fewest;
     left = fewer ? patience : left - 1;
     if (fewer) fewest = wrong.size(), tried.clear();
-    if (wrong.empty() || (left <= 0 && nested && !tried.insert(pieces).second))
+    if (wrong.empty() || (left <= 0 && nested && !tried.insert(pieces).second)) {
+      for (int i = 0; i < stairs.count(); ++i) now.lambda(i) = stairs.whole_force(i, pieces[i], now.lambda(i));
       return {std::move(now.v), std::move(now.lambda), std::move(pieces), steps};
+    }
     if (steps >= max_steps)
       throw NotConverged(fmt::format("contact: {} of {} contact conditions still violated after {} steps", wrong.size(),
                                      stairs.count(), steps),

@@ -20,14 +20,14 @@ struct Equilibrium {
 class ContactSystem {
  public:
   virtual ~ContactSystem() = default;
-  /// v_i = given_i where bound i is held, lambda_i = given_i elsewhere. Throws Error where S is not positive definite.
+  /// v_i = given_i where bound i is held, lambda_i = given_i elsewhere; lambda counts from Stairs::force. Throws Error where S is not positive definite.
   virtual Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) = 0;
   /// A start near the answer: that of a smaller problem of the same kind.
   virtual Pieces nested_start(const Stairs& stairs, int max_steps) = 0;
 };
 
 struct ContactAnswer {
-  Eigen::VectorXd v, lambda;  ///< C each
+  Eigen::VectorXd v, lambda;  ///< C each, lambda the whole force
   Pieces pieces;              ///< C
   int steps = 0;              ///< linear systems solved
 };

@@ -76,9 +76,9 @@ class IteratedPenalty {
     const std::vector<int>&unknown = factor_.numbering().unknown, &contact = problem_.contact;
     const Eigen::VectorXd& delta = factor_.deltas();
     if (p_.size() > 0) r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2).cwiseQuotient(delta);
-    if (contact_.lambda.size() > 0) r.r1(contact) -= contact_.lambda;  // r holds them already; contact asks for all
     const Eigen::VectorXd u_c = u_.high(contact), low_c = u_.low(contact);
-    const Stairs stairs = Stairs{problem_.lower, problem_.upper, problem_.force_bound}.from(u_c).from(low_c);
+    const Stairs stairs =
+        Stairs{problem_.lower, problem_.upper, problem_.force_bound, contact_.lambda}.from(u_c).from(low_c);
     const Pieces before = contact_.pieces;
     Correction step{Eigen::VectorXd::Zero(problem_.size()), {}};
     step.u(unknown) = factor_.held() != nullptr ? sparse_road(r.r1(unknown), stairs, correction)

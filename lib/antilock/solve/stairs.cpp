@@ -25,16 +25,21 @@ double Stairs::most(int i) const { return bears.size() > 0 ? bears(i) : infinity
 double Stairs::given(int i, Piece piece) const {
   switch (piece) {
     case Piece::below:
-      return most(i);
+      return most(i) - so_far(i);
     case Piece::at_lower:
       return lower(i);
     case Piece::at_upper:
       return upper(i);
     case Piece::above:
-      return -most(i);
+      return -most(i) - so_far(i);
     default:
-      return 0;
+      return -so_far(i);
   }
+}
+
+double Stairs::whole_force(int i, Piece piece, double found) const {
+  if (is_held(piece)) return so_far(i) + found;
+  return piece == Piece::below ? most(i) : piece == Piece::above ? -most(i) : 0;
 }
 
 Stairs::Interval Stairs::found(int i, Piece piece) const {
@@ -42,9 +47,9 @@ Stairs::Interval Stairs::found(int i, Piece piece) const {
     case Piece::below:
       return {-infinity, lower(i)};
     case Piece::at_lower:
-      return {is_equation(i) ? -most(i) : 0, most(i)};
+      return {(is_equation(i) ? -most(i) : 0) - so_far(i), most(i) - so_far(i)};
     case Piece::at_upper:
-      return {-most(i), 0};
+      return {-most(i) - so_far(i), -so_far(i)};
     case Piece::above:
       return {above(i), infinity};
     default:
@@ -73,11 +78,11 @@ Pieces Stairs::there_are(Pieces asked) const {
 }
 
 Stairs Stairs::from(const Eigen::VectorXd& u) const {
-  return {lower - u, upper.size() > 0 ? Eigen::VectorXd(upper - u) : upper, bears};
+  return {lower - u, upper.size() > 0 ? Eigen::VectorXd(upper - u) : upper, bears, force};
 }
 
 Stairs Stairs::of(const std::vector<int>& bounds) const {
-  return {of_some(lower, bounds), of_some(upper, bounds), of_some(bears, bounds)};
+  return {of_some(lower, bounds), of_some(upper, bounds), of_some(bears, bounds), of_some(force, bounds)};
 }
 
 Pieces held_at_lower(const std::vector<bool>& active) {

@@ -28,6 +28,8 @@ struct Stairs {
   Eigen::VectorXd upper = {};  ///< C, or empty: none; +infinity: none here
   Eigen::VectorXd bears = {};  ///< C, or empty: the most that a bound bears; +infinity: anything
 
+  Eigen::VectorXd force = {};  ///< C, or empty: the lambda so far, from which the given and found ones count
+
   struct Interval {
     double low, high;
   };
@@ -36,16 +38,19 @@ struct Stairs {
   double above(int i) const;  ///< the upper bound of i; infinite: none
   double most(int i) const;   ///< what bound i bears; infinite: anything
   bool is_equation(int i) const { return lower(i) == above(i); }
-  /// What `piece` gives: v where it holds, else lambda.
+  /// What `piece` gives: v where it holds, else lambda - force.
   double given(int i, Piece piece) const;
-  /// Where the other one of v and lambda must lie.
+  /// lambda, of which `found` counts from the force so far; where it is given, so to the last digit.
+  double whole_force(int i, Piece piece, double found) const;
+  /// Where the other one of v and lambda - force must lie.
   Interval found(int i, Piece piece) const;
   /// The next piece of stair i towards larger values, or towards smaller ones. Asked where there is one.
   Piece next(int i, Piece piece, bool up) const;
   /// The pieces that there are, nearest to those asked for; an equation holds unless it gives way. Throws Error where
   /// `asked` has not one entry per stair.
   Pieces there_are(Pieces asked) const;
-  /// The same stairs for v - u_i, or of some of the bounds.
+  double so_far(int i) const { return force.size() > 0 ? force(i) : 0; }  ///< lambda of i so far
+  /// The same stairs for v - u, or of some of the bounds.
   Stairs from(const Eigen::VectorXd& u) const;
   Stairs of(const std::vector<int>& bounds) const;
 };

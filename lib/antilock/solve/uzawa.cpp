@@ -46,8 +46,11 @@ class CondensedUzawa {
 
   /// Equations (lower = upper) are solved for their forces: a step would move those freely, at a rate of its own.
   ContactAnswer operator()(const ContactQuestion& asked) {
-    const auto& system = dynamic_cast<const DenseContact&>(asked.system);
-    const Stairs& stairs = asked.stairs;
+    const auto& given = dynamic_cast<const DenseContact&>(asked.system);
+    const Stairs stairs{asked.stairs.lower, asked.stairs.upper, asked.stairs.bears};
+    Eigen::VectorXd all = given.q();  // the steps are taken on whole forces
+    if (asked.stairs.force.size() > 0) all -= asked.stairs.force;
+    const DenseContact system(given.s(), all);
     std::vector<int> equations, open;
     for (int i = 0; i < stairs.count(); ++i)
       (stairs.is_equation(i) && std::isinf(stairs.most(i)) ? equations : open).push_back(i);

@@ -82,7 +82,7 @@ Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
   }
   const auto count = static_cast<Eigen::Index>(bounded.size());
   const Stairs fewer{sums(stairs.lower, coarse_of, count, true), sums(stairs.upper, coarse_of, count, true),
-                     sums(stairs.bears, coarse_of, count, false)};
+                     sums(stairs.bears, coarse_of, count, false), sums(stairs.force, coarse_of, count, false)};
   const Eigen::VectorXd q = p.transpose() * q_;
   HeldFactor k;
   Pieces pieces;
