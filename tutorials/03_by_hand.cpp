@@ -24,7 +24,7 @@
 // $$ a_y^-(u, v) = ∑_T |T| ∂_y u ∂_y v = v^T B^T M B u. $$
 //
 // This is the *split form*: $A_1$ and the factors $B$, $M$, never summed. $A_1 + ε^{-2} B^T M B$ would add numbers
-// near 1 to numbers near $10^{12}$, and round their digits away (chapter 16).
+// near 1 to numbers near $10^{12}$, and round their digits away (chapter 18).
 
 #include <Eigen/Dense>
 

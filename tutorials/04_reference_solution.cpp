@@ -19,7 +19,7 @@
 // ## A truth without a mesh
 //
 // "Unilateral contact problems generally do not admit analytical solution" (Section 4.1). So the paper solves on a very
-// fine mesh, by Uzawa's algorithm (chapter 18 measures what that costs), and takes this for the truth. Ours needs no
+// fine mesh, by Uzawa's algorithm (chapter 21 measures what that costs), and takes this for the truth. Ours needs no
 // mesh. All of it follows from two ordinary differential equations, and every verdict of this course rests on them.
 //
 // All displacements are 0 at $x = 0$ and at $x = 1$, in the body and in the layer. So write them as sums of sines,
@@ -80,7 +80,7 @@ double symbol(int k, double epsilon) {
 
 // ### Mesh
 // **The library in ten lines.** From here on chapters compute with the library. These are its words, as the data go. A
-// *scene* (chapter 20) is what is to be solved. A *method*, an element and a family of meshes, knows nothing of it. A
+// *scene* (chapter 23) is what is to be solved. A *method*, an element and a family of meshes, knows nothing of it. A
 // *discretisation* is the method at one $h$. `assemble` brings both together, as chapter 03's `assemble_by_hand` does. The
 // solver knows only the matrices.
 struct Solved {

@@ -37,7 +37,7 @@
 //
 // The sawteeth below do so, and their limit is 0. The values tend to 0, the slopes do not. But against a fixed function
 // the positive slopes cancel the negative ones, the better the shorter the teeth. A weak limit forgets what oscillates
-// faster and faster. Chapter 11 measures both conditions, for five methods.
+// faster and faster. Chapter 12 measures both conditions, for five methods.
 // :figure: sawteeth
 //
 // **For $K$** P1 has both, on every regular mesh: interpolants of smooth functions come near, and P1 functions that are

@@ -71,7 +71,7 @@
 // $$ \text{P1 loses at most the share } \frac{x}{1 + x},   x = (c h/ε)^2, \text{ on any regular mesh.} $$
 //
 // So all is well once $h ≪ ε$, as the paper says. That as much *is* lost, and that the height of the ridge follows the
-// same law within a factor of about 2, is observed on nine families of meshes ([chapter 31](31_promises.cpp)). On rows
+// same law within a factor of about 2, is observed on nine families of meshes ([chapter 15](15_promises.cpp)). On rows
 // of congruent triangles it is exact.
 // Without contact the ridge is $\sin a x$ with $a = 2π$, and $E$ has a closed form, $½ (a \coth a + a^2)$ per height 1,
 // the first part from the body. So

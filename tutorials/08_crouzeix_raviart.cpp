@@ -46,8 +46,8 @@
 // $$ ‖v - I_h v‖_{1,Ω_h} ≤ C h (|v|_{2,Ω^+} + |v|_{2,Ω^-}). \tag{32} $$
 //
 // Every function of $K$ or $K_0$ is a limit of smooth ones, so the first half of "approaches" follows (chapter 05).
-// The second half, on weak limits, is checked in [chapter 11](11_contact_sets.cpp). Theorem 4 asks for two more things of
-// methods that jump, which [chapter 13](13_estimates.cpp) checks. With all of them it applies, and asks nothing of the mesh
+// The second half, on weak limits, is checked in [chapter 12](12_contact_sets.cpp). Theorem 4 asks for two more things of
+// methods that jump, which [chapter 14](14_estimates.cpp) checks. With all of them it applies, and asks nothing of the mesh
 // but good angles:
 //
 // $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^{nc,ε}‖_{1,Ω_h} = 0.   \text{(Theorem 7)} $$
@@ -143,7 +143,7 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
 //
 // (a) None, on any triangle. (b) No: it is nonnegative at the midpoints on $Γ_C$, and may be a
 // little below 0 at the ends of an edge, where it jumps. So $K_h^{nc}$ is not in $K$. This, and the jumps, are the
-// price (chapter 13); the three times as many unknowns are the other one (chapter 18).
+// price (chapter 14); the three times as many unknowns are the other one (chapter 21).
 //
 // ## Exercises
 //

@@ -144,7 +144,7 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
 //
 // :live: convergence
 //
-// All of this is measured. (What is proved of orders, in the energy norm: [order h](33_order_h.cpp).)
+// All of this is measured. (What is proved of orders, in the energy norm: [order h](20_order_h.cpp).)
 // (a) Slope 2, a little less for CR on unstructured meshes; slope 0 where it locks, at $ε = 10^{-4}$ and $10^{-6}$.
 // At $10^{-2}$ P1 unstructured "locks already" (caption of Figure 9) on coarse meshes, and recovers where the wall,
 // $5.84 k$, has moved to the left of $10^{-2}$. (b) In the gradient's: there CR has 0.90 to 0.95 of P1's error. In the

@@ -147,7 +147,7 @@ Numbers kernels(int cells, const std::filesystem::path& folder) {
 Numbers estimates(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
   write_freefem_mesh(folder / "mesh.freefem.msh", mesh);
-  run("31_promises", {"-mesh", folder / "mesh.freefem.msh", "-out", folder});
+  run("15_promises", {"-mesh", folder / "mesh.freefem.msh", "-out", folder});
   const Table table = read_table(folder / "estimates.csv", 1);
   const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
   const Space conforming(mesh, p1()), broken(mesh, crouzeix_raviart());
@@ -176,7 +176,7 @@ Numbers estimates(int cells, const std::filesystem::path& folder) {
 
 Numbers glued_strings(int cells, const std::filesystem::path& folder) {
   constexpr double load = 32, gap = 0.5;
-  run("28_your_own_problem", {"-cells", std::to_string(cells), "-out", folder});
+  run("32_your_own_problem", {"-cells", std::to_string(cells), "-out", folder});
   const Table table = read_table(folder / "results.csv", 2);
   if (table.rows.rows() != 26) throw Error(fmt::format("results.csv: {} rows; accepted 26", table.rows.rows()));
   Numbers numbers;
@@ -224,7 +224,7 @@ Numbers mixed(int cells, double epsilon, const std::filesystem::path& folder) {
   const auto mesh = folder / "mesh.freefem.msh", body = folder / "body.freefem.msh";
   write_freefem_mesh(mesh, squares);
   write_freefem_mesh(body, block);
-  run("25_mixed", {"-mesh", mesh, "-body", body, "-cells", std::to_string(cells), "-epsilon",
+  run("28_mixed", {"-mesh", mesh, "-body", body, "-cells", std::to_string(cells), "-epsilon",
                    fmt::format("{}", epsilon), "-out", folder});
   const Table summary = read_table(folder / "summary.csv", 2);
   if (summary.rows.rows() != 3) throw Error(fmt::format("summary.csv: {} rows; accepted 3", summary.rows.rows()));

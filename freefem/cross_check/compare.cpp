@@ -139,7 +139,7 @@ std::string same_zones(const VariationalInequality& problem, const Solution& our
 
 /// The beam, both integrations, at epsilon = 1e-4.
 std::vector<Line> beams(int cells, const std::filesystem::path& out) {
-  freefem::run("22_beam", {"-cells", std::to_string(cells), "-epsilon", "1e-4", "-out", out / "freefem"});
+  freefem::run("25_beam", {"-cells", std::to_string(cells), "-epsilon", "1e-4", "-out", out / "freefem"});
   const freefem::Table nodes = freefem::read_table(out / "freefem" / "beam.csv"),
                        summary = freefem::read_table(out / "freefem" / "summary.csv", 1);
   std::vector<Line> lines;
@@ -150,7 +150,7 @@ std::vector<Line> beams(int cells, const std::filesystem::path& out) {
     const Solution ours = active_set(assemble(beam));
     const std::string name = full ? "full" : "reduced";
     const Eigen::VectorXd w = ours.u(Eigen::seqN(0, cells + 1, 2));
-    lines.push_back({"22_beam", fmt::format("{} integration, {} cells, epsilon = {:g}", name, cells, beam.epsilon),
+    lines.push_back({"25_beam", fmt::format("{} integration, {} cells, epsilon = {:g}", name, cells, beam.epsilon),
                      summary.names.at(full ? 1 : 0), static_cast<int>(ours.u.size()),
                      (w - nodes.column("w_" + name)).cwiseAbs().maxCoeff() / w.cwiseAbs().maxCoeff(),
                      same_set(ours, nodes.column("force_" + name).segment(1, cells - 1)), ours.seconds.total(),
@@ -159,7 +159,7 @@ std::vector<Line> beams(int cells, const std::filesystem::path& out) {
   return lines;
 }
 
-/// Nearly incompressible elasticity, lambda = 1e8, the elements that both sides have; `friction`: with chapter 26's.
+/// Nearly incompressible elasticity, lambda = 1e8, the elements that both sides have; `friction`: with chapter 30's.
 std::vector<Line> elasticity(int cells, bool friction, const std::filesystem::path& out) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(cells, Domain{0}));
   PlaneStrain scene;
@@ -174,7 +174,7 @@ std::vector<Line> elasticity(int cells, bool friction, const std::filesystem::pa
     const Solution ours = active_set(problem);
     const freefem::ElasticAnswer theirs =
         (friction ? freefem::friction_answer : freefem::elastic_answer)(out / "freefem", name, {x, y});
-    lines.push_back({friction ? "26_friction" : "23_elasticity",
+    lines.push_back({friction ? "30_friction" : "26_elasticity",
                      fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon), theirs.road,
                      static_cast<int>(ours.u.size()),
                      (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff(),
@@ -203,7 +203,7 @@ std::vector<Line> plates(int rings, const std::filesystem::path& out) {
       if (std::binary_search(w.clamped().begin(), w.clamped().end(), i)) continue;
       disagree += ours.active[bound++] != (theirs.force(i) != 0);
     }
-    lines.push_back({"24_plate", fmt::format("{}, {} rings, t = {:g}", what, rings, plate.thickness), theirs.road,
+    lines.push_back({"27_plate", fmt::format("{}, {} rings, t = {:g}", what, rings, plate.thickness), theirs.road,
                      static_cast<int>(ours.u.size()),
                      (deflection - theirs.w).cwiseAbs().maxCoeff() / deflection.cwiseAbs().maxCoeff(),
                      disagree == 0 ? "same" : fmt::format("{} others", disagree), ours.seconds.total(),
@@ -245,44 +245,44 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
       freefem::string_on_an_obstacle(cells, folder));
   add("03_by_hand", "P1 structured, h = 1/8, no varf: u, energy", freefem::by_hand(8, 1e-6, folder));
   for (const char* e : {"P1", "CR"})
-    add("16_roundoff", fmt::format("{} structured, h = 1/{}, 17 epsilons to 1e-16: energy, largest u", e, half),
+    add("18_roundoff", fmt::format("{} structured, h = 1/{}, 17 epsilons to 1e-16: energy, largest u", e, half),
         freefem::roundoff(e, half, folder));
-  add("20_effects",
+  add("23_effects",
       fmt::format("eight scenes, h = 1/{}, epsilon = 0.01: energy, least and largest u, how many in contact", cells),
       freefem::effects(cells, 1e-2, folder));
   add("07_kernel", fmt::format("P1 by ties to h = 1/{}; P1 and CR by rank at h = 1/4: dimensions", half),
       freefem::kernels(half, folder));
-  add("30_propositions", fmt::format("P1, CR, both meshes, h = 1/{}, 9 epsilons: distance to the limit", half),
+  add("11_propositions", fmt::format("P1, CR, both meshes, h = 1/{}, 9 epsilons: distance to the limit", half),
       freefem::limits(half, folder));
   const std::vector<freefem::Numbers> errors = freefem::worst_errors(folder);
   for (const int i : {0, 1})
-    add("12_uniform",
+    add("13_uniform",
         fmt::format("{} structured, h = 1/8, 6 epsilons: worst H1 error against P1 on h = 1/32", i == 0 ? "P1" : "CR"),
         errors[i]);
-  add("33_order_h", "P1 and CR structured, h = 1/8, 6 epsilons: energy norm of the error, P1 on h = 1/32 for the truth",
+  add("20_order_h", "P1 and CR structured, h = 1/8, 6 epsilons: energy norm of the error, P1 on h = 1/32 for the truth",
       freefem::energy_errors(folder));
-  add("31_promises", fmt::format("P1 and CR unstructured, h = 1/{}, 13 epsilons to 1e-6: largest u on Gamma_C", half),
+  add("15_promises", fmt::format("P1 and CR unstructured, h = 1/{}, 13 epsilons to 1e-6: largest u on Gamma_C", half),
       freefem::estimates(half, folder));
-  add("17_certificate", fmt::format("P1 and CR unstructured, h = 1/{}, 5 epsilons: bracket, certified bound", half),
+  add("19_certificate", fmt::format("P1 and CR unstructured, h = 1/{}, 5 epsilons: bracket, certified bound", half),
       freefem::certificate(half, folder));
-  add("11_contact_sets", "P1 structured, h = 1/8: distances to K_h and K_0h of a solution on h = 1/32",
+  add("12_contact_sets", "P1 structured, h = 1/8: distances to K_h and K_0h of a solution on h = 1/32",
       freefem::contact_sets(folder));
   const std::vector<freefem::Numbers> degrees = freefem::degrees(half, folder);
   for (const int i : {0, 1})
-    add("14_degree",
+    add("16_degree",
         fmt::format("P{} unstructured, h = 1/{}, epsilon = 0.01: cost of a ridge, ridge, energy", i + 1, half),
         degrees[i]);
-  add("15_families_of_loads", "P1 structured, h = 1/8, 4 epsilons: worst load of the ball against P1 on h = 1/32",
+  add("17_families_of_loads", "P1 structured, h = 1/8, 4 epsilons: worst load of the ball against P1 on h = 1/32",
       freefem::worst_loads(8, folder));
-  add("25_mixed", fmt::format("boxes, MINI, Taylor-Hood, h = 1/{}, epsilon = 1e-6: u, contact force", half),
+  add("28_mixed", fmt::format("boxes, MINI, Taylor-Hood, h = 1/{}, epsilon = 1e-6: u, contact force", half),
       freefem::mixed(half, 1e-6, folder));
   const std::vector<freefem::Numbers> layers = freefem::graded_layers(half, folder);
   for (const int i : {0, 1})
-    add("27_hp",
+    add("31_hp",
         fmt::format("P{} on 4 layers, h = 1/{}, epsilon = 1 and 0.01: largest u on Gamma_C, contact, energy", i + 1,
                     half),
         layers[i]);
-  add("28_your_own_problem",
+  add("32_your_own_problem",
       fmt::format("two glued strings, {} and {} cells, 13 epsilons to 1e-12: energy, largest u, contact force", cells,
                   cells + 1),
       freefem::glued_strings(cells, folder));

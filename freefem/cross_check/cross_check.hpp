@@ -48,18 +48,18 @@ struct History {
 /// Runs it from lambda = 0 with the step `rho` for at most `steps` steps, P1 on the mesh of `space`.
 History uzawa_history(const Space& space, double epsilon, double rho, int steps, const std::filesystem::path& folder);
 
-/// What 23_elasticity.edp found with one of its elements.
+/// What 26_elasticity.edp found with one of its elements.
 struct ElasticAnswer {
   std::string road;
   Eigen::VectorXd u;      ///< u_x, then u_y, as the space numbers them
   Eigen::VectorXd force;  ///< C, by x
   double energy = 0, residual = 0, seconds = 0;
 };
-/// Runs 23_elasticity.edp on a mesh of the unit square with free sides; its files are in `folder` then.
+/// Runs 26_elasticity.edp on a mesh of the unit square with free sides; its files are in `folder` then.
 void run_elasticity(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
 /// Reads what it left there for the element `name`: P1, P1nc (with jumps) or KS.
 ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space);
-/// Runs 26_friction.edp in the same way. Its answers are read by the next; their energy holds the work of the friction.
+/// Runs 30_friction.edp in the same way. Its answers are read by the next; their energy holds the work of the friction.
 void run_friction(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
 /// What elastic_answer reads, the tangential forces by x behind the normal ones.
 ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space);
@@ -67,13 +67,13 @@ ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::st
 /// The contact force of Taylor-Hood there.
 double taylor_hood_force(const std::filesystem::path& folder);
 
-/// What 24_plate.edp found with one of its elements.
+/// What 27_plate.edp found with one of its elements.
 struct PlateAnswer {
   std::string road;
   Eigen::VectorXd w, force;  ///< as the space of the deflection numbers them
   double energy = 0, seconds = 0;
 };
-/// Runs 24_plate.edp on a mesh; epsilon is the square of the thickness.
+/// Runs 27_plate.edp on a mesh; epsilon is the square of the thickness.
 void run_plate(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
 /// Reads what it left there for the element `name`: P1, P1_one or Arnold_Falk.
 PlateAnswer plate_answer(const std::filesystem::path& folder, const std::string& name, const Space& deflection);

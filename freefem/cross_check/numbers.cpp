@@ -69,7 +69,7 @@ void Numbers::solved(const Space& space, const Solution& solution) {
 Numbers roundoff(const std::string& element, int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = structured_mesh(cells);
   const Space space(mesh, antilock::element(element));
-  run("16_roundoff", {"-mesh", written(mesh, folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
+  run("18_roundoff", {"-mesh", written(mesh, folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
   const Table table = results(folder / "results.csv", 17, 1);
   SceneSweep sweep(contact_scene(1), space);
   Numbers numbers;
@@ -99,7 +99,7 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
                           Scene(body, StiffLayer{0}, obstacle),
                           Scene(body, VentcelLayer{}, obstacle),
                           Scene(body, ThinLayer{epsilon}, obstacle)};
-  run("20_effects", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+  run("23_effects", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
   const Table table = results(folder / "effects.csv", 8, 1);
   Numbers numbers;
   for (int i = 0; i < 8; ++i) {
@@ -124,7 +124,7 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
 
 Numbers limits(int cells, const std::filesystem::path& folder) {
   const TriangleMesh structured = structured_mesh(cells), unstructured = unstructured_mesh(cells);
-  run("30_propositions", {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
+  run("11_propositions", {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
   const Table table = results(folder / "limits.csv", 36, 2);
   const Reference zero{[](double, double) { return 0.0; },
                        [](double, double) { return Eigen::Vector2d::Zero().eval(); },
@@ -161,7 +161,7 @@ Numbers limits(int cells, const std::filesystem::path& folder) {
 
 Numbers certificate(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
-  run("17_certificate", {"-mesh", written(mesh, folder), "-out", folder});
+  run("19_certificate", {"-mesh", written(mesh, folder), "-out", folder});
   const Table table = results(folder / "results.csv", 5, 1);
   const Space above(mesh, p1()), below(mesh, crouzeix_raviart());
   SceneSweep upper(contact_scene(1), above), lower(contact_scene(1), below);
@@ -190,7 +190,7 @@ Numbers certificate(int cells, const std::filesystem::path& folder) {
 
 std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
-  run("14_degree", {"-mesh", written(mesh, folder), "-epsilon", "1e-2", "-out", folder});
+  run("16_degree", {"-mesh", written(mesh, folder), "-epsilon", "1e-2", "-out", folder});
   const Table table = results(folder / "results.csv", 2, 1);
   std::vector<Numbers> both(2);
   for (int i = 0; i < 2; ++i) {
@@ -213,7 +213,7 @@ std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
 std::vector<Numbers> graded_layers(int cells, const std::filesystem::path& folder) {
   std::vector<Numbers> both(2);
   for (const auto& [epsilon, end] : {std::pair{1.0, 0.6081771}, {1e-2, 0.6975326}}) {
-    run("27_hp", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-end",
+    run("31_hp", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-end",
                   fmt::format("{}", end), "-out", folder});
     const Table table = results(folder / "results.csv", 2, 1);
     const TriangleMesh mesh = graded_mesh(end, 1.0 / cells, 4, 0.25, epsilon);

@@ -67,7 +67,7 @@ class ByPlace {
 
 std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
   const int cells = 8;
-  run("12_uniform", {"-cells", std::to_string(cells), "-out", folder});
+  run("13_uniform", {"-cells", std::to_string(cells), "-out", folder});
   const Table table = read_table(folder / "uniform.csv", 4);
   const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
   const Space fine_space(fine, p1());
@@ -106,7 +106,7 @@ std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
 
 Numbers energy_errors(const std::filesystem::path& folder) {
   const int cells = 8;
-  run("33_order_h", {"-cells", std::to_string(cells), "-out", folder});
+  run("20_order_h", {"-cells", std::to_string(cells), "-out", folder});
   const Table table = read_table(folder / "errors.csv", 3);
   if (table.rows.rows() != 12) throw Error(fmt::format("errors.csv: {} rows; accepted 12", table.rows.rows()));
   const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
@@ -140,7 +140,7 @@ Numbers energy_errors(const std::filesystem::path& folder) {
 Numbers contact_sets(const std::filesystem::path& folder) {
   const int cells = 8;
   const double epsilon = 1e-6;
-  run("11_contact_sets", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
+  run("12_contact_sets", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
   const Table table = read_table(folder / "results.csv", 3);
   const auto row = std::find_if(table.names.begin(), table.names.end(),
                                 [](const std::string& n) { return n.find("P1 structured") != std::string::npos; }) -
@@ -181,7 +181,7 @@ Numbers contact_sets(const std::filesystem::path& folder) {
 }
 
 Numbers worst_loads(int cells, const std::filesystem::path& folder) {
-  run("15_families_of_loads", {"-cells", std::to_string(cells), "-out", folder});
+  run("17_families_of_loads", {"-cells", std::to_string(cells), "-out", folder});
   const Table table = read_table(folder / "worst.csv", 1);
   const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
   const Space space(mesh, p1()), fine_space(fine, p1());

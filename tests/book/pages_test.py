@@ -49,7 +49,7 @@ int main() {
   return 0;
 }
 """,
-    "24_later": """// # A third chapter
+    "27_later": """// # A third chapter
 //
 // Needs: [07](07_middle.cpp).
 //
@@ -92,9 +92,9 @@ def small_repository(root):
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{picture}.png")
     (root / "figures/table.csv").write_text(
         "image,figure,tutorial,freefem,render,caption\nstring,,00_start,,,A string\n"
-        "first,,24_later,,,The first\nties,,24_later,,,The ties\ntop,,24_later,,,On top\n".replace("top,", "hero,"))
+        "first,,27_later,,,The first\nties,,27_later,,,The ties\ntop,,27_later,,,On top\n".replace("top,", "hero,"))
     (root / "results/logs").mkdir(parents=True)
-    (root / "results/logs/24_later.log").write_text("24_later: a run\n\n  two rows of it\na  1\nb  2\n\nVERDICT holds: all\n")
+    (root / "results/logs/27_later.log").write_text("27_later: a run\n\n  two rows of it\na  1\nb  2\n\nVERDICT holds: all\n")
     for script in ("live.js", "live_data.js"):
         (root / f"build/book-parts/static/{script}").touch()
 
@@ -152,19 +152,19 @@ class Pages(unittest.TestCase):
         self.assertEqual(places("00_start"), ['data-kind="string" id="live-string"'])
         self.assertEqual(places("07_middle"), ['data-kind="locking" id="live" data-mesh="layered" data-cells="8"',
                                                'data-kind="convergence" id="live-convergence"'])
-        self.assertEqual(places("24_later"), [])
+        self.assertEqual(places("27_later"), [])
         self.assertRegex(self.page("00_start"), r'(?s)Needs: nothing,\nat all\..*images/string.*class="live".*The picture')
         self.assertRegex(self.page("07_middle"), r'(?s)Words before.*data-kind="locking".*Words after.*no figure.*### Output.*"convergence"')
 
     # ---- pictures and output
 
     def test_a_picture_and_a_table_stand_where_their_line_stands(self):
-        self.assertRegex(self.page("24_later"),
+        self.assertRegex(self.page("27_later"),
                          r"(?s)images/hero.*before the pictures.*images/ties.*Words between.*container} pictures"
                          r".*images/first.*images/string.*before the table.*```text\n  two rows of it\na  1\nb  2\n```"
                          r".*at the end.*## What it prints.*\*\*holds\*\*")
-        self.assertEqual(self.page("24_later").count("{figure}"), 4)
-        self.assertEqual(self.page("24_later").count("two rows of it"), 2)  # there, and in all that it printed
+        self.assertEqual(self.page("27_later").count("{figure}"), 4)
+        self.assertEqual(self.page("27_later").count("two rows of it"), 2)  # there, and in all that it printed
 
     # ---- answers
 
@@ -185,7 +185,7 @@ class Pages(unittest.TestCase):
                             (r"\|.\|_{1,Omega_h}", r"\|.\|<sub>1,Ω<sub>h</sub></sub>"),
                             ("h << epsilon^(8/3)", "h ≪ ε<sup>8/3</sup>"), ("h^1.12, K_0h", "h<sup>1.12</sup>, K<sub>0h</sub>"),
                             ("(t h / epsilon)^2.", "(t h / ε)<sup>2</sup>."), ("10^-2.5 >= 1/epsilon", "10<sup>−2.5</sup> ≥ 1/ε"),
-                            ("06_p1_unstructured (12_uniform)", "06_p1_unstructured (12_uniform)")):
+                            ("06_p1_unstructured (13_uniform)", "06_p1_unstructured (13_uniform)")):
             self.assertEqual(signs(text), shown)
 
     # ---- what stops the build
@@ -214,12 +214,12 @@ class Pages(unittest.TestCase):
                 ("figures/images/none.png is missing", "figures/table.csv", "none,,00_start,,,A picture"),
                 ("00_start.cpp: :live: tree: tree is unknown; accepted: locking", chapter, "// :live: tree"),
                 ("mesh=round is no setting of locking; accepted: mesh=structured|", chapter, "// :live: mesh=round"),
-                ("cells=9 is no setting of string; accepted: none", "tutorials/24_later.cpp", "// :live: string cells=9"),
+                ("cells=9 is no setting of string; accepted: none", "tutorials/27_later.cpp", "// :live: string cells=9"),
                 ("a page holds one figure of a kind", chapter, "// :live: string"),
                 (":figure: tree: no picture of figures/table.csv", chapter, "// :figure: tree"),
-                ("24_later.cpp: :figure: ties: it stands on the page already", "tutorials/24_later.cpp", "// :figure: ties"),
-                ("24_later.cpp: no line places the picture more", "figures/table.csv", "more,,24_later,,,Another"),
-                ("24_later.cpp: :output: three: no line of", "tutorials/24_later.cpp", "// :output: three"),
+                ("27_later.cpp: :figure: ties: it stands on the page already", "tutorials/27_later.cpp", "// :figure: ties"),
+                ("27_later.cpp: no line places the picture more", "figures/table.csv", "more,,27_later,,,Another"),
+                ("27_later.cpp: :output: three: no line of", "tutorials/27_later.cpp", "// :output: three"),
                 ('step "Dance"', "freefem/00_start.edp", "// ### Dance")):
             with self.subTest(line=line):
                 self.refused(says, file, line, self.pages)

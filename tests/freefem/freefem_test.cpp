@@ -178,7 +178,7 @@ void expect_same(const freefem::Numbers& numbers, double bound) {
     EXPECT_LE(n.difference(), bound) << n.name << ", here " << n.ours << ", there " << n.theirs;
 }
 
-// 16_roundoff: UMFPACK adds no tolerance of its own, so the drift follows the digits that the sum has lost, a small
+// 18_roundoff: UMFPACK adds no tolerance of its own, so the drift follows the digits that the sum has lost, a small
 // multiple of 1e-16 epsilon^-2, until nothing is left at 1e-8; the split form, the cure, does not see epsilon at all.
 TEST(PlainSum, LosesTheDigitsThatTheSplitFormKeeps) {
   for (const char* element : {"P1", "CR"}) {
@@ -266,7 +266,7 @@ class Beams : public ::testing::TestWithParam<double> {};
 // contact sets are equal, forces agree to what the condition number of 32 cells leaves.
 TEST_P(Beams, AgreeInDeflectionForceAndEnergyForBothIntegrations) {
   const TemporaryFolder folder;
-  freefem::run("22_beam", {"-cells", "32", "-epsilon", std::to_string(GetParam()), "-out", folder.path()});
+  freefem::run("25_beam", {"-cells", "32", "-epsilon", std::to_string(GetParam()), "-out", folder.path()});
   const freefem::Table nodes = freefem::read_table(folder / "beam.csv"),
                        summary = freefem::read_table(folder / "summary.csv", 1);
   for (const bool full : {false, true}) {
@@ -396,22 +396,22 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"06_p1_unstructured", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
       {"08_crouzeix_raviart", {"solution.csv", "contact.csv", "summary.csv", "solution.eps"}},
       {"09_convergence", {"results.csv", "error_against_epsilon.eps"}},
-      {"20_effects", {"effects.csv", "scene1.eps", "scene8.eps"}},
+      {"23_effects", {"effects.csv", "scene1.eps", "scene8.eps"}},
       {"07_kernel", {"kernel.csv", "ties_structured.eps", "ties_unstructured.eps"}},
-      {"30_propositions", {"limits.csv"}},
-      {"12_uniform", {"uniform.csv"}},
-      {"31_promises", {"estimates.csv", "lost.eps"}},
-      {"17_certificate", {"results.csv"}},
-      {"11_contact_sets", {"results.csv"}},
-      {"14_degree", {"results.csv"}},
-      {"27_hp", {"results.csv"}},
-      {"22_beam", {"beam.csv", "summary.csv", "beam.eps"}},
-      {"23_elasticity",
+      {"11_propositions", {"limits.csv"}},
+      {"13_uniform", {"uniform.csv"}},
+      {"15_promises", {"estimates.csv", "lost.eps"}},
+      {"19_certificate", {"results.csv"}},
+      {"12_contact_sets", {"results.csv"}},
+      {"16_degree", {"results.csv"}},
+      {"31_hp", {"results.csv"}},
+      {"25_beam", {"beam.csv", "summary.csv", "beam.eps"}},
+      {"26_elasticity",
        {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "TaylorHood_summary.csv", "P1_deformed.eps"}},
-      {"24_plate", {"P1.csv", "P1_one_summary.csv", "Arnold_Falk.csv", "P1.eps"}},
-      {"25_mixed", {"boxes.csv", "MINI_x.csv", "TaylorHood_y.csv", "summary.csv", "boxes.eps"}},
-      {"26_friction", {"P1_floor.csv", "KS_summary.csv", "TaylorHood_summary.csv", "TaylorHood_deformed.eps"}},
-      {"28_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
+      {"27_plate", {"P1.csv", "P1_one_summary.csv", "Arnold_Falk.csv", "P1.eps"}},
+      {"28_mixed", {"boxes.csv", "MINI_x.csv", "TaylorHood_y.csv", "summary.csv", "boxes.eps"}},
+      {"30_friction", {"P1_floor.csv", "KS_summary.csv", "TaylorHood_summary.csv", "TaylorHood_deformed.eps"}},
+      {"32_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
     const TemporaryFolder folder;
@@ -566,7 +566,7 @@ TEST(ModelCheck, SeesALoadInTheLayerAMissingStiffnessAndAnObstacleOnTheWrongSide
 // integration is O(h) in the force (it sits at nodes) and O(h^2) in the energy.
 TEST(ModelCheck, TheBeamsLimitIsTheClosedForm) {
   const TemporaryFolder folder;
-  freefem::run("22_beam", {"-cells", "192", "-epsilon", "1e-10", "-out", folder.path()});
+  freefem::run("25_beam", {"-cells", "192", "-epsilon", "1e-10", "-out", folder.path()});
   const freefem::Table summary = freefem::read_table(folder / "summary.csv", 1);
   EXPECT_NEAR(summary.column("force")(0), 5 * 5832.0 / 9, 0.01 * 3240);
   EXPECT_NEAR(summary.column("energy")(0), -3758.4, 0.001 * 3758.4);
@@ -595,7 +595,7 @@ TEST(FreeFemScripts, TheWorstErrorOverEpsilonIsTheSame) {
 }
 
 // The error in the energy norm at each epsilon, structured meshes, against P1 on a mesh four times finer; below h |f| times
-// what chapter 33 proves.
+// what chapter 20 proves.
 TEST(FreeFemScripts, TheEnergyErrorIsTheSame) {
   const TemporaryFolder folder;
   const freefem::Numbers errors = freefem::energy_errors(folder.path());

@@ -109,7 +109,7 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
     const TruthTable truth{Truth(paper_sine_load(), epsilon)};
     for (const Quantity of : {Quantity::displacement, Quantity::stress})
       for (const double asked : {1e-1, 3e-2, 1e-2}) {
-        // 1e-2 once, since it takes seconds: chapter 19 with --asked 0.01 asks it at every epsilon
+        // 1e-2 once, since it takes seconds: chapter 22 with --asked 0.01 asks it at every epsilon
         if (asked < 2e-2 && (of == Quantity::displacement || epsilon != 1e-6)) continue;
         const Scene scene = scene_of(paper_load, epsilon);
         const CertifiedSolution found = solve_to(scene, first_mesh(epsilon), {asked, of});

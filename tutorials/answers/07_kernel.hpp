@@ -26,4 +26,4 @@ const std::vector<tutorial::Exercise> exercises{
 //
 // **3.** On one group $∂_y v = 0$ leaves one polynomial of degree 3 in $x$ for all triangles. It is 0 at both ends, so
 // it is $x (1 - x)(a + b x)$: two functions, $x(1 - x)$ and $x^2 (1 - x)$. For degree $p$ there are $p - 1$ (chapter
-// 14 counts them).
+// 16 counts them).

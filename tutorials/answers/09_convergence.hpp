@@ -34,5 +34,5 @@ std::vector<tutorial::Exercise> exercises() {
 // ## Answers on paper
 //
 // **3.** Both have order 1 where nothing locks: they measure the gradient, which is constant per triangle. In `energy`
-// the layer's slope counts $ε^{-1}$ times, and the order is the same (Remark 4, chapter 12). Where P1 locks both are
+// the layer's slope counts $ε^{-1}$ times, and the order is the same (Remark 4, chapter 13). Where P1 locks both are
 // level.

@@ -15,7 +15,7 @@ const std::vector<tutorial::Exercise> exercises{
 //
 // **2.** $a^ε(u^ε, u^ε) = (f, u^ε)$, since $v = 0$ gives $≤$ and $v = 2u^ε$ gives $≥$. Drop all but the stiff part:
 // $ε^2 ‖p‖^2 = ε^{-2} a_y^-(u^ε, u^ε) ≤ (f, u^ε) ≤ ‖f‖ ‖u^ε‖$. For $ε ≤ 1$ also $a^ε(v, v) ≥ ∫ |∇v|^2 ≥ μ ‖v‖^2$ with
-// $μ = π^2 (1 + 1/16)$ (chapter 13), so $‖u^ε‖ ≤ ‖f‖/μ$ and $ε ‖p‖ ≤ ‖f‖ μ^{-1/2}$, which is $(50/10.49)^{1/2} = 2.18$
+// $μ = π^2 (1 + 1/16)$ (chapter 14), so $‖u^ε‖ ≤ ‖f‖/μ$ and $ε ‖p‖ ≤ ‖f‖ μ^{-1/2}$, which is $(50/10.49)^{1/2} = 2.18$
 // for our load. At $ε = 1$ the truth has 0.16. The bound says nothing about $‖p‖$ itself; the run shows that it stays
 // finite.
 //

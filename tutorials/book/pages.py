@@ -17,8 +17,8 @@ from literate import PLACE, STILLS, BookError, Page, answers_on_paper, fence, fo
 from library import Library
 
 ROOT = Path(__file__).resolve().parents[2]
-PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 15),
-         ("What accuracy costs", 16, 21), ("The class", 22, 99)]
+PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 17),
+         ("What accuracy costs", 18, 24), ("The class", 25, 99)]
 EXTRA = ["howto_scene", "howto_matrices", "lab", "dataset", "uniform_rate", "errata", "glossary", "notation"]
 WIDTH, HEIGHT = 1200, 1000  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
 

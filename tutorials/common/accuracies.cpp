@@ -10,7 +10,7 @@
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "backstage/17_certified.hpp"
+#include "backstage/19_certified.hpp"
 
 namespace antilock::tutorial {
 namespace {

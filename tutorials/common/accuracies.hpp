@@ -10,7 +10,7 @@
 
 namespace antilock::tutorial {
 
-// What chapter 19 leaves out of its page.
+// What chapter 22 leaves out of its page.
 
 /// The layer in contact under a load chosen here: "paper", f = 10 sin(2 pi x), or "bump", 400 exp(-r^2 / (2 0.02^2))
 /// around (0.3, 0.6).

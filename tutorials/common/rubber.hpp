@@ -10,7 +10,7 @@
 
 namespace antilock::tutorial {
 
-// What chapters 23 and 26 share.
+// What chapters 26 and 30 share.
 
 /// A discretisation: triangles, an element per component, and whether edges need their jumps penalised.
 struct Rubber {
@@ -33,7 +33,7 @@ int zero_modes(VariationalInequality problem);
 /// How far the side x = `side`, 0 or 1, moves outwards on average.
 double bulge(const Space& space, const Eigen::VectorXd& u, double side);
 
-/// The contact force of Taylor-Hood on graded meshes (freefem/23_elasticity.edp), at epsilon = 1, 1e-2, 1e-4, 1e-8, 0:
+/// The contact force of Taylor-Hood on graded meshes (freefem/26_elasticity.edp), at epsilon = 1, 1e-2, 1e-4, 1e-8, 0:
 /// how much too large a force is, in per cent; 0 / 0 where it is not known.
 double percent_too_large(double force, double epsilon);
 

@@ -1,0 +1,197 @@
+// # What accuracy costs in time
+//
+// Run: 21_work_precision                         h from 1/8 to 1/64; half a minute
+// Run: 21_work_precision --cells 256 --limit 4   h down to 1/256; minutes (figures/benchmark does this)
+// Run: 21_work_precision --freefem freefem/run   FreeFEM's active set beside them, the stiff part summed as it comes
+// Run: 21_work_precision --exercise 1
+//
+// Needs: [04](04_reference_solution.cpp) for Uzawa and its steps, [09](09_convergence.cpp) for orders,
+// [18](18_roundoff.cpp) for CG + ILUT, [19](19_certificate.cpp) for the energy bracket.
+//
+// **The picture.** Error against wall seconds at ε = 1e-6; a good method is a line that falls steeply, far to the
+// left. *P1 on the unstructured mesh is a level line: it has locked, and no time buys accuracy.*
+//
+// **Predict.** (a) Halve $h$: by what factor do the linear solves of the active set grow, and the steps of Uzawa? (b)
+// Uzawa's algebraic error $|u_k - u_h|$ falls by a constant factor per step, for ever. Does the error of the
+// solution, $|u_k - u|$?
+//
+// ## What is measured
+//
+// A method is an element, a kind of mesh and a solver. Three solvers of (23): the primal-dual active set on $Γ_C$,
+// Uzawa with a Cholesky factor, and Uzawa as the paper ran it, with conjugate gradients and ILUT. Each point is the
+// median of five runs, mesh and assembly apart. A run that fails, or takes longer than the limit, is drawn as failed;
+// where time was the reason, finer meshes are not tried. No verdict is about seconds, which depend on the machine.
+//
+// ## How many steps
+//
+// The active set guesses which points touch; from the contact set of a coarser mesh the guess is nearly right. Uzawa
+// moves pressures instead. The operator behind it is the *compliance* of $Γ_C$: pressure in, displacement out. With the
+// best step the error falls by $(κ - 1)/(κ + 1)$ per step, $κ$ the condition number of the compliance, so that an error
+// of $tol$ takes about $(κ/2) \ln(1/tol)$ steps (chapter 00).
+//
+// How large is $κ$? Chapter 04 has the stiffness of $Γ_C$ against a pressure $\sin kπx$: about $kπ$ at ε = 1, where the
+// answer goes into the depth only as far as a half wave is long, and about $(kπ)^2$ for a rigid layer, which resists
+// like a string. A mesh carries $k = 1$ to about $1/h$. Hence $κ ∼ 1/h$ at ε = 1, and $κ ∼ 1/h^2$ as ε → 0.
+//
+// ## When to stop
+//
+// By the triangle inequality $|u_k - u| ≤ |u_k - u_h| + |u_h - u|$, and only the first term falls with the steps $k$.
+// Once it is below the second, more steps do not bring $u_k$ nearer to $u$. Neither is known, since neither $u$ nor
+// $u_h$ is; two computable numbers stand for them.
+//
+// *The duality gap* stands for the first. On one side, $J(v)$ is above $J(u_h)$ for each $v$ in $K_h$. On the other,
+// take a pressure $μ ≥ 0$: the smallest value of $J(v) - μ v$ over all $v$, the *dual energy* of $μ$, is below
+// $J(u_h)$, since $μ u_h ≥ 0$. Take for $v$ the iterate pushed out of the obstacle, for $μ$ its pressure. Then
+//
+// $$ J(v) - \text{dual energy of } μ ≥ J(v) - J(u_h) ≥ ½ |v - u_h|_a^2   (proved). $$
+//
+// *The energy bracket* of [chapter 19](19_certificate.cpp) stands for the second: it holds $J(u)$, and its width is of
+// order $h^2$. A mesh twice as coarse gives it at a quarter of the price. Its width is then divided by 4. This is an
+// extrapolation: the order is observed, and where a method locks it is wrong.
+//
+// *The rule.* Let $b$ be the width over $|J|$. The largest error of $u_h$ is of relative order $b$, its energy error of
+// order $b^{1/2}$. Uzawa stops when the duality gap is at most $(b/20)^2 |J|$. Then $|v - u_h|_a$ is at most
+// $b/20$ of $|u_h|_a$ (`analysis/accurate_enough.hpp`).
+
+#include "antilock/analysis/accurate_enough.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
+#include "antilock/solve/uzawa.hpp"
+#include "common/course.hpp"
+#include "common/stopped_early.hpp"
+#include "common/timed_runs.hpp"
+
+using namespace antilock;
+using tutorial::Exact, tutorial::TimedRun;
+
+// **Work and precision**: every solver at every ε, for one method on one mesh.
+void add(tutorial::Timing& study, const Method& method, const TriangleMesh& mesh, TimedRun run,
+         const std::vector<Exact>& truth) {
+  run.element = method.element->name();
+  run.mesh = method.family.name;
+  // ### Forms
+  const Space space = method.space(mesh);
+  for (const Exact& exact : truth) {
+    const VariationalInequality problem = assemble(tutorial::paper_scene(exact.epsilon), space);
+    run.epsilon = exact.epsilon;
+    run.unknowns = problem.free_count();
+    // ### Solve
+    UzawaOptions options;
+    options.max_seconds = study.limit;
+    const auto errors = [&](const Solution& u_h) { return exact.errors(space, u_h); };
+    const auto at_once = [&] { return active_set(problem); };
+    study.add(run, "active set", at_once, errors, false);  // no limit: no verdict may hang on the machine
+    study.add(
+        run, "Uzawa, Cholesky", [&] { return uzawa(problem, options); }, errors);
+    study.add(
+        run, "Uzawa, CG + ILUT", [&] { return uzawa_cg_ilut(problem, options); }, errors);
+    study.add_freefem(run, space, exact.table);
+  }
+}
+
+// **How many steps**: Uzawa to 12 digits, the tolerance 1e-12 on the step in the gap.
+Table count_steps(int finest) {
+  Table steps({"epsilon", "h", "steps"});
+  for (const double epsilon : {1.0, 1e-6})
+    for (int n = 16; n <= finest; n *= 2) {
+      const Discretisation on(structured_mesh(n), p1());
+      UzawaOptions options;
+      options.tolerance = 1e-12;
+      steps.add(
+          {epsilon, 1.0 / n, uzawa(assemble(tutorial::paper_scene(epsilon), on.space()), options).counters.contact});
+    }
+  return steps;
+}
+
+// **Stop when it is accurate enough**: Uzawa's two errors step by step, and where the bracket stops it.
+Table stop_early(const Method& method, int cells, const Exact& exact, tutorial::Report& report) {
+  const Scene scene = tutorial::paper_scene(exact.epsilon);
+  const Discretisation on = method.on(cells);
+  const VariationalInequality problem = assemble(scene, on.space());
+  const auto error = [&](const Solution& u_h) { return exact.errors(on.space(), u_h).max; };
+  UzawaOptions options;
+  options.enough = accurate_enough(energy_bracket(scene, method.mesh(cells / 2)), 2);
+  const Solution full = uzawa(problem), early = uzawa(problem, options);
+  const double of_full = error(full), of_early = error(early);
+  report.claim(of_early < 1.01 * of_full && 2 * early.counters.contact < full.counters.contact,
+               "{}, accurate enough: Uzawa stops after {} steps, not {}, at {:.4f} of the error (observed)",
+               method.name(), early.counters.contact, full.counters.contact, of_early / of_full);
+  return tutorial::uzawa_on_its_way(method.name(), problem, early, full, error);
+}
+
+void work_precision(const tutorial::Options& options, tutorial::Report& report, tutorial::Timing study) {
+  const std::vector<Exact> truth = tutorial::exact_solutions({1, 1e-2, 1e-6});
+  for (int n = 8; n <= options.cells; n *= 2)
+    for (const MeshFamily& family : {structured(), unstructured()}) {
+      // ### Mesh
+      report.stage(fmt::format("1/h = {}, {}", n, family.name));
+      const Stopwatch watch;
+      const TriangleMesh mesh = family.mesh(n);
+      const TimedRun run{.cells = n, .mesh_seconds = watch.seconds()};
+      for (const Element* element : {&p1(), &crouzeix_raviart()}) add(study, {element, family}, mesh, run, truth);
+    }
+  // ### Output
+  report.stage("where the time goes");
+  study.write(options.cells);
+  study.judge(report);
+  const double locked = study.finest({&p1(), unstructured()}, 1e-6).relative(),
+               free = study.finest({&crouzeix_raviart(), unstructured()}, 1e-6).relative();
+  report.claim(locked > 5 * free,
+               "no time buys accuracy from P1 on the unstructured mesh at epsilon = 1e-6: {:.1e} relative, "
+               "Crouzeix-Raviart {:.1e}",
+               locked, free);
+  const Table steps = count_steps(std::min(2 * options.cells, 128));
+  steps.pivot("h", "epsilon", "steps").print("Uzawa's steps to 12 digits, by h and epsilon", 6);
+  steps.write(options.out / "steps.csv");
+  // κ ∼ h^-1 and h^-2. The logarithm takes up to 0.4 off the second: the slowest wave is as long as a cell, and its share
+  // of the error falls itself, like h^(7/2), so that fewer digits of it are left to gain.
+  report.claim_orders(steps.where("epsilon", 1.0), "steps", -1.2, -0.75, "Uzawa at epsilon = 1: steps");
+  report.claim_orders(steps.where("epsilon", 1e-6), "steps", -2.05, -1.6, "Uzawa at epsilon = 1e-6: steps");
+  Table stopping({"method", "quantity", "steps", "error"});
+  const Exact& exact = truth[1];                       // ε = 1e-2
+  const int most_cells = std::min(options.cells, 64);  // finer, the last steps are minutes
+  for (const Method& method : methods())
+    if (method.name() != "CR structured") stopping.add(stop_early(method, most_cells, exact, report));
+  stopping.write(options.out / "stopping.csv");
+}
+
+// ## What came out
+//
+// (a) The linear solves of the active set do not grow. It needs at most 4 contact steps, on fine meshes 1 or 2, since
+// it starts from the contact set of a coarser one. Uzawa's steps grow by the factor 2 at ε = 1 and by almost 4 at 1e-6
+// each time $h$ is halved.
+//
+// :output: Uzawa's steps to 12 digits
+//
+// :figure: uzawa_steps
+//
+// Once more, at 1/h = 256, this would make some 200,000 steps at ε = 1e-6 (extrapolated). With the paper's linear solver Uzawa gives up at small ε.
+// (b) No: it comes to a level line. The bracket stops Uzawa there, after less than half of the steps, within 1 % of the
+// error. `price_list.md` says what 1e-2, 1e-3 and 1e-4 cost, or "never".
+//
+// :figure: stopping
+//
+// :figure: stages
+//
+// ## Exercises
+//
+// 1. P1 structured at ε = 1e-2: how do the contact steps of the active set grow from 1/h = 8 to 64, and those of Uzawa?
+// 2. On paper: errors are like $h^2$, seconds like $N = h^{-2}$. What does a digit cost? And with errors like $h$?
+
+#include "answers/21_work_precision.hpp"
+
+int main(int argc, char** argv) {
+  tutorial::Timing study;
+  const auto add_options = [&](tutorial::CommandLine& line) {
+    line.add("--limit", study.limit, "seconds after which a run counts as failed", 1e-3, 3600);
+    line.add("--repeats", study.repeats, "runs of each solver; their median is its time", 1, 99);
+    line.add("--freefem", study.freefem, "the command freefem/run, to measure FreeFEM's script too");
+  };
+  return tutorial::run(
+      argc, argv, "21_work_precision", "What accuracy costs in time",
+      {.takes_epsilon = false, .cells = 64, .least_cells = 16, .add = add_options, .exercises = exercises},
+      [&](const tutorial::Options& o, tutorial::Report& r) {
+        study.out = o.out;
+        work_precision(o, r, study);
+      });
+}

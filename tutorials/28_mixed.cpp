@@ -1,0 +1,232 @@
+// # Mixed and projected forms
+//
+// Run: 28_mixed               h from 1/8 to 1/32, ε from 1 to 1e-20, and 0; some seconds
+// Run: 28_mixed --exercise 1
+//
+// Needs: [10](10_limits.cpp) for the limit, [12](12_contact_sets.cpp) for Definition 1 and the hidden slope,
+// [13](13_uniform.cpp) for Theorem 4, [14](14_estimates.cpp) for coercivity.
+//
+// **The picture.** P1 on the mesh on which it locks, but the strain $∂_y u$ is averaged before it is squared.
+// *Means over boxes of side $2h$ cure locking, if half of $a_0$ is kept as it is. Each other choice misses one
+// hypothesis of Theorem 4.*
+//
+// **Predict.** (a) The fewer conditions are asked, the less a method locks. What goes wrong if $∂_y u$ is averaged over
+// a whole column of the layer? (b) And if all of $a_0$ is averaged over boxes, none of it kept as it is?
+//
+// ## The third family of cures: another $a_0$
+//
+// Mesh, element and degree change $V_h$. A *mixed* method ([7] of the paper; [4], which appeared in 2005, and [25] with
+// contact) changes $a_0$ instead. Call $ε_c$ the class parameter ($ε^2$ in (23)) and $B u$ the strain that is squared in
+// $a_0$: $∂_y u$ in (23). The stress $p$ is an unknown in a space $Q_h$ of its own, and it is tied to the strain by
+//
+// $$ ε_c (p, q) = (B u, q) \text{ for all } q ∈ Q_h. $$
+//
+// The right side sees of $B u$ only its projection $P_h B u$ on $Q_h$. So $p = ε_c^{-1} P_h B u$. Put this into the
+// equation for $u$, and $p$ is gone. What is left is the problem with a *projected form* in place of $a_0$:
+//
+// $$ a_{0h}(u, v) = (P_h B u, P_h B v). $$
+//
+// Choosing $Q_h$ means choosing what is averaged. If $Q_h$ holds one constant per group of triangles, $P_h B u$ is the
+// mean over each group. In the library's $B^T M B$ the rows of $B$ become these means (`averaged`). Averages over smaller
+// groups ask for more, and averages over larger groups ask for less.
+//
+// ## Theorem 4 for another $a_0$
+//
+// Theorem 4 compares spaces for one $a_0$. What does an $a_{0h}$ have to fulfil? Let $0 ≤ a_{0h}(v, v) ≤ C a_0(v, v)$ on
+// $V_h$, and let $K_{0h}$ be the set of those $v ∈ K_h$ that have $a_{0h}(v, v) = 0$. There may also be friction
+// ([chapter 30](30_friction.cpp)): a convex $j ≥ 0$ in the energy, replaced by a convex $j_h ≥ 0$. Then
+// $u_h^ε → u^ε$ uniformly in $0 < ε_c ≤ 1$, if $K_h$ approaches $K$ (Definition 1) and
+//
+// - (i) $a_1 + a_{0h}$ is coercive on $V_h$, with one constant α for all $h$;
+// - (ii) $K_{0h}$ comes near each $w ∈ K_0$: some $w_h ∈ K_{0h}$ tend to $w$;
+// - (iii) weak limits of bounded $v_h ∈ K_h$ lie in $G$, if $a_{0h}(v_h, v_h) → 0$;
+// - (iv) if $w_h → w$ weakly and $v_h → v$, then $a_{0h}(w_h, v_h) → a_0(w, v)$ and $\liminf a_{0h}(w_h, w_h) ≥ a_0(w, w)$;
+// - with friction: $j_h(v_h) → j(v)$ if $v_h → v$, and $\liminf j_h(w_h) ≥ j(w)$ if $w_h → w$ weakly.
+//
+// *Proof.* Were it false, there would be $h → 0$ and $ε_c = ε_c(h)$, converging to some $ε_* ≥ 0$, for which the error
+// stays away from 0. So it is enough to show that $u_h$ tends to the solution at $ε_*$, because the exact solution does
+// too (Theorem 1). Let first $ε_* = 0$.
+//
+// 1. *Bounded.* Take $w ∈ K_0$, and $w_h ∈ K_{0h}$ from (ii) as test function. $a_{0h}(u_h, w_h) = 0$, because
+// $a_{0h}(w_h, w_h) = 0$ (Cauchy and Schwarz). The inequality becomes
+//
+// $$ a_1(u_h, u_h) + ε_c^{-1} a_{0h}(u_h, u_h) + j_h(u_h) ≤ a_1(u_h, w_h) - L(w_h - u_h) + j_h(w_h). $$
+//
+// On the left (i) gives $α ‖u_h‖^2$, because $ε_c ≤ 1$. The right side grows like $‖u_h‖$ only. So $u_h$ is bounded, and
+// $a_{0h}(u_h, u_h) ≤ C ε_c → 0$.
+// 2. *Where the limits lie.* A weak limit $u_*$ lies in $K$ by (9), and in $G$ by (iii). So it lies in $K_0$.
+// 3. *What the limits solve.* Drop $ε_c^{-1} a_{0h}(u_h, u_h) ≥ 0$ on the left and let $h → 0$. $a_1(u_h, u_h)$ and
+// $j_h(u_h)$ are at least $a_1(u_*, u_*)$ and $j(u_*)$ in the limit: $u_*$ solves (2). There is one solution, $u^0$.
+// 4. *Strong.* Take $w = u^0$. By step 1, $a_1 + ε_c^{-1} a_{0h}$ of $u_h - w_h$ is at most
+// $L(u_h - w_h) - a_1(w_h, u_h - w_h) + j_h(w_h) - j_h(u_h)$. The limit of this is at most 0. By (i) $u_h - w_h → 0$.
+//
+// If $ε_* > 0$, the same four steps are done with $w ∈ K$ and $w_h ∈ K_h$. Then the terms with $a_{0h}$ do not vanish;
+// (iv) says that they tend to those with $a_0$, and $u_h$ tends to the solution of (1) at $ε_*$. ∎
+//
+// **(i) against (ii).** Let the groups shrink with $h$. Then (iii) and (iv) always hold: in
+// $(B v_h, q) = (P_h B v_h, q) + (B v_h, q - P_h q)$ the last term vanishes, because $P_h q → q$. With larger groups
+// $K_{0h}$ grows, which helps (ii). But $a_{0h}$ sees less, which hurts (i). The way out (Arnold and Brezzi 1993, for
+// plates) keeps half of $a_0$: $a_1 + ½ a_0 + (ε_c^{-1} - ½) a_{0h}$. Then (i) holds with half the α of $a_1 + a_0$.
+//
+// **A word of another field.** Equations like (23) with their stiff direction along a magnetic field are the model
+// problem of *asymptotic-preserving* schemes (Degond, Deluzet and Negulescu 2010). Such a scheme has, at fixed $h$, the
+// right limit as ε → 0, and matrices that stay well conditioned: [chapter 18](18_roundoff.cpp) has both. That is
+// Proposition 1, and not Theorem 4: P1 of [chapter 06](06_p1_unstructured.cpp) has both too, and its limit is wrong.
+
+#include "backstage/28_mixed.hpp"
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/analysis/nearest.hpp"
+#include "antilock/form/h1_norm.hpp"
+#include "antilock/problem/projected.hpp"
+#include "common/limit_problem.hpp"
+#include "common/study.hpp"
+#include "common/supremum.hpp"
+
+using namespace antilock;
+using tutorial::Exact;
+
+// ### Forms
+// How the strain is averaged on a mesh of width $h$ (empty: not at all), and the part of $a_0$ that is kept.
+using Means = std::function<Shares(const TriangleMesh& mesh, const FactoredForm& strain, double h)>;
+struct Projection {
+  std::string name;
+  Method method;
+  Means means;
+  double kept;
+};
+const Means patches = [](auto& mesh, auto& strain, double) { return vertex_shares(mesh, strain, strain_rule(p1())); };
+const Means columns = [](auto& mesh, auto& strain, double h) { return box_shares(mesh, strain, h, 2); };
+const Means boxes = [](auto& mesh, auto& strain, double h) { return box_shares(mesh, strain, 2 * h, 2 * h); };
+const Method any{&p1(), unstructured()}, regular{&p1(), structured()}, cr{&crouzeix_raviart(), unstructured()};
+const std::vector<Projection> projections{{"P1 as it is", any, {}, 0},
+                                          {"patches (half kept)", any, patches, 0.5},
+                                          {"columns (half kept)", any, columns, 0.5},
+                                          {"boxes (nothing kept)", regular, boxes, 0},
+                                          {"boxes (half kept)", any, boxes, 0.5},
+                                          {"Crouzeix-Raviart", cr, {}, 0}};
+
+VariationalInequality layer_problem(const Projection& way, const Space& space, int cells) {
+  VariationalInequality problem = assemble(tutorial::paper_scene(1), space);
+  return way.means ? projected(problem, way.means(space.mesh(), layer_strain(space), 1.0 / cells), way.kept) : problem;
+}
+
+// One mesh: (i) to (iii) in numbers, then the error at each ε. α needs dense eigenvalues, on small meshes. For (ii) the
+// distance from $u^0$ to $K_{0h}$. For (iii) what one slope can be while $a_{0h}$ sees nothing: the largest
+// $∫ ∂_y v\, φ$ over the $v$ without $a_{0h}$ of norm 1, $φ = \sin πx \sin πy$ (chapter 12's $k_h$).
+Table measure(const Projection& way, int cells, const std::vector<Exact>& truth) {
+  // ### Mesh
+  const Discretisation on = way.method.on(cells);
+  // ### Solve
+  Sweep sweep(layer_problem(way, on.space(), cells));
+  const SparseMatrix norm = h1_norm(on.space());
+  const double alpha = on.space().free_count() < 1000 ? coercivity(sweep.problem(), norm) : std::nan("");
+  const double near = nearest(on.space(), sweep.problem(), truth.back().reference(), Within::k_0h).distance;
+  using std::numbers::pi;
+  const Field slope_of_phi = [](double x, double y) { return pi * std::sin(pi * x) * std::cos(pi * y); };
+  const double hidden = dual_norm(sweep.problem(), norm, load_vector(on.space(), slope_of_phi, Region::layer), true);
+  Table rows(tutorial::projection_columns);
+  for (const Exact& exact : truth) {
+    sweep.set_compliance(projected_compliance(exact.epsilon * exact.epsilon, way.kept));
+    Solution solution = sweep.solve();
+    solution.p.resize(0);  // means, not one stress per triangle: the errors of u alone
+    rows.add({way.name, 1.0 / cells, exact.epsilon, exact.errors(on.space(), solution).h1, alpha, near, hidden,
+              solution.counters.corrections, solution.seconds.total()});
+  }
+  return rows;
+}
+
+void judge(const Table& layer, const Truth& limit, tutorial::Report& report);
+
+void study(const tutorial::Options& options, tutorial::Report& report) {
+  const std::vector<Exact> truth =
+      tutorial::exact_solutions({1, 0.3, 0.1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-6, 1e-10, 1e-20, 0}, 14);
+  Table layer(tutorial::projection_columns);
+  for (const Projection& way : projections)
+    for (const int n : {8, 12, 16, 24, 32})
+      if (n <= options.cells) layer.add(measure(way, n, truth));
+  // ### Output
+  tutorial::show_projections(options.out, layer);
+  judge(layer, truth.back().truth, report);
+}
+
+void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
+  const auto of = [&](const char* name) { return layer.where("name", name).where("epsilon", 0); };
+  const auto sup = [&](const char* name) { return tutorial::supremum(layer.where("name", name), "h1", "epsilon"); };
+  const auto orders = [](const Table& rows, const char* what) { return tutorial::supremum(rows, what, "epsilon"); };
+  // What has no function on the layer loses all of $u^0$ there.
+  const double lost = tutorial::limit_on_layer(limit);
+  for (const char* name : {"P1 as it is", "patches (half kept)"})
+    report.claim(of(name).least("near") > lost && of(name).least("h1") > lost && of(name).last("h1") < 1.25 * lost,
+                 "(observed) {}: (ii) fails, u^0 stays {:.3f} away; so does the worst error, {:.3f}: |u^0| on the "
+                 "layer is {:.3f}",
+                 name, of(name).last("near"), of(name).last("h1"), lost);
+  // In the limit the $v$ that columns do not see are equal on Σ and on $Γ_C$: the slope that they hide (exercise 3).
+  using std::numbers::pi;
+  const double kappa = std::sqrt(pi * pi + 1), sum = kappa * kappa + pi * pi,
+               slope = pi * std::sqrt(0.5 * (0.5 - 2 * kappa / std::tanh(kappa / 2) / sum) / sum);
+  const Table columns_h = of("columns (half kept)");
+  report.claim(columns_h.least("hidden") > 0.85 * slope && columns_h.most("hidden") < 1.02 * slope,
+               "(proved) columns (half kept): (iii) fails, K_0h hides a slope of {:.3f}, in the limit {:.3f}",
+               columns_h.last("hidden"), slope);
+  const double stays = sup("columns (half kept)").last;
+  report.claim(stays < 0.1, "(observed) and the worst error stays, {:.3f}, order {:.2f}", columns_h.last("h1"), stays);
+  // A zigzag across the layer, of a wave length of some $h$, has energy from $∂_x$ alone: α ~ $h^2$.
+  const Table alone = of("boxes (nothing kept)").where_number("alpha", [](double a) { return std::isfinite(a); });
+  const tutorial::Supremum alpha = orders(alone, "alpha");
+  report.claim(alpha.low > 1.8 && alpha.high < 2.1,
+               "(observed) boxes (nothing kept): (i) fails, alpha ~ h^{:.2f}, h^{:.2f}", alpha.low, alpha.high);
+  const tutorial::Supremum grows = sup("boxes (nothing kept)");
+  report.claim(grows.high < -0.5 && grows.rows.last("worst") > 2 * grows.rows.first("worst"),
+               "(observed) and the worst error grows on every mesh, {:.2f} to {:.2f}", grows.rows.first("worst"),
+               grows.rows.last("worst"));
+  const Table half = of("boxes (half kept)");
+  report.claim(half.where_number("alpha", [](double a) { return std::isfinite(a); }).least("alpha") > 0.5 * 0.9129,
+               "(proved) boxes (half kept): (i), alpha is at least half of that on V, 0.9129");
+  // $∫ ∂_y v\, φ = ∫ ∂_y v\, (φ - P_h φ)$, and of φ the means over squares of side $s$ miss $s π / 24^{1/2}$.
+  for (const Table& row : half.rows()) {
+    const double share = row.number("hidden") / (2 * row.number("h") * pi / std::sqrt(24.0));
+    if (row.number("h") == half.least("h") || share > 1 || share < 0.4)
+      report.claim(share < 1 && share > 0.4,
+                   "(proved) and (iii): the slope hidden is {:.3f}, {:.2f} of what means miss", row.number("hidden"),
+                   share);
+  }
+  for (const char* name : {"boxes (half kept)", "Crouzeix-Raviart"}) {
+    const tutorial::Supremum worst = sup(name), near = orders(of(name), "near");
+    const double ratio = worst.rows.last("worst") / layer.where("name", name).where("epsilon", 1).last("h1");
+    report.claim(near.low > 0.9 && near.high < 1.1, "(observed) {}: (ii), u^0 is h^{:.2f} to h^{:.2f} from K_0h", name,
+                 near.low, near.high);
+    report.claim(worst.low > 0.9 && worst.high < 1.15 && worst.denser < 1.02 && ratio < 1.1,
+                 "(observed) {}: sup over epsilon falls like h^{:.2f} to h^{:.2f}, locking "
+                 "ratio {:.2f}; every second epsilon would do to {:.2f} %",
+                 name, worst.low, worst.high, ratio, 100 * (worst.denser - 1));
+    report.claim(layer.where("name", name).most("corrections") <= 4, "(observed) {}: {} corrections at most", name,
+                 layer.where("name", name).most("corrections"));
+  }
+}
+
+// ## What came out
+//
+// :output: Theorem 4
+//
+// (a) A mean over a column sees $u$ on $Σ$ less $u$ on $Γ_C$, and nothing between. (iii) fails: a slope of 0.18 is hidden
+// at every $h$, and the error stays at 0.217. *Patches* (all triangles at a vertex, one mean per vertex) ask for as many
+// means as the layer has unknowns. (ii) fails, as for P1, only at smaller ε: at ε = 1e-3 their error is 0.056 where P1
+// has 0.145, in the limit both have 0.148.
+//
+// (b) Even on the structured mesh, where P1 does not lock, zigzags across the layer are left whose means are 0. They cost
+// next to nothing: (i) fails, α falls like $h^2$, and the error grows from 0.46 to 1.38. With half of $a_0$ kept the
+// zigzags cost something again. Of the four hypotheses three are in the table, and (iv) is proved above. The error over
+// all ε then falls like $h$. At 1/h = 32 it is 0.060 with 2497 unknowns; that of Crouzeix–Raviart is 0.055, with 7296.
+//
+// ## Exercises
+//
+// 1. Boxes of side $h/2$, $h$, $2h$, $4h$: which side is best? Is smaller always better?
+// 2. On paper: which problem do the columns solve as $h → 0$?
+// 3. On paper: which slope $∫ ∂_y v \sin πx \sin πy$ can a $v$ of norm 1 have, if $v$ is equal on Σ and on $Γ_C$?
+
+#include "answers/28_mixed.hpp"
+
+int main(int argc, char** argv) {
+  return tutorial::run(argc, argv, "28_mixed", "Projected forms: another a0, and what Theorem 4 asks of it",
+                       {.takes_epsilon = false, .least_cells = 32, .most_cells = 64, .exercises = exercises}, study);
+}

@@ -1,0 +1,32 @@
+#pragma once
+// The answers to the exercises of 14_estimates, whose page includes this one: to be read after predicting.
+
+const std::vector<tutorial::Exercise> exercises{
+    {"In the norm of the energy M = alpha = 1. For P1, what do J(u_h) - J(u) and its order tell on the two meshes?",
+     "(13) is then about J(u_h) - J(u) itself. It falls like h^2 on the structured mesh. On the unstructured mesh it "
+     "stays: the locking is in the first infimum",
+     [](const tutorial::Options& options, tutorial::Report& report) {
+       const Scene scene = tutorial::paper_scene(1e-6);
+       const Exact exact(scene);
+       Table rows({"mesh", "h", "excess"});
+       for (const MeshFamily& family : {structured(), unstructured()})
+         for (int n = 4; n <= options.cells; n *= 2) {
+           const Discretisation on(family.mesh(n), p1());
+           const VariationalInequality problem = assemble(scene, on.space());
+           rows.add({family.name, 1.0 / n, energy(problem, active_set(problem)) - exact.truth.energy()});
+         }
+       rows.pivot("h", "mesh", "excess").print("J(u_h) - J(u)");
+       report.claim_order(rows.where("mesh", "structured"), "excess", "h", 1.8, 2.1, "structured (observed)");
+       // What is left is E / 2 of chapter 06, half the energy that the layer sets free by giving.
+       report.claim_within(rows.where("mesh", "unstructured").last("excess"), 8e-3, 12e-3, "unstructured, finest:");
+     }}};
+
+// ## Answers on paper
+//
+// **2.** The first term is at most $M ‖u - v_h‖_h ‖v_h - u_h‖_h$. With $s t ≤ α s^2/2 + t^2/(2α)$ for
+// $s = ‖v_h - u_h‖_h$ it becomes half of the left side and $M^2 ‖u - v_h‖_h^2/(2α)$. Divided by $α/2$ this is
+// $(M/α)^2 ‖u - v_h‖_h^2$: the constant is quadratic. The symmetric form is not treated well by this road, since its
+// energy is not used.
+//
+// **3.** The unknowns of P2 on $Γ_C$ are vertices and midpoints. A parabola that is not negative at three points may dip
+// below 0 between two of them, so $K_h ⊄ K$, and the work of the pressure on such a dip is negative.

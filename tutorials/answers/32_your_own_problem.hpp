@@ -1,0 +1,21 @@
+#pragma once
+// The answers to the exercises of 32_your_own_problem, whose page includes this one: to be read after predicting.
+
+const std::vector<tutorial::Exercise> exercises{
+    {"Give both strings n cells. Does the glue at every point still lock?",
+     "no: the corners coincide, the n - 1 inner values are free, and the energy is the truth's up to q^2 h^2 c / 24, "
+     "what P1 misses",
+     [](const tutorial::Options& options, tutorial::Report& report) {
+       const VariationalInequality problem = make_problem({options.cells, 0}, Glue::pointwise, 0);
+       const double truth = load * load * std::pow(free_part, 3) / 3 - load * gap, n = options.cells;
+       report.claim(kernel_dimension(problem) == options.cells - 1, "kernel {}", kernel_dimension(problem));
+       const double missed = load * load * free_part / (24 * n * n);
+       report.claim_within((energy(problem, active_set(problem)) - truth) / missed, 0.5, 1.5,
+                           "energy - truth, over what P1 misses");
+     }}};
+
+// ## Answers on paper
+//
+// **2.** Ask the four questions of chapter 28 of it, in their order: is $a_1 + a_{0h}$ coercive, does $K_{0h}$ approach
+// $K_0$, do limits lie in $G$, does $a_{0h}$ tend to $a_0$? `check_hypotheses` answers what a matrix can answer: coercive,
+// the kernel on two meshes, and whether $K$ and $G$ meet.
