@@ -153,6 +153,17 @@ TEST(LostEnergy, IsNoneWhereTheObstacleHoldsTheLayer) {
   EXPECT_EQ(found.report.warning, "");
 }
 
+// Bodies with a corner that turns in: some of the hats reach no vertex.
+TEST(LostEnergy, IsFoundUnderABodyThatIsNoSquare) {
+  TriangleMesh mesh = unstructured_mesh(16);
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    if (const double y = mesh.vertices(v, 1); y > 0 && mesh.vertices(v, 0) > 0.5)
+      mesh.vertices(v, 1) = y * (1.4 - 0.8 * mesh.vertices(v, 0));
+  const Lost found = lost_on(mesh, p1(), test::stiff_scene(1e-4));
+  EXPECT_NEAR(found.energy.share(), found.by_solving, 0.01);
+  EXPECT_NE(found.report.warning, "");
+}
+
 TEST(LostEnergy, IsAskedOfP1AndP2WithALayerAlone) {
   const TriangleMesh mesh = unstructured_mesh(4), body = unstructured_mesh(4, {0});
   const auto refuse = [](const TriangleMesh& on, const Element& element, const Scene& scene) {
