@@ -9,10 +9,9 @@
 // [08](08_crouzeix_raviart.cpp) (CR, Theorem 7, broken norms).
 //
 // **The picture.** Figure 9: the largest error, the norm of $L^∞(Ω)$, against $h$, for five $ε$. Four methods are
-// shown, P1 and CR on both kinds of mesh; the paper's caption counts three. *Where the five lines of a method lie on top
-// of each other, its error does not depend on ε.*
-//
-// :figure: figure9
+// shown, P1 and CR on both kinds of mesh; the paper's caption counts three. *Where the five lines of a method lie on
+// top of each other, its error does not depend on ε.* The picture stands at the end of this page, so that you can
+// predict it first.
 //
 // **Predict.** (a) P1 interpolates with the error $h^2$. Which slope do the lines have? And that of P1 on unstructured
 // meshes at $ε = 10^{-6}$? (b) The paper: "The P1 nonconforming method on structured meshes is even slightly better
@@ -28,11 +27,12 @@
 //
 // **The orders.** Interpolation has order 2 in the largest error and order 1 in the gradient. The end of contact may
 // take some of the 2. For $ε > 0$ the solution $u^ε$ is there like $r^{3/2}$, $r$ the distance from it: its second
-// derivative is not bounded. This part reaches about as far as $ε$. For $ε = 0$ the second derivative jumps, as for
-// chapter 00's string. On the one element where it jumps a piecewise affine function errs by a multiple of $h^2$ still,
-// but the multiple depends on where in the element the jump lies. And CR asks $v ≥ 0$ at midpoints alone, so its contact
-// may end half an element too early or too late. Both make the error rough in $h$: the slope from one mesh to the next is
-// then anywhere between 3/2 and 2 and more, although no law with 3/2 is behind it.
+// derivative is not bounded. It is like this up to a distance of about $ε$; farther away $u^ε$ looks like $u^0$. For
+// $ε = 0$ the second derivative jumps, as for chapter 00's string. On the one element where it jumps a piecewise affine
+// function errs by a multiple of $h^2$ still, but the multiple depends on where in the element the jump lies. And CR
+// asks $v ≥ 0$ at midpoints alone, so its contact may end half an element too early or too late. Both make the error
+// rough in $h$: the slope from one mesh to the next is then anywhere between 3/2 and 2 and more, although no law with
+// 3/2 is behind it.
 //
 // **P1 against CR.** Both gradients are constant per triangle. That of $I_h u$ for CR is the mean of $∇u$, the best
 // constant (chapter 08). So no function that is affine per triangle, P1 or CR, comes nearer to $∇u$. This is about
@@ -142,14 +142,16 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
 
 // ## What came out
 //
+// :figure: figure9
+//
 // :live: convergence
 //
-// All of this is measured. (What is proved of orders, in the energy norm: [order h](20_order_h.cpp).)
-// (a) Slope 2, a little less for CR on unstructured meshes; slope 0 where it locks, at $ε = 10^{-4}$ and $10^{-6}$.
-// At $10^{-2}$ P1 unstructured "locks already" (caption of Figure 9) on coarse meshes, and recovers where the wall,
-// $5.84 k$, has moved to the left of $10^{-2}$. (b) In the gradient's: there CR has 0.90 to 0.95 of P1's error. In the
-// largest error, which Figure 9 shows, it is about 1.6 times worse. So the paper's sentence does not hold for our load in
-// that norm; the load of the paper is not known.
+// All of this is measured. (What is proved of orders, in the energy norm: [order h](20_order_h.cpp).) (a) Slope 2, a
+// little less for CR on unstructured meshes; slope 0 where it locks, at $ε = 10^{-4}$ and $10^{-6}$. At $10^{-2}$ P1
+// unstructured "locks already" (caption of Figure 9) on coarse meshes, and recovers where the wall, $5.84 k$, has moved
+// to the left of $10^{-2}$. (b) In the gradient's: there CR has 0.90 to 0.95 of P1's error. In the largest error, which
+// Figure 9 shows, CR's error is 1.5 to 1.7 times that of P1. So the paper's sentence does not hold for our load in that
+// norm; the load of the paper is not known.
 //
 // :output: structured meshes
 //

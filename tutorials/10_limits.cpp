@@ -25,8 +25,9 @@
 //
 // $$ u^0 ∈ K_0,  a_1(u^0, w - u^0) ≥ L(w - u^0)  ∀ w ∈ K_0. \tag{2} $$
 //
-// **Theorem 1.** $u^ε → u^0$ in the norm of $V$. The proof has three steps. It needs that the form
-// $a^ε = a_1 + ε_c^{-1} a_0$ controls the norm, with one $α > 0$ for all $ε$ (it is *coercive*): $a^ε(v, v) ≥ α ‖v‖^2$.
+// **Theorem 1.** $u^ε → u^0$ in the norm of $V$. (For (23) the paper calls this Proposition 5.) The proof has three
+// steps. It needs that the form $a^ε = a_1 + ε_c^{-1} a_0$ controls the norm, with one $α > 0$ for all $ε$ (it is
+// *coercive*): $a^ε(v, v) ≥ α ‖v‖^2$.
 //
 // **1. The $u^ε$ are bounded.** Take a fixed $v_0$ of $K_0$ as test function in (1). The stiff form does not see it, so
 // it costs nothing at any $ε$. With $d = u^ε - v_0$, (1) becomes
@@ -91,8 +92,8 @@ Table exact_way(const Exact& limit) {  // of the exact solution, no mesh
 // ## Remark 5: the limit is a string on $Σ$
 //
 // A function of $K_0$ does not vary across the layer. So it is known as soon as it is known on the body: below $Σ$ it
-// goes on with the values $w(x)$ that it has on $Σ$, its *trace*. The layer has the depth 1, so
-// $a_x^-(u, v) = ∫_Σ u' w'$. Integrate (2) by parts. In the body $-Δu = f$ is left, on $Σ$
+// goes on with the values that it has on $Σ$, its *trace*. The layer has the depth 1, so $a_x^-(u, w) = ∫_Σ u' w'$ for
+// $u$ and $w$ of $K_0$. Integrate (2) by parts. In the body $-Δu = f$ is left, on $Σ$
 //
 // $$ ∫_Σ r (w - u) ≥ 0 \text{ for all } w ≥ 0,   r = ∂_n u - u_{xx}. $$
 //

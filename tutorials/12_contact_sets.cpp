@@ -6,13 +6,14 @@
 // Run: 12_contact_sets --exercise 2
 //
 // Needs: [05](05_p1_structured.cpp) (weak limits, Definition 1 in words), [07](07_kernel.cpp) (kernels),
-// [08](08_crouzeix_raviart.cpp) (Crouzeix–Raviart, CR, and its interpolant), [10](10_limits.cpp) ($K_0$).
+// [08](08_crouzeix_raviart.cpp) (Crouzeix–Raviart, CR, and its interpolant), [10](10_limits.cpp) ($K_0$),
+// [11](11_propositions.cpp) (the solution that is clamped on $Σ$).
 //
 // **The picture.** A function of CR's $K_h$, along $Γ_C$. CR asks for $v ≥ 0$ at the midpoints of edges alone. There this
 // function is 0, so it is allowed, and yet half of it lies below the obstacle. Is CR's set near $K$ at all?
 //
 // **Predict.** (a) With which power of $h$ does the distance from the exact solution to $K_h$ fall, for P1, CR and P2?
-// (b) Let functions as that of the picture have the size 1. Does what lies below 0 vanish as $h → 0$?
+// (b) Take functions like that of the picture, of norm 1. Does what lies below 0 vanish as $h → 0$?
 //
 // ## Definition 1
 //
@@ -166,9 +167,10 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :output: distances to K_h
 // :figure: contact_sets
 //
-// (a) As interpolation has it: order 1 for P1 and CR, for P2 a little below 2, and the same for $K_0$. The exception is P1
-// on the unstructured mesh. All functions of its $K_{0h}$ vanish on the layer, so the distance tends to 0.138, chapter
-// 10's distance from $u^0$ to the solution that is clamped on $Σ$. This is the hypothesis of Theorem 4 that fails.
+// (a) As interpolation has it: order 1 for P1 and CR, for P2 a little below 2, and the same for $K_0$. The exception is
+// P1 on the unstructured mesh. All functions of its $K_{0h}$ vanish on the layer, so the distance tends to 0.138,
+// chapter 11's distance from $u^0$ to the solution that is clamped on $Σ$. This is the hypothesis of Theorem 4 that
+// fails.
 //
 // (b) Yes: $c_h$ falls like $h^{1/2}$. The solutions are smooth and far better than the worst: $u_h$ of CR on $1/h = 32$
 // dips by 2e-4 where $c_h$ allows 7e-2. The picture shows where: only at the end of contact.

@@ -4,7 +4,8 @@
 // Run: 13_uniform --cells 64
 // Run: 13_uniform --exercise 1
 //
-// Needs: [09](09_convergence.cpp) (orders), [10](10_limits.cpp) (Propositions), [12](12_contact_sets.cpp) (approaches).
+// Needs: [09](09_convergence.cpp) (orders), [11](11_propositions.cpp) (Propositions 2 and 3),
+// [12](12_contact_sets.cpp) (approaches).
 //
 // **The picture.** What P1 loses of the layer's displacement over what it keeps, over the plane of ε and $h$, on four
 // families of meshes. *Each family has its own wall, or none: a line, to the left of which nearly all is lost.*
@@ -48,22 +49,25 @@
 //
 // **Theorem 4.** *If $K_h$ approaches $K$ and $K_{0h}$ approaches $K_0$, the method is free of locking.* (It needs
 // (H0nc) and (H1nc) as well, which conforming methods have for nothing and Crouzeix–Raviart has:
-// [chapter 14](14_estimates.cpp). The paper leaves them out here.) Suppose that it is not: then there are $h_n → 0$ and
-// $ε_n$ with errors above some $c > 0$. Numbers of $[0, 1]$ have limit points, so a part of the $ε_n$ tends to some
-// $\bar ε$. If $\bar ε > 0$, this contradicts Proposition 4. If $\bar ε = 0$, both $h$ and ε tend to 0, and it contradicts
-// Proposition 3.
+// [chapter 14](14_estimates.cpp). The paper leaves them out here.) Suppose that a method with both properties is not
+// free of locking. Then there are $h_n → 0$ and $ε_n$ with errors above some $c > 0$. Numbers of $[0, 1]$ have limit
+// points, so a part of the $ε_n$ tends to some $\bar ε$. If $\bar ε > 0$, this contradicts Proposition 4. If
+// $\bar ε = 0$, both $h$ and ε tend to 0, and it contradicts Proposition 3.
 //
 // **Theorem 5** is Theorem 4 for P1 on the structured mesh. In the layer the interpolant of a smooth $v ∈ K_0$ takes
 // one value per vertical line, so it is in $K_{0h}$. Smooth $v$ are enough, by Lemma 1. **Theorem 7** is Theorem 4
 // for Crouzeix–Raviart on any mesh with good angles, by Lemma 2 ([chapter 08](08_crouzeix_raviart.cpp)). **Remark 4** says
 // the same in the energy seminorm $|v|_{a^ε} = a^ε(v, v)^{1/2}$, in which the layer's slope counts $ε^{-1}$ times.
 //
-// None of the theorems has a rate. The orders below are measured. On columns order $h$ in the energy seminorm is proved in
-// [a chapter of its own](20_order_h.cpp). For CR on any mesh with good angles $h^{1/2}$ is proved, and $h$ is false.
+// None of the theorems has a rate. The orders below are measured. On columns order $h$ in the energy seminorm is proved
+// in [a chapter of its own](20_order_h.cpp). For CR on any mesh with good angles $h^{1/2}$ is proved there. Order $h$
+// cannot be proved on all such meshes: on rows of triangles a part of CR's error falls more slowly, though it is too
+// small to be seen in the orders below.
 //
 // The computation takes quarter decades of ε from 1 to 1e-10, and 0. A supremum over a list is not a supremum, so the
-// list must be dense enough: every second value gives the same to 2 %, which the run checks. Below 1e-10 $u^ε$ and $u_h^ε$
-// are at their limits, up to what [chapter 10](10_limits.cpp) says.
+// list must be dense enough: every second value gives the same to 2 %, which the run checks. Below 1e-10 $u^ε$ and
+// $u_h^ε$ are at their limits, up to what [chapter 10](10_limits.cpp) says of $u^ε$, and
+// [chapter 11](11_propositions.cpp) of $u_h^ε$.
 
 #include "backstage/13_uniform.hpp"
 #include "antilock/analysis/nearest.hpp"

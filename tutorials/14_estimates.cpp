@@ -38,9 +38,9 @@
 //
 // ## Theorem 2, derived
 //
-// Let $v_h$ be any element of $K_h$. The discrete solution has the least energy there. Since $K_h$ is convex, an element
-// that lies off the minimum pays for it with its distance: $½ |v_h - u_h|_a^2 ≤ J(v_h) - J(u_h)$. Put the identity in
-// for both:
+// Let $v_h$ be any element of $K_h$. The discrete solution has the least energy there. Since $K_h$ is convex, every
+// other element has more energy, and the more the farther it lies from $u_h$: $½ |v_h - u_h|_a^2 ≤ J(v_h) - J(u_h)$.
+// Put the identity in for both:
 //
 // $$ |v_h - u_h|_a^2 ≤ |u - v_h|_a^2 - |u - u_h|_a^2 + 2 R(v_h) - 2 R(u_h). $$
 //
@@ -68,7 +68,7 @@
 //
 // *Theorem 3:* if $K_h$ approaches $K$ and the two hypotheses below hold, then $u_h → u$ (Remark 3: known before for
 // conforming methods). The first infimum tends to 0, because $K_h$ comes near $u$, (8). The $u_h$ are bounded, so a
-// part of them has a weak limit, and by (H0nc) and (9) it lies in $K$. It solves the problem, so it is $u$. Then
+// subsequence has a weak limit, and by (H0nc) and (9) it lies in $K$. It solves the problem, so it is $u$. Then
 // $R(u_h) → R(u) = 0$, and the second infimum tends to 0 as well.
 //
 // *(H1nc), coercive:* $a_1 + a_0$ is at least $α$ times the square of the full broken norm, and $α$ does not depend on

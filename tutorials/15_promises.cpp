@@ -13,19 +13,22 @@
 // :figure: lost
 //
 // **Predict.** The estimate (28) says error $≤ C ε^{-2} h^{3/4}$. (a) Does the error of P1 on the structured mesh grow
-// as ε falls? (b) Off columns, how small must $h$ be for a small error of P1: is $h ≪ ε$, as the paper
-// has it, enough? Is it needed?
+// as ε falls? (b) Off columns (on a mesh whose layer is not made of columns), how small must $h$ be for a small error
+// of P1: is $h ≪ ε$, as the paper has it, enough? Is it needed?
 //
 // ## From Theorem 2 to (28)
 //
 // Theorem 2 bounds the error by two infima. What do they cost in powers of ε and $h$? Put the interpolant into the
-// first one. Its two parts have different constants in front, and it pays to keep them apart:
+// first one. Its two parts have different constants in front, so keep them apart:
 //
 // $$ ‖u - u_h‖_h^2 ≤ C (\frac{M}{α} ‖u - I_h u‖_h^2 + \frac{2}{α} R(I_h u)). $$
 //
 // The first part is interpolation: $‖u - I_h u‖_h^2 ≤ C h^2 |u|_2^2$, and $M = ε^{-2}$ stands in front of it. The
-// second part is the work of the contact pressure on the interpolant, $∫_{Γ_C} λ I_h u$. The pressure is $λ = ε^{-2}
-// ∂_n u$, so in norms of $u$ it has $ε^{-2}$ as well, and by the trace it is of the order $h^{3/2}$. Together, for P1,
+// second part is the work of the contact pressure on the interpolant, $∫_{Γ_C} λ I_h u$. The pressure is
+// $λ = ε^{-2} ∂_n u$, so in norms of $u$ it has $ε^{-2}$ as well. Because $λ u = 0$, the work is that on the
+// difference, $R(I_h u) = ∫_{Γ_C} λ (I_h u - u)$. Inside a triangle $I_h u$ is off $u$ by the order $h^2$. On a line
+// such a difference may be larger by $h^{-1/2}$ (the *trace inequality*), so the work is of the order $h^{3/2}$. Take
+// the root of the sum of both parts. For P1,
 //
 // $$ ‖u^ε - u_h^ε‖_h ≤ C ε^{-1} h^{3/4} (‖u^ε‖_{2,Ω^+} + ‖u^ε‖_{2,Ω^-}). $$
 //
@@ -44,17 +47,18 @@
 //
 // ## Is the $ε^{-1}$ real?
 //
-// For P1 on columns and for CR it is not: their errors do not depend on ε. For P1 on all other meshes it is, with a constant that can be computed. By [chapter 06](06_p1_unstructured.cpp) P1
-// resists bending with $(k/ε)^2$, where $k$ is a mean over the layer's triangles: the product of the extents of the
-// three sides in $x$, over four times the area. So the loss is governed by $k/ε$ alone, whatever the mesh:
+// For P1 on columns and for CR it is not: their errors do not depend on ε. For P1 on the other families it is, as the
+// run observes, with a constant that can be computed. By [chapter 06](06_p1_unstructured.cpp) P1 resists bending with
+// $(k/ε)^2$, where $k$ is a mean over the layer's triangles: the product of the extents of the three sides in $x$, over
+// four times the area. So the loss is governed by $k/ε$ alone, whatever the mesh:
 //
 // $$ \frac{\text{lost}}{\text{kept}} = x ≈ (5.84 \, k/ε)^2   \text{for the ridge } \sin 2πx. $$
 //
 // Half is lost at $ε = 5.84 k$, the wall of the mesh: to the right of it refining helps, to the left of it P1 has
-// locked. On a family of regular meshes $k ≤ c h$, since $k$ is at most the mean radius of the circles
-// through the corners. So the wall is at $ε = c h$ or to the left of it, which is $h ≪ ε$ again. It is to the left only
-// if the triangles without a vertical edge become rare. On the meshes of Frontal-Delaunay they are left in a strip along
-// the boundary whose width is of the order of $h$, so $k^2 ∼ h · h^2$, and the wall is at $ε ∼ h^{3/2}$.
+// locked. On a family of regular meshes $k ≤ c h$, since $k$ is at most the mean radius of the circles through the
+// corners. So the wall is at $ε = c h$ or to the left of it, which is $h ≪ ε$ again. It is to the left only if the
+// triangles without a vertical edge become rare. On the meshes of Frontal-Delaunay they are left in a band along the
+// boundary whose width is of the order of $h$, so $k^2 ∼ h · h^2$, and the wall is at $ε ∼ h^{3/2}$.
 //
 // The runs below have no contact, so that the ridge is $\sin 2πx$ and its exact height is known in closed form. The
 // height that P1 keeps is found by least squares along $Γ_C$.
@@ -193,10 +197,10 @@ void judge(const Table& lost, const Table& walls, const Table& flat, tutorial::R
 // (b) It depends on the mesh, and $h ≪ ε$ is enough on all of them. On the Delaunay mesh, on that of MeshAdapt, on the
 // jittered and the staggered one, and on rows of nearly equilateral triangles, half of the ridge is lost at ε between
 // $0.4 h$ and $0.9 h$: there it is exactly what is needed. On Frontal-Delaunay's $h ≪ ε^{2/3}$ is enough. On columns
-// nothing is needed. In all cases $k$ knew it before anything was solved: the wall is at 0.8 to 1.05 times $5.84 k$.
-// It is a little to the left of the law where the triangles differ, because $u_h$ may lean on the better ones among
-// them, and the interpolant may not. The same $k$ costs CR a quarter of an order in the layer: that is proved on rows
-// ([order h](20_order_h.cpp)), and a conjecture elsewhere.
+// nothing is needed. In all cases $k$, which is read off the mesh before anything is solved, says where: the wall is at
+// 0.75 to 1.05 times $5.84 k$. It is a little to the left of the law where the triangles differ, because $u_h$ may lean
+// on the better ones among them, and the interpolant may not. The same $k$ costs CR a quarter of an order in the layer:
+// that is proved on rows ([order h](20_order_h.cpp)), and a conjecture elsewhere.
 //
 // ## Exercises
 //

@@ -9,8 +9,8 @@
 // convergence and the locking ratio, [16](16_degree.cpp) for $P_p$.
 //
 // **The picture.** Errors at ε = 0 under loads $f$ with $∫ f^2 = 1$: left under our load $\sin 2πx$, scaled to this
-// size, right under the worst load of this size, below the worst that was found with contact. *P3 and P4 on the
-// unstructured mesh, below all others left, are above P1 in columns right, and there they stay.*
+// size, right under the worst load of this size, below the worst that was found with contact. *Follow P3 and P4 on the
+// unstructured mesh from the left panel to the right one.*
 //
 // **Predict.** (a) Of all loads of this size, which one loses most where P1 locks: one arch $\sin πx$ or many short
 // waves, near $Σ$ or far from it? (b) At ε = 0 the layer of $P_p$ on an unstructured mesh has $p - 1$ functions left
@@ -26,8 +26,9 @@
 //
 // $$ E_h(ε) = \sup_{‖f‖ ≤ 1} |u_f - u_{f,h}|_{a^ε}. $$
 //
-// A method is *free of locking* if $\sup_ε E_h(ε) ≤ C E_h(1)$ with one $C$ for all $h$, and *robust* if $\sup_ε E_h(ε)$
-// tends to 0 with $h$. Its order is that of this supremum: first over ε, then in $h$.
+// The two words of chapter 13 keep their meaning. A method is *free of locking* on the ball if $\sup_ε E_h(ε)$ tends to
+// 0 with $h$, and *robust* if $\sup_ε E_h(ε) ≤ C E_h(1)$ with one $C$ for all $h$, so if its locking ratio is bounded.
+// Its order is that of this supremum: first over ε, then in $h$.
 //
 // ## Without contact: an eigenvalue
 //
@@ -48,8 +49,8 @@
 //
 // $$ E_h^2 ≤ E_W^2 + (πW)^{-2},   E_W: the supremum over the waves up to W. $$
 //
-// The run prints both. (For Crouzeix–Raviart chapter 08's $a_h(u, v_h) = a_h(I_h u, v_h)$ gives an eigenvalue, too; what
-// the later waves add to it is not proved.)
+// The run prints both. (For Crouzeix–Raviart the gradient of $I_h u$ is the mean of that of $u$, chapter 08. So
+// $a_h(u, v_h) = a_h(I_h u, v_h)$, and this gives an eigenvalue, too; what the later waves add to it is not proved.)
 //
 // ## How much a space of this size must lose
 //
@@ -84,10 +85,11 @@
 // m^2)^{1/2})$, for the last of the first $n + 1$ of them. No space of as many unknowns can do better.
 //
 // **With contact** twice the load still gives twice the error, since $K$ is a cone. For P1 that locks completely
-// ($u_h = 0$ on the layer) the cone's inequality of chapter 00 says $½ |u - u_h|_a^2 ≤ J(u_h) - J(u)$, and $=$ without
-// an obstacle. The obstacle raises $J(u)$ and leaves $u_h$: the supremum is no larger than without it. And it is no
-// smaller than the loss under one load that lifts the whole layer, $2 \sin πx \cos(πy/2)$ (proved, both). For the other
-// methods the run climbs over loads of four waves with this profile: a *lower bound*.
+// ($u_h = 0$ on the layer) chapter 00's expansion of $J$, with $v = u_h$ and $t = 1$, says
+// $½ |u - u_h|_a^2 ≤ J(u_h) - J(u)$. Without an obstacle $=$ stands there. The obstacle raises $J(u)$ and leaves $u_h$:
+// the supremum is no larger than without it. And it is no smaller than the loss under one load that lifts the whole
+// layer, $2 \sin πx \cos(πy/2)$ (proved, both). For the other methods the run climbs over loads of four waves with this
+// profile: a *lower bound*.
 
 #include "backstage/17_families_of_loads.hpp"
 #include "antilock/analysis/load_ascent.hpp"
