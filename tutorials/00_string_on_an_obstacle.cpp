@@ -40,15 +40,17 @@
 //
 // $$ u ∈ K,   a(u, v - u) ≥ L(v - u)   for all v ∈ K. $$
 //
-// This is a *variational inequality*. It loses nothing: with $t = 1$ in the line before it, it says $J(v) ≥ J(u)$ for
-// each $v$ in $K$. Where the string is free, $v$ may be a little above or a little below $u$. Both signs of $v - u$ are
-// allowed, and $≥$ becomes the familiar $=$. Where the string touches, only the way up is allowed, and $≥$ is all that
-// can be said. So one inequality holds an equation where nothing touches and a sign where something does. Where one
-// ends and the other begins is part of the answer.
+// This is a *variational inequality*. It loses nothing. Put $t = 1$ into the first formula: $J(v) - J(u)$ is the sum of
+// two terms, the inequality says that the first is not negative, and the second is half of $a(v - u, v - u) ≥ 0$. So
+// $J(v) ≥ J(u)$ for each $v$ in $K$. Where the string is free, $v$ may be a little above or a little below $u$. Both
+// signs of $v - u$ are allowed, and $≥$ becomes the familiar $=$. Where the string touches, only the way up is allowed,
+// and $≥$ is all that can be said. So one inequality holds an equation where nothing touches and a sign where something
+// does. Where one ends and the other begins is part of the answer.
 //
-// **The same as a picture.** Let $w$ be the string without a floor: $L(v) = a(w, v)$ for all $v$. Then
-// $a(w - u, v - u) ≤ 0$: seen from $u$, the way to $w$ makes no acute angle with the way to any $v$ in $K$. So $u$ is
-// the *projection* of $w$ onto $K$: its nearest element, when lengths are measured by $a(v, v)^{1/2}$.
+// **The same as a picture.** Let $w$ be the string without a floor: $L(v) = a(w, v)$ for all $v$. Put this into the
+// inequality for $L(v - u)$: $a(u, v - u) ≥ a(w, v - u)$, or $a(w - u, v - u) ≤ 0$. Seen from $u$, the way to $w$ makes
+// no acute angle with the way to any $v$ in $K$. So $u$ is the *projection* of $w$ onto $K$: its nearest element, when
+// lengths are measured by $a(v, v)^{1/2}$.
 // :figure: projection
 //
 // **The multiplier is the contact force.** Now let $u$ and $v$ be linear between nodes $x_i = i h$, so that
@@ -104,11 +106,11 @@ struct Answer {
 // **Active set.** Guess which nodes touch. There $u_i = $ floor; elsewhere $λ_i = 0$, and the equation gives $u$.
 // Then look at the signs: a node that sank below the floor should have touched; a node that the floor would have to
 // pull should not. When the guess repeats itself, all signs are right. The guess is called the *active set*.
-// :figure: string_steps
 //
-// It does repeat itself. Force pushes up everywhere: no entry of $A^{-1}$ is negative (such an $A$ is an *M-matrix*).
-// From the second guess on, each shape is the one before without the pull of the nodes that were let go. So it lies
-// above the one before, and no node comes back: the set can only shrink. For other matrices the loop may go round.
+// It does repeat itself. A force upwards at one node lowers no other node: no entry of $A^{-1}$ is negative (such an
+// $A$ is an *M-matrix*). From the second guess on, each shape is the one before without the pull of the nodes that were
+// let go. So it lies above the one before, and no node comes back: the set can only shrink. For other matrices the loop
+// may go round.
 Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
   Answer answer;
@@ -164,9 +166,11 @@ Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
 // starts at $c$: $U(c) = 0$. A kink at $c$ would be a jump of $u'$ from a negative value up to 0, which only a pull can
 // hold. So $U'(c) = 0$. Both together say $\tan z = z$ for $z = 2πc$: $c = 0.715148...$ and $s = -2πα \cos z$.
 //
-// **The discrete string.** With exact loads a free string is exact at its nodes. So left of the first node
-// $x_j$ that touches it is $U(x_i) - U(x_j) x_i/x_j$, which solves $-u'' = f$ and is 0 at both ends. As $U$ and $U'$ are
-// 0 at $c$, its error is about $|f(c)| (x_j - c)²/2$. The signs are right only if $x_j$ is the node next to $c$.
+// **The discrete string.** With exact loads a free string is exact at its nodes. So left of the first node $x_j$ that
+// touches it is $U(x_i) - U(x_j) x_i/x_j$, which solves $-u'' = f$ and is 0 at both ends. As $U$ and $U'$ are 0 at $c$,
+// its error is about $|f(c)| (x_j - c)²/2$. If $x_j$ were more than half a cell to the right of $c$, the node before it
+// would lie below the floor. If it were more than half a cell to the left, the floor would have to pull at $x_j$. So
+// $x_j$ is the node nearest to $c$, up to a part of a cell that falls with $h$.
 void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& report) {
   const String s = hang(options.cells);
   const double rho = 1.9 * pi * pi * s.h;
@@ -201,10 +205,12 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // ## What came out
 // :output:
 //
-// (a) Nine of $2^{31}$. Each guess corrects the one before, and they only shrink. (b) Four times as many: the law of
-// the last verdict is $1/h²$. Contact starts at 0.7151 and not at $1/2$, where the load turns down, since the lifted
-// half pulls its neighbour up. Where the string lies flat $u'' = 0$, so the pressure is $-f$: from the first touch on,
-// the floor carries the whole load.
+// :figure: string_steps
+//
+// (a) Nine of $2^{31}$. Each guess corrects the one before, and from the second one on they only shrink. (b) Four times
+// as many: the law of the last verdict is $1/h²$. Contact starts at 0.7151 and not at $1/2$, where the load turns down,
+// since the lifted half pulls its neighbour up. Where the string lies flat $u'' = 0$, so the pressure is $-f$: from the
+// first touch on, the floor carries the whole load.
 //
 // ## Exercises
 //

@@ -35,8 +35,8 @@
 // **From (21) to (22).** Let $K_ε = \{ v : v = 0 on Γ_{D,ε}, v ≥ 0 on Γ_{C,ε} \}$, and $v ∈ K_ε$. Multiply the first
 // line by $v - u$ and integrate by parts on both parts. On $Σ$ the body leaves $∂_n u^+ (v - u)$ and the layer, whose
 // outward normal is $-n$, leaves $-ε^{-1} ∂_n u^- (v - u)$: they cancel, by the second line. On the clamped parts
-// $v - u = 0$. On $Γ_{C,ε}$ stays the term that makes an inequality of the equation. It is added to the load, and it
-// is not negative, since $u ∂_n u = 0$:
+// $v - u = 0$. On $Γ_{C,ε}$ one term is left, the work of the pressure. It stands beside the load. It is not negative,
+// since $u ∂_n u = 0$, $∂_n u ≥ 0$ and $v ≥ 0$. Leave it out, and the equation becomes an inequality:
 //
 // $$ ε^{-1} ∫_{Γ_{C,ε}} ∂_n u (v - u) = ε^{-1} ∫_{Γ_{C,ε}} (∂_n u) v ≥ 0. $$
 //

@@ -16,7 +16,8 @@
 // right picture has other functions, those of chapter 08.)
 //
 // Here are two meshes of about the same size: squares cut by a diagonal, and an arbitrary triangulation by the mesh
-// generator gmsh, the one of the pictures above. Both have triangles with good angles, and edges along all of $Σ$.
+// generator gmsh, the one of the pictures above. Both have triangles with good angles, none of them near 0 (such meshes
+// are called *regular*), and edges along all of $Σ$.
 // :figure: figure3 figure6
 //
 // **Predict.** In what follows the triangles of the layer fall into groups. The structured mesh has one group per
@@ -25,11 +26,13 @@
 //
 // ## What the layer may do
 //
-// First the limit $ε → 0$. Put $v = 0$ into (23). With $a$ for all three forms together, $a(u, u) ≤ (f, u)$. The right
-// side is at most the size of $f$ times the size of $u$, and the size of $u$ at most $C a(u, u)^{1/2}$, with one $C$ for
-// all $ε ≤ 1$, since $a$ only grows when $ε$ falls. So $a(u, u)$ stays below a number that does not depend on $ε$. It
-// contains $ε^{-2} a_y^-(u, u)$. Hence $a_y^-(u, u)$ is at most $ε^2$ times this number: in the limit only displacements
-// with $∂_y u = 0$ in the layer are left.
+// First the limit $ε → 0$. Put $v = 0$ into (23). With $a$ for all three forms together, $a(u, u) ≤ (f, u)$. By the
+// size of a function we mean the root of the integral of its square. The right side is at most the size of $f$ times
+// the size of $u$. The size of $u$ is at most $C a(u, u)^{1/2}$, because $u$ is 0 on $Γ_D$ and can be large only if its
+// derivatives are. One $C$ serves all $ε ≤ 1$, since $a$ only grows when $ε$ falls. Divide by $a(u, u)^{1/2}$: what is
+// left stays below a number that does not depend on $ε$, and so does $a(u, u)$. It contains $ε^{-2} a_y^-(u, u)$. Hence
+// $a_y^-(u, u)$ is at most $ε^2$ times this number: in the limit only displacements with $∂_y u = 0$ in the layer are
+// left.
 //
 // Now the same on a mesh. Let $V_h$ be the P1 functions: affine on each triangle, continuous, 0 on $Γ_D$. Those that the
 // stiff form does not see are its *kernel*, and in the limit only they are left:

@@ -10,8 +10,9 @@
 // **The picture.** The displacement $u$ of body and layer on a coarse mesh, drawn as a height. It is computed in this
 // file, without the library's elements, forms and solvers. At the end the library finds the same.
 //
-// **Predict.** (a) How many entries that are not 0 has the row of the stiff form that belongs to one triangle? (b) The
-// factor $ε^{-2}$ goes to infinity as $ε → 0$. Does the *layer stress* $p = ε^{-2} ∂_y u$ go there too?
+// **Predict.** (a) On one triangle of the layer $∂_y u$ is a number: a sum of the three values of $u$ at the corners,
+// each times a factor. How many of the three factors are not 0 on the structured mesh of chapter 02? (b) The factor
+// $ε^{-2}$ goes to infinity as $ε → 0$. Does the *layer stress* $p = ε^{-2} ∂_y u$ go there too?
 //
 // ## From (23) to matrices
 //
@@ -209,7 +210,7 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 //
 // | here | in `lib/antilock/solve` | what is added there |
 // |---|---|---|
-// | `touches` | `stairs.hpp` | which *piece* a bound is on: two bounds and friction are longer stairs |
+// | `touches` | `stairs.hpp` | `touches` has two states; with bounds on both sides, or friction, there are up to five |
 // | the inner loop | `contact.hpp` | where the guess wanders, one vertex moves at a time, and so it ends (proof there) |
 // | `r2` and `r` | `residual.hpp` | $u$ and $p$ are pairs of doubles: no digit of a residual is lost |
 // | `Cholesky`, one per guess | `penalty_factor.hpp` | one sparse factor, the vertices of $Γ_C$ last |

@@ -12,9 +12,9 @@
 // valley over the right half, where it presses the body on the obstacle. On the layer "its value along the normal to Σ
 // is constant and nonnegative over Ω⁻" (Section 4.1). So the layer shows a ridge, a function of $x$ alone.
 //
-// **Predict.** Push the layer from below, on $Γ_C$, with the pressure $\sin kπx$, which has $k$ half waves, and look how
-// far it gives way. (a) At $ε = 1$ layer and body are of one stuff. Twice as many half waves: how many times as stiff is
-// the answer? (b) And at $ε = 10^{-6}$, where the layer cannot vary across?
+// **Predict.** Push the layer from below, on $Γ_C$, with the pressure $\sin kπx$, which has $k$ half waves, and look
+// how far it gives way. (a) At $ε = 1$ layer and body are of one material. Twice as many half waves: how many times as
+// stiff is the answer? (b) And at $ε = 10^{-6}$, where the layer cannot vary across?
 //
 // ## A truth without a mesh
 //
@@ -50,8 +50,9 @@
 //
 // This is all that the obstacle feels of body and layer. The *symbol* $s_k(ε)$ is the stiffness against $k$ half waves.
 // For $ε → 0$, $z \tanh κ → a^2$ and $s_k → T + a^2$. A rigid layer resists like a string: $a^2$ comes from its own
-// energy along $x$. And $T ≈ a$ is the body's. But for $κ > 1$, so for waves shorter than $ε$ is thick, $\tanh κ ≈ 1$ and
-// $s_k ≈ a/ε$: such a wave dies out in the layer before it reaches $Σ$.
+// energy along $x$. And $T ≈ a$ is the body's. But for $κ > 1$, that is for half waves of a length $1/k$ below $πε$,
+// about three times the thickness of the layer, $\tanh κ ≈ 1$ and $s_k ≈ a/ε$. Such a wave dies out in the layer before
+// it reaches $Σ$.
 // :figure: modes
 //
 // **The contact.** Left open are $c(x) = ∑ c_k \sin kπx$, the displacement on $Γ_C$, and the pressure
@@ -158,10 +159,12 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
 // ## What came out
 // :output: the symbol
 //
-// (a) Twice, a little less for the longest waves: at $ε = 1$ a wave goes into the depth as far as it is long. (b) Three
-// to four times: $s_k ≈ a + a^2$, the string's $a^2$ takes over. At $ε = 0.1$ long waves see a string, short ones an
-// elastic block. Figure 4's solution is as far from the truth as a P1 solution on $1/h = 256$ is, some $5·10^{-6}$: from
-// now on every error is measured against the sine series and not against it. The contact zone begins at $x = 0.702$.
+// (a) Twice: at $ε = 1$ a wave goes into the depth about as far as it is long, so a wave of half the length has slopes
+// twice as large over half the depth, and $2^2/2 = 2$. (b) Between three and four times: $s_k ≈ a + a^2$. The body's
+// $a$ doubles, the string's $a^2$ becomes four times as large, and it is the larger part. At $ε = 0.1$ long waves see a
+// string, short ones an elastic block. Figure 4's solution, P1 on $1/h = 256$, is some $5·10^{-6}$ off the truth at the
+// unknowns. So from now on every error is measured against the sine series and not against Figure 4. In the truth the
+// contact zone begins at $x = 0.702$.
 // :output: error against the truth
 //
 // ## Exercises

@@ -26,9 +26,9 @@
 // $$ u_h^ε → 0   \text{on the layer, as } ε → 0 \text{ with } h \text{ fixed.} $$
 //
 // How fast? Write the discrete problem with its stress (chapter 03): $B u = ε² p$. On this mesh $B u = 0$ only for
-// $u = 0$ in the layer. So $u$ there is at most a constant times $ε² |p|$, and the stress $p$ is bounded: what is kept
-// of the ridge falls like $ε²$.
-// The film shows it at one mesh width: the layer becomes stiffer from left to right, and the ridge sinks.
+// $u = 0$ in the layer. So $u$ there is at most a constant times $ε² |p|$. The stress $p$ is bounded: as in chapter 03
+// it tends to a finite force, here the one that holds the layer at 0. So what is kept of the ridge falls like $ε²$. The
+// film shows it at one mesh width: the layer becomes stiffer from left to right, and the ridge sinks.
 //
 // :figure: film_of_locking
 //
@@ -63,10 +63,12 @@
 // $$ x = \frac{‖∂_y I_h w‖^2}{ε^2 E} ≈ \frac{k^2 ‖w''‖^2}{ε^2 E},   E (½ (1 + x) s^2 - s) \text{ is least at }
 // s = \frac{1}{1 + x}. $$
 //
-// The discrete solution has the least energy of all functions, this trial function among them. The layer that gives
-// sets free the energy $E/2$; P1 sets free at least the share $1/(1 + x)$ of it, up to what the body's interpolation
-// costs. This is proved on any mesh, with contact too: $u_D$ and $u^0$ are in $K$, so what lies between them is, and
-// $λ u^0 = 0$ leaves no other term. Since $k ≤ c h$,
+// The discrete solution has the least energy of all functions, this trial function among them. Without bending the
+// least value, at $s = 1$, is $-E/2$: a layer that gives way sets the energy $E/2$ free. With bending the least value
+// is $-E/(2 (1 + x))$. So P1 sets free at least the share $1/(1 + x)$ of it, up to what the body's interpolation costs.
+// This is proved on any mesh, with contact too: $u_D$ and $u^0$ are in $K$, so what lies between them is. The contact
+// pressure $λ$ of $u^0$ does no work on it, since $u_D = 0$ and $λ u^0 = 0$ on $Γ_C$, so contact adds no term. Since
+// $k ≤ c h$,
 //
 // $$ \text{P1 loses at most the share } \frac{x}{1 + x},   x = (c h/ε)^2, \text{ on any regular mesh.} $$
 //
@@ -192,10 +194,10 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :output: the law of the loss
 //
-// (a) Not at all: the error is 4.57e-2 on both meshes. By the law half of the ridge comes back when $5.84 k$ falls to
-// $10^{-6}$: on this generator's meshes at $1/h$ of some $10^4$, on Delaunay meshes at some $7 · 10^5$. (b) It solves
-// the problem of a body that is clamped on $Σ$ as well: the layer acts as a clamp. Neither the solver nor a look at
-// the picture would tell.
+// (a) Not at all: the error is 4.57e-2 on both meshes (exercise 1 runs the finer one). By the law half of the ridge
+// comes back when $5.84 k$ falls to $10^{-6}$: on this generator's meshes at $1/h$ of some $10^4$, on Delaunay meshes
+// at some $7 · 10^5$. (b) It solves the problem of a body that is clamped on $Σ$ as well: the layer acts as a clamp.
+// Neither the solver nor a look at the picture would tell.
 //
 // ## Exercises
 //

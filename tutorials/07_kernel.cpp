@@ -23,11 +23,13 @@
 // layer**, and **whether it grows under refinement**.
 //
 // Why must it grow? Suppose that it has at most $m$ dimensions on every mesh, and take $m + 1$ loads whose limits $u^0$
-// are independent functions on the layer. There are such loads, because $K_0$ holds infinitely many functions of $x$. On
-// each mesh the $m + 1$ discrete limits lie in a space of $m$ dimensions, so one of their combinations is 0. If all of them
-// converged, some combination of the $m + 1$ exact limits would be 0, too, and they are independent. So *for some load* the
-// method does not converge at ε = 0: it locks. (Growth is necessary and not sufficient. If the kernel grows in the
-// left half of the layer alone, the method locks in the right half.)
+// are independent functions on the layer. There are such loads, because $K_0$ holds infinitely many functions of $x$.
+// On each mesh the $m + 1$ discrete limits lie in a space of $m$ dimensions, so one of their combinations is 0. Scale
+// its coefficients so that their squares sum to 1. Then on finer and finer meshes a subsequence of these coefficients
+// converges. If all $m + 1$ discrete limits converged, the combination of the exact limits with these last coefficients
+// would be 0, too. But the exact limits are independent. So *for some load* the method does not converge at ε = 0: it
+// locks. (Growth is necessary and not sufficient. If the kernel grows in the left half of the layer alone, the method
+// locks in the right half.)
 //
 // Count it by algebra: the columns of $B$ that belong to unknowns of the layer that are not clamped, less their rank.
 //
@@ -74,7 +76,7 @@ Table count_kernels(int finest) {
   return counts;
 }
 
-// The library's diagnosis: of the kernel on two meshes, the trace (chapter 10) on $Γ_C$.
+// The library's diagnosis: it counts on two meshes how many independent motions of $Γ_C$ the kernel allows.
 LockingDiagnosis diagnose(const Method& method) {
   return diagnose_locking(assemble(scene, method.on(4).space()), assemble(scene, method.on(8).space()));
 }

@@ -8,13 +8,15 @@
 // Needs: [05](05_p1_structured.cpp) ((27), Theorem 4), [06](06_p1_unstructured.cpp), [07](07_kernel.cpp) (kernel).
 //
 // **The picture.** Figure 8: the mesh of Figure 6, on which P1 locks, and the ridge is there. *Crouzeix-Raviart did not
-// lock on any mesh that was tried, and this page proves that it cannot.* Look closely: the triangles do not quite meet.
+// lock on any mesh that was tried. This page has the core of the proof that it cannot; two of its conditions are
+// checked in chapters 12 and 14.* Look closely: the triangles do not quite meet.
 //
 // :figure: figure8
 //
 // **Predict.** (a) P1 takes over the values of a ridge $w(x)$ at the corners of a triangle, and gets a slope across the
 // layer (chapter 06). Crouzeix-Raviart takes over the means over the three edges. Which slope does it get? (b) The
-// truth has `u ≥ 0` on all of $Γ_C$. Has that function, on all of $Γ_C$?
+// truth is not negative on all of $Γ_C$. The solution of Crouzeix-Raviart is asked to be so at the midpoints of edges.
+// Is it so between them?
 //
 // ## The element, and the interpolation that makes it work
 //
@@ -26,9 +28,9 @@
 //
 // :figure: basis
 //
-// Integrals and norms are taken
-// triangle by triangle (*broken*), and contact is asked at midpoints:
-// $K_h^{nc} = \{ v ≥ 0 \text{ at the midpoints on } Γ_C \}$. With that, (23) becomes (29), and (27) becomes (30).
+// Integrals and norms are taken triangle by triangle (*broken*; $‖·‖_{1,Ω_h}$ is the broken norm), and contact is asked
+// at midpoints: $K_h^{nc} = \{ v ≥ 0 \text{ at the midpoints on } Γ_C \}$. $G_h^{nc}$ are the functions with
+// $∂_y v = 0$ on each triangle of the layer. With that, (23) becomes (29), and (27) becomes (30).
 //
 // **The interpolation** $I_h$ gives each midpoint the mean of $v$ over its edge. For an affine function the mean over
 // an edge is the value at its midpoint, so on each triangle $T$ with outward normal $n$, by Green's formula,

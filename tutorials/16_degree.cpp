@@ -143,12 +143,12 @@ void judge(const Table& results, tutorial::Report& report) {
 //
 // :output: degrees 1 to 4
 //
-// (a) None. (b) Two on every unstructured mesh: $\dim G_h$ at 1/h = 4 is 0, 1, 2, 3 for the degrees 1 to 4, and 3, 7,
-// 11, 15 on the structured mesh. At ε = 1e-4 and 1/h = 32 the degrees 1 to 4 keep 0, 66, 99.9 and 100 % of the ridge on
-// the unstructured mesh, and 0, 35, 99.9 and 100 % on the Delaunay mesh. The cost says how much is kept at least. P1 keeps
-// twice that, because of contact. P2 and P3 keep up to 19 times as much of the little that is left: among their functions
-// there are better ones than the interpolant. Where the ridge is kept the $H^1$ error can still be large: the gradient
-// sees the wrong slope first.
+// (a) None. (b) Two, and not one more on the finer mesh: $\dim G_h$ at 1/h = 4 is 0, 1, 2, 3 for the degrees 1 to 4,
+// and 3, 7, 11, 15 on the structured mesh. At ε = 1e-4 and 1/h = 32 the degrees 1 to 4 keep 0, 66, 99.9 and 100 % of
+// the ridge on the unstructured mesh, and 0, 35, 99.9 and 100 % on the Delaunay mesh. The cost says how much is kept at
+// least. P1 keeps about twice that, because of contact. P2 and P3 keep up to 19 times as much of the little that is
+// left: among their functions there are better ones than the interpolant. Where the ridge is kept the $H^1$ error can
+// still be large: the gradient sees the wrong slope first.
 //
 // ## Exercises
 //
