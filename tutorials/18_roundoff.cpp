@@ -22,7 +22,7 @@
 // $$ A = A_1 + ε^{-2} B^T M B, $$
 //
 // and to factor $A$. Each row of $B$ is $∂_y$ on a layer triangle, $M$ holds the areas. An entry of the sum is about
-// $ε^{-2}$, rounded after 16 digits; of the entry of $A_1$ below it $16 + 2 \log_{10} ε$ digits are left. What is
+// $ε^{-2}$, rounded after 16 digits; of the entry of $A_1$ that is in it $16 + 2 \log_{10} ε$ digits are left. What is
 // lost is the stiffness of the layer along $x$: it stands in no other entry. The body's entries are in no sum and
 // keep all digits. So $u$ is wrong on the layer alone, and at last it is flat zero there: round-off imitates Figure
 // 7, the contact set settles, and every factorisation reports success.
@@ -125,7 +125,8 @@ VariationalInequality turned(const Space& space, double epsilon) {
   return problem;
 }
 
-// The deepest $u$ on Σ at each ε: our load presses the right half down. The discrete limit is reached with order 2 (chapter 10), by every method.
+// The deepest $u$ on Σ at each ε: our load presses the right half down. Every method reaches its discrete limit with
+// order 2 (chapter 11).
 Table turn_the_lines(int cells) {
   Table rows({"method", "epsilon", "u", "from_limit"});
   const auto solve = [](const Discretisation& on, double epsilon) {

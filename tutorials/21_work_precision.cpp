@@ -51,7 +51,7 @@
 //
 // *The rule.* Let $b$ be the width over $|J|$. The largest error of $u_h$ is of relative order $b$, its energy error of
 // order $b^{1/2}$. Uzawa stops when the duality gap is at most $(b/20)^2 |J|$. Then $|v - u_h|_a$ is at most
-// $b/20$ of $|u_h|_a$ (`analysis/accurate_enough.hpp`).
+// $b/20$ of $|u_h|_a$, because $|J(u_h)| = ½ |u_h|_a^2$ and $J$ is nearly $J(u_h)$ (`analysis/accurate_enough.hpp`).
 
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -165,7 +165,9 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
 //
 // :figure: uzawa_steps
 //
-// Once more, at 1/h = 256, this would make some 200,000 steps at ε = 1e-6 (extrapolated). With the paper's linear solver Uzawa gives up at small ε.
+// If they go on growing like this, at 1/h = 256 they are some 200,000 at ε = 1e-6 (extrapolated). With the paper's linear
+// solver, conjugate gradients with ILUT, Uzawa gives up at small ε.
+//
 // (b) No: it comes to a level line. The bracket stops Uzawa there, after less than half of the steps, within 1 % of the
 // error. `price_list.md` says what 1e-2, 1e-3 and 1e-4 cost, or "never".
 //

@@ -35,10 +35,11 @@
 //
 // $$ |A∇u - ½(σ + A∇v)|^2 = ¼ |d + s|^2 = ¼ m^2 + (d, s) ≤ ¼ m^2 + C. $$
 //
-// For small $C$ that is $½ m$ in place of $m$: half the bound on one mesh, a given bound for a quarter of unknowns.
+// For small $C$ that is $½ m$ in place of $m$: half the bound on one mesh, a given bound for a quarter of the unknowns.
 //
 // **Columns.** In a thin layer, what happens at one $x$ happens in the whole thickness. For `ε ≤ 0.1` the body alone is
-// bisected, and the layer is *extruded* below it in columns: squares would be the dearer mesh.
+// bisected, and the layer is *extruded* below it in columns. Cells as high as they are wide would cost more unknowns
+// and find nothing more.
 
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/mesh/layered.hpp"
@@ -142,8 +143,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :figure: asked_smooth
 //
-// (b) No. Half of the triangles go into the layer, and the bound hardly falls: adaptivity does not cure locking, it finds
-// it. The cure is the columns.
+// (b) No. The new triangles go into the layer, where most of the bound lies, and the bound hardly falls: adaptivity does
+// not cure locking, it finds it. The cure is the columns.
 //
 // :figure: finds_locking
 //

@@ -8,8 +8,8 @@
 // Needs: [01](01_domain.cpp) for (22), (23), [03](03_by_hand.cpp) for corrections, [10](10_limits.cpp) for (25).
 //
 // **The picture.** One body under one load, five times: alone; on an obstacle; held by a stiff layer that is not
-// meshed; with the layer meshed below it; with layer and obstacle. *Glue a layer that is rigid across its thickness
-// under the body, and its lower side, which moved freely by 0.2, moves by 0.045: it has become a stretched string.*
+// meshed; with the layer meshed below it; with layer and obstacle. *The free lower side of the body moves by 0.2.
+// Glue a layer under it that is rigid across its thickness, and it moves by 0.045: it is held as by a stretched string.*
 //
 // **Predict.** (a) The layer of (25) is one term on $Σ$. How many triangles, unknowns and linear solves does it cost
 // more than the body alone? (b) Seven values of ε on one mesh: how many factorisations, if those below a fraction of

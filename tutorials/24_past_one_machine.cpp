@@ -6,15 +6,15 @@
 // Run: 24_past_one_machine --exercise 2
 //
 // Needs: [02](02_meshes.cpp) for the layered mesh, [07](07_kernel.cpp) for the kernel on the layer,
-// [18](18_roundoff.cpp) for the split form and the iterated penalty. FreeFEM's own interface to PETSc is not in
-// Debian's package: no script.
+// [18](18_roundoff.cpp) for the split form and the iterated penalty. There is no FreeFEM script, because Debian's package
+// has no interface to PETSc.
 //
 // **The picture.** One mesh on more *ranks*, the processes that share a problem (strong scaling), and as many
-// unknowns on each rank (weak scaling). *Iterations hardly grow with the ranks, as long as no rank cuts a column of
-// the layer.*
+// unknowns on each rank (weak scaling). *Where each rank owns whole columns of the layer, the iterations hardly grow
+// with the ranks.* The third curve is prediction (a).
 //
-// **Predict.** (a) The triangles are dealt out in squares, as on a chessboard, so that columns are cut. What happens
-// to the iterations on four ranks? (b) PETSc has a solver of its own for variational inequalities. It is given the
+// **Predict.** (a) The triangles are dealt out in squares, as on a chessboard, so that columns are cut. By what
+// factor do the iterations grow on four ranks, and why? (b) PETSc has a solver of its own for variational inequalities. It is given the
 // summed matrix $A_1 + ε^{-2} B' M B$ at ε = 1e-6. What does it answer?
 //
 // ## Why the factor stops, and what replaces it
@@ -24,9 +24,9 @@
 // the factor wait for all others.
 //
 // The iterated penalty needs $K^{-1}$ on residuals alone. Each correction repairs what the last one left over, and that
-// includes what a careless solve with $K$ left over. So four digits per correction are enough. Conjugate gradients give them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it
-// reads from $K$ which unknowns hang together, merges them into a coarser problem, and so on until one is left that
-// is solved at once. Contact set and penalty are corrected in one loop. What is left over is formed from $A_1$, $B$, $M$
+// includes what a careless solve with $K$ left over. So four digits per correction are enough. Conjugate gradients give
+// them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it reads from $K$ which unknowns hang together,
+// merges them into a coarser problem, and so on until one is left that is solved at once. Contact set and penalty are corrected in one loop. What is left over is formed from $A_1$, $B$, $M$
 // and $p$, not from $K$, since $K$ has lost digits (chapter 18):
 //
 // $$ r_1 = L - A_1 u - B' M p,   r_2 = ε^2 p - B u. $$

@@ -137,8 +137,8 @@ void judge(const Table& checks, const Table& forces, int cells, tutorial::Report
 // ## What came out
 //
 // (a) $2n^2$ conditions and about as many unknowns. (b) As many conditions, and three times as many unknowns. Where
-// nothing locks the force is right to 11 h per cent at every λ ($h = 1/32$), in at most 2 corrections. P1 on parallel or arbitrary
-// triangles is right at λ = 1, and more than 100 % off in the limit. The pressure of P1 reaches 46 in stripes, where
+// nothing locks the force is right to 11 h per cent at every λ ($h = 1/32$), in at most 2 corrections. P1 on parallel or
+// arbitrary triangles is right at λ = 1, and more than 100 % off in the limit. The pressure of P1 reaches 46 in stripes, where
 // the true one stays below 0.7.
 //
 // :figure: elasticity_force

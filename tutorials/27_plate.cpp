@@ -16,7 +16,7 @@
 //
 // **Predict.** In the limit $∇w = θ$ is asked. Taken at one point of each triangle these are two conditions. The mesh
 // has $n$ rings, $6n^2$ triangles, about $3n^2$ vertices and $9n^2$ edges. (a) How many unknowns has P1 for $w$ and
-// both components of $θ$? Does one point cure it as it cured the beam? (b) How many unknowns are there with CR for $w$,
+// both components of $θ$? Why does one point cure the beam and not the plate? (b) How many unknowns are there with CR for $w$,
 // and, for each component of $θ$, P1 and one more function per triangle? How many of them are left free?
 //
 // ## Reissner and Mindlin's plate in the class

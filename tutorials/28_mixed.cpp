@@ -68,7 +68,7 @@
 // $K_{0h}$ grows, which helps (ii). But $a_{0h}$ sees less, which hurts (i). The way out (Arnold and Brezzi 1993, for
 // plates) keeps half of $a_0$: $a_1 + ½ a_0 + (ε_c^{-1} - ½) a_{0h}$. Then (i) holds with half the α of $a_1 + a_0$.
 //
-// **A word of another field.** Equations like (23) with their stiff direction along a magnetic field are the model
+// **A word from another field.** Equations like (23) with their stiff direction along a magnetic field are the model
 // problem of *asymptotic-preserving* schemes (Degond, Deluzet and Negulescu 2010). Such a scheme has, at fixed $h$, the
 // right limit as ε → 0, and matrices that stay well conditioned: [chapter 18](18_roundoff.cpp) has both. That is
 // Proposition 1, and not Theorem 4: P1 of [chapter 06](06_p1_unstructured.cpp) has both too, and its limit is wrong.
@@ -210,8 +210,8 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
 //
 // (a) A mean over a column sees $u$ on $Σ$ less $u$ on $Γ_C$, and nothing between. (iii) fails: a slope of 0.18 is hidden
 // at every $h$, and the error stays at 0.217. *Patches* (all triangles at a vertex, one mean per vertex) ask for as many
-// means as the layer has unknowns. (ii) fails, as for P1, only at smaller ε: at ε = 1e-3 their error is 0.056 where P1
-// has 0.145, in the limit both have 0.148.
+// means as the layer has unknowns. (ii) fails, as for P1. It is only seen at smaller ε: at ε = 1e-3 their error is 0.056
+// where P1 has 0.145; in the limit both have 0.148.
 //
 // (b) Even on the structured mesh, where P1 does not lock, zigzags across the layer are left whose means are 0. They cost
 // next to nothing: (i) fails, α falls like $h^2$, and the error grows from 0.46 to 1.38. With half of $a_0$ kept the

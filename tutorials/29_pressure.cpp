@@ -242,9 +242,9 @@ void judge(const Table& beta, const Table& forces, const Table& worst, const Tab
 //
 // :output: moved by one gradient
 //
-// (b) It does not move. MINI, Taylor–Hood and CR do, and what they move by does not depend on λ once $λ > 1/h$. CR, which has
-// the largest β, moves most: the two properties have nothing to do with each other. With its load on the fluxes CR moves by
-// 1/λ, as the exact block does. That is one loop of the assembly, and no unknown more.
+// (b) It does not move. MINI, Taylor–Hood and CR do, and they move by the same at λ = 1e6 and at 1e8. CR, which has the
+// largest β, moves most: a large β does not make a method gradient-robust. With its load on the fluxes CR moves like 1/λ, as
+// the exact block does. That is one loop of the assembly, and no unknown more.
 //
 // :figure: gradients
 //

@@ -6,16 +6,16 @@
 // Run: 30_friction --exercise 2
 //
 // Needs: [00](00_string_on_an_obstacle.cpp) for the inequality, the active set and Uzawa, [26](26_elasticity.cpp) for
-// the block and its elements, [28](28_mixed.cpp) for Theorem 4 with friction. **Here ε is the parameter of the class (1)
-// itself**, $ε = 1/λ$.
+// the block and its elements, [28](28_mixed.cpp) for Theorem 4 with friction, [29](29_pressure.cpp) for the inf-sup
+// constant. **Here ε is the parameter of the class (1) itself**, $ε = 1/λ$.
 //
 // **The picture.** The block of chapter 26 is pressed on its obstacle, and the obstacle rubs (λ = 1e8). *Left: the
 // tangential force $T$ of the floor stays between $-g$ and $g$. Right: where $|T| < g$ the rubber sticks, elsewhere it
 // slips. P1 on parallel triangles can only shear along its diagonals: its whole contact zone slides to the right and
 // sticks nowhere.*
 //
-// **Predict.** (a) A pressed block spreads to both sides. In which direction does the floor pull its left half, at λ = 1
-// and in the limit λ → ∞? (b) At which λ does it stick on the longest piece?
+// **Predict.** (a) At λ = 1e8 the pressed block slips outwards on both sides, as the picture shows. In which direction
+// does the floor pull its left half at λ = 1? (b) At which λ does it stick on the longest piece?
 //
 // ## From the energy to stick and slip
 //
@@ -64,9 +64,10 @@
 // ## Which way it slips
 //
 // Two things move the floor of a pressed block sideways. A pressure $p$ on the surface of a half plane *draws it inwards*:
-// $∂_x u_x = -p/(2λ + 2)$ there for $μ = 1$ (as $1 - 2ν$, with Poisson's ratio ν). It is strong for λ = 1, and it vanishes
-// for incompressible rubber. And the block, shortened by the push, *bulges outwards*, the more so the less it can be
-// compressed. For small λ the first wins, for large λ the second. In between the two cancel, and there is little to hold.
+// $∂_x u_x = -(1 - 2ν) p / (2μ)$ there, with Poisson's ratio ν. For $μ = 1$ this is $-p/(2λ + 2)$: it is strong for λ = 1,
+// and it vanishes for incompressible rubber. And the block, shortened by the push, *bulges outwards*, the more so the less
+// it can be compressed. For small λ the first wins, for large λ the second. In between the two cancel, and the floor has
+// little to hold.
 
 #include <algorithm>
 #include <cmath>

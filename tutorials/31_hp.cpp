@@ -8,8 +8,8 @@
 // Needs: [16](16_degree.cpp) for $P_p$ and its bounds, [10](10_limits.cpp) for (25) and its jump of the pressure.
 //
 // **The picture.** Error against unknowns at ε = 0: equal cells (left), graded meshes (right). *On equal cells no degree
-// helps for long. With small cells toward the end of contact it helps again. Where the degree grows too (hp), the error
-// falls faster than every power of the unknowns.*
+// helps for long. With small cells toward the end of contact it helps again. Where the degree grows too (hp), the order
+// in the unknowns grows from level to level.*
 //
 // **Predict.** (a) Near the end of contact $u ∼ r^{3/2}$, $r$ the distance from it: which order in $H^1$ does P4
 // have on equal cells? (b) hp raises the degree and adds a layer of small cells, one each at a time. Which of the
@@ -26,7 +26,8 @@
 // No polynomial fits $r^{3/2}$ on a cell of size $h$ that holds this point. Its slope is wrong by about $h^{1/2}$
 // over an area $h^2$: that is $(h · h^2)^{1/2} = h^{3/2}$ in $H^1$, and $u$ on $Γ_C$ is wrong by $h^{3/2}$ too.
 // Where $w''$ jumps, the slope is wrong by $h$ over a length $h$ of Σ: $(h^2 · h)^{1/2}$ is the same order in $H^1$,
-// but on $Γ_C$ it is $h^2$. So on equal cells, with $N ∼ h^{-2}$ unknowns,
+// but on $Γ_C$ it is $h^2$. So on equal cells, with $N ∼ h^{-2}$ unknowns, one expects (this
+// counts sizes, and is no proof)
 //
 // $$ ‖u - u_h‖_h ≤ C h^{\min(p, 3/2)} ∼ N^{-\min(p/2, 3/4)}. $$
 //
@@ -41,15 +42,15 @@
 // are $n$ *layers*, and the last cell is $h q^n$ wide. All other cells near $c$ are at most a few times as wide as
 // their distance from it. On them $r^{3/2}$ is smooth, and degree $p$ misses only a share $s_p$ of it: polynomials
 // of degree $p - 1$ miss its slope $\frac{3}{2} r^{1/2}$ on $(1/4, 1)$ by 0.18, 0.016, 0.0026, 0.0005 in $L^2$ for
-// $p$ = 1 to 4, and by three times less per degree at last. Hence
+// $p$ = 1 to 4, and by three times less per degree at last. Hence, by the same count of sizes,
 //
 // $$ ‖u - u_h‖_h ≤ C (h^p + s_p h^{3/2} + (h q^n)^{3/2}),   q^{3/2} = 1/8 \text{ per layer}. $$
 //
 // *Graded* $P_p$ takes $n ≥ (p/3) \log_2 (1/h)$ layers: the third term is below the first. The order is $p$ as long
 // as $s_p$ hides the second; then it is 3/2 again, unless the cells at the distance $r$ shrink with $h$ too. *hp*
 // keeps $h$ and raises $p$ and $n$ by one: each term falls exponentially in $p$. Lines are drawn through the domain
-// (a *tensor mesh*), so $N ∼ p^2$ cells times $p^2$ unknowns, and the error is $\exp(-b N^{1/4})$. (With small cells
-// near the point only it is $\exp(-b N^{1/3})$, Guo and Babuška 1986.)
+// (a *tensor mesh*), so $N ∼ p^2$ cells times $p^2$ unknowns, and the error should be like $\exp(-b N^{1/4})$. (With small
+// cells near the point only it is $\exp(-b N^{1/3})$, Guo and Babuška 1986.)
 //
 // Lines through the layer leave it in columns, so no degree locks (chapter 16). A distance $d$ in $x$ is felt up to
 // $d$ in the body and up to $d/ε$ in the layer. So layers wider than ε get rows in the body above Σ, narrower ones
@@ -203,11 +204,13 @@ void judge(const Table& results, const Exact& exact, tutorial::Report& report) {
 // Graded, P1 to P4 have the orders 0.93, 1.83, 2.89, 4.3 in $H^1$ at ε = 0. On $Γ_C$ at ε = 1 the term with $s_p$ shows
 // already: the error of graded P4 is 3.2e-5 and 1.1e-5 at 1/h = 8 and 16 (`results.csv`), order 1.5.
 //
-// hp at ε = 0 divides the $H^1$ error by 6.0, 7.3, 9.0 and 10.4 per level from P2 on. This factor grows, and it is no
-// rate. The order in $N$ grows from 1.5 to 4.0. At ε = 1e-20 the error is the same. (b) In $H^1$ the degree: with 8 layers
-// at every degree the errors are the same to 0.1 % (exercise 3, ε = 1). On $Γ_C$ it is the layers: P6 with 0 to 4 of them
-// has 1.7e-2, 3.8e-3, 3.9e-4, 5.6e-5, 4.7e-6 there, about $q^{-3/2} = 8$ times less per layer; a fifth and a sixth change
-// nothing. In hp's last level $u_h$ dips at most 5e-8 of the largest $u$ below 0.
+// hp at ε = 0 divides the $H^1$ error by 6.0, 7.3, 9.0 and 10.4 per level from P2 on. This factor still grows from level
+// to level, so six levels do not yet show a rate. The order in $N$ grows from 1.5 to 4.0. At ε = 1e-20 the error is the
+// same.
+//
+// (b) In $H^1$ the degree: with 8 layers at every degree the errors are the same to 0.1 % (exercise 3, ε = 1). On $Γ_C$ it
+// is the layers: P6 with 0 to 4 of them has 1.7e-2, 3.8e-3, 3.9e-4, 5.6e-5, 4.7e-6 there, about $q^{-3/2} = 8$ times less
+// per layer; a fifth and a sixth change nothing. In hp's last level $u_h$ dips at most 5e-8 of the largest $u$ below 0.
 //
 // ## Exercises
 //

@@ -5,7 +5,8 @@
 // Run: 32_your_own_problem --exercise 1
 //
 // Needs: [00](00_string_on_an_obstacle.cpp) for strings, [07](07_kernel.cpp) for kernels, [10](10_limits.cpp) for the
-// class (1), [14](14_estimates.cpp) for coercivity, [28](28_mixed.cpp) for Theorem 4 with another $a_0$. **Here ε is the parameter of the class itself** ($ε^2$ in (23)).
+// class (1), [14](14_estimates.cpp) for coercivity, [28](28_mixed.cpp) for Theorem 4 with another $a_0$.
+// **Here ε is the parameter of the class itself** ($ε^2$ in (23)).
 //
 // **The picture.** The energy that two glued strings release, against the compliance ε of the glue. *One choice of
 // $B$ locks: as the glue hardens its strings stop moving. The other does not. One number, the dimension of the
