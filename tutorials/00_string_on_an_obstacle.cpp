@@ -216,7 +216,7 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 //
 // 1. Double the load. What happens to $u$, to the forces, to the contact set?
 // 2. Lower the floor to $-0.05$. $K$ is no cone any more. Where does contact start? Does it reach $x = 1$?
-// 3. Uzawa with $ρ = 4π² h$, twice the safe step. Does it diverge? (Where does $λ$ live?)
+// 3. Uzawa with $ρ = 4π² h$, twice the safe step. Does it diverge? (At which nodes is $λ$ not 0?)
 // 4. On paper: show by $v = 0$ and $v = 2u$ that $a(u, u) = L(u)$. Which of the two is forbidden in exercise 2, and
 //    what is left of the equality?
 

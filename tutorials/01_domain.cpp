@@ -117,8 +117,9 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 // Form and solution are the same on both domains, but for round-off (chapter 18). (a) Neither more nor less. A function
 // of $x$ alone has the energy $ε^{-1} ∫ |∂_x u|²$ on an area like $ε$: the two factors cancel. (b) More, like $ε^{-2}$.
 // A change across takes place over the depth $ε$. So the slope grows like $1/ε$, its square like $ε^{-2}$, and the same
-// two factors cancel. As $ε → 0$ this is too dear: in the limit the displacement does not vary across the layer. The
-// stiff form enforces it, and a discretisation must be able to do it. That is what this course is about.
+// two factors cancel. As $ε → 0$ this costs more than any load supplies: in the limit the displacement does not vary
+// across the layer. The stiff form enforces it, and a discretisation must be able to do it. That is what this course is
+// about.
 //
 // ## Exercises
 //

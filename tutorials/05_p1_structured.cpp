@@ -12,8 +12,8 @@
 // **The picture.** Figure 5, on the mesh of Figure 3: the hill, the valley and the ridge of the reference solution. This
 // is the method that works. The question of this chapter is why it works, at every $ε$.
 //
-// **Predict.** (a) The same mesh serves $ε = 1$ and $ε = 10^{-12}$. By what factor do the errors differ? (b) $∂_y u → 0$
-// in the layer. By what does the layer bring the pull of the body down to the obstacle, then?
+// **Predict.** (a) The same mesh serves $ε = 1$ and $ε = 10^{-12}$. By what factor do the errors differ? (b) As $ε → 0$
+// also $∂_y u → 0$ in the layer. What, then, carries the pull of the body through the layer down to the obstacle?
 //
 // ## Why it works
 //

@@ -63,9 +63,10 @@
 // 0, too.
 //
 // **How fast?** The theorem does not say. Chapter 04's symbol does: a layer of thickness $ε$ answers to the wave
-// $\sin kπx$ on $Γ_C$ like the limit but for a share $∼ (ε k)^2$, and from $k ∼ 1/ε$ on quite differently. Where contact
-// ends the pressure of $u^0$ jumps, so its waves fall like $k^{-1}$. Two derivatives less, those of $u^0$ on $Γ_C$ fall
-// like $k^{-3}$. In the square of the norm wave $k$ counts $k^2 (k^{-3})^2 = k^{-4}$. Together
+// $\sin kπx$ on $Γ_C$ like the limit but for a share $∼ (ε k)^2$, and from $k ∼ 1/ε$ on quite differently. Where
+// contact ends the pressure of $u^0$ jumps, so its waves fall like $k^{-1}$. The pressure is about $s_k$ times the
+// displacement, and $s_k$ grows like $k^2$. So the waves of $u^0$ on $Γ_C$ fall like $k^{-3}$. In the square of the
+// norm wave $k$ counts $k^2 (k^{-3})^2 = k^{-4}$. Together
 //
 // $$ ‖u^ε - u^0‖^2 ∼ ∑_k k^{-4} \min(1, (ε k)^4) ∼ ε^3: $$
 //

@@ -10,7 +10,8 @@
 //
 // **The picture.** Errors at ε = 0 under loads $f$ with $∫ f^2 = 1$: left under our load $\sin 2πx$, scaled to this
 // size, right under the worst load of this size, below the worst that was found with contact. *Follow P3 and P4 on the
-// unstructured mesh from the left panel to the right one.*
+// unstructured mesh from the left panel to the right one.* The picture stands at the end of this page, because it
+// answers question (b).
 //
 // **Predict.** (a) Of all loads of this size, which one loses most where P1 locks: one arch $\sin πx$ or many short
 // waves, near $Σ$ or far from it? (b) At ε = 0 the layer of $P_p$ on an unstructured mesh has $p - 1$ functions left
@@ -207,6 +208,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 // ## What came out
+//
+// :figure: families_of_loads
 //
 // :output: worst load of the ball, epsilon = 0
 //
