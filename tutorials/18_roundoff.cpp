@@ -25,7 +25,7 @@
 // $ε^{-2}$, rounded after 16 digits; of the entry of $A_1$ that is in it $16 + 2 \log_{10} ε$ digits are left. What is
 // lost is the stiffness of the layer along $x$: it stands in no other entry. The body's entries are in no sum and
 // keep all digits. So $u$ is wrong on the layer alone, and at last it is flat zero there: round-off imitates Figure
-// 7, the contact set settles, and every factorisation reports success.
+// 7. Most of these wrong answers come without a complaint: the factorisation reports success, the contact set settles.
 //
 // The *condition number* foretells it: $κ(A) ∼ ε^{-2}$, and a solver may lose the relative error $10^{-16} κ$.
 //

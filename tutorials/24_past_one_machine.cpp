@@ -54,8 +54,8 @@
 //
 // Our cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the factor (exercise 2); they send
 // each other its numbers by MPI. A *strip* is here the part of the mesh between two vertical lines that one rank
-// owns, not the strip of chapter 19. BDDC factors each strip by itself. It took 5 to 9 iterations up to 1/h = 256 and
-// broke down at 1.8 million unknowns; it is not offered.
+// owns, not the strip of chapter 19. BDDC, a method that factors each strip by itself, took 5 to 9
+// iterations up to 1/h = 256 and broke down at 1.8 million unknowns; it is not offered.
 //
 // **SNESVI**, PETSc's own solver, is an active set ([00](00_string_on_an_obstacle.cpp)) whose line search compares
 // residuals. The rows of the summed matrix are of size $ε^{-2}$, and so is the round-off in its residual: below ε =
@@ -142,7 +142,7 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 
 // ## What came out
 //
-// (a) They grow, at least 1.5 times: a cut column is no longer merged as a whole. (b) $u = 0$, everywhere: at ε = 1e-6
+// (a) By a factor of 1.5 at least, because a cut column is no longer merged as a whole. (b) $u = 0$, everywhere: at ε = 1e-6
 // round-off hides the residual. At ε = 1e-2 the same solver is right, and in the split form it is right at 1e-6.
 //
 // ## Exercises

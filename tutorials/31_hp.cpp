@@ -20,14 +20,14 @@
 // Contact begins at $x = c$. Put $x = c + ε X$ in the layer: the layer's form of (23) then has the same factor in
 // both directions. So near $(c, -1)$ Laplace's equation holds in $X$ and $y$, with $u = 0$ right of $c$ and
 // $∂_y u = 0$ left of it. Its solutions are $r^{k + 1/2}$ times a function of the angle, $k = 0, 1, ...$ The first
-// would sink in or be pulled, so $u ∼ r^{3/2}$. Farther than ε from $c$ one sees the limit (25): $w = u$ on Σ has a
-// jump of $w''$ at $c$, and the body answers with $r^2 \log r$.
+// would sink into the obstacle or be pulled by it, so $u ∼ r^{3/2}$. Farther than ε from $c$ one sees the
+// limit (25): $w = u$ on Σ has a jump of $w''$ at $c$, and the body answers with $r^2 \log r$.
 //
 // No polynomial fits $r^{3/2}$ on a cell of size $h$ that holds this point. Its slope is wrong by about $h^{1/2}$
 // over an area $h^2$: that is $(h · h^2)^{1/2} = h^{3/2}$ in $H^1$, and $u$ on $Γ_C$ is wrong by $h^{3/2}$ too.
 // Where $w''$ jumps, the slope is wrong by $h$ over a length $h$ of Σ: $(h^2 · h)^{1/2}$ is the same order in $H^1$,
-// but on $Γ_C$ it is $h^2$. So on equal cells, with $N ∼ h^{-2}$ unknowns, one expects (this
-// counts sizes, and is no proof)
+// but on $Γ_C$ it is $h^2$. So on equal cells, with $N ∼ h^{-2}$ unknowns, one expects
+// (this counts sizes, and is no proof)
 //
 // $$ ‖u - u_h‖_h ≤ C h^{\min(p, 3/2)} ∼ N^{-\min(p/2, 3/4)}. $$
 //
