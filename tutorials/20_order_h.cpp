@@ -1,6 +1,6 @@
 // # Order h, whatever ε is
 //
-// Run: 20_order_h                six values of ε on four meshes to 1/h = 64; some ten seconds
+// Run: 20_order_h                six values of ε on four meshes to 64 cells; some ten seconds
 // Run: 20_order_h --cells 128    each mesh once more
 // Run: 20_order_h --exercise 1
 // Run: 20_order_h --exercise 2
@@ -10,8 +10,9 @@
 // [13](13_uniform.cpp) (the worst error over ε), [14](14_estimates.cpp) (flux, Falk's lemma),
 // [19](19_certificate.cpp) (energy norm $|v|_a$). Line by line each step is proved in [uniform_rate](uniform_rate.md).
 // :figure: column_and_row
-// **The picture.** The flux of $u$ in the layer is $(∂_x u, p)$. *Through a vertical edge flows $∂_x u$ alone, through
-// a slanted one a mixture with $p$.* Look at the row: which of its edges could give $∂_x u$ without $p$?
+// **The picture.** The flux of $u$ in the layer is $(∂_x u, p)$ with $p = ε^{-2} ∂_y u$. *Through a vertical edge flows
+// $∂_x u$ alone, through a slanted one a mixture with $p$.* Look at the row: which of its edges could give $∂_x u$
+// without $p$?
 //
 // **Predict.** (a) At ε = 0 the contact pressure jumps where contact ends, in the middle of an edge. Does the error of
 // CR on the structured mesh keep order 1 there? (b) Cut the layer into nearly equilateral triangles: once with
@@ -22,20 +23,23 @@
 //
 // Estimate (28) promises $C ε^{-2} h^{3/4}$. All runs so far show $h$, at every ε, where nothing locks. The paper
 // proves uniform convergence (Theorems 5 and 7) without an order. This chapter proves one. $‖f‖$ is the norm of the
-// load in $L^2(Ω^+)$. $h$ is the longest edge, here $\sqrt 2$ over the number of cells per unit side.
+// load in $L^2(Ω^+)$. In this chapter $h$ is the longest edge: on the structured mesh $\sqrt 2$ over the number of cells
+// per unit side.
 //
 // **Step 1: how smooth is $u$?** Let heat flow along $x$ for a time $t$, the sides held at 0: the result is $P_t u$.
 // Heat keeps $u ≥ 0$ on $Γ_C$. So $P_t u ∈ K$, and the inequality accepts it as a test function:
 // $a(u, u - P_t u) ≤ (f, u - P_t u)$. Divide by $t$ and let $t → 0$. Because $(u - P_t u)/t → -∂_{xx} u$, what comes
 // out is $X = a(∂_x u, ∂_x u) ≤ (f, -∂_{xx} u)$. Nothing was said about where contact ends. In the body
-// $∂_{yy} u = -f - ∂_{xx} u$. Complete the squares: this is *Theorem A*, for every ε from 0 to 1,
+// $∂_{yy} u = -f - ∂_{xx} u$. Square this and insert $X$. With $|u|_2$ for the norm of all second derivatives the result
+// is *Theorem A*, for every ε from 0 to 1,
 //
 // $$ |u|_{2,Ω^+}^2 + 2 F^2 ≤ ‖f‖^2,   F^2 = ‖∂_{xx} u‖^2 + ε^{-2} ‖∂_{xy} u‖^2 on Ω^-. $$
 //
 // **Step 2: half of the error costs one line.** $I_h u$ takes the means of $u$ over edges, so its gradient is the mean
 // of $∇u$ on each triangle. Hence $u - I_h u$ is orthogonal to $V_h$, and Pythagoras holds with $e = I_h u - u_h$:
-// $|u - u_h|_a^2 = |u - I_h u|_a^2 + |e|_a^2$. A function differs from its mean on a triangle by at most $h/π$ times its
-// gradient (Payne and Weinberger), so $|u - I_h u|_a ≤ (h/π) ‖f‖$ by Theorem A, *on every mesh*.
+// $|u - u_h|_a^2 = |u - I_h u|_a^2 + |e|_a^2$. A function differs from its mean on a triangle by at most $h/π$ times
+// its gradient, in the norm of $L^2$ (Payne and Weinberger). Use it for $∂_x u$ and $∂_y u$ in the body, for $∂_x u$
+// and $ε p$ in the layer: $|u - I_h u|_a ≤ (h/π) ‖f‖$ by Theorem A, *on every mesh*.
 //
 // **Step 3: the other half** is $|e|_a^2 ≤ a(u, e) - (f, e)$, because $I_h u ∈ K_h$. Let $σ_h$ have the mean fluxes of
 // $u$ through the edges: the *Raviart-Thomas interpolant*. Jumps of $e$ have mean 0, so $σ_h$ does no work on them.
@@ -48,16 +52,19 @@
 //
 // **Step 5: flux.** The layer has no load, so $σ_h$ is constant on a triangle. If one edge is vertical, its
 // $x$-component is the mean of $∂_x u$ over this edge. By Theorem A that is near the mean over the triangle. Without a
-// vertical edge $p$ enters, and then $‖∂_x p‖$ counts; Theorem A bounds only $ε ‖∂_x p‖$. *Theorem C:* if each layer
-// triangle has a vertical edge, $|u - u_h|_a ≤ C h ‖f‖$ for CR and P1; on the structured mesh $C = 1.7$ and $1.3$.
+// vertical edge $p$ enters, and then $‖∂_x p‖$ counts; Theorem A bounds only $ε ‖∂_x p‖$. *Theorem C:* on shape-regular
+// meshes (no angle tends to 0), if each layer triangle has a vertical edge, $|u - u_h|_a ≤ C h ‖f‖$ for CR and P1; on
+// the structured mesh $C = 1.7$ and $1.3$.
 //
 // ## Rows: one number in two roles
 //
-// Interpolate a bend $w(x)$ on rows of triangles with base $b$ and height $H$. By [chapter 06](06_p1_unstructured.cpp)
-// P1 gets the slope $-k w''$ on triangles that point up and $+k w''$ on the others, with the bending length
-// $k = b^2/(8H)$. For P1 this is an energy of bending $(k/ε)^2 ‖w''‖^2$: it locks. For CR multiply the slope by
-// $χ = ±1$ (up, down): $(χ ∂_y w, 0)$ is the gradient of an $e_h ∈ V_h$ that $a_0$ does not see. Test with it
-// (*Proposition E*): where $∂_{xx} u$ jumps by $J$, the part $S^-$ of $|e|_a$ in the layer is at least of size $|J| k^{3/4}$.
+// Interpolate a bend, a function $w$ that varies with $x$, on rows of triangles with base $b$ and height $H$. By
+// [chapter 06](06_p1_unstructured.cpp) P1 gets, beside $∂_y w$, the slope $-k w''$ on triangles that point up and
+// $+k w''$ on the others, with the bending length $k = b^2/(8H)$ and $w'' = ∂_{xx} w$. For P1 this is an energy of
+// bending $(k/ε)^2 ‖w''‖^2$: it locks. For CR multiply the slope by $χ = ±1$ (up, down): if $w = 0$ on Σ, on $Γ_C$ and
+// near the sides, $(χ ∂_y w, 0)$ is the gradient of an $e_h ∈ V_h$. The stiff form $a_0$ does not see it, because
+// $∂_y e_h = 0$. Test with it (*Proposition E*): where at ε = 0 $∂_{xx} u$ jumps by $J$, the part $S^-$ of $|e|_a$ in
+// the layer is at least of size $|J| k^{3/4}$ as $h → 0$.
 
 #include "backstage/20_order_h.hpp"
 
@@ -92,7 +99,8 @@ Table solve_both(const std::string& family, int cells, const std::vector<Exact>&
 double k_of_rows(int cells) { return std::lround(2 * cells / std::sqrt(3)) / (8.0 * cells * cells); }
 
 // Proposition E with a bend $w$ across the end $x^*$ of contact: $S^- ≥ |∫ χ ∂_x u ∂_y w| / ‖∂_y w‖$ for every $h$ and
-// every $w$ of compact support. This $w$ is the best one in $x$ of those that are $\sin πy$ in $y$.
+// every $w$ that is 0 on Σ, on $Γ_C$ and near the sides.
+// This $w$ is the best one in $x$ of those that are $\sin πy$ in $y$.
 double lower_bound(const Exact& exact, const TriangleMesh& mesh, int cells) {
   const double scale = std::sqrt(std::numbers::pi / k_of_rows(cells) / 2);
   const auto w = [&](int vertex) {
@@ -200,7 +208,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // (a) Yes: the line at ε = 0 is one of six that lie on each other, because on columns the proof never asks for $p$.
 // (b) P1 locks on rows, and keeps the share that the stiffness $(k/ε)^2$ predicts to three digits. CR does not lock,
 // but its part in the layer falls like $h^{0.8}$ on rows and like $h$ on columns. The whole error hides this at these
-// $h$, where the layer's part is small. So *order h on any mesh* is false, though the error looks like it.
+// $h$, where the layer's part is small. So *order h on any mesh at every ε* is false, though the error looks like it.
 // Proved: order $h$ on columns, 1/2 for CR on any shape-regular mesh, at most 3/4 on rows at ε = 0. Open: order $h$ on
 // meshes of gmsh. That P1's wall and CR's lost quarter are one number is derived for rows, a conjecture elsewhere.
 //
