@@ -74,21 +74,20 @@
 //
 // So all is well once $h ≪ ε$, as the paper says. That as much *is* lost, and that the height of the ridge follows the
 // same law within a factor of about 2, is observed on nine families of meshes ([chapter 15](15_promises.cpp)). On rows
-// of congruent triangles it is exact.
-// Without contact the ridge is $\sin a x$ with $a = 2π$, and $E$ has a closed form, $½ (a \coth a + a^2)$ per height 1,
-// the first part from the body. So
+// of congruent triangles it is exact in the limit $h → 0$. Without contact the ridge is $\sin a x$ with $a = 2π$, and
+// $E$ has a closed form, $½ (a \coth a + a^2)$ per height 1, the first part from the body. So
 //
 // $$ x = \frac{a^4}{a \coth a + a^2} \frac{k^2}{ε^2} = (5.84 \, k/ε)^2. $$
 //
 // Half of it is lost at $ε = 5.84 k$: call this ε the *wall* of the mesh, and $k$ its *bending length*.
 //
 // **What $k$ is.** In rows of triangles of base $h$ and height $H$ it is $h^2/(8 H)$: for the staggered mesh of chapter
-// 02 $h/8$. On gmsh's Delaunay mesh it is about $0.12 h$, and the wall stands at $ε ≈ 0.7 h$. gmsh's other
-// mesher, Frontal-Delaunay, made the mesh of this chapter. It begins at the boundary and fills the layer with triangles
-// that have a vertical edge, on which $k_T = 0$. The others are left along the boundary, no farther from it than a few $h$, and
-// the mean of $k_T^2$ has one more factor $h$: here $k$ is about $0.27 h^{3/2}$.
-// Refining moves the wall to smaller $ε$; it never gets to 0. So the supremum over $ε$ of the error does
-// not tend to 0: this is what *locking* means.
+// 02 $h/8$. On gmsh's Delaunay mesh it is about $0.12 h$, and the wall stands at $ε ≈ 0.7 h$. gmsh's other mesher,
+// Frontal-Delaunay, made the mesh of this chapter. It begins at the boundary and fills the layer with triangles that
+// have a vertical edge, on which $k_T = 0$. The others are left along the boundary, no farther from it than a few $h$,
+// and the mean of $k_T^2$ has one more factor $h$: here $k$ is about $0.27 h^{3/2}$. Refining moves the wall to smaller
+// $ε$. But on each of these meshes it stands at some $ε > 0$, and to the left of it nearly all is lost. So the supremum
+// over $ε$ of the error does not tend to 0: this is what *locking* means.
 
 #include "backstage/06_p1_unstructured.hpp"
 #include "antilock/analysis/locking.hpp"

@@ -22,9 +22,9 @@
 //
 // $V_h^{nc}$ are the functions that are affine on each triangle, continuous at the midpoints of the edges, and 0 at
 // those on $Γ_D$: one unknown per edge, three halves per triangle (P1: half a vertex per triangle). Such a function
-// jumps, so it is not in $V$: the method is *nonconforming*, while P1 is *conforming*. The picture shows one basis function
-// of each: P1's hat is 1 at a vertex and reaches over six triangles; that of Crouzeix-Raviart is 1 along an edge, reaches
-// over two triangles, and jumps at the other ends of both.
+// jumps, so it is not in $V$: the method is *nonconforming*, while P1 is *conforming*. The next picture shows one basis
+// function of each: P1's hat is 1 at a vertex and reaches over six triangles; that of Crouzeix-Raviart is 1 along an
+// edge, reaches over two triangles, and jumps at the other ends of both.
 //
 // :figure: basis
 //
@@ -37,9 +37,10 @@
 //
 // $$ ∫_T ∇ I_h v = ∑_{E ⊂ ∂T} n_E ∫_E I_h v = ∑_{E ⊂ ∂T} n_E ∫_E v = ∫_T ∇ v. $$
 //
-// *The gradient of $I_h v$ is the mean of the gradient of $v$.* So if $v$ has no slope in one direction, $I_h v$ has none
-// either, on whatever triangle: this one line is why the element does not lock. **Lemma 2** of the paper says: $K_h^{nc}$ approaches
-// $K$, and $K_{0h}^{nc} = K_h^{nc} ∩ G_h^{nc}$ approaches $K_0$. Its proof rests on three properties of $I_h$:
+// *The gradient of $I_h v$ is the mean of the gradient of $v$.* So if $v$ has no slope in one direction, $I_h v$ has
+// none either, on whatever triangle: this is why the element does not lock. **Lemma 2** of the paper says: $K_h^{nc}$
+// approaches $K$, and $K_{0h}^{nc} = K_h^{nc} ∩ G_h^{nc}$ approaches $K_0$. Its proof rests on three properties of
+// $I_h$:
 //
 // - If $v ∈ K_0$, then $∂_y v = 0$ in the layer, and so $∂_y I_h v = 0$ on its triangles, on every mesh: $B I_h v = 0$.
 // - If $v ≥ 0$ on $Γ_C$, so are its means: $I_h v ≥ 0$ at the midpoints. Hence $I_h$ maps $K_0$ into $K_{0h}^{nc}$.
@@ -47,9 +48,9 @@
 //
 // $$ ‖v - I_h v‖_{1,Ω_h} ≤ C h (|v|_{2,Ω^+} + |v|_{2,Ω^-}). \tag{32} $$
 //
-// Every function of $K$ or $K_0$ is a limit of smooth ones, so the first half of "approaches" follows (chapter 05).
-// The second half, on weak limits, is checked in [chapter 12](12_contact_sets.cpp). Theorem 4 asks for two more things of
-// methods that jump, which [chapter 14](14_estimates.cpp) checks. With all of them it applies, and asks nothing of the mesh
+// Every function of $K$ or $K_0$ is a limit of smooth ones, so the first half of "approaches" follows (chapter 05). The
+// second half, on weak limits, is checked in [chapter 12](12_contact_sets.cpp). Theorem 4 asks for two more things of
+// methods that jump, which [chapter 14](14_estimates.cpp) checks. With these it applies, and asks nothing of the mesh
 // but good angles:
 //
 // $$ \lim_{h→0} \sup_{0<ε≤1} ‖u^ε - u_h^{nc,ε}‖_{1,Ω_h} = 0.   \text{(Theorem 7)} $$

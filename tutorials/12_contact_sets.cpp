@@ -46,15 +46,17 @@
 //
 // $$ ‖\min(v_h, 0)‖_{L^2(Γ_C)} ≤ c_h ‖v_h‖_h,   c_h ∼ h^{1/2}. $$
 //
-// So in a bounded sequence the part below 0 vanishes. And where $v_h → v$ weakly, the values on $Γ_C$ converge to those of
-// $v$ (the trace keeps weak limits). So $v ≥ 0$ on $Γ_C$: $v$ is in $K$. The $c_h$ of the run comes from an eigenvalue: the
-// largest ratio of the two sides, with the distance to the mean on the left (P2: to the two chords). It is found over all
-// of $V_h$, so it is an upper bound. The function of the picture shows that it is no idle one: it is the worst of those
-// that are 0 at all midpoints. Half of it lies below 0, so the left side is $2^{-1/2}$ times the distance to the mean.
+// So in a bounded sequence the part below 0 vanishes. And where $v_h → v$ weakly, the values on $Γ_C$ converge to those
+// of $v$ (the trace keeps weak limits). So $v ≥ 0$ on $Γ_C$: $v$ is in $K$. The $c_h$ of the run comes from an
+// eigenvalue: the largest ratio of the two sides, with the distance to the mean on the left (P2: to the two chords). It
+// is found over all of $V_h$, so it is an upper bound. The function of the picture shows that functions of $K_h$ come
+// near this bound: it is the worst of those that are 0 at all midpoints. Half of it lies below 0, so the left side is
+// $2^{-1/2}$ times the distance to the mean.
 //
 // **(9) for $K_0$: a slope that hides in jumps.** A weak limit $v$ of functions of $K_{0h}$ must not vary across the
-// layer, either. In the language of weak limits: $∫ v ∂_y φ = 0$ for each smooth $φ$ that is 0 around the layer. Put
-// $v_h$ there, and integrate by parts on each triangle, where $∂_y v_h = 0$. What is left stands on the edges,
+// layer, either. In the language of weak limits: $∫ v ∂_y φ = 0$ for each smooth $φ$ that is 0 on the boundary of the
+// layer. Put $v_h$ there, and integrate by parts on each triangle, where $∂_y v_h = 0$. What is left stands on the
+// edges,
 //
 // $$ ∫ v_h ∂_y φ = ∑_E ∫_E [v_h] φ n_y, $$
 //

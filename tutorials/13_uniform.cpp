@@ -31,8 +31,9 @@
 //
 // $$ L(N) = \frac{\sup_ε E(ε, N)}{E(1, N)}. $$
 //
-// If it is bounded, the method is robust. If it grows, but more slowly than $E(1, N)$ falls, the method is free of locking
-// without being robust. (They take the supremum over a ball of loads too: [chapter 17](17_families_of_loads.cpp).)
+// If it is bounded, the method is robust. If it grows, but more slowly than $E(1, N)$ falls, the method is free of
+// locking without being robust. (They take the supremum over a family of problems, too:
+// [chapter 17](17_families_of_loads.cpp).)
 //
 // ## Away from 0, and near it
 //
