@@ -202,9 +202,11 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 // ## What came out
 //
 // (a) $9n^2$ unknowns for $12n^2$ conditions. One point leaves nothing free, $\dim G_h = 0$. The beam has one condition
-// per cell for two unknowns, the plate two per triangle for one and a half. (b) $27n^2$ unknowns less $12n^2$ conditions: $15n^2 - 9n + 2$ = 3698 functions for $n = 16$.
-// Durán–Liberman leaves three per vertex off the rim, 2163. At $t = 0$ P1 keeps nothing: its error is all of $w$, 1.08.
-// It fails the patch test, by 0.19 and 0.39; the cures pass it to 6e-15.
+// per cell for two unknowns, the plate two per triangle for one and a half.
+//
+// (b) $27n^2$ unknowns less $12n^2$ conditions: $15n^2 - 9n + 2$ = 3698 functions for $n = 16$. Durán–Liberman leaves
+// three per vertex off the rim, 2163. At $t = 0$ P1 keeps nothing: its error is all of $w$, 1.08. It fails the patch
+// test, by 0.19 and 0.39; the cures pass it to 6e-15.
 //
 // :output: Duran-Liberman:
 //
@@ -212,9 +214,10 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 //
 // The largest error over $t ≤ 0.1$ falls like $h^{1.92}$ to $h^{1.98}$. Durán–Liberman's is 1.40 times what interpolation
 // misses, Arnold–Falk's 1.59 times, with 4419 and 6770 unknowns at 16 rings. At one fixed $t$ the orders scatter, because
-// the edge of the contact disc lies now near a ring, now between two. At the unknowns alone they scatter most: Durán–Liberman
-// is far more exact at the vertices than between them, as long as no edge of contact is near, and CR's value at a
-// midpoint is near the mean of $w$ over that edge, which is not $w$ at the midpoint. The $L^2$ norm does not ask where the unknowns are.
+// the edge of the contact disc lies now near a ring, now between two. At the unknowns alone they scatter most:
+// Durán–Liberman is far more exact at the vertices than between them, as long as no edge of contact is near, and CR's
+// value at a midpoint is near the mean of $w$ over that edge, which is not $w$ at the midpoint. The $L^2$ norm does not
+// ask where the unknowns are.
 //
 // ## Exercises
 //
