@@ -105,8 +105,8 @@ Groups tied(const TriangleMesh& mesh) {
   return found;
 }
 
-// The same by other means: the dimension of $G_h$ on the layer is the rank of a matrix whose rows are $∂_y$ on each
-// triangle, subtracted from the number of its columns (chapter 07). It knows nothing of groups.
+// The same by other means. Let a matrix compute $∂_y v$, one row per triangle of the layer, one column per unknown. The
+// dimension of $G_h$ on the layer is its number of columns less its rank (chapter 07). This count knows no groups.
 int kernel_on_layer(const TriangleMesh& mesh) {
   return layer_kernel_dimension(
       assemble(Scene(Body{paper_load}, StiffLayer{0}, UnilateralContact{}), Space(mesh, p1())));

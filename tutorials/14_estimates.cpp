@@ -69,7 +69,7 @@
 // *Theorem 3:* if $K_h$ approaches $K$ and the two hypotheses below hold, then $u_h → u$ (Remark 3: known before for
 // conforming methods). The first infimum tends to 0, because $K_h$ comes near $u$, (8). The $u_h$ are bounded, so a
 // subsequence has a weak limit, and by (H0nc) and (9) it lies in $K$. It solves the problem, so it is $u$. Then
-// $R(u_h) → R(u) = 0$, and the second infimum tends to 0 as well.
+// $R(u_h)$, the work of fixed forces, tends to $R(u) = 0$, and the second infimum tends to 0 as well.
 //
 // *(H1nc), coercive:* $a_1 + a_0$ is at least $α$ times the square of the full broken norm, and $α$ does not depend on
 // $h$. On $V$ the form is $∫ |∇v|^2$. A function that is 0 on all sides of $Ω$ except the lower one has
@@ -79,9 +79,9 @@
 //
 // *(H0nc), weak limits lie in $V$:* functions that jump could tend to a function that jumps. They must not, so the work
 // of every smooth flux on the jumps of bounded $v_h$ must tend to 0. The flux of $u$ itself is such a test, and the run
-// takes the worst $w_h$ of norm 1. Where this flux is smooth the work is of the order $h$. At ε = 0 the stress $p$ jumps
-// where contact ends. On a mesh that is coarse against ε it looks as if it jumped, and near that point the order is
-// smaller, with a small factor.
+// takes the worst $w_h$ of norm 1. Where this flux is smooth the work is of the order $h$. At ε = 0 the stress $p$
+// jumps where contact ends. For small ε it changes steeply there. A mesh with $h$ above ε does not resolve this and
+// sees a jump, and near that point the order is smaller, with a small factor.
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/nearest.hpp"

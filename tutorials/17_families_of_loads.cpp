@@ -87,10 +87,10 @@
 //
 // **With contact** twice the load still gives twice the error, since $K$ is a cone. For P1 that locks completely
 // ($u_h = 0$ on the layer) chapter 00's expansion of $J$, with $v = u_h$ and $t = 1$, says
-// $½ |u - u_h|_a^2 ≤ J(u_h) - J(u)$. Without an obstacle $=$ stands there. The obstacle raises $J(u)$ and leaves $u_h$:
-// the supremum is no larger than without it. And it is no smaller than the loss under one load that lifts the whole
-// layer, $2 \sin πx \cos(πy/2)$ (proved, both). For the other methods the run climbs over loads of four waves with this
-// profile: a *lower bound*.
+// $½ |u - u_h|_a^2 ≤ J(u_h) - J(u)$. Without an obstacle $=$ stands there. The obstacle raises $J(u)$, since fewer
+// displacements are allowed, and does not change $u_h$, which is 0 on $Γ_C$ anyway. So the supremum is no larger than
+// without it. And it is no smaller than the loss under one load that lifts the whole layer, $2 \sin πx \cos(πy/2)$
+// (proved, both). For the other methods the run climbs over loads of four waves with this profile: a *lower bound*.
 
 #include "backstage/17_families_of_loads.hpp"
 #include "antilock/analysis/load_ascent.hpp"
