@@ -13,9 +13,9 @@
 // unknowns on each rank (weak scaling). *Where each rank owns whole columns of the layer, the iterations hardly grow
 // with the ranks.* The third curve is prediction (a).
 //
-// **Predict.** (a) The triangles are dealt out in squares, as on a chessboard, so that columns are cut. By what
-// factor do the iterations grow on four ranks, and why? (b) PETSc has a solver of its own for variational inequalities. It is given the
-// summed matrix $A_1 + ε^{-2} B' M B$ at ε = 1e-6. What does it answer?
+// **Predict.** (a) The triangles are dealt out in squares, as on a chessboard, so that columns are cut. By what factor
+// do the iterations grow on four ranks, and why? (b) PETSc has a solver of its own for variational inequalities. It is
+// given the summed matrix $A_1 + ε^{-2} B' M B$ at ε = 1e-6. What does it answer?
 //
 // ## Why the factor stops, and what replaces it
 //
@@ -26,8 +26,9 @@
 // The iterated penalty needs $K^{-1}$ on residuals alone. Each correction repairs what the last one left over, and that
 // includes what a careless solve with $K$ left over. So four digits per correction are enough. Conjugate gradients give
 // them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it reads from $K$ which unknowns hang together,
-// merges them into a coarser problem, and so on until one is left that is solved at once. Contact set and penalty are corrected in one loop. What is left over is formed from $A_1$, $B$, $M$
-// and $p$, not from $K$, since $K$ has lost digits (chapter 18):
+// merges them into a coarser problem, and so on until one is left that is solved at once. Contact set and penalty are
+// corrected in one loop. What is left over is formed from $A_1$, $B$, $M$ and $p$, not from $K$, since $K$ has lost
+// digits (chapter 18):
 //
 // $$ r_1 = L - A_1 u - B' M p,   r_2 = ε^2 p - B u. $$
 //

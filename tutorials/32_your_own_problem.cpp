@@ -152,9 +152,9 @@ void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Ta
 
 // ## What came out
 //
-// (a) None but 0, on any mesh: the energy is 0 in place of -10.667. (b) $n$, and $2n$ on the finer mesh: the truth is met, up to
-// what P1 misses on one string of tension 2, $q^2 h^2 c/24$. Strings held 0.1 apart have no solution at ε = 0: the solver
-// refuses, and says why.
+// (a) None but 0, on any mesh: the energy is 0 in place of -10.667. (b) $n$, and $2n$ on the finer mesh: the truth is
+// met, up to what P1 misses on one string of tension 2, $q^2 h^2 c/24$. Strings held 0.1 apart have no solution at
+// ε = 0: the solver refuses, and says why.
 //
 // ## Exercises
 //
