@@ -7,7 +7,7 @@
 // [13](13_uniform.cpp) for Theorem 4, [14](14_estimates.cpp) for coercivity.
 //
 // **The picture.** P1 on the mesh on which it locks, but the strain $∂_y u$ is averaged before it is squared.
-// *Means over boxes of side $2h$ cure locking, if half of $a_0$ is kept as it is. Each other choice misses one
+// *Means over boxes of side $2h$ cure locking, if half of $a_0$ is kept as it is. Each other average shown misses one
 // hypothesis of Theorem 4.*
 //
 // **Predict.** (a) The fewer conditions are asked, the less a method locks. What goes wrong if $∂_y u$ is averaged over
