@@ -24,8 +24,8 @@ const std::vector<tutorial::Exercise> exercises{
      "one per column, as before: diagonals tie within a column, vertical lines part the columns",
      [](const tutorial::Options& options, tutorial::Report& report) {
        for (const Diagonal diagonal : {Diagonal::left, Diagonal::crossed})
-         report.claim_within(tied(structured_mesh(options.cells, {}, diagonal)).count, options.cells,
-                             options.cells, "groups:");
+         report.claim_within(tied(structured_mesh(options.cells, {}, diagonal)).count, options.cells, options.cells,
+                             "groups:");
      }}};
 
 // ## Answers on paper

@@ -22,8 +22,9 @@ void print_solution(const Space& space, const VariationalInequality& problem, co
 
 /// The three of them for one solved scene: prints how it was solved, what it says of its own locking, and its errors;
 /// writes its files.
-void present(const std::filesystem::path& out, const Scene& scene, const Space& space, const VariationalInequality& problem,
-             const Solution& solution, const std::string& what, const Errors& errors);
+void present(const std::filesystem::path& out, const Scene& scene, const Space& space,
+             const VariationalInequality& problem, const Solution& solution, const std::string& what,
+             const Errors& errors);
 
 /// Prints the errors in every norm, absolute.
 void print_errors(const std::string& what, const Errors& errors);

@@ -4,9 +4,9 @@
 #include <limits>
 
 #include "antilock/distributed/ranks.hpp"
+#include "antilock/solve/detail/kkt_rows.hpp"
 #include "antilock/solve/iterated_penalty.hpp"
 #include "antilock/solve/kkt.hpp"
-#include "antilock/solve/detail/kkt_rows.hpp"
 
 namespace antilock::distributed {
 namespace {
