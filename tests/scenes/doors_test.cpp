@@ -122,6 +122,16 @@ TEST_F(Door, JudgeLiftsAnAnswerOutOfTheObstacleAndSaysSo) {
                            in_shell(folder / "u.csv") + " --accuracy 0.2");
   ASSERT_EQ(told.status, 0) << told.err;
   EXPECT_NE(told.out.find("for the way into K"), std::string::npos) << told.out;
+  EXPECT_EQ(told.out.find("this answer is not it"), std::string::npos) << told.out;
+  // half of the right answer is off by half of |u|_a = 0.94, more than 1.3 h |f| on cells of 1/32
+  const TriangleMesh fine = structured_mesh(32);
+  const Space fine_space(fine, p1());
+  write_msh(folder / "mesh.msh", fine);
+  hand_in(folder / "u.csv", fine_space,
+          active_set(assemble(Scene({paper_load}, StiffLayer{0.1}, UnilateralContact{}), fine_space)).u / 2);
+  const Outcome half = ask("judge " + file("scene.toml", scene(0.1)) + " " + in_shell(folder / "mesh.msh") + " " +
+                           in_shell(folder / "u.csv") + " --accuracy 0.2");
+  EXPECT_NE(half.out.find("this answer is not it"), std::string::npos) << half.out;
 }
 
 TEST_F(Door, SweepIsTheSceneAskedAgainAndAgain) {
