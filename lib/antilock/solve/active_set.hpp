@@ -13,7 +13,7 @@ struct ActiveSetOptions {
   CorrectionOptions corrections;
   std::optional<double> penalty;              ///< delta where compliance is smaller; empty: choose_penalty
   ContactRoad road = ContactRoad::automatic;  ///< of the factor, where the solver makes it
-  int max_steps = 10'000;                     ///< of the contact iteration, per correction; reached: NotConverged
+  int max_steps = 1000;                       ///< of the contact iteration, a correction; reached: NotConverged
   std::optional<Pieces> start;                ///< C: pieces to start from; empty: the nested start
 };
 

@@ -48,8 +48,7 @@ ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const s
     }
     Equilibrium now = system.solve(held, given);
     const std::vector<Move> wrong = moves(stairs, pieces, now);
-    if (getenv("DBG")) fmt::print(stderr, "{}:{} ", wrong.size(), left);
-    const bool fewer = (left > 0 ? 1 : 2) * wrong.size() < fewest;  // a try with all undoes hundreds of single moves
+    const bool fewer = wrong.size() < fewest;
     left = fewer ? patience : left - 1;
     if (fewer) fewest = wrong.size(), tried.clear();
     if (wrong.empty() || (left <= 0 && nested && !tried.insert(pieces).second)) {

@@ -38,7 +38,7 @@ struct ContactAnswer {
 ///     a bound that leaves its piece at an end by more than round-off should be on the next piece beyond that end
 ///     none does: that is the answer
 ///     the number of such bounds has fallen within the last `patience` steps: move all of them
-///     else: move the first of them alone, until the number has halved
+///     else: move the first of them alone
 ///
 /// (J. J. Judice and F. M. Pires, Computers & Operations Research 21 (1994); K. G. Murty, Opsearch 11 (1974).)
 ///
