@@ -72,7 +72,7 @@
 
 #include "backstage/13_uniform.hpp"
 #include "antilock/analysis/nearest.hpp"
-#include "common/limit_problem.hpp"
+#include "antilock/exact/truth_distance.hpp"
 #include "common/study.hpp"
 #include "common/supremum.hpp"
 
@@ -139,7 +139,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<Exact> truth = tutorial::exact_solutions(dense(), 14);  // gradients to 1e-6, errors are 1e-2
   Table map(columns), restricted({"from", "h", "worst"});
   Table side_by_side({"method", "dist(u^0, K_0h)", "order", "sup error", "order in h", "in N", "locking ratio"});
-  const double lost = tutorial::limit_on_layer(truth.back().truth);
+  const double lost = layer_norm(truth.back().truth);
   std::vector<Method> all = methods({&crouzeix_raviart(), &p1()});
   for (const char* family : {"delaunay", "staggered"}) all.push_back({&p1(), mesh_family(family)});
   std::vector<std::pair<Method, Table>> found;

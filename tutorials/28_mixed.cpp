@@ -76,9 +76,9 @@
 #include "backstage/28_mixed.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/nearest.hpp"
+#include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/problem/projected.hpp"
-#include "common/limit_problem.hpp"
 #include "common/study.hpp"
 #include "common/supremum.hpp"
 
@@ -154,7 +154,7 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
   const auto sup = [&](const char* name) { return tutorial::supremum(layer.where("name", name), "h1", "epsilon"); };
   const auto orders = [](const Table& rows, const char* what) { return tutorial::supremum(rows, what, "epsilon"); };
   // What has no function on the layer loses all of $u^0$ there.
-  const double lost = tutorial::limit_on_layer(limit);
+  const double lost = layer_norm(limit);
   for (const char* name : {"P1 as it is", "patches (half kept)"})
     report.claim(of(name).least("near") > lost && of(name).least("h1") > lost && of(name).last("h1") < 1.25 * lost,
                  "(observed) {}: (ii) fails, u^0 stays {:.3f} away; so does the worst error, {:.3f}: |u^0| on the "
