@@ -66,7 +66,8 @@ gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.m
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
 render surface DIR/solution.vtu --out picture.png
 In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
-blas is the library of dense linear algebra, its kernels and threads;
+blas is the library of dense linear algebra, its kernels and threads (where OpenBLAS does not know the CPU and falls
+back to old kernels, the program starts again with wider ones; ANTILOCK_KEEP_KERNELS=1 leaves them);
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
 motion that is lost at least (proved, for P1 and P2 in a layer without columns), kept is 1 - lost_energy;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
@@ -132,8 +133,16 @@ Solution solve(const VariationalInequality& problem, const MethodRequest& method
 /// Both texts, or the one that is not empty.
 std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : "; ") + b; }
 
+/// What the command line asks for beside the scene.
+struct Asked {
+  std::filesystem::path out;
+  std::string files = "summary,csv,mesh,vtu";
+  double most_seconds = std::numeric_limits<double>::infinity();
+  bool restart = false, direct = false;
+};
+
 /// What the layer says of locking joins the warnings; all is written, and the warnings are printed.
-void told(const std::filesystem::path& out, const SceneFile& file, Answer& answer, tutorial::Report& report,
+void told(const Asked& asked, const SceneFile& file, Answer& answer, tutorial::Report& report,
           const CertifiedSolution* certified = nullptr) {
   Stopwatch watch;
   std::optional<LayerReport> layer = report_layer(file.scene, answer.space, answer.problem, answer.solution);
@@ -142,16 +151,16 @@ void told(const std::filesystem::path& out, const SceneFile& file, Answer& answe
   report.stage("files");
   SceneSummary summary = summary_of(file, answer);
   summary.layer = std::move(layer);
-  write_scene_results(out, file, answer, summary, certified);
+  write_scene_results(asked.out, file, answer, summary, certified, result_files(asked.files));
   report.finish();
   if (!answer.warning.empty()) fmt::print("  warning: {}\n", answer.warning);
-  const std::string name = (out / "solution").string();
-  fmt::print("  a picture of it: render surface {0}.vtu --out {0}.png\n", name);
+  const std::string name = (asked.out / "solution").string();
+  if (result_files(asked.files).vtu) fmt::print("  a picture of it: render surface {0}.vtu --out {0}.png\n", name);
 }
 
 /// An accuracy is asked for: the mesh is the first one, and every level says how far it came.
-void answer_certified(const SceneFile& file, const TriangleMesh& first, const std::filesystem::path& out,
-                      tutorial::Report& report, double mesh_seconds, double most_seconds) {
+void answer_certified(const SceneFile& file, const TriangleMesh& first, const Asked& asked, tutorial::Report& report,
+                      double mesh_seconds) {
   const Stopwatch watch;
   const MethodRequest& method = file.method;
   report.stage(fmt::format("solve to a relative error of {:g}", *method.accuracy));
@@ -160,7 +169,7 @@ void answer_certified(const SceneFile& file, const TriangleMesh& first, const st
                                                                       level.quoted_unknowns, level.quoted_seconds)
                                                         : "";
     fmt::print("\n    {} unknowns: proved {:.3g}{}", level.unknowns, level.relative, quote);
-    if (watch.seconds() > most_seconds && level.relative > *method.accuracy)
+    if (watch.seconds() > asked.most_seconds && level.relative > *method.accuracy)
       throw NotConverged(fmt::format("stopped after {:.1f} s: proved {:.3g} with {} unknowns, asked for {:g}",
                                      watch.seconds(), level.relative, level.unknowns, *method.accuracy),
                          level.relative, 0);
@@ -180,26 +189,26 @@ void answer_certified(const SceneFile& file, const TriangleMesh& first, const st
   const double factor = spent.analyse + spent.factor;
   found.cr.seconds = {mesh_seconds, 0, factor, watch.seconds() - factor};
   found.cr.warning = joined(found.cr.warning, polygon_warning(file, first));
-  told(out, file, found.cr, report, &found);
+  told(asked, file, found.cr, report, &found);
   fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
-             found.certificate.relative(method.of), found.history.size(), found.cr.space.free_count(), out.string());
+             found.certificate.relative(method.of), found.history.size(), found.cr.space.free_count(),
+             asked.out.string());
 }
 
-void answer(const std::filesystem::path& scene, const std::filesystem::path& out, tutorial::Report& report,
-            bool for_petsc, double most_seconds, char** argv) {
+void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Report& report, char** argv) {
   Stopwatch watch;
   RunSeconds seconds;
   const SceneFile file = read_scene_file(scene);
-  check_solver(file, for_petsc, argv);
-  check_folder(out);
-  check_inputs_stay(out, scene, file);
+  check_solver(file, asked.restart || asked.direct, argv);
+  check_folder(asked.out);
+  check_inputs_stay(asked.out, scene, file);
   fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
 
   report.stage("mesh");
   const auto mesh = std::make_shared<const TriangleMesh>(make_mesh(file));
   seconds.mesh = watch.lap();
 
-  if (file.method.accuracy) return answer_certified(file, *mesh, out, report, seconds.mesh, most_seconds);
+  if (file.method.accuracy) return answer_certified(file, *mesh, asked, report, seconds.mesh);
 
   report.stage(fmt::format("assembly: {} on {} triangles", file.method.element, mesh->triangle_count()));
   const Space space(*mesh, element(file.method.element));
@@ -211,7 +220,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
 
   report.stage(fmt::format("solve: {}, {} unknowns", file.method.solver, answer.problem.free_count()));
   try {
-    answer.solution = solve(answer.problem, file.method, follower(most_seconds));
+    answer.solution = solve(answer.problem, file.method, follower(asked.most_seconds));
   } catch (const NotConverged& failure) {
     throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
   }
@@ -219,9 +228,9 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   answer.warning = joined(joined(solution.warning, load), gap_warning(file, space, solution));
   answer.seconds.factor = solution.seconds.analyse + solution.seconds.factor;
   answer.seconds.solve = watch.lap() - answer.seconds.factor;
-  told(out, file, answer, report);
+  told(asked, file, answer, report);
   fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", solution.u.minCoeff(),
-             solution.u.maxCoeff(), solution.counters.contact, solution.counters.corrections, out.string());
+             solution.u.maxCoeff(), solution.counters.contact, solution.counters.corrections, asked.out.string());
 }
 
 int fail(const std::string& message, int status) {
@@ -238,25 +247,27 @@ int main(int argc, char** argv) {
   tutorial::CommandLine line(
       "Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
       "run_scene");
-  std::filesystem::path scene, out;
-  bool restart = false, direct = false;
-  double most_seconds = std::numeric_limits<double>::infinity();
+  std::filesystem::path scene;
+  Asked asked;
   line.add_required("SCENE", scene, "the scene file, in TOML");
-  line.add("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  line.add("--direct", direct, "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
-  line.add("--restart", restart, "with solver = \"petsc\": start from the last level of a run that was ended");
-  line.add("--most-seconds", most_seconds, "stop a solve that takes longer: status 3, and how far it came", 0,
+  line.add("--out", asked.out, "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.add("--files", asked.files, "which files to write: any of summary, csv, mesh, vtu, with commas between them");
+  line.add("--direct", asked.direct,
+           "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
+  line.add("--restart", asked.restart, "with solver = \"petsc\": start from the last level of a run that was ended");
+  line.add("--most-seconds", asked.most_seconds, "stop a solve that takes longer: status 3, and how far it came", 0,
            std::numeric_limits<double>::infinity());
   line.footer(help);
   if (const auto status = line.parse(argc, argv)) return *status;
-  if (!line.given("--out")) out = std::filesystem::path("results") / scene.stem();
+  if (!line.given("--out")) asked.out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
     report.finish();  // the line of the stage that did not end
     return fail(message, status);
   };
   try {
-    answer(scene, out, report, restart || direct, most_seconds, argv);
+    result_files(asked.files);  // a name that is none is refused before the work
+    answer(scene, asked, report, argv);
   } catch (const NotConverged& failure) {
     return failed(failure.what(), 3);
   } catch (const std::bad_alloc&) {

@@ -7,7 +7,10 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "antilock/core/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -196,18 +199,45 @@ TEST(Results, NameTheWholeQuestion) {
   EXPECT_TRUE(told["layer"].is_null() && told["gap"].is_null());
 }
 
+/// What summary.json says of the BLAS, in an environment of the program's own.
+nlohmann::json blas_used(const std::vector<std::pair<std::string, const char*>>& environment) {
+  std::vector<std::pair<std::string, std::optional<std::string>>> before;
+  const auto set = [](const std::string& name, const char* value) {
+    value ? ::setenv(name.c_str(), value, 1) : ::unsetenv(name.c_str());
+  };
+  for (const auto& [name, value] : environment) {
+    const char* now = std::getenv(name.c_str());
+    before.emplace_back(name, now ? std::optional<std::string>(now) : std::nullopt);
+    set(name, value);
+  }
+  const SceneRun run(scene(contact, structured(4)));
+  for (const auto& [name, value] : before) set(name, value ? value->c_str() : nullptr);
+  return run.summary()["blas"];
+}
+
 // OpenBLAS takes the kernels that OPENBLAS_CORETYPE names, and any x86-64 executes those of Prescott.
 TEST(Results, NameTheKernelsInUse) {
   if (blas().kernel.empty()) GTEST_SKIP() << "another BLAS than OpenBLAS";
-  const char* const given = std::getenv("OPENBLAS_CORETYPE");
-  const std::string before = given ? given : "";
-  ::setenv("OPENBLAS_CORETYPE", "Prescott", 1);
-  const SceneRun run(scene(contact, structured(4)));
-  given ? ::setenv("OPENBLAS_CORETYPE", before.c_str(), 1) : ::unsetenv("OPENBLAS_CORETYPE");
-  const auto used = run.summary()["blas"];
+  const auto used = blas_used({{"OPENBLAS_CORETYPE", "Prescott"}});
   EXPECT_EQ(used["kernel"], "Prescott");
   EXPECT_EQ(used["name"], blas().name);
   EXPECT_GE(used["threads"].get<int>(), 1);
+}
+
+TEST(Results, AProgramOfAYoungCpuStartsAgainWithWiderKernelsUnlessToldNotTo) {
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__)  // which is preloaded itself
+  if (blas().kernel.empty() || !__builtin_cpu_supports("avx")) GTEST_SKIP() << "no kernels wider than the oldest";
+  const auto used =
+      blas_used({{"LD_PRELOAD", OLD_OPENBLAS}, {"OPENBLAS_CORETYPE", nullptr}, {"OPENBLAS_NUM_THREADS", nullptr}});
+  EXPECT_NE(used["kernel"], "Prescott");
+  EXPECT_EQ(used["threads"], 1);
+  EXPECT_EQ(
+      blas_used(
+          {{"LD_PRELOAD", OLD_OPENBLAS}, {"OPENBLAS_CORETYPE", nullptr}, {"ANTILOCK_KEEP_KERNELS", "1"}})["kernel"],
+      "Prescott");
+#else
+  GTEST_SKIP() << "known of x86-64 alone, and not under AddressSanitizer";
+#endif
 }
 
 TEST(Results, SecondsAddUpToTheWallTime) {
@@ -360,6 +390,22 @@ TEST(Results, AZeroLoadHasAZeroAnswer) {
   ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
   EXPECT_EQ(run.summary()["u_max"].get<double>(), 0.0);
   expect_interface(run.results);
+}
+
+TEST(Results, AreThoseThatAreAskedForAndThoseOfAnEarlierRunGo) {
+  const SceneRun whole(scene(layer("1e-3") + contact, structured(4)));
+  const auto again = [&](const std::string& files) {
+    return run_scene(in_shell(whole.scene_path) + " --out " + in_shell(whole.results.string()) + " --files " + files,
+                     whole.output);
+  };
+  const Outcome refused = again("csv,pdf");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_EQ(refused.err, "--files: \"pdf\" is none of the files; accepted: summary, csv, mesh, vtu, with commas\n");
+  EXPECT_EQ(files(whole.results).size(), 5U);
+  EXPECT_EQ(again("mesh,csv").status, 0);
+  EXPECT_EQ(files(whole.results), (Keys{"summary.json", "solution.csv", "contact.csv", "mesh.msh"}));
+  EXPECT_EQ(again("summary").status, 0);
+  EXPECT_EQ(files(whole.results), Keys{"summary.json"});
 }
 
 TEST(Results, OfAnEarlierSceneAreReplacedAndTheTableOfAnAbsentContactGoes) {

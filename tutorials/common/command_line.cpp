@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "antilock/io/expression.hpp"
+#include "common/hand_over.hpp"
 
 namespace antilock::tutorial {
 
@@ -59,6 +60,7 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
   }
   for (const auto& [option, value] : numbers_)  // NaN is in any range for CLI11
     if (std::isnan(*value)) return refuse(option + ": nan; accepted: a number");
+  choose_kernels(argv);
   return std::nullopt;
 }
 

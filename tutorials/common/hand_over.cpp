@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "antilock/core/blas.hpp"
+
 namespace antilock::tutorial {
 namespace {
 
@@ -25,7 +27,15 @@ void become(const std::string& program, char** argv) {
   const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
   if (error) return;
   std::fflush(nullptr);
-  execv((self.parent_path() / program).c_str(), argv);
+  execv((program.empty() ? self : self.parent_path() / program).c_str(), argv);
+}
+
+void choose_kernels(char** argv) {
+  const std::string wider = blas().wider;
+  if (wider.empty() || std::getenv("OPENBLAS_CORETYPE") || std::getenv("ANTILOCK_KEEP_KERNELS")) return;
+  setenv("OPENBLAS_CORETYPE", wider.c_str(), 0);
+  setenv("OPENBLAS_NUM_THREADS", "1", 0);
+  become("", argv);
 }
 
 }  // namespace antilock::tutorial

@@ -8,7 +8,14 @@ namespace antilock::tutorial {
 int launched_rank();
 int launched_ranks();
 
-/// Becomes the program of that name beside this one, with the same arguments. Returns where there is none.
+/// Becomes the program of that name beside this one (this one again, where it is empty), with the same arguments.
+/// Returns where there is none.
 void become(const std::string& program, char** argv);
+
+/// OpenBLAS knows CPUs by model number, and gives kernels of 2004 to one that is younger than itself: the factor then
+/// takes 1.6 times as long. Where blas().wider is known, the program starts again with those kernels, and with one
+/// thread of the BLAS (two were no faster: they wait for each other by spinning). Returns where there is nothing to
+/// gain, where OPENBLAS_CORETYPE is set, and where ANTILOCK_KEEP_KERNELS asks to leave the kernels as they are.
+void choose_kernels(char** argv);
 
 }  // namespace antilock::tutorial

@@ -17,7 +17,8 @@ void write_csv(const std::filesystem::path& path, const std::vector<std::string>
     Text text(out);
     text.print("{}\n", fmt::join(header, ","));
     for (Eigen::Index i = 0; i < rows.rows(); ++i)
-      for (Eigen::Index j = 0; j < rows.cols(); ++j) text.print("{}{}", rows(i, j), j + 1 < rows.cols() ? ',' : '\n');
+      for (Eigen::Index j = 0; j < rows.cols(); ++j)
+        text.print(FMT_COMPILE("{}{}"), rows(i, j), j + 1 < rows.cols() ? ',' : '\n');
   });
 }
 

@@ -64,16 +64,16 @@ void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh) {
     for (const Group& group : names) text.print("{} {} \"{}\"\n", group.dimension, group.number, group.name);
     text.print("$EndPhysicalNames\n$Nodes\n{}\n", mesh.vertex_count());
     for (int v = 0; v < mesh.vertex_count(); ++v)
-      text.print("{} {} {} 0\n", v + 1, mesh.vertices(v, 0), mesh.vertices(v, 1));
+      text.print(FMT_COMPILE("{} {} {} 0\n"), v + 1, mesh.vertices(v, 0), mesh.vertices(v, 1));
     // number type tags(2) group entity vertices; the entity repeats the group
     text.print("$EndNodes\n$Elements\n{}\n", edges.size() + mesh.region.size());
     std::size_t number = 0;
     for (const auto& [from, to, label] : edges)
-      text.print("{} 1 2 {} {} {} {}\n", ++number, label, label, from + 1, to + 1);
+      text.print(FMT_COMPILE("{} 1 2 {} {} {} {}\n"), ++number, label, label, from + 1, to + 1);
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       const int group = static_cast<int>(mesh.region[t]);
-      text.print("{} 2 2 {} {} {} {} {}\n", ++number, group, group, mesh.triangles(t, 0) + 1, mesh.triangles(t, 1) + 1,
-                 mesh.triangles(t, 2) + 1);
+      text.print(FMT_COMPILE("{} 2 2 {} {} {} {} {}\n"), ++number, group, group, mesh.triangles(t, 0) + 1,
+                 mesh.triangles(t, 1) + 1, mesh.triangles(t, 2) + 1);
     }
     text.print("$EndElements\n");
   });
@@ -88,10 +88,10 @@ void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& m
     Text text(out);
     text.print("{} {} {}\n", mesh.vertex_count(), mesh.triangle_count(), edges.size());
     for (int v = 0; v < mesh.vertex_count(); ++v)
-      text.print("{} {} {}\n", mesh.vertices(v, 0), mesh.vertices(v, 1), vertex_label[v]);
+      text.print(FMT_COMPILE("{} {} {}\n"), mesh.vertices(v, 0), mesh.vertices(v, 1), vertex_label[v]);
     for (int t = 0; t < mesh.triangle_count(); ++t)
-      text.print("{} {} {} {}\n", mesh.triangles(t, 0) + 1, mesh.triangles(t, 1) + 1, mesh.triangles(t, 2) + 1,
-                 static_cast<int>(mesh.region[t]));
+      text.print(FMT_COMPILE("{} {} {} {}\n"), mesh.triangles(t, 0) + 1, mesh.triangles(t, 1) + 1,
+                 mesh.triangles(t, 2) + 1, static_cast<int>(mesh.region[t]));
     for (const auto& [from, to, label] : edges) text.print("{} {} {}\n", from + 1, to + 1, label);
   });
 }

@@ -75,9 +75,8 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   const TriangleMesh& mesh = space.mesh();
   const Field& f = file.scene.body().load;
   double area = 0;
-  int triangles = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == Region::body) area += mesh.area(t), ++triangles;
+    if (mesh.region[t] == Region::body) area += mesh.area(t);
 
   const Quadrature& rule = load_rule(space.element());
   const Eigen::MatrixXd fit = quadratic_fit(rule);
@@ -86,9 +85,13 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   Eigen::Vector3d sampled = Eigen::Vector3d::Zero(),
                   size = sampled;  // integrals of f (1, x, y) and of |f| (1, |x|, |y|)
   double k = 0, unseen = 0;        // integral of |f less what the rule's points say of it|
+  double due = 0;                  // each sample stands for the same area; a triangle may have many, or none
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != Region::body) continue;
-    const int here = std::max(1, static_cast<int>(std::ceil(points * mesh.area(t) / area)));
+    due += points * mesh.area(t) / area;
+    const int here = static_cast<int>(due);
+    due -= here;
+    if (here == 0) continue;
     for (Eigen::Index q = 0; q < at_rule.size(); ++q) {
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
       at_rule(q) = f(x(0), x(1));
@@ -97,8 +100,8 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
     for (int i = 0; i < here; ++i) {
       const Eigen::Vector3d lambda = spread_point(++k);
       const Eigen::Vector2d x = point_in(mesh, t, lambda);
-      const double part = f(x(0), x(1)) * mesh.area(t) / here;
-      unseen += std::abs(part - quadratics(lambda).dot(quadratic) * mesh.area(t) / here);
+      const double part = f(x(0), x(1)) * area / points;
+      unseen += std::abs(part - quadratics(lambda).dot(quadratic) * area / points);
       sampled += part * Eigen::Vector3d(1, x(0), x(1));
       size += std::abs(part) * Eigen::Vector3d(1, std::abs(x(0)), std::abs(x(1)));
     }

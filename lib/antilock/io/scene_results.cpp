@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/blas.hpp"
@@ -170,25 +171,45 @@ void check_inputs_stay(const std::filesystem::path& folder, const std::filesyste
                                 printable(input.string(), 1000)));
 }
 
+ResultFiles result_files(const std::string& words) {
+  ResultFiles asked{false, false, false};
+  std::istringstream in(words);
+  for (std::string word; std::getline(in, word, ',');) {
+    if (word == "csv")
+      asked.csv = true;
+    else if (word == "mesh")
+      asked.mesh = true;
+    else if (word == "vtu")
+      asked.vtu = true;
+    else if (word != "summary")
+      throw Error(fmt::format("--files: {:?} is none of the files; accepted: summary, csv, mesh, vtu, with commas",
+                              printable(word)));
+  }
+  return asked;
+}
+
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
-                         const SceneSummary& summary, const CertifiedSolution* certified) {
+                         const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked) {
   const Stopwatch watch;
   const bool contact = file.scene.contact().has_value();
   const auto write = [&](const std::filesystem::path& draft) {
-    write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
+    if (asked.csv) write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
     VtuFields more{layer_stress(*answer.mesh, answer.solution.p), {}};
     if (contact) {
       Eigen::MatrixX3d table = contact_table(answer.space, answer.problem, answer.solution);
       table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
-      write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
+      if (asked.csv) write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
       more.pressure = table.col(2);
     }
-    write_msh(draft / "mesh.msh", *answer.mesh);
-    write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
+    if (asked.mesh) write_msh(draft / "mesh.msh", *answer.mesh);
+    if (asked.vtu) write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
     write_summary(draft / "summary.json", file, summary, answer.seconds, watch.seconds(), certified);
   };
   std::vector<std::string> stale = pieces_in(folder);
-  if (!contact) stale.emplace_back("contact.csv");
+  if (!asked.csv) stale.emplace_back("solution.csv");
+  if (!asked.csv || !contact) stale.emplace_back("contact.csv");
+  if (!asked.mesh) stale.emplace_back("mesh.msh");
+  if (!asked.vtu) stale.emplace_back("solution.vtu");
   write_folder(folder, write, stale);
 }
 

@@ -1,4 +1,4 @@
-// VTU, the unstructured grid of VTK's XML formats, as text: for ParaView and for the figures.
+// VTU, the unstructured grid of VTK's XML formats: for ParaView and for the figures.
 #include <fmt/format.h>
 
 #include "antilock/core/error.hpp"

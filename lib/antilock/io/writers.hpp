@@ -25,7 +25,7 @@ struct VtuFields {
   Eigen::VectorXd p = {};         ///< T, the layer stress, one value per triangle (0 on the body)
   Eigen::VectorXd pressure = {};  ///< C, the contact pressure, a density, one value per contact unknown of the space
 };
-/// VTU (ASCII XML) for ParaView and the figures: point data `u` and `pressure` (0 off Gamma_C), cell data `region`
+/// VTU (XML, its arrays as raw bytes) for ParaView and the figures: point data `u` and `pressure` (0 off Gamma_C), cell data `region`
 /// (1 body, 2 layer: their names are the field data `region_names`) and `p`. A vertex per triangle corner, so that
 /// Crouzeix-Raviart fields keep their jumps; P1 and P2 fields share their vertices, and P2 is shown there alone.
 void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u,
