@@ -20,7 +20,7 @@ message(STATUS "PETSc over MPI: built with PETSc ${PETSc_VERSION}")
 # precompiled header
 set_target_properties(PkgConfig::PETSc PROPERTIES INTERFACE_COMPILE_OPTIONS "")
 
-file(GLOB distributed_sources CONFIGURE_DEPENDS antilock/distributed/*.cpp)
+file(GLOB distributed_sources CONFIGURE_DEPENDS antilock/distributed/*.cpp antilock/distributed/detail/*.cpp)
 add_library(antilock_distributed STATIC ${distributed_sources})
 add_library(antilock::distributed ALIAS antilock_distributed)
 target_link_libraries(antilock_distributed PUBLIC antilock PkgConfig::PETSc MPI::MPI_CXX PRIVATE antilock_warnings)

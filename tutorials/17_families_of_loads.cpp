@@ -41,7 +41,7 @@
 // So the square of the worst error is the largest eigenvalue of $S - S_h$, and the worst load is its eigenfunction.
 // *Lanczos iteration* finds both from products with $S - S_h$ alone, each of them one solve. Loads are sums of the
 // orthonormal waves $2 \sin kπx \cos μ_m y$, $μ_m = (m - ½) π$. A body that is free on $Σ$ answers each wave with a
-// multiple of it, and the layer adds one number per $k$ (`exact/load_modes.cpp`): $S$ is known in closed form.
+// multiple of it, and the layer adds one number per $k$ (`exact/detail/load_modes.cpp`): $S$ is known in closed form.
 //
 // The sums end at $k^2 + (m - ½)^2 ≤ W^2$, $W = 2/h$. What do the later waves add? The layer only takes away: it holds
 // the body back, so the work $(f, S f)$ of a load is at most that of the same load on the free body, where a later wave

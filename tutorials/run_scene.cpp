@@ -14,12 +14,12 @@
 #include <new>
 
 #include "antilock/adapt/solve_to.hpp"
-#include "antilock/core/result_folder.hpp"
+#include "antilock/core/detail/result_folder.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/io/detail/scene_checks.hpp"
+#include "antilock/io/detail/scene_results.hpp"
 #include "antilock/io/expression.hpp"
-#include "antilock/io/scene_checks.hpp"
 #include "antilock/io/scene_file.hpp"
-#include "antilock/io/scene_results.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"

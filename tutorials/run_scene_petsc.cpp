@@ -13,12 +13,12 @@
 
 #include <new>
 
-#include "antilock/core/result_folder.hpp"
+#include "antilock/core/detail/result_folder.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/ranks.hpp"
+#include "antilock/io/detail/scene_checks.hpp"
+#include "antilock/io/detail/scene_results.hpp"
 #include "antilock/io/expression.hpp"
-#include "antilock/io/scene_checks.hpp"
-#include "antilock/io/scene_results.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/generate.hpp"

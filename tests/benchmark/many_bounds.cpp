@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/active_set.hpp"

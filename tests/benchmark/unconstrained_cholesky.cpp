@@ -6,7 +6,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
-#include "antilock/solve/penalised_matrix.hpp"
+#include "antilock/solve/detail/penalised_matrix.hpp"
 
 namespace antilock {
 

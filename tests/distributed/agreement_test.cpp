@@ -7,7 +7,7 @@
 #include <map>
 #include <tuple>
 
-#include "antilock/distributed/kkt_report.hpp"
+#include "antilock/distributed/detail/kkt_report.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/mesh/generate.hpp"

@@ -7,11 +7,11 @@
 #include <set>
 
 #include "antilock/core/error.hpp"
-#include "antilock/distributed/kkt_report.hpp"
+#include "antilock/distributed/detail/kkt_report.hpp"
+#include "antilock/distributed/detail/snesvi.hpp"
+#include "antilock/distributed/detail/strips.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
-#include "antilock/distributed/snesvi.hpp"
-#include "antilock/distributed/strips.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/refine.hpp"

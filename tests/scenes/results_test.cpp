@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "antilock/core/blas.hpp"
+#include "antilock/core/detail/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/mesh/msh_file.hpp"

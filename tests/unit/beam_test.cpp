@@ -6,7 +6,7 @@
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/exact/beam_truth.hpp"
+#include "antilock/exact/detail/beam_truth.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "support/dense.hpp"

@@ -7,8 +7,8 @@
 #include <random>
 
 #include "antilock/analysis/certificate.hpp"
-#include "antilock/analysis/certified_distance.hpp"
-#include "antilock/analysis/energy_bracket.hpp"
+#include "antilock/analysis/detail/certified_distance.hpp"
+#include "antilock/analysis/detail/energy_bracket.hpp"
 #include "antilock/analysis/exact_errors.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth.hpp"

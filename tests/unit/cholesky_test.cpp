@@ -9,7 +9,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/detail/cholmod_cholesky.hpp"
 #include "antilock/solve/detail/eigen_cholesky.hpp"
-#include "antilock/solve/penalised_matrix.hpp"
+#include "antilock/solve/detail/penalised_matrix.hpp"
 #include "antilock/study/method.hpp"
 #include "support/dense.hpp"
 

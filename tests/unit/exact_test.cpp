@@ -12,10 +12,10 @@
 #include <random>
 
 #include "antilock/core/error.hpp"
-#include "antilock/exact/contact_line.hpp"
-#include "antilock/exact/load_response.hpp"
-#include "antilock/exact/sine_transform.hpp"
-#include "antilock/exact/symbols.hpp"
+#include "antilock/exact/detail/contact_line.hpp"
+#include "antilock/exact/detail/load_response.hpp"
+#include "antilock/exact/detail/sine_transform.hpp"
+#include "antilock/exact/detail/symbols.hpp"
 #include "antilock/exact/truth_table.hpp"
 
 namespace antilock::exact_test {

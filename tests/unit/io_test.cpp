@@ -14,10 +14,10 @@
 #include <limits>
 #include <sstream>
 
-#include "antilock/core/atomic_file.hpp"
-#include "antilock/core/draft.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/draft.hpp"
+#include "antilock/core/detail/result_folder.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/core/result_folder.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/msh_file.hpp"

@@ -5,8 +5,8 @@
 #include <numbers>
 #include <random>
 
+#include "antilock/analysis/detail/ties.hpp"
 #include "antilock/analysis/lost_energy.hpp"
-#include "antilock/analysis/ties.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/families.hpp"

@@ -4,15 +4,15 @@
 #include <cmath>
 
 #include "antilock/analysis/accurate_enough.hpp"
-#include "antilock/analysis/energy_bracket.hpp"
+#include "antilock/analysis/detail/energy_bracket.hpp"
 #include "antilock/analysis/negative_part.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/form/h1_norm.hpp"
-#include "antilock/measure/contact_trace.hpp"
 #include "antilock/measure/contact_zone.hpp"
+#include "antilock/measure/detail/contact_trace.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/measure/residual.hpp"
 #include "antilock/solve/active_set.hpp"

@@ -13,8 +13,8 @@
 #include <numbers>
 #include <set>
 
+#include "antilock/mesh/detail/gmsh_session.hpp"
 #include "antilock/mesh/families.hpp"
-#include "antilock/mesh/gmsh_session.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
@@ -23,7 +23,7 @@
 namespace antilock::mesh_test {
 namespace {
 
-// gmsh works for each of these tests, whatever tests/run keeps (mesh/kept_meshes.hpp)
+// gmsh works for each of these tests, whatever tests/run keeps (mesh/detail/kept_meshes.hpp)
 [[maybe_unused]] const int nothing_kept = unsetenv("ANTILOCK_MESHES");
 
 using test::area;

@@ -1,6 +1,6 @@
 #pragma once
 // The answers to the exercises of 20_order_h, whose page includes this one: to be read after predicting.
-#include "antilock/exact/truth_data.hpp"
+#include "antilock/exact/detail/truth_data.hpp"
 
 // The integral over the layer's rows of a sum over its waves k pi: Gauss's rule on cells that shrink toward both ends.
 double over_layer(const Truth& truth, const std::function<double(const SineRow&, Eigen::Index)>& term) {

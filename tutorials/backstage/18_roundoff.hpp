@@ -1,6 +1,6 @@
 #pragma once
 #include "antilock/core/eigenvalues.hpp"
-#include "antilock/solve/penalised_matrix.hpp"
+#include "antilock/solve/detail/penalised_matrix.hpp"
 #include "common/course.hpp"
 
 namespace antilock::tutorial {

@@ -1,8 +1,8 @@
 #pragma once
 // Chapter 20: the terms of the proof, measured. Sums over the triangles and over the edges of Gamma_C.
-#include "antilock/analysis/equilibrated_flux.hpp"
+#include "antilock/analysis/detail/equilibrated_flux.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/measure/contact_edges.hpp"
+#include "antilock/measure/detail/contact_edges.hpp"
 #include "common/study.hpp"
 
 namespace antilock::tutorial {

@@ -1,5 +1,5 @@
 #pragma once
-#include "antilock/exact/beam_truth.hpp"
+#include "antilock/exact/detail/beam_truth.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/study/table.hpp"
 #include "common/tutorial.hpp"

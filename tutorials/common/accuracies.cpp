@@ -5,7 +5,7 @@
 #include <map>
 
 #include "antilock/analysis/exact_errors.hpp"
-#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"

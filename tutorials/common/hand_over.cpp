@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "antilock/core/blas.hpp"
+#include "antilock/core/detail/blas.hpp"
 
 namespace antilock::tutorial {
 namespace {

@@ -9,8 +9,8 @@
 #include <thread>
 #include <tuple>
 
-#include "antilock/core/atomic_file.hpp"
-#include "antilock/core/blas.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/blas.hpp"
 #include "antilock/study/table.hpp"
 #include "common/timed_runs.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <cstdio>
 
-#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock::tutorial {

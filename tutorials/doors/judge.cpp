@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "antilock/analysis/companion.hpp"
+#include "antilock/analysis/detail/companion.hpp"
 #include "antilock/analysis/lost_energy.hpp"
-#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/io/csv_reader.hpp"
+#include "antilock/io/detail/csv_reader.hpp"
+#include "antilock/measure/detail/point_values.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/measure/point_values.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"

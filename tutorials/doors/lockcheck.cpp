@@ -7,8 +7,8 @@
 #include <numeric>
 
 #include "antilock/analysis/locking.hpp"
-#include "antilock/io/csv_reader.hpp"
-#include "antilock/io/matrix_market.hpp"
+#include "antilock/io/detail/csv_reader.hpp"
+#include "antilock/io/detail/matrix_market.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"

@@ -6,8 +6,8 @@
 
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/sine_load.hpp"
+#include "antilock/measure/detail/point_values.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/measure/point_values.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "antilock/study/table.hpp"
 #include "common/command_line.hpp"

@@ -5,11 +5,11 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/csv_reader.hpp"
-#include "antilock/measure/point_values.hpp"
+#include "antilock/io/detail/csv_reader.hpp"
+#include "antilock/measure/detail/point_values.hpp"
 #include "common/command_line.hpp"
 #include "doors/doors.hpp"
 

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/text.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/core/text.hpp"
 
 namespace antilock::distributed {
 namespace {

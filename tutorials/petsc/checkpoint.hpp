@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "antilock/distributed/contact_set.hpp"
+#include "antilock/distributed/detail/contact_set.hpp"
 
 namespace antilock::distributed {
 

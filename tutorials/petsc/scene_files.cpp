@@ -6,13 +6,13 @@
 #include <cmath>
 #include <map>
 
-#include "antilock/analysis/ties.hpp"
-#include "antilock/core/atomic_file.hpp"
+#include "antilock/analysis/detail/ties.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/distributed/kkt_report.hpp"
+#include "antilock/distributed/detail/kkt_report.hpp"
+#include "antilock/distributed/detail/whole_files.hpp"
 #include "antilock/distributed/ranks.hpp"
-#include "antilock/distributed/whole_files.hpp"
-#include "antilock/io/scene_results.hpp"
+#include "antilock/io/detail/scene_results.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"

@@ -6,7 +6,7 @@
 #include "antilock/analysis/lost_energy.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/io/scene_file.hpp"
-#include "antilock/measure/answer.hpp"
+#include "antilock/measure/detail/answer.hpp"
 
 namespace antilock::distributed {
 

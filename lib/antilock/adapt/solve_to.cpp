@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "antilock/adapt/bisection.hpp"
-#include "antilock/adapt/marking.hpp"
+#include "antilock/adapt/detail/marking.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/layered.hpp"

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "antilock/adapt/marking.hpp"
+#include "antilock/adapt/detail/marking.hpp"
 #include "antilock/analysis/certificate.hpp"
-#include "antilock/measure/answer.hpp"
+#include "antilock/measure/detail/answer.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/solve/solution.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/analysis/companion.hpp"
+#include "antilock/analysis/detail/companion.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/models/anti_plane.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-#include "antilock/analysis/energy_bracket.hpp"
+#include "antilock/analysis/detail/energy_bracket.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/solve/active_set.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-#include "antilock/analysis/companion.hpp"
-#include "antilock/analysis/equilibrated_flux.hpp"
+#include "antilock/analysis/detail/companion.hpp"
+#include "antilock/analysis/detail/equilibrated_flux.hpp"
 #include "antilock/solve/penalty_factor.hpp"
 
 namespace antilock {

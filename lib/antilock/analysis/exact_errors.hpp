@@ -1,6 +1,6 @@
 #pragma once
-#include "antilock/analysis/companion.hpp"
-#include "antilock/analysis/equilibrated_flux.hpp"
+#include "antilock/analysis/detail/companion.hpp"
+#include "antilock/analysis/detail/equilibrated_flux.hpp"
 #include "antilock/exact/truth_table.hpp"
 
 namespace antilock {

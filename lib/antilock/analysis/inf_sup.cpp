@@ -7,7 +7,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/solve/penalised_matrix.hpp"
+#include "antilock/solve/detail/penalised_matrix.hpp"
 
 namespace antilock {
 

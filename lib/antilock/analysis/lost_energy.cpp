@@ -19,8 +19,8 @@
 #include <array>
 #include <cmath>
 
-#include "antilock/analysis/companion.hpp"
-#include "antilock/analysis/ties.hpp"
+#include "antilock/analysis/detail/companion.hpp"
+#include "antilock/analysis/detail/ties.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/errors.hpp"

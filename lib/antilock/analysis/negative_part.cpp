@@ -5,7 +5,7 @@
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/measure/contact_edges.hpp"
+#include "antilock/measure/detail/contact_edges.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {

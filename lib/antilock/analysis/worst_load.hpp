@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "antilock/exact/load_modes.hpp"
+#include "antilock/exact/detail/load_modes.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/penalty_factor.hpp"
 #include "antilock/space/space.hpp"

@@ -7,9 +7,9 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/distributed/kkt_report.hpp"
+#include "antilock/distributed/detail/kkt_report.hpp"
+#include "antilock/distributed/detail/strips.hpp"
 #include "antilock/distributed/ranks.hpp"
-#include "antilock/distributed/strips.hpp"
 
 namespace antilock::distributed {
 namespace {

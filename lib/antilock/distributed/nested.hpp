@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "antilock/distributed/contact_loop.hpp"
-#include "antilock/distributed/contact_set.hpp"
+#include "antilock/distributed/detail/contact_loop.hpp"
+#include "antilock/distributed/detail/contact_set.hpp"
 
 namespace antilock::distributed {
 

@@ -9,7 +9,7 @@
 #include <new>
 
 #include "antilock/core/error.hpp"
-#include "antilock/distributed/petsc.hpp"
+#include "antilock/distributed/detail/petsc.hpp"
 
 namespace antilock::distributed {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "antilock/exact/load_response.hpp"
+#include "antilock/exact/detail/load_response.hpp"
 
 namespace antilock {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "antilock/form/forms.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/space/vector_space.hpp"
+#include "antilock/space/detail/vector_space.hpp"
 
 namespace antilock {
 

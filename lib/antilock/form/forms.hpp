@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "antilock/form/factored_form.hpp"
+#include "antilock/form/detail/factored_form.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"

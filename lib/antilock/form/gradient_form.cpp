@@ -1,6 +1,6 @@
+#include "antilock/form/detail/sparse_assembly.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/form/sparse_assembly.hpp"
 
 namespace antilock {
 

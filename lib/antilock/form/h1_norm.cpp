@@ -1,7 +1,7 @@
 #include "antilock/form/h1_norm.hpp"
 
+#include "antilock/form/detail/sparse_assembly.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/form/sparse_assembly.hpp"
 
 namespace antilock {
 

@@ -1,6 +1,6 @@
-#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/text.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/core/text.hpp"
 #include "antilock/io/writers.hpp"
 
 namespace antilock {

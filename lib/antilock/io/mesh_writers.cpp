@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <array>
 
-#include "antilock/core/atomic_file.hpp"
-#include "antilock/core/text.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/text.hpp"
 #include "antilock/io/writers.hpp"
 
 namespace antilock {

@@ -4,9 +4,9 @@
 
 #include <fstream>
 
+#include "antilock/io/detail/scene_checks.hpp"
+#include "antilock/io/detail/scene_section.hpp"
 #include "antilock/io/expression.hpp"
-#include "antilock/io/scene_checks.hpp"
-#include "antilock/io/scene_section.hpp"
 
 namespace antilock {
 namespace {

@@ -1,5 +1,5 @@
 // The formulas of a scene, asked before there is a mesh: on grids that share few places, so that a pole is met.
-#include "antilock/io/scene_checks.hpp"
+#include "antilock/io/detail/scene_checks.hpp"
 
 namespace antilock {
 

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "antilock/core/error.hpp"
-#include "antilock/io/vtu_grid.hpp"
+#include "antilock/io/detail/vtu_grid.hpp"
 #include "antilock/io/writers.hpp"
 
 namespace antilock {

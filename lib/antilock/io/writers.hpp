@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/space/detail/vector_space.hpp"
 #include "antilock/space/space.hpp"
-#include "antilock/space/vector_space.hpp"
 
 namespace antilock {
 

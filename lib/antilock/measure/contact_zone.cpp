@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "antilock/form/quadrature.hpp"
-#include "antilock/measure/contact_edges.hpp"
+#include "antilock/measure/detail/contact_edges.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "antilock/form/forms.hpp"
-#include "antilock/measure/contact_edges.hpp"
+#include "antilock/measure/detail/contact_edges.hpp"
 
 namespace antilock {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "antilock/core/error.hpp"
-#include "antilock/mesh/edges.hpp"
+#include "antilock/mesh/detail/edges.hpp"
 
 namespace antilock {
 namespace {

@@ -12,7 +12,7 @@
 #include <unordered_set>
 
 #include "antilock/core/error.hpp"
-#include "antilock/mesh/msh_sections.hpp"
+#include "antilock/mesh/detail/msh_sections.hpp"
 
 namespace antilock {
 namespace {

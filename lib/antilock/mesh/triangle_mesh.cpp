@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "antilock/core/error.hpp"
-#include "antilock/mesh/edges.hpp"
+#include "antilock/mesh/detail/edges.hpp"
 
 namespace antilock {
 namespace {

@@ -6,9 +6,9 @@
 #include <unordered_map>
 
 #include "antilock/core/error.hpp"
+#include "antilock/mesh/detail/gmsh_session.hpp"
+#include "antilock/mesh/detail/kept_meshes.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/mesh/gmsh_session.hpp"
-#include "antilock/mesh/kept_meshes.hpp"
 #include "antilock/mesh/refine.hpp"
 
 namespace antilock {

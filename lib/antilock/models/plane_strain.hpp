@@ -17,7 +17,7 @@ struct PlaneStrain {
   double jump_weight = 1;  ///< of jump_form; 0: none (CR then has zero modes)
   /// The pressure is continuous and affine, one value per vertex: the row of B of vertex i is (int phi_i div u) / (int
   /// phi_i). With P2 that is Taylor and Hood's method, with P1 and a bubble MINI (Arnold, Brezzi and Fortin 1984):
-  /// exactly so at epsilon = 0. Above, the pressures' mass matrix is lumped (form/averaged.hpp).
+  /// exactly so at epsilon = 0. Above, the pressures' mass matrix is lumped (form/detail/averaged.hpp).
   bool continuous_pressure = false;
 };
 

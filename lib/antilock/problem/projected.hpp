@@ -1,5 +1,5 @@
 #pragma once
-#include "antilock/form/averaged.hpp"
+#include "antilock/form/detail/averaged.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 
 namespace antilock {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "antilock/problem/variational_inequality.hpp"
-#include "antilock/solve/iterated_penalty.hpp"
+#include "antilock/solve/detail/iterated_penalty.hpp"
 #include "antilock/solve/penalty_factor.hpp"
 #include "antilock/solve/solution.hpp"
 

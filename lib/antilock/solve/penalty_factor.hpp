@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "antilock/problem/variational_inequality.hpp"
-#include "antilock/solve/held_factor.hpp"
-#include "antilock/solve/penalised_matrix.hpp"
-#include "antilock/solve/sparse_cholesky.hpp"
+#include "antilock/solve/detail/held_factor.hpp"
+#include "antilock/solve/detail/penalised_matrix.hpp"
+#include "antilock/solve/detail/sparse_cholesky.hpp"
 
 namespace antilock {
 

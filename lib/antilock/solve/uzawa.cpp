@@ -11,7 +11,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/detail/dense_contact.hpp"
-#include "antilock/solve/iterated_penalty.hpp"
+#include "antilock/solve/detail/iterated_penalty.hpp"
 
 namespace antilock {
 namespace {

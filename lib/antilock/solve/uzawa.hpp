@@ -2,7 +2,7 @@
 #include <limits>
 #include <optional>
 
-#include "antilock/core/progress.hpp"
+#include "antilock/core/detail/progress.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/penalty_factor.hpp"
 #include "antilock/solve/solution.hpp"

@@ -1,7 +1,7 @@
 // The exhibit's factor where neither CHOLMOD nor UMFPACK is to be had: Eigen's own, whichever is asked for.
 #include <Eigen/SparseCholesky>
 
-#include "antilock/solve/exhibits/summed_factor.hpp"
+#include "antilock/solve/detail/summed_factor.hpp"
 
 namespace antilock {
 

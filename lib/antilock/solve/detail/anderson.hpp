@@ -1,7 +1,7 @@
 #pragma once
 #include <deque>
 
-#include "antilock/core/twice.hpp"
+#include "antilock/core/detail/twice.hpp"
 
 namespace antilock {
 

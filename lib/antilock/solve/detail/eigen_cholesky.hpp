@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "antilock/solve/sparse_cholesky.hpp"
+#include "antilock/solve/detail/sparse_cholesky.hpp"
 
 namespace antilock {
 

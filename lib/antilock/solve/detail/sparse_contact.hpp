@@ -1,6 +1,6 @@
 #pragma once
 #include "antilock/solve/contact.hpp"
-#include "antilock/solve/held_factor.hpp"
+#include "antilock/solve/detail/held_factor.hpp"
 
 namespace antilock {
 

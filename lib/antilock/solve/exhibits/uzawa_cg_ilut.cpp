@@ -9,8 +9,8 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/bounds.hpp"
+#include "antilock/solve/detail/penalised_matrix.hpp"
 #include "antilock/solve/kkt.hpp"
-#include "antilock/solve/penalised_matrix.hpp"
 
 namespace antilock {
 namespace {

@@ -1,0 +1,115 @@
+#include "antilock/adapt/detail/marking.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "antilock/adapt/bisection.hpp"
+#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/layered.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+std::vector<bool> marked(const Eigen::VectorXd& indicator, const Marking& marking) {
+  std::vector<Eigen::Index> order(indicator.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return indicator(a) > indicator(b); });
+  const double enough = marking.share * indicator.sum();
+  const auto least = static_cast<std::size_t>(std::ceil(marking.fewest * static_cast<double>(order.size())));
+  const std::size_t most = marking.most > 0 ? static_cast<std::size_t>(marking.most) : order.size() + 1;
+  std::vector<bool> marks(indicator.size(), false);
+  double sum = 0;
+  std::size_t k = 0;
+  for (; k < std::min(most, order.size()) && (sum < enough || k < least); ++k) {
+    marks[order[k]] = true;
+    sum += indicator(order[k]);
+  }
+  if (most > order.size() && static_cast<double>(k) > marking.spread * static_cast<double>(order.size()))
+    marks.assign(order.size(), true);
+  return marks;
+}
+
+GrowingMesh grown(const GrowingMesh& last, Growth growth, double epsilon, const Eigen::VectorXd& indicator,
+                  const Marking& marking) {
+  const TriangleMesh &mesh = last.mesh, &body = last.body;
+  GrowingMesh next;
+  if (growth == Growth::bisect) {
+    const std::vector<bool> all = marked(indicator, marking);
+    next.marks = static_cast<int>(std::count(all.begin(), all.end(), true));
+    next.mesh = bisected(mesh, all);
+    return next;
+  }
+  // extruded() has the body's triangles first, then the columns in the order of the body's edges on Sigma
+  const int in_body = body.triangle_count();
+  std::vector<int> sigma;
+  for (int e = 0; e < body.edge_count(); ++e)
+    if (body.edge_tag[e] == EdgeTag::contact) sigma.push_back(e);
+  const auto columns = static_cast<int>(sigma.size()), per_column = (mesh.triangle_count() - in_body) / columns;
+  Eigen::VectorXd together(in_body + columns);
+  together.head(in_body) = indicator.head(in_body);
+  for (int c = 0; c < columns; ++c)
+    together(in_body + c) = indicator.segment(in_body + c * per_column, per_column).sum();
+  const std::vector<bool> all = marked(together, marking);
+  std::vector<bool> edges(body.edge_count(), false);
+  for (int c = 0; c < columns; ++c) edges[sigma[c]] = all[in_body + c];
+  next.marks = static_cast<int>(std::count(all.begin(), all.end(), true));
+  next.body = bisected(body, std::vector<bool>(all.begin(), all.begin() + in_body), edges);
+  next.mesh = extruded(next.body, epsilon);
+  return next;
+}
+
+std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangles) {
+  constexpr int per_side = 64, most_rounds = 16;
+  constexpr double negligible = 1e-3;  // of the integral of f^2, on one triangle
+  const Quadrature& rule = radon_rule();
+  std::vector<bool> fresh(mesh.triangle_count(), true);
+  double total = 0;
+  for (int round = 0;; ++round) {
+    std::vector<bool> missed(mesh.triangle_count(), false);
+    int count = 0;
+    double left = 0, where = -1;
+    std::vector<double> difference(mesh.triangle_count(), 0);
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      if (mesh.region[t] != Region::body || !fresh[t]) continue;
+      double sampled = 0, seen = 0;
+      for (int i = 0; i < per_side; ++i)
+        for (int j = 0; i + j < per_side; ++j) {
+          const double a = (i + 1.0 / 3) / per_side, b = (j + 1.0 / 3) / per_side;
+          const Eigen::Vector2d x = point_in(mesh, t, {a, b, 1 - a - b});
+          sampled += std::pow(load(x(0), x(1)), 2);
+        }
+      sampled *= 2.0 / (per_side * (per_side + 1));
+      for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+        const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+        seen += rule.weights(q) * std::pow(load(x(0), x(1)), 2);
+      }
+      if (round == 0) total += mesh.area(t) * std::max(sampled, seen);
+      difference[t] =
+          std::abs(sampled - seen) > 0.1 * std::max(sampled, seen) ? mesh.area(t) * std::abs(sampled - seen) : 0;
+    }
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      if (difference[t] > negligible * total) {
+        missed[t] = true;
+        ++count;
+        left += difference[t];
+        where = t;
+      }
+    if (count == 0) return {};
+    if (round == most_rounds || mesh.triangle_count() > most_triangles) {
+      const Eigen::Vector2d x = point_in(mesh, static_cast<int>(where), Eigen::Vector3d::Constant(1.0 / 3));
+      return fmt::format(
+          "the load varies between the points of the quadrature near ({:.4g}, {:.4g}), by {:.1e} of its square: the "
+          "certificate holds for the load as sampled",
+          x(0), x(1), left / total);
+    }
+    const int before = mesh.vertex_count();
+    mesh = bisected(mesh, missed);
+    fresh.assign(mesh.triangle_count(), false);
+    for (int t = 0; t < mesh.triangle_count(); ++t) fresh[t] = (mesh.triangles.row(t).array() >= before).any();
+  }
+}
+
+}  // namespace antilock

@@ -1,0 +1,49 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "antilock/analysis/detail/column_function.hpp"
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/scene/scene.hpp"
+#include "antilock/solve/solution.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// A conforming function v of K, P1 in the body on the mesh of the Crouzeix-Raviart solution that it accompanies.
+struct Companion {
+  Eigen::VectorXd at_vertices;          ///< V values; those of the layer's vertices only without `columns`
+  Eigen::VectorXd stress;               ///< epsilon^-2 d_y v per layer triangle (scaled layer, without `columns`)
+  std::optional<ColumnFunction> layer;  ///< v in the layer where that has columns of its own
+  int unknowns = 0;                     ///< solved for
+};
+
+/// Bounds for the contact unknowns of a P1 space under which v >= -gap on the whole of Gamma_C, not at the vertices
+/// alone: -gap, raised by what the chord of the gap overshoots on both sides; the gap is sampled at 32 points per edge.
+/// `prescribed`: v at the clamped ends (empty: 0).
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& prescribed = {});
+
+/// A piece of Gamma_C on which v is affine, but for a bubble.
+struct Chord {
+  std::array<int, 2> place;    ///< of its two ends among the bounds; -1: v is prescribed there
+  std::array<double, 2> x;     ///< of its two ends
+  std::array<double, 2> held;  ///< v at an end whose place is -1
+  double bubble = 0;           ///< v has 4 s (1 - s) times it in addition, s from 0 to 1 along the chord
+};
+/// The same for `count` values of v on chords.
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const std::vector<Chord>& chords, int count);
+
+/// The strip: v is the average of u_CR at the body's vertices off Sigma, and on Sigma and in the layer the function of
+/// least energy in K, by active set. The scaled layer has columns for it under the vertices of Sigma (mesh/layered.hpp),
+/// the mesh's own where it is extruded already: P1 cannot lock on them. A handful of unknowns per column, whatever the
+/// body has. `prescribed`: the function whose values at the vertices are the boundary values (empty: 0). Throws what
+/// active_set throws.
+/// `on_mesh`: no columns of its own, P1 on the layer's triangles as they are, which lock unless epsilon is large.
+Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                          const Solution& solution, const Field& prescribed = {}, bool on_mesh = false);
+
+/// A P1 solution on the mesh itself as the companion.
+Companion p1_companion(const Solution& p1_solution);
+
+}  // namespace antilock

@@ -1,0 +1,203 @@
+#include "antilock/analysis/detail/equilibrated_flux.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "antilock/core/error.hpp"
+#include "antilock/form/forms.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/problem/bounds.hpp"
+
+namespace antilock {
+namespace {
+
+void check_request(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                   const Solution& solution) {
+  require_lower_bounds(problem, "certificate");
+  if (space.element().name() != "CR")
+    throw Error("certificate: element " + space.element().name() +
+                " has no flux in equilibrium; accepted: CR, and certified_distance to it");
+  if (std::holds_alternative<VentcelLayer>(scene.layer()))
+    throw Error(
+        "certificate: the Ventcel layer has no flux of its own; accepted: the scaled layer with epsilon = 0, which is "
+        "the same problem");
+  const auto& region = space.mesh().region;
+  const auto layer = std::count(region.begin(), region.end(), Region::layer);
+  const bool split = std::holds_alternative<StiffLayer>(scene.layer());
+  if (problem.size() != space.size() || solution.u.size() != space.size() || problem.b.rows() != (split ? layer : 0) ||
+      solution.p.size() != problem.b.rows())
+    throw Error(fmt::format(
+        "certificate: problem and solution have {} and {} unknowns, {} and {} layer stresses; accepted: {} and {}, of "
+        "the scene on this space",
+        problem.size(), solution.u.size(), problem.b.rows(), solution.p.size(), space.size(), split ? layer : 0));
+  if (!solution.u.allFinite() || !solution.p.allFinite())
+    throw Error("certificate: the solution is not finite; accepted: finite numbers");
+  if (problem.contact.empty() == scene.contact().has_value() && !space.contact().empty())
+    throw Error("certificate: scene and problem do not agree whether there is contact");
+  for (const int e : problem.fixed)
+    if (space.mesh().edge_triangles(e, 1) >= 0)
+      throw Error("certificate: a value is fixed inside the domain; accepted: on the boundary");
+  for (const int e : problem.contact)
+    if (space.mesh().edge_tag[e] != EdgeTag::contact)
+      throw Error("certificate: an unknown off Gamma_C is bounded; accepted: bounds on the edges in the group contact");
+}
+
+/// f on a triangle by a rule: f_T, the mean of f x, f_1 and the mean of (f - f_1)^2.
+struct LoadOn {
+  double mean = 0, square = 0, rest2 = 0;
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  Eigen::Vector3d f = Eigen::Vector3d::Zero(), mean_lambda = Eigen::Vector3d::Zero();
+
+  LoadOn(const TriangleMesh& mesh, int t, const Quadrature& rule, const Field& load, Eigen::VectorXd& values) {
+    values.resize(rule.weights.size());
+    Eigen::Matrix<double, 3, 2> corner;
+    for (int i = 0; i < 3; ++i) corner.row(i) = mesh.vertices.row(mesh.triangles(t, i));
+    for (Eigen::Index q = 0; q < values.size(); ++q) {
+      const Eigen::RowVector3d lambda = rule.points.row(q);
+      const Eigen::RowVector2d x = lambda * corner;
+      const double value = values(q) = load(x(0), x(1)), weighted = rule.weights(q) * value;
+      if (!std::isfinite(value)) throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0), x(1)));
+      mean += weighted;
+      square += weighted * value;
+      moment += weighted * x;
+      mean_lambda += weighted * lambda;
+    }
+    f = (12 * mean_lambda.array() - 3 * mean).matrix();
+    for (Eigen::Index q = 0; q < values.size(); ++q)
+      rest2 += rule.weights(q) * std::pow(values(q) - rule.points.row(q).dot(f), 2);
+  }
+  double of_basis(int i) const { return mean - 2 * mean_lambda(i); }  ///< the mean of f phi_i, phi_i = 1 - 2 lambda_i
+};
+
+/// Where the affine part of f leaves out a tenth of it, the solver's rule may miss what is left.
+bool needs_finer_rule(const LoadOn& load) { return load.rest2 > 1e-2 * load.square; }
+
+/// The mean of the gap over an edge: Gauss's rule of two points on 16 parts.
+double mean_gap(const Profile& gap, double from, double to) {
+  constexpr int parts = 16;
+  double sum = 0;
+  for (int k = 0; k < parts; ++k)
+    for (const double side : {-1.0, 1.0}) sum += gap(from + (to - from) * (k + 0.5 + side / std::sqrt(12.0)) / parts);
+  return sum / (2 * parts);
+}
+
+double longest_edge(const TriangleMesh& mesh, int t) {
+  double longest = 0;
+  for (int i = 0; i < 3; ++i) longest = std::max(longest, mesh.edge_length(mesh.triangle_edges(t, i)));
+  return longest;
+}
+
+/// What the problem says of its own residual must be what the scene says: else the two are not one question.
+void check_same_question(const VariationalInequality& problem, const Solution& solution, const Eigen::VectorXd& ours) {
+  Eigen::VectorXd theirs = problem.a1 * solution.u;
+  double size = problem.a1.diagonal().cwiseAbs().maxCoeff() * solution.u.lpNorm<Eigen::Infinity>() +
+                problem.load.lpNorm<Eigen::Infinity>();
+  if (problem.b.rows() > 0) {
+    const Eigen::VectorXd stress = problem.b.transpose() * problem.m.cwiseProduct(solution.p);
+    size += stress.lpNorm<Eigen::Infinity>();
+    theirs += stress;
+  }
+  const double off = (ours - theirs + problem.load).lpNorm<Eigen::Infinity>();
+  if (off > 1e-10 * size)
+    throw Error(
+        fmt::format("certificate: the problem is not the scene's on this space: its forces differ by {:.1e} of "
+                    "the largest; accepted: what assemble(scene, space) makes, its load above all",
+                    off / size));
+}
+
+}  // namespace
+
+LayerLaw::LayerLaw(const Scene& scene) {
+  if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
+    split = true;
+    y = compliance(*stiff);
+  } else if (const auto* thin = std::get_if<ThinLayer>(&scene.layer())) {
+    stiffness = 1 / thin->epsilon;
+    x = y = thin->epsilon;
+  }
+}
+
+// sum_i f_i lambda_i (x - P_i) = f_1 x - sum_i f_i lambda_i P_i
+Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& lambda) const {
+  const FluxCell& here = cell[t];
+  Eigen::Matrix<double, 3, 2> corner;
+  for (int i = 0; i < 3; ++i) corner.row(i) = mesh.vertices.row(mesh.triangles(t, i));
+  const Eigen::Matrix<double, 3, 2> weighted = here.f.asDiagonal() * corner;
+  const Eigen::RowVector2d constant = 0.5 * here.mean * corner.colwise().sum() - here.moment.transpose();
+  Eigen::MatrixX2d tau(lambda.rows(), 2);
+  for (Eigen::Index q = 0; q < lambda.rows(); ++q) {
+    const Eigen::RowVector3d l = lambda.row(q);
+    const double rotation = 0.5 * here.mean + l.dot(here.f) / 3;
+    tau.row(q) = constant - rotation * (l * corner) + l * weighted / 3;
+  }
+  return tau;
+}
+
+EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                                   const Solution& solution) {
+  check_request(scene, space, problem, solution);
+  static const Quadrature& fine_rule = triangle_rule(12);
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature &rule = load_rule(space.element()), &square_rule = radon_rule();  // tau^2 is of degree 4
+  EquilibratedFlux flux(scene);
+  flux.cell.resize(mesh.triangle_count());
+  Eigen::VectorXd assembled = Eigen::VectorXd::Zero(space.size());  // r with the load as the solver integrates it
+  Eigen::VectorXd finer = Eigen::VectorXd::Zero(space.size());      // what a finer rule adds to the load
+  Eigen::VectorXd values;
+  int layer_row = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    FluxCell& here = flux.cell[t];
+    const double area = mesh.area(t);
+    const auto unknown = space.unknowns().row(t);
+    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+    const Eigen::Vector2d gradient = -2 * lambda.transpose() * Eigen::Vector3d(solution.u(unknown));
+    here.s = gradient;
+    if (mesh.region[t] == Region::layer) {
+      here.s *= flux.law.stiffness;
+      if (flux.law.split) here.s(1) = solution.p(layer_row++);
+      flux.norm2 += area * flux.law.squared(here.s);
+    } else {
+      const LoadOn usual(mesh, t, rule, scene.body().load, values);
+      LoadOn load = usual;
+      if (needs_finer_rule(usual)) {
+        load = LoadOn(mesh, t, fine_rule, scene.body().load, values);
+        for (int i = 0; i < 3; ++i) finer(unknown(i)) += area * (load.of_basis(i) - usual.of_basis(i));
+      }
+      here.mean = load.mean;
+      here.moment = load.moment;
+      here.f = load.f;
+      here.oscillation2 = std::pow(longest_edge(mesh, t) / std::numbers::pi, 2) * area * load.rest2;
+      flux.oscillation2 += here.oscillation2;
+      for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= area * usual.of_basis(i);
+      const Eigen::MatrixX2d tau = flux.tau(mesh, t, square_rule.points);
+      here.tau2 = area * square_rule.weights.dot(tau.rowwise().squaredNorm());
+      flux.tau2 += here.tau2;
+      flux.norm2 += area * here.s.squaredNorm() + here.tau2;  // tau has mean zero on T
+    }
+    for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= 2 * area * here.s.dot(lambda.row(i));  // grad phi_i
+  }
+  check_same_question(problem, solution, assembled);
+  flux.residual = assembled - finer;
+
+  flux.imbalance = flux.residual;
+  for (const int e : problem.fixed) flux.imbalance(e) = 0;
+  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
+  flux.lambda.resize(contact);
+  flux.gap.resize(contact);
+  for (Eigen::Index i = 0; i < contact; ++i) {
+    const int e = problem.contact[i];  // the unknown of Crouzeix-Raviart is the edge
+    flux.lambda(i) = std::max(flux.residual(e), 0.0);
+    flux.imbalance(e) -= flux.lambda(i);
+    flux.gap(i) =
+        mean_gap(scene.contact()->gap, mesh.vertices(mesh.edges(e, 0), 0), mesh.vertices(mesh.edges(e, 1), 0));
+  }
+  flux.dual = -flux.norm2 / 2 - flux.lambda.dot(flux.gap);
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+    flux.dual += flux.residual(problem.fixed[i]) * problem.fixed_values(static_cast<Eigen::Index>(i));
+  return flux;
+}
+
+}  // namespace antilock

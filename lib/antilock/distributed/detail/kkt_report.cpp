@@ -1,0 +1,72 @@
+#include "antilock/distributed/detail/kkt_report.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "antilock/distributed/ranks.hpp"
+#include "antilock/solve/detail/iterated_penalty.hpp"
+#include "antilock/solve/detail/kkt_rows.hpp"
+#include "antilock/solve/kkt.hpp"
+
+namespace antilock::distributed {
+namespace {
+
+/// Per owned row: the sum over the ranks of what each has at its unknowns.
+Eigen::VectorXd summed(const Rows& rows, const Eigen::VectorXd& part) {
+  const Vector v = rows.vector();
+  rows.summed(part, v);
+  const PetscScalar* values = nullptr;
+  ok(VecGetArrayRead(v, &values));
+  Eigen::VectorXd sums = Eigen::Map<const Eigen::VectorXd>(values, rows.owned());
+  ok(VecRestoreArrayRead(v, &values));
+  return sums;
+}
+
+}  // namespace
+
+Eigen::VectorXd contact_forces(const Inequality& problem, const State& state) {
+  Eigen::VectorXd lambda = -summed(problem.rows(), problem.equilibrium(state.u, state.p));
+  for (Eigen::Index i = 0; i < lambda.size(); ++i)
+    if (state.active[i] == 0) lambda(i) = 0;
+  return lambda;
+}
+
+Kkt kkt_report(const Inequality& problem, const State& state) {
+  const Rows& rows = problem.rows();
+  const Eigen::VectorXd &u = state.u, &p = state.p, &lower = problem.lower();
+  Kkt kkt;
+  const bool broken = !u.allFinite() || !p.allFinite();
+  if (largest(broken ? 1 : 0) > 0) {  // a maximum may pass over what is not a number
+    kkt.residual = std::numeric_limits<double>::infinity();
+    return kkt;
+  }
+  KktParts parts = kkt_parts(problem.part(), u, p);
+  for (Eigen::VectorXd* part :
+       {&parts.load, &parts.terms, &parts.moderate, &parts.borne, &parts.diagonal, &parts.stiff})
+    *part = summed(rows, *part);
+  const Eigen::VectorXd lambda = contact_forces(problem, state);
+  const KktRows report(parts, lambda, lambda.cwiseAbs(), std::vector<char>(rows.owned(), 0),
+                       u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0,
+                       rows.largest_at_clamped(problem.equilibrium(u, p)), [](double value) { return largest(value); });
+  kkt.residual = report.residual();
+  kkt.min_gap = kkt.min_pressure = std::numeric_limits<double>::infinity();
+  const Stairs stairs{lower};
+  for (int i = 0; i < rows.owned(); ++i)
+    if (std::isfinite(lower(i)))
+      report.note_bound(kkt, stairs, i, u(rows.unknown(i)), lambda(i), 1, report.forces()(i));
+  kkt.complementarity = largest(kkt.complementarity);
+  kkt.min_gap = -largest(-kkt.min_gap), kkt.min_pressure = -largest(-kkt.min_pressure);
+  if (std::isinf(kkt.min_gap)) kkt.min_gap = kkt.min_pressure = 0;  // nothing is bounded
+  return kkt;
+}
+
+Kkt certified(const Inequality& problem, const State& state, double tolerance, std::string& warning) {
+  Solution answer;
+  answer.solver = "petsc";
+  answer.kkt = kkt_report(problem, state);
+  require_trusted(answer, TrustLevels{.refused = corrections_to(tolerance).refused});
+  warning = answer.warning;
+  return answer.kkt;
+}
+
+}  // namespace antilock::distributed

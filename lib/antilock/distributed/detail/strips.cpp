@@ -1,0 +1,70 @@
+#include "antilock/distributed/detail/strips.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "antilock/core/error.hpp"
+
+namespace antilock::distributed {
+namespace {
+
+constexpr double slack = 1e-9;  // between abscissae that are meant to be the same
+
+/// The vertical lines of the layer, by x; without a layer, those of the contact edges; else those of all vertices.
+std::vector<double> column_lines(const TriangleMesh& mesh) {
+  std::vector<double> x;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == EdgeTag::contact)
+      for (int i = 0; i < 2; ++i) x.push_back(mesh.vertices(mesh.edges(e, i), 0));
+  if (x.empty()) x.assign(mesh.vertices.col(0).begin(), mesh.vertices.col(0).end());
+  std::sort(x.begin(), x.end());
+  x.erase(std::unique(x.begin(), x.end(), [](double a, double b) { return b - a < slack; }), x.end());
+  return x;
+}
+
+int column_at(const std::vector<double>& lines, double x) {
+  const auto after = std::upper_bound(lines.begin(), lines.end(), x) - lines.begin();
+  return static_cast<int>(std::clamp<std::ptrdiff_t>(after - 1, 0, static_cast<std::ptrdiff_t>(lines.size()) - 2));
+}
+
+}  // namespace
+
+std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer) {
+  const std::vector<double> lines = column_lines(mesh);
+  const int columns = static_cast<int>(lines.size()) - 1;
+  if (columns < ranks)
+    throw Error(
+        fmt::format("{} ranks for {} columns of the layer; accepted: a column or more per rank (start fewer "
+                    "ranks, or ask for more cells)",
+                    ranks, columns));
+  std::vector<int> column(mesh.triangle_count()), filled(columns, 0);
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Vector3d x = mesh.vertices.col(0)(mesh.triangles.row(t));
+    column[t] = column_at(lines, x.mean());
+    ++filled[column[t]];
+    if (any_layer || mesh.region[t] != Region::layer) continue;
+    const double left = lines[column[t]], right = lines[column[t] + 1];
+    if (x.minCoeff() < left - slack || x.maxCoeff() > right + slack)
+      throw Error(
+          fmt::format("the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
+                      "of the contact edges: the layer is not made of columns, and multigrid fails on it; "
+                      "accepted: kind = \"layered\" or \"structured\", or --direct (MUMPS)",
+                      x.mean(), mesh.vertices.col(1)(mesh.triangles.row(t)).mean()));
+  }
+  // a strip ends at the column that brings the triangles up to its share, and leaves a column to each rank to come
+  std::vector<int> rank_of(columns);
+  long long before = 0;
+  for (int c = 0, rank = 0, own = 0; c < columns; ++c) {
+    const bool full = (before + filled[c] / 2) * ranks >= static_cast<long long>(rank + 1) * mesh.triangle_count();
+    const bool last_chance = columns - c == ranks - rank - 1;
+    if (own > 0 && rank + 1 < ranks && (full || last_chance)) ++rank, own = 0;
+    rank_of[c] = rank;
+    ++own;
+    before += filled[c];
+  }
+  for (int& c : column) c = rank_of[c];
+  return column;
+}
+
+}  // namespace antilock::distributed

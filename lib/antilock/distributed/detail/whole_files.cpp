@@ -1,0 +1,112 @@
+#include "antilock/distributed/detail/whole_files.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <exception>
+#include <fstream>
+
+#include "antilock/core/detail/result_folder.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/distributed/detail/rows.hpp"
+#include "antilock/distributed/ranks.hpp"
+
+namespace antilock::distributed {
+
+namespace fs = std::filesystem;
+
+void write_folder_together(const fs::path& folder, const std::function<void(const fs::path&)>& write,
+                           const std::vector<std::string>& stale) {
+  std::exception_ptr failure;
+  bool begun = false;
+  try {
+    if (rank() > 0) {
+      const std::string draft = from_first({});
+      if (!draft.empty()) write(draft);
+    } else {
+      write_folder(
+          folder,
+          [&](const fs::path& draft) {
+            begun = true;
+            from_first(draft.string());
+            write(draft);
+          },
+          stale);
+    }
+  } catch (const Error&) {  // on every rank, or on rank 0 before or after the others wrote
+    failure = std::current_exception();
+  }
+  if (rank() == 0 && !begun) from_first({});
+  together([&] {
+    if (failure) std::rethrow_exception(failure);
+  });
+}
+
+void write_in_turns(const fs::path& path, const std::string& head, const std::function<void(Text&)>& part) {
+  for (int r = 0; r < ranks(); ++r)
+    together([&] {
+      if (r != rank()) return;
+      std::ofstream out(path, std::ios::binary | (r == 0 && !head.empty() ? std::ios::trunc : std::ios::app));
+      {
+        Text text(out);
+        if (r == 0) text.print("{}", head);
+        part(text);
+      }
+      out.close();
+      if (!out) throw Error(path.string() + ": cannot be written; accepted: a folder with room for the results");
+    });
+}
+
+void write_solution_csv_together(const fs::path& path, const Piece& piece, const Space& space,
+                                 const Eigen::VectorXd& u) {
+  const Numbers all = numbers(piece, space.element().per_vertex() > 0);
+  write_in_turns(path, "x,y,u\n", [&](Text& text) {
+    for (const int i : all.own) text.print("{},{},{}\n", space.points()(i, 0), space.points()(i, 1), u(i));
+  });
+}
+
+void write_msh_together(const fs::path& path, const Piece& piece) {
+  const TriangleMesh& mesh = piece.mesh;
+  const Numbers nodes = numbers(piece, true), edges = numbers(piece, false);
+  std::vector<int> labelled;  // edges of this rank that carry a group
+  for (const int e : edges.own)
+    if (mesh.edge_tag[e] != EdgeTag::interior) labelled.push_back(e);
+  const std::vector<long long> lines = each(static_cast<long long>(labelled.size())),
+                               triangles = each(mesh.triangle_count());
+  long long line = 0, triangle = 0, elements = 0;  // before this rank's
+  for (int r = 0; r < ranks(); ++r) {
+    if (r < rank()) line += lines[r], triangle += triangles[r];
+    elements += lines[r];
+  }
+  triangle += elements;
+  const bool layer = sum(static_cast<long long>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer))) > 0;
+  for (const long long count : triangles) elements += count;
+
+  const std::string names = layer ? "5\n2 1 \"body\"\n2 2 \"layer\"\n1 3 \"sigma\"\n1 4 \"clamped\"\n1 5 \"contact\"\n"
+                                  : "3\n2 1 \"body\"\n1 4 \"clamped\"\n1 5 \"contact\"\n";
+  write_in_turns(path,
+                 fmt::format("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n{}$EndPhysicalNames\n$Nodes\n{}\n",
+                             names, nodes.total),
+                 [&](Text& text) {
+                   for (const int v : nodes.own)
+                     text.print("{} {} {} 0\n", nodes.number[v] + 1, mesh.vertices(v, 0), mesh.vertices(v, 1));
+                   if (rank() == ranks() - 1) text.print("$EndNodes\n$Elements\n{}\n", elements);
+                 });
+  write_in_turns(path, {}, [&](Text& text) {
+    for (const int e : labelled) {
+      const int group = static_cast<int>(mesh.edge_tag[e]);
+      text.print("{} 1 2 {} {} {} {}\n", ++line, group, group, nodes.number[mesh.edges(e, 0)] + 1,
+                 nodes.number[mesh.edges(e, 1)] + 1);
+    }
+  });
+  write_in_turns(path, {}, [&](Text& text) {
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      const int group = static_cast<int>(mesh.region[t]);
+      text.print("{} 2 2 {} {} {} {} {}\n", ++triangle, group, group, nodes.number[mesh.triangles(t, 0)] + 1,
+                 nodes.number[mesh.triangles(t, 1)] + 1, nodes.number[mesh.triangles(t, 2)] + 1);
+    }
+    if (rank() == ranks() - 1) text.print("$EndElements\n");
+  });
+}
+
+}  // namespace antilock::distributed

@@ -1,0 +1,199 @@
+#include "antilock/io/detail/scene_checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "antilock/core/dense.hpp"
+#include "antilock/form/forms.hpp"
+
+namespace antilock {
+namespace {
+
+constexpr double telling = 0.05;  // the share from which a difference is no matter of the mesh width
+
+/// The place of point k in a triangle: a sequence of low discrepancy in the unit square (Roberts 2018, the plastic
+/// number), folded to the triangle. No two points of a run have the same x or the same y, so that strips are found
+/// as well as spots.
+Eigen::Vector3d spread_point(double k) {
+  constexpr double plastic = 1.32471795724474602596;
+  double a = std::fmod(0.5 + k / plastic, 1), b = std::fmod(0.5 + k / (plastic * plastic), 1);
+  if (a + b > 1) {
+    a = 1 - a;
+    b = 1 - b;
+  }
+  return {1 - a - b, a, b};
+}
+
+/// 1, a, b, a a, a b, b b at a point of a triangle with the barycentric coordinates (1 - a - b, a, b).
+Eigen::Matrix<double, 6, 1> quadratics(const Eigen::Vector3d& lambda) {
+  const double a = lambda(1), b = lambda(2);
+  return Eigen::Matrix<double, 6, 1>(1, a, b, a * a, a * b, b * b);
+}
+
+/// From the values at the points of a rule to the quadratic that fits them best.
+Eigen::MatrixXd quadratic_fit(const Quadrature& rule) {
+  Eigen::MatrixXd at_points(rule.weights.size(), 6);
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) at_points.row(q) = quadratics(rule.points.row(q)).transpose();
+  return pseudo_inverse(at_points);
+}
+
+}  // namespace
+
+void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
+  const Field& f = file.scene.body().load;
+  std::vector<char> clamped(mesh.vertex_count(), 0);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const Eigen::RowVector2d from = mesh.vertices.row(mesh.edges(e, 0)), to = mesh.vertices.row(mesh.edges(e, 1));
+    if (mesh.edge_tag[e] == EdgeTag::clamped) clamped[mesh.edges(e, 0)] = clamped[mesh.edges(e, 1)] = 1;
+    const int first = mesh.edge_triangles(e, 0), second = mesh.edge_triangles(e, 1);
+    const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
+    if (!body(first) && !body(second)) continue;
+    for (const double s : {0.0, 0.5, 1.0}) {
+      const Eigen::RowVector2d x = (1 - s) * from + s * to;
+      f(x(0), x(1));
+    }
+  }
+  if (!file.scene.contact()) return;
+  const Profile& gap = file.scene.contact()->gap;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
+    for (int i = 0; i <= 32; ++i) gap(a + (b - a) * i / 32);
+    for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)})
+      if (const double x = mesh.vertices(v, 0);
+          clamped[v] && gap(x) < -1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))))
+        throw Error(
+            fmt::format("{}: contact.gap: gap({:.6g}) = {:.6g}, but u = 0 is prescribed there, so no u >= -gap "
+                        "exists; accepted: gap >= 0 where Gamma_C meets a clamped edge",
+                        file.name, x, gap(x)));
+  }
+}
+
+std::string load_warning(const SceneFile& file, const Space& space, const VariationalInequality& problem) {
+  const TriangleMesh& mesh = space.mesh();
+  const Field& f = file.scene.body().load;
+  double area = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::body) area += mesh.area(t);
+
+  const Quadrature& rule = load_rule(space.element());
+  const Eigen::MatrixXd fit = quadratic_fit(rule);
+  Eigen::VectorXd at_rule(rule.weights.size());
+  constexpr int points = 1 << 18;
+  Eigen::Vector3d sampled = Eigen::Vector3d::Zero(),
+                  size = sampled;  // integrals of f (1, x, y) and of |f| (1, |x|, |y|)
+  double k = 0, unseen = 0;        // integral of |f less what the rule's points say of it|
+  double due = 0;                  // each sample stands for the same area; a triangle may have many, or none
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != Region::body) continue;
+    due += points * mesh.area(t) / area;
+    const int here = static_cast<int>(due);
+    due -= here;
+    if (here == 0) continue;
+    for (Eigen::Index q = 0; q < at_rule.size(); ++q) {
+      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+      at_rule(q) = f(x(0), x(1));
+    }
+    const Eigen::VectorXd quadratic = fit * at_rule;
+    for (int i = 0; i < here; ++i) {
+      const Eigen::Vector3d lambda = spread_point(++k);
+      const Eigen::Vector2d x = point_in(mesh, t, lambda);
+      const double part = f(x(0), x(1)) * area / points;
+      unseen += std::abs(part - quadratics(lambda).dot(quadratic) * area / points);
+      sampled += part * Eigen::Vector3d(1, x(0), x(1));
+      size += std::abs(part) * Eigen::Vector3d(1, std::abs(x(0)), std::abs(x(1)));
+    }
+  }
+  // the basis sums to 1, and with the places of the unknowns as weights to x and to y
+  const Points& at = space.points();
+  const Eigen::Vector3d seen(problem.load.sum(), problem.load.dot(at.col(0)), problem.load.dot(at.col(1)));
+  for (int i = 0; i < 3; ++i)
+    if (std::abs(seen(i) - sampled(i)) > telling * std::max(size(i), std::abs(seen(i))))
+      return fmt::format(
+          "load.f: the quadrature of this mesh misses the load: the integral of {} is {:.3g} by the quadrature, {:.3g} "
+          "by {:.0f} points (that of its absolute value {:.3g}): a finer mesh is needed where the load lives",
+          i == 0   ? "f"
+          : i == 1 ? "x f"
+                   : "y f",
+          seen(i), sampled(i), k, size(i));
+  // integrals may agree by chance: what lives between the points of the rule, triangle by triangle, is seen by none
+  if (unseen > 0.25 * size(0))
+    return fmt::format(
+        "load.f: the quadrature of this mesh misses the load: {:.0f} % of the integral of |f| lie between its points, "
+        "by {:.0f} samples: a finer mesh is needed where the load lives",
+        100 * unseen / size(0), k);
+  return "";
+}
+
+std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
+  if (file.mesh.kind != MeshRequest::Kind::file) return "";
+  constexpr double corner = 0.7071;  // the cosine of 45 degrees, what a regular octagon turns by
+  std::vector<Eigen::RowVector2d> turn(mesh.vertex_count(), Eigen::RowVector2d::Zero());
+  std::vector<double> cosine(mesh.vertex_count(), 1);  // of the turn at a vertex of the boundary
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_triangles(e, 1) >= 0) continue;
+    const int a = mesh.edges(e, 0), b = mesh.edges(e, 1);
+    const Eigen::RowVector2d along = (mesh.vertices.row(b) - mesh.vertices.row(a)).normalized();
+    for (const auto& [vertex, away] : {std::pair(a, along), std::pair<int, Eigen::RowVector2d>(b, -along)}) {
+      if (turn[vertex] == Eigen::RowVector2d::Zero())
+        turn[vertex] = away;
+      else
+        cosine[vertex] = -turn[vertex].dot(away);
+    }
+  }
+  const auto curved =
+      std::count_if(cosine.begin(), cosine.end(), [&](double c) { return c > corner - 1e-4 && c < 1 - 1e-6; });
+  if (curved < 6) return "";
+  return fmt::format(
+      "mesh.file: the boundary turns a little at {} vertices, as the mesh of a curve does; what is proved is proved of "
+      "this polygon",
+      curved);
+}
+
+std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
+  if (!file.scene.contact()) return "";
+  const TriangleMesh& mesh = space.mesh();
+  std::vector<std::pair<double, double>> line;  // x and u_h at the contact unknowns and at the clamped ends of Gamma_C
+  for (const int i : space.contact()) line.emplace_back(space.points()(i, 0), solution.u(i));
+  std::vector<char> clamped(mesh.vertex_count(), 0);
+  int edges = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    edges += mesh.edge_tag[e] == EdgeTag::contact ? 1 : 0;
+    if (mesh.edge_tag[e] == EdgeTag::clamped) clamped[mesh.edges(e, 0)] = clamped[mesh.edges(e, 1)] = 1;
+  }
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    for (int end = 0; end < 2; ++end)
+      if (const int v = mesh.edges(e, end); mesh.edge_tag[e] == EdgeTag::contact && clamped[v])
+        line.emplace_back(mesh.vertices(v, 0), 0);
+  std::sort(line.begin(), line.end());
+
+  const double size = solution.u.lpNorm<Eigen::Infinity>();
+  const int places = std::max(32, 100'000 / std::max(edges, 1));
+  double deepest = 0, where = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
+    for (int i = 0; i < places; ++i) {
+      const double x = a + (b - a) * (i + 0.5) / places;
+      const auto right = std::upper_bound(line.begin(), line.end(), std::pair(x, 0.0));
+      if (right == line.begin() || right == line.end()) continue;
+      const auto [x0, u0] = *(right - 1);
+      const auto [x1, u1] = *right;
+      const double u = x1 > x0 ? u0 + (u1 - u0) * (x - x0) / (x1 - x0) : u0;
+      if (const double depth = -u - file.scene.contact()->gap(x); depth > deepest) {
+        deepest = depth;
+        where = x;
+      }
+    }
+  }
+  if (deepest <= telling * size || deepest < 1e-12) return "";
+  return fmt::format(
+      "contact.gap: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep into it at x = "
+      "{:.6g} "
+      "(max |u| is {:.3g}): a finer mesh is needed there",
+      deepest, where, size);
+}
+
+}  // namespace antilock

@@ -1,0 +1,216 @@
+#include "antilock/io/detail/scene_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/blas.hpp"
+#include "antilock/core/detail/result_folder.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/io/expression.hpp"
+#include "antilock/io/writers.hpp"
+#include "antilock/measure/errors.hpp"
+
+namespace antilock {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+/// JSON has no infinity: a library would write null and say nothing.
+double finite(const char* what, double value) {
+  if (!std::isfinite(value)) throw NotConverged(std::string(what) + " of the answer is not finite", value, 0);
+  return value;
+}
+
+/// The question in full: with it and the mesh file anyone can ask it again.
+Json question(const SceneFile& file) {
+  const SceneWords& words = file.words;
+  Json layer, mesh = {{"kind", words.mesh}};
+  if (!words.model.empty()) layer = {{"epsilon", or_null(file.scene.epsilon())}, {"model", words.model}};
+  if (file.mesh.kind == MeshRequest::Kind::file)
+    mesh["file"] = words.file;
+  else
+    mesh["cells"] = file.mesh.cells;
+  if (file.mesh.refinements > 0) mesh["refinements"] = file.mesh.refinements;
+  Json method = {
+      {"element", file.method.element}, {"solver", file.method.solver}, {"tolerance", file.method.tolerance}};
+  if (file.method.accuracy) {
+    method["accuracy"] = *file.method.accuracy;
+    method["of"] = file.method.of == Quantity::stress ? "stress" : "displacement";
+    method["most_unknowns"] = file.method.most_unknowns;
+  }
+  return {{"title", file.title},
+          {"load", words.load},
+          {"layer", layer},
+          {"gap", file.scene.contact() ? Json(words.gap) : Json(nullptr)},
+          {"mesh", mesh},
+          {"method", method},
+          {"version", ANTILOCK_VERSION}};
+}
+
+/// What was asked, what is proved, and the way there.
+Json certificate(const SceneFile& file, const CertifiedSolution& certified) {
+  const Certificate& proof = certified.certificate;
+  Json levels = Json::array();
+  for (const Level& level : certified.history)
+    levels.push_back({{"unknowns", level.unknowns}, {"bound", level.bound}, {"seconds", level.seconds}});
+  return {{"asked", *file.method.accuracy},
+          {"of", file.method.of == Quantity::stress ? "stress" : "displacement"},
+          {"relative", finite("the certified error", proof.relative(file.method.of))},
+          {"bound", finite("the certified error", proof.bound(file.method.of))},
+          {"energy_lower", proof.energy_lower},
+          {"energy_upper", proof.energy_upper},
+          {"proved_of", "the polygon of the mesh, with load and gap as sampled"},
+          {"levels", levels}};
+}
+
+/// T values of the layer stress: the mean over the rows of B that stand for a triangle, 0 on the body.
+Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p) {
+  const auto triangles = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
+  if (p.size() == 0 || triangles == 0) return {};
+  const Eigen::Index rows = p.size() / triangles;
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(mesh.triangle_count());
+  Eigen::Index row = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer) {
+      stress(t) = p.segment(row, rows).mean();
+      row += rows;
+    }
+  return stress;
+}
+
+/// What an earlier run on several ranks left in the folder: its pictures would pass for those of this one.
+std::vector<std::string> pieces_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code absent;
+  if (!std::filesystem::exists(folder / "solution.pvtu", absent)) return names;
+  names.push_back("solution.pvtu");
+  const auto piece = [](std::size_t rank) { return fmt::format("solution_{}.vtu", rank); };
+  while (std::filesystem::exists(folder / piece(names.size() - 1), absent)) names.push_back(piece(names.size() - 1));
+  return names;
+}
+
+}  // namespace
+
+SceneSummary summary_of(const SceneFile& file, const Answer& answer) {
+  const Solution& solution = answer.solution;
+  SceneSummary s;
+  s.h = mesh_width(file, *answer.mesh);
+  s.unknowns = solution.counters.unknowns;
+  s.energy = energy(answer.problem, solution);
+  s.u_max = solution.u.maxCoeff();
+  s.u_min = solution.u.minCoeff();
+  if (file.scene.contact()) s.zone = contact_zone(answer.space, answer.problem, solution);
+  s.kkt = solution.kkt;
+  s.contact_steps = solution.counters.contact;
+  s.corrections = solution.counters.corrections;
+  s.warning = answer.warning;
+  return s;
+}
+
+void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
+                   const RunSeconds& seconds, double files, const CertifiedSolution* certified) {
+  Json s;
+  s["element"] = file.method.element;
+  s["solver"] = file.method.solver;
+  s["epsilon"] = or_null(file.scene.epsilon());
+  s["h"] = summary.h;
+  s["dofs"] = summary.unknowns;
+  s["effects"] = file.scene.effects();
+  s["energy"] = finite("the energy", summary.energy);
+  s["u_max"] = finite("the maximum", summary.u_max);
+  s["u_min"] = finite("the minimum", summary.u_min);
+  if (file.scene.contact()) {
+    const ContactZone& zone = summary.zone;
+    s["contact"] = {
+        {"points", zone.points}, {"active", zone.active}, {"from", or_null(zone.from)}, {"to", or_null(zone.to)}};
+    s["kkt"] = {{"min_gap", summary.kkt.min_gap},
+                {"min_pressure", summary.kkt.min_pressure},
+                {"complementarity", summary.kkt.complementarity},
+                {"residual", summary.kkt.residual}};
+  } else {
+    s["kkt"] = {{"residual", summary.kkt.residual}};
+  }
+  s["iterations"] = {{"contact", summary.contact_steps}, {"corrections", summary.corrections}};
+  const Blas used = blas();
+  s["blas"] = {{"name", used.name}, {"kernel", used.kernel}, {"threads", used.threads}};
+  if (summary.layer) {
+    const std::optional<double>& lost = summary.layer->lost;
+    s["locking"] = {{"diagnosis", summary.layer->diagnosis},
+                    {"kept", lost ? Json(1 - *lost) : Json(nullptr)},
+                    {"lost_energy", or_null(lost)}};
+  }
+  if (summary.parallel)
+    s["parallel"] = {{"ranks", summary.parallel->ranks},
+                     {"petsc", summary.parallel->petsc},
+                     {"levels", summary.parallel->levels},
+                     {"linear_iterations", summary.parallel->linear_iterations},
+                     {"memory_mb", summary.parallel->memory_mb}};
+  if (certified != nullptr) s["certificate"] = certificate(file, *certified);
+  s["warning"] = summary.warning;
+  s["scene"] = question(file);
+  const auto& [mesh, assemble, factor, solve] = seconds;
+  s["seconds"] = {{"mesh", mesh},   {"assemble", assemble}, {"factor", factor},
+                  {"solve", solve}, {"files", files},       {"total", mesh + assemble + factor + solve + files}};
+  write_file(path, [&](std::ostream& out) { out << s.dump(2) << "\n"; });
+}
+
+void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
+                       std::vector<std::string> more) {
+  more.insert(more.end(), {"summary.json", "solution.csv", "contact.csv", "mesh.msh", "solution.vtu"});
+  for (const std::string& name : more)
+    for (const std::filesystem::path& input : {scene, file.mesh.file})
+      if (std::error_code absent; !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
+        throw Error(fmt::format("{}: --out: the result {} would replace {}; accepted: another folder", file.name, name,
+                                printable(input.string(), 1000)));
+}
+
+ResultFiles result_files(const std::string& words) {
+  ResultFiles asked{false, false, false};
+  std::istringstream in(words);
+  for (std::string word; std::getline(in, word, ',');) {
+    if (word == "csv")
+      asked.csv = true;
+    else if (word == "mesh")
+      asked.mesh = true;
+    else if (word == "vtu")
+      asked.vtu = true;
+    else if (word != "summary")
+      throw Error(fmt::format("--files: {:?} is none of the files; accepted: summary, csv, mesh, vtu, with commas",
+                              printable(word)));
+  }
+  return asked;
+}
+
+void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
+                         const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked) {
+  const Stopwatch watch;
+  const bool contact = file.scene.contact().has_value();
+  const auto write = [&](const std::filesystem::path& draft) {
+    if (asked.csv) write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
+    VtuFields more{layer_stress(*answer.mesh, answer.solution.p), {}};
+    if (contact) {
+      Eigen::MatrixX3d table = contact_table(answer.space, answer.problem, answer.solution);
+      table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
+      if (asked.csv) write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
+      more.pressure = table.col(2);
+    }
+    if (asked.mesh) write_msh(draft / "mesh.msh", *answer.mesh);
+    if (asked.vtu) write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
+    write_summary(draft / "summary.json", file, summary, answer.seconds, watch.seconds(), certified);
+  };
+  std::vector<std::string> stale = pieces_in(folder);
+  if (!asked.csv) stale.emplace_back("solution.csv");
+  if (!asked.csv || !contact) stale.emplace_back("contact.csv");
+  if (!asked.mesh) stale.emplace_back("mesh.msh");
+  if (!asked.vtu) stale.emplace_back("solution.vtu");
+  write_folder(folder, write, stale);
+}
+
+}  // namespace antilock

@@ -1,0 +1,61 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "antilock/adapt/solve_to.hpp"
+#include "antilock/analysis/lost_energy.hpp"
+#include "antilock/io/scene_file.hpp"
+#include "antilock/measure/contact_zone.hpp"
+#include "antilock/measure/detail/answer.hpp"
+
+namespace antilock {
+
+/// Throws Error where the results in `folder`, or a file there with a name among `more`, would replace the scene or its
+/// mesh file. Touches nothing.
+void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
+                       std::vector<std::string> more = {});
+
+/// The numbers of summary.json, whoever solved the scene: one process or the ranks of a run with PETSc.
+struct SceneSummary {
+  double h = 0;  ///< mesh_width, or the same of all pieces
+  std::int64_t unknowns = 0;
+  double energy = 0, u_max = 0, u_min = 0;
+  ContactZone zone;  ///< read with the effect alone
+  Kkt kkt;
+  int contact_steps = 0, corrections = 0;
+  std::optional<LayerReport> layer;
+  std::string warning;
+  struct Parallel {
+    int ranks = 0;
+    std::string petsc;
+    int levels = 0, linear_iterations = 0;
+    double memory_mb = 0;
+  };
+  std::optional<Parallel> parallel;
+};
+SceneSummary summary_of(const SceneFile& file, const Answer& answer);
+
+/// summary.json: the only writer of its keys, which are those of `run_scene --help`. `certified`, where an accuracy was
+/// asked for, gives its `certificate`; `files` are the seconds spent on the other files. Throws NotConverged where a
+/// number is not finite.
+void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
+                   const RunSeconds& seconds, double files, const CertifiedSolution* certified = nullptr);
+
+/// Which files are asked for; summary.json is always written.
+struct ResultFiles {
+  bool csv = true, mesh = true, vtu = true;
+};
+/// From the words "summary", "csv", "mesh" and "vtu", with commas between them. Throws Error, the option first.
+ResultFiles result_files(const std::string& words);
+
+/// The answer to a scene file, in `folder`: summary.json, solution.csv, contact.csv (with the effect only), mesh.msh
+/// (MSH 2.2), solution.vtu; all that are asked for or none, and those of an earlier run that are not asked for go. Gaps
+/// and pressures that are negative by round-off are written as 0; the summary's `kkt` has them as they are. Throws Error
+/// where the folder cannot be written, NotConverged where a number is not finite.
+void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
+                         const SceneSummary& summary, const CertifiedSolution* certified = nullptr,
+                         const ResultFiles& asked = {});
+
+}  // namespace antilock

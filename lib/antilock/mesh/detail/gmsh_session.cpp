@@ -1,0 +1,112 @@
+#include "antilock/mesh/detail/gmsh_session.hpp"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+#include <gmshc.h>
+
+#include <memory>
+#include <string>
+
+#include "antilock/core/error.hpp"
+
+namespace antilock {
+namespace {
+
+/// The library, for as long as the program runs: gmsh does not bear being unloaded.
+void* gmsh_library() {
+  static std::string why;
+  static void* const library = [] {
+    void* const loaded = dlopen(ANTILOCK_GMSH_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
+    if (loaded == nullptr) why = dlerror();
+    return loaded;
+  }();
+  if (library == nullptr)
+    throw Error(
+        fmt::format("mesh: gmsh cannot be loaded ({}); an unstructured or layered mesh needs it (Debian: "
+                    "libgmsh-dev), a structured mesh or a mesh file does not",
+                    why));
+  return library;
+}
+
+void free_by_gmsh(void* memory) { reinterpret_cast<decltype(gmshFree)*>(dlsym(gmsh_library(), "gmshFree"))(memory); }
+
+/// What gmsh allocated, as a vector; gmsh's own memory is freed.
+template <class Number>
+std::vector<Number> taken(Number* first, std::size_t count) {
+  const std::unique_ptr<Number, decltype(&free_by_gmsh)> owner(first, &free_by_gmsh);
+  return {first, first + count};
+}
+
+}  // namespace
+
+void* GmshSession::symbol(const char* name) {
+  void* const found = dlsym(gmsh_library(), name);
+  if (found == nullptr) throw Error(fmt::format("mesh: {} has no function {}", ANTILOCK_GMSH_LIBRARY, name));
+  return found;
+}
+
+void GmshSession::check(int failed, const char* name) const {
+  if (failed == 0) return;
+  char* message = nullptr;
+  int ignored = 0;
+  reinterpret_cast<decltype(gmshLoggerGetLastError)*>(symbol("gmshLoggerGetLastError"))(&message, &ignored);
+  const std::string said = message == nullptr ? "" : message;
+  if (message != nullptr) free_by_gmsh(message);
+  throw Error(fmt::format("mesh: gmsh failed in {}{}{}", name, said.empty() ? "" : ": ", said));
+}
+
+GmshSession::GmshSession() {
+  call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, /*readConfigFiles=*/0);
+  set("General.Terminal", 0);
+  set("General.NumThreads", 1);  // the mesh depends on the number of threads
+  set("Mesh.RandomSeed", 1);
+  set("Mesh.MeshSizeExtendFromBoundary", 1);
+  call<decltype(gmshModelAdd)>("gmshModelAdd", "antilock");
+}
+
+GmshSession::~GmshSession() {
+  int ignored = 0;
+  reinterpret_cast<decltype(gmshFinalize)*>(dlsym(gmsh_library(), "gmshFinalize"))(&ignored);
+}
+
+void GmshSession::set(const char* option, double value) const {
+  call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", option, value);
+}
+
+int GmshSession::add_point(double x, double y, double size) const {
+  return call<decltype(gmshModelGeoAddPoint)>("gmshModelGeoAddPoint", x, y, 0, size, -1);
+}
+
+int GmshSession::add_line(int from, int to) const {
+  return call<decltype(gmshModelGeoAddLine)>("gmshModelGeoAddLine", from, to, -1);
+}
+
+int GmshSession::add_surface(std::array<int, 4> lines) const {
+  int loop = call<decltype(gmshModelGeoAddCurveLoop)>("gmshModelGeoAddCurveLoop", lines.data(), lines.size(), -1, 0);
+  return call<decltype(gmshModelGeoAddPlaneSurface)>("gmshModelGeoAddPlaneSurface", &loop, 1, -1);
+}
+
+void GmshSession::generate() const {
+  call<decltype(gmshModelGeoSynchronize)>("gmshModelGeoSynchronize");
+  call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
+}
+
+GmshSession::Nodes GmshSession::nodes() const {
+  std::size_t *tags = nullptr, tag_count = 0, coordinate_count = 0, parameter_count = 0;
+  double *coordinates = nullptr, *parameters = nullptr;
+  call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", &tags, &tag_count, &coordinates, &coordinate_count,
+                                        &parameters, &parameter_count, /*dim: all*/ -1, -1, 0, 0);
+  if (parameters != nullptr) free_by_gmsh(parameters);
+  return {taken(tags, tag_count), taken(coordinates, coordinate_count)};
+}
+
+std::vector<std::size_t> GmshSession::elements_of(int dimension, int entity) const {
+  const int two_nodes_or_three = dimension;  // gmsh's numbers of the line with two nodes and the triangle with three
+  std::size_t *tags = nullptr, tag_count = 0, *nodes = nullptr, node_count = 0;
+  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", two_nodes_or_three, &tags,
+                                                 &tag_count, &nodes, &node_count, entity, /*task*/ 0, /*numTasks*/ 1);
+  free_by_gmsh(tags);
+  return taken(nodes, node_count);
+}
+
+}  // namespace antilock

@@ -1,0 +1,215 @@
+#include "antilock/solve/detail/iterated_penalty.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/detail/anderson.hpp"
+#include "antilock/solve/detail/dense_contact.hpp"
+#include "antilock/solve/detail/sparse_contact.hpp"
+#include "antilock/solve/detail/tied.hpp"
+#include "antilock/solve/judge.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "antilock/solve/residual.hpp"
+
+namespace antilock {
+namespace {
+
+/// Corrections with one penalty: a new factor costs as much as 10 to 20 (measured at 1/h = 128).
+constexpr int corrections_per_penalty = 15;
+/// By which the next penalty is smaller. A correction contracts like delta / (delta + sigma): 0.9 becomes 0.12.
+constexpr double smaller_by = 64;
+
+/// One solve: the factor and where the iterates stand.
+class IteratedPenalty {
+ public:
+  IteratedPenalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
+                  const CorrectionOptions& options, const std::string& name)
+      : problem_(problem),
+        factor_(factor),
+        contact_solver_(contact),
+        options_(options),
+        u_(Eigen::VectorXd::Zero(problem.size())),
+        p_(Eigen::VectorXd::Zero(problem.b.rows())) {
+    u_.high(problem.fixed) = problem.fixed_values;
+    s_.solver = name;
+    note_factor();
+  }
+
+  /// u, p and lambda of the last correction, the counters and the forward error; the judgement is the caller's.
+  Solution solve() {
+    for (int correction = 0;; ++correction) {
+      const Correction step = correct(exact_residual(problem_, u_, p_, contact_.lambda), correction);
+      const double largest = u_.high.lpNorm<Eigen::Infinity>(), moved = step.u.lpNorm<Eigen::Infinity>();
+      if (correction == 0) s_.moderate = largest;
+      const Accuracy now = accuracy(problem_, u_, step.u, step.left_of_r2, rate(moved), s_.moderate, options_);
+      s_.history.push_back(largest > 0 ? moved / largest : 0);
+      s_.counters.corrections = correction;
+      s_.error = now.error;
+      if (now.error <= options_.tolerance && now.open <= 1) return finished();
+      if (correction % 5 == 4) require_an_admissible_u(problem_, u_.high, s_);
+      if (correction >= options_.max_corrections || !std::isfinite(moved))
+        throw NotConverged(fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative "
+                                       "error of u is {:.1e}, accepted {:.0e}, and compliance p = B u holds to {:.1e} "
+                                       "of what is accepted",
+                                       s_.solver, correction, now.error, options_.tolerance, now.open),
+                           std::max(now.error, options_.tolerance * now.open), correction);
+      report(options_.progress, {"corrections", correction + 1, now.error, options_.tolerance}, s_.solver);
+      acceleration_.mix(p_, u_);
+      if (correction % corrections_per_penalty == corrections_per_penalty - 1) take_a_smaller_penalty();
+    }
+  }
+
+ private:
+  /// du, and what the correction leaves of r2.
+  struct Correction {
+    Eigen::VectorXd u, left_of_r2;  ///< N, R
+  };
+
+  /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp = (B du - r2) / delta.
+  Correction correct(SplitResidual r, int correction) {
+    const std::vector<int>&unknown = factor_.numbering().unknown, &contact = problem_.contact;
+    const Eigen::VectorXd& delta = factor_.deltas();
+    if (p_.size() > 0) r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2).cwiseQuotient(delta);
+    const Eigen::VectorXd u_c = u_.high(contact), low_c = u_.low(contact);
+    const Stairs stairs =
+        Stairs{problem_.lower, problem_.upper, problem_.force_bound, contact_.lambda}.from(u_c).from(low_c);
+    const Pieces before = contact_.pieces;
+    Correction step{Eigen::VectorXd::Zero(problem_.size()), {}};
+    step.u(unknown) = factor_.held() != nullptr ? sparse_road(r.r1(unknown), stairs, correction)
+                                                : dense_road(r.r1(unknown), stairs, correction);
+    u_ += step.u;
+    for (std::size_t i = 0; i < contact.size(); ++i)  // what is held stands where its bound is, to the last digit
+      if (const auto k = static_cast<int>(i);
+          is_held(contact_.pieces[i]) && contact_.v(k) == stairs.given(k, contact_.pieces[i]))
+        u_.set(contact[i], contact_.pieces[i] == Piece::at_lower ? problem_.lower(k) : problem_.upper(k));
+    if (p_.size() == 0) return step;
+    const Eigen::VectorXd dp = (problem_.b * step.u - r.r2).cwiseQuotient(delta);
+    p_ += dp;
+    step.left_of_r2 = (problem_.compliances() - delta).cwiseProduct(dp);
+    if (contact_.pieces != before) acceleration_.restart();
+    acceleration_.note(p_, dp, u_);
+    return step;
+  }
+
+  void ask(ContactSystem& system, const Stairs& stairs, int correction) {
+    contact_ = contact_solver_({system, stairs, contact_, correction, u_.high.lpNorm<Eigen::Infinity>()});
+  }
+
+  /// The contact problem condensed on the bounded unknowns, the last C places of the factor.
+  Eigen::VectorXd dense_road(Eigen::VectorXd r, const Stairs& stairs, int correction) {
+    const Eigen::Index c = stairs.count();
+    Stopwatch watch;
+    // what acts on a bounded unknown itself stays out of the factor: a great load there, which the bound bears, would
+    // leave its round-off on the neighbours
+    const Eigen::VectorXd r_c = r.tail(c);
+    r.tail(c).setZero();
+    Eigen::VectorXd y = factor_.forward(r);
+    s_.seconds.solve += watch.lap();
+    if (c > 0) {
+      const auto l = factor_.contact_block().triangularView<Eigen::Lower>();
+      const Eigen::VectorXd q = r_c + l * y.tail(c);
+      DenseContact system(schur_, q);
+      ask(system, stairs, correction);
+      y.tail(c) = l.transpose() * contact_.v;
+      s_.seconds.contact += watch.lap();
+    }
+    Eigen::VectorXd du = factor_.backward(std::move(y));
+    s_.seconds.solve += watch.lap();
+    return du;
+  }
+
+  /// The same on all free places.
+  Eigen::VectorXd sparse_road(const Eigen::VectorXd& r, const Stairs& stairs, int correction) {
+    const Stopwatch watch;
+    std::vector<int> bounded(stairs.count());
+    std::iota(bounded.begin(), bounded.end(), factor_.numbering().interior);
+    SparseContact system(*factor_.held(), r, bounded);
+    ask(system, stairs, correction);
+    s_.seconds.contact += watch.seconds();
+    return system.x();
+  }
+
+  /// By how much a correction brings u closer: as the past tells; at first, without B, the round-off of the factor.
+  double rate(double moved) const {
+    if (p_.size() > 0) return acceleration_.contraction();
+    if (s_.history.empty()) return std::min(0.99, rounding_of_the_factor(problem_, factor_));
+    const double before = s_.history.back() * u_.high.lpNorm<Eigen::Infinity>();
+    return moved < before ? std::clamp(moved / before, 0.01, 0.99) : 0.99;
+  }
+
+  /// No smaller than the compliance, and than what leaves a factor digits of A1.
+  void take_a_smaller_penalty() {
+    const double before = factor_.delta(), compliance = problem_.b.rows() > problem_.ties ? problem_.compliance : 0;
+    const double delta = std::max({before / smaller_by, compliance, std::min(before, smallest_penalty(problem_))});
+    if (problem_.b.rows() == 0 || delta >= before) return;
+    try {
+      factor_.refactor(problem_, delta);
+    } catch (const Error&) {  // flat cells: no positive pivots
+      factor_.refactor(problem_, before);
+    }
+    note_factor();
+    acceleration_.restart();
+  }
+
+  void note_factor() {
+    const Stopwatch watch;
+    if (factor_.held() == nullptr && factor_.contact_block().size() > 0)
+      schur_ = factor_.contact_block().triangularView<Eigen::Lower>() * factor_.contact_block().transpose();
+    s_.seconds.contact += watch.seconds();
+  }
+
+  Solution finished() {
+    s_.counters.unknowns = problem_.free_count();
+    s_.counters.factorisations = factor_.work().factorisations;
+    if (factor_.held() != nullptr) s_.counters.factorisations += factor_.held()->refactorisations();
+    s_.counters.solves = s_.counters.corrections + 1;
+    s_.seconds.analyse = factor_.work().analyse_seconds;
+    s_.seconds.factor = factor_.work().factor_seconds;
+    for (const Piece piece : contact_.pieces) s_.active.push_back(is_held(piece));
+    s_.pieces = std::move(contact_.pieces);
+    s_.u = std::move(u_.high);
+    s_.p = std::move(p_.high);
+    s_.lambda = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(problem_.bound_count());
+    return std::move(s_);
+  }
+
+  const VariationalInequality& problem_;
+  PenaltyFactor& factor_;
+  const ContactSolver& contact_solver_;
+  const CorrectionOptions& options_;
+  Solution s_;             ///< what is counted
+  Twice u_, p_;            ///< N, R
+  ContactAnswer contact_;  ///< of the last correction
+  Eigen::MatrixXd schur_;  ///< C x C, S = L_C L_C', of the factor as it is now; empty on the sparse road
+  Anderson acceleration_{6};
+};
+
+}  // namespace
+
+CorrectionOptions corrections_to(double asked) {
+  CorrectionOptions options;
+  options.tolerance = asked;
+  options.refused = std::max(options.refused, 10 * asked);
+  return options;
+}
+
+Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
+                          const CorrectionOptions& options, const std::string& name) {
+  const Tied tied(problem);
+  Solution answer = IteratedPenalty(*tied, factor, contact, options, name).solve();
+  answer.warning = doubt(*tied, factor, answer);
+  answer.u.conservativeResize(problem.size());
+  answer.p.conservativeResize(problem.b.rows());
+  answer.lambda = tied.forces(std::move(answer.lambda));
+  answer.kkt = kkt_report_unchecked(problem, answer);
+  require_trusted(answer, TrustLevels{.refused = options.refused});
+  return answer;
+}
+
+}  // namespace antilock
