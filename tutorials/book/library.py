@@ -26,26 +26,37 @@ class Library:
     def page_names(self):
         return [f"library_{room}" for room in self.rooms]
 
+    def declared(self, header, patterns=(TYPE, FUNCTION)):
+        """The names that a header declares, each once, in its order."""
+        found = (pattern.match(line) for line in header.read_text().splitlines() for pattern in patterns)
+        return list(dict.fromkeys(match[1] for match in found if match))
+
     def names(self):
         """({type: page}, {function: page}) of what the headers declare; a name of two headers leads to the first."""
-        types, functions = {}, {}
+        known = {}, {}
         for room in self.rooms:
             for header in self.headers(room):
-                for line in header.read_text().splitlines():
-                    for pattern, known in ((TYPE, types), (FUNCTION, functions)):
-                        found = pattern.match(line)
-                        if found:
-                            known.setdefault(found[1], self.page(header, ".html"))
-        return types, functions
+                for pattern, pages in zip((TYPE, FUNCTION), known):
+                    for name in self.declared(header, [pattern]):
+                        pages.setdefault(name, self.page(header, ".html"))
+        return known
 
-    def write(self, write):
+    def write(self, write, chapters):
+        """A page per room: each header, and the chapters that use what it declares. They are its examples: each is a
+        program that the tests run."""
+        words = {chapter.stem: set(re.findall(r"\w+", re.sub("//.*|\".*?\"", "", chapter.read_text()))) for chapter in chapters}
         for room in self.rooms:
             out = [f"# Room {room}", ""]
             for header in self.headers(room):
                 out += [f"## {self.short(header)}", "", "```cpp", header.read_text().rstrip(), "```", ""]
+                used = {name: ", ".join(f"[{stem[:2]}]({stem}.md)" for stem in words if name in words[stem]) for name in self.declared(header)}
+                out += [f"- `{name}`: used in chapter {chapters}" for name, chapters in used.items() if chapters]
+                unused = ", ".join(f"`{name}`" for name, chapters in used.items() if not chapters)
+                out += [f"- no chapter uses {unused} by name", ""] if unused and "/detail/" not in str(header) else [""]
             write(f"library_{room}", out)
-        write("library", ["# The library's headers", "", "A room includes only rooms before it.", "", "```{toctree}", ":maxdepth: 2", "",
-                          *(f"library_{room}" for room in self.rooms), "```"])
+        write("library", ["# The library's headers", "", "A room includes only rooms before it. Below each header stand the chapters that use it:",
+                          "each is a program, compiled and run by the tests, so each is an example that works.", "",
+                          "```{toctree}", ":maxdepth: 2", "", *(f"library_{room}" for room in self.rooms), "```"])
 
 
 class NameLinks:

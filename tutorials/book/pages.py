@@ -289,7 +289,7 @@ class Book:
             self.write(name, self.linked(lines, ROOT / "tutorials", signs))
         self.theory()
         self.gallery()
-        self.library.write(self.write)
+        self.library.write(self.write, self.sources)
         self.index()
         known = {*self.names, *EXTRA, "theory", "gallery", "index", "library", *self.library.page_names()}
         for path in self.out.glob("*.md"):
