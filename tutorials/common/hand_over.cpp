@@ -31,10 +31,10 @@ void become(const std::string& program, char** argv) {
 }
 
 void choose_kernels(char** argv) {
+  if (!std::getenv("OPENBLAS_NUM_THREADS")) set_blas_threads(1);
   const std::string wider = blas().wider;
   if (wider.empty() || std::getenv("OPENBLAS_CORETYPE") || std::getenv("ANTILOCK_KEEP_KERNELS")) return;
   setenv("OPENBLAS_CORETYPE", wider.c_str(), 0);
-  setenv("OPENBLAS_NUM_THREADS", "1", 0);
   become("", argv);
 }
 

@@ -7,6 +7,7 @@ extern "C" {
 [[gnu::weak]] char* openblas_get_config();
 [[gnu::weak]] char* openblas_get_corename();
 [[gnu::weak]] int openblas_get_num_threads();
+[[gnu::weak]] void openblas_set_num_threads(int);
 }
 
 namespace antilock {
@@ -42,6 +43,10 @@ Blas blas() {
   if (const std::string_view widest = widest_here(); vector_bits(widest) > vector_bits(found.kernel))
     found.wider = widest;
   return found;
+}
+
+void set_blas_threads(int threads) {
+  if (openblas_set_num_threads) openblas_set_num_threads(threads);
 }
 
 }  // namespace antilock

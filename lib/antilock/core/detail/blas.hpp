@@ -15,4 +15,7 @@ struct Blas {
 };
 Blas blas();
 
+/// As many threads from now on; nothing happens where the BLAS is not OpenBLAS.
+void set_blas_threads(int threads);
+
 }  // namespace antilock
