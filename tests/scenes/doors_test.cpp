@@ -135,19 +135,23 @@ TEST_F(Door, JudgeLiftsAnAnswerOutOfTheObstacleAndSaysSo) {
 }
 
 TEST_F(Door, SweepIsTheSceneAskedAgainAndAgain) {
-  const Outcome told = ask("sweep " + file("scene.toml", scene(1)) +
-                           " --epsilon 1,1e-3,0 --cells 8,16 --at 0.25,-1 --out " + in_shell(folder / "sweep.csv"));
+  const Outcome told =
+      ask("sweep " + file("scene.toml", scene(1)) + " --epsilon 1,1e-4,0 --cells 8,16 --at 0.25,-1,0.5,0.5 --out " +
+          in_shell(folder / "sweep.csv"));
   ASSERT_EQ(told.status, 0) << told.err;
   const Csv table = read_csv(folder / "sweep.csv");
   ASSERT_EQ(table.rows.rows(), 6);
   const TriangleMesh mesh = structured_mesh(16);
   const Space space(mesh, p1());
-  const Solution answer = active_set(assemble(Scene({paper_load}, StiffLayer{1e-3}, UnilateralContact{}), space));
+  const Solution answer = active_set(assemble(Scene({paper_load}, StiffLayer{1e-4}, UnilateralContact{}), space));
   int at = -1;
   for (int i = 0; i < space.size(); ++i)
     if (space.points()(i, 0) == 0.25 && space.points()(i, 1) == -1) at = i;
-  EXPECT_EQ(table.header.rfind("cells,epsilon,unknowns,u_at,ridge,kept", 0), 0u);
+  EXPECT_EQ(table.header.rfind("cells,epsilon,unknowns,u_at_1,u_at_2,ridge,kept", 0), 0u);
   EXPECT_NEAR(table.rows(4, 3), answer.u(at), 1e-9);  // both are solved to 1e-10
+  // per mesh: epsilon = 1 has a factor of its own; epsilon^2 = 1e-8 and 0 are below the penalty h^2 / 4096 and share one
+  const std::vector<double> factored{1, 1, 0, 1, 1, 0};
+  for (int i = 0; i < 6; ++i) EXPECT_EQ(table.rows(i, 9), factored[i]) << i;
 }
 
 /// Matrix Market, as any program exports it.
@@ -174,16 +178,15 @@ TEST_F(Door, LockcheckDiagnosesAndSolvesMatrices) {
     bounds << "unknown,lower\n";
     for (const int i : problem.contact) bounds << i << ",0\n";
     return active_set([&] {
-             VariationalInequality limit = problem;
-             limit.compliance = 0;
-             return limit;
-           }())
-        .u;
+      VariationalInequality limit = problem;
+      limit.compliance = 0;
+      return limit;
+    }());
   };
   const auto path = [&](const std::string& name) { return in_shell(folder / name); };
   for (const bool locks : {true, false}) {
     const auto mesh = [&](int cells) { return locks ? jittered_mesh(cells, 0.2) : structured_mesh(cells); };
-    const Eigen::VectorXd u = hand_over("", mesh(6));
+    const Solution limit = hand_over("", mesh(6));
     hand_over("fine_", mesh(12));
     const Outcome told = ask("lockcheck " + path("a1") + " " + path("b") + " " + path("m") + " " + path("load") +
                              " --fixed " + path("fixed") + " --bounds " + path("bounds") + " --finer " +
@@ -192,7 +195,9 @@ TEST_F(Door, LockcheckDiagnosesAndSolvesMatrices) {
     ASSERT_EQ(told.status, 0) << told.err;
     EXPECT_EQ(told.out.find("locks completely") != std::string::npos, locks) << told.out;
     const Eigen::MatrixXd answers = read_csv(folder / "u.csv").rows;
-    EXPECT_LE((answers.col(2).tail(u.size()) - u).cwiseAbs().maxCoeff(), 1e-10);  // the same matrices, to 17 digits
+    const auto last = answers.bottomRows(limit.u.size());
+    EXPECT_LE((last.col(2) - limit.u).cwiseAbs().maxCoeff(), 1e-10);  // the same matrices, to 17 digits
+    EXPECT_NEAR(last.col(3).sum(), limit.lambda.sum(), 1e-9);         // the forces of the load's lower half, some 1
   }
 }
 
@@ -208,6 +213,7 @@ TEST_F(Door, RefusesInOneLine) {
         {"sweep " + good + " --epsilon 1:2", "accepted: FROM:TO:COUNT"},
         {"sweep " + good + " --epsilon 2", "epsilon = 2 is out of range"},
         {"sweep " + good + " --at 3,3", "outside the mesh"},
+        {"sweep " + good + " --at 0.5", "accepted: X,Y"},
         {"lockcheck " + file("bad.mtx", "%%MatrixMarket matrix coordinate real general\n2 2 1\n3 1 1\n") + " " +
              points + " " + points,
          "bad.mtx: line 3: the entry (3, 1) of a matrix 2 x 2"},

@@ -96,7 +96,8 @@ int lockcheck(int argc, char** argv) {
   std::vector<std::filesystem::path> fine(3);
   line.add("--finer", fine, "A1 B M of the same discretisation on a finer mesh: only two show what grows");
   add_files(line, finer, "--finer-");
-  line.add("--out", out, "CSV compliance,unknown,u of the answers");
+  line.add("--out", out,
+           "CSV compliance,unknown,u,lambda of the answers; lambda is the force of a bound, 0 where there is none");
   line.footer(
       "Export with scipy: scipy.io.mmwrite(\"A1.mtx\", A1). Keep the stiff form in factors: B and M, never B' M B.");
   if (const auto status = line.parse(argc, argv)) return *status;
@@ -111,22 +112,21 @@ int lockcheck(int argc, char** argv) {
 
   Sweep sweep(problem);
   Table table({"compliance", "energy", "largest_u", "corrections", "kkt"});
-  std::vector<std::pair<double, Eigen::VectorXd>> answers;
+  const Eigen::Index n = problem.size();
+  Eigen::MatrixXd answers(0, 4);
   for (const double compliance : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 0.0}) {
     sweep.set_compliance(compliance);
     const Solution solution = sweep.solve();
     table.add({compliance, energy(sweep.problem(), solution), solution.u.lpNorm<Eigen::Infinity>(),
                solution.counters.corrections, solution.kkt.residual});
-    answers.emplace_back(compliance, solution.u);
+    answers.conservativeResize(answers.rows() + n, Eigen::NoChange);
+    auto rows = answers.bottomRows(n);
+    rows << Eigen::VectorXd::Constant(n, compliance), Eigen::VectorXd::LinSpaced(n, 0, double(n - 1)), solution.u,
+        Eigen::VectorXd::Zero(n);
+    rows(problem.contact, 3) = solution.lambda;
   }
   table.print("the answers as the compliance tends to 0");
-  if (!out.empty()) {
-    Eigen::MatrixXd rows(static_cast<Eigen::Index>(answers.size()) * problem.size(), 3);
-    Eigen::Index row = 0;
-    for (const auto& [compliance, u] : answers)
-      for (Eigen::Index i = 0; i < u.size(); ++i) rows.row(row++) << compliance, double(i), u(i);
-    write_csv(out, {"compliance", "unknown", "u"}, rows);
-  }
+  if (!out.empty()) write_csv(out, {"compliance", "unknown", "u", "lambda"}, answers);
   return 0;
 }
 

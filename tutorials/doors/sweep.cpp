@@ -8,6 +8,7 @@
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/measure/detail/point_values.hpp"
 #include "antilock/measure/errors.hpp"
+#include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "antilock/study/table.hpp"
 #include "common/command_line.hpp"
@@ -44,9 +45,12 @@ std::vector<double> epsilons(const std::string& text) {
   return list;
 }
 
-Scene with_epsilon(const Scene& scene, double epsilon) {
-  return Scene(scene.body(), StiffLayer{epsilon}, scene.contact());
-}
+/// One mesh of the sweep, with the points that are asked for.
+struct OnMesh {
+  int cells;
+  Discretisation discretisation;
+  std::vector<PointValues::Place> places;
+};
 
 /// Largest |u| on the contact boundary: what locking takes away.
 double ridge(const Space& space, const Eigen::VectorXd& u) {
@@ -67,64 +71,68 @@ int sweep(int argc, char** argv) {
   line.add_required("SCENE", scene, "the scene file, in TOML, with a scaled layer (run_scene --help)");
   line.add("--epsilon", epsilon_text, "FROM:TO:COUNT, spaced by one factor, or a list such as 1,1e-2,0");
   line.add("--cells", cells_text, "a list of cells per unit side, such as 8,16,32; default: the mesh of the scene");
-  line.add("--at", at_text, "X,Y: a point whose u is listed");
+  line.add("--at", at_text, "X,Y, or X,Y,X,Y,...: points whose u is listed");
   line.add("--out", out, "the CSV file; default: none, the table is printed alone");
+  line.footer(
+      "The penalty delta of a mesh is chosen from its matrices. All epsilon with epsilon^2 <= delta share one "
+      "factorisation, and are corrected; each larger epsilon has its own, since corrections with a smaller delta need "
+      "not converge there, and with a larger one are many. The column factorisations counts them.");
   if (const auto status = line.parse(argc, argv)) return *status;
 
   SceneFile file = read_scene_file(scene);
   if (!std::holds_alternative<StiffLayer>(file.scene.layer()))
     throw Error(file.name + ": layer.model: epsilon does not vary in this scene; accepted: a scaled layer");
+  std::vector<Scene> scenes;  // an epsilon out of range is refused here
   const std::vector<double> list = epsilons(epsilon_text);
-  std::vector<Truth> truths;  // an epsilon out of range is refused here
-  bool known = true;
-  for (const double e : list) {
-    const Scene one = with_epsilon(file.scene, e);
-    if (std::optional<Truth> truth = known ? truth_of(one) : std::nullopt)
-      truths.push_back(std::move(*truth));
-    else
-      known = false;
-  }
-  std::optional<Eigen::Vector2d> at;
-  if (!at_text.empty()) {
-    const std::vector<double> xy = numbers("--at", at_text, ',');
-    if (xy.size() != 2) throw Error("antilock sweep: --at: \"" + at_text + "\"; accepted: X,Y");
-    at.emplace(xy[0], xy[1]);
-  }
-  std::vector<int> cells;
+  for (const double e : list) scenes.emplace_back(file.scene.body(), StiffLayer{e}, file.scene.contact());
+  const std::vector<double> at = at_text.empty() ? std::vector<double>{} : numbers("--at", at_text, ',');
+  if (at.size() % 2 != 0)
+    throw Error("antilock sweep: --at: \"" + at_text + "\"; accepted: X,Y, or X,Y,X,Y for more points");
+  std::vector<OnMesh> meshes;  // a point outside is refused here, before anything is solved
   for (const double n :
        cells_text.empty() ? std::vector<double>{double(file.mesh.cells)} : numbers("--cells", cells_text, ',')) {
     if (!cells_text.empty() && (file.mesh.kind == MeshRequest::Kind::file || n != std::floor(n) || n < 1 || n > 512))
       throw Error("antilock sweep: --cells: \"" + cells_text +
                   "\"; accepted: whole numbers from 1 to 512, for a scene whose mesh is made");
-    cells.push_back(static_cast<int>(n));
+    file.mesh.cells = static_cast<int>(n);
+    OnMesh& on = meshes.emplace_back(OnMesh{file.mesh.cells, {make_mesh(file), element(file.method.element)}, {}});
+    const PointValues values(on.discretisation.space());
+    for (std::size_t i = 0; i < at.size(); i += 2) {
+      const auto place = values.locate({at[i], at[i + 1]});
+      if (!place)
+        throw Error(fmt::format("antilock sweep: --at: ({}, {}) is outside the mesh; accepted: points of it", at[i],
+                                at[i + 1]));
+      on.places.push_back(*place);
+    }
   }
+  std::vector<Truth> truths;
+  std::vector<TruthTable> tables;
+  for (const Scene& one : scenes) {
+    std::optional<Truth> truth = truth_of(one);
+    if (!truth) break;  // it is the load or the gap: known of every epsilon or of none
+    tables.emplace_back(*truth);
+    truths.push_back(std::move(*truth));
+  }
+  const bool known = !truths.empty();
 
   std::vector<std::string> columns{"cells", "epsilon", "unknowns"};
-  if (at) columns.emplace_back("u_at");
+  for (std::size_t i = 1; i <= at.size() / 2; ++i)
+    columns.push_back(at.size() == 2 ? "u_at" : fmt::format("u_at_{}", i));
   columns.emplace_back("ridge");
   if (known) columns.insert(columns.end(), {"kept", "error_max", "error_energy"});
-  columns.insert(columns.end(), {"corrections", "contact_steps", "seconds"});
+  columns.insert(columns.end(), {"factorisations", "corrections", "contact_steps", "seconds"});
   Table table(columns);
-  std::vector<TruthTable> tables;
-  if (known)
-    for (const Truth& truth : truths) tables.emplace_back(truth);
-  for (const int n : cells) {
-    file.mesh.cells = n;
-    const TriangleMesh mesh = make_mesh(file);
-    const Space space(mesh, element(file.method.element));
+  for (const auto& [cells, discretisation, places] : meshes) {
+    const Space& space = discretisation.space();
     SceneSweep questions(file.scene, space);
     const PointValues values(space);
-    std::optional<PointValues::Place> place;
-    if (at && !(place = values.locate(*at)))
-      throw Error(fmt::format("antilock sweep: --at: ({}, {}) is outside the mesh; accepted: a point of it", (*at)(0),
-                              (*at)(1)));
     for (std::size_t i = 0; i < list.size(); ++i) {
       const Stopwatch watch;
       questions.set_epsilon(list[i]);
       const Solution solution = questions.solve();
       const double seconds = watch.seconds(), found = ridge(space, solution.u);
-      std::vector<Entry> row{n, list[i], space.free_count()};
-      if (at) row.emplace_back(values.value(solution.u, *place));
+      std::vector<Entry> row{cells, list[i], space.free_count()};
+      for (const PointValues::Place& place : places) row.emplace_back(values.value(solution.u, place));
       row.emplace_back(found);
       if (known) {
         const Errors errors = measure_errors(space, solution, list[i], reference(tables[i]));
@@ -132,7 +140,8 @@ int sweep(int argc, char** argv) {
         row.emplace_back(errors.max_at_unknowns);
         row.emplace_back(errors.energy);
       }
-      row.insert(row.end(), {solution.counters.corrections, solution.counters.contact, seconds});
+      const Counters& c = solution.counters;
+      row.insert(row.end(), {c.factorisations, c.corrections, c.contact, seconds});
       table.add(row);
     }
   }
