@@ -19,7 +19,7 @@ from library import Library
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 17),
          ("What accuracy costs", 18, 24), ("The class", 25, 99)]
-EXTRA = ["howto_scene", "howto_matrices", "lab", "dataset", "uniform_rate", "errata", "glossary", "notation"]
+EXTRA = ["howto_scene", "howto_matrices", "howto_python", "lab", "dataset", "uniform_rate", "errata", "glossary", "notation"]
 WIDTH, HEIGHT = 1200, 1000  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
 
 

@@ -1,0 +1,98 @@
+"""Stiff parameters without locking, for who has matrices from numpy and scipy, or a scene as a text.
+
+Everything is dimensionless. N unknowns, R rows of B. Error is a ValueError that says in one line what is wrong and what is
+accepted; NotConverged is an Error of a solve that did not reach its tolerance. tutorials/howto_python.md shows it all.
+"""
+from __future__ import annotations
+
+import json
+import pathlib
+import tempfile
+from typing import Any, Mapping
+
+import numpy as np
+from numpy.typing import ArrayLike
+from scipy import sparse
+
+from . import _antilock
+from ._antilock import Diagnosis, Error, NotConverged, Solution, Truth, __version__
+
+__all__ = ["Diagnosis", "Error", "NotConverged", "Problem", "Solution", "Truth",
+           "assemble", "certify", "diagnose", "run", "solve", "truth"]
+
+
+def _matrix(name: str, given: Any, kind: Any) -> Any:
+    """A copy with its entries in order and each place once."""
+    if np.iscomplexobj(given):
+        raise Error(f"{name} is complex; accepted: real numbers")
+    matrix = kind(given, dtype=float, copy=True)
+    matrix.sum_duplicates()
+    return matrix
+
+
+class Problem(_antilock.Problem):
+    """a1(u, v) + compliance^-1 (B u, M B v) = L(v), with bounds; compliance 0 is the limit.
+
+    a1: N x N, symmetric; b: R x N, one row per strain that becomes stiff; m: R positive weights (areas of cells), the
+    diagonal of M; load: N; fixed: unknown -> value; lower, upper: N, infinite where there is no bound; force_bound: N,
+    the most that a bound bears. a1 and b are scipy matrices or arrays. compliance may be set again between two solves.
+    """
+
+    def __init__(self, a1: Any, b: Any, m: ArrayLike, load: ArrayLike, *, compliance: float = 1.0,
+                 fixed: Mapping[int, float] = {}, lower: ArrayLike | None = None, upper: ArrayLike | None = None,
+                 force_bound: ArrayLike | None = None) -> None:
+        a1, b = _matrix("a1", a1, sparse.csc_matrix), _matrix("b", b, sparse.csr_matrix)
+        n = a1.shape[0]
+
+        def array(name: str, given: Any, size: int, none: float = 0) -> np.ndarray:
+            numbers = np.full(size, none) if given is None else np.asarray(given, dtype=float).ravel()
+            if len(numbers) != size:
+                raise Error(f"{name} has {len(numbers)} entries; accepted: {size}")
+            return numbers
+
+        held = sorted(fixed)
+        low, high = array("lower", lower, n, -np.inf), array("upper", upper, n, np.inf)
+        bounded = (low != -np.inf) | (high != np.inf)
+        bounded[[i for i in held if 0 <= i < n]] = False
+        most = [] if force_bound is None else array("force_bound", force_bound, n)[bounded]
+        super().__init__(a1, b, array("m", m, b.shape[0]), array("load", load, n), compliance, held,
+                         [fixed[i] for i in held], np.flatnonzero(bounded), low[bounded], high[bounded], most)
+
+
+def solve(a1: Any, b: Any, m: ArrayLike, load: ArrayLike, *, tolerance: float = 1e-10, **keywords: Any) -> Solution:
+    """The answer of Problem(a1, b, m, load, **keywords), to a relative error of u."""
+    return Problem(a1, b, m, load, **keywords).solve(tolerance)
+
+
+def diagnose(coarse: _antilock.Problem, fine: _antilock.Problem) -> Diagnosis:
+    """Whether a method locks, from two problems of it, on a mesh and on a finer one. Loads are not looked at."""
+    return _antilock.diagnose(coarse, fine)
+
+
+def truth(epsilon: float, load: str = "10*sin(2*pi*x)", contact: bool = True) -> Truth:
+    """The exact solution of (23) at 0 <= epsilon <= 1 for a load that is a sum of sines in x with polynomials in y."""
+    return Truth(epsilon, load, contact)
+
+
+def assemble(scene: str, folder: str = ".") -> _antilock.Problem:
+    """The matrices of a scene file's text on its mesh; mesh files are looked for in the folder."""
+    return _antilock.assemble(scene, folder)
+
+
+def run(scene: str, folder: str = ".") -> tuple[dict[str, np.ndarray], dict[str, Any]]:
+    """A scene file's text, answered: arrays and the summary that run_scene writes.
+
+    points N x 2 and u N, one per unknown; p R; vertices V x 2 and triangles T x 3; contact C x 3 (x, gap, pressure).
+    """
+    with tempfile.TemporaryDirectory() as place:
+        arrays = _antilock.run(scene, folder, f"{place}/summary.json")
+        return arrays, json.loads(pathlib.Path(place, "summary.json").read_text())
+
+
+def certify(scene: str, accuracy: float = 1e-2, folder: str = ".") -> dict[str, Any]:
+    """Proved numbers of the exact solution of a scene file's text: energy_lower <= J(u) <= energy_upper.
+
+    The scene is refined until the relative error of its answer is proved to be `accuracy` at most. For each v of K, whoever
+    computed it, |u - v|_a <= sqrt(2 (J(v) - energy_lower)).
+    """
+    return _antilock.certify(scene, accuracy, folder)

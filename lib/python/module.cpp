@@ -1,0 +1,254 @@
+// The compiled part of Python's module `antilock`, which antilock/__init__.py shows to its users.
+//
+// Arrays of an answer are views of the library's memory, or moved into the array; matrices are copied once, since the
+// library keeps what it factors. Whatever takes long gives Python's lock back.
+#include <fmt/format.h>
+#include <pybind11/eigen.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "antilock/adapt/solve_to.hpp"
+#include "antilock/analysis/locking.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/exact/sine_load.hpp"
+#include "antilock/io/expression.hpp"
+#include "antilock/io/scene_checks.hpp"
+#include "antilock/io/scene_results.hpp"
+#include "antilock/measure/contact_zone.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/uzawa.hpp"
+
+namespace py = pybind11;
+using namespace py::literals;
+using namespace antilock;
+using Eigen::VectorXd;
+
+namespace {
+
+using Unlocked = py::gil_scoped_release;
+
+VariationalInequality problem_of(SparseMatrix a1, RowMatrix b, VectorXd m, VectorXd load, double compliance,
+                                 std::vector<int> fixed, VectorXd fixed_values, std::vector<int> contact,
+                                 VectorXd lower, VectorXd upper, VectorXd force_bound) {
+  VariationalInequality problem{std::move(a1),
+                                std::move(b),
+                                std::move(m),
+                                compliance,
+                                std::move(load),
+                                std::move(fixed),
+                                std::move(fixed_values),
+                                std::move(contact),
+                                std::move(lower),
+                                std::move(upper),
+                                std::move(force_bound)};
+  check(problem);
+  return problem;
+}
+
+/// What solve hands back: lambda and active have one entry per unknown.
+struct Solved : Solution {
+  double energy = 0;
+};
+
+/// Ctrl-C ends a solve between two corrections.
+bool not_interrupted(const Progress&) {
+  const py::gil_scoped_acquire locked;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  return true;
+}
+
+CorrectionOptions corrections(double tolerance) {
+  if (!(tolerance > 0 && tolerance <= MethodRequest::roughest_tolerance))
+    throw Error(fmt::format("solve: tolerance = {}; accepted: above 0, at most {}", tolerance,
+                            MethodRequest::roughest_tolerance));
+  CorrectionOptions options = corrections_to(std::max(tolerance, MethodRequest::finest_tolerance));
+  options.progress = not_interrupted;
+  return options;
+}
+
+Solved answer_of(const VariationalInequality& problem, double tolerance) {
+  ActiveSetOptions options;
+  options.corrections = corrections(tolerance);
+  const Unlocked unlocked;
+  Solved a{active_set(problem, options)};
+  a.energy = energy(problem, a);
+  const VectorXd lambda = a.lambda;
+  const std::vector<bool> active = a.active;
+  a.lambda.setZero(problem.size()), a.active.assign(std::size_t(problem.size()), false);
+  for (std::size_t i = 0; i < problem.contact.size(); ++i) {
+    a.lambda(problem.contact[i]) = lambda(Eigen::Index(i));
+    a.active[std::size_t(problem.contact[i])] = active[i];
+  }
+  return a;
+}
+
+SceneFile scene_of(const std::string& text, const std::string& folder) {
+  SceneFile file = read_scene(text, std::filesystem::path(folder) / "scene");
+  if (file.method.solver == "petsc")
+    throw Error(file.name + ": method.solver: \"petsc\" is for run_scene; accepted: \"active-set\", \"uzawa\"");
+  return file;
+}
+
+/// The answer to a scene: one solve on its mesh, or where an accuracy is asked for as many as it takes.
+std::pair<Answer, std::optional<CertifiedSolution>> answer_of(const SceneFile& file) {
+  Stopwatch watch;
+  auto mesh = std::make_shared<const TriangleMesh>(make_mesh(file));
+  const double meshed = watch.lap();
+  if (file.method.accuracy) {
+    const Accuracy asked{*file.method.accuracy, file.method.of, file.method.most_unknowns, {}, file.method.tolerance};
+    CertifiedSolution found = solve_to(file.scene, *mesh, asked);
+    found.cr.seconds = {meshed, 0, 0, watch.lap()};
+    Answer answer = found.cr;
+    return {std::move(answer), std::move(found)};
+  }
+  const Space space(*mesh, element(file.method.element));
+  Answer answer{mesh, space, assemble(file.scene, space), {}, {meshed, watch.lap(), 0, 0}, ""};
+  const std::string load = load_warning(file, space, answer.problem);
+  if (file.method.solver == "uzawa") {
+    UzawaOptions options;
+    options.tolerance = file.method.tolerance, options.progress = not_interrupted;
+    answer.solution = uzawa(answer.problem, options);
+  } else {
+    answer.solution = active_set(answer.problem, {corrections(file.method.tolerance), {}, {}, 1000, {}});
+  }
+  answer.seconds.solve = watch.lap();
+  for (const std::string& said : {answer.solution.warning, load, gap_warning(file, space, answer.solution)})
+    if (!said.empty()) answer.warning += (answer.warning.empty() ? "" : "; ") + said;
+  return {std::move(answer), std::nullopt};
+}
+
+py::dict run(const std::string& text, const std::string& folder, const std::string& summary_path) {
+  const SceneFile file = scene_of(text, folder);
+  std::optional<std::pair<Answer, std::optional<CertifiedSolution>>> found;
+  SceneSummary summary;
+  {
+    const Unlocked unlocked;
+    found.emplace(answer_of(file));
+    Answer& answer = found->first;
+    std::optional<LayerReport> layer = report_layer(file.scene, answer.space, answer.problem, answer.solution);
+    if (layer && !layer->warning.empty())
+      answer.warning = layer->warning + (answer.warning.empty() ? "" : "; ") + answer.warning;
+    summary = summary_of(file, answer);
+    summary.layer = std::move(layer);
+  }
+  auto& [answer, certified] = *found;
+  write_summary(summary_path, file, summary, answer.seconds, 0, certified ? &*certified : nullptr);
+  const auto given = [](auto& owned) { return py::cast(std::move(owned)); };  // moved into the array, not copied
+  py::dict arrays("points"_a = answer.space.points(), "vertices"_a = answer.mesh->vertices,
+                  "triangles"_a = answer.mesh->triangles);
+  if (file.scene.contact()) arrays["contact"] = contact_table(answer.space, answer.problem, answer.solution);
+  arrays["u"] = given(answer.solution.u), arrays["p"] = given(answer.solution.p);
+  return arrays;
+}
+
+py::dict certify_scene(const std::string& text, double accuracy, const std::string& folder) {
+  const SceneFile file = scene_of(text, folder);
+  const CertifiedSolution found = [&] {
+    const Unlocked unlocked;
+    return solve_to(file.scene, make_mesh(file), {accuracy, Quantity::displacement, file.method.most_unknowns, {}, 1});
+  }();
+  const Certificate& proof = found.certificate;
+  return py::dict("energy_lower"_a = proof.energy_lower, "energy_upper"_a = proof.energy_upper,
+                  "bound"_a = proof.displacement, "relative"_a = proof.relative(Quantity::displacement),
+                  "layer_share"_a = proof.layer_share, "unknowns"_a = found.history.back().unknowns,
+                  "warning"_a = found.cr.warning);
+}
+
+/// The exact solution and its table.
+struct KnownTruth {
+  KnownTruth(double epsilon, const std::string& load, bool contact)
+      : truth([&] {
+          const auto f = std::make_shared<Expression>(load, std::vector<std::string>{"x", "y"});
+          const Scene scene({[f](double x, double y) { return (*f)(x, y); }}, StiffLayer{epsilon},
+                            contact ? std::optional(UnilateralContact{}) : std::nullopt);
+          std::optional<Truth> known = truth_of(scene);
+          if (!known)
+            throw Error("truth: load \"" + printable(load) +
+                        "\" is no sum of sines in x with polynomials in y; accepted: such as 10*sin(2*pi*x), or run "
+                        "and certify for any other");
+          return std::move(*known);
+        }()),
+        table(truth) {}
+  Truth truth;
+  TruthTable table;
+};
+
+TruthPoint at(const KnownTruth* known, double x, double y, double top = 1) {
+  if (!(x >= 0 && x <= 1 && y >= -1 && y <= top))
+    throw Error(fmt::format("truth: ({}, {}); accepted: 0 <= x <= 1, -1 <= y <= {}", x, y, top));
+  return known->table.at(x, y);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_antilock, module) {
+  module.attr("__version__") = ANTILOCK_VERSION;
+  const py::object error = py::register_exception<Error>(module, "Error", PyExc_ValueError);
+  py::register_exception<NotConverged>(module, "NotConverged", error);
+  for (const char* name : {"Error", "NotConverged"}) module.attr(name).attr("__module__") = "antilock";
+
+  using P = VariationalInequality;
+  py::class_<P>(module, "Problem")
+      .def(py::init(&problem_of))
+      .def("solve", py::overload_cast<const P&, double>(&answer_of), "tolerance"_a = 1e-10,
+           "The answer, to a relative error of u. Throws NotConverged, or Error for a problem that has none.")
+      .def_readwrite("compliance", &P::compliance, "0 or more")
+      .def_readonly("m", &P::m, "R")
+      .def_readonly("load", &P::load, "N")
+      .def_readonly("fixed", &P::fixed, "the unknowns that are held")
+      .def_readonly("contact", &P::contact, "the unknowns that are bounded")
+      .def_property_readonly(
+          "a1", [](const P& p) { return p.a1; }, "N x N, scipy's CSC, a copy")
+      .def_property_readonly(
+          "b", [](const P& p) { return p.b; }, "R x N, scipy's CSR, a copy");
+
+  using S = Solved;
+  py::class_<S>(module, "Solution", "u with its forces. Arrays are read-only views of the answer's memory.")
+      .def_readonly("u", &S::u, "N")
+      .def_readonly("p", &S::p, "R, the stress compliance^-1 B u; finite at compliance 0")
+      .def_readonly("lambda_", &S::lambda, "N, the force of each bound: >= 0 at a lower one, <= 0 at an upper one")
+      .def_readonly("active", &S::active, "N: whether a bound holds")
+      .def_readonly("energy", &S::energy, "J(u) = a(u, u) / 2 - L(u)")
+      .def_readonly("error", &S::error, "algebraic error of u at most, relative to the largest |u|")
+      .def_readonly("warning", &S::warning, "empty, or one line: what to doubt")
+      .def_property_readonly("corrections", [](const S& s) { return s.counters.corrections; })
+      .def_property_readonly(
+          "residual", [](const S& s) { return s.kkt.residual; }, "of the KKT report, relative");
+
+  py::class_<LockingDiagnosis>(module, "Diagnosis",
+                               "Whether a discretisation can follow compliance -> 0; str() says why.")
+      .def_property_readonly("locks", &LockingDiagnosis::locks)
+      .def_readonly("coarse", &LockingDiagnosis::coarse,
+                    "independent motions of the bounds without strain, coarse mesh")
+      .def_readonly("fine", &LockingDiagnosis::fine, "the same on the finer mesh")
+      .def("__str__", &LockingDiagnosis::text);
+
+  using T = KnownTruth;
+  py::class_<T>(module, "Truth", "The exact solution of (23). x and y are numbers or arrays, which broadcast.")
+      .def(py::init<double, const std::string&, bool>(), py::call_guard<Unlocked>())
+      .def("__call__", py::vectorize([](const T* t, double x, double y) { return at(t, x, y).value; }), "u, to 1e-8")
+      .def("u_x", py::vectorize([](const T* t, double x, double y) { return at(t, x, y).gradient(0); }),
+           "to 4e-6 of the largest; 5e-4 within 1e-4 of an end of contact")
+      .def("u_y", py::vectorize([](const T* t, double x, double y) { return at(t, x, y).gradient(1); }),
+           "as u_x; on y = 0 the body's")
+      .def("p", py::vectorize([](const T* t, double x, double y) { return at(t, x, y, 0).layer_stress; }),
+           "the layer stress epsilon^-2 u_y where y <= 0, to 1e-6; 1e-4 near an end of contact")
+      .def("pressure", py::vectorize([](const T* t, double x) { return t->truth.pressure(x); }),
+           "of contact on y = -1, a density, 0 or more")
+      .def_property_readonly(
+          "energy", [](const T& t) { return t.truth.energy(); }, "J(u), to 1e-8")
+      .def_property_readonly(
+          "contact", [](const T& t) { return t.truth.contact_zones(); }, "intervals of x, to 1e-5");
+
+  module.def("diagnose", &diagnose_locking, py::call_guard<Unlocked>());
+  module.def("assemble", [](const std::string& text, const std::string& folder) {
+    const SceneFile file = scene_of(text, folder);
+    const TriangleMesh mesh = make_mesh(file);
+    return assemble(file.scene, Space(mesh, element(file.method.element)));
+  });
+  module.def("run", &run);
+  module.def("certify", &certify_scene);
+}

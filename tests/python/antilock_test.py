@@ -1,0 +1,143 @@
+"""The module of Python: its page runs as it stands, its answers are those of the programs, its refusals are the library's."""
+import ast
+import contextlib
+import inspect
+import io
+import os
+import re
+import subprocess
+import threading
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+import scipy.sparse as sparse
+
+import antilock
+
+ROOT = Path(__file__).resolve().parents[2]
+SCENE = """
+[load]
+f = "10*sin(2*pi*x)"
+[layer]
+epsilon = 1e-4
+[contact]
+[mesh]
+kind = "structured"
+cells = 16
+[method]
+element = "CR"
+"""
+
+
+def test_the_page_prints_what_it_shows():
+    blocks = re.findall(r"```(python|console)\n(.*?)```", (ROOT / "tutorials/howto_python.md").read_text(), re.S)
+    assert len([kind for kind, _ in blocks if kind == "console"]) == 7
+    names, printed = {}, ""
+    for kind, text in blocks:
+        if kind == "python":
+            with contextlib.redirect_stdout(io.StringIO()) as out:
+                exec(text, names)
+            printed = out.getvalue()
+        else:
+            assert printed == text
+
+
+def test_run_is_run_scene(tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text(SCENE)
+    subprocess.run([os.environ["RUN_SCENE"], scene, "--out", tmp_path / "out"], check=True, capture_output=True)
+    arrays, summary = antilock.run(SCENE)
+    table = np.loadtxt(tmp_path / "out/solution.csv", delimiter=",", skiprows=1)  # 17 digits: the same doubles
+    assert np.array_equal(np.column_stack([arrays["points"], arrays["u"]]), table)
+    assert summary["contact"]["active"] == np.count_nonzero(arrays["contact"][:, 2] > 0)
+    assert summary["locking"]["diagnosis"] and summary["warning"] == ""
+
+
+def test_solve_of_the_matrices_is_run():
+    problem = antilock.assemble(SCENE)
+    lower = np.full(len(problem.load), -np.inf)
+    lower[problem.contact] = 0
+    arrays, summary = antilock.run(SCENE)
+    twice = sparse.coo_matrix(problem.a1) / 2  # entries out of order, each place twice: scipy allows both
+    a1 = sparse.coo_matrix((np.tile(twice.data, 2), (np.tile(twice.row, 2), np.tile(twice.col, 2))), twice.shape)
+    found = antilock.solve(a1, problem.b, problem.m, problem.load, compliance=1e-8,
+                           fixed=dict.fromkeys(problem.fixed, 0), lower=lower)
+    assert np.array_equal(found.u, arrays["u"])
+    assert found.energy == pytest.approx(summary["energy"], rel=1e-14)
+    # lambda and p balance the load; 1e-10 is the tolerance of the solve
+    free = np.setdiff1d(np.arange(len(lower)), problem.fixed)
+    left = problem.a1 @ found.u + problem.b.T @ (problem.m * found.p) - problem.load - found.lambda_
+    assert abs(left[free]).max() <= 1e-10 * abs(problem.load).max()
+    assert np.array_equal(np.flatnonzero(found.active), np.flatnonzero(found.lambda_))
+
+
+def test_arrays_of_an_answer_are_views():
+    found = antilock.assemble(SCENE).solve()
+    assert not found.u.flags.owndata and not found.u.flags.writeable
+    u, first = found.u, found.u[5]
+    del found
+    assert u[5] == first  # the view keeps the answer alive
+
+
+def test_truth_broadcasts_and_its_parts_agree():
+    truth = antilock.truth(1e-2)
+    x = np.linspace(0.1, 0.6, 6)
+    grid = truth(x, np.array([[-1.0], [0.5]]))
+    assert grid.shape == (2, 6) and grid[0, 1] == truth(x[1], -1)
+    step = 1e-4  # a centred difference is right to step^2 u_xxx / 6, some 1e-8, and to 1e-8 / step of the values
+    assert (truth(x + step, 0.5) - truth(x - step, 0.5)) / (2 * step) == pytest.approx(truth.u_x(x, 0.5), abs=2e-4)
+    assert truth.pressure(0.9) == pytest.approx(-truth.p(0.9, -1), abs=1e-6)
+    (start, end), = truth.contact
+    assert truth.pressure(start - 1e-3) == 0 < truth.pressure(start + 1e-3) and end == 1
+
+
+def test_the_certified_energies_hold_the_exact_one():
+    proved = antilock.certify(SCENE, accuracy=0.1)
+    assert proved["energy_lower"] < antilock.truth(1e-4).energy < proved["energy_upper"]
+    assert proved["relative"] <= 0.1
+
+
+@pytest.mark.parametrize("ask, says", [
+    (lambda p: antilock.solve(p.a1, p.b, p.m[1:], p.load), "m has 511 entries; accepted: 512"),
+    (lambda p: antilock.solve(p.a1 * 1j, p.b, p.m, p.load), "a1 is complex; accepted: real numbers"),
+    (lambda p: antilock.solve(p.a1, p.b, p.m, p.load, compliance=-1), "compliance = -1; accepted"),
+    (lambda p: antilock.solve(p.a1, p.b, p.m, p.load, fixed={-1: 0}), "unknown -1 is out of range"),
+    (lambda p: antilock.solve(p.a1, p.b, p.m, p.load, tolerance=0), "tolerance = 0; accepted"),
+    (lambda p: antilock.solve(p.a1, p.b, p.m, p.load * np.nan), "an entry is not finite"),
+    (lambda p: antilock.truth(2), "epsilon = 2 is out of range; accepted"),
+    (lambda p: antilock.truth(0.1, "exp(x)"), "is no sum of sines"),
+    (lambda p: antilock.truth(0.1)(0.5, -2), "accepted: 0 <= x <= 1, -1 <= y <= 1"),
+    (lambda p: antilock.run("[load]"), "mesh: is missing; accepted"),
+    (lambda p: antilock.run(SCENE + 'solver = "petsc"'), "method.solver"),
+    (lambda p: antilock.certify(SCENE, 2), "accepted"),
+])
+def test_refusals_are_errors_of_one_line(ask, says):
+    with pytest.raises(antilock.Error) as refused:
+        ask(antilock.assemble(SCENE))
+    assert isinstance(refused.value, ValueError)
+    assert says in str(refused.value) and "\n" not in str(refused.value)
+
+
+def test_other_threads_go_on_during_a_solve():
+    problem = antilock.assemble(SCENE.replace("cells = 16", "cells = 128"))
+    done, ticks = threading.Event(), []
+    solver = threading.Thread(target=lambda: (problem.solve(), done.set()))
+    solver.start()
+    while not done.wait(0.001):
+        ticks.append(time.monotonic())
+    solver.join()
+    assert len(ticks) >= 3  # a solve that held the lock would leave none or one; this one takes a tenth of a second or more
+
+
+def test_everything_is_explained_and_typed():
+    from antilock import _antilock
+    stub = {node.name: node for node in ast.parse(Path(_antilock.__file__).with_name("_antilock.pyi").read_text()).body
+            if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+    assert set(stub) == {name for name in dir(_antilock) if not name.startswith("_")}
+    for name in ("Problem", "Solution", "Diagnosis", "Truth"):
+        listed = {getattr(part, "name", getattr(getattr(part, "target", None), "id", None)) for part in stub[name].body}
+        assert {part for part in dir(getattr(_antilock, name)) if not part.startswith("_")} <= listed
+    for name in antilock.__all__:
+        assert inspect.getdoc(getattr(antilock, name)), name
