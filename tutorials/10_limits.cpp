@@ -74,7 +74,7 @@
 
 #include "antilock/exact/truth_distance.hpp"
 #include "backstage/10_models.hpp"
-#include "common/study.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using tutorial::Exact;

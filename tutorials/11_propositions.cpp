@@ -54,7 +54,7 @@
 
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/h1_norm.hpp"
-#include "common/study.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using tutorial::Exact;

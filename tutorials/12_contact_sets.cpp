@@ -53,28 +53,32 @@
 // near this bound: it is the worst of those that are 0 at all midpoints. Half of it lies below 0, so the left side is
 // $2^{-1/2}$ times the distance to the mean.
 //
-// **(9) for $K_0$: a slope that hides in jumps.** A weak limit $v$ of functions of $K_{0h}$ must not vary across the
-// layer, either. In the language of weak limits: $∫ v ∂_y φ = 0$ for each smooth $φ$ that is 0 on the boundary of the
-// layer. Put $v_h$ there, and integrate by parts on each triangle, where $∂_y v_h = 0$. What is left stands on the
-// edges,
+// **(9) for $K_0$: a slope that hides in jumps.** Let functions $v_h$ of $K_{0h}$ tend weakly to $v$. On each triangle of
+// the layer $∂_y v_h = 0$. Is $∂_y v = 0$, too? Without jumps it is. With jumps it need not be: a staircase is level on
+// every step, and climbs all the same. With smaller and smaller steps its weak limit is a slope. So the derivative,
+// triangle by triangle, tells nothing here. The values do. For a $v$ without jumps, and a smooth $φ$ that is 0 on the
+// boundary of the layer, $∫ v ∂_y φ = -∫ φ ∂_y v$ by parts. Hence $∂_y v = 0$ if the left side is 0 for every such $φ$.
+// The left side is a product of $v$ with something fixed, so it is the limit of the same product with $v_h$. Compute
+// that one by parts, triangle by triangle. As $∂_y v_h = 0$ inside, only the edges are left,
 //
 // $$ ∫ v_h ∂_y φ = ∑_E ∫_E [v_h] φ n_y, $$
 //
-// with the jump $[v_h]$. Without jumps it is 0. CR's jump is a straight line along $E$ with the mean 0, so only the change
-// of $φ$ along $E$ counts. A straight line of slope $b$ against one of slope $s$ gives $b s |E|^3/12$. On right triangles,
-// where each triangle has one horizontal edge and one diagonal, the sum is at most
+// with the jump $[v_h]$ over the edge $E$: the steps of the staircase. The question is whether this sum tends to 0. CR's
+// jump is a straight line along $E$ with the mean 0. So a $φ$ that is constant along $E$ gives 0, and only the change of
+// $φ$ along $E$ counts, which is small on a short edge: a line of slope $b$ against one of slope $s$ gives
+// $b s |E|^3/12$. On right triangles, where each triangle has one horizontal edge and one diagonal, the sum is at most
 //
 // $$ \frac{h}{6} (‖∂_x φ‖ + ‖∂_x φ + ∂_y φ‖) ‖v_h‖_h = 0.632 h ‖v_h‖_h   \text{for } φ = \sin πx \sin πy. $$
 //
-// So a CR function may be a staircase that climbs where each step is level, but only by a height like $h$. The run
-// computes the largest such sum over all $v_h$ of $G_h$ with norm 1, and calls it $k_h$.
+// It tends to 0, so $v$ is in $K_0$. A CR function may be a staircase, but only by a height like $h$. The run computes
+// the largest such sum over all $v_h$ of $G_h$ with norm 1, for this one $φ$, and calls it $k_h$.
 
 #include "antilock/analysis/nearest.hpp"
 #include "antilock/analysis/negative_part.hpp"
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "backstage/12_output.hpp"
-#include "common/study.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using std::numbers::pi, tutorial::Exact;

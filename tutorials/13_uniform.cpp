@@ -73,8 +73,7 @@
 #include "backstage/13_uniform.hpp"
 #include "antilock/analysis/nearest.hpp"
 #include "antilock/exact/truth_distance.hpp"
-#include "common/study.hpp"
-#include "common/supremum.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using tutorial::Exact;

@@ -65,7 +65,7 @@
 
 #include "backstage/15_promises.hpp"
 #include "antilock/analysis/locking.hpp"
-#include "common/study.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using std::numbers::pi, tutorial::Exact;

@@ -29,8 +29,8 @@
 //
 // $$ \dim G_h = p - 1 \text{ on the layer, however fine the mesh;} $$
 //
-// P1 has none, P2 has one. A number that does not grow under refinement does not approach $K_0$: every degree locks
-// in the limit ε = 0. On the structured mesh of $n$ columns $v$ is any continuous function of $x$ of degree $p$ per
+// P1 has none, P2 has one. $K_0$ holds infinitely many functions of $x$, and a kernel that does not grow under refinement
+// cannot approach it (chapter 07). So every degree locks in the limit ε = 0. On the structured mesh of $n$ columns $v$ is any continuous function of $x$ of degree $p$ per
 // column: $n p - 1$.
 //
 // ## What all other functions cost
@@ -55,7 +55,7 @@
 
 #include "backstage/16_degree.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "common/study.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using std::numbers::pi, tutorial::Exact;

@@ -78,8 +78,8 @@
 //
 // **The sharp limit.** Let $d$ stay and let the body be resolved exactly. Then what is lost is precisely the best $z$
 // of all combinations of $e_1, e_2, ...$ that fulfil the $d$ conditions. The traces are $x (1 - x)$ times polynomials
-// of degree $p - 2$. This is an eigenvalue problem for the coefficients of $z$, `sharp_limit` below. Discrete bodies
-// lose more, so $E_h(0)$ is never below it (proved).
+// of degree $p - 2$. This is an eigenvalue problem for the coefficients of $z$ (`loss_of_degree` in
+// `analysis/worst_load`). Discrete bodies lose more, so $E_h(0)$ is never below it (proved).
 //
 // **The width of the ball (proved).** The same proof with $z$ a combination of $n + 1$ sines $\sin kπx \sin mπy$, $n$
 // the number of unknowns of the body, bounds a conforming method where nothing locks: $E_h ≥ 1/(π (k^2 +
@@ -93,9 +93,8 @@
 // (proved, both). For the other methods the run climbs over loads of four waves with this profile: a *lower bound*.
 
 #include "backstage/17_families_of_loads.hpp"
-#include "antilock/analysis/load_ascent.hpp"
 #include "antilock/analysis/worst_load.hpp"
-#include "common/study.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 
@@ -122,19 +121,6 @@ struct Ball {
     return form.error(form.modes().constant_in_y(wave, std::sqrt(2.0)));
   }
 };
-
-// With contact: the error under a load of four waves, against the exact solution, and a climb over such loads.
-double climb_in_contact(const Method& method, int cells) {
-  const Discretisation on = method.on(cells);
-  SceneSweep sweep(tutorial::paper_scene(0), on.space());
-  const auto error = [&](const Eigen::VectorXd& coefficients) {
-    const SineLoad load = load_of_modes(coefficients);
-    sweep.set_load(load);
-    const TruthTable truth(Truth(load, 0, true, 9), 1 << 8);  // to some thousandths: the climb has to be quick
-    return measure_errors(on.space(), sweep.solve(), 0, reference(truth)).energy;
-  };
-  return ascend(error, {Eigen::Vector4d::Unit(0), Eigen::Vector4d(1, 1, 0, 0)});
-}
 
 // The claims of one method. Proved: what follows from the theorems above, with `all_waves` for the waves beyond W.
 void judge(const Method& method, const Table& own, tutorial::Report& report) {
@@ -199,7 +185,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       if (p > 2) continue;                                        // with contact: a climb over four waves
       add(arches, 0, on.form.error(on.form.modes().wave(p, 1)));  // 2 sin pπx cos(πy/2)
       for (int coarse = options.cells / 8; coarse <= n; coarse *= 2)
-        results.add({contact, method.name(), 1.0 / coarse, 0, climb_in_contact(method, coarse), 0, 0});
+        results.add({contact, method.name(), 1.0 / coarse, 0, tutorial::climb_in_contact(method, coarse), 0, 0});
     }
   }
   // ### Output

@@ -42,7 +42,7 @@
 // the limit $-u_{xx} - ∂_y p = 0$ in the layer: $p$ is affine in $y$, and bounded since $u_{xx}$ is. The second
 // picture shows it.
 //
-// `cure` solves it. It factors $K = A_1 + δ^{-1} B^T M B$ once, with a moderate δ in place of $ε^2$, and uses the
+// `cure` solves it. It factors $A_δ = A_1 + δ^{-1} B^T M B$ once, with a moderate δ in place of $ε^2$, and uses the
 // factor only for corrections: each one solves for what the split form leaves over (*iterated penalty*). To see that
 // this converges, take P1, for which $A_1$ is invertible, and eliminate $u$. The exact $p$ solves $(ε^2 + S) p = g$
 // with the Schur complement $S = B A_1^{-1} B^T M$, and a correction solves $(δ + S) dp = $ residual. On an eigenvector
@@ -73,6 +73,7 @@
 #include <Eigen/CholmodSupport>
 
 #include "antilock/problem/choose_penalty.hpp"
+#include "backstage/18_lines.hpp"
 #include "backstage/18_roundoff.hpp"
 #include "backstage/18_solvers.hpp"
 
@@ -105,62 +106,6 @@ VectorXd cure(VariationalInequality problem, const std::vector<bool>& active, do
   return u;
 }
 
-// (23) without contact, its stiff lines of slope 2: $(∂_x + 2 ∂_y)/\sqrt 5$ in the place of $∂_y$.
-VariationalInequality turned(const Space& space, double epsilon) {
-  VariationalInequality problem = assemble(Scene(Body{paper_load}, StiffLayer{epsilon}), space);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int t = 0, row = 0; t < space.mesh().triangle_count(); ++t) {
-    if (space.mesh().region[t] != Region::layer) continue;
-    const VectorXd slopes =
-        space.element().derivative(Eigen::Vector3d::Constant(1.0 / 3)) * barycentric_gradients(space.mesh(), t).col(0);
-    for (int i = 0; i < slopes.size(); ++i) entries.emplace_back(row, space.unknowns()(t, i), slopes(i));
-    ++row;
-  }
-  RowMatrix d_x(problem.b.rows(), problem.b.cols());
-  d_x.setFromTriplets(entries.begin(), entries.end());
-  const RowMatrix across = (2 * d_x - problem.b) / std::sqrt(5.0), along = (d_x + 2 * problem.b) / std::sqrt(5.0);
-  const auto energy = [&](const RowMatrix& d) { return SparseMatrix(d.transpose() * problem.m.asDiagonal() * d); };
-  problem.a1 += energy(across) - energy(d_x);
-  problem.b = along;
-  return problem;
-}
-
-// The deepest $u$ on Σ at each ε: our load presses the right half down. Every method reaches its discrete limit with
-// order 2 (chapter 11).
-Table turn_the_lines(int cells) {
-  Table rows({"method", "epsilon", "u", "from_limit"});
-  const auto solve = [](const Discretisation& on, double epsilon) {
-    const VariationalInequality problem = turned(on.space(), epsilon);
-    return cure(problem, {}, moderate_delta(problem));
-  };
-  const auto largest = [](const Discretisation& on, const VectorXd& u) {
-    double most = 0;
-    for (int i = 0; i < u.size(); ++i)
-      if (std::abs(on.space().points()(i, 1)) < 1e-12) most = std::max(most, -u(i));
-    return most;
-  };
-  const auto add = [&](const std::string& name, const Discretisation& on) {
-    const VectorXd limit = solve(on, 0);
-    for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-      const VectorXd u = solve(on, epsilon);
-      rows.add({name, epsilon, largest(on, u), (u - limit).norm() / limit.norm()});
-    }
-  };
-  const auto along = [](int n) {  // its layer has cells of h x 2h: each diagonal / is a line
-    TriangleMesh mesh = structured_mesh(n, {0.5});
-    for (auto vertex : mesh.vertices.rowwise())
-      if (vertex(1) < 0) vertex(1) *= 2;
-    return mesh;
-  };
-  add("P1 along, 4 times finer", Discretisation(along(4 * cells), p1()));
-  add("P1 along", Discretisation(along(cells), p1()));
-  add("P1 structured", Discretisation(structured_mesh(cells), p1()));
-  add("P1 unstructured", Discretisation(unstructured_mesh(cells), p1()));
-  add("CR structured", Discretisation(structured_mesh(cells), crouzeix_raviart()));
-  add("CR unstructured", Discretisation(unstructured_mesh(cells), crouzeix_raviart()));
-  return rows;
-}
-
 void judge(const Table& results, const Table& conditions, const Table& lines, tutorial::Report& report);
 
 void roundoff(const tutorial::Options& options, tutorial::Report& report) {
@@ -182,7 +127,11 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
           settings[i], on[i].space(), exact,
           [](const auto& problem, const auto& active, double delta) { return cure(problem, active, delta); }));
   }
-  const Table conditions = tutorial::condition_numbers(on.front().space()), lines = turn_the_lines(options.cells);
+  const Table conditions = tutorial::condition_numbers(on.front().space());
+  // Without contact, at the penalty that the library would choose: the deepest $u$ on Σ at each ε (our load presses the
+  // right half down), and how far $u$ is from the method's own limit, which it reaches with order 2 (chapter 11).
+  const Table lines = tutorial::turn_the_lines(
+      options.cells, [](const auto& problem) { return cure(problem, {}, moderate_delta(problem)); });
   // ### Output
   tutorial::show_round_off(options.out, results, conditions);
   lines.pivot("epsilon", "method", "u").print("stiff lines of slope 2: the deepest u on Sigma", 3);
@@ -215,7 +164,7 @@ void judge(const Table& results, const Table& conditions, const Table& lines, tu
   }
   const Table stiff = conditions.where_number("epsilon", [](double epsilon) { return epsilon <= 1e-4; });
   report.claim(stiff.most("factored") < 1.01 * stiff.least("factored"),
-               "condition number of K: {:.0e} from epsilon = 1e-4 on (observed)", stiff.most("factored"));
+               "condition number of A_delta: {:.0e} from epsilon = 1e-4 on (observed)", stiff.most("factored"));
   // Round-off imitates Figure 7: what Cholesky answers it answers without a complaint, at last a flat zero.
   const Table answers = naive.where("solver", "sum: Cholesky").where("wrong", 1);
   const Table silent = answers.where("ended", "settled; refused"), loud = answers.where("ended", "cycled; refused");
@@ -252,7 +201,7 @@ void judge(const Table& results, const Table& conditions, const Table& lines, tu
 // without an answer where it is large. (b) In the layer: where Cholesky gives an answer at all it settles, and the last
 // of its answers is $u = 0$ there, error 0.045, the whole ridge. The paper's conjugate gradients with ILUT (an
 // incomplete factorisation that drops small entries) give up from ε = 1e-3 on. The split form has the same error to 1 %
-// from 1e-3 to 1e-16, and `cure` agrees with the library. The condition number of $K$ is 1e8 from ε = 1e-4 down.
+// from 1e-3 to 1e-16, and `cure` agrees with the library. The condition number of $A_δ$ is 1e8 from ε = 1e-4 down.
 //
 // :output: stiff lines of slope 2: the deepest u on Sigma
 //

@@ -71,7 +71,7 @@
 //
 // The layer has no load, there $σ = (∂_x u_h, p)$. `analysis/certificate.cpp` treats any load and proves the same bound
 // for $u_h$ itself. An iteration that is stopped early leaves forces $r_1$ unbalanced (chapter 03's residual). Their
-// size in the energy norm is $ρ = (r_1^T K^{-1} r_1)^{1/2}$, with the matrix $K$ of chapter 03 (this $ρ$ is not Uzawa's
+// size in the energy norm is $ρ = (r_1^T A_δ^{-1} r_1)^{1/2}$, with the matrix $A_δ$ of chapter 03 (this $ρ$ is not Uzawa's
 // step). The bound then has $m + ρ$ in place of $m$.
 //
 // :figure: certificate_flux
@@ -82,36 +82,10 @@
 
 #include "backstage/19_certificate.hpp"
 #include "antilock/analysis/exact_errors.hpp"
-#include "antilock/form/quadrature.hpp"
-#include "antilock/study/scene_sweep.hpp"
+#include "backstage/19_identity.hpp"
 
 using namespace antilock;
 using tutorial::Exact, tutorial::paper_scene;
-
-// What stands in the identity beside the two errors: the works of contact, $∫ λ_u v + ∫ λ_h u$, and $-(f - f_1, u)$.
-double works(const Space& cr, const EquilibratedFlux& flux, const Companion& v, const Exact& exact) {
-  const TriangleMesh& mesh = cr.mesh();
-  const auto [points, weights] = gauss_rule(4);
-  double work = 0;
-  for (std::size_t place = 0; place < cr.contact().size(); ++place) {
-    const int edge = cr.contact()[place], from = mesh.edges(edge, 0),
-              to = mesh.edges(edge, 1);  // an unknown is an edge
-    for (Eigen::Index q = 0; q < points.size(); ++q) {
-      const double s = points(q), x = (1 - s) * mesh.vertices(from, 0) + s * mesh.vertices(to, 0);
-      const double v_there = v.layer ? v.layer->value({x, -1}) : (1 - s) * v.at_vertices(from) + s * v.at_vertices(to);
-      work += weights(q) * mesh.edge_length(edge) * exact.truth.pressure(x) * v_there;
-      work += weights(q) * flux.lambda(static_cast<Eigen::Index>(place)) * exact.table.value(x, -1);
-    }
-  }
-  const Quadrature& rule = triangle_rule(8);
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (Eigen::Index q = 0; mesh.region[t] == Region::body && q < rule.weights.size(); ++q) {
-      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-      const double rest = paper_load(x(0), x(1)) - rule.points.row(q).dot(flux.cell[t].f);  // f - f_1
-      work -= mesh.area(t) * rule.weights(q) * rest * exact.table.value(x(0), x(1));
-    }
-  return work;
-}
 
 const std::vector<MeshFamily> families{structured(), unstructured(), mesh_family("layered")};
 const std::vector<std::string> columns{
@@ -134,7 +108,7 @@ Table certify_both(const MeshFamily& family, int cells, const std::vector<Exact>
                     strip = strip_companion(exact.scene, cr.space(), below.problem(), u_h);
     const Certificate of_cr = certify(exact.scene, cr.space(), below.problem(), u_h, {.companion = &strip}),
                       of_p1 = certify(exact.scene, cr.space(), below.problem(), u_h, {.companion = &v});
-    // The errors, J(CR) and the right side of the identity, for the verdicts alone.
+    // The errors, J(CR) and the right side of the identity (`works`: ∫ λ_u v + ∫ λ_h u - (f - f_1, u)), for the verdicts alone.
     const EquilibratedFlux flux = equilibrated_flux(exact.scene, cr.space(), below.problem(), u_h);
     const double j_cr = energy(below.problem(), u_h), j = exact.truth.energy();
     const auto add = [&](const char* element, const Certificate& found, const Companion& companion) {
@@ -144,9 +118,9 @@ Table certify_both(const MeshFamily& family, int cells, const std::vector<Exact>
                    w = std::pow(found.mismatch, 2) / 2 + found.contact_work;  // without oscillation
       rows.add({element, family.name, exact.epsilon, cells, 1.0 / cells, found.energy_lower, found.energy_upper, width,
                 bound, error, found.layer_share, std::pow(errors.displacement, 2) / (2 * w),
-                std::pow(errors.flux, 2) / (2 * w), works(cr.space(), flux, companion, exact) / w, bound / error,
-                std::min(j - found.energy_lower, found.energy_upper - j), std::sqrt(2 * width) / error, j - j_cr,
-                (j_cr - found.energy_lower) * cells * cells});
+                std::pow(errors.flux, 2) / (2 * w), tutorial::works(cr.space(), flux, companion, exact) / w,
+                bound / error, std::min(j - found.energy_lower, found.energy_upper - j), std::sqrt(2 * width) / error,
+                j - j_cr, (j_cr - found.energy_lower) * cells * cells});
     };
     add("CR", of_cr, strip);
     add("P1", of_p1, v);

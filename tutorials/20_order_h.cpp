@@ -67,9 +67,10 @@
 // the layer is at least of size $|J| k^{3/4}$ as $h → 0$.
 
 #include "backstage/20_order_h.hpp"
+#include "backstage/20_rows.hpp"
 
 using namespace antilock;
-using tutorial::Exact;
+using tutorial::Exact, tutorial::k_of_rows;
 
 const double load_norm = 10 / std::sqrt(2);  // ‖f‖ of f = 10 sin(2 pi x)
 const std::vector<std::string> columns{"mesh",          "epsilon",  "cells", "h",    "CR",      "P1",
@@ -95,47 +96,9 @@ Table solve_both(const std::string& family, int cells, const std::vector<Exact>&
   return rows;
 }
 
-// The bending length $k$ of the rows, whose base is 1/cells.
-double k_of_rows(int cells) { return std::lround(2 * cells / std::sqrt(3)) / (8.0 * cells * cells); }
-
-// Proposition E with a bend $w$ across the end $x^*$ of contact: $S^- ≥ |∫ χ ∂_x u ∂_y w| / ‖∂_y w‖$ for every $h$ and
-// every $w$ that is 0 on Σ, on $Γ_C$ and near the sides.
-// This $w$ is the best one in $x$ of those that are $\sin πy$ in $y$.
-double lower_bound(const Exact& exact, const TriangleMesh& mesh, int cells) {
-  const double scale = std::sqrt(std::numbers::pi / k_of_rows(cells) / 2);
-  const auto w = [&](int vertex) {
-    const double x = mesh.vertices(vertex, 0), r = scale * std::abs(x - exact.contact_from());
-    if (std::min(x, 1 - x) * cells < 1.5) return 0.0;
-    return std::exp(-r) * (std::cos(r) + std::sin(r)) * std::sin(std::numbers::pi * mesh.vertices(vertex, 1));
-  };
-  double work = 0, energy = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.region[t] != Region::layer) continue;
-    double slope = 0, mean = 0;
-    Eigen::Vector3d y;
-    for (int i = 0; i < 3; ++i) {
-      slope += w(mesh.triangles(t, i)) * barycentric_gradients(mesh, t)(i, 1);
-      mean += tutorial::flux_at(exact, point_in(mesh, t, midpoint_rule().points.row(i)), true)(0) / 3;
-      y(i) = mesh.vertices(mesh.triangles(t, i), 1);
-    }
-    const bool up = 2 * y.mean() < y.minCoeff() + y.maxCoeff();
-    work += (up ? 1 : -1) * mesh.area(t) * slope * mean;
-    energy += mesh.area(t) * slope * slope;
-  }
-  return std::abs(work) / std::sqrt(energy);
-}
-
-// P1 without contact at $ε = k/ρ$: the share of the ridge $\sin ax$ that rows keep, against columns under the same body,
-// over the share that the law leaves.
-double kept_over_law(double rho, int cells) {
-  const double a = 2 * std::numbers::pi, stiffness = a / std::tanh(a) + a * a;  // of the body, of the layer
-  const Scene free(Body{paper_load}, StiffLayer{k_of_rows(cells) / rho});
-  const auto ridge = [&](const std::string& family) {
-    const Discretisation on(mesh_family(family).mesh(cells), p1());
-    return active_set(assemble(free, on.space())).u(on.space().contact()).maxCoeff();
-  };
-  return ridge("rows") / ridge("structured") * (1 + rho * rho * std::pow(a, 4) / stiffness);
-}
+// Proposition E's lower bound of $S^-$ takes for $w$ a bend across the end of contact, on each mesh the best one in $x$ of those
+// that are $\sin πy$ in $y$ (`lower_bound`). P1 without contact at $ε = k/ρ$: the share of the ridge that rows keep, against
+// columns under the same body, over the share that the law leaves (`kept_over_law`). Both stand in `backstage/20_rows.hpp`.
 
 // ### Output
 void judge_theorems(const Table& norms, const Table& units, const Table& all, tutorial::Report& report) {
@@ -168,7 +131,7 @@ void judge_rows(const Table& limit, const Exact& exact, tutorial::Report& report
   for (const Table& row : rows.rows()) {
     const int n = static_cast<int>(row.number("cells"));
     const double unit = std::abs(exact.table.layer_stress(exact.contact_from(), 0)) * std::pow(k_of_rows(n), 0.75),
-                 bound = lower_bound(exact, mesh_family("rows").mesh(n), n), before = quotient;
+                 bound = tutorial::lower_bound(exact, mesh_family("rows").mesh(n), n), before = quotient;
     quotient = row.number("layer") / upright.where("cells", n).number("layer");
     report.claim(row.number("layer") >= bound && quotient > before,
                  "rows, 1/h = {}: S^- = {:.2f} J k^3/4, at least {:.2f} (proved); {:.2f} times columns' (observed)", n,
@@ -176,7 +139,7 @@ void judge_rows(const Table& limit, const Exact& exact, tutorial::Report& report
   }
   const int n = static_cast<int>(rows.most("cells"));
   for (const double rho : {0.1, 1.0, 3.0}) {
-    const double law = kept_over_law(rho, n), ah = 2 * std::numbers::pi / n;  // the law is that of a h = 0
+    const double law = tutorial::kept_over_law(rho, n), ah = 2 * std::numbers::pi / n;  // the law is that of a h = 0
     report.claim(std::abs(law - 1) <= ah * ah / 2, "P1 on rows, k = {} epsilon: kept / law = {:.4f} (both)", rho, law);
   }
 }

@@ -43,8 +43,8 @@
 
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/mesh/layered.hpp"
-#include "backstage/19_certified.hpp"
-#include "common/accuracies.hpp"
+#include "backstage/22_output.hpp"
+#include "backstage/22_uniform.hpp"
 
 using namespace antilock;
 using tutorial::Exact, tutorial::load_scene;

@@ -19,15 +19,15 @@
 //
 // ## Why the factor stops, and what replaces it
 //
-// Every chapter before factors $K = A_1 + δ^{-1} B' M B$, in $N^{3/2}$ operations for $N$ unknowns in the plane. A
+// Every chapter before factors $A_δ = A_1 + δ^{-1} B' M B$, in $N^{3/2}$ operations for $N$ unknowns in the plane. A
 // second machine helps little: the order of elimination is found on one processor, and the last and largest blocks of
 // the factor wait for all others.
 //
-// The iterated penalty needs $K^{-1}$ on residuals alone. Each correction repairs what the last one left over, and that
-// includes what a careless solve with $K$ left over. So four digits per correction are enough. Conjugate gradients give
-// them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it reads from $K$ which unknowns hang together,
+// The iterated penalty needs $A_δ^{-1}$ on residuals alone. Each correction repairs what the last one left over, and that
+// includes what a careless solve with $A_δ$ left over. So four digits per correction are enough. Conjugate gradients give
+// them in 2 to 5 iterations with *algebraic multigrid* (BoomerAMG): it reads from $A_δ$ which unknowns hang together,
 // merges them into a coarser problem, and so on until one is left that is solved at once. Contact set and penalty are
-// corrected in one loop. What is left over is formed from $A_1$, $B$, $M$ and $p$, not from $K$, since $K$ has lost
+// corrected in one loop. What is left over is formed from $A_1$, $B$, $M$ and $p$, not from $A_δ$, since $A_δ$ has lost
 // digits (chapter 18):
 //
 // $$ r_1 = L - A_1 u - B' M p,   r_2 = ε^2 p - B u. $$
@@ -35,14 +35,14 @@
 // In balance $r_1$ is $-λ$: on a touching point it is what the obstacle adds, with the other sign. So a point stays in
 // contact where $-r_1 > 0$ presses, and comes into contact where $u < -\text{gap}$. Off this set one correction solves
 //
-// $$ K\,du = r_1 + δ^{-1} B' M r_2,   u ← u + du,   p ← p + δ^{-1} (B\,du - r_2), $$
+// $$ A_δ\,du = r_1 + δ^{-1} B' M r_2,   u ← u + du,   p ← p + δ^{-1} (B\,du - r_2), $$
 //
 // as `cure` does in chapter 18, and on it $du = -\text{gap} - u$. The penalty $δ = h^2/256$ follows the mesh. Each level of
 // refinement begins with the contact set of the level before.
 //
 // ## Why columns: the kernel again
 //
-// Multigrid must keep on its coarse problems what $K$ hardly charges: the kernel of $B$ on the layer. For P1 in columns
+// Multigrid must keep on its coarse problems what $A_δ$ hardly charges: the kernel of $B$ on the layer. For P1 in columns
 // that is one function per column, and the unknowns that hang together through $δ^{-1}$ are those of one column.
 // Merged, they are still in the kernel. Without columns Crouzeix-Raviart has one such function per two triangles
 // (chapter 07), each spread over several triangles. None of the algebraic multigrids that we tried merges unknowns so
@@ -65,7 +65,7 @@
 
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
-#include "common/study.hpp"
+#include "common/course.hpp"
 #include "petsc/launched.hpp"
 
 using namespace antilock;
@@ -73,7 +73,7 @@ namespace dist = antilock::distributed;
 using tutorial::Asked, tutorial::Ended, tutorial::on_ranks, tutorial::serial;
 
 // Every rank runs the next function: it knows the same coarse mesh, keeps its own strip and refines that. No rank ever
-// holds the fine mesh. $A_1$, $B$ and $M$ stay on their rank; $K$ alone is a matrix of all ranks.
+// holds the fine mesh. $A_1$, $B$ and $M$ stay on their rank; $A_δ$ alone is a matrix of all ranks.
 Ended on_each_rank(const Asked& ask) {
   const Scene scene = tutorial::paper_scene(ask.epsilon);
   const bool columns = ask.what != "multigrid" && ask.what != "MUMPS";

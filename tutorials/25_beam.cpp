@@ -75,7 +75,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/sweep.hpp"
 #include "backstage/25_beam.hpp"
-#include "common/supremum.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 

@@ -45,8 +45,8 @@
 // from the other three, has no pressure of its own. What that means is the subject of [pressures](29_pressure.cpp).)
 
 #include "backstage/26_elasticity.hpp"
-#include "antilock/analysis/kernel.hpp"
 #include "antilock/study/sweep.hpp"
+#include "backstage/26_checks.hpp"
 
 using namespace antilock;
 using tutorial::Rubber;

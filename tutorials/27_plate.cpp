@@ -30,33 +30,40 @@
 // under the whole plate. Here $e(θ) = ½ (∇θ + ∇θ^T)$ and $ν = 0.3$ is Poisson's ratio. As $t → 0$, $θ = ∇w$. Then
 // $a_1(θ, θ)$ becomes $∫ (Δw)^2$, since $∫ e(∇w) : e(∇w) = ∫ (Δw)^2$ by parts: *Kirchhoff's plate*.
 //
-// Let $w$ and $θ$ be P1 with exact shear. $∇w = θ$ makes $θ$ constant on each triangle. It is continuous, so constant
-// everywhere, and the rim makes it 0. Two cures change the shear strain that the energy sees, and both add functions to
-// the rotation. Write $R$ for what the energy sees of a field: $a_{0h} = ∫ R(∇w - θ)·R(∇v - φ)$.
+// Let $w$ and θ be P1 with exact shear. No shear means $∇w = θ$, so θ is constant on each triangle. It is continuous, so it
+// is constant everywhere, and the rim makes it 0: nothing moves. Two cures let the energy see less of the shear, and give the
+// rotation more functions, so that every deflection has a rotation without shear. Write $P$ for what the energy sees of a
+// field:
 //
-// - *Arnold–Falk* (1989): $R$ is the mean over each triangle. $w$ is CR. $θ$ is P1 and a *bubble* per triangle,
-// $27 λ_0 λ_1 λ_2$ with the three hat functions of its corners, 0 on all edges. The bubble sets the mean of $θ$ to any
-// value: for every $w$, and every P1 part of $θ$, there is one $θ$ without shear.
-// - *Durán–Liberman* (1992): $R$ knows a field by its three means along the edges of a triangle, that is by the means of
-// its component along the edge, τ. It is the field $a + b (-y, x)$ with the same three means: $a ∈ R^2$ and $b$ are
-// three numbers for three means (Nédélec's lowest field). $w$ is P1. $θ$ is P1 and one function per edge, along τ, 0 on
-// the two other edges. It sets the mean of its edge: for every P1 part again one $θ$ without shear.
+// $$ a_{0h} = ∫ P(∇w - θ)·P(∇v - φ). $$
+//
+// - *Arnold–Falk* (1989): $P$ is the mean over each triangle. $w$ is CR. θ is P1 and a *bubble* per triangle,
+// $27 λ_0 λ_1 λ_2$ with the three hat functions of its corners. A bubble is 0 on all edges, so no other triangle feels it,
+// and its mean is not 0. So it sets the mean of θ on its triangle to any value, to that of $∇w$ for instance: for every $w$,
+// and every P1 part of θ, there is one θ without shear.
+// - *Durán–Liberman* (1992): $P$ knows of a field, on each triangle, the means along the three edges of its component along
+// the edge, τ. Three numbers fix a field $a + b (-y, x)$, with $a ∈ R^2$ and a number $b$ (Nédélec's lowest field). The one
+// with the same three means is what $P$ makes of a field. $w$ is P1, and $P$ leaves its gradient as it is. θ is P1 and one
+// function per edge, along τ, 0 on the two other edges. It sets the mean of its edge: for every P1 part again one θ without
+// shear.
 //
 // ## Why both converge uniformly
 //
 // [Chapter 28](28_mixed.cpp) proves Theorem 4 for an $a_{0h}$ under four conditions. Both elements fulfil them on a
-// polygon, with the obstacle. (The disc is a further approximation, by the polygon of the mesh.) $|∇θ|^2 ≤ 2 |e(θ)|^2$
-// for a clamped θ (Korn), so $a_1$ alone is coercive in θ.
+// polygon, with the obstacle. (The disc is a further approximation, by the polygon of the mesh.) Korn's inequality,
+// $|∇θ|^2 ≤ 2 |e(θ)|^2$ for a clamped θ, makes $a_1$ alone coercive in θ.
 //
-// - (i) $|∇w| ≤ |R(∇w - θ)| + |Rθ|$, because $R$ keeps $∇w$, a constant on each triangle. $Rθ$ is at most a constant
-// times θ in $H^1$. So $a_1 + a_{0h}$ is coercive, with a constant that holds for all $h$.
-// - (ii) Let $w ≥ -1$ be smooth and $θ = ∇w$. (Such $w$ are dense: shrink and smooth; both keep $w ≥ -1$.) Interpolate $w$
-// by edge means (CR) or by its values at vertices (P1): both keep $w_h ≥ -1$. Interpolate θ by P1. Then let the bubble or
-// the edge function set $R θ_h = ∇w_h$, so that no shear is left. For this it needs the size $|θ - I θ| ∼ h^2$, and its
-// gradient is of the size $h$.
-// - (iii) $θ_h$ tends to $θ$ strongly in $L^2$, hence $R θ_h$ does. $∇w_h$ tends to $∇w$ weakly (for CR triangle by triangle,
-// chapter 12), and its mean over a triangle, that of three midpoint values, is at least $-1$. So limits of $K_h$ stay in
-// $K$, and a shear that vanishes leaves $∇w = θ$. (iv) is the same line: a weak and a strong limit.
+// - (i) What is left is to bound $∇w$. It is a constant on each triangle, which $P$ keeps. So
+// $|∇w| ≤ |P(∇w - θ)| + |Pθ|$: the first is in $a_{0h}$, the second is at most a constant times θ in $H^1$. So
+// $a_1 + a_{0h}$ is coercive, with a constant that holds for all $h$.
+// - (ii) Each $w ≥ -1$ with its rotation $∇w$ must be a limit of discrete pairs without shear. Let $w$ be smooth. (Such $w$
+// come near all others: shrink and smooth; both keep $w ≥ -1$.) Interpolate $w$ by edge means (CR) or by its values at
+// vertices (P1): both keep $w_h ≥ -1$. Interpolate θ by P1. Then let the bubbles or the edge functions take away the shear
+// that is left. They need the size $|θ - I θ| ∼ h^2$ for it, and their gradients are of the size $h$: the pair stays near.
+// - (iii) $θ_h$ tends to θ strongly in $L^2$, because it is bounded in $H^1$. Hence $P θ_h$ tends to θ, and $∇w_h$ to $∇w$
+// weakly (for CR triangle by triangle, chapter 12). If the shear $∇w_h - P θ_h$ vanishes, $∇w = θ$. And $w ≥ -1$, because
+// the mean of $w_h$ over a triangle, that of three values at midpoints or at corners, is at least $-1$.
+// - (iv) is the same line: a product of a weak and a strong limit, or a square.
 //
 // So both converge uniformly in $t$, contact included (*proved*). A rate is proved for the plate *without* obstacle on a
 // convex polygon: $‖θ - θ_h‖_1 + ‖w - w_h‖_{1,h} ≤ C h$ with one $C$ for all $t$ (both papers). With the obstacle Brenner,
@@ -64,10 +71,10 @@
 // uniform in $t$ with an obstacle: below it is *observed*.
 //
 // **What can be expected.** On equilateral triangles with edges $h$ the P1 interpolant of Kirchhoff's plate misses
-// $h^2 ‖Δw‖ / 14.6$ in $L^2$. (On a triangle the error is $-½ \sum λ_i λ_j\, w''_{ij}$, with the second differences along its three
-// edges. Its mean square is $\frac{h^4}{720} (\frac{21}{8} (Δw)^2 + \frac{3}{4} |∇^2 w|^2)$, and $∫ |∇^2 w|^2 = ∫ (Δw)^2$.)
+// $h^2 ‖Δw‖ / 14.6$ in $L^2$. (On a triangle its error is $-½ \sum λ_i λ_j\, w''_{ij}$, with the second differences along the
+// three edges. Its mean square is $\frac{h^4}{720} (\frac{21}{8} (Δw)^2 + \frac{3}{4} |∇^2 w|^2)$, and $∫ |∇^2 w|^2 = ∫ (Δw)^2$.)
 // So $h^2$ is the most to expect, and this number is the unit of a verdict. The truth is a closed form for every $t$
-// (`exact/plate_truth.cpp`): contact on the disc $r ≤ c$. Its energy gives $‖Δw‖^2 = -q ∫ w - R$ with the contact force $R$.
+// (`exact/plate_truth.cpp`): contact on the disc $r ≤ c$. Its energy gives $‖Δw‖^2 = -q ∫ w - F$ with the contact force $F$.
 // *Patch test:* a plate that its rim bends to a constant curvature must have its exact rotation at the vertices.
 
 #include <cmath>
@@ -75,17 +82,16 @@
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/exact/plate_truth.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/study/sweep.hpp"
+#include "backstage/27_discrete.hpp"
 #include "backstage/27_plate.hpp"
-#include "common/supremum.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
-using tutorial::Discrete;
-using Method = tutorial::PlateMethod;
+using tutorial::Discrete, tutorial::PlateElement, tutorial::error_of_w;
 
-const std::vector<Method> methods{
+const std::vector<PlateElement> plate_elements{
     {"P1 with exact shear", "p1", p1(), p1(), ShearRule::exact, true},
     {"P1 with one-point shear", "p1_one", p1(), p1(), ShearRule::mean, true},
     {"Duran-Liberman", "duran_liberman", p1(), p1(), ShearRule::edges, false},
@@ -99,28 +105,13 @@ std::vector<double> thicknesses() {
   return all;
 }
 
-// The error of $w$ in $L^2$: the same for an element with unknowns at vertices and for one with unknowns at midpoints.
-double error_of_w(const Space& w, const Solution& solution, const PlateTruth& truth) {
-  const Quadrature& rule = triangle_rule(4);
-  double square = 0;
-  for (int t = 0; t < w.mesh().triangle_count(); ++t) {
-    const Eigen::VectorXi unknowns = w.unknowns().row(t);
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const double here = w.element().basis(rule.points.row(q)).dot(solution.u(unknowns));
-      const double r = point_in(w.mesh(), t, rule.points.row(q)).norm();
-      square += w.mesh().area(t) * rule.weights(q) * std::pow(here - truth.deflection(r), 2);
-    }
-  }
-  return std::sqrt(square);
-}
-
 void judge(const Table& checks, const Table& errors, int cells, tutorial::Report& report);
 
 void press(const tutorial::Options& options, tutorial::Report& report) {
   Table checks({"element", "unknowns", "kernel", "expected", "patch", "seconds", "locks"});
   Table errors({"element", "rings", "h", "t", "error", "corrections", "locks"});
   Table profile({"x", "element", "w"});
-  for (const Method& method : methods) {
+  for (const PlateElement& method : plate_elements) {
     report.stage(method.name);
     for (const int n : {options.cells / 2, 3 * options.cells / 4, options.cells, 3 * options.cells / 2}) {
       if (method.locks && n > options.cells) continue;

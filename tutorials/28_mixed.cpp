@@ -6,72 +6,79 @@
 // Needs: [10](10_limits.cpp) for the limit, [12](12_contact_sets.cpp) for Definition 1 and the hidden slope,
 // [13](13_uniform.cpp) for Theorem 4, [14](14_estimates.cpp) for coercivity.
 //
-// **The picture.** P1 on the mesh on which it locks, but the strain $∂_y u$ is averaged before it is squared.
-// *Means over boxes of side $2h$ cure locking, if half of $a_0$ is kept as it is. Each other average shown misses one
-// hypothesis of Theorem 4.*
+// **The picture.** P1 on the mesh on which it locks, but the strain across the layer is averaged before it is squared.
+// *Means over boxes of side $2h$ cure locking, if half of the stiff form is kept as it is. Each other average shown misses
+// one hypothesis of Theorem 4.*
 //
-// **Predict.** (a) The fewer conditions are asked, the less a method locks. What goes wrong if $∂_y u$ is averaged over
-// a whole column of the layer? (b) And if all of $a_0$ is averaged over boxes, none of it kept as it is?
+// **Predict.** (a) The fewer conditions are asked, the less a method locks. What goes wrong if the strain is averaged over
+// a whole column of the layer? (b) And if all of the stiff form is averaged over boxes, none of it kept as it is?
 //
-// ## The third family of cures: another $a_0$
+// ## The third family of cures: another stiff form
 //
-// Mesh, element and degree change $V_h$. A *mixed* method ([7] of the paper; [4], which appeared in 2005, and [25] with
-// contact) changes $a_0$ instead. Call $ε_c$ the class parameter ($ε^2$ in (23)) and $B u$ the strain that is squared in
-// $a_0$: $∂_y u$ in (23). The stress $p$ is an unknown in a space $Q_h$ of its own, and it is tied to the strain by
+// Mesh, element and degree change the discrete functions. A *mixed* method ([7] of the paper; [4], which appeared in 2005,
+// and [25] with contact) changes the stiff form instead. Write $B u$ for the strain that is squared in it, and $ε_c$ for the
+// class parameter: in (23) they are $∂_y u$ and $ε^2$. The stress $p$ is an unknown in a space $Q_h$ of its own, tied to the
+// strain by
 //
 // $$ ε_c (p, q) = (B u, q) \text{ for all } q ∈ Q_h. $$
 //
-// The right side sees of $B u$ only its projection $P_h B u$ on $Q_h$. So $p = ε_c^{-1} P_h B u$. Put this into the
-// equation for $u$, and $p$ is gone. What is left is the problem with a *projected form* in place of $a_0$:
+// The right side sees of the strain only its projection on the space of stresses, $P_h B u$. So the stress is this
+// projection, divided by the class parameter. Put it into the equation of the displacement, and the stress is gone. What is
+// left is the problem with a *projected form* in place of $a_0$:
 //
 // $$ a_{0h}(u, v) = (P_h B u, P_h B v). $$
 //
-// Choosing $Q_h$ means choosing what is averaged. If $Q_h$ holds one constant per group of triangles, $P_h B u$ is the
-// mean over each group. In the library's $B^T M B$ the rows of $B$ become these means (`averaged`). Averages over smaller
-// groups ask for more, and averages over larger groups ask for less.
+// To choose the stresses means to choose what is averaged. If they are constant on groups of triangles, the projection is
+// the mean over each group. In the library the rows of $B$ become these means (`averaged`). Averages over smaller groups ask
+// for more, and averages over larger groups ask for less.
 //
-// ## Theorem 4 for another $a_0$
+// ## Theorem 4 for another stiff form
 //
-// Theorem 4 compares spaces for one $a_0$. What does an $a_{0h}$ have to fulfil? Let $0 ≤ a_{0h}(v, v) ≤ C a_0(v, v)$ on
-// $V_h$, and let $K_{0h}$ be the set of those $v ∈ K_h$ that have $a_{0h}(v, v) = 0$. There may also be friction
-// ([chapter 30](30_friction.cpp)): a convex $j ≥ 0$ in the energy, replaced by a convex $j_h ≥ 0$. Then
-// $u_h^ε → u^ε$ uniformly in $0 < ε_c ≤ 1$, if $K_h$ approaches $K$ (Definition 1) and
+// Theorem 4 compares spaces for one stiff form. What does another one have to fulfil? It is never negative and at most a
+// constant times $a_0$. Let $K_{0h}$ be the functions of $K_h$ that it does not see. There may also be friction
+// ([chapter 30](30_friction.cpp)): a convex term $j ≥ 0$ in the energy, replaced by a convex $j_h ≥ 0$. Then the method
+// converges uniformly in the class parameter, from 0 to 1, if $K_h$ approaches $K$ (Definition 1) and
 //
-// - (i) $a_1 + a_{0h}$ is coercive on $V_h$, with one constant α for all $h$;
-// - (ii) $K_{0h}$ comes near each $w ∈ K_0$: some $w_h ∈ K_{0h}$ tend to $w$;
-// - (iii) weak limits of bounded $v_h ∈ K_h$ lie in $G$, if $a_{0h}(v_h, v_h) → 0$;
-// - (iv) if $w_h → w$ weakly and $v_h → v$, then $a_{0h}(w_h, v_h) → a_0(w, v)$ and $\liminf a_{0h}(w_h, w_h) ≥ a_0(w, w)$;
-// - with friction: $j_h(v_h) → j(v)$ if $v_h → v$, and $\liminf j_h(w_h) ≥ j(w)$ if $w_h → w$ weakly.
+// - (i) *it holds:* $a_1 + a_{0h}$ is coercive on $V_h$, with one constant α for all $h$;
+// - (ii) *it leaves enough:* each $w ∈ K_0$ is the limit of some $w_h ∈ K_{0h}$;
+// - (iii) *it leaves nothing foreign:* weak limits of bounded $v_h ∈ K_h$ lie in $G$, if $a_{0h}(v_h, v_h) → 0$;
+// - (iv) *it is the right one at last:* if $w_h → w$ weakly and $v_h → v$, then $a_{0h}(w_h, v_h) → a_0(w, v)$, and
+// $a_{0h}(w_h, w_h)$ is at least $a_0(w, w)$ in the limit;
+// - with friction: $j_h(v_h) → j(v)$, and $j_h(w_h)$ is at least $j(w)$ in the limit.
 //
-// *Proof.* Were it false, there would be $h → 0$ and $ε_c = ε_c(h)$, converging to some $ε_* ≥ 0$, for which the error
-// stays away from 0. So it is enough to show that $u_h$ tends to the solution at $ε_*$, because the exact solution does
-// too (Theorem 1). Let first $ε_* = 0$.
+// *Proof.* Were it false, the error would stay away from 0 for some sequence of ever finer meshes and of parameters, which
+// converge to some $ε_* ≥ 0$. The exact solutions converge to the one at this limit (Theorem 1). So it is enough that the
+// discrete ones do so, too. Let first $ε_* = 0$. The steps are those of Theorem 1 in [chapter 10](10_limits.cpp).
 //
-// 1. *Bounded.* Take $w ∈ K_0$, and $w_h ∈ K_{0h}$ from (ii) as test function. $a_{0h}(u_h, w_h) = 0$, because
-// $a_{0h}(w_h, w_h) = 0$ (Cauchy and Schwarz). The inequality becomes
+// 1. *Bounded.* Take a $w$ of $K_0$, and for test functions the $w_h$ of (ii). The stiff form of $u_h$ with $w_h$ is 0,
+// because that of $w_h$ with itself is (Cauchy and Schwarz). So the inequality becomes
 //
 // $$ a_1(u_h, u_h) + ε_c^{-1} a_{0h}(u_h, u_h) + j_h(u_h) ≤ a_1(u_h, w_h) - L(w_h - u_h) + j_h(w_h). $$
 //
-// On the left (i) gives $α ‖u_h‖^2$, because $ε_c ≤ 1$. The right side grows like $‖u_h‖$ only. So $u_h$ is bounded, and
-// $a_{0h}(u_h, u_h) ≤ C ε_c → 0$.
-// 2. *Where the limits lie.* A weak limit $u_*$ lies in $K$ by (9), and in $G$ by (iii). So it lies in $K_0$.
-// 3. *What the limits solve.* Drop $ε_c^{-1} a_{0h}(u_h, u_h) ≥ 0$ on the left and let $h → 0$. $a_1(u_h, u_h)$ and
-// $j_h(u_h)$ are at least $a_1(u_*, u_*)$ and $j(u_*)$ in the limit: $u_*$ solves (2). There is one solution, $u^0$.
-// 4. *Strong.* Take $w = u^0$. By step 1, $a_1 + ε_c^{-1} a_{0h}$ of $u_h - w_h$ is at most
-// $L(u_h - w_h) - a_1(w_h, u_h - w_h) + j_h(w_h) - j_h(u_h)$. The limit of this is at most 0. By (i) $u_h - w_h → 0$.
+// As the parameter is at most 1, the left side is at least $α ‖u_h‖^2$ by (i). The right side grows like $‖u_h‖$ only. So
+// the $u_h$ are bounded, and their stiff form is at most $C ε_c$: it tends to 0.
+// 2. *Where the limits lie.* A weak limit lies in $K$ by (9), and in $G$ by (iii). So it lies in $K_0$.
+// 3. *What the limits solve.* Drop the stiff term on the left, which is not negative, and go to the limit. The two other
+// terms on the left can only lose there: the weak limit solves (2). That has one solution, $u^0$.
+// 4. *Strong.* Take $w = u^0$, and bring the left side of step 1 to the difference $d = u_h - w_h$:
 //
-// If $ε_* > 0$, the same four steps are done with $w ∈ K$ and $w_h ∈ K_h$. Then the terms with $a_{0h}$ do not vanish;
-// (iv) says that they tend to those with $a_0$, and $u_h$ tends to the solution of (1) at $ε_*$. ∎
+// $$ a_1(d, d) + ε_c^{-1} a_{0h}(d, d) ≤ L(d) - a_1(w_h, d) + j_h(w_h) - j_h(u_h). $$
 //
-// **(i) against (ii).** Let the groups shrink with $h$. Then (iii) and (iv) always hold: in
-// $(B v_h, q) = (P_h B v_h, q) + (B v_h, q - P_h q)$ the last term vanishes, because $P_h q → q$. With larger groups
-// $K_{0h}$ grows, which helps (ii). But $a_{0h}$ sees less, which hurts (i). The way out (Arnold and Brezzi 1993, for
-// plates) keeps half of $a_0$: $a_1 + ½ a_0 + (ε_c^{-1} - ½) a_{0h}$. Then (i) holds with half the α of $a_1 + a_0$.
+// The right side tends to 0 or below, because $d$ tends to 0 weakly. By (i) it tends to 0 strongly.
 //
-// **A word from another field.** Equations like (23) with their stiff direction along a magnetic field are the model
-// problem of *asymptotic-preserving* schemes (Degond, Deluzet and Negulescu 2010). Such a scheme has, at fixed $h$, the
-// right limit as ε → 0, and matrices that stay well conditioned: [chapter 18](18_roundoff.cpp) has both. That is
-// Proposition 1, and not Theorem 4: P1 of [chapter 06](06_p1_unstructured.cpp) has both too, and its limit is wrong.
+// If $ε_* > 0$, do the same with a $w$ of $K$ and $w_h$ of $K_h$. Then the stiff terms do not vanish. By (iv) they tend to
+// those with $a_0$, so the limit solves (1) at $ε_*$. ∎
+//
+// **(i) against (ii).** Let the groups shrink with $h$. Then (iii) and (iv) always hold. For in
+//
+// $$ (B v_h, q) = (P_h B v_h, q) + (B v_h, q - P_h q) $$
+//
+// the last term vanishes, because means over small groups come near $q$. With larger groups more functions are left, which
+// helps (ii). But the form sees less, which hurts (i). The way out (Arnold and Brezzi 1993, for plates) keeps half of $a_0$:
+//
+// $$ a_1 + ½ a_0 + (ε_c^{-1} - ½) a_{0h}. $$
+//
+// Then (i) holds with half of the α of $a_1 + a_0$.
 
 #include "backstage/28_mixed.hpp"
 #include "antilock/analysis/kernel.hpp"
@@ -79,8 +86,7 @@
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/problem/projected.hpp"
-#include "common/study.hpp"
-#include "common/supremum.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using tutorial::Exact;
@@ -111,8 +117,8 @@ VariationalInequality layer_problem(const Projection& way, const Space& space, i
 }
 
 // One mesh: (i) to (iii) in numbers, then the error at each ε. α needs dense eigenvalues, on small meshes. For (ii) the
-// distance from $u^0$ to $K_{0h}$. For (iii) what one slope can be while $a_{0h}$ sees nothing: the largest
-// $∫ ∂_y v\, φ$ over the $v$ without $a_{0h}$ of norm 1, $φ = \sin πx \sin πy$ (chapter 12's $k_h$).
+// distance from $u^0$ to $K_{0h}$. For (iii) what one slope can be while the form sees nothing: the largest
+// $∫ ∂_y v\, φ$ over such $v$ of norm 1, with $φ = \sin πx \sin πy$ (chapter 12's $k_h$).
 Table measure(const Projection& way, int cells, const std::vector<Exact>& truth) {
   // ### Mesh
   const Discretisation on = way.method.on(cells);
@@ -208,14 +214,14 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
 //
 // :output: Theorem 4
 //
-// (a) A mean over a column sees $u$ on $Σ$ less $u$ on $Γ_C$, and nothing between. (iii) fails: a slope of 0.18 is hidden
-// at every $h$, and the error stays at 0.217. *Patches* (all triangles at a vertex, one mean per vertex) ask for as many
+// (a) A mean over a column sees the values on $Σ$ less those on $Γ_C$, and nothing between. (iii) fails: a slope of 0.18 is
+// hidden at every $h$, and the error stays at 0.217. *Patches* (all triangles at a vertex, one mean per vertex) ask for as many
 // means as the layer has unknowns. (ii) fails, as for P1. It is only seen at smaller ε: at ε = 1e-3 their error is 0.056
 // where P1 has 0.145; in the limit both have 0.148.
 //
 // (b) Even on the structured mesh, where P1 does not lock, zigzags across the layer are left whose means are 0. They cost
-// next to nothing: (i) fails, α falls like $h^2$, and the error grows from 0.46 to 1.38. With half of $a_0$ kept the
-// zigzags cost something again. Of the four hypotheses three are in the table, and (iv) is proved above. The error over
+// next to nothing: (i) fails, α falls like $h^2$, and the error grows from 0.46 to 1.38. With half of the stiff form kept
+// the zigzags cost something again. Of the four hypotheses three are in the table, and (iv) is proved above. The error over
 // all ε then falls like $h$. At 1/h = 32 it is 0.060 with 2497 unknowns; that of Crouzeix–Raviart is 0.055, with 7296.
 //
 // ## Exercises

@@ -29,33 +29,34 @@
 //
 // $$ \max_{v_h} \frac{(q, B v_h)}{‖v_h‖} ≥ β ‖q‖ \text{ for all } q ∈ Q_h. $$
 //
-// What is it good for? Hypothesis (ii) asks for $w_h ∈ K_{0h}$ near a given $w ∈ K_0$. Take an interpolant $I w$. It has a
-// small projected strain, $P_h B (I w) = P_h B (I w - w)$. With the inf-sup constant there is a $v_h$ with the same
-// projected strain and $‖v_h‖ ≤ ‖P_h B (I w - w)‖/β$. Then $w_h = I w - v_h$ has none, and it is as near to $w$ as $I w$ is,
-// up to the factor $1 + C/β$. So a β that stays above a positive number for all $h$ gives (ii).
+// What is it good for? Hypothesis (ii) asks for motions without projected strain, $w_h ∈ K_{0h}$, near a given $w ∈ K_0$. An
+// interpolant $I w$ is near $w$, and it has a little strain: $P_h B (I w)$, which is $P_h B (I w - w)$ because $w$ has none.
+// Take it away again. How large a correction does that need? By the inf-sup constant some $v_h$ has the same projected strain
+// and the size $‖v_h‖ ≤ ‖P_h B (I w - w)‖/β$. Then $w_h = I w - v_h$ has none, and it is as near to $w$ as $I w$ is, up to the
+// factor $1 + C/β$. So a β that stays above a positive number for all $h$ gives (ii).
 //
-// *Under contact* there is one more condition: $w_h$ must stay above the obstacle. $I w$ does. Therefore $v_h$ must not
-// push down anywhere on $Γ_C$. It is not enough that $v_h = 0$ where there is contact, because beside this set the gap is
-// as small as one likes. $v_{h,y} = 0$ on *all of* $Γ_C$ is enough. So for (ii) the inf-sup constant is taken over these
-// $v_h$. The table also has it over all $v_h$, and over those that are 0 on the contact set of the solution.
+// *Under contact* there is one more condition: $w_h$ must stay above the obstacle. $I w$ does. So the correction must not
+// push down anywhere on $Γ_C$. It is not enough that it is 0 where there is contact, because beside this set the gap is as
+// small as one likes. It is enough that its vertical part is 0 on *all of* $Γ_C$. So for (ii) the inf-sup constant is taken
+// over such $v_h$. The table also has it over all $v_h$, and over those that are 0 on the contact set of the solution.
 //
-// The same question can be asked of the layer's stress, $B v = ∂_y v$. There let $‖q‖$ be the maximum over *all*
-// displacements in place of the discrete ones (the *dual norm*). Then $β = 1$ says: whatever stress some displacement sees,
-// a discrete one sees as well. For CR β is at least 1 on every mesh, because chapter 08's interpolation keeps $(q, ∂_y v)$
-// and does not enlarge $|v|_1$ (a property that carries Fortin's name). For P1 $β = 0$, since the rows of $B$ depend on each
-// other (chapter 03: two triangles share each vertical edge). That holds on the structured mesh too, where nothing locks: a
-// positive inf-sup constant is sufficient, and it is not necessary. [4] of the paper (Ben Belgacem, Renard and Slimane 2005)
-// and, with other elements, Lovadina and Molinari (2026) build contact on such constants.
+// The same question can be asked of the layer's stress, $B v = ∂_y v$. Measure $q$ there by its largest work on *all*
+// displacements of norm 1, not on the discrete ones alone (the *dual norm*). Then $β = 1$ says: whatever stress some
+// displacement sees, a discrete one sees as well. For CR β is at least 1 on every mesh, because chapter 08's interpolation
+// keeps $(q, ∂_y v)$ and does not enlarge $|v|_1$ (Fortin's property). For P1 on columns β is 0, since the rows of $B$ depend
+// on each other (chapter 03: two triangles share each vertical edge), and yet nothing locks: a positive inf-sup constant is
+// sufficient, and not necessary. [4] of the paper (Ben Belgacem, Renard and Slimane 2005) and, with other elements, Lovadina
+// and Molinari (2026) build contact on such constants.
 //
 // ## A second kind of locking: gradients
 //
-// Let $\operatorname{div} u = 0$ and $f = ∇ψ$ with $ψ = 0$ on the free sides, no obstacle. By parts
+// Let rubber be incompressible, without an obstacle, under a load $f = ∇ψ$ with $ψ = 0$ on its free sides. By parts
 // $(f, v) = -(ψ, \operatorname{div} v)$: the load does no work on any motion that keeps the volume. So the block does not
-// move, and its pressure takes up ψ. If λ is finite, it moves by the order of $1/λ$. A discrete $v_h$ keeps the volume in
-// the mean only. $(f, v_h) = -(ψ, \operatorname{div} v_h)$ is then not 0, and $u_h$ moves by an amount that does not depend on
-// λ. Compared with the exact motion the error grows like λ. This is not the locking of Theorem 4: the absolute error does
-// tend to 0 uniformly. A method without it is called *gradient-robust* (Linke 2014 for fluids; Fu, Lehrenfeld, Linke and
-// Streckenbach 2021 for elasticity). CR becomes so by a change of its load: $v_h$ is replaced by the field
+// move, and its pressure takes up ψ. If λ is finite, it moves by the order of $1/λ$. But a discrete $v_h$ keeps the volume
+// in the mean only. The load does a little work on it, so $u_h$ moves, by an amount that does not depend on λ. Over the
+// exact motion this grows like λ. It is not the locking of Theorem 4: the absolute error does tend to 0 uniformly. A method
+// without it is called *gradient-robust* (Linke 2014 for fluids; Fu, Lehrenfeld, Linke and Streckenbach 2021 for elasticity).
+// CR becomes so by a change of its load alone. In $(f, v_h)$ replace $v_h$ by a field that keeps the volume exactly,
 //
 // $$ (Π v_h)(x) = \sum_e \frac{\int_e v_h·n}{2 |T|} (x - x_e)   \text{ on each triangle } T, $$
 //
@@ -69,11 +70,10 @@
 
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/core/eigenvalues.hpp"
-#include "antilock/form/quadrature.hpp"
 #include "antilock/problem/bounds.hpp"
+#include "backstage/29_gradients.hpp"
 #include "backstage/29_pressure.hpp"
-#include "common/study.hpp"
-#include "common/supremum.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using std::numbers::pi;
@@ -105,35 +105,8 @@ Table inf_sup_constants(const Mixed& way) {
 }
 
 // ### Solve
-// Loads $∇ψ$ of norm 1 that are orthogonal: $ψ ∼ \sin kπx \sin (m - ½) πy$, $k, m ≤ 1/2h$. One column per load; on the
-// field Π for CR if asked.
-Eigen::MatrixXd gradient_loads(const Space& space, int waves, bool on_fluxes) {
-  const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = triangle_rule(12);
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(2 * space.size(), waves * waves);
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::Matrix<double, 3, 2> normals =
-        -barycentric_gradients(mesh, t);  // times 2 |T|: outward, as long as edges
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-      const Eigen::VectorXd phi = space.element().basis(rule.points.row(q));
-      for (int j = 0; j < loads.cols(); ++j) {
-        const double a = (j / waves + 1) * pi, b = (j % waves + 0.5) * pi;
-        const Eigen::Vector2d f =
-            mesh.area(t) * rule.weights(q) * 2 / std::hypot(a, b) *
-            Eigen::Vector2d(a * std::cos(a * x(0)) * std::sin(b * x(1)), b * std::sin(a * x(0)) * std::cos(b * x(1)));
-        for (int i = 0; i < phi.size(); ++i)
-          for (const int c : {0, 1})
-            loads(space.unknowns()(t, i) + c * space.size(), j) +=
-                on_fluxes ? normals(i, c) * f.dot(x - mesh.vertices.row(mesh.triangles(t, i)).transpose())
-                          : f(c) * phi(i);
-      }
-    }
-  }
-  return loads;
-}
-
-// The worst motion in the norm of $a_1$ at $1/λ = 0$, without contact; and under one wave at other λ.
+// The worst motion in the norm of $a_1$ at $1/λ = 0$, without contact; and under one wave at other λ. The loads $∇ψ$ have the
+// norm 1 and are orthogonal: $ψ ∼ \sin kπx \sin (m - ½) πy$, $k, m ≤ 1/2h$; on the field Π for CR if asked.
 void move_by_gradients(const Mixed& way, bool on_fluxes, Table& worst, Table& by_lambda) {
   const std::string name = way.name + (on_fluxes ? ", load on fluxes" : "");
   for (const int n : {8, 12, 16, 24}) {
@@ -141,7 +114,7 @@ void move_by_gradients(const Mixed& way, bool on_fluxes, Table& worst, Table& by
     const Space space(mesh, way.element);
     const VariationalInequality pressed = tutorial::rubber(way, space, 0);
     Sweep sweep(held_in_contact(pressed, std::vector<bool>(pressed.contact.size())));
-    const Eigen::MatrixXd loads = gradient_loads(space, n / 2, on_fluxes);
+    const Eigen::MatrixXd loads = tutorial::gradient_loads(space, n / 2, on_fluxes);
     const auto answer = [&](const Eigen::VectorXd& f) {
       sweep.set_load(loads * f);
       return sweep.solve().u;

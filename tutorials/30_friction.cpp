@@ -78,7 +78,7 @@
 #include "backstage/30_floor.hpp"
 #include "backstage/30_friction.hpp"
 #include "backstage/30_slipping_patch.hpp"
-#include "common/supremum.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using tutorial::Rubber;

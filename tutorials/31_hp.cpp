@@ -65,25 +65,24 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/mesh/graded.hpp"
-#include "common/study.hpp"
-#include "common/supremum.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using tutorial::Exact, tutorial::hp_columns;
 
 constexpr int none = -1;  // not even a mesh line at the end of contact
-struct Level {
+struct Grading {
   int degree, cells, layers;  // cells: 1/h away from the end of contact
 };
-const std::vector<Level> hp{{1, 3, 1}, {2, 3, 2}, {3, 3, 3}, {4, 3, 4}, {5, 3, 5}, {6, 3, 6}};
+const std::vector<Grading> hp{{1, 3, 1}, {2, 3, 2}, {3, 3, 3}, {4, 3, 4}, {5, 3, 5}, {6, 3, 6}};
 
 // ### Mesh
-TriangleMesh mesh_for(const Level& level, double end, double epsilon) {
+TriangleMesh mesh_for(const Grading& level, double end, double epsilon) {
   if (level.layers == none) return structured_mesh(level.cells);
   return graded_mesh(end, 1.0 / level.cells, level.layers, 0.25, epsilon);
 }
 
-Table solve(const std::string& series, const Level& level, double end, const Exact& exact) {
+Table solve(const std::string& series, const Grading& level, double end, const Exact& exact) {
   const Stopwatch watch;
   const Discretisation on(mesh_for(level, end, exact.epsilon), lagrange(level.degree));
   // ### Forms
@@ -99,9 +98,9 @@ Table solve(const std::string& series, const Level& level, double end, const Exa
 }
 
 // Each level grades toward the end of contact that the level before has found, the first toward 1/2: no truth is used.
-Table climb(const std::string& series, const std::vector<Level>& levels, const Exact& exact) {
+Table climb(const std::string& series, const std::vector<Grading>& levels, const Exact& exact) {
   Table rows(hp_columns);
-  for (const Level& level : levels) rows.add(solve(series, level, rows.size() == 0 ? 0.5 : rows.last("end"), exact));
+  for (const Grading& level : levels) rows.add(solve(series, level, rows.size() == 0 ? 0.5 : rows.last("end"), exact));
   return rows;
 }
 
@@ -124,7 +123,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   Table results(hp_columns);
   for (const Exact& exact : tutorial::exact_solutions({1, 1e-2, 1e-6, 0, 1e-20})) {
     for (int p = 1; p <= 4 && exact.epsilon != 1e-20; ++p) {
-      std::vector<Level> uniform, graded;
+      std::vector<Grading> uniform, graded;
       for (const int n : {6, 8, 11, 16, 23, 32})
         if (n <= options.cells) uniform.push_back({p, n, none});
       for (int n = 4; n * p <= 2 * options.cells; n *= 2)

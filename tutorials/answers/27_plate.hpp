@@ -1,7 +1,7 @@
 #pragma once
 // The answers to the exercises of 27_plate, whose page includes this one: to be read after predicting.
 
-const auto pressed = [](const Method& method, int rings, const Plate& plate) {
+const auto pressed = [](const PlateElement& method, int rings, const Plate& plate) {
   const TriangleMesh mesh = disc_mesh(rings);
   const Discrete on(method, mesh);
   const VariationalInequality problem = assemble(plate, on.space);
@@ -12,14 +12,14 @@ const std::vector<tutorial::Exercise> exercises{
      "(9 n^2 - 3 n) + 2 (3 n^2 - 3 n + 1) unknowns less 12 n^2 conditions: 3 n^2 - 9 n + 2 at least, a number that "
      "grows like the unknowns. It does not lock on this mesh, but its error is larger, and no theorem covers it",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const Method bare{"without bubbles", "", crouzeix_raviart(), p1(), ShearRule::mean, false};
+       const PlateElement bare{"without bubbles", "", crouzeix_raviart(), p1(), ShearRule::mean, false};
        std::vector<double> without, with;
        for (const int n : {4, 8}) {
          const TriangleMesh mesh = disc_mesh(n);
          const Space w(mesh, crouzeix_raviart());
          const auto [solution, kernel] = pressed(bare, n, Plate{.thickness = 0});
          without.push_back(error_of_w(w, solution, PlateTruth(0)));
-         with.push_back(error_of_w(w, pressed(methods.back(), n, Plate{.thickness = 0}).first, PlateTruth(0)));
+         with.push_back(error_of_w(w, pressed(plate_elements.back(), n, Plate{.thickness = 0}).first, PlateTruth(0)));
          report.claim(kernel >= 3 * n * n - 9 * n + 2, "{} rings: {} functions, at least {}", n, kernel,
                       3 * n * n - 9 * n + 2);
        }
@@ -28,11 +28,14 @@ const std::vector<tutorial::Exercise> exercises{
        report.claim(without[0] > with[0] && without[1] > with[1], "with bubbles {:.4f}, then {:.4f}", with[0], with[1]);
      }},
     {"Double the load and the gap. Do deflection and contact force double? And the disc of contact?",
-     "deflection and force double, the disc stays: K is a cone about its obstacle",
+     "deflection and force double, the disc stays. Twice a deflection that the gap 1 allows is one that the gap 2 "
+     "allows, "
+     "and with twice the load its energy is four times as large: what is least before is least after",
      [](const tutorial::Options&, tutorial::Report& report) {
        Plate twice{.load = [](double, double) { return -512.0; }};
        twice.gap = [](double, double) { return 2.0; };
-       const Solution one = pressed(methods.back(), 8, Plate{}).first, two = pressed(methods.back(), 8, twice).first;
+       const Solution one = pressed(plate_elements.back(), 8, Plate{}).first,
+                      two = pressed(plate_elements.back(), 8, twice).first;
        report.claim_within((two.u - 2 * one.u).norm() / one.u.norm(), 0, 1e-9, "u - 2 u, relative");
        report.claim_within(two.lambda.sum() / one.lambda.sum(), 2 - 1e-9, 2 + 1e-9, "contact force, times");
        report.claim(two.active == one.active, "the same contact set");

@@ -39,7 +39,7 @@ const std::vector<tutorial::Exercise> exercises{
      "near 8 from the error of P6; from there on the degree is what counts",
      [](const tutorial::Options&, tutorial::Report& report) {
        const Exact exact(tutorial::paper_scene(1));
-       std::vector<Level> degrees, layers;
+       std::vector<Grading> degrees, layers;
        for (int p = 1; p <= 6; ++p) degrees.push_back({p, 3, 8});
        for (int n = 0; n <= 6; ++n) layers.push_back({6, 3, n});
        const Table both = climb("hp", hp, exact), degree = climb("8 layers", degrees, exact),

@@ -9,7 +9,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
+#include "common/course.hpp"
 
 namespace antilock::tutorial {
 

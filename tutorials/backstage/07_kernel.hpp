@@ -7,7 +7,7 @@
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/models/anti_plane.hpp"
-#include "common/paper_problem.hpp"
+#include "common/course.hpp"
 
 namespace antilock::tutorial {
 

@@ -8,7 +8,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/method.hpp"
 #include "antilock/study/table.hpp"
-#include "common/paper_problem.hpp"
+#include "common/course.hpp"
 
 namespace antilock::tutorial {
 

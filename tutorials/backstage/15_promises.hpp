@@ -4,7 +4,7 @@
 #include <map>
 
 #include "antilock/exact/truth_distance.hpp"
-#include "common/study.hpp"
+#include "common/course.hpp"
 
 namespace antilock::tutorial {
 

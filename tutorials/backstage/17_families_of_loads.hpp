@@ -1,12 +1,13 @@
 #pragma once
 #include <set>
 
+#include "antilock/analysis/load_ascent.hpp"
 #include "antilock/analysis/worst_load.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/study/method.hpp"
 #include "antilock/study/table.hpp"
-#include "common/tutorial.hpp"
+#include "common/course.hpp"
 
 namespace antilock::tutorial {
 
@@ -21,6 +22,19 @@ inline void draw_load(const std::filesystem::path& out, const Method& method, co
   for (int i = 0; i < space.size(); ++i) values(i) = modes.value(f, space.points()(i, 0), space.points()(i, 1));
   values /= values.cwiseAbs().maxCoeff();
   write_vtu(out / fmt::format("{}_{}.vtu", method.element->name(), method.family.name), space, values);
+}
+
+/// With contact, epsilon = 0: a climb over loads of four waves, by the error against the exact solution. A lower bound.
+inline double climb_in_contact(const Method& method, int cells) {
+  const Discretisation on = method.on(cells);
+  SceneSweep sweep(paper_scene(0), on.space());
+  const auto error = [&](const Eigen::VectorXd& coefficients) {
+    const SineLoad load = load_of_modes(coefficients);
+    sweep.set_load(load);
+    const TruthTable truth(Truth(load, 0, true, 9), 1 << 8);  // to some thousandths: the climb has to be quick
+    return measure_errors(on.space(), sweep.solve(), 0, reference(truth)).energy;
+  };
+  return ascend(error, {Eigen::Vector4d::Unit(0), Eigen::Vector4d(1, 1, 0, 0)});
 }
 
 /// The unknowns of the body that are not clamped.

@@ -5,7 +5,7 @@
 
 namespace antilock::tutorial {
 
-/// Condition numbers of the sum and of the K that is factored: epsilon, summed, factored. Both have the same smallest
+/// Condition numbers of the sum and of the A_delta that is factored: epsilon, summed, factored. Both have the same smallest
 /// eigenvalue but for a few percent (it belongs to a smooth function of the kernel of B), and the one of the sum could
 /// not be computed where it matters: the sum would have to be factored.
 inline Table condition_numbers(const Space& space) {
@@ -41,7 +41,7 @@ inline void show_round_off(const std::filesystem::path& out, const Table& result
   results.where("element", "P1")
       .pivot("epsilon", "solver", "ended")
       .print("how they ended, and what the checks in split form say");
-  conditions.print("condition number of the sum, and of the K that is factored", 2);
+  conditions.print("condition number of the sum, and of the A_delta that is factored", 2);
   results.select({"solver", "element", "mesh", "epsilon", "error", "ended", "seconds"}).write(out / "results.csv");
   layer_stress_curves().write(out / "stress.csv");
 }

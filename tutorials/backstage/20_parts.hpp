@@ -3,7 +3,7 @@
 #include "antilock/analysis/detail/equilibrated_flux.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/measure/detail/contact_edges.hpp"
-#include "common/study.hpp"
+#include "common/course.hpp"
 
 namespace antilock::tutorial {
 

@@ -1,6 +1,9 @@
 #pragma once
 #include "antilock/io/writers.hpp"
-#include "common/rubber.hpp"
+#include "antilock/solve/solution.hpp"
+#include "antilock/study/table.hpp"
+#include "backstage/26_rubber.hpp"
+#include "common/tutorial.hpp"
 
 namespace antilock::tutorial {
 

@@ -13,43 +13,8 @@
 
 namespace antilock::tutorial {
 
-/// A discretisation of the plate: an element for w, one for each component of theta, and what of the shear counts.
-struct PlateMethod {
-  std::string name, file;
-  const Element &deflection, &rotation;
-  ShearRule shear;
-  bool locks;
-};
-
-/// The method on a mesh, which must outlive it.
-struct Discrete {
-  Discrete(const PlateMethod& method, const TriangleMesh& mesh)
-      : w(mesh, method.deflection), theta(mesh, method.rotation), space{w, {theta, theta}, method.shear} {}
-  Space w, theta;
-  PlateSpace space;
-};
-
-/// The patch test: largest error of theta at the vertices of a plate that is bent by its rim with the constant curvature
-/// of w = x^2 + x y - y^2 / 2.
-inline double patch_error(const PlateMethod& method, const TriangleMesh& mesh, double thickness) {
-  const Discrete on(method, mesh);
-  Plate bent{.thickness = thickness, .load = [](double, double) { return 0.0; }};
-  bent.gap = [](double, double) { return std::numeric_limits<double>::infinity(); };
-  bent.rim = [](double x, double y) { return x * x + x * y - y * y / 2; };
-  bent.rim_slope_x = [](double x, double y) { return 2 * x + y; };
-  bent.rim_slope_y = [](double x, double y) { return x - y; };
-  const Eigen::VectorXd u = active_set(assemble(bent, on.space)).u;
-  double worst = 0;
-  for (int i = 0; i < mesh.vertex_count(); ++i) {
-    const double x = mesh.vertices(i, 0), y = mesh.vertices(i, 1);
-    worst =
-        std::max({worst, std::abs(u(on.space.theta_x() + i) - 2 * x - y), std::abs(u(on.space.theta_y() + i) - x + y)});
-  }
-  return worst;
-}
-
 /// FILE.vtu, mesh.freefem.msh, and rows x, element, w along the diameter y = 0; with "p1" the exact plate's too.
-inline void draw(const Options& options, const PlateMethod& method, const Space& w, const Solution& solution,
+inline void draw(const Options& options, const PlateElement& method, const Space& w, const Solution& solution,
                  Table& profile) {
   const TriangleMesh& mesh = w.mesh();
   const PlateTruth truth(std::sqrt(options.epsilon));

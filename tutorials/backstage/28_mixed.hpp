@@ -1,6 +1,6 @@
 #pragma once
 #include "antilock/study/table.hpp"
-#include "common/supremum.hpp"
+#include "common/course.hpp"
 #include "common/tutorial.hpp"
 
 namespace antilock::tutorial {

@@ -5,7 +5,8 @@
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/study/table.hpp"
-#include "common/rubber.hpp"
+#include "backstage/26_rubber.hpp"
+#include "common/course.hpp"
 
 namespace antilock::tutorial {
 

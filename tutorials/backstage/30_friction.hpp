@@ -5,7 +5,8 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/sweep.hpp"
-#include "common/rubber.hpp"
+#include "backstage/26_rubber.hpp"
+#include "common/course.hpp"
 
 namespace antilock::tutorial {
 

@@ -14,7 +14,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "common/paper_problem.hpp"
+#include "common/course.hpp"
 
 namespace antilock::tutorial {
 namespace {

@@ -1,11 +1,51 @@
-#include "common/results.hpp"
+#include "common/course.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "antilock/analysis/lost_energy.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/exact/sine_load.hpp"
 #include "antilock/io/writers.hpp"
 
 namespace antilock::tutorial {
+Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
+
+namespace {
+
+Truth known_truth(const Scene& scene, int log2_points) {
+  std::optional<Truth> truth = truth_of(scene, log2_points);
+  if (!truth)
+    throw Error(
+        "exact: the truth of this scene is not known; accepted: a StiffLayer, a load that is a sum of sines, and "
+        "the obstacle, if any, at the distance 0");
+  return std::move(*truth);
+}
+
+}  // namespace
+
+Exact::Exact(Scene scene, int log2_points)
+    : scene(std::move(scene)),
+      epsilon(this->scene.epsilon().value_or(0)),
+      truth(known_truth(this->scene, log2_points)),
+      table(truth) {}
+
+Errors Exact::errors(const Space& space, const Solution& solution) const {
+  return measure_errors(space, solution, epsilon, reference());
+}
+
+double Exact::contact_from() const {
+  const auto zones = truth.contact_zones();
+  return zones.empty() ? 1 : zones.front().first;
+}
+
+std::vector<Exact> exact_solutions(const std::vector<double>& epsilons, int log2_points) {
+  std::vector<Exact> all;
+  all.reserve(epsilons.size());
+  for (const double epsilon : epsilons) all.emplace_back(paper_scene(epsilon), log2_points);
+  return all;
+}
 
 void write_results(const std::filesystem::path& out, const Space& space, const VariationalInequality& problem,
                    const Solution& solution) {
@@ -53,6 +93,27 @@ void present(const std::filesystem::path& out, const Scene& scene, const Space& 
     fmt::print("  layer: {}\n", layer->warning.empty() ? layer->diagnosis : layer->warning);
   print_errors(what, errors);
   write_results(out, space, problem, solution);
+}
+
+Supremum supremum(const Table& runs, const std::string& value, const std::string& parameter) {
+  Supremum found{Table({"h", "worst", "at", "order"}), 1e300, -1e300, 0, 1};
+  double h_before = 0, before = 0;
+  for (const Entry& h : runs.different("h")) {
+    const Table mesh = runs.where("h", h);
+    double worst = 0, half = 0, at = 0;
+    for (int i = 0; const Table& row : mesh.rows()) {
+      const double here = row.number(value);
+      if (here > worst) worst = here, at = row.number(parameter);
+      if (i++ % 2 == 0) half = std::max(half, here);
+    }
+    const double order = std::log(before / worst) / std::log(h_before / h.number());
+    found.rows.add({h, worst, at, h_before > 0 ? Entry(order) : Entry("")});
+    if (h_before > 0)
+      found.low = std::min(found.low, order), found.high = std::max(found.high, order), found.last = order;
+    found.denser = std::max(found.denser, worst / half);
+    h_before = h.number(), before = worst;
+  }
+  return found;
 }
 
 }  // namespace antilock::tutorial
