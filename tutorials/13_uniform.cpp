@@ -81,14 +81,6 @@ using tutorial::Exact;
 const std::vector<std::string> columns{"element", "mesh",     "epsilon", "cells",       "h",
                                        "h1",      "unknowns", "energy",  "lost_to_kept"};
 
-// Quarter decades from 1 to 1e-10, and 0.
-std::vector<double> dense() {
-  std::vector<double> list;
-  for (int k = 0; k <= 40; ++k) list.push_back(std::pow(10.0, -0.25 * k));
-  list.push_back(0);
-  return list;
-}
-
 // The map: one method on one mesh at every ε. Forms and contact sets are handed on from ε to ε.
 Table solve_all(const Method& method, int cells, const std::vector<Exact>& truth, const Field& load) {
   // ### Mesh
@@ -135,7 +127,8 @@ void judge(const Method& method, const Table& own, const Table& worst, double lo
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("truth");
-  const std::vector<Exact> truth = tutorial::exact_solutions(dense(), 14);  // gradients to 1e-6, errors are 1e-2
+  const std::vector<Exact> truth =
+      tutorial::exact_solutions(tutorial::quarter_decades(), 14);  // gradients to 1e-6, errors are 1e-2
   Table map(columns), restricted({"from", "h", "worst"});
   Table side_by_side({"method", "dist(u^0, K_0h)", "order", "sup error", "order in h", "in N", "locking ratio"});
   const double lost = layer_norm(truth.back().truth);

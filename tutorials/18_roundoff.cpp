@@ -31,10 +31,9 @@
 //
 // ## The way out
 //
-// Nothing is wrong with the problem, which has a limit (24); the large number is the mistake. The paper bounds
-// $a_0(u, u) ≤ C ε_c$ in its class (proof of Theorem 1). Here $ε_c = ε^2$, so $∂_y u → 0$. The large factor $ε^{-2}$
-// meets the small $∂_y u$. Go one step further than the paper and keep their product, the *layer stress*, as an
-// unknown:
+// Nothing is wrong with the problem, which has a limit (24); the large number is the mistake. The paper bounds $a_0(u,
+// u) ≤ C ε_c$ in its class (proof of Theorem 1). Here $ε_c = ε^2$, so $∂_y u → 0$. The large factor $ε^{-2}$ meets the
+// small $∂_y u$. Go one step further than the paper and keep their product, the *layer stress*, as an unknown:
 //
 // $$ p = ε^{-2} ∂_y u:   A_1 u + B^T M p = L + λ,   ε^2 p - B u = 0. $$
 //

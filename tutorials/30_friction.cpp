@@ -76,7 +76,6 @@
 
 #include "antilock/solve/uzawa.hpp"
 #include "backstage/30_floor.hpp"
-#include "backstage/30_friction.hpp"
 #include "backstage/30_slipping_patch.hpp"
 #include "common/course.hpp"
 
@@ -127,20 +126,14 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
     report.stage(rubber.name);
     const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
     const VectorSpace space{x, y};
-    // At the ε asked for, from cold. Beside it, where nothing locks: Uzawa (P1 takes 3e5 steps); $g = 0$, which is
-    // chapter 26; and a great $g$, by which nothing gives way (bonded on both sides P1 cannot move at all).
     const auto with = [&](const Profile& friction) { return pressed(rubber, space, friction, options.epsilon); };
     const VariationalInequality problem = with(g);
     Stopwatch watch;
-    const Solution solution = active_set(problem);
+    const Solution solution = active_set(problem);  // at the ε asked for, from cold
     const double seconds = watch.lap();
-    if (!rubber.locks) {
+    if (!rubber.locks) {  // Uzawa beside it, for which P1 takes 3e5 steps
       const Solution same = uzawa(problem);
-      const double of_uzawa = watch.lap();
-      const auto [none, bonded] = tutorial::extremes_of_friction(with);
-      const double patch = tutorial::slipping_patch_error(space, rubber.jumps ? 1 : 0, options.epsilon);
-      checks.add({rubber.name, problem.free_count(), patch, none, bonded, solution.counters.contact,
-                  same.counters.contact, seconds, of_uzawa, (same.u - solution.u).cwiseAbs().maxCoeff()});
+      checks.add(tutorial::check_row(rubber, space, with, options.epsilon, solution, seconds, same, watch.lap()));
     }
 
     // ### Output

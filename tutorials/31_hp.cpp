@@ -23,11 +23,10 @@
 // would sink into the obstacle or be pulled by it, so $u ∼ r^{3/2}$. Farther than ε from $c$ one sees the
 // limit (25): $w = u$ on Σ has a jump of $w''$ at $c$, and the body answers with $r^2 \log r$.
 //
-// No polynomial fits $r^{3/2}$ on a cell of size $h$ that holds this point. Its slope is wrong by about $h^{1/2}$
-// over an area $h^2$: that is $(h · h^2)^{1/2} = h^{3/2}$ in $H^1$, and $u$ on $Γ_C$ is wrong by $h^{3/2}$ too.
-// Where $w''$ jumps, the slope is wrong by $h$ over a length $h$ of Σ: $(h^2 · h)^{1/2}$ is the same order in $H^1$,
-// but on $Γ_C$ it is $h^2$. So on equal cells, with $N ∼ h^{-2}$ unknowns, one expects
-// (this counts sizes, and is no proof)
+// No polynomial fits $r^{3/2}$ on a cell of size $h$ that holds this point. Its slope is wrong by about $h^{1/2}$ over
+// an area $h^2$: that is $(h · h^2)^{1/2} = h^{3/2}$ in $H^1$, and $u$ on $Γ_C$ is wrong by $h^{3/2}$ too. Where $w''$
+// jumps, the slope is wrong by $h$ over a length $h$ of Σ: $(h^2 · h)^{1/2}$ is the same order in $H^1$, but on $Γ_C$
+// it is $h^2$. So on equal cells, with $N ∼ h^{-2}$ unknowns, one expects (this counts sizes, and is no proof)
 //
 // $$ ‖u - u_h‖_h ≤ C h^{\min(p, 3/2)} ∼ N^{-\min(p/2, 3/4)}. $$
 //
@@ -58,8 +57,7 @@
 //
 // :figure: hp_mesh
 //
-// Contact is asked at the unknowns: $K_h ⊄ K$ for $p ≥ 2$. Column `below` says how far
-// $u_h$ is below 0 between them.
+// Contact is asked at the unknowns: $K_h ⊄ K$ for $p ≥ 2$. Column `below` says how far $u_h$ is below 0 between them.
 
 #include "backstage/31_hp.hpp"
 #include "antilock/core/stopwatch.hpp"

@@ -23,7 +23,8 @@ const std::vector<tutorial::Exercise> exercises{
 
 // ## Answers on paper
 //
-// **2.** The first term is at most $M ‖u - v_h‖_h ‖v_h - u_h‖_h$. With $s t ≤ α s^2/2 + t^2/(2α)$ for
+// **2.** Start from $a(v_h - u_h, v_h - u_h) = a(v_h - u, v_h - u_h) + a(u, v_h - u_h) - a(u_h, v_h - u_h)$. The two last
+// terms are at most $R(v_h) - R(u_h)$, by the discrete inequality. The first term is at most $M ‖u - v_h‖_h ‖v_h - u_h‖_h$. With $s t ≤ α s^2/2 + t^2/(2α)$ for
 // $s = ‖v_h - u_h‖_h$ it becomes half of the left side and $M^2 ‖u - v_h‖_h^2/(2α)$. Divided by $α/2$ this is
 // $(M/α)^2 ‖u - v_h‖_h^2$: the constant is quadratic. The symmetric form is not treated well by this road, since its
 // energy is not used.

@@ -7,6 +7,14 @@
 
 namespace antilock::tutorial {
 
+/// Quarter decades of epsilon from 1 to 1e-10, and 0.
+inline std::vector<double> quarter_decades() {
+  std::vector<double> list;
+  for (int k = 0; k <= 40; ++k) list.push_back(std::pow(10.0, -0.25 * k));
+  list.push_back(0);
+  return list;
+}
+
 /// results.csv, all runs; map.csv, the picture of what P1 loses over what it keeps, from 0.01 to 100 for epsilon from 0.1
 /// to 2e-4.
 inline void write_map(const std::filesystem::path& out, const Table& all) {

@@ -35,11 +35,6 @@ inline Eigen::MatrixX3d on_floor(const Space& in_x, const VariationalInequality&
   return curves;
 }
 
-/// One row per element that does not lock: patch, g = 0 and g = 1e6 as above; steps and seconds of the active set, then of
-/// Uzawa, and the largest difference of their displacements.
-inline const std::vector<std::string> check_columns{"element", "unknowns",    "patch",   "g = 0",   "g = 1e6",
-                                                    "steps",   "Uzawa steps", "seconds", "Uzawa s", "apart"};
-
 /// Prints the tables; writes zones.csv, where P1 on parallel triangles (`locked`) and on crossed ones sticks and slips, and
 /// lambda.csv, T and the length that sticks against lambda.
 inline void show_friction(const std::filesystem::path& out, const Table& checks, const Table& forces, int cells,

@@ -2,8 +2,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "antilock/models/plane_strain.hpp"
-#include "antilock/solve/active_set.hpp"
+#include "backstage/30_friction.hpp"
 
 namespace antilock::tutorial {
 
@@ -45,6 +44,27 @@ inline double slipping_patch_error(const VectorSpace& space, double jump_weight,
   const Eigen::VectorXd u = active_set(problem).u;
   return std::max((u.head(x.size()) - exact).cwiseAbs().maxCoeff(),
                   (u.tail(y.size()) + 0.1 * y.points().col(1)).cwiseAbs().maxCoeff());
+}
+
+/// One row per element that does not lock: patch, g = 0 and g = 1e6 as above; steps and seconds of the active set, then of
+/// Uzawa, and the largest difference of their displacements.
+inline const std::vector<std::string> check_columns{"element", "unknowns",    "patch",   "g = 0",   "g = 1e6",
+                                                    "steps",   "Uzawa steps", "seconds", "Uzawa s", "apart"};
+inline std::vector<Entry> check_row(const Rubber& rubber, const VectorSpace& space,
+                                    const std::function<VariationalInequality(const Profile& g)>& pressed,
+                                    double epsilon, const Solution& solution, double seconds, const Solution& same,
+                                    double seconds_of_uzawa) {
+  const auto [none, bonded] = extremes_of_friction(pressed);
+  return {rubber.name,
+          solution.counters.unknowns,
+          slipping_patch_error(space, rubber.jumps ? 1 : 0, epsilon),
+          none,
+          bonded,
+          solution.counters.contact,
+          same.counters.contact,
+          seconds,
+          seconds_of_uzawa,
+          (same.u - solution.u).cwiseAbs().maxCoeff()};
 }
 
 }  // namespace antilock::tutorial
