@@ -13,8 +13,8 @@
 #include <new>
 
 #include "antilock/io/expression.hpp"
+#include "common/command_line.hpp"
 #include "doors/doors.hpp"
-#include "doors/hand_over.hpp"
 
 namespace {
 

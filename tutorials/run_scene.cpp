@@ -23,8 +23,8 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
+#include "common/command_line.hpp"
 #include "common/tutorial.hpp"
-#include "doors/hand_over.hpp"
 
 using namespace antilock;
 
