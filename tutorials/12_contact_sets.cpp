@@ -23,9 +23,10 @@
 // $$ v_h ∈ C_h, v_h → v \text{ weakly} ⟹ v ∈ C. \tag{9} $$
 //
 // (8) says that each element of $C$ can be reached, (9) that from $C_h$ nothing else can be. The norm $‖·‖_h$ is that of
-// chapter 08: CR jumps between triangles, so derivatives are taken triangle by triangle. Weak convergence is meant in
-// this sense, too: the values, and the derivatives triangle by triangle, converge against each fixed function. Without
-// jumps this is what chapter 05 has. (For methods without jumps Definition 1 is *Mosco's*, Remark 1.)
+// chapter 08: CR jumps between triangles, so derivatives are taken triangle by triangle. *Weakly* means here: the values
+// of $v_h$ converge to those of $v$ against each fixed function, and $‖v_h‖_h$ stays bounded. Then the derivatives,
+// triangle by triangle, have weak limits too. Without jumps these are the derivatives of $v$, and this is what chapter 05
+// has. With jumps that must be shown. (For methods without jumps Definition 1 is *Mosco's*, Remark 1.)
 //
 // A method needs it twice: for $K_h → K$, and for $K_{0h} → K_0$, the sets with $∂_y v = 0$ in the layer. That makes four
 // conditions. Each becomes a number here.

@@ -8,7 +8,7 @@
 // [12](12_contact_sets.cpp) for the nearest element of $K_h$, [13](13_uniform.cpp) for the map.
 //
 // **The picture.** The smallest constant $C$ with which Theorem 2 holds at ε = 1e-6, for four methods. *For three of
-// them one constant serves every mesh.*
+// them one constant serves all meshes shown.*
 //
 // :figure: falk
 //

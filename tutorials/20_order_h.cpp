@@ -26,45 +26,59 @@
 // load in $L^2(Ω^+)$. In this chapter $h$ is the longest edge: on the structured mesh $\sqrt 2$ over the number of cells
 // per unit side.
 //
-// **Step 1: how smooth is $u$?** Let heat flow along $x$ for a time $t$, the sides held at 0: the result is $P_t u$.
-// Heat keeps $u ≥ 0$ on $Γ_C$. So $P_t u ∈ K$, and the inequality accepts it as a test function:
-// $a(u, u - P_t u) ≤ (f, u - P_t u)$. Divide by $t$ and let $t → 0$. Because $(u - P_t u)/t → -∂_{xx} u$, what comes
-// out is $X = a(∂_x u, ∂_x u) ≤ (f, -∂_{xx} u)$. Nothing was said about where contact ends. In the body
-// $∂_{yy} u = -f - ∂_{xx} u$. Square this and insert $X$. With $|u|_2$ for the norm of all second derivatives the result
-// is *Theorem A*, for every ε from 0 to 1,
+// **Step 1: how smooth is $u$?** One would like to put the second derivative along $x$ into the problem as a test function:
+// this gives the energy of the first one. But an inequality accepts only functions of $K$. Heat helps. Let it flow along $x$
+// for a time $t$, with the sides held at 0, and call the result $P_t u$. Heat keeps $u ≥ 0$ on $Γ_C$, so the result is in
+// $K$, and $a(u, u - P_t u) ≤ (f, u - P_t u)$. Divide by $t$ and let $t → 0$. The heat equation says that
+// $(u - P_t u)/t → -∂_{xx} u$, so what comes out is
+//
+// $$ X = a(∂_x u, ∂_x u) ≤ (f, -∂_{xx} u). $$
+//
+// The slopes along $x$ have a finite energy, and nothing was said about where contact ends. In the body the equation gives
+// the other second derivative, $∂_{yy} u = -f - ∂_{xx} u$. Square this and insert $X$. With $|u|_2$ for the norm of all
+// second derivatives the result is *Theorem A*, for every ε from 0 to 1,
 //
 // $$ |u|_{2,Ω^+}^2 + 2 F^2 ≤ ‖f‖^2,   F^2 = ‖∂_{xx} u‖^2 + ε^{-2} ‖∂_{xy} u‖^2 on Ω^-. $$
 //
 // **Step 2: half of the error costs one line.** $I_h u$ takes the means of $u$ over edges, so its gradient is the mean
 // of $∇u$ on each triangle. Hence $u - I_h u$ is orthogonal to $V_h$, and Pythagoras holds with $e = I_h u - u_h$:
-// $|u - u_h|_a^2 = |u - I_h u|_a^2 + |e|_a^2$. A function differs from its mean on a triangle by at most $h/π$ times
-// its gradient, in the norm of $L^2$ (Payne and Weinberger). Use it for $∂_x u$ and $∂_y u$ in the body, for $∂_x u$
-// and $ε p$ in the layer: $|u - I_h u|_a ≤ (h/π) ‖f‖$ by Theorem A, *on every mesh*.
 //
-// **Step 3: the other half** is $|e|_a^2 ≤ a(u, e) - (f, e)$, because $I_h u ∈ K_h$. Let $σ_h$ have the mean fluxes of
-// $u$ through the edges: the *Raviart-Thomas interpolant*. Jumps of $e$ have mean 0, so $σ_h$ does no work on them.
-// Three terms are left: $η$, the distance of the means of $σ$ and $σ_h$ over triangles; the load, at most
-// $(h/π)‖f‖$; and contact, $T_C = ∑_E \bar λ ∫_E (u - u_h)$, with $\bar λ$ the mean pressure over an edge $E$ of $Γ_C$.
+// $$ |u - u_h|_a^2 = |u - I_h u|_a^2 + |e|_a^2. $$
 //
-// **Step 4: contact.** On an edge let contact hold on a length $m$ and not on the other $n$. If $n$ is small, $∂_x u$
-// lives on little length; if $m$ is small, λ does. The two factors cancel, and $T_C ≤ 0.56 h^2 ‖f‖^2$ whatever the
-// contact set is (*Lemma B*, with the mechanism of Drouet and Hild).
+// A function differs from its mean on a triangle by at most $h/π$ times its gradient, in the norm of $L^2$ (Payne and
+// Weinberger). Use it for both slopes in the body, and for $∂_x u$ and $ε p$ in the layer. Then Theorem A says
+// $|u - I_h u|_a ≤ (h/π) ‖f‖$, *on every mesh*.
+//
+// **Step 3: the other half** is $|e|_a^2 ≤ a(u, e) - (f, e)$, because $I_h u$ is in $K_h$ and may be put into the discrete
+// inequality. If $e$ did not jump, the right side would be the work of the contact pressure alone. So one has to see what the
+// flux σ of $u$ does on its jumps. Let $σ_h$ have the mean fluxes of $u$ through the edges: the *Raviart-Thomas interpolant*.
+// Its flux is constant along an edge, and the jumps of $e$ have mean 0, so $σ_h$ does no work on them. Three terms are left:
+// $η$, the distance of the means of σ and $σ_h$ over triangles; the load, at most $(h/π)‖f‖$; and contact,
+// $T_C = ∑_E \bar λ ∫_E (u - u_h)$, with $\bar λ$ the mean pressure over an edge $E$ of $Γ_C$.
+//
+// **Step 4: contact.** As $u_h$ is not negative at midpoints, $T_C$ is at most the sum of $\bar λ ∫_E u$. This is positive
+// only on an edge where contact ends: on others the pressure is 0, or $u$ is. On such an edge let contact hold on a length
+// $m$ and not on the other $n$. If $n$ is small, then $u$ is small, because its slope lives on little length. If $m$ is
+// small, the mean pressure is. The two factors cancel, and $T_C ≤ 0.56 h^2 ‖f‖^2$ wherever contact ends (*Lemma B*, with
+// the mechanism of Drouet and Hild).
 //
 // **Step 5: flux.** The layer has no load, so $σ_h$ is constant on a triangle. If one edge is vertical, its
 // $x$-component is the mean of $∂_x u$ over this edge. By Theorem A that is near the mean over the triangle. Without a
-// vertical edge $p$ enters, and then $‖∂_x p‖$ counts; Theorem A bounds only $ε ‖∂_x p‖$. *Theorem C:* on shape-regular
-// meshes (no angle tends to 0), if each layer triangle has a vertical edge, $|u - u_h|_a ≤ C h ‖f‖$ for CR and P1; on
-// the structured mesh $C = 1.7$ and $1.3$.
+// vertical edge the stress $p$ enters. Then its change along $x$ counts, $‖∂_x p‖$, and Theorem A bounds only ε times it.
+// *Theorem C:* on shape-regular meshes (no angle tends to 0), if each layer triangle has a vertical edge,
+// $|u - u_h|_a ≤ C h ‖f‖$ for CR and P1; on the structured mesh $C = 1.7$ and $1.3$.
 //
 // ## Rows: one number in two roles
 //
-// Interpolate a bend, a function $w$ that varies with $x$, on rows of triangles with base $b$ and height $H$. By
-// [chapter 06](06_p1_unstructured.cpp) P1 gets, beside $∂_y w$, the slope $-k w''$ on triangles that point up and
-// $+k w''$ on the others, with the bending length $k = b^2/(8H)$ and $w'' = ∂_{xx} w$. For P1 this is an energy of
-// bending $(k/ε)^2 ‖w''‖^2$: it locks. For CR multiply the slope by $χ = ±1$ (up, down): if $w = 0$ on Σ, on $Γ_C$ and
-// near the sides, $(χ ∂_y w, 0)$ is the gradient of an $e_h ∈ V_h$. The stiff form $a_0$ does not see it, because
-// $∂_y e_h = 0$. Test with it (*Proposition E*): where at ε = 0 $∂_{xx} u$ jumps by $J$, the part $S^-$ of $|e|_a$ in
-// the layer is at least of size $|J| k^{3/4}$ as $h → 0$.
+// What happens without vertical edges? Interpolate a bend, a function $w$ that varies with $x$, on rows of triangles with
+// base $b$ and height $H$. By [chapter 06](06_p1_unstructured.cpp) P1 gets a slope across that $w$ does not have: $-k w''$ on
+// triangles that point up and $+k w''$ on the others, with the bending length $k = b^2/(8H)$ and $w'' = ∂_{xx} w$. For P1
+// this costs the energy of bending $(k/ε)^2 ‖w''‖^2$: it locks.
+//
+// CR meets the same slope in another role. Multiply it by $χ = ±1$ (up, down). If $w = 0$ on Σ, on $Γ_C$ and near the sides,
+// $(χ ∂_y w, 0)$ is the gradient of an $e_h ∈ V_h$, which has a slope along $x$ and none across. So the stiff form does not
+// see it, and it can be tested with at ε = 0. Where $∂_{xx} u$ jumps by $J$ it finds a work that a smooth $u$ would not do
+// (*Proposition E*): the part $S^-$ of $|e|_a$ in the layer is at least of size $|J| k^{3/4}$ as $h → 0$.
 
 #include "backstage/20_order_h.hpp"
 #include "backstage/20_rows.hpp"
