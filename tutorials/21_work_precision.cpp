@@ -112,7 +112,7 @@ Table stop_early(const Method& method, int cells, const Exact& exact, tutorial::
   UzawaOptions options;
   const EnergyBracket coarse = energy_bracket(scene, method.mesh(cells / 2)), own = energy_bracket(scene, on.mesh());
   options.enough = accurate_enough(coarse, 2);
-  const double extrapolated = options.enough.relative / accurate_enough(own).relative;
+  const double extrapolated = options.enough->relative / accurate_enough(own).relative;
   const Solution full = uzawa(problem), early = uzawa(problem, options);
   const double of_full = error(full), of_early = error(early);
   report.claim(of_early < 1.01 * of_full && 2 * early.counters.contact < full.counters.contact,

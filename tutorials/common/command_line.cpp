@@ -20,15 +20,16 @@ int from_environment(std::initializer_list<const char*> names, int otherwise) {
   return otherwise;
 }
 
-/// OpenBLAS knows CPUs by model number, and gives kernels of 2004 to one that is younger than itself: the factor then
-/// takes 1.6 times as long. Where blas().wider is known, the program starts again with those kernels, and with one
-/// thread of the BLAS (two were no faster: they wait for each other by spinning). Returns where there is nothing to
-/// gain, where OPENBLAS_CORETYPE is set, and where ANTILOCK_KEEP_KERNELS asks to leave the kernels as they are.
+/// One thread of the BLAS, unless OPENBLAS_NUM_THREADS says otherwise: two were no faster, since they wait for each
+/// other by spinning, and much slower beside other programs. And the kernels of this CPU: OpenBLAS knows CPUs by model
+/// number, and gives kernels of 2004 to one that is younger than itself; the factor then takes 1.6 times as long. Where
+/// blas().wider is known, the program starts again with those. Returns where there is nothing to gain, where
+/// OPENBLAS_CORETYPE is set, and where ANTILOCK_KEEP_KERNELS asks to leave the kernels as they are.
 void choose_kernels(char** argv) {
+  if (!std::getenv("OPENBLAS_NUM_THREADS")) set_blas_threads(1);
   const std::string wider = blas().wider;
   if (wider.empty() || std::getenv("OPENBLAS_CORETYPE") || std::getenv("ANTILOCK_KEEP_KERNELS")) return;
   setenv("OPENBLAS_CORETYPE", wider.c_str(), 0);
-  setenv("OPENBLAS_NUM_THREADS", "1", 0);
   become("", argv);
 }
 
