@@ -176,7 +176,7 @@ Numbers estimates(int cells, const std::filesystem::path& folder) {
 
 Numbers glued_strings(int cells, const std::filesystem::path& folder) {
   constexpr double load = 32, gap = 0.5;
-  run("32_your_own_problem", {"-cells", std::to_string(cells), "-out", folder});
+  run("33_your_own_problem", {"-cells", std::to_string(cells), "-out", folder});
   const Table table = read_table(folder / "results.csv", 2);
   if (table.rows.rows() != 26) throw Error(fmt::format("results.csv: {} rows; accepted 26", table.rows.rows()));
   Numbers numbers;

@@ -16,7 +16,7 @@
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
-#include "antilock/models/plane_strain.hpp"
+#include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/problem/bounds.hpp"
@@ -165,7 +165,8 @@ std::vector<Line> elasticity(int cells, bool friction, const std::filesystem::pa
   PlaneStrain scene;
   scene.gap = [](double x) { return (x - 0.5) * (x - 0.5); };
   if (friction) scene.friction = [](double x) { return std::max(0.0, 0.2 - 5 * (x - 0.5) * (x - 0.5)); };
-  (friction ? freefem::run_friction : freefem::run_elasticity)(mesh, scene.epsilon, out / "freefem");
+  const std::string script = friction ? "30_friction" : "26_elasticity";
+  freefem::run_elastic(script, mesh, scene.epsilon, out / "freefem");
   std::vector<Line> lines;
   const auto add = [&](const std::string& name, const std::string& what, const Element& in_x, const Element& in_y) {
     const Space x(mesh, in_x), y(mesh, in_y);
@@ -174,8 +175,7 @@ std::vector<Line> elasticity(int cells, bool friction, const std::filesystem::pa
     const Solution ours = active_set(problem);
     const freefem::ElasticAnswer theirs =
         (friction ? freefem::friction_answer : freefem::elastic_answer)(out / "freefem", name, {x, y});
-    lines.push_back({friction ? "30_friction" : "26_elasticity",
-                     fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon), theirs.road,
+    lines.push_back({script, fmt::format("{}, h = 1/{}, lambda = {:g}", what, cells, 1 / scene.epsilon), theirs.road,
                      static_cast<int>(ours.u.size()),
                      (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff(),
                      same_zones(problem, ours, theirs.force), ours.seconds.total(), theirs.seconds});
@@ -183,6 +183,31 @@ std::vector<Line> elasticity(int cells, bool friction, const std::filesystem::pa
   add("P1", "P1 and P1, locked", p1(), p1());
   add("P1nc", "CR and CR with jumps", crouzeix_raviart(), crouzeix_raviart());
   add("KS", "P1 and CR", p1(), crouzeix_raviart());
+  return lines;
+}
+
+/// The coating at t = 1e-3 on an unstructured mesh, the elements that both sides have.
+std::vector<Line> coated(int cells, const std::filesystem::path& out) {
+  const TriangleMesh mesh = with_free_sides(unstructured_mesh(cells));
+  Coating scene;
+  scene.thickness = 1e-3;
+  scene.gap = [](double x) { return (x - 0.5) * (x - 0.5); };
+  freefem::run_elastic("32_coating", mesh, scene.thickness, out / "freefem");
+  std::vector<Line> lines;
+  const Element &one = p1(), &cr = crouzeix_raviart();
+  using Row = std::tuple<std::string, const Element*, const Element*>;
+  for (const auto& [name, in_x, in_y] :
+       {Row{"P1", &one, &one}, {"P1nc", &cr, &cr}, {"KS", &one, &cr}, {"P2", &p2(), &p2()}}) {
+    const Space x(mesh, *in_x), y(mesh, *in_y);
+    const VariationalInequality problem = assemble(scene, {x, y});
+    const Solution ours = active_set(problem);
+    const freefem::ElasticAnswer theirs = freefem::elastic_answer(out / "freefem", name, {x, y});
+    lines.push_back({"32_coating",
+                     fmt::format("{} and {}, h = 1/{}, t = {:g}", in_x->name(), in_y->name(), cells, scene.thickness),
+                     theirs.road, static_cast<int>(ours.u.size()),
+                     (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff(),
+                     same_zones(problem, ours, theirs.force), ours.seconds.total(), theirs.seconds});
+  }
   return lines;
 }
 
@@ -282,7 +307,7 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
         fmt::format("P{} on 4 layers, h = 1/{}, epsilon = 1 and 0.01: largest u on Gamma_C, contact, energy", i + 1,
                     half),
         layers[i]);
-  add("32_your_own_problem",
+  add("33_your_own_problem",
       fmt::format("two glued strings, {} and {} cells, 13 epsilons to 1e-12: energy, largest u, contact force", cells,
                   cells + 1),
       freefem::glued_strings(cells, folder));
@@ -359,6 +384,7 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
   for (const Line& line : beams(2 * cells, out)) lines.push_back(line);
   for (const bool friction : {false, true})
     for (const Line& line : elasticity(cells, friction, out)) lines.push_back(line);
+  for (const Line& line : coated(cells / 2, out)) lines.push_back(line);
   for (const Line& line : plates(cells / 2, out)) lines.push_back(line);
   for (const Line& line : models(out)) lines.push_back(line);
   for (const double e : {1e-2, 1e-4, 1e-6, 1e-8}) lines.push_back(plain_sum(methods[3], e, cells, out));

@@ -48,20 +48,20 @@ struct History {
 /// Runs it from lambda = 0 with the step `rho` for at most `steps` steps, P1 on the mesh of `space`.
 History uzawa_history(const Space& space, double epsilon, double rho, int steps, const std::filesystem::path& folder);
 
-/// What 26_elasticity.edp found with one of its elements.
+/// What 26_elasticity.edp or 32_coating.edp found with one of its elements.
 struct ElasticAnswer {
   std::string road;
   Eigen::VectorXd u;      ///< u_x, then u_y, as the space numbers them
   Eigen::VectorXd force;  ///< C, by x
   double energy = 0, residual = 0, seconds = 0;
 };
-/// Runs 26_elasticity.edp on a mesh of the unit square with free sides; its files are in `folder` then.
-void run_elasticity(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
+/// Runs 26_elasticity.edp, 30_friction.edp (`parameter` is epsilon) or 32_coating.edp (the thickness) on a mesh with free
+/// sides; its files are in `folder` then.
+void run_elastic(const std::string& script, const TriangleMesh& mesh, double parameter,
+                 const std::filesystem::path& folder);
 /// Reads what it left there for the element `name`: P1, P1nc (with jumps) or KS.
 ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space);
-/// Runs 30_friction.edp in the same way. Its answers are read by the next; their energy holds the work of the friction.
-void run_friction(const TriangleMesh& mesh, double epsilon, const std::filesystem::path& folder);
-/// What elastic_answer reads, the tangential forces by x behind the normal ones.
+/// What elastic_answer reads, the tangential forces by x behind the normal ones; the energy holds the work of the friction.
 ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space);
 
 /// The contact force of Taylor-Hood there.

@@ -14,7 +14,7 @@
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
-#include "antilock/models/plane_strain.hpp"
+#include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -316,7 +316,7 @@ class Elasticity : public ::testing::TestWithParam<double> {};
 TEST_P(Elasticity, AgreesOnTheSameMeshForEveryElementAndWithTaylorHood) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(16, Domain{0}));
   const TemporaryFolder folder;
-  freefem::run_elasticity(mesh, GetParam(), folder.path());
+  freefem::run_elastic("26_elasticity", mesh, GetParam(), folder.path());
   const double truth = freefem::taylor_hood_force(folder.path());
   struct Row {
     const char* name;
@@ -351,7 +351,7 @@ TEST_P(Elasticity, AgreesOnTheSameMeshForEveryElementAndWithTaylorHood) {
 TEST_P(Elasticity, AgreesWithFrictionInTheZonesAndTheForces) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(16, Domain{0}));
   const TemporaryFolder folder;
-  freefem::run_friction(mesh, GetParam(), folder.path());
+  freefem::run_elastic("30_friction", mesh, GetParam(), folder.path());
   for (const std::string name : {"P1", "P1nc", "KS"}) {
     SCOPED_TRACE(name);
     const Space x(mesh, name == "P1nc" ? crouzeix_raviart() : p1()), y(mesh, name == "P1" ? p1() : crouzeix_raviart());
@@ -368,6 +368,32 @@ TEST_P(Elasticity, AgreesWithFrictionInTheZonesAndTheForces) {
     EXPECT_LE((ours.lambda - theirs.force).cwiseAbs().maxCoeff(), 1e-7 * ours.lambda.maxCoeff());
     EXPECT_NEAR(theirs.energy / energy(problem, ours), 1, 1e-8);  // with the work of the friction on both sides
     EXPECT_LE(theirs.residual, 1e-10);
+  }
+}
+
+// The coating from thick to the limit; unstructured, so that P1 and P2 lock and CR does not.
+TEST(Coating, AgreesInDisplacementAndForce) {
+  const TriangleMesh mesh = with_free_sides(unstructured_mesh(8));
+  const Element &one = p1(), &cr = crouzeix_raviart();
+  using Row = std::tuple<std::string, const Element*, const Element*>;
+  for (const double t : {1.0, 1e-2, 1e-4, 0.0}) {
+    const TemporaryFolder folder;
+    freefem::run_elastic("32_coating", mesh, t, folder.path());
+    for (const auto& [name, in_x, in_y] :
+         {Row{"P1", &one, &one}, {"P1nc", &cr, &cr}, {"KS", &one, &cr}, {"P2", &p2(), &p2()}}) {
+      SCOPED_TRACE(name + " at t = " + std::to_string(t));
+      const Space x(mesh, *in_x), y(mesh, *in_y);
+      Coating scene;
+      scene.thickness = t;
+      scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
+      ActiveSetOptions options;
+      options.penalty = penalty(scene, {x, y});
+      const Solution ours = active_set(assemble(scene, {x, y}), options);
+      const freefem::ElasticAnswer theirs = freefem::elastic_answer(folder.path(), name, {x, y});
+      EXPECT_LE((ours.u - theirs.u).cwiseAbs().maxCoeff(), 1e-8 * ours.u.cwiseAbs().maxCoeff());
+      ASSERT_EQ(theirs.force.size(), ours.lambda.size());
+      EXPECT_LE((ours.lambda - theirs.force).cwiseAbs().maxCoeff(), 1e-7 * ours.lambda.maxCoeff());
+    }
   }
 }
 INSTANTIATE_TEST_SUITE_P(FreeFem, Elasticity, ::testing::Values(1.0, 1e-4, 1e-8, 0.0));
@@ -411,7 +437,8 @@ TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
       {"27_plate", {"P1.csv", "P1_one_summary.csv", "Arnold_Falk.csv", "P1.eps"}},
       {"28_mixed", {"boxes.csv", "MINI_x.csv", "TaylorHood_y.csv", "summary.csv", "boxes.eps"}},
       {"30_friction", {"P1_floor.csv", "KS_summary.csv", "TaylorHood_summary.csv", "TaylorHood_deformed.eps"}},
-      {"32_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
+      {"32_coating", {"P1_x.csv", "P1nc_contact.csv", "KS_summary.csv", "P2_summary.csv", "P1_deformed.eps"}},
+      {"33_your_own_problem", {"results.csv", "pointwise.eps", "mortar.eps"}},
       {"matrices", {"a1.csv", "a0.csv", "unknowns.csv"}}};
   for (const auto& [script, files] : scripts) {
     const TemporaryFolder folder;

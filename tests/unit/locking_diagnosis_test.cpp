@@ -10,7 +10,7 @@
 #include "antilock/analysis/locking.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/mesh/families.hpp"
-#include "antilock/models/plane_strain.hpp"
+#include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -118,78 +118,13 @@ TEST(LockingDiagnosis, IsRightForBeamAndPlate) {
                {0.8, 1.15});
 }
 
-/// Derivatives of one component at the points of a rule on one region: rows for d/dx and d/dy over all unknowns.
-struct Derivatives {
-  SparseMatrix x, y;
-  Eigen::VectorXd weights;
-};
-Derivatives derivatives(const Space& space, int first, int size, Region region, const Quadrature& rule) {
-  const TriangleMesh& mesh = space.mesh();
-  std::vector<Eigen::Triplet<double>> x, y;
-  std::vector<double> weights;
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.region[t] != region) continue;
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::MatrixX2d gradient = space.element().derivative(rule.points.row(q)) * barycentric_gradients(mesh, t);
-      const auto row = static_cast<int>(weights.size());
-      for (Eigen::Index i = 0; i < gradient.rows(); ++i) {
-        x.emplace_back(row, first + space.unknowns()(t, i), gradient(i, 0));
-        y.emplace_back(row, first + space.unknowns()(t, i), gradient(i, 1));
-      }
-      weights.push_back(rule.weights(q) * mesh.area(t));
-    }
-  }
-  const auto rows = static_cast<Eigen::Index>(weights.size());
-  Derivatives d{SparseMatrix(rows, size), SparseMatrix(rows, size), Eigen::Map<Eigen::VectorXd>(weights.data(), rows)};
-  d.x.setFromTriplets(x.begin(), x.end());
-  d.y.setFromTriplets(y.begin(), y.end());
-  return d;
-}
-
-/// A block with a coating of thickness t and modulus 1/t (times that of the block) in plane strain, nu = 0.3, its layer
-/// stretched to depth 1: with (u, v) the displacement, rows of B t u_x + v_y (weight lambda), v_y (2 mu), u_y + t v_x (mu),
-/// a1 gains 2 mu u_x^2, the compliance is t^2. Its top is pushed down on a round punch.
+/// A block with a coating, nu = 0.3, whose top is pushed down on a round punch.
 VariationalInequality coating(const TriangleMesh& mesh, const Element& of_x, const Element& of_y, double t) {
-  const double lambda = 0.3 / (1.3 * 0.4), mu = 1 / 2.6;
   const Space x(mesh, of_x), y(mesh, of_y);
-  const VectorSpace space{x, y};
-  const int size = space.size(), shift = x.size();
-  const Quadrature& rule = divergence_rule(space);
-  const auto energy = [](double factor, const SparseMatrix& strain, const Eigen::VectorXd& w) -> SparseMatrix {
-    return factor * SparseMatrix(strain.transpose() * w.asDiagonal() * strain);
-  };
-  VariationalInequality problem;
-  problem.a1 = jump_form(space, 1);
-  const Derivatives u = derivatives(x, 0, size, Region::body, rule),
-                    v = derivatives(y, shift, size, Region::body, rule);
-  problem.a1 += energy(lambda, u.x + v.y, u.weights) + energy(2 * mu, u.x, u.weights) + energy(2 * mu, v.y, u.weights) +
-                energy(mu, u.y + v.x, u.weights);
-  const Derivatives a = derivatives(x, 0, size, Region::layer, rule),
-                    b = derivatives(y, shift, size, Region::layer, rule);
-  problem.a1 += energy(2 * mu, a.x, a.weights);
-  const std::array<RowMatrix, 3> rows{RowMatrix(t * a.x + b.y), RowMatrix(b.y), RowMatrix(a.y + t * b.x)};
-  const Eigen::Index n = a.weights.size();
-  problem.b.resize(3 * n, size);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int k = 0; k < 3; ++k)
-    for (Eigen::Index row = 0; row < n; ++row)
-      for (RowMatrix::InnerIterator e(rows[k], row); e; ++e)
-        if (e.value() != 0) entries.emplace_back(k * n + row, e.col(), e.value());
-  problem.b.setFromTriplets(entries.begin(), entries.end());
-  problem.m.resize(3 * n);
-  problem.m << lambda * a.weights, 2 * mu * a.weights, mu * a.weights;
-  problem.compliance = t * t;
-  problem.load = Eigen::VectorXd::Zero(size);
-  for (const int i : x.clamped()) problem.fixed.push_back(i);
-  for (const int i : y.clamped()) problem.fixed.push_back(shift + i);
-  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
-  problem.fixed_values.tail(static_cast<Eigen::Index>(y.clamped().size())).setConstant(-0.1);
-  problem.lower.resize(static_cast<Eigen::Index>(y.contact().size()));
-  for (const int i : y.contact()) {
-    problem.lower(static_cast<Eigen::Index>(problem.contact.size())) = -std::pow(y.points()(i, 0) - 0.5, 2);
-    problem.contact.push_back(shift + i);
-  }
-  return problem;
+  Coating scene;
+  scene.thickness = t;
+  scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
+  return assemble(scene, VectorSpace{x, y});
 }
 
 // The contact force at t = 1e-6 is the measure; t = 0 in the rows is what the diagnosis is asked for. With u_x

@@ -8,8 +8,9 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "antilock/models/plane_strain.hpp"
+#include "antilock/models/coating.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::plane_strain_test {
 namespace {
@@ -168,6 +169,65 @@ TEST(PlaneStrain, AConfinedBlockIsRefusedWhereItCannotBePushed) {
     scene.epsilon = 1e-8;
     EXPECT_GT(active_set(assemble(scene, spaces.both())).lambda.sum(), 1e6) << element->name();
   }
+}
+
+// A uniform strain in the block and another one in the coating, without stress along x in either, is an exact solution at
+// any thickness where the coating's mu' solves  mu' (lambda + mu') = t mu (lambda + mu), lambda' = lambda: the stresses in y
+// agree, s = -4 mu (lambda + mu) a / lambda = -4 mu' (lambda + mu') a / (lambda t), with a = u_x in both.
+TEST(Coating, PassesThePatchTest) {
+  const Element &one = p1(), &cr = crouzeix_raviart();
+  for (const double t : {1.0, 0.1, 1e-3})
+    for (const auto& [in_x, in_y] : {std::pair{&one, &one}, {&p2(), &p2()}, {&cr, &cr}, {&one, &cr}, {&cr, &one}}) {
+      const TriangleMesh mesh = with_free_sides(unstructured_mesh(6));
+      const Space x(mesh, *in_x), y(mesh, *in_y);
+      Coating scene;
+      const auto [lambda, mu] = scene.body;
+      scene.thickness = t;
+      scene.sliding = true;
+      scene.layer = {lambda, (std::sqrt(lambda * lambda + 4 * t * mu * (lambda + mu)) - lambda) / 2};
+      const double soft = scene.layer.mu;
+      // v = b y + c in the block, v = d (Y + 1) in the coating; v(1) = -push
+      const double b_of_a = -(lambda + 2 * mu) / lambda, d_of_a = -t * (lambda + 2 * soft) / lambda,
+                   a = -scene.push / (b_of_a + d_of_a);
+      Eigen::VectorXd exact(x.size() + y.size());
+      exact << a * x.points().col(0), y.points().col(1).unaryExpr([&](double at) {
+        return a * (at > 0 ? b_of_a * at + d_of_a : d_of_a * (at + 1));
+      });
+      ActiveSetOptions options;
+      options.penalty = penalty(scene, {x, y});
+      const Eigen::VectorXd u = active_set(assemble(scene, {x, y}), options).u;
+      EXPECT_LE((u - exact).cwiseAbs().maxCoeff(), 1e-10) << in_x->name() << " / " << in_y->name() << " at t = " << t;
+    }
+}
+
+// The limit t -> 0 is the problem at t = 0, in the first order of t: the membrane has the right modulus.
+TEST(Coating, TendsToItsLimit) {
+  const TriangleMesh mesh = with_free_sides(unstructured_mesh(8));
+  const Space cr(mesh, crouzeix_raviart());
+  const auto pressed = [&](double t) {
+    Coating scene;
+    scene.thickness = t;
+    scene.gap = [](double x) { return (x - 0.5) * (x - 0.5); };
+    return active_set(assemble(scene, {cr, cr})).u;
+  };
+  const Eigen::VectorXd limit = pressed(0);
+  const double near = (pressed(1e-4) - limit).cwiseAbs().maxCoeff(),
+               far = (pressed(1e-2) - limit).cwiseAbs().maxCoeff();
+  EXPECT_NEAR(far / near, 100, 30);
+}
+
+TEST(Coating, RefusesWhatItCannotBe) {
+  const TriangleMesh mesh = with_free_sides(structured_mesh(2)), body = right_mesh(2);
+  const Space x(mesh, p1()), none(body, p1());
+  const auto with = [&](double t, Lame layer, const Space& space) {
+    Coating scene;
+    scene.thickness = t;
+    scene.layer = layer;
+    return assemble(scene, {space, space});
+  };
+  test::expect_refused([&] { with(-1, {}, x); }, "thickness -1; accepted 0 to 1");
+  test::expect_refused([&] { with(0.1, {1, 0}, x); }, "mu = 0; accepted");
+  test::expect_refused([&] { with(0.1, {}, none); }, "the mesh has no layer");
 }
 
 TEST(PlaneStrain, RefusesValuesOutOfRange) {

@@ -7,25 +7,35 @@ namespace {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// The basis functions of a component on a triangle: derivatives by the barycentric coordinates at each point of a rule
-/// (the same on every triangle), and the unknowns in the whole vector.
-class Component {
+/// The derivatives (u_x, u_y, v_x, v_y) of the basis functions of both components on a triangle, at the points of a rule.
+class Gradients {
  public:
-  Component(const Space& space, int first, const Quadrature& rule) : space_(space), first_(first) {
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-      derivative_.push_back(space.element().derivative(rule.points.row(q)));
+  Gradients(const VectorSpace& space, const Quadrature& rule)
+      : space_(space), m_(space.x.element().unknowns()), n_(space.y.element().unknowns()) {
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      of_x_.push_back(space.x.element().derivative(rule.points.row(q)));
+      of_y_.push_back(space.y.element().derivative(rule.points.row(q)));
+    }
   }
-  int unknowns() const { return space_.element().unknowns(); }
-  Eigen::VectorXi unknown(int t) const { return (space_.unknowns().row(t).transpose().array() + first_).matrix(); }
-  /// m x 2
-  Eigen::MatrixX2d gradient(Eigen::Index q, const Eigen::Matrix<double, 3, 2>& barycentric) const {
-    return derivative_[q] * barycentric;
+  /// The unknowns behind the columns, in the whole vector.
+  Eigen::VectorXi unknowns(int t) const {
+    Eigen::VectorXi both(m_ + n_);
+    both << space_.x.unknowns().row(t).transpose(),
+        (space_.y.unknowns().row(t).transpose().array() + space_.x.size()).matrix();
+    return both;
+  }
+  /// 4 x (m + n)
+  Eigen::Matrix4Xd at(std::size_t q, const Eigen::Matrix<double, 3, 2>& barycentric) const {
+    Eigen::Matrix4Xd d = Eigen::Matrix4Xd::Zero(4, m_ + n_);
+    d.topLeftCorner(2, m_) = (of_x_[q] * barycentric).transpose();
+    d.bottomRightCorner(2, n_) = (of_y_[q] * barycentric).transpose();
+    return d;
   }
 
  private:
-  const Space& space_;
-  int first_;
-  std::vector<Eigen::MatrixX3d> derivative_;
+  const VectorSpace& space_;
+  int m_, n_;
+  std::vector<Eigen::MatrixX3d> of_x_, of_y_;  ///< by the barycentric coordinates, the same on every triangle
 };
 
 Eigen::SparseMatrix<double> sum(const VectorSpace& space, const Triplets& entries) {
@@ -61,58 +71,62 @@ const Quadrature& divergence_rule(const VectorSpace& space) {
   return triangle_rule(2 * (std::max(space.x.element().degree(), space.y.element().degree()) - 1));
 }
 
-Eigen::SparseMatrix<double> strain_form(const VectorSpace& space) {
+Eigen::Matrix4d Lame::matrix() const {
+  const OfGradient div(1, 0, 0, 1), shear(0, 1, 1, 0);
+  return 2 * mu * Eigen::Vector4d(1, 0, 0, 1).asDiagonal().toDenseMatrix() + mu * shear.transpose() * shear +
+         lambda * div.transpose() * div;
+}
+
+Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::Matrix4d& body,
+                                        const Eigen::Matrix4d& layer) {
   const TriangleMesh& mesh = space.x.mesh();
   const Quadrature& rule = divergence_rule(space);
-  const Component x(space.x, 0, rule), y(space.y, space.x.size(), rule);
-  const int m = x.unknowns(), n = y.unknowns();
+  const Gradients gradients(space, rule);
   Triplets entries;
-  Eigen::VectorXi unknown(m + n);
-  Eigen::Matrix3Xd strain = Eigen::Matrix3Xd::Zero(3, m + n);
-  Eigen::MatrixXd local(m + n, m + n);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
-    local.setZero();
+    const Eigen::VectorXi unknown = gradients.unknowns(t);
+    Eigen::MatrixXd local = Eigen::MatrixXd::Zero(unknown.size(), unknown.size());
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::MatrixX2d of_x = x.gradient(q, barycentric), of_y = y.gradient(q, barycentric);
-      // rows: eps_xx, eps_yy, 2 eps_xy; 2 eps:eps = 2 eps_xx^2 + 2 eps_yy^2 + (2 eps_xy)^2
-      strain.row(0).head(m) = of_x.col(0).transpose();
-      strain.row(1).tail(n) = of_y.col(1).transpose();
-      strain.row(2) << of_x.col(1).transpose(), of_y.col(0).transpose();
-      local += rule.weights(q) * mesh.area(t) * strain.transpose() * Eigen::Vector3d(2, 2, 1).asDiagonal() * strain;
+      const Eigen::Matrix4Xd d = gradients.at(q, barycentric);
+      local += rule.weights(q) * mesh.area(t) * d.transpose() * (mesh.region[t] == Region::body ? body : layer) * d;
     }
-    unknown << x.unknown(t), y.unknown(t);
-    for (int i = 0; i < m + n; ++i)
-      for (int j = 0; j < m + n; ++j) entries.emplace_back(unknown(i), unknown(j), local(i, j));
+    for (Eigen::Index i = 0; i < unknown.size(); ++i)
+      for (Eigen::Index j = 0; j < unknown.size(); ++j) entries.emplace_back(unknown(i), unknown(j), local(i, j));
   }
   return sum(space, entries);
 }
 
-FactoredForm divergence(const VectorSpace& space) {
+FactoredForm strain_rows(const VectorSpace& space, const std::vector<StrainRow>& strains,
+                         std::optional<Region> region) {
   const TriangleMesh& mesh = space.x.mesh();
   const Quadrature& rule = divergence_rule(space);
-  const Component x(space.x, 0, rule), y(space.y, space.x.size(), rule);
-  const auto points = static_cast<int>(rule.weights.size());
+  const Gradients gradients(space, rule);
   FactoredForm b;
   Triplets entries;
-  b.m.resize(mesh.triangle_count() * points);
+  std::vector<double> weights;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (region && mesh.region[t] != *region) continue;
     const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
-    for (int q = 0; q < points; ++q) {
-      const int row = t * points + q;
-      for (const auto& [part, direction] : {std::pair{&x, 0}, {&y, 1}}) {
-        const Eigen::MatrixX2d gradient = part->gradient(q, barycentric);
-        const Eigen::VectorXi unknown = part->unknown(t);
-        for (int i = 0; i < part->unknowns(); ++i) entries.emplace_back(row, unknown(i), gradient(i, direction));
+    const Eigen::VectorXi unknown = gradients.unknowns(t);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Matrix4Xd d = gradients.at(q, barycentric);
+      for (const StrainRow& row : strains) {
+        const Eigen::RowVectorXd strain = row.strain * d;
+        for (Eigen::Index i = 0; i < unknown.size(); ++i)
+          if (strain(i) != 0) entries.emplace_back(static_cast<int>(weights.size()), unknown(i), strain(i));
+        weights.push_back(row.weight * rule.weights(q) * mesh.area(t));
+        b.cell.push_back(t);
       }
-      b.m(row) = rule.weights(q) * mesh.area(t);
-      b.cell.push_back(t);
     }
   }
+  b.m = Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
   b.b.resize(b.m.size(), space.size());
   b.b.setFromTriplets(entries.begin(), entries.end());
   return b;
 }
+
+FactoredForm divergence(const VectorSpace& space) { return strain_rows(space, {{{1, 0, 0, 1}}}); }
 
 Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, bool clamped_in_x) {
   const TriangleMesh& mesh = space.x.mesh();

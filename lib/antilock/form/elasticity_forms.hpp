@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <optional>
+#include <vector>
 
 #include "antilock/form/forms.hpp"
 #include "antilock/form/quadrature.hpp"
@@ -8,11 +10,35 @@
 
 namespace antilock {
 
-/// N x N matrix of 2 mu int eps(u):eps(v), mu = 1 (dimensionless), eps the symmetric gradient, triangle by triangle.
-Eigen::SparseMatrix<double> strain_form(const VectorSpace& space);
+/// The derivatives (u_x, u_y, v_x, v_y) of a displacement (u, v), in this order, or coefficients of them.
+using OfGradient = Eigen::RowVector4d;
 
-/// The factored form of int div u div v: a row of B is div at a point of divergence_rule, M its weight. For P1 and CR
-/// div is constant on a triangle: one row each, M its area.
+/// Lame's pair of an isotropic material (dimensionless): the energy density is mu eps:eps + lambda (div u)^2 / 2.
+struct Lame {
+  double lambda = 0, mu = 1;
+  /// 2 mu eps(u):eps(v) + lambda div u div v as a 4 x 4 matrix between the derivatives of u and those of v.
+  Eigen::Matrix4d matrix() const;
+  /// What the form leaves of u_x v_x where nothing pulls in y, v_y = -lambda / (lambda + 2 mu) u_x: the modulus of a thin
+  /// sheet in plane strain, 4 mu (lambda + mu) / (lambda + 2 mu).
+  double membrane() const { return 4 * mu * (lambda + mu) / (lambda + 2 * mu); }
+};
+
+/// N x N matrix of int D u : D v, with the 4 x 4 matrices `body` and `layer` between the derivatives on each region.
+Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::Matrix4d& body = Lame{}.matrix(),
+                                        const Eigen::Matrix4d& layer = Lame{}.matrix());
+
+/// A row of B: a combination of the derivatives, and the weight of its square.
+struct StrainRow {
+  OfGradient strain;
+  double weight = 1;
+};
+/// The factored form of sum_k weight_k int strain_k(u) strain_k(v) over one region, or over all: at each point of
+/// divergence_rule a row of B per `strain`, M its weights times the area's.
+FactoredForm strain_rows(const VectorSpace& space, const std::vector<StrainRow>& strains,
+                         std::optional<Region> region = {});
+
+/// The factored form of int div u div v: strain_rows of u_x + v_y. For P1 and CR div is constant on a triangle: one row
+/// each, M its area.
 FactoredForm divergence(const VectorSpace& space);
 
 /// The rule behind the rows of a triangle: exact for the square of a derivative, 2 (k - 1) for the higher degree k of

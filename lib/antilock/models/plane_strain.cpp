@@ -55,34 +55,25 @@ void add_friction(VariationalInequality& problem, const Profile& g, const Space&
 
 }  // namespace
 
-VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& space) {
-  if (!(scene.epsilon >= 0 && scene.epsilon <= 1))
-    throw Error(fmt::format("plane strain: epsilon = 1/lambda = {}; accepted 0 to 1", scene.epsilon));
-  if (!std::isfinite(scene.push)) throw Error("plane strain: push is not finite");
-  if (!(scene.jump_weight >= 0))
-    throw Error(fmt::format("plane strain: jump weight {}; accepted 0 or more", scene.jump_weight));
+void add_press(VariationalInequality& problem, const Press& press, const VectorSpace& space) {
+  if (!std::isfinite(press.push)) throw Error("plane strain: push is not finite");
+  if (!(press.jump_weight >= 0))
+    throw Error(fmt::format("plane strain: jump weight {}; accepted 0 or more", press.jump_weight));
   if (&space.x.mesh() != &space.y.mesh())
     throw Error("plane strain: the two components live on different meshes; accepted: spaces of one mesh");
   const int shift = space.x.size();
-  VariationalInequality problem;
-  problem.a1 = strain_form(space);
-  if (scene.jump_weight > 0) problem.a1 += jump_form(space, scene.jump_weight, !scene.sliding);
+  if (press.jump_weight > 0) problem.a1 += jump_form(space, press.jump_weight, !press.sliding);
   problem.a1.makeCompressed();
-  FactoredForm div = divergence(space);
-  if (scene.continuous_pressure) div = averaged(div, vertex_shares(space.x.mesh(), div, divergence_rule(space)));
-  problem.b.swap(div.b);
-  problem.m = std::move(div.m);
-  problem.compliance = scene.epsilon;
   problem.load = Eigen::VectorXd::Zero(space.size());
 
   std::map<int, double> fixed;
   for (const int i : space.x.clamped()) {
-    if (!scene.sliding) fixed[i] = 0;
+    if (!press.sliding) fixed[i] = 0;
   }
-  if (scene.sliding)
+  if (press.sliding)
     for (int i = 0; i < space.x.size(); ++i)
       if (space.x.points()(i, 0) == 0) fixed[i] = 0;
-  for (const int i : space.y.clamped()) fixed[shift + i] = -scene.push;
+  for (const int i : space.y.clamped()) fixed[shift + i] = -press.push;
   problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()));
   for (const auto& [i, value] : fixed) {
     problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
@@ -90,10 +81,23 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   }
   problem.lower.resize(static_cast<Eigen::Index>(space.y.contact().size()));
   for (const int i : space.y.contact()) {
-    problem.lower(static_cast<Eigen::Index>(problem.contact.size())) = -scene.gap(space.y.points()(i, 0));
+    problem.lower(static_cast<Eigen::Index>(problem.contact.size())) = -press.gap(space.y.points()(i, 0));
     problem.contact.push_back(shift + i);
   }
-  if (scene.friction) add_friction(problem, scene.friction, space.x);
+  if (press.friction) add_friction(problem, press.friction, space.x);
+}
+
+VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& space) {
+  if (!(scene.epsilon >= 0 && scene.epsilon <= 1))
+    throw Error(fmt::format("plane strain: epsilon = 1/lambda = {}; accepted 0 to 1", scene.epsilon));
+  VariationalInequality problem;
+  problem.a1 = strain_form(space);
+  FactoredForm div = divergence(space);
+  if (scene.continuous_pressure) div = averaged(div, vertex_shares(space.x.mesh(), div, divergence_rule(space)));
+  problem.b.swap(div.b);
+  problem.m = std::move(div.m);
+  problem.compliance = scene.epsilon;
+  add_press(problem, scene, space);
   return problem;
 }
 

@@ -4,17 +4,25 @@
 
 namespace antilock {
 
-/// Nearly incompressible elasticity in plane strain, mu = 1 (the paper's introduction): a1 = 2 int eps(u):eps(v), a0 =
-/// int div u div v, the class parameter epsilon = 1/lambda. The clamped edges are moved down by `push`, the bottom is
-/// in unilateral contact: u_y >= -gap(x) on the contact edges, without friction or with a given friction bound g (Tresca):
-/// + int g |u_x|. Bounds: those of u_y by x, then, with friction, those of u_x by x.
-struct PlaneStrain {
-  double epsilon = 1e-8;  ///< 1/lambda, in [0, 1]; 0: incompressible
-  double push = 0.1;      ///< displacement of the clamped edges, downwards
-  bool sliding = false;   ///< clamped edges are free to slide in x, but for the vertices on x = 0 (patch test)
+/// How a block in plane strain is held and what it is pressed on: the clamped edges are moved down by `push`, the bottom
+/// is in unilateral contact, u_y >= -gap(x) on the contact edges, without friction or with a given friction bound g
+/// (Tresca): + int g |u_x|. Bounds: those of u_y by x, then, with friction, those of u_x by x.
+struct Press {
+  double push = 0.1;     ///< displacement of the clamped edges, downwards
+  bool sliding = false;  ///< clamped edges are free to slide in x, but for the vertices on x = 0 (patch test)
   Profile gap = [](double) { return 0.0; };
   Profile friction = {};   ///< g(x) >= 0, a force per length; empty: none
   double jump_weight = 1;  ///< of jump_form; 0: none (CR then has zero modes)
+};
+
+/// Adds jump_form, the prescribed values and the bounds to a problem with A1, whose load becomes 0. Throws Error for
+/// values out of range and for components on two meshes.
+void add_press(VariationalInequality& problem, const Press& press, const VectorSpace& space);
+
+/// Nearly incompressible elasticity, mu = 1 (the paper's introduction): a1 = 2 int eps(u):eps(v), a0 = int div u div v,
+/// the class parameter epsilon = 1/lambda.
+struct PlaneStrain : Press {
+  double epsilon = 1e-8;  ///< 1/lambda, in [0, 1]; 0: incompressible
   /// The pressure is continuous and affine, one value per vertex: the row of B of vertex i is (int phi_i div u) / (int
   /// phi_i). With P2 that is Taylor and Hood's method, with P1 and a bubble MINI (Arnold, Brezzi and Fortin 1984):
   /// exactly so at epsilon = 0. Above, the pressures' mass matrix is lumped (form/detail/averaged.hpp).

@@ -1,5 +1,5 @@
 #pragma once
-// The answers to the exercises of 32_your_own_problem, whose page includes this one: to be read after predicting.
+// The answers to the exercises of 33_your_own_problem, whose page includes this one: to be read after predicting.
 
 const std::vector<tutorial::Exercise> exercises{
     {"Give both strings n cells. Does the glue at every point still lock?",

@@ -1,8 +1,8 @@
 // # A problem of your own
 //
-// Run: 32_your_own_problem                          two strings glued together, ε = 1e-10
-// Run: 32_your_own_problem --epsilon 0 --cells 64   a rigid glue
-// Run: 32_your_own_problem --exercise 1
+// Run: 33_your_own_problem                          two strings glued together, ε = 1e-10
+// Run: 33_your_own_problem --epsilon 0 --cells 64   a rigid glue
+// Run: 33_your_own_problem --exercise 1
 //
 // Needs: [00](00_string_on_an_obstacle.cpp) for strings, [07](07_kernel.cpp) for kernels, [10](10_limits.cpp) for the
 // class (1), [14](14_estimates.cpp) for coercivity, [28](28_mixed.cpp) for Theorem 4 with another $a_0$.
@@ -52,8 +52,8 @@
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "backstage/32_output.hpp"
-#include "backstage/32_strings.hpp"
+#include "backstage/33_output.hpp"
+#include "backstage/33_strings.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;
@@ -161,10 +161,10 @@ void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Ta
 // 1. Give both strings $n$ cells. Does the glue at every point still lock?
 // 2. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need no truth.
 
-#include "answers/32_your_own_problem.hpp"
+#include "answers/33_your_own_problem.hpp"
 
 int main(int argc, char** argv) {
-  return tutorial::run(argc, argv, "32_your_own_problem", "Your own problem in the class: two strings and a stiff glue",
+  return tutorial::run(argc, argv, "33_your_own_problem", "Your own problem in the class: two strings and a stiff glue",
                        {.epsilon = 1e-10,
                         .epsilon_is = "the class parameter of (1), the compliance of the glue; 0 is a rigid glue",
                         .least_cells = 4,

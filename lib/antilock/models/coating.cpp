@@ -1,0 +1,40 @@
+#include "antilock/models/coating.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "antilock/core/error.hpp"
+
+namespace antilock {
+
+VariationalInequality assemble(const Coating& coating, const VectorSpace& space) {
+  const double t = coating.thickness;
+  if (!(t >= 0 && t <= 1)) throw Error(fmt::format("coating: thickness {}; accepted 0 to 1", t));
+  for (const Lame& material : {coating.body, coating.layer})
+    if (!(material.mu > 0 && material.lambda >= 0))
+      throw Error(
+          fmt::format("coating: lambda = {}, mu = {}; accepted lambda >= 0 and mu > 0", material.lambda, material.mu));
+  const auto& [lambda, mu] = coating.layer;
+  Eigen::Matrix4d membrane = Eigen::Matrix4d::Zero();
+  membrane(0, 0) = coating.layer.membrane();
+  VariationalInequality problem;
+  problem.a1 = strain_form(space, coating.body.matrix(), membrane);
+  FactoredForm rows = strain_rows(space,
+                                  {{{lambda / (lambda + 2 * mu) * t, 0, 0, 1}, lambda + 2 * mu},  // v_Y + nu t u_x
+                                   {{0, 1, t, 0}, mu}},                                           // u_Y + t v_x
+                                  Region::layer);
+  if (rows.m.size() == 0) throw Error("coating: the mesh has no layer; accepted: a body with a layer below");
+  problem.b.swap(rows.b);
+  problem.m = std::move(rows.m);
+  problem.compliance = t * t;
+  add_press(problem, coating, space);
+  return problem;
+}
+
+std::optional<double> penalty(const Coating& coating, const VectorSpace& space) {
+  if (coating.thickness == 0 || !(space.x.element().conforming() || space.y.element().conforming())) return {};
+  return std::max(coating.thickness * coating.thickness, 1e-12);
+}
+
+}  // namespace antilock

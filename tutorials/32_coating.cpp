@@ -1,0 +1,208 @@
+// # A block with a stiff coating
+//
+// Run: 32_coating                           thickness t = 1e-6, 32 cells, six discretisations; t from 1 to 0
+// Run: 32_coating --thickness 0 --cells 16  the limit: a membrane
+// Run: 32_coating --exercise 1
+// Run: 32_coating --exercise 2
+// Run: 32_coating --exercise 3
+//
+// Needs: [07](07_kernel.cpp) for kernels, [10](10_limits.cpp) for the stretched layer and its limit, [13](13_uniform.cpp)
+// for the supremum, [26](26_elasticity.cpp) for elasticity and the jumps of Crouzeix–Raviart (CR).
+//
+// **The picture.** A block is pressed on a round punch. Its lower side carries a coating that is a million times thinner and
+// stiffer than the block (drawn stretched to the depth 1). *P1 on arbitrary triangles holds the coating flat: it touches the
+// punch at its top alone, and the contact force is 73 % too large. With CR on the same triangles the coating follows the
+// block.*
+//
+// **Predict.** The displacement has two components, $u$ along the coating and $v$ across it. (a) P1 locks, CR does not. Which
+// of the two components has to be CR: $u$, $v$, or both? (b) The coating is stretched along $x$. In plane strain, with
+// Lamé's pair $λ, μ$, does it resist with the modulus $2μ$, with $λ + 2μ$, or with something between?
+//
+// ## From a thin coating to the class
+//
+// The coating has the thickness $t$ and the moduli $λ/t$ and $μ/t$: half as thick means twice as stiff. (All lengths are
+// relative to the side of the block. In the anti-plane problem (22) the same scaling is $μ/ε$.) With a factor 1/2 its energy is
+//
+// $$ \frac{1}{t} ∫_{-t}^{0} λ (u_x + v_y)^2 + 2μ u_x^2 + 2μ v_y^2 + μ (u_y + v_x)^2. $$
+//
+// Stretch it: $Y = y/t$, so $∂_y = t^{-1} ∂_Y$ and $dy = t\, dY$. The factors $1/t$ and $t$ cancel:
+//
+// $$ ∫_{-1}^{0} λ (u_x + v_Y/t)^2 + 2μ u_x^2 + 2μ (v_Y/t)^2 + μ (u_Y/t + v_x)^2. $$
+//
+// For small $t$ both $u_Y$ and $v_Y$ must be small. But $v_Y/t$ need not be: it has a best value for each $u_x$, because a
+// sheet that is stretched becomes thinner. Complete the square in $v_Y/t$, with $ν = λ/(λ + 2μ)$:
+//
+// $$ (λ + 2μ) (v_Y/t + ν u_x)^2 + E_m u_x^2 + μ (u_Y/t + v_x)^2,   E_m = λ + 2μ - \frac{λ^2}{λ + 2μ} = \frac{4μ(λ + μ)}{λ + 2μ}. $$
+//
+// This is the class (1) with the parameter $t^2$. $a_1$ gains $∫ E_m u_x^2$. $B$ has two rows per point, with weights $λ + 2μ$
+// and $μ$ in $M$:
+//
+// $$ v_Y + ν t u_x,   u_Y + t v_x. $$
+//
+// At $t = 0$ both rows lose their second term. Then $u$ and $v$ do not depend on $Y$, and the coating is a *membrane* of
+// modulus $E_m$ on the lower side of the block. Without the completed square $a_1$ would hold $2 μ u_x^2$, and this would be
+// the modulus at $t = 0$: too soft, and not the limit of what stands there for $t > 0$ (exercise 1).
+//
+// ## Which component locks
+//
+// Contact asks for $v ≥ -$gap on $Γ_C$, and the only way for $v$ to get there is through the layer, with $v_Y = 0$. That is
+// the problem of chapter 06 again, for $v$ alone. On arbitrary triangles P1 has no function of $x$ alone: then $v = 0$ in
+// the coating. What $u$ does in the coating is its own affair: locked, it costs some stretching and does not touch the
+// obstacle.
+//
+// ## Rows that depend on t
+//
+// In all chapters before, $B$ did not depend on the parameter. Here $B = B_0 + t B_1$. Take a motion with $B_0 w = 0$. If
+// another motion $z$ has $B_0 z = -B_1 w$, then $B (w + t z)$ is of order $t^2$, and $w + t z$ is free. If there is none,
+// $a_0(w, w)$ is $t^2$ times a number: the motion is neither stiff nor free, whatever $t$ is. For the iterated penalty of
+// chapter 18 with a penalty $δ$ far above $t^2$ it looks free at first, and each correction brings in $t^2/δ$ of its energy
+// only. The remedy is $δ = t^2$, which a factor bears down to $t = 10^{-6}$. CR in both components needs no remedy: its
+// $∂_Y$ takes any values, one per triangle, so there always is a $z$.
+
+#include "backstage/32_coating.hpp"
+#include "common/supremum.hpp"
+
+using namespace antilock;
+using tutorial::Method;
+
+double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the round punch below
+
+// ### Forms
+// `models/coating.cpp` is those two formulas: `strain_form` for the block and for $E_m u_x^2$, `strain_rows` for $B$. The top
+// is moved down by 0.1, the sides are free.
+Coating coating(double thickness) {
+  Coating scene;
+  scene.thickness = thickness;
+  scene.gap = gap;
+  return scene;
+}
+
+// ### Solve
+// Every $t$ has its own $B$, and so its own factor.
+Solution pressed(const VectorSpace& space, double thickness) {
+  ActiveSetOptions options;
+  options.penalty = penalty(coating(thickness), space);
+  return active_set(assemble(coating(thickness), space), options);
+}
+
+void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Report& report);
+
+void press(const tutorial::Options& options, double thickness, tutorial::Report& report) {
+  Table forces({"method", "locks", "h", "t", "force", "percent", "corrections"});
+  Table diagnoses({"method", "locks", "found", "says"});
+  for (const Method& method : tutorial::methods()) {
+    report.stage(method.name);
+    for (const int n : {options.cells / 4, options.cells / 2, options.cells}) {
+      const TriangleMesh mesh = method.mesh(n);
+      const Space x(mesh, method.in_x), y(mesh, method.in_y);
+      for (const double t : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {
+        const Solution solution = pressed({x, y}, t);
+        const double force = solution.lambda.sum();
+        forces.add({method.name, method.locks, 1.0 / n, t, force, 100 * std::abs(force / tutorial::reference(t) - 1),
+                    solution.counters.corrections});
+      }
+      // ### Output
+      // The pressed coating, on the mesh in the middle.
+      if (n == options.cells / 2)
+        tutorial::write_coating(options.out, method, {x, y}, pressed({x, y}, thickness), coating(thickness));
+    }
+    // Asked before anything is solved: the limit problem on two meshes.
+    const auto limit = [&](int n) {
+      const TriangleMesh mesh = method.mesh(n);
+      const Space x(mesh, method.in_x), y(mesh, method.in_y);
+      return assemble(coating(0), {x, y});
+    };
+    const LockingDiagnosis found = diagnose_locking(limit(options.cells / 4), limit(options.cells / 2));
+    diagnoses.add({method.name, method.locks, found.locks(), found.text()});
+  }
+  report.finish();
+  tutorial::show_coating(options.out, forces, diagnoses, options.cells, gap);
+  judge(forces, diagnoses, options.cells, report);
+}
+
+void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Report& report) {
+  for (const Table& method : diagnoses.rows())
+    report.claim(method.number("found") == method.number("locks"), "(observed) {}: {}", method.entry("method").text(),
+                 method.entry("says").text());
+  const Table thick = forces.where_number("t", [](double t) { return t > 0; });
+  double most = 0;
+  for (const Table& run : thick.rows())
+    if (run.entry("method").text() != "P2 / P2") most = std::max(most, run.number("corrections"));
+  report.claim(most <= 10 && thick.most("corrections") <= 20,
+               "(observed) {} corrections at most where B depends on t, {} with P2", most, thick.most("corrections"));
+  if (cells < 32) return report.not_judged("the contact force: fewer than 32 cells do not tell locked from inexact");
+  for (const Entry& name : forces.different("method")) {
+    const Table own = forces.where("method", name);
+    const tutorial::Supremum worst = tutorial::supremum(own, "percent", "t");
+    worst.rows.print(name.text() + ": the force is off by so many per cent, the largest over t");
+    if (own.most("locks") == 0) {
+      // The end of contact is known to a cell: a multiple of $h$ that jumps from mesh to mesh.
+      const double per_h = worst.rows.last("worst") * cells;
+      const double most_per_h = tutorial::percent_per_h(name.text());
+      report.claim(
+          per_h < most_per_h && per_h > most_per_h / 2 && worst.rows.last("worst") < worst.rows.first("worst") / 4,
+          "(observed) {}: the force is off by {:.0f} h per cent at worst, and by {:.0f} % of that on a mesh four "
+          "times as coarse",
+          name.text(), per_h, 100 * worst.rows.last("worst") / worst.rows.first("worst"));
+    } else {
+      report.claim(
+          worst.rows.last("worst") > 15 && worst.rows.last("worst") > 0.7 * worst.rows.first("worst"),
+          "(observed) {} locks: the force is off by {:.0f} % at worst, on a mesh four times as coarse by {:.0f} %",
+          name.text(), worst.rows.last("worst"), worst.rows.first("worst"));
+    }
+  }
+  const Table cr = forces.where("method", "CR / CR").where("h", 1.0 / cells);
+  const double last = cr.where("t", 1e-6).number("force"), limit = cr.where("t", 0.0).number("force");
+  report.claim(std::abs(last / limit - 1) < 1e-5,
+               "(observed) CR tends to its own limit: force {:.7f} at t = 1e-6, {:.7f} at 0", last, limit);
+}
+
+// ## What came out
+//
+// :output: contact force, by t
+//
+// (a) $v$ alone. With $u$ P1 and $v$ CR the force is right to 1 %; with $u$ CR and $v$ P1 it is 73 % too large, like that of
+// P1 for both. P2 locks too: it has parabolas of $x$, and no more.
+//
+// :figure: coating_force
+//
+// The diagnosis says so before anything is solved, because it asks for what the *bounded* unknowns can do. The dimension of
+// the kernel would not: for CR / P1 it grows fast with the mesh, all of it motions of $u$ (exercise 2).
+//
+// (b) Between: $E_m = 1.10$ lies between $2μ = 0.77$ and $λ + 2μ = 1.35$. In plane strain the sheet cannot become narrower out
+// of the plane, but it can become thinner.
+//
+// The supremum over $t$ is what makes locking visible in one number per mesh: it falls for the methods that do not lock and
+// stays for those that do.
+//
+// :output: corrections, by t
+//
+// At most 8 corrections where $B$ depends on $t$, and 10 with P2. With the usual penalty, P1 in columns and P1 / CR take some
+// 40 at $t = 10^{-6}$ (exercise 3).
+// P1 in columns and P1 / CR have another force at $t = 0$ than for $t → 0$: there are motions $w$ without a $z$, and their
+// energy $|B_1 w|^2$, an error of the mesh width, is present for $t > 0$ and absent at $t = 0$.
+//
+// ## Exercises
+//
+// 1. Drop the completed square: rows $t u_x + v_Y$ (weight $λ$), $v_Y$ ($2μ$) and $u_Y + t v_x$ ($μ$), $a_1$ with $2μ u_x^2$.
+//    How much further does the coating stretch at $t = 0$ than at $t = 10^{-6}$?
+// 2. CR / P1 at 1/h = 8 and 16: how does $\dim G_h$ grow, and how many independent motions of the bounds are in it?
+// 3. Press P1 in columns at $t = 10^{-4}$, $10^{-5}$, $10^{-6}$ with the usual penalty. How do the corrections grow?
+// 4. On paper: why is there no $z$ for P1 in columns, if $w = (u(x), 0)$ has a kink?
+
+#include "answers/32_coating.hpp"
+
+int main(int argc, char** argv) {
+  double thickness = 1e-6;
+  return tutorial::run(
+      argc, argv, "32_coating", "A stiff coating in plane strain: six discretisations",
+      {.takes_epsilon = false,
+       .least_cells = 16,  // a quarter of them is the coarsest mesh
+       .most_cells = 32,   // a factor at t = 1e-6 on a finer mesh has no digits to spare
+       .add =
+           [&](tutorial::CommandLine& line) {
+             line.add("--thickness", thickness, "t of the pictures, relative to the block; 0: the limit", 0, 1);
+           },
+       .exercises = exercises},
+      [&](const tutorial::Options& options, tutorial::Report& report) { press(options, thickness, report); });
+}
