@@ -67,6 +67,9 @@ using tutorial::Method;
 
 double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the round punch below
 
+// ### Mesh
+// A `Method` is one of six discretisations: triangles in columns or arbitrary ones, an element per component.
+//
 // ### Forms
 // `models/coating.cpp` is those two formulas: `strain_form` for the block and for $E_m u_x^2$, `strain_rows` for $B$. The top
 // is moved down by 0.1, the sides are free.
