@@ -60,7 +60,7 @@
 // $∂_Y$ takes any values, one per triangle, so there always is a $z$.
 
 #include "backstage/32_coating.hpp"
-#include "common/supremum.hpp"
+#include "common/course.hpp"
 
 using namespace antilock;
 using tutorial::Method;
