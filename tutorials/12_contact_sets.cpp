@@ -163,6 +163,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   for (const Method& method : all)
     judge(method, results.where("element", method.element->name()).where("mesh", method.family.name),
           clamped_distance(u0.truth), report);
+  const double c_h = results.where("element", "CR").where("mesh", "structured").where("cells", 16).number("c_h");
+  report.claim_within(c_h / dip.c_h, 1, 1.2,
+                      "c_h of CR on 1/h = 16, over that of the v_h of the picture (at least 1: proved)");
   report.claim(dip.at_midpoints <= 1e-14, "the v_h of the picture is in K_h: at the midpoints 0 to {:.0e} (proved)",
                dip.at_midpoints);
   // Half of a straight line with the mean 0 lies below 0, so half of its square: sums over 32 points have 0.1 % of it.

@@ -45,8 +45,8 @@
 //
 // The sums end at $k^2 + (m - ½)^2 ≤ W^2$, $W = 2/h$. What do the later waves add? The layer only takes away: it holds
 // the body back, so the work $(f, S f)$ of a load is at most that of the same load on the free body, where a later wave
-// is divided by more than $(πW)^2$. In a conforming method the error is no larger than $u$ itself. Hence a load of
-// later waves has an error of at most $1/(πW)$, and all loads together
+// is divided by more than $(πW)^2$. In a conforming method the error is no larger than $u$ itself, by the formula above.
+// Hence a load of later waves has an error of at most $1/(πW)$, and all loads together
 //
 // $$ E_h^2 ≤ E_W^2 + (πW)^{-2},   E_W: the supremum over the waves up to W. $$
 //
@@ -62,14 +62,14 @@
 //
 // $$ E_h(0) ≥ ℓ_{d+1},   ℓ_k = |ψ_k| / (a \coth a + a^2)^{1/2},   a = kπ,   ψ_k = \sinh(a(1 - y))/\sinh a. $$
 //
-// Proof: let $e_k$ be $ψ_k \sin kπx$ in the body and $\sin kπx$ in the layer. It is harmonic in the body. So for every
-// $v$ with $∂_y v = 0$ in the layer $a(e_k, v)$ asks for the trace of $v$ on $Σ$ only:
+// Proof ($|ψ_k|$ is the $L^2$ norm on $(0, 1)$): let $e_k$ be $ψ_k \sin kπx$ in the body and $\sin kπx$ in the layer. It
+// is harmonic in the body. So for every $v$ with $∂_y v = 0$ in the layer $a(e_k, v)$ asks for the trace of $v$ on $Σ$ only:
 //
 // $$ a(e_k, v) = (a \coth a + a^2) ∫_Σ v \sin kπx. $$
 //
 // The traces of $G_h$ have dimension $d$, so "$a(z, v_h) = 0$ for all $v_h ∈ G_h$" is $d$ conditions. Some combination
-// $z ≠ 0$ of the $d + 1$ functions $e_1, ..., e_{d+1}$ fulfils them. Load the body with $f = z/‖z‖$. By Cauchy and
-// Schwarz
+// $z ≠ 0$ of the $d + 1$ functions $e_1, ..., e_{d+1}$ fulfils them: the method cannot see it. Load the body with
+// $f = z/‖z‖$. By Cauchy and Schwarz, and because $a(u_h, z) = 0$,
 //
 // $$ |u - u_h|_a ≥ a(u - u_h, z)/|z|_a = (f, z)/|z|_a = ‖z‖/|z|_a ≥ \min_{k ≤ d+1} ‖e_k‖/|e_k|_a = ℓ_{d+1}, $$
 //

@@ -24,10 +24,10 @@ const std::vector<tutorial::Exercise> exercises{
 // ## Answers on paper
 //
 // **2.** Start from $a(v_h - u_h, v_h - u_h) = a(v_h - u, v_h - u_h) + a(u, v_h - u_h) - a(u_h, v_h - u_h)$. The two last
-// terms are at most $R(v_h) - R(u_h)$, by the discrete inequality. The first term is at most $M ‖u - v_h‖_h ‖v_h - u_h‖_h$. With $s t ≤ α s^2/2 + t^2/(2α)$ for
-// $s = ‖v_h - u_h‖_h$ it becomes half of the left side and $M^2 ‖u - v_h‖_h^2/(2α)$. Divided by $α/2$ this is
-// $(M/α)^2 ‖u - v_h‖_h^2$: the constant is quadratic. The symmetric form is not treated well by this road, since its
-// energy is not used.
+// terms are at most $R(v_h) - R(u_h)$, by the discrete inequality. The first term is at most
+// $M ‖u - v_h‖_h ‖v_h - u_h‖_h$. With $s t ≤ α s^2/2 + t^2/(2α)$ for $s = ‖v_h - u_h‖_h$ it becomes half of the left side
+// and $M^2 ‖u - v_h‖_h^2/(2α)$. Divided by $α/2$ this is $(M/α)^2 ‖u - v_h‖_h^2$: the constant is quadratic. This road does
+// not use the energy, and so it gives a symmetric form a larger constant than it needs.
 //
 // **3.** The unknowns of P2 on $Γ_C$ are vertices and midpoints. A parabola that is not negative at three points may dip
 // below 0 between two of them, so $K_h ⊄ K$, and the work of the pressure on such a dip is negative.

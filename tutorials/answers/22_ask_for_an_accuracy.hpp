@@ -48,6 +48,6 @@ const std::vector<tutorial::Exercise> exercises{
     {"The load is doubled. How many unknowns does an accuracy of 5 % cost now?",
      "As many: flux, companion and bound are doubled, and what is relative stays.", doubled_load},
     {"The obstacle is a needle of width 0.004. What do 10 % cost, adapted and on a uniform mesh?",
-     "At most 5,000 unknowns adapted; 14,000 of a uniform mesh do not prove 20 %.", needle},
+     "Adapted at most 5,000 unknowns. A uniform mesh with 14,000 unknowns proves no better than 20 %.", needle},
     {"A spike of the load lies between the points of the first mesh's quadrature. Is it seen?",
      "It is: the load is sampled before the first level, and the mesh refined around the spike.", spike}};

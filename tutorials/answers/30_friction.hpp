@@ -29,7 +29,7 @@ const std::vector<tutorial::Exercise> exercises{
      }},
     {"A bar of stiffness 1 on a floor with g = 1 is pulled by 1/2 at x = 1. How far does it slip, and by how much does "
      "its end move?",
-     "it slips on (1/2, 1), where the floor bears all that pulls, by (x - 1/2)^2 / 2: its end moves by 1/8",
+     "it slips on (1/2, 1), where friction balances the whole pull, by (x - 1/2)^2 / 2: its end moves by 1/8",
      [](const tutorial::Options& options, tutorial::Report& report) {
        const int n = options.cells;
        VariationalInequality bar;  // u_0 ... u_n; nothing is stiff

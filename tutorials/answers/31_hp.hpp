@@ -4,8 +4,11 @@
 const std::vector<tutorial::Exercise> exercises{
     {"Equal cells with one mesh line through the end of contact, no layers, P4. Which of the two orders 3/2 does that "
      "cure?",
-     "that of epsilon = 0: the jump lies on a line, and r^2 log r in the body is left, order 2 in H1. At epsilon = 1 "
-     "r^(3/2) starts at a corner of the cells and is no polynomial either: 3/2 on Gamma_C stays",
+     "that of epsilon = 0: the jump of w'' then lies on a mesh line, and what is left is r^2 log r in the body, which "
+     "has "
+     "order 2 in H1. Not that of epsilon = 1: r^(3/2) now begins at a corner of the cells, but it is still no "
+     "polynomial, "
+     "and the order on Gamma_C stays 3/2",
      [](const tutorial::Options&, tutorial::Report& report) {
        for (const auto& [epsilon, norm, low, high] : {std::tuple{1.0, "contact", 1.25, 1.75}, {0.0, "h1", 1.75, 2.5}}) {
          const Exact exact(tutorial::paper_scene(epsilon));

@@ -38,10 +38,8 @@ inline void add_freefem(Timing& study, TimedRun run, const Space& space, const T
     std::string header;
     std::getline(solution, header);
     double x = 0, y = 0, u = 0;
-    for (char comma = 0; solution >> x >> comma >> y >> comma >> u;) {
+    for (char comma = 0; solution >> x >> comma >> y >> comma >> u; run.scale = std::max(run.scale, std::abs(u)))
       run.errors.max_at_unknowns = std::max(run.errors.max_at_unknowns, std::abs(u - truth.value(x, y)));
-      run.scale = std::max(run.scale, std::abs(u));
-    }
   }
   study.runs.push_back(std::move(run));
 }
@@ -70,7 +68,7 @@ inline Table uzawa_on_its_way(const std::string& method, const VariationalInequa
     UzawaOptions options;
     options.enough = {energy, 1e-3};
     const int before = u.counters.contact;
-    // a run that took as many steps as the full one has come to its end, as it will for every smaller energy
+    // one that took as many steps as the full one has come to its end
     if (before < full.counters.contact) u = uzawa(problem, factor, options);
     if (u.counters.contact != before) error_of_u = error(u);  // else it is the same u
     table.add({method, "error of the iterate", u.counters.contact, error_of_u});

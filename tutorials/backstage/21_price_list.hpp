@@ -69,11 +69,9 @@ inline void write_price_list(const std::filesystem::path& folder, const std::vec
     page += fmt::format("| {} {} | {:g} | {} | {} | {} |\n", m.element, m.mesh, m.epsilon, cell(row[0]), cell(row[1]),
                         cell(row[2]));
   }
-  int finest = 0;
-  for (const TimedRun& run : runs) finest = std::max(finest, run.cells);
   csv.write(folder / "price_list.csv");
   write_file(folder / "price_list.md", [&](std::ostream& out) {
-    out << fmt::format("1/h from 8 to {}. Unknowns: seconds of {}", finest, solvers)
+    out << fmt::format("1/h from 8 to {}. Unknowns: seconds of {}", runs.back().cells, solvers)
         << ", without mesh and assembly, until the relative error at the unknowns is below 1e-2, 1e-3, 1e-4. `-`: "
            "failed "
            "or over the limit; `never`: locked; `>`: not even on the finest mesh measured.\n\n"

@@ -1,8 +1,5 @@
 #pragma once
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -21,7 +18,6 @@ struct TimedRun {
   Errors errors{};    ///< of FreeFEM's script: max_at_unknowns alone
   double scale = 0;   ///< largest |u_h|
   std::string why{};  ///< of a failure
-
   double relative() const { return errors.max_at_unknowns / scale; }
   bool same_method(const TimedRun& other) const {  // on whatever mesh size
     return element == other.element && mesh == other.mesh && solver == other.solver && epsilon == other.epsilon;
