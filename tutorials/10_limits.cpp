@@ -29,13 +29,14 @@
 // steps. It needs that the form $a^ε = a_1 + ε_c^{-1} a_0$ controls the norm, with one $α > 0$ for all $ε$ (it is
 // *coercive*): $a^ε(v, v) ≥ α ‖v‖^2$.
 //
-// **1. The $u^ε$ are bounded.** Take a fixed $v_0$ of $K_0$ as test function in (1). The stiff form does not see it, so
-// it costs nothing at any $ε$. With $d = u^ε - v_0$, (1) becomes
+// **1. The solutions are bounded.** Take a fixed $v_0$ of $K_0$ as test function in (1). The stiff form does not see it, so
+// it costs nothing at any ε. With the difference $d = u^ε - v_0$, (1) becomes
 //
 // $$ α ‖d‖^2 ≤ a^ε(d, d) ≤ L(d) - a_1(v_0, d). $$
 //
-// On the left the square of $‖d‖$ stands, on the right its first power. So $‖d‖$ cannot be large: $‖u^ε‖ ≤ C$. Moreover
-// $a^ε(d, d)$ is bounded, and contains $ε_c^{-1} a_0(u^ε, u^ε)$. So $a_0(u^ε, u^ε) ≤ C ε_c$.
+// On the left stands the square of the size of $d$, on the right its first power. So $d$ cannot be large, and the solutions
+// are bounded. The middle is bounded then, too, and it contains $ε_c^{-1} a_0(u^ε, u^ε)$. So the stiff form of the solutions,
+// without its factor, is at most $C ε_c$: it tends to 0.
 //
 // **2. A weak limit solves (2).** A bounded family has a sequence that converges weakly, as chapter 05's sawteeth do;
 // call the limit $w^0$. Three things are known of weak limits. A closed convex set keeps them, so $w^0 ∈ K$: such a set
@@ -50,23 +51,24 @@
 //
 // $$ a_1(u^ε, w) - a_1(u^ε, u^ε) ≥ L(w - u^ε). $$
 //
-// All terms but one converge. That one, $a_1(u^ε, u^ε)$, is the same as $(a_1 + a_0)(u^ε, u^ε)$ in the limit, since
-// $a_0(u^ε, u^ε) → 0$. This form is not negative, so it can only lose, and the inequality stays true. It is (2), which
-// has one solution. So $w^0 = u^0$, whatever sequence was chosen, and all of $u^ε$ tends to $u^0$ weakly.
+// All terms but one converge. That one, $a_1(u^ε, u^ε)$, is the same as that of $a_1 + a_0$ in the limit, because the stiff
+// form tends to 0. This sum is never negative, so it can only lose. It stands on the left with a minus sign, so the
+// inequality stays true. It is (2), which has one solution. So $w^0 = u^0$, whatever sequence was chosen, and the whole family
+// tends to it weakly.
 //
 // **3. It converges strongly.** Put $v = u^0$ into (1), and use that $a_0(u^0, ·) = 0$:
 //
 // $$ α ‖u^ε - u^0‖^2 ≤ a^ε(u^ε - u^0, u^ε - u^0) ≤ L(u^ε - u^0) - a_1(u^0, u^ε - u^0) → 0. \tag{5} $$
 //
-// The right side holds $u^ε - u^0$ only in products with something fixed, so the weak limit is enough. (5) says more than
-// $u^ε → u^0$. Its stiff part is $ε^{-2} a_y^-(u^ε, u^ε) = ε^2 ‖p‖^2$, with the norm of $L^2$ in the layer: this tends to
-// 0, too.
+// The right side holds the difference only in products with something fixed, so the weak limit is enough. (5) says more than
+// convergence in the norm. Its stiff part is $ε^{-2} a_y^-(u^ε, u^ε) = ε^2 ‖p‖^2$, with the norm of $L^2$ in the layer: this
+// tends to 0, too.
 //
-// **How fast?** The theorem does not say. Chapter 04's symbol does: a layer of thickness $ε$ answers to the wave
-// $\sin kπx$ on $Γ_C$ like the limit but for a share $∼ (ε k)^2$, and from $k ∼ 1/ε$ on quite differently. Where
-// contact ends the pressure of $u^0$ jumps, so its waves fall like $k^{-1}$. The pressure is about $s_k$ times the
-// displacement, and $s_k$ grows like $k^2$. So the waves of $u^0$ on $Γ_C$ fall like $k^{-3}$. In the square of the
-// norm wave $k$ counts $k^2 (k^{-3})^2 = k^{-4}$. Together
+// **How fast?** The theorem does not say. Chapter 04's symbol does: a layer of thickness ε answers to the wave $\sin kπx$
+// on $Γ_C$ like the limit but for a share $∼ (ε k)^2$, and from $k ∼ 1/ε$ on quite differently. How much of $u^0$ is in such
+// waves? Where contact ends its pressure jumps, and the waves of a jump fall like $k^{-1}$. The pressure is about $s_k$ times
+// the displacement, and $s_k$ grows like $k^2$. So the waves of the displacement on $Γ_C$ fall like $k^{-3}$. In the square
+// of the norm wave $k$ counts $k^2 (k^{-3})^2 = k^{-4}$. Together
 //
 // $$ ‖u^ε - u^0‖^2 ∼ ∑_k k^{-4} \min(1, (ε k)^4) ∼ ε^3: $$
 //

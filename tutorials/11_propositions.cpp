@@ -15,42 +15,44 @@
 //
 // ## Two limits, in two orders
 //
-// A computation has two small numbers, $ε$ and $h$. There are two ways to a limit: first $ε → 0$ on a fixed mesh, then
-// finer meshes; or first finer meshes at a fixed $ε$. A method is free of trouble if it does not matter which. The
-// discrete problems are chapter 10's (1) and (2) with $K_h$ and $K_{0h} = K_h ∩ G_h$ in place of $K$ and $K_0$; the paper
-// calls them (6) and (7). For our problem (7) is (27) of chapter 05.
+// A computation has two small numbers, ε and $h$. There are two ways to a limit: first let ε go to 0 on a fixed mesh, then
+// take finer meshes; or first take finer meshes at a fixed ε. A method is free of trouble if it does not matter which. The
+// discrete problems are chapter 10's (1) and (2) with discrete sets, $K_h$ and $K_{0h} = K_h ∩ G_h$; the paper calls them
+// (6) and (7). For our problem (7) is (27) of chapter 05.
 //
-// **Proposition 1: $ε → 0$ at fixed $h$.** $u_h^ε → u_h^0$. The proof is that of Theorem 1 on $V_h$. It is even easier:
-// in a space of finitely many dimensions a bounded sequence converges strongly at once. No mesh is excluded. So locked
-// P1 has a limit as well. The order is 2 for every method: a mesh has no waves beyond $1/h$, so below $ε ∼ h$ each wave
-// is changed by a share like $ε^2$, and the sum that made 3/2 of it breaks off.
+// **Proposition 1: ε to 0 at fixed $h$.** $u_h^ε → u_h^0$. The proof is that of Theorem 1, for discrete functions. It is
+// even easier, because in a space of finitely many dimensions a bounded sequence has parts that converge strongly, not only
+// weakly. No mesh is excluded. So locked P1 has a limit as well. The order is 2 for every method: a mesh has no waves beyond
+// $1/h$, so below $ε ∼ h$ each wave is changed by a share like $ε^2$, and the sum that made 3/2 of it breaks off.
 //
-// **Proposition 2: $h → 0$ at fixed $ε$, and at $ε = 0$.** If $K_h$ approaches $K$, then $u_h^ε → u^ε$. If $K_{0h}$
+// **Proposition 2: $h$ to 0 at fixed ε, and at ε = 0.** If $K_h$ approaches $K$, then $u_h^ε → u^ε$. If $K_{0h}$
 // approaches $K_0$, then $u_h^0 → u^0$. (Both are Theorem 3 of [chapter 14](14_estimates.cpp), which also asks for two
-// properties of $V_h$ that P1 and Crouzeix–Raviart have. The [next chapter](12_contact_sets.cpp) is about the two "if".)
+// properties of the method that P1 and Crouzeix–Raviart have. The [next chapter](12_contact_sets.cpp) is about the two "if".)
 //
 // **Proposition 3: both at once.** If $K_h$ approaches $K$ *and* $K_{0h}$ approaches $K_0$, then $u_h^ε - u^ε → 0$, on
-// whatever path $ε$ and $h$ tend to 0. Go from one to the other in three steps:
+// whatever path both tend to 0. Go from one to the other in three steps:
 //
 // $$ ‖u^ε-u_h^ε‖_h ≤ ‖u^ε-u^0‖ + ‖u^0-u_h^0‖_h + ‖u_h^0-u_h^ε‖_h. \tag{18} $$
 //
-// The first step is Theorem 1, no mesh is in it. The second is Proposition 2, no $ε$ is in it. Only the third holds
-// both, and is new. Its proof runs along the three steps of Theorem 1.
+// The first step is Theorem 1, no mesh is in it. The second is Proposition 2, no ε is in it. Only the third holds both, and
+// is new. Its proof runs along the three steps of Theorem 1.
 //
-// *Bounded:* the test function is now a $v_h^0$ of $K_{0h}$, one per mesh. As $K_{0h}$ approaches $K_0$, these can be
-// chosen so that they converge, and so are bounded. Hence $‖u_h^ε‖_h ≤ C$ and $a_0(u_h^ε, u_h^ε) ≤ C ε^2$, for all $ε$ and
-// $h$. *Weak limit:* it is in $K$, since $K_h$ approaches $K$, and $a_0$ loses in it, so it is in $K_0$. Let $w$ be in
-// $K_0$, and let $w_h$ of $K_{0h}$ tend to it. Test with $w_h$, drop the stiff term, go to the limit: it solves (2), so
-// it is $u^0$. *Strong:* test (6) with $v_h = u_h^0$, which the stiff form does not see:
+// *Bounded:* the test function is now an element of $K_{0h}$, one per mesh. As $K_{0h}$ approaches $K_0$, these can be
+// chosen so that they converge, and so are bounded. Hence the discrete solutions are bounded, and their stiff form is at most
+// $C ε^2$, with one $C$ for all ε and $h$. *Weak limit:* it is in $K$, since $K_h$ approaches $K$. The stiff form can only
+// lose in it, and it is 0 in the limit, so the weak limit is in $K_0$. What does it solve? Take any $w$ of $K_0$, and
+// elements of $K_{0h}$ that tend to it, as test functions. Drop the stiff term and go to the limit: it solves (2), so it is
+// $u^0$. *Strong:* test (6) with the discrete limit $u_h^0$, which the stiff form does not see:
 //
 // $$ α ‖u_h^0 - u_h^ε‖_h^2 ≤ L(u_h^ε - u_h^0) - a_1(u_h^0, u_h^ε - u_h^0) → 0. \tag{19} $$
 //
-// On the right $u_h^ε$ and $u_h^0$ both tend to $u^0$, the one weakly and the other strongly. That is all.
+// The right side tends to 0, because both discrete solutions in it tend to the same $u^0$: one weakly, as was just shown, the
+// other strongly, by Proposition 2.
 //
-// **Where locked P1 leaves this road.** Its $K_{0h}$ holds no function that moves the layer. So its $u_h^0$ is 0 there,
+// **Where locked P1 leaves this road.** Its $K_{0h}$ holds no function that moves the layer. So its discrete limit is 0 there,
 // and in the body it tends to the solution $u^c$ that is clamped on $Σ$. The second step tends to $‖u^0 - u^c‖$, a number
-// that the sine series gives: 0.138, most of it the 0.126 of $u^0$ on the layer. The third step of locked P1 does tend
-// to 0 along $ε = h^2$. What is wrong with locked P1 is not that it does not converge, but where to.
+// that the sine series gives: 0.138, most of it the 0.126 of $u^0$ on the layer. The third step of locked P1 does tend to 0
+// along $ε = h^2$. What is wrong with locked P1 is not that it does not converge, but where to.
 
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/h1_norm.hpp"

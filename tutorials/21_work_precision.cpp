@@ -118,8 +118,9 @@ Table stop_early(const Method& method, int cells, const Exact& exact, tutorial::
   report.claim(of_early < 1.01 * of_full && 2 * early.counters.contact < full.counters.contact,
                "{}, accurate enough: Uzawa stops after {} steps, not {}, at {:.4f} of the error (observed)",
                method.name(), early.counters.contact, full.counters.contact, of_early / of_full);
-  report.claim_within(extrapolated, 0.9, method.family.name == "structured" ? 1.1 : 1.5,
-                      method.name() + ": a quarter of the coarse bracket's width over the mesh's own (observed)");
+  if (method.family.name == "structured")  // elsewhere P1, the upper end of the bracket, may lock
+    report.claim_within(extrapolated, 0.9, 1.1,
+                        "a quarter of the coarse bracket's width over the mesh's own (observed)");
   return tutorial::uzawa_on_its_way(method.name(), problem, early, full, error);
 }
 
@@ -191,8 +192,8 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
 // solver, conjugate gradients with ILUT, Uzawa gives up at small ε.
 //
 // (b) No: it comes to a level line. The bracket stops Uzawa there, after less than half of the steps, within 1 % of the
-// error. A quarter of the coarse bracket's width is that of the mesh's own on the structured mesh, and 1.14 of it on the
-// unstructured one. `price_list.md` says what 1e-2, 1e-3 and 1e-4 cost, or "never".
+// error. On columns a quarter of the coarse bracket's width is that of the mesh's own, to 1 %. `price_list.md` says what
+// 1e-2, 1e-3 and 1e-4 cost, or "never".
 //
 // :figure: stopping
 //
