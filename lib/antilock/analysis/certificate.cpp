@@ -94,11 +94,6 @@ class Conforming {
     if (in_body || !v_.layer) return (v_.at_vertices(a) + v_.at_vertices(b)) / 2;
     return v_.layer->mean(mesh_.vertices.row(a).transpose(), mesh_.vertices.row(b).transpose());
   }
-  double value(int e, double theta) const {  ///< on a contact edge, theta from its first vertex
-    const int a = mesh_.edges(e, 0), b = mesh_.edges(e, 1);
-    if (!v_.layer) return (1 - theta) * v_.at_vertices(a) + theta * v_.at_vertices(b);
-    return v_.layer->value(((1 - theta) * mesh_.vertices.row(a) + theta * mesh_.vertices.row(b)).transpose());
-  }
   /// |v|_a^2 of a layer on columns.
   double layer_norm2() const {
     if (!v_.layer) return 0;
@@ -143,15 +138,15 @@ void check_prescribed(const Space& space, const VariationalInequality& problem, 
 }
 
 /// v >= -g between the vertices, too, by samples: else the proof does not start.
-void check_admissible(const Scene& scene, const Space& space, const VariationalInequality& problem, const Conforming& v,
-                      double scale) {
-  constexpr int samples = 8;
-  for (const int e : problem.contact)
-    for (int k = 0; k <= samples; ++k) {
+void check_admissible(const UnilateralContact& contact, const TriangleMesh& mesh, const Eigen::VectorXd& v) {
+  constexpr int samples = 8;  // of those of admissible_bounds
+  const double scale = v.cwiseAbs().maxCoeff();
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    for (int k = 0; k <= samples && mesh.edge_tag[e] == EdgeTag::contact; ++k) {
       const double theta = static_cast<double>(k) / samples;
-      const double x = (1 - theta) * space.mesh().vertices(space.mesh().edges(e, 0), 0) +
-                       theta * space.mesh().vertices(space.mesh().edges(e, 1), 0);
-      const double gap = scene.contact()->gap(x), above = v.value(e, theta) + gap;
+      const int from = mesh.edges(e, 0), to = mesh.edges(e, 1);
+      const double x = (1 - theta) * mesh.vertices(from, 0) + theta * mesh.vertices(to, 0), gap = contact.gap(x);
+      const double above = (1 - theta) * v(from) + theta * v(to) + gap;
       if (!(above >= -1e-9 * std::max(scale, std::abs(gap))))
         throw Error(
             fmt::format("certificate: the companion is {:.1e} below the obstacle at x = {:.6g}; accepted: a "
@@ -174,7 +169,9 @@ double unbalanced(const VariationalInequality& problem, const EquilibratedFlux& 
   factor->check_fits(problem);
   if (factor->delta() < problem.compliance)
     throw Error("certificate: the factor has a smaller penalty than the compliance; accepted: at least as large");
-  return factor->forward(flux.imbalance(factor->numbering().unknown)).norm();  // |L^-1 r1|^2 = r1' K^-1 r1
+  const Eigen::VectorXd r1 = flux.imbalance(factor->numbering().unknown);
+  if (HeldFactor* const held = factor->held()) held->hold(std::vector<char>(r1.size(), 0));  // the whole K
+  return std::sqrt(std::max(0.0, r1.dot(factor->solve(r1))));
 }
 
 Certificate certify(const Scene& scene, const Space& space, const VariationalInequality& problem,
@@ -221,7 +218,10 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
   }
   certificate.norm = std::sqrt(norm2);
   check_prescribed(space, problem, companion, options.prescribed);
-  check_admissible(scene, space, problem, v, companion.at_vertices.cwiseAbs().maxCoeff());
+  if (scene.contact() && companion.layer)
+    check_admissible(*scene.contact(), companion.layer->mesh(), companion.layer->v());
+  else if (scene.contact())
+    check_admissible(*scene.contact(), mesh, companion.at_vertices);
   for (std::size_t i = 0; i < problem.contact.size(); ++i) {
     const int e = problem.contact[i];
     const auto place = static_cast<Eigen::Index>(i);

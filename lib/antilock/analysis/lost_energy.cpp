@@ -6,11 +6,11 @@
 // - in the layer v has columns of its own, one under each edge of Sigma, in rows of equal height k. On such columns
 //   P1 is a set of differences: with D the sum of |v(i+1, j) - v(i, j)|^2 / (x(i+1) - x(i)) on row j,
 //       int (d_x v)^2 = sum_j k_j D_j, k_j = k (k / 2 for the first and the last row),
-//   and d_y v on the two triangles beside a vertical segment is its difference / k: one row of B per segment. A trace
-//   of degree 2 on Sigma keeps its bubble beta 4 s (1 - s) per edge, constant in y: it adds 16/3 beta^2 / length to the
-//   energy, and is orthogonal to P1. (22) is the same problem after y -> y / epsilon, (23).
-// J is smallest over these v: a variational inequality with few unknowns. Body and layer enter as differences, so that
-// nothing of the size of J cancels but J(u_h)'s own layer part.
+//   and d_y v on the two triangles beside a vertical segment is its difference / k: one row of B per segment.
+// (22) is the same problem after y -> y / epsilon, (23). J is smallest over these v: a variational inequality with few
+// unknowns. For P2 the mesh is cut once more, so that W and the columns reach as short waves as u_h; on the halves of an
+// edge of Sigma u_h is affine but for a bubble 4 s (1 - s) beta, which v keeps, constant in y: 16/3 beta^2 / length of
+// energy, and orthogonal to the differences.
 #include "antilock/analysis/lost_energy.hpp"
 
 #include <fmt/format.h>
@@ -18,359 +18,284 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "antilock/analysis/detail/companion.hpp"
 #include "antilock/analysis/detail/ties.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/errors.hpp"
+#include "antilock/mesh/refine.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {
 namespace {
 
-/// Sigma from left to right: its vertices, and the edges between them as the places of their ends.
+constexpr double telling = 0.05;  // v is within a few per cent of the best: whoever has lost 10 % is told so
+
+/// Sigma: its vertices from left to right, and its edges as places among them.
 struct Line {
   std::vector<int> vertex;
   std::vector<double> x;
   std::vector<std::array<int, 2>> edge;
-  std::vector<int> mesh_edge;
+  double length = 0;
 };
 
 Line sigma_line(const TriangleMesh& mesh) {
   Line line;
   std::vector<int> place(mesh.vertex_count(), -1);
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] == EdgeTag::sigma) {
-      line.mesh_edge.push_back(e);
-      for (int end = 0; end < 2; ++end)
-        if (const int v = mesh.edges(e, end); place[v] < 0) place[v] = 0, line.vertex.push_back(v);
-    }
-  std::sort(line.vertex.begin(), line.vertex.end(),
-            [&](int a, int b) { return mesh.vertices(a, 0) < mesh.vertices(b, 0); });
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::sigma) continue;
+    line.edge.push_back({mesh.edges(e, 0), mesh.edges(e, 1)});
+    for (const int v : line.edge.back())
+      if (std::exchange(place[v], 0) < 0) line.vertex.push_back(v);
+  }
+  const auto x = [&](int v) { return mesh.vertices(v, 0); };
+  std::sort(line.vertex.begin(), line.vertex.end(), [&](int a, int b) { return x(a) < x(b); });
   for (std::size_t i = 0; i < line.vertex.size(); ++i) {
     place[line.vertex[i]] = static_cast<int>(i);
-    line.x.push_back(mesh.vertices(line.vertex[i], 0));
+    line.x.push_back(x(line.vertex[i]));
   }
-  for (const int e : line.mesh_edge) {
-    std::array<int, 2> ends{place[mesh.edges(e, 0)], place[mesh.edges(e, 1)]};
-    if (ends[0] > ends[1]) std::swap(ends[0], ends[1]);
-    line.edge.push_back(ends);
+  for (auto& [left, right] : line.edge) {
+    std::tie(left, right) = std::minmax({place[left], place[right]});
+    line.length += line.x[right] - line.x[left];
   }
   return line;
 }
 
-/// One row of hats: where they sit, and the number of each one's unknown (-1: left out).
-struct Row {
-  double y;
-  std::vector<double> x;
-  std::vector<int> unknown;
-};
-
-using Weights = std::array<std::pair<int, double>, 4>;  // unknown (-1: none) and value of its hat at a vertex
-
-/// W: hats on rows over the body. Row 0 is Sigma with a hat per vertex.
-class Hats {
- public:
-  Hats(const TriangleMesh& mesh, const Line& sigma, const std::vector<char>& in_body, const std::vector<char>& held) {
-    double left = 1e300, right = -1e300, top = 0;
-    for (int v = 0; v < mesh.vertex_count(); ++v) {
-      if (!in_body[v]) continue;
-      left = std::min(left, mesh.vertices(v, 0)), right = std::max(right, mesh.vertices(v, 0));
-      top = std::max(top, mesh.vertices(v, 1));
-    }
-    const double h = (sigma.x.back() - sigma.x.front()) / static_cast<double>(sigma.x.size() - 1);
-    rows_.push_back({0, sigma.x, std::vector<int>(sigma.x.size(), 0)});
-    for (double y = top; y > h; y /= ratio) {
-      const int cells = std::max(1, static_cast<int>(std::ceil((right - left) / (width * y))));
-      Row row{y, {}, std::vector<int>(cells + 1, 0)};
-      for (int i = 0; i <= cells; ++i) row.x.push_back(left + (right - left) * i / cells);
-      rows_.insert(rows_.begin() + 1, std::move(row));
-    }
-    // a hat that is not 0 at a vertex with a prescribed value is left out
-    for (int v = 0; v < mesh.vertex_count(); ++v)
-      if (in_body[v] && held[v])
-        visit(mesh.vertices.row(v), [](int& unknown, double weight) {
-          if (weight > 1e-12) unknown = -1;
-        });
-    for (Row& row : rows_)
-      for (int& unknown : row.unknown)
-        if (unknown == 0) unknown = count_++;
+/// W: the values of its hats at the vertices of the body, a column per hat. The first row of hats is Sigma, one per
+/// vertex; above, the heights are halved towards Sigma, and a hat is about as wide as it is high.
+std::vector<Eigen::Triplet<double>> hats(const TriangleMesh& mesh, const Line& sigma, int& count) {
+  struct Row {
+    double y;
+    std::vector<double> x;
+    int first;
+  };
+  std::vector<char> in_body(mesh.vertex_count(), 0);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::body)
+      for (int i = 0; i < 3; ++i) in_body[mesh.triangles(t, i)] = 1;
+  double left = sigma.x.front(), right = sigma.x.back(), top = 0;
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (!in_body[v]) continue;
+    left = std::min(left, mesh.vertices(v, 0)), right = std::max(right, mesh.vertices(v, 0));
+    top = std::max(top, mesh.vertices(v, 1));
   }
-  int count() const { return count_; }  ///< unknowns; those of Sigma come first
-  const Row& sigma() const { return rows_.front(); }
-  Weights at(const Eigen::RowVector2d& point) {
-    Weights weights;
-    std::size_t n = 0;
-    weights.fill({-1, 0.0});
-    visit(point, [&](int unknown, double weight) { weights[n++] = {unknown, weight}; });
-    return weights;
+  std::vector<Row> rows{{0, sigma.x, 0}};
+  for (double y = top; y > sigma.length / static_cast<double>(sigma.edge.size()); y /= 2) {
+    const int cells = std::max(1, static_cast<int>(std::ceil((right - left) / y)));
+    Row row{y, {}, 0};
+    for (int i = 0; i <= cells; ++i) row.x.push_back(left + (right - left) * i / cells);
+    rows.insert(rows.begin() + 1, std::move(row));
   }
-
- private:
-  static constexpr double ratio = 2, width = 1;
-
-  template <class Visit>
-  void visit(const Eigen::RowVector2d& point, const Visit& seen) {
+  count = 0;
+  for (Row& row : rows) row.first = std::exchange(count, count + static_cast<int>(row.x.size()));
+  std::vector<Eigen::Triplet<double>> values;
+  const auto add = [&](int v, const Row& row, double weight) {
+    const double x = mesh.vertices(v, 0);
+    if (weight == 0 || x < row.x.front() || x > row.x.back()) return;
+    const auto next = std::clamp<std::ptrdiff_t>(std::upper_bound(row.x.begin(), row.x.end(), x) - row.x.begin(), 1,
+                                                 static_cast<std::ptrdiff_t>(row.x.size()) - 1);
+    const double s = (x - row.x[next - 1]) / (row.x[next] - row.x[next - 1]);
+    if (s < 1) values.emplace_back(v, row.first + static_cast<int>(next) - 1, weight * (1 - s));
+    if (s > 0) values.emplace_back(v, row.first + static_cast<int>(next), weight * s);
+  };
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (!in_body[v]) continue;
+    const double y = std::max(mesh.vertices(v, 1), 0.0);
+    if (y == 0 || rows.size() == 1) {
+      if (y == 0) add(v, rows[0], 1);
+      continue;
+    }
     std::size_t above = 1;
-    while (above + 1 < rows_.size() && rows_[above].y < point(1)) ++above;
-    if (above >= rows_.size()) {
-      if (point(1) <= 0) visit_row(rows_[0], point(0), 1, seen);
-      return;
-    }
-    const double low = rows_[above - 1].y, high = rows_[above].y;
-    const double t = std::clamp((point(1) - low) / (high - low), 0.0, 1.0);
-    visit_row(rows_[above - 1], point(0), 1 - t, seen);
-    visit_row(rows_[above], point(0), t, seen);
+    while (above + 1 < rows.size() && rows[above].y < y) ++above;
+    const double low = rows[above - 1].y, t = (y - low) / (rows[above].y - low);
+    add(v, rows[above - 1], 1 - t);
+    add(v, rows[above], t);
   }
-  template <class Visit>
-  static void visit_row(Row& row, double x, double scale, const Visit& seen) {
-    if (x < row.x.front() || x > row.x.back()) return;
-    const auto right = std::clamp<std::ptrdiff_t>(std::upper_bound(row.x.begin(), row.x.end(), x) - row.x.begin(), 1,
-                                                  static_cast<std::ptrdiff_t>(row.x.size()) - 1);
-    const double s = (x - row.x[right - 1]) / (row.x[right] - row.x[right - 1]);
-    seen(row.unknown[right - 1], scale * (1 - s));
-    seen(row.unknown[right], scale * s);
-  }
-
-  std::vector<Row> rows_;
-  int count_ = 0;
-};
-
-/// A symmetric matrix as it is summed up: few entries per row, those on and below the diagonal.
-class Sum {
- public:
-  explicit Sum(int size) : rows_(size) {}
-  void add(int i, int j, double value) {
-    auto& row = rows_[std::max(i, j)];
-    const int column = std::min(i, j);
-    for (auto& entry : row)
-      if (entry.first == column) return void(entry.second += value);
-    row.emplace_back(column, value);
-  }
-  SparseMatrix matrix() const {
-    std::vector<Eigen::Triplet<double>> all;
-    for (int i = 0; i < static_cast<int>(rows_.size()); ++i)
-      for (const auto& [j, value] : rows_[i]) {
-        all.emplace_back(i, j, value);
-        if (j != i) all.emplace_back(j, i, value);
-      }
-    const auto size = static_cast<Eigen::Index>(rows_.size());
-    SparseMatrix matrix(size, size);
-    matrix.setFromTriplets(all.begin(), all.end());
-    return matrix;
-  }
-
- private:
-  std::vector<std::vector<std::pair<int, double>>> rows_;
-};
-
-/// Of u_h, in the body and in the layer, and of what W can do with it.
-struct Reduced {
-  Eigen::VectorXd force;    ///< L(w) - a+(u_h, w)
-  double layer_energy = 0;  ///< of u_h
-};
-
-/// int f times the hat function of each vertex, from the load on the unknowns of a conforming space.
-Eigen::VectorXd load_on_vertices(const Space& space, const Eigen::VectorXd& load) {
-  const Eigen::MatrixX3d nodes = space.element().nodes();
-  Eigen::VectorXd at_vertices = Eigen::VectorXd::Zero(space.mesh().vertex_count());
-  std::vector<char> seen(space.size(), 0);
-  for (Eigen::Index t = 0; t < space.unknowns().rows(); ++t)
-    for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
-      const int unknown = space.unknowns()(t, i);
-      if (std::exchange(seen[unknown], 1) != 0) continue;
-      for (int k = 0; k < 3; ++k) at_vertices(space.mesh().triangles(t, k)) += nodes(i, k) * load(unknown);
-    }
-  return at_vertices;
+  return values;
 }
 
-Reduced reduce(const Scene& scene, const Space& space, const VariationalInequality& problem, const Solution& solution,
-               Hats& hats, Sum& a1) {
+/// Of u_h: what the layer's part of J is, and at the vertices of `fine` L(phi) - a+(u_h, phi).
+struct Known {
+  double layer_energy;
+  Eigen::VectorXd force;
+};
+
+Known known(const Scene& scene, const Space& space, const Space& fine, const VariationalInequality& problem,
+            const Solution& solution) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const auto* thin = std::get_if<ThinLayer>(&scene.layer());
   const Stiffness layer = thin != nullptr ? Stiffness{1 / thin->epsilon, 1 / thin->epsilon} : Stiffness{1, 0};
-  const Quadrature& rule = strain_rule(element);
+  // P2's gradient is affine: its mean over each of the four triangles of refined() is its value at the centroid, and
+  // the centroids of the three at the corners are a rule that is exact for its square
+  const int children = element.degree() == 2 ? 4 : 1;
   std::vector<Eigen::MatrixX3d> derivative;
-  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) derivative.push_back(element.derivative(rule.points.row(q)));
-
-  Reduced reduced;
-  reduced.force = Eigen::VectorXd::Zero(hats.count());
-  const Eigen::VectorXd load = load_on_vertices(space, problem.load);
-  std::vector<Weights> weights(mesh.vertex_count());
-  std::vector<char> known(mesh.vertex_count(), 0);
+  for (int k = 0; k < children; ++k) {
+    Eigen::Vector3d at = Eigen::Vector3d::Constant(k + 1 < children ? 1.0 / 6 : 1.0 / 3);
+    if (k + 1 < children) at(k) = 2.0 / 3;
+    derivative.push_back(element.derivative(at));
+  }
+  Known found{problem.compliance * solution.p.cwiseAbs2().dot(problem.m) / 2,
+              children == 1 ? problem.load : load_vector(fine, scene.body().load)};
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     const Eigen::VectorXd u = solution.u(space.unknowns().row(t));
-    const double area = mesh.area(t);
-    Eigen::Vector2d mean = Eigen::Vector2d::Zero();  // of grad u_h
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::Vector2d gradient = lambda.transpose() * (derivative[q].transpose() * u);
-      mean += rule.weights(q) * gradient;
-      if (mesh.region[t] == Region::layer)
-        reduced.layer_energy +=
-            rule.weights(q) * area / 2 * (layer.x * gradient(0) * gradient(0) + layer.y * gradient(1) * gradient(1));
-    }
-    if (mesh.region[t] == Region::layer) continue;
-    std::array<std::pair<int, Eigen::Vector2d>, 12> hat;  // the hats that are not 0 here, and their gradients
-    std::size_t count = 0;
-    for (int k = 0; k < 3; ++k) {
-      const int v = mesh.triangles(t, k);
-      if (std::exchange(known[v], 1) == 0) {
-        weights[v] = hats.at(mesh.vertices.row(v));
-        for (const auto& [unknown, weight] : weights[v])
-          if (unknown >= 0) reduced.force(unknown) += weight * load(v);
+    for (int k = 0; k < children; ++k) {
+      const Eigen::Vector2d gradient = lambda.transpose() * (derivative[k].transpose() * u);
+      if (mesh.region[t] == Region::layer) {
+        if (k < 3)
+          found.layer_energy += mesh.area(t) / std::min(children, 3) / 2 *
+                                (layer.x * gradient(0) * gradient(0) + layer.y * gradient(1) * gradient(1));
+        continue;
       }
-      for (const auto& [unknown, weight] : weights[v]) {
-        if (unknown < 0 || weight == 0) continue;
-        std::size_t at = 0;
-        while (at < count && hat[at].first != unknown) ++at;
-        if (at == count) hat[count++] = {unknown, Eigen::Vector2d::Zero()};
-        hat[at].second += weight * lambda.row(k).transpose();
-      }
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      reduced.force(hat[i].first) -= area * mean.dot(hat[i].second);
-      for (std::size_t j = 0; j <= i; ++j) a1.add(hat[i].first, hat[j].first, area * hat[i].second.dot(hat[j].second));
+      const int child = children * t + k;
+      const Eigen::Vector3d work = fine.mesh().area(child) * (barycentric_gradients(fine.mesh(), child) * gradient);
+      for (int i = 0; i < 3; ++i) found.force(fine.mesh().triangles(child, i)) -= work(i);
     }
   }
-  reduced.layer_energy += problem.compliance * solution.p.cwiseAbs2().dot(problem.m) / 2;
-  return reduced;
+  return found;
 }
 
-double at_rest(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p) {
-  return u.dot(problem.a1 * u) / 2 + problem.compliance * p.cwiseAbs2().dot(problem.m) / 2 - problem.load.dot(u);
+/// The law of bending: one wave over the length of Sigma moves the layer and the body, at the price `soft`, and the
+/// interpolant of that wave has slopes in y, which cost x times that. The share that is lost is then x / (1 + x).
+double by_bending(const Scene& scene, const Space& space) {
+  const bool thin = std::holds_alternative<ThinLayer>(scene.layer());
+  const double epsilon = *scene.epsilon(), length = sigma_line(space.mesh()).length, c = 2 * std::numbers::pi / length;
+  const Eigen::VectorXd wave = (c * space.points().col(0)).array().sin();
+  const double soft = (c * c + c) * length / 2, slopes = wave.dot(gradient_form(space, {0, 0}, {0, 1}) * wave);
+  return slopes / (slopes + soft * (thin ? epsilon : epsilon * epsilon));
 }
 
 }  // namespace
 
-double LostEnergy::share() const {
+std::optional<double> LostEnergy::share() const {
   constexpr double negligible = 1e-8;  // the square of what the solvers leave of u, 1e-10 by default, with room
   if (!(motion > negligible * scale)) return 0;
+  if (lost < -telling * motion) return {};
   return std::clamp(lost / motion, 0.0, 1.0);
 }
 
 LostEnergy lost_energy(const Scene& scene, const Space& space, const VariationalInequality& problem,
                        const Solution& solution) {
-  const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const auto epsilon = scene.epsilon();
   if (!epsilon || !(scene.layer_depth() > 0) || !element.conforming() || element.degree() > 2)
     throw Error("lost energy: accepted: P1 or P2 on a mesh with a layer");
+  const int corners = space.mesh().vertex_count();
+  std::optional<TriangleMesh> cut;
+  std::optional<Space> linear;
+  if (element.degree() == 2) linear.emplace(cut.emplace(refined(space.mesh())), p1());
+  const Space& fine = linear ? *linear : space;  // its vertices are the unknowns of u_h, in their order
+  const TriangleMesh& mesh = fine.mesh();
   const Line sigma = sigma_line(mesh);
-  std::vector<char> in_body(mesh.vertex_count(), 0), held(mesh.vertex_count(), 0);
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == Region::body)
-      for (int i = 0; i < 3; ++i) in_body[mesh.triangles(t, i)] = 1;
-  for (const int i : problem.fixed)
-    if (i < mesh.vertex_count()) held[i] = 1;  // unknowns at vertices come first
-  Hats hats(mesh, sigma, in_body, held);
-  // the layer: rows 1 to `rows` of columns below the free vertices of Sigma
   const auto points = static_cast<int>(sigma.x.size());
-  double length = 0;
-  for (const auto& [left, right] : sigma.edge) length += sigma.x[right] - sigma.x[left];
-  const double cells = *epsilon * static_cast<double>(sigma.edge.size()) / length;  // epsilon / h
-  const int rows = std::clamp(static_cast<int>(std::ceil(cells - 1e-9)), 1, 8);
-  const double height = 1.0 / rows;
-  std::vector<int> free(points, -1);  // the free vertices of Sigma
-  int columns = 0;
-  for (int i = 0; i < points; ++i)
-    if (held[sigma.vertex[i]] == 0) free[i] = columns++;
-  const auto unknown = [&](int i, int row) {
-    if (free[i] < 0) return -1;
-    return row == 0 ? hats.sigma().unknown[i] : hats.count() + (row - 1) * columns + free[i];
-  };
 
-  VariationalInequality strip;
-  const int size = hats.count() + rows * columns;
-  Sum a1(size);
-  // a hat may reach no vertex of the body, or no more than its neighbours do: a little energy more makes it unique, and
-  // v no better than it is
-  for (int i = 0; i < hats.count(); ++i) a1.add(i, i, 1e-10);
-  const Reduced reduced = reduce(scene, space, problem, solution, hats, a1);
-  std::vector<Eigen::Triplet<double>> b;
-  strip.load = Eigen::VectorXd::Zero(size);
-  strip.load.head(hats.count()) = reduced.force;
-  Eigen::VectorXd width = Eigen::VectorXd::Zero(points);
+  // the unknowns: W, and rows 1 to `rows` of columns below Sigma; all are differences to u_h, on Sigma and constant in y
+  constexpr int most_rows = 8;  // k = 1/8: what a wave over the depth loses by it, (pi / 8)^2 / 12, is 1.3 %
+  const auto layer = std::count(space.mesh().region.begin(), space.mesh().region.end(), Region::layer);
+  const auto edges = std::count(space.mesh().edge_tag.begin(), space.mesh().edge_tag.end(), EdgeTag::sigma);
+  // as many as make square cells in the layer of thickness epsilon, but no more than the mesh has: a coarse layer is no
+  // locked one
+  const int rows = std::clamp(static_cast<int>(std::ceil(*epsilon * double(edges) / sigma.length - 1e-9)), 1,
+                              std::clamp(static_cast<int>(layer / (2 * edges)), 1, most_rows));
+  const double height = 1.0 / rows;
+  int hat_count = 0;
+  const auto values = hats(mesh, sigma, hat_count);
+  const int size = hat_count + rows * points;
+  const auto unknown = [&](int i, int row) { return row == 0 ? i : hat_count + (row - 1) * points + i; };
   const auto base = [&](int i) { return solution.u(sigma.vertex[i]); };
-  std::vector<double> bubble(sigma.edge.size(), 0);
+  std::vector<char> held(mesh.vertex_count(), 0), fixed(size, 0);
+  for (const int v : problem.fixed) held[v] = 1;
+  for (const auto& entry : values)  // a hat that is not 0 where v is prescribed is left out
+    if (held[entry.row()] && entry.value() > 1e-12) fixed[entry.col()] = 1;
+  for (int i = 0; i < points; ++i)
+    for (int row = 0; row <= rows && held[sigma.vertex[i]]; ++row) fixed[unknown(i, row)] = 1;
+
+  const Known of_u = known(scene, space, fine, problem, solution);
+  VariationalInequality strip;
+  SparseMatrix w(mesh.vertex_count(), size), differences(size, size);
+  w.setFromTriplets(values.begin(), values.end());
+  strip.load = w.transpose() * of_u.force;
+  std::vector<Eigen::Triplet<double>> a1, b;
+  // hats may reach no vertex, or be dependent at the few that they reach: a little energy more makes w unique, and v no
+  // better than it is
+  for (int i = 0; i < hat_count; ++i) a1.emplace_back(i, i, 1e-10);
+  std::vector<Chord> chords;
+  Eigen::VectorXd width = Eigen::VectorXd::Zero(points);
   double base_energy = 0;  // of the layer that is constant in y, with the values of u_h on Sigma
-  for (std::size_t e = 0; e < sigma.edge.size(); ++e) {
-    const auto [i, j] = sigma.edge[e];
+  for (const auto& [i, j] : sigma.edge) {
     const double dx = sigma.x[j] - sigma.x[i], jump = base(j) - base(i);
+    double bubble = 0;
+    if (const int middle = std::max(sigma.vertex[i], sigma.vertex[j]) - corners; middle >= 0) {
+      const auto ends = space.mesh().edges.row(middle);
+      bubble = (solution.u(corners + middle) - (solution.u(ends(0)) + solution.u(ends(1))) / 2) / 4;
+    }
     width(i) += dx / 2, width(j) += dx / 2;
-    if (element.degree() == 2)
-      bubble[e] = solution.u(mesh.vertex_count() + sigma.mesh_edge[e]) - (base(i) + base(j)) / 2;
-    base_energy += (jump * jump + 16.0 / 3 * bubble[e] * bubble[e]) / dx / 2;
+    base_energy += (jump * jump + 16.0 / 3 * bubble * bubble) / dx / 2;
     for (int row = 0; row <= rows; ++row) {
       const double weight = (row == 0 || row == rows ? 0.5 : 1.0) * height / dx;
       const int p = unknown(i, row), q = unknown(j, row);
-      if (p >= 0) a1.add(p, p, weight), strip.load(p) += weight * jump;
-      if (q >= 0) a1.add(q, q, weight), strip.load(q) -= weight * jump;
-      if (p >= 0 && q >= 0) a1.add(p, q, -weight);
+      a1.insert(a1.end(), {{p, p, weight}, {q, q, weight}, {p, q, -weight}, {q, p, -weight}});
+      strip.load(p) += weight * jump, strip.load(q) -= weight * jump;
     }
+    const auto place = [&, &i = i, &j = j](int end) { return held[sigma.vertex[end]] ? -1 : end; };
+    chords.push_back({{place(i), place(j)}, {sigma.x[i], sigma.x[j]}, {base(i), base(j)}, bubble});
   }
-  strip.m.resize(static_cast<Eigen::Index>(columns) * rows);
-  for (int i = 0; i < points; ++i) {
-    if (free[i] < 0) continue;
+  strip.m.resize(static_cast<Eigen::Index>(points) * rows);
+  for (int i = 0; i < points; ++i)
     for (int row = 0; row < rows; ++row) {
-      const int segment = row * columns + free[i];
+      const int segment = row * points + i;
       b.emplace_back(segment, unknown(i, row), 1 / height);
       b.emplace_back(segment, unknown(i, row + 1), -1 / height);
       strip.m(segment) = width(i) * height;
     }
-  }
-  strip.a1 = a1.matrix();
+  differences.setFromTriplets(a1.begin(), a1.end());
+  const SparseMatrix body = gradient_form(fine, {1, 1}, {0, 0}) * w;
+  strip.a1 = SparseMatrix(w.transpose() * body) + differences;
   strip.b.resize(strip.m.size(), size);
   strip.b.setFromTriplets(b.begin(), b.end());
   strip.compliance = *epsilon * *epsilon;
+  VariationalInequality still = strip;  // for v_0: the layer at 0, the body as W makes it best
+  still.b.resize(0, size), still.m.resize(0);
+  std::vector<double> at_zero;
+  for (int i = 0; i < size; ++i) {
+    const bool in_layer = i < points || i >= hat_count;
+    if (fixed[i]) strip.fixed.push_back(i);
+    if (!fixed[i] && !in_layer) continue;
+    still.fixed.push_back(i);
+    at_zero.push_back(in_layer ? -base(i < points ? i : (i - hat_count) % points) : 0);
+  }
+  strip.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strip.fixed.size()));
+  still.fixed_values = Eigen::Map<const Eigen::VectorXd>(at_zero.data(), static_cast<Eigen::Index>(at_zero.size()));
   if (scene.contact()) {
-    std::vector<Chord> chords;
-    for (std::size_t e = 0; e < sigma.edge.size(); ++e) {
-      const auto [i, j] = sigma.edge[e];
-      chords.push_back({{free[i], free[j]}, {sigma.x[i], sigma.x[j]}, {0, 0}, bubble[e]});
-    }
-    strip.lower = admissible_bounds(*scene.contact(), chords, columns);
+    const Eigen::VectorXd lower = admissible_bounds(*scene.contact(), chords, points);
+    std::vector<double> bounds;
     for (int i = 0; i < points; ++i)
-      if (free[i] >= 0) strip.contact.push_back(unknown(i, rows)), strip.lower(free[i]) -= base(i);
+      if (!held[sigma.vertex[i]]) strip.contact.push_back(unknown(i, rows)), bounds.push_back(lower(i) - base(i));
+    strip.lower = Eigen::Map<const Eigen::VectorXd>(bounds.data(), static_cast<Eigen::Index>(bounds.size()));
   }
 
-  LostEnergy energy;
-  energy.unknowns = size;
-  if (columns == 0) return energy;
+  LostEnergy found;
+  found.unknowns = strip.free_count();
+  found.scale = std::abs(energy(problem, solution));
+  if (found.unknowns == 0) return found;
   const Solution moved = active_set(strip);
-  const double j_moved = base_energy + at_rest(strip, moved.u, moved.p);
-
-  // v_0: the layer at 0, the body as W makes it best
-  VariationalInequality clamped = strip;
-  clamped.contact.clear(), clamped.lower.resize(0);
-  clamped.b.resize(0, size), clamped.m.resize(0);
-  std::vector<double> values;
-  for (int i = 0; i < points; ++i)
-    if (free[i] >= 0) clamped.fixed.push_back(unknown(i, 0)), values.push_back(-base(i));
-  for (int row = 1; row <= rows; ++row)
-    for (int i = 0; i < points; ++i)
-      if (free[i] >= 0) clamped.fixed.push_back(unknown(i, row)), values.push_back(-base(i));
-  clamped.fixed_values = Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  Eigen::VectorXd still = Eigen::VectorXd::Zero(size);
-  if (clamped.free_count() > 0)
-    still = active_set(clamped).u;
-  else
-    still(clamped.fixed) = clamped.fixed_values;
-  const double j_still = base_energy + at_rest(clamped, still, Eigen::VectorXd::Zero(0));
-
-  const Eigen::VectorXd way = moved.u - still;
-  energy.lost = reduced.layer_energy - j_moved;
-  energy.motion = std::max(j_still - j_moved,
-                           way.dot(strip.a1 * way) / 2 + strip.compliance * moved.p.cwiseAbs2().dot(strip.m) / 2);
-  energy.scale = std::abs(antilock::energy(problem, solution));
-  return energy;
+  Solution rest;
+  rest.u = Eigen::VectorXd::Zero(size), rest.p = Eigen::VectorXd::Zero(0);
+  rest.u(still.fixed) = still.fixed_values;
+  if (still.free_count() > 0) rest = active_set(still);
+  const double j = energy(strip, moved);
+  const Eigen::VectorXd way = moved.u - rest.u;
+  found.lost = of_u.layer_energy - base_energy - j;
+  found.motion = std::max(energy(still, rest) - j,
+                          way.dot(strip.a1 * way) / 2 + strip.compliance * moved.p.cwiseAbs2().dot(strip.m) / 2);
+  return found;
 }
 
 std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, const VariationalInequality& problem,
                                         const Solution& solution) {
-  constexpr double telling = 0.05;  // v is within a few per cent of the best: whoever has lost 10 % is told so
   const Element& element = space.element();
   const TriangleMesh& mesh = space.mesh();
   if (!scene.epsilon()) return std::nullopt;
@@ -396,16 +321,18 @@ std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, 
     report.diagnosis += std::string("; what it costs is not known: ") + error.what();
     return report;
   }
-  if (*report.lost < telling) {
+  const double share = report.lost ? *report.lost : by_bending(scene, space);
+  if (share < telling) {
     report.diagnosis +=
         fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy", *scene.epsilon(), 100 * telling);
     return report;
   }
   report.diagnosis += fmt::format("; at epsilon = {:g} it locks", *scene.epsilon());
   report.warning = fmt::format(
-      "{} locks in this layer: it loses at least {:.0f} % of the energy that the layer's motion releases (proved); "
+      "{} locks in this layer: it loses {} {:.0f} % of the energy that the layer's motion releases ({}); "
       "remedy: element = \"CR\", or a layer in columns (kind = \"layered\")",
-      element.name(), std::floor(100 * *report.lost));
+      element.name(), report.lost ? "at least" : "about", std::floor(100 * share),
+      report.lost ? "proved" : "by the law of bending");
   return report;
 }
 

@@ -19,8 +19,9 @@ struct LostEnergy {
 
   double scale = 0;  ///< |J(u_h)|
 
-  /// The share that is lost, 0 to 1; 0 where the motion is worth less than 1e-8 of J(u_h).
-  double share() const;
+  /// The share that is lost, 0 to 1; 0 where the motion is worth less than 1e-8 of J(u_h). Empty where v has so
+  /// much more energy than u_h that it tells nothing: by a twentieth of the motion.
+  std::optional<double> share() const;
 };
 
 /// For P1 or P2 on a mesh with a layer, of (23) or (22); derivation in lost_energy.cpp. Costs a small part of the solve.
@@ -32,7 +33,9 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
 struct LayerReport {
   std::string diagnosis;       ///< one line: whether the method follows the layer as epsilon -> 0, and why
   std::optional<double> lost;  ///< LostEnergy::share(), where the method can lock
-  std::string warning;         ///< empty, or one sentence with the word "locks", the share and the remedies
+  std::string
+      warning;  ///< empty, or one sentence with the word "locks", the share, how it is known (proved; by a law where
+                ///< `lost` is empty) and the remedies
 };
 /// Empty for a scene without a layer. The number is made for P1 and P2 alone, and on layers in columns for none:
 /// what can be told from the mesh costs nothing.

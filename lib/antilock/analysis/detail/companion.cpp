@@ -112,33 +112,35 @@ bool same_layer(const TriangleMesh& mesh, const TriangleMesh& columns) {
 Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const std::vector<Chord>& chords, int count) {
   constexpr int samples = 32;
   Eigen::VectorXd lower = Eigen::VectorXd::Constant(count, -std::numeric_limits<double>::infinity());
-  Eigen::VectorXd raise = Eigen::VectorXd::Zero(count),
-                  beside = lower;  // beside a clamped end one vertex lifts v alone
   for (const Chord& chord : chords) {
-    const auto gap_at = [&](double theta) {
-      const double x = (1 - theta) * chord.x[0] + theta * chord.x[1], gap = contact.gap(x);
+    std::array<double, samples + 1> obstacle;
+    for (int k = 0; k <= samples; ++k) {
+      const double s = static_cast<double>(k) / samples;
+      const double x = (1 - s) * chord.x[0] + s * chord.x[1], gap = contact.gap(x);
       if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
-      return gap;
-    };
-    const std::array<double, 2> gap_of{gap_at(0), gap_at(1)};
-    for (int end = 0; end < 2; ++end)
-      if (chord.place[end] >= 0) lower(chord.place[end]) = -gap_of[end];
-    for (int k = 1; k < samples; ++k) {
-      const double theta = static_cast<double>(k) / samples;
-      const double gap = gap_at(theta) + 4 * theta * (1 - theta) * chord.bubble;
-      const double overshoot = (1 - theta) * gap_of[0] + theta * gap_of[1] - gap;
-      for (int end = 0; end < 2; ++end) {
-        const int here = chord.place[end], other = chord.place[1 - end];
-        if (here < 0) continue;
-        const double weight = end == 0 ? 1 - theta : theta;  // of this end's value at the sample
-        if (other >= 0)
-          raise(here) = std::max(raise(here), overshoot);
-        else
-          beside(here) = std::max(beside(here), (-gap - (1 - weight) * chord.held[1 - end]) / weight);
-      }
+      obstacle[k] = -gap - 4 * s * (1 - s) * chord.bubble;
     }
+    double raise = 0, most = obstacle[0];
+    std::array<double, 2> beside{obstacle[0], obstacle[samples]};  // where the other end cannot help
+    for (int k = 0; k <= samples; ++k) {
+      const double s = static_cast<double>(k) / samples;
+      raise = std::max(raise, obstacle[k] - (1 - s) * obstacle[0] - s * obstacle[samples]);
+      most = std::max(most, obstacle[k]);
+      if (k < samples) beside[0] = std::max(beside[0], (obstacle[k] - s * chord.near[1]) / (1 - s));
+      if (k > 0) beside[1] = std::max(beside[1], (obstacle[k] - (1 - s) * chord.near[0]) / s);
+    }
+    const std::array<double, 2> smooth{obstacle[0] + raise, obstacle[samples] + raise}, level{most, most};
+    const auto lifts = [&](const std::array<double, 2>& bound) {  // how far v is lifted, and the bounds themselves
+      const double left = std::max(bound[0] - chord.near[0], 0.0), right = std::max(bound[1] - chord.near[1], 0.0);
+      return std::pair(left * left + right * right, bound[0] + bound[1]);
+    };
+    const bool alone = chord.place[0] < 0 || chord.place[1] < 0;
+    const std::array<double, 2>& bound = alone ? beside : lifts(level) < lifts(smooth) ? level : smooth;
+    for (int end = 0; end < 2; ++end)
+      if (double* const here = chord.place[end] < 0 ? nullptr : &lower(chord.place[end]); here != nullptr)
+        *here = std::max(*here, bound[end]);
   }
-  return (lower + raise).cwiseMax(beside);
+  return lower;
 }
 
 Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& prescribed) {

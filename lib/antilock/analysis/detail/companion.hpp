@@ -20,15 +20,16 @@ struct Companion {
 };
 
 /// Bounds for the contact unknowns of a P1 space under which v >= -gap on the whole of Gamma_C, not at the vertices
-/// alone: -gap, raised by what the chord of the gap overshoots on both sides; the gap is sampled at 32 points per edge.
-/// `prescribed`: v at the clamped ends (empty: 0).
+/// alone. Per edge the one of two that is nearer to v: -gap at the ends, raised by what its chord leaves out, which is
+/// right where the gap is smooth; or the largest -gap at both ends, which is right where it has a step or a kink. The gap
+/// is sampled at 33 points per edge. `prescribed`: v at the clamped ends, and near it elsewhere (empty: 0).
 Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& prescribed = {});
 
 /// A piece of Gamma_C on which v is affine, but for a bubble.
 struct Chord {
   std::array<int, 2> place;    ///< of its two ends among the bounds; -1: v is prescribed there
   std::array<double, 2> x;     ///< of its two ends
-  std::array<double, 2> held;  ///< v at an end whose place is -1
+  std::array<double, 2> near;  ///< a value near v at the ends; v itself at one whose place is -1
   double bubble = 0;           ///< v has 4 s (1 - s) times it in addition, s from 0 to 1 along the chord
 };
 /// The same for `count` values of v on chords.
