@@ -159,7 +159,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   const double before = watch.lap();
 
   dist::NestedReport solved;
-  std::unique_ptr<dist::Level> level;
+  std::unique_ptr<dist::NestedLevel> level;
   const auto forget = [&] {
     if (std::error_code ignored; dist::rank() == 0) std::filesystem::remove(kept, ignored);
   };

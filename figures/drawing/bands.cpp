@@ -28,7 +28,7 @@ constexpr int rendered_rows = band_height + 2 * margin;
 class Sheet : public vtkContextItem {
  public:
   static Sheet* New();
-  vtkTypeMacro(Sheet, vtkContextItem) const std::vector<Piece>* pieces = nullptr;
+  vtkTypeMacro(Sheet, vtkContextItem) const std::vector<Painting>* pieces = nullptr;
   int height = 0, from = 0;
   bool Paint(vtkContext2D* painter) override {
     // A vtkContext2D puts 0.5 and n - 0.5 on the borders of a window of n pixels: here, on those of the whole page.
@@ -39,7 +39,7 @@ class Sheet : public vtkContextItem {
     onto_rows->Scale(1, scale);
     painter->PushMatrix();
     painter->AppendTransform(onto_rows);
-    for (const Piece& piece : *pieces)
+    for (const Painting& piece : *pieces)
       if (piece.high >= from - 1 && piece.low <= from + rendered_rows + 1) piece.paint(*painter);
     painter->PopMatrix();
     return true;
@@ -51,7 +51,7 @@ vtkStandardNewMacro(Sheet);
 /// shows what the whole page would.
 class SceneInBands {
  public:
-  SceneInBands(const Scene& scene, int width)
+  SceneInBands(const Drawing3d& scene, int width)
       : renderer_(scene.renderer),
         scale_(scene.renderer->GetActiveCamera()->GetParallelScale()),
         left_(scene.where.x / width),
@@ -94,7 +94,7 @@ void average(const unsigned char* large, vtkImageData& image, int from, int to) 
 
 }  // namespace
 
-vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Scene>& scenes, const std::vector<Piece>& pieces,
+vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Drawing3d>& scenes, const std::vector<Painting>& pieces,
                                               int width, int height) {
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
@@ -107,7 +107,7 @@ vtkSmartPointer<vtkImageData> render_in_bands(const std::vector<Scene>& scenes, 
   paper->InteractiveOff();
   window->AddRenderer(paper);
   std::vector<SceneInBands> shown;
-  for (const Scene& scene : scenes) {
+  for (const Drawing3d& scene : scenes) {
     scene.renderer->SetBackground(1, 1, 1);
     window->AddRenderer(scene.renderer);
     shown.emplace_back(scene, width);

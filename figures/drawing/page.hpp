@@ -64,8 +64,8 @@ class Page {
   };
   std::vector<LaidText> laid_texts() const;
   int height_;
-  std::vector<Scene> scenes_;
-  std::vector<Piece> pieces_;  // in the order in which they are painted
+  std::vector<Drawing3d> scenes_;
+  std::vector<Painting> pieces_;  // in the order in which they are painted
   std::vector<Text> texts_;
   Typesetter typesetter_;
 };

@@ -64,7 +64,7 @@ TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {
   int triangles = 0;
   std::set<std::array<double, 2>> places;
   for (int r = 0; r < 3; ++r) {
-    const Piece piece = refined(refined(piece_of(coarse, rank_of, r, 3)));
+    const MeshPart piece = refined(refined(piece_of(coarse, rank_of, r, 3)));
     const TriangleMesh& mesh = piece.mesh;
     triangles += mesh.triangle_count();
     for (int v = 0; v < mesh.vertex_count(); ++v) places.insert({mesh.vertices(v, 0), mesh.vertices(v, 1)});
@@ -93,7 +93,7 @@ TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {
 
 TEST(Numbers, OneForEveryVertexAndEdgeOfTheWholeMesh) {
   const TriangleMesh coarse = layered_mesh(8), whole = antilock::refined(coarse);
-  const Piece piece = refined(piece_of(coarse, strips(coarse, ranks()), rank(), ranks()));
+  const MeshPart piece = refined(piece_of(coarse, strips(coarse, ranks()), rank(), ranks()));
   EXPECT_EQ(numbers(piece, true).total, whole.vertex_count());
   EXPECT_EQ(numbers(piece, false).total, whole.edge_count());
   const Numbers vertices = numbers(piece, true);
@@ -212,7 +212,7 @@ TEST(Snesvi, LosesTheSummedMatrixAndSolvesTheSplitForm) {
   for (const double epsilon : {1e-2, 1e-6, 0.0}) {
     const Scene question({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
     const Solution serial = active_set(assemble(question, whole));
-    const Piece piece = piece_of(mesh, strips(mesh, ranks()), rank(), ranks());
+    const MeshPart piece = piece_of(mesh, strips(mesh, ranks()), rank(), ranks());
     const Space space(piece.mesh, p1());
     if (epsilon > 0) {
       const SnesviEnd end = snesvi(Inequality(question, piece, space, true));

@@ -85,7 +85,7 @@ Table on_ranks(const std::string& what, const std::vector<int>& ranks, const std
 
 Ended by_snesvi(const Asked& asked) {
   const TriangleMesh mesh = structured_mesh(asked.cells);
-  const distributed::Piece piece =
+  const distributed::MeshPart piece =
       distributed::piece_of(mesh, distributed::strips(mesh, asked.ranks), distributed::rank(), asked.ranks);
   const Space space(piece.mesh, p1());
   const bool summed = asked.what == "SNESVI, summed";

@@ -23,14 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 
 /// J(u) = a(u, u)/2 - L(u), the stiff part as compliance p' M p: a sum over the pieces.
-double energy_of_all(const Level& level) {
+double energy_of_all(const NestedLevel& level) {
   const VariationalInequality& part = level.problem.part();
   const Eigen::VectorXd &u = level.state.u, &p = level.state.p;
   return sum(u.dot(part.a1 * u) / 2 + part.compliance * p.dot(part.m.cwiseProduct(p)) / 2 - part.load.dot(u));
 }
 
 /// Per unknown of the piece: the length of Gamma_C that it stands for, summed over the ranks.
-Eigen::VectorXd contact_lengths_of_all(const Level& level) {
+Eigen::VectorXd contact_lengths_of_all(const NestedLevel& level) {
   const TriangleMesh& mesh = level.piece.mesh;
   const bool at_vertices = level.space.element().per_vertex() > 0;
   Eigen::VectorXd lengths = Eigen::VectorXd::Zero(level.space.size());
@@ -45,7 +45,7 @@ Eigen::VectorXd contact_lengths_of_all(const Level& level) {
 }
 
 /// Per unknown of the piece: the contact pressure, a density; 0 off Gamma_C. Certified: below zero is round-off.
-Eigen::VectorXd pressures(const Level& level) {
+Eigen::VectorXd pressures(const NestedLevel& level) {
   const Rows& rows = level.problem.rows();
   const Eigen::VectorXd lengths = contact_lengths_of_all(level), lambda = contact_forces(level.problem, level.state);
   Eigen::VectorXd mine = Eigen::VectorXd::Zero(level.space.size());
@@ -58,7 +58,7 @@ Eigen::VectorXd pressures(const Level& level) {
 }
 
 /// One row per contact unknown of all ranks, by x: x, gap, pressure.
-Eigen::MatrixX3d contact_table_of_all(const Level& level, const Eigen::VectorXd& pressure) {
+Eigen::MatrixX3d contact_table_of_all(const NestedLevel& level, const Eigen::VectorXd& pressure) {
   const Rows& rows = level.problem.rows();
   std::vector<double> mine;
   for (int place = 0; place < rows.owned(); ++place) {
@@ -77,7 +77,7 @@ Eigen::MatrixX3d contact_table_of_all(const Level& level, const Eigen::VectorXd&
 }
 
 /// Layer stress and pressure as a VTU file takes them: per triangle, and per contact unknown of the piece.
-VtuFields fields_of(const Level& level, const Eigen::VectorXd& pressure, bool contact) {
+VtuFields fields_of(const NestedLevel& level, const Eigen::VectorXd& pressure, bool contact) {
   const TriangleMesh& mesh = level.piece.mesh;
   VtuFields fields{Eigen::VectorXd::Zero(mesh.triangle_count()), {}};
   for (int t = 0, row = 0; t < mesh.triangle_count() && row < level.state.p.size(); ++t)
@@ -103,7 +103,7 @@ void write_pvtu(const fs::path& path, bool contact) {
 }
 
 /// Every number of the summary that all ranks must form together.
-SceneSummary summary_of_all(const SceneFile& file, const Level& level, const NestedReport& report, int levels,
+SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, const NestedReport& report, int levels,
                             const std::optional<LayerReport>& layer, const std::string& warning) {
   SceneSummary s;
   s.layer = layer;
@@ -131,7 +131,7 @@ SceneSummary summary_of_all(const SceneFile& file, const Level& level, const Nes
 }  // namespace
 
 std::optional<LayerReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
-                                               const Level& level) {
+                                               const NestedLevel& level) {
   const Scene& scene = file.scene;
   const bool may_lock = scene.layer_depth() > 0 && level.space.element().conforming() && !in_columns(coarse);
   std::vector<double> values;
@@ -169,9 +169,9 @@ std::vector<std::string> piece_files(const fs::path& folder) {
   return names;
 }
 
-void write_scene_files(const fs::path& folder, const SceneFile& file, const Level& level, const NestedReport& report,
-                       int levels, const std::optional<LayerReport>& layer, const std::string& warning,
-                       const RunSeconds& seconds) {
+void write_scene_files(const fs::path& folder, const SceneFile& file, const NestedLevel& level,
+                       const NestedReport& report, int levels, const std::optional<LayerReport>& layer,
+                       const std::string& warning, const RunSeconds& seconds) {
   const bool contact = file.scene.contact().has_value();
   const bool csv = level.problem.rows().total() <= most_csv_unknowns;
   const SceneSummary summary = summary_of_all(file, level, report, levels, layer, warning);

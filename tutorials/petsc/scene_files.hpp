@@ -13,14 +13,14 @@ namespace antilock::distributed {
 /// The answer of all ranks in one folder, all files or none: summary.json, solution.csv (up to a million unknowns),
 /// contact.csv (with contact), mesh.msh, solution.pvtu with a piece per rank. Columns and keys are those of a run
 /// without MPI. Every rank must call it; throws on every rank alike.
-void write_scene_files(const std::filesystem::path& folder, const SceneFile& file, const Level& level,
+void write_scene_files(const std::filesystem::path& folder, const SceneFile& file, const NestedLevel& level,
                        const NestedReport& report, int levels, const std::optional<LayerReport>& layer,
                        const std::string& warning, const RunSeconds& seconds);
 
 /// What the answer says of its own locking, on rank 0 (empty on the others). `coarse` is the mesh that was refined so many
 /// times; where it can lock, the whole answer is brought together. Every rank must call it.
 std::optional<LayerReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
-                                               const Level& level);
+                                               const NestedLevel& level);
 
 /// solution.pvtu and its pieces: those that write_scene_files writes to the folder and those there that it removes.
 std::vector<std::string> piece_files(const std::filesystem::path& folder);

@@ -68,7 +68,7 @@ TriangleMesh body_of(const TriangleMesh& mesh) {
 }
 
 /// A contact set from one mesh to the next, by x: on the piece of the nearest unknowns on both sides, where they agree.
-class ContactSet {
+class CarriedContact {
  public:
   void keep(const Space& space, const Solution& solution) {
     x_.clear();
@@ -152,7 +152,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   now.mesh = growth == Growth::extrude ? extruded(body, epsilon) : body;
   now.body = std::move(body);
 
-  ContactSet contact_set;
+  CarriedContact contact_set;
   while (true) {
     const Space space(now.mesh, crouzeix_raviart());
     if (space.free_count() > accuracy.most_unknowns) {

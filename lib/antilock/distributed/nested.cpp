@@ -36,13 +36,13 @@ Eigen::Matrix3d corners_of_child(int i) {
 
 }  // namespace
 
-Level::Level(const Scene& scene, Piece piece_in, const Element& element)
+NestedLevel::NestedLevel(const Scene& scene, MeshPart piece_in, const Element& element)
     : piece(std::move(piece_in)),
       space(piece.mesh, element),
       problem(scene, piece, space),
       state(zero_state(problem)) {}
 
-ContactSet Level::contact_set() const {
+ContactSet NestedLevel::contact_set() const {
   std::vector<double> x;
   std::vector<char> active;
   for (int place = 0; place < problem.rows().owned(); ++place) {
@@ -53,13 +53,13 @@ ContactSet Level::contact_set() const {
   return gathered_set(x, active);
 }
 
-void Level::start_from(const ContactSet& set) {
+void NestedLevel::start_from(const ContactSet& set) {
   for (int place = 0; place < problem.rows().owned(); ++place)
     state.active[place] =
         std::isfinite(problem.lower()(place)) && set.at(space.points()(problem.rows().unknown(place), 0)) ? 1 : 0;
 }
 
-void Level::start_from(const Level& coarse) {
+void NestedLevel::start_from(const NestedLevel& coarse) {
   const Element& element = space.element();
   std::array<Eigen::Matrix3d, 4> values;  // the father's basis at the unknowns of child i
   for (int i = 0; i < 4; ++i) {
@@ -79,18 +79,18 @@ void Level::start_from(const Level& coarse) {
 namespace {
 
 /// The finer piece on every rank, or an Error on every rank.
-Piece refined_together(const Piece& piece) {
-  Piece finer;
+MeshPart refined_together(const MeshPart& piece) {
+  MeshPart finer;
   together([&] { finer = refined(piece); });
   return finer;
 }
 
 }  // namespace
 
-std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
-                                    const NestedOptions& options, NestedReport& report) {
+std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
+                                          const NestedOptions& options, NestedReport& report) {
   Stopwatch watch;
-  Piece piece;
+  MeshPart piece;
   together([&] {
     check_question(scene, element);
     piece =
@@ -101,13 +101,13 @@ std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coar
   const int first = std::max(0, std::min(options.first_level, options.refinements));
   for (int l = 0; l < first; ++l) piece = refined_together(piece);
   report.mesh += watch.lap();
-  std::unique_ptr<Level> level;
+  std::unique_ptr<NestedLevel> level;
   for (int l = first;; ++l) {
     const bool last = l >= options.refinements;
     options.stage(fmt::format("level {} of {}: {} triangles", l, options.refinements,
                               sum(static_cast<long long>(piece.mesh.triangle_count()))));
     watch.lap();
-    auto finer = std::make_unique<Level>(scene, std::move(piece), element);
+    auto finer = std::make_unique<NestedLevel>(scene, std::move(piece), element);
     if (level) {
       finer->start_from(*level);
       finer->start_from(level->contact_set());

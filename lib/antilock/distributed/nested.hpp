@@ -9,16 +9,16 @@
 namespace antilock::distributed {
 
 /// One mesh of the hierarchy with everything that this rank has on it.
-struct Level {
-  Level(const Scene& scene, Piece piece, const Element& element);
-  Piece piece;
+struct NestedLevel {
+  NestedLevel(const Scene& scene, MeshPart piece, const Element& element);
+  MeshPart piece;
   Space space;
   Inequality problem;
   State state;
   ContactSet contact_set() const;  ///< of all ranks; every rank must call it
   void start_from(const ContactSet& set);
   /// Takes over u and p of the level that this one refines, each on its own triangles.
-  void start_from(const Level& coarse);
+  void start_from(const NestedLevel& coarse);
 };
 
 struct NestedOptions {
@@ -48,7 +48,7 @@ struct NestedReport {
 /// before. No rank ever holds more of the fine mesh than its own strip. Every rank must call it, with the same coarse
 /// mesh. Throws, on every rank alike, Error where the coarse mesh cannot be dealt out or does not fit the scene, where
 /// a load or a gap is not finite or the element is neither P1 nor CR; NotConverged.
-std::unique_ptr<Level> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
-                                    const NestedOptions& options, NestedReport& report);
+std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
+                                          const NestedOptions& options, NestedReport& report);
 
 }  // namespace antilock::distributed

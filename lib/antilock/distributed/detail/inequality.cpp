@@ -33,7 +33,8 @@ long long layer_triangles(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Inequality::Inequality(const Scene& scene, const Piece& piece, const Space& space, bool summed) : rows_(piece, space) {
+Inequality::Inequality(const Scene& scene, const MeshPart& piece, const Space& space, bool summed)
+    : rows_(piece, space) {
   const bool here = layer_triangles(piece.mesh) > 0, somewhere = sum(layer_triangles(piece.mesh)) > 0;
   together(
       [&] {  // a strip without a part of the layer (between the two feet of a body) has the body's part of the forms

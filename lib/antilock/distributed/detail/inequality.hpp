@@ -14,7 +14,7 @@ class Inequality {
  public:
   /// Every rank must call it. Throws Error, on every rank, where scene and mesh do not fit or a load or a gap is not
   /// finite. `summed`: delta is the compliance itself, however small, as in most codes; for exhibits.
-  Inequality(const Scene& scene, const Piece& piece, const Space& space, bool summed = false);
+  Inequality(const Scene& scene, const MeshPart& piece, const Space& space, bool summed = false);
 
   const VariationalInequality& part() const { return part_; }  ///< without fixed and contact unknowns
   const Rows& rows() const { return rows_; }

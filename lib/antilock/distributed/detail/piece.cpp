@@ -24,7 +24,7 @@ std::vector<char> vertices_with(const TriangleMesh& mesh, EdgeTag tag) {
 
 }  // namespace
 
-Piece piece_of(const TriangleMesh& coarse, const std::vector<int>& owner_of, int rank, int ranks) {
+MeshPart piece_of(const TriangleMesh& coarse, const std::vector<int>& owner_of, int rank, int ranks) {
   std::vector<char> vertex_here(coarse.vertex_count(), 0), edge_here(coarse.edge_count(), 0);
   std::vector<std::set<int>> holders(coarse.vertex_count());  // ranks at each vertex
   std::vector<int> triangles;
@@ -37,7 +37,7 @@ Piece piece_of(const TriangleMesh& coarse, const std::vector<int>& owner_of, int
   int vertex_count = 0, edge_count = 0;
   const std::vector<int> vertex = renumbered(vertex_here, vertex_count), edge = renumbered(edge_here, edge_count);
 
-  Piece piece;
+  MeshPart piece;
   TriangleMesh& mesh = piece.mesh;
   mesh.vertices.resize(vertex_count, 2);
   for (int v = 0; v < coarse.vertex_count(); ++v)
@@ -83,14 +83,14 @@ Piece piece_of(const TriangleMesh& coarse, const std::vector<int>& owner_of, int
   return piece;
 }
 
-Piece refined(const Piece& piece) {
+MeshPart refined(const MeshPart& piece) {
   const TriangleMesh& mesh = piece.mesh;
   const int corners = mesh.vertex_count(), edges = mesh.edge_count(), triangles = mesh.triangle_count();
   // the midpoint of edge e becomes vertex corners + e; its halves become edges 2 e (at edges(e, 0)) and 2 e + 1;
   // inside triangle t, the edge that cuts off corner i becomes edge 2 edges + 3 t + i
   const auto half = [&](int e, int vertex) { return mesh.edges(e, 0) == vertex ? 2 * e : 2 * e + 1; };
-  Piece fine{{},           piece.level + 1, piece.corners, {}, piece.corner_count, piece.corner_rows, piece.clamped,
-             piece.contact};
+  MeshPart fine{{},           piece.level + 1, piece.corners, {}, piece.corner_count, piece.corner_rows, piece.clamped,
+                piece.contact};
   TriangleMesh& cut = fine.mesh;
   cut.vertices.resize(corners + edges, 2), cut.vertices.topRows(corners) = mesh.vertices;
   const int edge_count = 2 * edges + 3 * triangles;

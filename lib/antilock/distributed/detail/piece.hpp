@@ -22,7 +22,7 @@ struct Seam {
 
 /// What one rank holds of a mesh: its own triangles, as a mesh whose cut edges are interior, and what it shares.
 /// Nothing here communicates: every rank knows the coarse mesh, and refinement does the same on both sides of a seam.
-struct Piece {
+struct MeshPart {
   TriangleMesh mesh;
   int level = 0;  ///< refinements since the coarse mesh
   std::vector<SharedCorner> corners;
@@ -33,10 +33,10 @@ struct Piece {
 };
 
 /// The piece of `rank`; owner_of holds the rank of every triangle of the coarse mesh.
-Piece piece_of(const TriangleMesh& coarse, const std::vector<int>& owner_of, int rank, int ranks);
+MeshPart piece_of(const TriangleMesh& coarse, const std::vector<int>& owner_of, int rank, int ranks);
 
 /// Every triangle cut into four by its edge midpoints, triangle t into 4 t ... 4 t + 3 (as mesh/refine.hpp does, but
 /// without a search or a check: the numbers of the new edges follow from those of the old).
-Piece refined(const Piece& piece);
+MeshPart refined(const MeshPart& piece);
 
 }  // namespace antilock::distributed

@@ -20,7 +20,7 @@ struct Shared {
 
 /// P1: the corners, then the vertices inside each seam. CR: the edges of each seam. Counted are all of them, or those
 /// alone that have a row (then a clamped corner has position -1).
-std::vector<Shared> shared_unknowns(const Piece& piece, bool at_vertices, bool with_clamped) {
+std::vector<Shared> shared_unknowns(const MeshPart& piece, bool at_vertices, bool with_clamped) {
   const std::vector<int>& corners = with_clamped ? piece.corner_count : piece.corner_rows;
   std::vector<Shared> shared;
   if (at_vertices)
@@ -45,7 +45,7 @@ std::vector<long long> starts(long long owned) {
 
 }  // namespace
 
-Rows::Rows(const Piece& piece, const Space& space) {
+Rows::Rows(const MeshPart& piece, const Space& space) {
   const bool at_vertices = space.element().per_vertex() > 0;
   place_.assign(space.size(), 0);
   on_contact_.assign(space.size(), 0);
@@ -146,7 +146,7 @@ double Rows::largest_at_clamped(Eigen::VectorXd local) const {
   return largest(most);
 }
 
-Numbers numbers(const Piece& piece, bool at_vertices) {
+Numbers numbers(const MeshPart& piece, bool at_vertices) {
   const int count = at_vertices ? piece.mesh.vertex_count() : piece.mesh.edge_count();
   const std::vector<Shared> shared = shared_unknowns(piece, at_vertices, true);
   std::vector<char> taken(count, 0);

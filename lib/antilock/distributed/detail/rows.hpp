@@ -14,7 +14,7 @@ namespace antilock::distributed {
 class Rows {
  public:
   /// P1 or CR. Every rank must call it (the ranks tell each other how many rows they own).
-  Rows(const Piece& piece, const Space& space);
+  Rows(const MeshPart& piece, const Space& space);
 
   int owned() const { return owned_; }                            ///< rows of this rank
   int held() const { return static_cast<int>(unknown_.size()); }  ///< owned ones and ghosts
@@ -56,6 +56,6 @@ struct Numbers {
   long long total = 0;            ///< of all ranks
 };
 /// Every rank must call it.
-Numbers numbers(const Piece& piece, bool at_vertices);
+Numbers numbers(const MeshPart& piece, bool at_vertices);
 
 }  // namespace antilock::distributed

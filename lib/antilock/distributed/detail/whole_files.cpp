@@ -57,7 +57,7 @@ void write_in_turns(const fs::path& path, const std::string& head, const std::fu
     });
 }
 
-void write_solution_csv_together(const fs::path& path, const Piece& piece, const Space& space,
+void write_solution_csv_together(const fs::path& path, const MeshPart& piece, const Space& space,
                                  const Eigen::VectorXd& u) {
   const Numbers all = numbers(piece, space.element().per_vertex() > 0);
   write_in_turns(path, "x,y,u\n", [&](Text& text) {
@@ -65,7 +65,7 @@ void write_solution_csv_together(const fs::path& path, const Piece& piece, const
   });
 }
 
-void write_msh_together(const fs::path& path, const Piece& piece) {
+void write_msh_together(const fs::path& path, const MeshPart& piece) {
   const TriangleMesh& mesh = piece.mesh;
   const Numbers nodes = numbers(piece, true), edges = numbers(piece, false);
   std::vector<int> labelled;  // edges of this rank that carry a group

@@ -22,10 +22,10 @@ void write_folder_together(const std::filesystem::path& folder,
 void write_in_turns(const std::filesystem::path& path, const std::string& head, const std::function<void(Text&)>& part);
 
 /// `x,y,u`, one row per unknown in the order of `numbers`: for P1 that of the nodes of write_msh_together.
-void write_solution_csv_together(const std::filesystem::path& path, const Piece& piece, const Space& space,
+void write_solution_csv_together(const std::filesystem::path& path, const MeshPart& piece, const Space& space,
                                  const Eigen::VectorXd& u);
 
 /// The whole mesh, MSH 2.2 with its physical groups.
-void write_msh_together(const std::filesystem::path& path, const Piece& piece);
+void write_msh_together(const std::filesystem::path& path, const MeshPart& piece);
 
 }  // namespace antilock::distributed

@@ -18,9 +18,9 @@ constexpr int most_sets = 200, most_cg_steps = 1000;
 constexpr double cg_tolerance = 1e-10;  // in the energy norm; round-off of the transforms sits near 1e-11 at n = 2^17
 
 // One grid of n points: D and its inverse act by two sine transforms.
-class Level {
+class Grid {
  public:
-  Level(int n, const VectorXd& stiffness, const VectorXd& load)
+  Grid(int n, const VectorXd& stiffness, const VectorXd& load)
       : stiffness_(stiffness.head(n + 1)), load_(load.head(n + 1)), transform_(n) {
     stiffness_(0) = stiffness_(n) = 1;
     load_(0) = load_(n) = 0;
@@ -49,7 +49,7 @@ class Level {
 };
 
 // D c = q on the points with free = 1, c = 0 on the others: conjugate gradients preconditioned by D^-1.
-VectorXd solve_free(Level& level, const ArrayXd& free, const VectorXd& start) {
+VectorXd solve_free(Grid& level, const ArrayXd& free, const VectorXd& start) {
   const auto masked = [&](const VectorXd& v) -> VectorXd { return (v.array() * free).matrix(); };
   VectorXd c = masked(start);
   VectorXd r = masked(level.load() - level.apply(c));
@@ -77,7 +77,7 @@ VectorXd solve_free(Level& level, const ArrayXd& free, const VectorXd& start) {
 
 // A free point that goes below the obstacle joins the contact, a contact point that is pulled leaves it.
 // What counts as below and pulled leaves room for round-off: D amplifies that of c by its largest entry.
-ContactLine settle(Level& level, ArrayXd free, VectorXd c) {
+ContactLine settle(Grid& level, ArrayXd free, VectorXd c) {
   for (int sets = 0; sets < most_sets; ++sets) {
     c = solve_free(level, free, c);
     const VectorXd lambda = (level.apply(c) - level.load()).cwiseProduct((1 - free).matrix());
@@ -95,7 +95,7 @@ ContactLine settle(Level& level, ArrayXd free, VectorXd c) {
 }
 
 // A fine point starts in contact where its coarse neighbours are; the displacement is carried over as a sine series.
-void refine(Level& coarse, ArrayXd& free, VectorXd& c) {
+void refine(Grid& coarse, ArrayXd& free, VectorXd& c) {
   const int n = coarse.size();
   coarse.transform().modes_from_points(c);
   c.conservativeResizeLike(VectorXd::Zero(2 * n + 1));
@@ -112,7 +112,7 @@ ContactLine solve_contact_line(const VectorXd& stiffness, const VectorXd& load) 
   ArrayXd free = ArrayXd::Ones(coarsest + 1);
   VectorXd modes = VectorXd::Zero(coarsest + 1);
   for (int n = coarsest;; n *= 2) {
-    Level level(n, stiffness, load);
+    Grid level(n, stiffness, load);
     level.transform().points_from_modes(modes);
     ContactLine line = settle(level, free, modes);
     if (n == finest) return line;
