@@ -1,13 +1,13 @@
 #include "antilock/io/expression.hpp"
 
 #include <fmt/format.h>
-#include <muParser.h>
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <mutex>
 #include <numbers>
+#include <string_view>
 
 #include "antilock/core/error.hpp"
 
@@ -16,23 +16,214 @@ namespace {
 
 constexpr std::size_t longest_text = 4000;
 constexpr double largest_value = 1e100;  // squared, as an energy is, it still is a double
+constexpr int most_nested = 200;
 
-std::string accepted(const std::vector<std::string>& variables) {
-  return fmt::format(
-      "accepted: an expression in {} with + - * / ^, comparisons, c ? a : b, pi, sin, cos, exp, sqrt, abs",
-      fmt::join(variables, " and "));
-}
+using One = double (*)(double);
+using Two = double (*)(double, double);
 
-/// muParser takes `x = 3` for an order to change x.
-bool assigns(const std::string& text) {
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '=') continue;
-    if (i + 1 < text.size() && text[i + 1] == '=')
-      ++i;
-    else if (i == 0 || std::string("<>!").find(text[i - 1]) == std::string::npos)
-      return true;
+struct Operator {
+  std::string_view sign;
+  int binds;  ///< the larger, the tighter; a sign before a value binds as tightly as `sign_binds`
+  Two value;
+};
+constexpr int sign_binds = 6, power_binds = 7;
+constexpr std::array<Operator, 13> operators{{{"||", 1, [](double a, double b) { return double(a != 0 || b != 0); }},
+                                              {"&&", 2, [](double a, double b) { return double(a != 0 && b != 0); }},
+                                              {"<=", 3, [](double a, double b) { return double(a <= b); }},
+                                              {">=", 3, [](double a, double b) { return double(a >= b); }},
+                                              {"==", 3, [](double a, double b) { return double(a == b); }},
+                                              {"!=", 3, [](double a, double b) { return double(a != b); }},
+                                              {"<", 3, [](double a, double b) { return double(a < b); }},
+                                              {">", 3, [](double a, double b) { return double(a > b); }},
+                                              {"+", 4, [](double a, double b) { return a + b; }},
+                                              {"-", 4, [](double a, double b) { return a - b; }},
+                                              {"*", 5, [](double a, double b) { return a * b; }},
+                                              {"/", 5, [](double a, double b) { return a / b; }},
+                                              {"^", power_binds, [](double a, double b) { return std::pow(a, b); }}}};
+
+constexpr std::array<std::pair<std::string_view, One>, 18> functions{
+    {{"sin", std::sin},
+     {"cos", std::cos},
+     {"tan", std::tan},
+     {"asin", std::asin},
+     {"acos", std::acos},
+     {"atan", std::atan},
+     {"sinh", std::sinh},
+     {"cosh", std::cosh},
+     {"tanh", std::tanh},
+     {"exp", std::exp},
+     {"ln", std::log},
+     {"log", std::log},
+     {"log2", std::log2},
+     {"log10", std::log10},
+     {"sqrt", std::sqrt},
+     {"abs", std::fabs},
+     {"sign", [](double a) { return double(a > 0) - double(a < 0); }},
+     {"rint", [](double a) { return std::floor(a + 0.5); }}}};
+constexpr std::array<std::pair<std::string_view, Two>, 3> functions_of_two{
+    {{"min", [](double a, double b) { return std::min(a, b); }},
+     {"max", [](double a, double b) { return std::max(a, b); }},
+     {"atan2", std::atan2}}};
+
+/// A formula is a list of steps on a stack of values.
+struct Step {
+  enum { number, variable, one, two, jump_unless, jump } kind;
+  double value = 0;
+  int at = 0;  ///< of the variable, or of the step to go on with
+  One of_one = nullptr;
+  Two of_two = nullptr;
+};
+
+class Reader {
+ public:
+  Reader(std::string_view text, const std::vector<std::string>& names) : text_(text), names_(names) {}
+  std::vector<Step> read() {
+    choice();
+    if (next(), at_ < text_.size()) fail(fmt::format("\"{}\" is not expected", printable({text_[at_]})));
+    return std::move(steps_);
   }
-  return false;
+
+ private:
+  [[noreturn]] void fail(const std::string& why) const { throw Error(fmt::format("{} at position {}", why, at_ + 1)); }
+  void next() {
+    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
+  }
+  bool took(std::string_view sign) {
+    next();
+    if (text_.substr(at_, sign.size()) != sign) return false;
+    at_ += sign.size();
+    return true;
+  }
+  void expect(std::string_view sign) {
+    if (!took(sign)) fail(fmt::format("\"{}\" is missing", sign));
+  }
+  std::size_t put(Step step) {
+    steps_.push_back(step);
+    return steps_.size() - 1;
+  }
+
+  void choice() {
+    binary(1);
+    if (took("?")) {
+      const std::size_t unless = put({Step::jump_unless});
+      choice();
+      expect(":");
+      const std::size_t past = put({Step::jump});
+      steps_[unless].at = static_cast<int>(steps_.size());
+      choice();
+      steps_[past].at = static_cast<int>(steps_.size());
+    }
+  }
+  /// A value, and all that binds to it at least as tightly as `least`.
+  void binary(int least) {
+    if (++nested_ > most_nested) fail("too many values wait for what follows");
+    if (took("-")) {
+      binary(sign_binds);
+      put({.kind = Step::one, .of_one = [](double a) { return -a; }});
+    } else if (took("+")) {
+      binary(sign_binds);
+    } else {
+      value();
+    }
+    for (;;) {
+      next();
+      const auto* const found = std::find_if(operators.begin(), operators.end(), [&](const Operator& o) {
+        return text_.substr(at_, o.sign.size()) == o.sign;
+      });
+      if (found == operators.end() || found->binds < least) break;
+      at_ += found->sign.size();
+      binary(found->binds == power_binds ? power_binds : found->binds + 1);  // 2^3^2 = 2^9, but 1-2-3 = (1-2)-3
+      put({.kind = Step::two, .of_two = found->value});
+    }
+    --nested_;
+  }
+  void value() {
+    next();
+    const std::string_view rest = text_.substr(at_);
+    const auto in = [](char c, char first, char last) { return first <= c && c <= last; };
+    const auto letter = [&](char c) { return in(c, 'a', 'z') || in(c, 'A', 'Z') || c == '_'; };
+    if (rest.empty()) fail("a value is missing");
+    if (took("(")) {
+      choice();
+      expect(")");
+    } else if (in(rest[0], '0', '9') || rest[0] == '.') {
+      double number = 0;
+      const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+      if (error != std::errc{}) fail("a number is expected");
+      at_ += static_cast<std::size_t>(end - rest.data());
+      put({.kind = Step::number, .value = number});
+    } else if (letter(rest[0])) {
+      const auto* const end =
+          std::find_if_not(rest.begin(), rest.end(), [&](char c) { return letter(c) || in(c, '0', '9'); });
+      name(rest.substr(0, static_cast<std::size_t>(end - rest.begin())));
+    } else {
+      fail(fmt::format("\"{}\" is not expected", printable({rest[0]})));
+    }
+  }
+  void name(std::string_view name) {
+    const auto is = [&](const auto& pair) { return pair.first == name; };
+    const auto variable = std::find(names_.begin(), names_.end(), name);
+    const auto* const function = std::find_if(functions.begin(), functions.end(), is);
+    const auto* const of_two = std::find_if(functions_of_two.begin(), functions_of_two.end(), is);
+    if (variable == names_.end() && name != "pi" && function == functions.end() && of_two == functions_of_two.end())
+      fail(fmt::format("\"{}\" is unknown", printable(std::string(name))));
+    at_ += name.size();
+    if (variable != names_.end()) {
+      put({.kind = Step::variable, .at = static_cast<int>(variable - names_.begin())});
+      return;
+    }
+    if (name == "pi") {
+      put({.kind = Step::number, .value = std::numbers::pi});
+      return;
+    }
+    expect("(");
+    choice();
+    if (function != functions.end()) {
+      put({.kind = Step::one, .of_one = function->second});
+    } else {
+      do {
+        expect(",");
+        choice();
+        put({.kind = Step::two, .of_two = of_two->second});
+      } while (name != "atan2" && (next(), text_.substr(at_, 1) == ","));
+    }
+    expect(")");
+  }
+
+  std::string_view text_;
+  const std::vector<std::string>& names_;
+  std::vector<Step> steps_;
+  std::size_t at_ = 0;
+  int nested_ = 0;
+};
+
+double run(const std::vector<Step>& steps, std::span<const double> values) {
+  std::array<double, 2 * most_nested + 1> stack;  // a left side and a first argument wait per level at most
+  double* top = stack.data();                     // behind the last value
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Step& step = steps[i];
+    switch (step.kind) {
+      case Step::number:
+        *top++ = step.value;
+        break;
+      case Step::variable:
+        *top++ = values[static_cast<std::size_t>(step.at)];
+        break;
+      case Step::one:
+        top[-1] = step.of_one(top[-1]);
+        break;
+      case Step::two:
+        --top;
+        top[-1] = step.of_two(top[-1], top[0]);
+        break;
+      case Step::jump_unless:
+        if (*--top == 0) i = static_cast<std::size_t>(step.at) - 1;
+        break;
+      case Step::jump:
+        i = static_cast<std::size_t>(step.at) - 1;
+    }
+  }
+  return stack[0];
 }
 
 }  // namespace
@@ -47,50 +238,30 @@ std::string printable(const std::string& text, std::size_t longest) {
 struct Expression::Parser {
   std::string text;
   std::vector<std::string> names;
-  std::vector<double> values;  // muParser reads its variables from here
-  mu::Parser parser;
-  std::mutex in_use;
+  std::vector<Step> steps;
 };
 
-Expression::Expression(const std::string& text, const std::vector<std::string>& variables)
-    : parser_(std::make_shared<Parser>()) {
+Expression::Expression(const std::string& text, const std::vector<std::string>& variables) {
   const auto refuse = [&](const std::string& why) {
-    throw Error(fmt::format("\"{}\" {}; {}", printable(text), why, accepted(variables)));
+    throw Error(
+        fmt::format("\"{}\" {}; accepted: an expression in {} with + - * / ^, comparisons, c ? a : b, pi, sin, "
+                    "cos, exp, sqrt, abs",
+                    printable(text), why, fmt::join(variables, " and ")));
   };
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) refuse("is empty");
   if (text.size() > longest_text) refuse(fmt::format("is longer than {} characters", longest_text));
-  if (text.find('"') != std::string::npos) refuse("holds a quotation mark");
-  if (text.find('\0') != std::string::npos) refuse("holds a null character");  // muParser would stop there
-  if (assigns(text)) refuse("assigns a value with =");
-  parser_->text = text;
-  parser_->names = variables;
-  parser_->values.assign(variables.size(), 0.5);
-  int results = 0;
   try {
-    mu::Parser& parser = parser_->parser;
-    parser.ClearConst();  // _pi and _e
-    parser.DefineConst("pi", std::numbers::pi);
-    for (std::size_t i = 0; i < variables.size(); ++i) parser.DefineVar(variables[i], &parser_->values[i]);
-    parser.SetExpr(text);
-    parser.Eval(results);  // the first evaluation parses
-  } catch (const mu::ParserError& error) {
-    refuse("does not parse: " + printable(error.GetMsg(), 120));
+    parser_ = std::make_shared<const Parser>(Parser{text, variables, Reader(text, variables).read()});
+  } catch (const Error& error) {
+    refuse(std::string("does not parse: ") + error.what());
   }
-  if (results != 1) refuse(fmt::format("holds {} values", results));
 }
 
 double Expression::operator()(std::span<const double> values) const {
-  if (values.size() != parser_->values.size())
+  if (values.size() != parser_->names.size())
     throw Error(
-        fmt::format("\"{}\" takes {} values, not {}", printable(parser_->text), parser_->values.size(), values.size()));
-  const std::lock_guard lock(parser_->in_use);
-  std::copy(values.begin(), values.end(), parser_->values.begin());
-  double value = 0;
-  try {
-    value = parser_->parser.Eval();
-  } catch (const mu::ParserError& error) {
-    throw Error(fmt::format("\"{}\" has no value: {}", printable(parser_->text), printable(error.GetMsg(), 120)));
-  }
+        fmt::format("\"{}\" takes {} values, not {}", printable(parser_->text), parser_->names.size(), values.size()));
+  const double value = run(parser_->steps, values);
   if (!(std::abs(value) <= largest_value)) {
     std::string place;
     for (std::size_t i = 0; i < values.size(); ++i)

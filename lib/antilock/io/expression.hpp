@@ -6,14 +6,14 @@
 
 namespace antilock {
 
-/// A formula from a file, such as `10*sin(2*pi*x)`, parsed once (muParser): numbers, the named variables, pi,
+/// A formula from a file, such as `10*sin(2*pi*x)`, parsed once: numbers, the named variables, pi,
 /// + - * / ^, comparisons, && ||, `condition ? a : b`, and the functions sin cos tan asin acos atan atan2 sinh cosh
 /// tanh exp ln log log2 log10 sqrt abs sign rint min max. Values are dimensionless; angles in radians.
-/// Copies share one parser, and calls from several threads take turns.
+/// 2^3^2 is 2^(3^2), and -x^2 is -(x^2). Calls from several threads do not meet.
 class Expression {
  public:
   /// Throws Error, with what is wrong and what is accepted, for a text that is empty, longer than 4,000 characters,
-  /// that does not parse, that names anything unknown, assigns, or holds more than one value.
+  /// that does not parse, or that names anything unknown.
   Expression(const std::string& text, const std::vector<std::string>& variables);
 
   /// The value at one number per variable. Throws Error, with the place, where it is not finite or beyond 1e100.
@@ -23,7 +23,7 @@ class Expression {
 
  private:
   struct Parser;
-  std::shared_ptr<Parser> parser_;
+  std::shared_ptr<const Parser> parser_;
 };
 
 /// Text from a file for use in a message of one line: control characters become '?', long text is cut.
