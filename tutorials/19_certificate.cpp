@@ -80,6 +80,8 @@
 // averages of $u_h$ in the body, and a small P1 problem on columns extruded below $Σ$, on which P1 does not lock
 // (chapter 02).
 
+#include <numbers>
+
 #include "backstage/19_certificate.hpp"
 #include "antilock/analysis/exact_errors.hpp"
 #include "backstage/19_identity.hpp"

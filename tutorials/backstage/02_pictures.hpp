@@ -40,7 +40,8 @@ inline void draw_ties(const std::filesystem::path& path, const std::vector<Layer
   table.add({"page", "", "", -0.04, -2.5});
   table.add({"page", "", "", 2.16, 0.06});
   for (std::size_t m = 0; m < layers.size(); ++m) {
-    const auto& [name, mesh, leader, groups] = layers[m];
+    const TriangleMesh& mesh = layers[m].mesh;
+    const std::vector<int>& leader = layers[m].leader;
     const double left = 1.12 * static_cast<double>(m % 2), top = m < 2 ? -0.1 : -1.36;
     std::map<int, double> from;  // the smallest x of each group
     for (int t = 0; t < mesh.triangle_count(); ++t)
@@ -59,8 +60,9 @@ inline void draw_ties(const std::filesystem::path& path, const std::vector<Layer
       for (int i = 0; i < 3; ++i) corner("fill", fmt::format("tied{} {}.{}", place % 6, m, t), i);
       for (int i = 0; i < 4; ++i) corner("line", fmt::format("axis {}.{}", m, t), i);
     }
-    table.add({"label", "axis", fmt::format("{}: {} {}", name, groups, groups == 1 ? "group" : "groups"), left + 0.5,
-               top + 0.07});
+    table.add({"label", "axis",
+               fmt::format("{}: {} {}", layers[m].name, layers[m].groups, layers[m].groups == 1 ? "group" : "groups"),
+               left + 0.5, top + 0.07});
   }
   table.write(path);
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <numbers>
 
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/families.hpp"
