@@ -337,7 +337,7 @@ class LiveFigure(Book):
         self.wait("return document.querySelector('#live .live-said').textContent === ''")
 
     def test_the_still_stays_where_the_browser_lacks_something(self):
-        for lacking in ("delete window.WebAssembly", "HTMLCanvasElement.prototype.getContext = () => null", "Object.defineProperty(window, 'ANTILOCK_LIVE', { get: () => ({ wasm: 'H4sIAAAAAAAAAwMAAAAAAAAAAAA=', meshes: 'H4sIAAAAAAAAAwMAAAAAAAAAAAA=' }), set: () => {} })"):
+        for lacking in ("delete window.WebAssembly", "HTMLCanvasElement.prototype.getContext = () => null", "Object.defineProperty(window, 'ANTILOCK_LIVE', { get: () => ({ wasm: 'H4sIAAAAAAAAAwMAAAAAAAAAAAA=' }), set: () => {} })"):
             script = self.browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": lacking})
             self.show("index")
             self.browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
@@ -385,6 +385,82 @@ class LiveFigure(Book):
         self.wait("return Number(document.querySelector('#live-roundoff').dataset.p1) > 0.02")
         self.assertLess(float(self.run_script(data, "roundoff")["cr"]), 0.005)
         self.assertEqual(self.said(), [])
+
+
+class Run(Book):
+    """The programs in their pages."""
+
+    def ended(self, state="done", seconds=120):
+        self.wait("return !['idle', 'loading', 'running'].includes(document.querySelector('#run-state').dataset.state)", seconds=seconds)
+        found = self.run_script("""const at = (name) => document.querySelector(name), all = (name) => [...document.querySelectorAll(name)].map((part) => part.textContent);
+          return { state: at("#run-state").dataset.state, said: at("#run-state").textContent, output: at("#run-output").textContent, warning: at("#run-warning").textContent,
+            holds: all(".run-verdicts .holds").length, sentences: all(".run-verdicts li"), pictures: all(".run-pictures figure").length,
+            keep: [...document.querySelectorAll("a[download]")].map((link) => link.download) };""")
+        self.assertEqual(found["state"], state, found["said"] + found["output"][-300:])
+        return found
+
+    def press(self, selector):
+        self.run_script("document.querySelector(arguments[0]).click()", selector)
+
+    def test_a_chapter_ends_with_the_verdicts_of_the_machine(self):
+        for width in (1280, 375):
+            for page in ("00_string_on_an_obstacle", "03_by_hand", "08_crouzeix_raviart"):
+                with self.subTest(page=page, width=width):
+                    self.show(page, width=width)
+                    self.press("button[data-run]")  # the first one is the default run
+                    found = self.ended()
+                    with tempfile.TemporaryDirectory() as out:
+                        native = subprocess.run([BOOK.parent / "tutorials" / page], capture_output=True, text=True, check=True, cwd=out).stdout
+                    self.assertEqual(found["holds"], native.count("\nVERDICT holds: "))
+                    self.assertEqual(found["output"].count("VERDICT "), native.count("VERDICT "))
+                    self.assertTrue(found["keep"])
+                    self.assertEqual(self.run_script(SIDEWAYS), [])
+                    self.assertEqual(self.said(), [])
+                    self.shot(f"{page}_run_{width}", width)
+
+    def test_an_exercise_answers_in_place(self):
+        self.show("08_crouzeix_raviart")
+        self.run_script("document.querySelector('.predict input').value = 'no'")
+        self.press("button[data-run*='--exercise']")
+        found = self.ended()
+        self.assertRegex(found["output"], "(?s)QUESTION: .*PREDICTION: .*VERDICT holds")
+        self.assertEqual(self.run_script("return document.querySelector('.run-predicted').textContent"), "You predicted: no")
+        self.assertTrue(self.run_script("""const console_ = document.querySelector('.run-console');
+          return console_.previousElementSibling.matches('.predict')"""))
+
+    def test_a_bad_option_is_one_line_and_stop_stops(self):
+        self.show("12_contact_sets")
+        self.press("button[data-run]")
+        self.wait("return document.querySelector('#run-state').dataset.state === 'running'", seconds=60)
+        self.press("#run-stop")
+        self.ended("stopped", seconds=1)
+        self.run_script("document.querySelector('#run-line').value = '--cells 9999'")
+        self.press("#run-again")
+        self.assertEqual(self.ended("failed")["output"], "12_contact_sets: --cells: Value 9999 not in range 32 to 64 (see --help)\n")
+
+    def scene(self, name, edit=lambda text: text, state="done"):
+        """Runs a scene of tutorials/scenes, changed."""
+        self.run_script("""const start = document.querySelector("#scene-start"); start.value = arguments[0]; start.dispatchEvent(new Event("input"));""", name)
+        self.run_script("document.querySelector('#scene').value = arguments[0]", edit(self.run_script("return document.querySelector('#scene').value")))
+        self.press("#run-scene")
+        return self.ended(state)
+
+    def test_the_playground_answers_warns_refuses_and_proves(self):
+        self.show("playground")
+        found = self.scene("figure8")
+        self.assertEqual((found["warning"], found["pictures"]), ("", 2))  # u, and the pressure
+        self.assertLessEqual({"summary.json", "solution.vtu", "contact.csv", "mesh.msh"}, set(found["keep"]))
+        self.shot("playground_figure8", 1280)
+        address = self.run_script("return location.href")
+        self.assertIn("layer that locks", self.scene("figure8", lambda text: text.replace('"CR"', '"P1"'))["warning"] + " layer that locks"[:0])
+        found = self.scene("figure8", lambda text: text.replace("1e-6", "2"), "failed")
+        self.assertRegex(found["output"], r"scene\.toml: layer\.epsilon")
+        found = self.scene("accuracy")
+        self.assertRegex(found["output"], r"(?s)unknowns: proved .*unknowns: proved .*proved relative error 0\.0")
+        self.assertEqual(self.scene("own_mesh")["state"], "done")  # its mesh lies beside it
+        self.browser.get("about:blank")
+        self.browser.get(address)
+        self.wait("return document.querySelector('#scene').value.includes('figure 8')")
 
 
 if __name__ == "__main__":

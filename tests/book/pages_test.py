@@ -95,7 +95,7 @@ def small_repository(root):
         "first,,27_later,,,The first\nties,,27_later,,,The ties\ntop,,27_later,,,On top\n".replace("top,", "hero,"))
     (root / "results/logs").mkdir(parents=True)
     (root / "results/logs/27_later.log").write_text("27_later: a run\n\n  two rows of it\na  1\nb  2\n\nVERDICT holds: all\n")
-    for script in ("live.js", "live_data.js"):
+    for script in ("live.js", "live_data.js", "meshes_data.js"):
         (root / f"build/book-parts/static/{script}").touch()
 
 

@@ -41,11 +41,15 @@ def repair(app, error):
 
 
 def tighten(app, error):
-    """A fifth of what stands around a page's text, on every page the same, were blanks."""
+    """A fifth of what stands around a page's text, on every page the same, were blanks; in the text, marks that no rule
+    of the style asks for."""
     if error is None and app.builder.format == "html":
         for path in Path(app.outdir).glob("*.html"):
             around = re.split(r"(<article.*</article>)", path.read_text(), flags=re.S)
-            path.write_text("".join(part if i % 2 else re.sub(r"\s*\n\s*", "\n", part) for i, part in enumerate(around)))
+            text = "".join(part if i % 2 else re.sub(r"\s*\n\s*", "\n", part) for i, part in enumerate(around))
+            text = re.sub(r'<span class="(?:std std-ref|doc(?: std std-doc)?)">([^<]*)</span>', r"\1", text)
+            text = re.sub(r' title="Permalink to this \w+"', "", text)
+            path.write_text(re.sub(r'<span class="(\w+)">', r"<span class=\1>", text))
 
 
 def setup(app):
@@ -56,13 +60,15 @@ def setup(app):
     def page(app, name, template, context, doctree):
         body = context.get("body", "")
         if 'class="live"' in body:
+            app.add_js_file("meshes_data.js", loading_method="defer")
             app.add_js_file("live_data.js", loading_method="defer")
+        if 'class="live"' in body or 'id="run"' in body:
             app.add_js_file("live.js", loading_method="defer")
         context["script_files"] = [script for script in context["script_files"] if not re.search(r"jquery|underscore|frameworks_compat", str(script))]
         if not name.startswith("library"):
             body = links(body)
         # names, signs and blanks have the colour of the text: a third of the book's size were their marks
-        body = re.sub(r'<span class="(?:n|p|o|w|nb|bp)">([^<]*)</span>', r"\1", body)
+        body = re.sub(r'<span class="(?:n|p|o|w|nb|bp|mi|mf)">([^<]*)</span>', r"\1", body)
         context["body"] = re.sub(r'<img alt="([^"]*)" class="lazy"', r'<img alt="\1" loading="lazy" class="lazy"', body)
 
     app.connect("html-page-context", page)

@@ -3,7 +3,7 @@
 - A comment at the margin is prose (Markdown, formulas between dollars); everything else is code.
 - An indented comment belongs to the code, unless it begins with a heading (`### Solve`): then it is prose too.
 - `### Solve` in the C++ finds `// ### Solve` in the FreeFEM twin, which is folded under it.
-- `Run: COMMAND    what it does` lines become a table; includes are folded away.
+- `Run: COMMAND    what it does` lines become a table with buttons; includes are folded away.
 - `:live: string` places a live figure, `:live: mesh=layered cells=32` the one of P1 and Crouzeix-Raviart with its settings.
 - `:figure: NAME ...` places pictures of figures/table.csv, `:output:` what the program printed: pages.py puts them in.
 """
@@ -76,15 +76,55 @@ def steps(path):
 
 
 def runs(prose):
-    """Takes the `Run:` lines out of the prose: (prose, a Markdown table)."""
-    table, rest = [], []
+    """Takes the `Run:` lines out of the prose: (prose, [(command, what it does)])."""
+    found, rest = [], []
     for line in prose:
-        found = re.match(r"Run: (\S.*?)(?:  +(.*))?$", line)
-        if found:
-            table.append(f"| `{found[1]}` | {found[2] or ''} |")
+        run = re.match(r"Run: (\S.*?)(?:  +(.*))?$", line)
+        if run:
+            found.append((run[1], run[2] or ""))
         else:
             rest.append(line)
-    return rest, (["| command | what it does |", "|---|---|", *table, ""] if table else [])
+    return rest, found
+
+
+def options(command):
+    """The options of a command; its first word is the program."""
+    return command.partition(" ")[2]
+
+
+def button(command, says="run"):
+    """Runs a command in the page; the script, which can, enables it."""
+    return f'<button type="button" data-run="{html.escape(options(command))}" disabled>{says}</button>'
+
+
+def with_exercises(lines, commands):
+    """A field for the prediction, and a button, behind each exercise of the list that a command of `commands` answers:
+    (lines, the commands that are left)."""
+    out, left, number, at = [], dict((options(command), command) for command in commands), None, None
+    inside = False
+
+    def close():
+        nonlocal at
+        command = left.pop(f"--exercise {number}", None) if at is not None else None
+        if command:
+            out[at] += (' <span class="predict"><input type="text" aria-label="Your prediction" placeholder="your prediction">'
+                        f' {button(command)}</span>')
+        at = None
+
+    for line in lines:
+        if line.startswith("#"):
+            close()
+            inside = line == "## Exercises"
+        item = re.match(r"(\d+)\. ", line) if inside else None
+        if item or not line.strip():
+            close()
+        out.append(line)
+        if item:
+            number, at = int(item[1]), len(out) - 1
+        elif at is not None:
+            at = len(out) - 1
+    close()
+    return out, list(left.values())
 
 
 def needs(prose):

@@ -5,6 +5,7 @@
 is wrong and goes on.
 """
 import csv
+import json
 import os
 import re
 import subprocess
@@ -13,14 +14,15 @@ from pathlib import Path
 
 from PIL import Image
 
-from literate import PLACE, STILLS, BookError, Page, answers_on_paper, fence, folded, live_figure, signs
+from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded, live_figure, signs,
+                      with_exercises)
 from library import Library
 
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 17),
          ("What accuracy costs", 18, 24), ("The class", 25, 99)]
 EXTRA = ["howto_scene", "howto_matrices", "howto_python", "lab", "dataset", "uniform_rate", "errata", "glossary", "notation"]
-WIDTH, HEIGHT = 1200, 1000  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
+WIDTH, HEIGHT = 1000, 840  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
 
 
 class Book:
@@ -56,6 +58,8 @@ class Book:
             return path.stem + ".md" + anchor
         if path == ROOT / "tutorials/README.md":
             return "theory.md"
+        if path == ROOT / "tutorials/book/playground.md":
+            return "playground.md" + anchor
         if path == ROOT / "figures/README.md":
             return "gallery.md"
         if not path.exists():
@@ -219,13 +223,19 @@ class Book:
         if names and len(shots) > 1:
             self.complain(f"{stem}.cpp: no line places the picture {shots[1]['image']}; accepted: :figure: {shots[1]['image']}")
         out = [f"# {page.title}", "", *self.relations(stem)]
+        commands, here = [command for command, _ in page.runs], self.runs_in_the_page(source)
+        if here and commands:
+            out += self.console(stem, commands[0])
+            body, commands = with_exercises(body, commands)
         out += self.figure(shots[0], eager=True) if shots else []
         out += body
         answers = answers_on_paper(source.parent / f"answers/{stem}.hpp")
         if answers:
             out += folded("Answers on paper", self.linked(answers, source.parent), "answers")
-        if page.runs:
-            out += ["## Run it", "", *page.runs]
+        if commands:
+            out += ["## Run it", "", *(["| | command | what it does |", "|---|---|---|"] if here else ["| command | what it does |", "|---|---|"])]
+            out += [(f"| {button(command)} " if here else "") + f"| `{command}` | {what} |" for command, what in page.runs if command in commands]
+            out.append("")
         for shot in shots[1:]:
             out += self.figure(shot)
         printed = [] if output else self.output(stem)
@@ -242,6 +252,29 @@ class Book:
                 copy.write_bytes(file.read_bytes())
         out += ["To keep: " + ", ".join(f"{{download}}`{file.name}`" for file in files) + ".", ""]
         self.write(stem, out)
+
+    @staticmethod
+    def runs_in_the_page(source):
+        """Not what asks for PETSc: wasm/build leaves out the same."""
+        return not re.search(r'#include "(antilock/distributed|petsc)/', source.read_text())
+
+    def console(self, stem, command):
+        """The button on top, with the seconds to expect: twice those of the machine that wrote the log."""
+        spent = re.search(r" in ([\d.]+) s", " ".join((self.log(stem) or [])[-1:]))
+        seconds = 2 * float(spent[1]) if spent else 0
+        expect = f"about {seconds:.0f} s" if seconds >= 1.5 else "about a second" if spent else "seconds"
+        return ["", f'<div id="run" data-program="{stem}"><p class="run-line">{button(command, "Run this chapter here")} '
+                f'<span>{expect}; its own program, with nothing to install</span></p></div>', ""]
+
+    def playground(self):
+        """run_scene in a page: every scene that does not ask for PETSc is a start."""
+        folder = ROOT / "tutorials/scenes"
+        scenes = {path.stem: path.read_text() for path in sorted(folder.glob("*.toml")) if '"petsc"' not in path.read_text()}
+        meshes = {path.name: path.read_text() for path in sorted(folder.glob("*.msh"))}
+        data = json.dumps({"scenes": scenes, "meshes": meshes}).replace("</", "<\\/")
+        text = (ROOT / "tutorials/book/playground.md").read_text()
+        self.write("playground", self.linked(text.splitlines(), ROOT / "tutorials/book") +
+                   ["", f'<script type="application/json" id="scenes">{data}</script>', ""])
 
     def theory(self):
         text = (ROOT / "tutorials/README.md").read_text()
@@ -269,7 +302,7 @@ class Book:
             if names:
                 trees += ["```{toctree}", f":caption: {'I II III IV V'.split()[i]} {caption}", ":maxdepth: 1", "",
                           *(f"{name[:2]} {self.pages[name].title} <{name}>" for name in names), "```", ""]
-        more = ["theory", "gallery", *(name for name in EXTRA if (self.out / f"{name}.md").exists()), "library"]
+        more = ["playground", "theory", "gallery", *(name for name in EXTRA if (self.out / f"{name}.md").exists()), "library"]
         trees += ["```{toctree}", ":caption: To look up", ":maxdepth: 1", "", *more, "```"]
         live = "\n".join(live_figure("mesh=unstructured")[1])
         self.write("index", text.replace(":live:", live).replace(":chapters:", "\n".join(trees)).splitlines())
@@ -288,10 +321,11 @@ class Book:
                 lines = [re.sub(r"\| ([\d, ]+) \|$", lambda found: "| " + re.sub(r"\d\d", lambda n: f"[{n[0]}]({self.first_of(n[0])}.md)" if self.first_of(n[0]) else n[0], found[1]) + " |", line) for line in lines]
             self.write(name, self.linked(lines, ROOT / "tutorials", signs))
         self.theory()
+        self.playground()
         self.gallery()
         self.library.write(self.write, self.sources)
         self.index()
-        known = {*self.names, *EXTRA, "theory", "gallery", "index", "library", *self.library.page_names()}
+        known = {*self.names, *EXTRA, "playground", "theory", "gallery", "index", "library", *self.library.page_names()}
         for path in self.out.glob("*.md"):
             if path.stem not in known:
                 path.unlink()

@@ -3,58 +3,32 @@
 const antilock = {};
 
 antilock.data = (() => {
-  async function unpacked(text) {
-    const packed = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
-    return new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
-  }
   let ready;
   return () => (ready ??= (async () => {
-    const packed = window.ANTILOCK_LIVE;
-    if (!packed) throw new Error("live_data.js is missing");
-    const [module, meshes] = await Promise.all([unpacked(packed.wasm), unpacked(packed.meshes)]);
-    return { module: await WebAssembly.compile(module), meshes };
+    const packed = window.ANTILOCK_LIVE, { Files, unpacked, putMeshes } = antilockSystem, files = new Files();
+    if (!packed || !window.ANTILOCK_MESHES) throw new Error("live_data.js or meshes_data.js is missing");
+    await putMeshes(files, window.ANTILOCK_MESHES.packed);
+    return { module: await WebAssembly.compile(await unpacked(packed.wasm)), files };
   })());
 })();
 
-/// A fresh instance of the library. After a throw the instance is lost: ask for another.
+/// A fresh instance of the library.
 antilock.library = async () => {
-  const { module, meshes } = await antilock.data();
+  const { module, files } = await antilock.data(), system = new antilockSystem.System({ files });
   let memory, said = "";
-  const text = (at) => {
+  const thrown = (at) => {
     const all = new Uint8Array(memory.buffer);
-    return new TextDecoder().decode(all.slice(at, all.indexOf(0, at)));
+    said = new TextDecoder().decode(all.slice(at, all.indexOf(0, at)));
   };
-  // What the library asks of a system (WASI) is a clock; everything else is answered with "not here".
-  const system = {
-    clock_time_get: (id, precision, at) => {
-      new DataView(memory.buffer).setBigUint64(at, BigInt(Math.round(performance.now() * 1e6)), true);
-      return 0;
-    },
-  };
-  const imports = {};
-  for (const { module: from, name } of WebAssembly.Module.imports(module)) {
-    imports[from] ??= {};
-    imports[from][name] = from === "page" ? (at) => { said = text(at); } : system[name] ?? (() => 52);
-  }
-  const { exports } = await WebAssembly.instantiate(module, imports);
-  memory = exports.memory;
+  const { exports } = await WebAssembly.instantiate(module, { page: { thrown }, wasi_snapshot_preview1: system.imports() });
+  memory = system.memory = exports.memory;
   exports._initialize?.();
-  const call = (name, ...numbers) => {  // a throw ends in a trap; what it says has come before
+  const call = (name, ...numbers) => {
     said = "";
-    try { return exports[name](...numbers); } catch (trap) { throw new Error(said || String(trap)); }
+    const answer = exports[name](...numbers);
+    if (said) throw new Error(said);
+    return answer;
   };
-
-  const view = new DataView(meshes);
-  for (let at = 0; at + 16 <= meshes.byteLength;) {
-    const [cells, layer, vertices, triangles] = [0, 4, 8, 12].map((k) => view.getInt32(at + k, true));
-    const corners = at + 16 + 16 * vertices, end = corners + 6 * triangles;
-    if (end > meshes.byteLength) throw new Error("the page's meshes are damaged");
-    const v = call("mesh_vertices", cells, layer, vertices), t = call("mesh_triangles", cells, layer, triangles);
-    new Uint8Array(memory.buffer, v, 16 * vertices).set(new Uint8Array(meshes, at + 16, 16 * vertices));
-    const target = new Int32Array(memory.buffer, t, 3 * triangles);
-    for (let i = 0; i < 3 * triangles; ++i) target[i] = view.getUint16(corners + 2 * i, true);
-    at = end;
-  }
 
   // memory.buffer is another one where a call has asked for more memory: it is looked up after the call
   const doubles = (at, count) => new Float64Array(memory.buffer, at, count);

@@ -111,21 +111,7 @@ antilock.figures.locking = async (box) => {
   }
   const ask = antilock.soon(update);
   for (const name of ["epsilon", "mesh", "cells", "moved"]) at(name).addEventListener("input", ask);
-  for (const canvas of canvases) {
-    const turned = (dx, dy) => {
-      turn[0] += dx;
-      turn[1] = Math.min(1.5, Math.max(0.05, turn[1] + dy));
-      draw();
-    };
-    canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
-    canvas.addEventListener("pointermove", (event) => event.buttons && turned(event.movementX / 150, event.movementY / 150));
-    canvas.addEventListener("keydown", (event) => {
-      const step = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
-      if (!step) return;
-      event.preventDefault();
-      turned(...step);
-    });
-  }
+  for (const canvas of canvases) antilock.turns(canvas, turn, draw);
   window.addEventListener("resize", draw);
   box.setAttribute("aria-label", "Live figure: epsilon and the mesh against P1 and Crouzeix-Raviart");
   box.replaceChildren(...still.children);

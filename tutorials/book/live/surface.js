@@ -118,3 +118,20 @@ antilock.surface = (canvas, labels) => {
   }
   return draw;
 };
+
+/// Turns a surface by dragging, or by the arrow keys: changes `turn`, and draws.
+antilock.turns = (canvas, turn, draw) => {
+  const turned = (dx, dy) => {
+    turn[0] += dx;
+    turn[1] = Math.min(1.5, Math.max(0.05, turn[1] + dy));
+    draw();
+  };
+  canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
+  canvas.addEventListener("pointermove", (event) => event.buttons && turned(event.movementX / 150, event.movementY / 150));
+  canvas.addEventListener("keydown", (event) => {
+    const step = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, -0.1], ArrowDown: [0, 0.1] }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    turned(...step);
+  });
+};

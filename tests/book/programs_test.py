@@ -1,0 +1,64 @@
+#!/usr/bin/python3
+"""The programs in their pages say what they say on this machine: the verdicts of every exercise, and of the chapters that
+take seconds. Run: programs_test.py PARTS PROGRAMS     build/book-parts, and the folder of the programs"""
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+TUTORIALS = HERE.parents[1] / "tutorials"
+PARTS, PROGRAMS = (Path(word).resolve() for word in sys.argv[1:3])
+# Chapters whose default run takes longer than some 3 s are left to the reader, and to their exercises.
+LONG = 3
+
+
+def commands():
+    """Every `Run:` line of the chapters that run in their pages."""
+    for source in sorted(TUTORIALS.glob("[0-9][0-9]_*.cpp")):
+        text = source.read_text()
+        if not re.search(r'#include "(antilock/distributed|petsc)/', text):
+            yield from (found.split() for found in re.findall(r"^// Run: (.*?)(?:   .*)?$", text, re.M))
+
+
+def ran(command, out):
+    """(exit status, what it printed, seconds)"""
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=out)
+    return done.returncode, done.stdout, done.stderr
+
+
+def verdicts(text):
+    """The verdicts, without their numbers: the last digits are those of another factor and another libm."""
+    lines = [line for line in text.splitlines() if line.startswith(("VERDICT", "NOT JUDGED", "QUESTION", "PREDICTION"))]
+    return [re.sub(r"(?<![\w.])-?\d[\d.]*(?:e[-+]?\d+)?", "#", line) for line in lines]
+
+
+class Programs(unittest.TestCase):
+    def both(self, command):
+        """What the page and the machine say of one command."""
+        with tempfile.TemporaryDirectory() as out:
+            native = ran([PROGRAMS / command[0], *command[1:]], out)
+            page = ran(["node", HERE / "run_program.mjs", PARTS, *command], out)
+        return native, page
+
+    def test_every_exercise_ends_as_on_the_machine(self):
+        asked = [command for command in commands() if "--exercise" in command]
+        self.assertGreater(len(asked), 50)
+        with ThreadPoolExecutor(int(os.environ.get("JOBS", "1"))) as pool:
+            for command, (native, page) in zip(asked, pool.map(self.both, asked)):
+                with self.subTest(command=" ".join(command)):
+                    self.assertEqual((page[0], verdicts(page[1])), (native[0], verdicts(native[1])), page[2])
+
+    def test_refusals_are_the_same_line(self):
+        for command in (["08_crouzeix_raviart", "--cells", "9999"], ["08_crouzeix_raviart", "--sells", "8"], ["03_by_hand", "--epsilon", "2"]):
+            with self.subTest(command=command):
+                native, page = self.both(command)
+                self.assertEqual((page[0], page[2].splitlines()[:-1]), (native[0], native[2].splitlines()))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -1,0 +1,29 @@
+// gmsh's meshes for pages, which have no gmsh. Their names are those under which the library keeps them (mesh/unstructured.cpp):
+// it does so in the folder ANTILOCK_MESHES. Run: ANTILOCK_MESHES=FOLDER page_meshes < tutorials/book/wasm/meshes.txt
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <string>
+
+#include "antilock/mesh/generate.hpp"
+
+int main() try {
+  for (std::string line; std::getline(std::cin, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    int mesher = 0;
+    double depth = 0, h = 0;
+    if (std::sscanf(line.c_str(), "unstructured%d_%la_%la", &mesher, &depth, &h) != 3) {
+      fmt::print(stderr, "page_meshes: \"{}\" names no mesh\n", line);
+      return 2;
+    }
+    antilock::unstructured_mesh(static_cast<int>(std::lround(1 / h)), {.layer_depth = depth},
+                                static_cast<antilock::Mesher>(mesher));
+  }
+  return 0;
+} catch (const std::exception& error) {
+  fmt::print(stderr, "page_meshes: {}\n", error.what());
+  return 1;
+}
