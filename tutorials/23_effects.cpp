@@ -1,7 +1,7 @@
 // # A scene costs what it holds
 //
 // Run: 23_effects   five scenes, three models, a change of variable; two seconds
-// Run: 23_effects --cells 64 --epsilon 0.1
+// Run: 23_effects --cells 16 --epsilon 0.1
 // Run: 23_effects --exercise 1
 // Run: 23_effects --exercise 2
 //

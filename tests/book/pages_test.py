@@ -72,6 +72,7 @@ int main() {}
 
 def small_repository(root):
     shutil.copytree(ROOT / "tutorials/book", root / "tutorials/book", ignore=shutil.ignore_patterns("wasm", "__pycache__"))
+    shutil.copy(ROOT / "CITATION.cff", root)
     for folder in ("freefem", "figures/images", "lib/antilock/core", "build/book-parts/static"):
         (root / folder).mkdir(parents=True)
     for stem, text in CHAPTERS.items():

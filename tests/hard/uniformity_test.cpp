@@ -131,8 +131,9 @@ Eigen::VectorXd saddle_point(const VariationalInequality& problem, const std::ve
   rhs.head(size) = problem.load(numbering.unknown);
   const Eigen::UmfPackLU<SparseMatrix> factor(k);
   EXPECT_EQ(factor.info(), Eigen::Success);
+  const Eigen::VectorXd both = factor.solve(rhs);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.size());
-  u(numbering.unknown) = factor.solve(rhs).head(size);
+  u(numbering.unknown) = both.head(size);
   return u;
 }
 

@@ -20,7 +20,7 @@ html_theme = "furo"
 html_static_path = ["style.css", "book.js", "../../build/book-parts/static"]
 html_css_files = ["katex.css", "style.css"]
 html_js_files = [("book.js", {"defer": "defer"})]
-html_copy_source = False
+html_copy_source = html_use_index = False
 html_show_search_summary = False  # a page opened from a folder cannot read other pages
 html_show_copyright = html_show_sphinx = False
 pygments_style = "xcode"  # of those with enough contrast
@@ -52,6 +52,11 @@ def tighten(app, error):
             path.write_text(re.sub(r'<span class="(\w+)">', r"<span class=\1>", text))
 
 
+RELEASE = dict(re.findall(r"^(version|license): (\S+)$", (HERE.parents[1] / "CITATION.cff").read_text(), re.M))
+FOOT = (f'<p class="foot">Antilock {RELEASE["version"]}, the Antilock authors; licence {RELEASE["license"]}. To cite: L. Slimane and Y. Renard, '
+        "J. Comput. Appl. Math. 170 (2004) 121–143, with this software and its version (CITATION.cff).</p>")
+
+
 def setup(app):
     app.connect("build-finished", repair)
     app.connect("build-finished", tighten)
@@ -69,6 +74,7 @@ def setup(app):
             body = links(body)
         # names, signs and blanks have the colour of the text: a third of the book's size were their marks
         body = re.sub(r'<span class="(?:n|p|o|w|nb|bp|mi|mf)">([^<]*)</span>', r"\1", body)
+        body += FOOT
         context["body"] = re.sub(r'<img alt="([^"]*)" class="lazy"', r'<img alt="\1" loading="lazy" class="lazy"', body)
 
     app.connect("html-page-context", page)

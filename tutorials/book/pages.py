@@ -10,12 +10,14 @@ import os
 import re
 import subprocess
 import sys
+import zipfile
 from pathlib import Path
 
 from PIL import Image
 
 from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded, live_figure, signs,
                       with_exercises)
+from katex import TAG, anchor
 from library import Library
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -32,7 +34,7 @@ class Book:
         self.names = [path.stem for path in self.sources]
         self.table = list(csv.DictReader((ROOT / "figures/table.csv").open()))
         self.library = Library(ROOT / "lib")
-        self.pages = {}
+        self.pages, self.equations = {}, {}  # by tag: the chapter that has the equation first
 
     def complain(self, what):
         if not self.draft:
@@ -73,7 +75,7 @@ class Book:
     def linked(self, lines, where, spell=lambda text: text):
         """Prose with its links turned to the pages of the book; `chapter 07` becomes a link. Code stays as it is; `spell`
         is for the rest."""
-        out, fenced = [], False
+        out, fenced, own = [], False, set(TAG.findall("\n".join(lines)))
         for line in lines:
             fenced ^= line.startswith("```")
             if fenced or line.startswith(("    ", "<", "```")):
@@ -98,6 +100,13 @@ class Book:
                     return f"[{number[0]}]({name}.md)"
                 return found[1] + " " + re.sub(r"\b\d\d\b", one, found[2])
 
+            def equation(found):
+                page = "" if found[1] in own else f"{self.equations[found[1]]}.html" if found[1] in self.equations else None
+                return found[0] if page is None else f'<a href="{page}#{anchor(found[1])}">({found[1]})</a>'
+
+            if not line.startswith(("#", ":")):  # a number of an equation leads to it; not within a link
+                text = "".join(part if i % 2 else re.sub(r"(?<![\w)])\((\d\d?)\)(?!\w)", equation, part)
+                               for i, part in enumerate(re.split(r"(\[[^\]]*\]\([^)\s]*\))", text)))
             text = re.sub(r"(!?)\[([^\]]+)\]\(([^)\s]+)\)", replaced, spell(text))
             text = re.sub(r"\b([Cc]hapters?|[Tt]utorials?) (\d\d(?:(?:, | and | to )\d\d)*)\b(?![\]\w])", numbered, text)
             text = text.replace("[](", "\\[\\](")  # a lambda, not a link
@@ -208,7 +217,9 @@ class Book:
         """What the chapter needs, in its own words, and where it leads to."""
         page = self.pages[stem]
         leads = [name for name in self.names if stem[:2] in self.pages[name].needed() and name != stem]
-        out = [*page.needs]
+        def titled(found):
+            return f"[{found[1]} {self.pages[found[2]].title}]({found[2]}.cpp)" if found[2] in self.pages else found[0]
+        out = [re.sub(r"\[(\d\d)\]\((\w+)\.cpp\)", titled, line) for line in page.needs]
         if leads:
             out.append("Leads to: " + ", ".join(f"[{name[:2]} {self.pages[name].title}]({name}.md)" for name in leads) + ".")
         return [":::{container} relations", *self.linked(out, ROOT / "tutorials"), ":::", ""] if out else []
@@ -222,7 +233,7 @@ class Book:
             shots = [row for row in shots if row["tutorial"] == stem]  # one of two chapters may leave their picture to the other
         if names and len(shots) > 1:
             self.complain(f"{stem}.cpp: no line places the picture {shots[1]['image']}; accepted: :figure: {shots[1]['image']}")
-        out = [f"# {page.title}", "", *self.relations(stem)]
+        out = [f"# {stem[:2]} {page.title}", "", *self.relations(stem)]
         commands, here = [command for command, _ in page.runs], self.runs_in_the_page(source)
         if here and commands:
             out += self.console(stem, commands[0])
@@ -245,12 +256,8 @@ class Book:
         if twin.exists() and not page.twin:
             whole = twin.read_text().splitlines()
             out += folded(f"The FreeFEM twin as it is: freefem/{stem}.edp, {len(whole)} lines", fence("freefem", whole), "twin")
-        files = [source] + ([twin] if twin.exists() else [])
-        for file in files:
-            copy = self.out / file.name
-            if not copy.exists() or copy.read_bytes() != file.read_bytes():
-                copy.write_bytes(file.read_bytes())
-        out += ["To keep: " + ", ".join(f"{{download}}`{file.name}`" for file in files) + ".", ""]
+        out += ["To keep: {download}`all programs of the course, with their twins <sources.zip>`; this one is "
+                f"`tutorials/{source.name}`" + (f", its twin `freefem/{twin.name}`" if twin.exists() else "") + ".", ""]
         self.write(stem, out)
 
     @staticmethod
@@ -275,6 +282,13 @@ class Book:
         text = (ROOT / "tutorials/book/playground.md").read_text()
         self.write("playground", self.linked(text.splitlines(), ROOT / "tutorials/book") +
                    ["", f'<script type="application/json" id="scenes">{data}</script>', ""])
+
+    def sources_to_keep(self):
+        """What the chapters are made of, in one file for all of them: on every page a copy of its own weighs more."""
+        with zipfile.ZipFile(self.out / "sources.zip", "w", zipfile.ZIP_DEFLATED, compresslevel=9) as kept:
+            for pattern in ("tutorials/*.cpp", "tutorials/*/*.[ch]pp", "tutorials/scenes/*", "freefem/*.edp"):
+                for path in sorted(ROOT.glob(pattern)):
+                    kept.writestr(zipfile.ZipInfo(str(path.relative_to(ROOT))), path.read_bytes(), zipfile.ZIP_DEFLATED)
 
     def theory(self):
         text = (ROOT / "tutorials/README.md").read_text()
@@ -310,7 +324,9 @@ class Book:
     def make(self):
         self.out.mkdir(parents=True, exist_ok=True)
         for source in self.sources:
-            self.pages[source.stem] = Page(source, ROOT / f"freefem/{source.stem}.edp", self.draft)
+            page = self.pages[source.stem] = Page(source, ROOT / f"freefem/{source.stem}.edp", self.draft)
+            for tag in TAG.findall("\n".join(page.body)):
+                self.equations.setdefault(tag, source.stem)
         for still in STILLS.values():
             self.picture(still)
         for source in self.sources:
@@ -320,6 +336,7 @@ class Book:
             if name == "glossary":  # its last column names chapters by number
                 lines = [re.sub(r"\| ([\d, ]+) \|$", lambda found: "| " + re.sub(r"\d\d", lambda n: f"[{n[0]}]({self.first_of(n[0])}.md)" if self.first_of(n[0]) else n[0], found[1]) + " |", line) for line in lines]
             self.write(name, self.linked(lines, ROOT / "tutorials", signs))
+        self.sources_to_keep()
         self.theory()
         self.playground()
         self.gallery()

@@ -31,7 +31,8 @@ antilock.figures.locking = async (box) => {
       <span class="live-key">exact u on Γ<sub>C</sub></span></div>
     <table class="live-table"><thead><tr><th></th><th>unknowns</th><th>error</th><th>corrections</th><th>in contact</th><th>from x</th><th>ms</th></tr></thead>
     <tbody>${names.map((name) => `<tr><th scope="row">${name}</th>${"<td></td>".repeat(6)}</tr>`).join("")}</tbody></table>
-    <p class="live-note">Both solved in <span id="live-ms"></span> ms. Error: the largest at the unknowns. Drag a picture to turn it, or use its arrow keys.</p>
+    <p class="live-note">Both solved in <span id="live-ms"></span> ms. Error: the largest at the unknowns. Drag a picture to turn it, or use its arrow keys.
+      Crouzeix–Raviart jumps between triangles: the white specks are its jumps.</p>
     <p class="live-said" role="status"></p>`;
   const parts = Object.fromEntries([...still.querySelectorAll("[id]")].map((part) => [part.id.slice(5), part]));
   const at = (id) => parts[id], said = still.querySelector(".live-said");
@@ -90,7 +91,7 @@ antilock.figures.locking = async (box) => {
       ridge = library.ridge(epsilon, 65);
       draw();
       solved.forEach((s, i) => {
-        at(`kept-${short[i]}`).textContent = antilock.digits(s.kept);
+        at(`kept-${short[i]}`).textContent = Math.abs(s.kept) < 0.005 ? "0.00" : antilock.digits(s.kept);
         at(`kept-${short[i]}`).dataset.value = s.kept;
         canvases[i].setAttribute("aria-label", `Surface of u with ${names[i]}: the layer keeps ${antilock.digits(s.kept)} percent of its displacement`);
         [s.unknowns, antilock.digits(s.error), s.corrections, `${s.touching} of ${s.contact}`, s.touching ? s.from.toFixed(3) : "–",

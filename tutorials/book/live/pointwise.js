@@ -2,7 +2,7 @@
 "use strict";
 /// `figure`: title and label; min, step and stride of log10 epsilon; zero: where epsilon = 0 is drawn, if the lowest
 /// position is 0; choices: name -> values; start: name -> the value chosen, if it is not the first; keys of both curves;
-/// others: the key of the points of other choices, if they stay; axes; ask(library, epsilon, chosen) -> the two values.
+/// refused: the value that stands for no answer, if there is one; others: the key of the points of other choices, if they stay; axes; ask(library, epsilon, chosen) -> the two values.
 antilock.pointwise = async (box, figure) => {
   let library = await antilock.library();
   const id = `live-${box.dataset.kind}`, still = document.createElement("div"), names = Object.keys(figure.choices);
@@ -17,12 +17,14 @@ antilock.pointwise = async (box, figure) => {
     </div>
     <div class="live-drawing"></div>
     <p class="live-key-line"><span class="key p1">${figure.keys[0]}</span> <span class="key cr">${figure.keys[1]}</span>
+      ${figure.refused ? '<span class="key touching">refused: no answer</span>' : ""}
       ${figure.others ? `<span class="key other">${figure.others}</span>` : ""}</p>
     <p class="live-said" role="status"></p>`;
   const range = still.querySelector("input"), selects = [...still.querySelectorAll("select")], [all, clear] = still.querySelectorAll("button");
   const output = still.querySelector("output"), said = still.querySelector(".live-said");
   const chart = antilock.chart(still.querySelector(".live-drawing"), figure.axes);
   let points = {};  // per choice a Map of epsilon to the two values
+  const refused = (value) => value === figure.refused;
   const chosen = () => Object.fromEntries(names.map((name, i) => [name, selects[i].value]));
   const curve = (key, i) => [...(points[key] ?? [])].sort((a, b) => a[0] - b[0]).map(([e, values]) => [e || figure.zero, values[i]]);
   function draw() {
@@ -31,7 +33,8 @@ antilock.pointwise = async (box, figure) => {
       const before = Object.keys(points).filter((other) => other !== key);
       chart.curve("other", before.flatMap((other) => [...curve(other, 0), ...curve(other, 1)]), { joined: false, markers: true });
     }
-    ["p1", "cr"].forEach((name, i) => chart.curve(name, curve(key, i), { markers: true }));
+    ["p1", "cr"].forEach((name, i) => chart.curve(name, curve(key, i).filter(([, value]) => !refused(value)), { markers: true }));
+    if (figure.refused) chart.curve("touching", curve(key, 0).filter(([, value]) => refused(value)), { joined: false, markers: true });
     box.dataset.points = points[key]?.size ?? 0;
   }
   async function update() {
@@ -43,7 +46,7 @@ antilock.pointwise = async (box, figure) => {
       const values = figure.ask(library, epsilon, chosen());
       (points[Object.values(chosen()).join(" ")] ??= new Map()).set(epsilon, values);
       draw();
-      const text = values.map((value, i) => `${figure.keys[i]} ${antilock.digits(value)}`).join(", ");
+      const text = values.map((value, i) => `${figure.keys[i]} ${refused(value) ? "refused" : antilock.digits(value)}`).join(", ");
       said.textContent = `Error: ${text}; ${box.dataset.points} points.`;
       chart.said(text);
       Object.assign(box.dataset, { state: "ready", p1: values[0], cr: values[1] });

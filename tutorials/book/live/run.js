@@ -65,9 +65,16 @@ antilock.tableChart = (where, name, text) => {
 };
 
 /// The surface of u in a VTU file, which one turns with the mouse, a finger or the arrow keys.
-antilock.vtuSurface = (where, name, text) => {
-  const array = (tag) => text.match(new RegExp(`<DataArray[^>]*${tag}[^>]*>([^<]*)<`))?.[1].trim().split(/\s+/).map(Number);
-  const points = array('NumberOfComponents="3"'), u = array('Name="u"'), corners = array('Name="connectivity"');
+antilock.vtuSurface = (where, name, bytes) => {
+  // the arrays are raw bytes behind the XML (lib/antilock/io/detail/vtu_grid.cpp), each behind its length in eight bytes
+  const mark = '<AppendedData encoding="raw">\n_', latin = new TextDecoder("latin1").decode(bytes), first = latin.indexOf(mark) + mark.length;
+  const array = (named, Numbers) => {
+    const offset = latin.match(new RegExp(`Name="${named}"[^>]*offset="(\\d+)"`))?.[1];
+    if (offset === undefined) return undefined;
+    const at = bytes.byteOffset + first + Number(offset), length = new DataView(bytes.buffer, at).getUint32(0, true);
+    return Array.from(new Numbers(bytes.buffer.slice(at + 8, at + 8 + length)));
+  };
+  const points = array("points", Float64Array), u = array("u", Float64Array), corners = array("connectivity", Int32Array);
   if (!points || !u || !corners || 3 * u.length !== points.length) return;
   const figure = document.createElement("figure");
   figure.innerHTML = `<figcaption></figcaption><div class="live-canvas"><canvas tabindex="0" role="img"></canvas></div>`;
@@ -120,7 +127,7 @@ for (const box of document.querySelectorAll("#run")) {
     for (const [path, bytes] of results) {
       const name = path.split("/").pop(), size = bytes.length < 1e4 ? (bytes.length / 1e3).toFixed(1) : (bytes.length / 1e3).toFixed(0);
       files.append(Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([bytes])), download: name, textContent: `${name} (${size} kB)` }), " ");
-      if (name === "solution.vtu") antilock.vtuSurface(pictures, name, text(bytes));
+      if (name === "solution.vtu") antilock.vtuSurface(pictures, name, bytes);
       else if (name.endsWith(".csv") && name !== "solution.csv" && bytes.length < 2e5) antilock.tableChart(pictures, name, text(bytes));
     }
   }

@@ -91,13 +91,16 @@ antilock.figures.string = async (box) => {
   }
   range.addEventListener("input", show);
   cells.addEventListener("input", begin);
+  let player = 0;  // a second press ends what the first one plays
   play.addEventListener("click", async () => {
+    const own = ++player;
     const wait = matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 700;
     for (let k = 0; k < steps.length; ++k) {
       range.value = wait ? k : steps.length - 1;
       show();
       if (!wait) return;
       await new Promise((done) => setTimeout(done, wait));
+      if (own !== player) return;
     }
   });
   box.setAttribute("aria-label", "Live figure: a string on an obstacle, step by step");
