@@ -82,8 +82,8 @@
 
 #include <numbers>
 
-#include "backstage/19_certificate.hpp"
 #include "antilock/analysis/exact_errors.hpp"
+#include "backstage/19_certificate.hpp"
 #include "backstage/19_identity.hpp"
 
 using namespace antilock;

@@ -78,8 +78,9 @@ antilock.vtuSurface = (where, name, bytes) => {
   if (!points || !u || !corners || 3 * u.length !== points.length) return;
   const figure = document.createElement("figure");
   figure.innerHTML = `<figcaption></figcaption><div class="live-canvas"><canvas tabindex="0" role="img"></canvas></div>`;
-  const canvas = figure.querySelector("canvas"), turn = [-0.6, 0.6], largest = u.reduce((most, v) => Math.max(most, Math.abs(v)), 0) || 1;
-  const said = `${name}: u from ${antilock.digits(Math.min(...u.slice(0, 1), u.reduce((a, b) => Math.min(a, b))))} to ${antilock.digits(u.reduce((a, b) => Math.max(a, b)))}`;
+  const canvas = figure.querySelector("canvas"), turn = [-0.6, 0.6];
+  const low = u.reduce((a, b) => Math.min(a, b)), high = u.reduce((a, b) => Math.max(a, b)), largest = Math.max(-low, high) || 1;
+  const said = `${name}: u from ${antilock.digits(low)} to ${antilock.digits(high)}`;
   figure.querySelector("figcaption").textContent = `${said}. Drag to turn it.`;
   canvas.setAttribute("aria-label", `Surface of u, ${said}`);
   where.append(figure);
@@ -102,6 +103,7 @@ for (const box of document.querySelectorAll("#run")) {
       <input id="run-line" type="text" spellcheck="false" autocapitalize="off" placeholder="options; --help names them">
       <button type="button" id="run-again">run</button>`}
       <button type="button" id="run-stop" disabled>stop</button><span id="run-state" data-state="idle" role="status">nothing has run yet</span></div>
+    <div class="live-controls run-sliders"></div>
     <p class="run-predicted" hidden></p><ul class="run-verdicts"></ul><p id="run-warning"></p>
     <pre id="run-output" tabindex="0" hidden></pre><div class="run-pictures"></div><p class="run-files"></p>`;
   box.append(console_);
@@ -146,10 +148,35 @@ for (const box of document.querySelectorAll("#run")) {
     at("#run-warning").textContent = warning;
   }
 
+  /// A program that answers at once gets a slider per option of its --help that has a range, cells and epsilon.
+  async function offerSliders() {
+    const place = at(".run-sliders"), chosen = {};
+    if (playground || place.dataset.asked) return;
+    place.dataset.asked = "";
+    let help = "";
+    await antilock.programs.run([program, "--help"], [], ({ text }) => { help += text ?? ""; });
+    const ask = antilock.soon(() => {
+      at("#run-line").value = Object.entries(chosen).map(([name, value]) => `--${name} ${value}`).join(" ");
+      again();
+    });
+    for (const [, name, low, high, value] of help.matchAll(/--(cells|epsilon) \w+:\w+ in \[(\S+) - (\S+)\]=(\S+)/g)) {
+      const cells = name === "cells", range = Object.assign(document.createElement("input"), { type: "range", id: `run-${name}` });
+      const shown = document.createElement("output"), label = Object.assign(document.createElement("label"), { htmlFor: range.id, textContent: `${name} = ` });
+      label.append(shown);
+      if (cells) Object.assign(range, { min: low, max: Math.min(high, 4 * value), step: 1, value });
+      else Object.assign(range, { min: Number(low) > 0 ? Math.log10(low) : -8, max: Math.log10(high), step: 0.25, value: Math.log10(value) });
+      const number = () => (cells || Number(low) > 0 ? (cells ? range.value : 10 ** range.value) : antilock.epsilonOf(range));
+      const say = () => { shown.textContent = antilock.digits(Number(number())); };
+      say();
+      range.addEventListener("input", () => { say(); chosen[name] = number(); ask(); });
+      place.append(label, range);
+    }
+  }
+
   async function run(args, put) {
     antilock.programs.stop();
     const own = ++turn;
-    for (const name of [".run-verdicts", ".run-pictures", ".run-files", "#run-output", "#run-warning"]) at(name).replaceChildren();
+    for (const name of [".run-verdicts", "#run-output", "#run-warning"]) at(name).replaceChildren();
     console_.hidden = out.hidden = false;
     line = "";
     show("loading", "loading the library");
@@ -169,10 +196,12 @@ for (const box of document.querySelectorAll("#run")) {
     stop.disabled = true;
     if (line) print("\n");
     const { status, trouble, seconds, memory, results } = end;
+    for (const name of [".run-pictures", ".run-files"]) at(name).replaceChildren();
     if (trouble) show(trouble === "stopped" ? "stopped" : "failed", trouble === "stopped" ? "stopped" : `failed: ${trouble}`);
     else show(status === 0 ? "done" : "failed", `${status === 0 ? "done" : `ended with status ${status}`} in ${seconds.toFixed(1)} s, ${(memory / 2 ** 20).toFixed(0)} MiB`);
     sum(results);
     keep(results);
+    if (status === 0 && seconds < 0.6) await offerSliders();
   }
   stop.addEventListener("click", antilock.programs.stop);
 

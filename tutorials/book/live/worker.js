@@ -1,8 +1,8 @@
 // One run of one program. Beside it, in the same source, stands system.js.
 "use strict";
 onmessage = async ({ data: { packed, ready, args, put } }) => {
-  const { System, Files, unpacked, putMeshes, where } = globalThis.antilockSystem, began = performance.now();
-  let status = null, trouble = "", memory = 0, files = new Files();
+  const { System, Files, unpacked, putMeshes, where } = globalThis.antilockSystem;
+  let status = null, trouble = "", memory = 0, files = new Files(), began = performance.now();
   try {
     if (packed) {  // the first run unpacks for all that follow
       ready = { files };
@@ -15,6 +15,7 @@ onmessage = async ({ data: { packed, ready, args, put } }) => {
     const system = new System({ args, files, print: (text, isError) => postMessage({ text, isError }) });
     const instance = await WebAssembly.instantiate(ready.module, { wasi_snapshot_preview1: system.imports() });
     postMessage({ started: true });
+    began = performance.now();
     status = system.start(instance);
     memory = instance.exports.memory.buffer.byteLength;
   } catch (error) { trouble = String(error); }
