@@ -63,7 +63,6 @@
 #include "common/course.hpp"
 
 using namespace antilock;
-using tutorial::Method;
 
 double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the round punch below
 
@@ -93,7 +92,7 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
 void press(const tutorial::Options& options, double thickness, tutorial::Report& report) {
   Table forces({"method", "locks", "h", "t", "force", "percent", "corrections"});
   Table diagnoses({"method", "locks", "found", "says"});
-  for (const Method& method : tutorial::methods()) {
+  for (const tutorial::Method& method : tutorial::methods()) {
     report.stage(method.name);
     for (const int n : {options.cells / 4, options.cells / 2, options.cells}) {
       const TriangleMesh mesh = method.mesh(n);

@@ -181,6 +181,20 @@ class EveryPage(Book):
         self.assertLess(first, 1.5e6)
         self.assertLess(whole, 11e6)  # 34 chapters and a proof: two thirds of it are set formulas
 
+    def test_the_contents_and_the_theme_are_there_at_every_width(self):
+        seen = """const box = document.querySelector(".toc-drawer").getBoundingClientRect();
+          return box.width > 0 && box.left >= 0 && box.left < innerWidth;"""
+        for width in (375, 800, 1280, 1400, 1600):
+            with self.subTest(width=width):
+                self.show("08_crouzeix_raviart", width=width)
+                if not self.run_script(seen):
+                    self.run_script("""[...document.querySelectorAll(".toc-overlay-icon")].find((icon) => icon.getClientRects().length > 0).click()""")
+                self.wait(seen, seconds=5)
+                before = self.run_script("return document.body.dataset.theme")
+                self.run_script("""[...document.querySelectorAll(".theme-toggle")].find((button) => button.getClientRects().length > 0).click()""")
+                self.wait("return document.body.dataset.theme !== arguments[0]", before, seconds=5)
+                self.run_script("localStorage.removeItem('theme')")
+
     def test_chapters_follow_each_other_in_the_order_of_their_numbers(self):
         chapters = [page for page in PAGES if page[:2].isdigit()]
         tree = "return [...document.querySelectorAll(arguments[0])].map((link) => link.getAttribute('href'))"
