@@ -179,7 +179,10 @@ class EveryPage(Book):
         self.assertLessEqual({".html", ".css", ".js", ".woff2"}, kinds, "the measure misses a kind of file")
         self.assertIn(BOOK / "_static/live_data.js", files)  # holds the WebAssembly and the meshes
         self.assertLess(first, 1.5e6)
-        self.assertLess(whole, 11e6)  # 34 chapters and a proof: two thirds of it are set formulas
+        programs = (BOOK / "_static/programs_data.js").stat().st_size
+        self.assertNotIn(BOOK / "_static/programs_data.js", files)  # asked for when the first button is pressed
+        self.assertLess(whole - programs, 10e6)  # chapters and a proof: half of it are set formulas
+        self.assertLess(programs, 4e6)  # all programs, and gmsh's meshes to 1/h = 128
 
     def test_the_contents_and_the_theme_are_there_at_every_width(self):
         seen = """const box = document.querySelector(".toc-drawer").getBoundingClientRect();
