@@ -238,6 +238,8 @@ class Book:
         if here and commands:
             out += self.console(stem, commands[0])
             body, commands = with_exercises(body, commands)
+        elif commands:
+            out += ["This program asks for PETSc and several processes: it does not run in a page.", ""]
         out += self.figure(shots[0], eager=True) if shots else []
         out += body
         answers = answers_on_paper(source.parent / f"answers/{stem}.hpp")

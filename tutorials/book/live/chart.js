@@ -19,6 +19,7 @@ antilock.chart = (where, { x, y, title }) => {
   const frame = make("g", { class: "frame" }, svg);
   const power = (v) => {
     const e = Math.round(Math.log10(v));
+    if (Math.abs(Math.log10(v) - e) > 1e-9) return String(v);
     return e === 0 ? "1" : `10<tspan dy="-5" font-size="10">${String(e).replace("-", "−")}</tspan>`;
   };
   for (const v of x.ticks) {

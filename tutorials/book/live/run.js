@@ -42,15 +42,19 @@ antilock.programs = (() => {
 antilock.tableChart = (where, name, text) => {
   const [head, ...rows] = text.trim().split("\n").map((row) => row.split(","));
   const isNumber = head.map((_, k) => rows.every((row) => row[k] !== undefined && row[k] !== "" && Number.isFinite(Number(row[k]))));
-  const [x, ...others] = head.map((_, k) => k).filter((k) => isNumber[k] && new Set(rows.map((row) => row[k])).size > 1);
-  const curves = others.slice(0, 5);
+  const varies = head.map((_, k) => k).filter((k) => isNumber[k] && new Set(rows.map((row) => row[k])).size > 1), [x] = varies;
+  const size = (k) => Math.max(...rows.map((row) => Math.abs(Number(row[k])))), results = varies.filter((k) => k !== x && !["cells", "h", "unknowns", "seconds"].includes(head[k]));
+  const curves = results.filter((k) => size(k) > 1e-9 * Math.max(...results.map(size))).slice(0, 5);  // round-off is no curve
   if (rows.length < 3 || rows.length > 2000 || curves.length === 0 || isNumber.includes(false)) return;
   const xs = rows.map((row) => Number(row[x])), rising = xs.every((v, i) => i === 0 || v > xs[i - 1]) || xs.every((v, i) => i === 0 || v < xs[i - 1]);
   if (!rising) return;
+  // logarithmic where a list of parameters is closer to powers than to even steps, and where results lie far apart
+  const even = (values) => Math.abs((values[1] - values[0]) / (values.at(-1) - values.at(-2)));
+  const powers = Math.abs(Math.log(even(xs.map(Math.log)))) < Math.abs(Math.log(even(xs)));
   const axis = (values, title) => {
-    const [low, high] = [Math.min(...values), Math.max(...values)], log = low > 0 && high > 30 * low;
+    const [low, high] = [Math.min(...values), Math.max(...values)], log = low > 0 && (values === xs ? powers : high > 30 * low);
     const decades = log ? Math.max(1, Math.ceil(Math.log10(high / low) / 6)) : 0, ticks = [];
-    if (log) for (let e = Math.ceil(Math.log10(low)); e <= Math.log10(high); e += decades) ticks.push(10 ** e);
+    if (log && high > 10 * low) for (let e = Math.ceil(Math.log10(low)); e <= Math.log10(high); e += decades) ticks.push(10 ** e);
     else for (let k = 0; k < 5; ++k) ticks.push(Number((low + k * (high - low) / 4).toPrecision(2)));
     return { log, range: low < high ? [low, high] : [low - 1, high + 1], ticks, name: title };
   };
@@ -104,7 +108,8 @@ for (const box of document.querySelectorAll("#run")) {
       <button type="button" id="run-again">run</button>`}
       <button type="button" id="run-stop" disabled>stop</button><span id="run-state" data-state="idle" role="status">nothing has run yet</span></div>
     <div class="live-controls run-sliders"></div>
-    <p class="run-predicted" hidden></p><ul class="run-verdicts"></ul><p id="run-warning"></p>
+    <p class="run-predicted" hidden></p>${playground ? "" : `<p class="live-note">Computed here with Eigen’s factor in place of CHOLMOD’s:
+      last digits, and counts that hang on round-off, may differ from those of the log in the page.</p>`}<ul class="run-verdicts"></ul><p id="run-warning"></p>
     <pre id="run-output" tabindex="0" hidden></pre><div class="run-pictures"></div><p class="run-files"></p>`;
   box.append(console_);
   const at = (name) => console_.querySelector(name), out = at("#run-output"), state = at("#run-state"), stop = at("#run-stop");
