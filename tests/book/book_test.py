@@ -133,7 +133,7 @@ class EveryPage(Book):
           document.querySelectorAll("details").forEach((part) => { part.open = true; });
           const images = [...document.querySelectorAll("article img")];
           const prose = document.querySelector("article").cloneNode(true);
-          prose.querySelectorAll("pre, code, .katex, svg").forEach((part) => part.remove());
+          prose.querySelectorAll("pre, code, .katex, svg, script").forEach((part) => part.remove());
           return {
             silent: images.filter((image) => !image.alt).length,
             raw: prose.textContent.match(/\\$[^$\\n]+\\$|\\\\(frac|tag|text)\\b/g) ?? [],
