@@ -89,21 +89,13 @@
 #include "common/course.hpp"
 
 using namespace antilock;
-using tutorial::Discrete, tutorial::PlateElement, tutorial::error_of_w;
+using tutorial::Discrete, tutorial::PlateElement, tutorial::error_of_w, tutorial::thicknesses;
 
 const std::vector<PlateElement> plate_elements{
     {"P1 with exact shear", "p1", p1(), p1(), ShearRule::exact, true},
     {"P1 with one-point shear", "p1_one", p1(), p1(), ShearRule::mean, true},
     {"Duran-Liberman", "duran_liberman", p1(), p1(), ShearRule::edges, false},
     {"Arnold-Falk", "arnold_falk", crouzeix_raviart(), p1_bubble(), ShearRule::mean, false}};
-
-// Sixteen $t$ per decade where the disc of contact still grows with $t$, then 0 and what leads to it. Thicker plates than
-// $t = 0.1$ fall on the obstacle within a ring or two of the rim.
-std::vector<double> thicknesses() {
-  std::vector<double> all{3e-3, 1e-3, 1e-4, 1e-6, 1e-8, 1e-20, 0};
-  for (int k = 16; k >= 0; --k) all.insert(all.begin(), std::pow(10, -1 - k / 16.0));
-  return all;
-}
 
 void judge(const Table& checks, const Table& errors, int cells, tutorial::Report& report);
 

@@ -86,23 +86,7 @@ const std::vector<Mixed> mixed_methods{{"P1 (pressure per triangle)", "", p1(), 
                                        {"CR with jumps", "", crouzeix_raviart(), false}};
 
 // ### Forms
-// β over all $v_h$, over those that are 0 on the contact set, and over those that are 0 on all of $Γ_C$.
-Table inf_sup_constants(const Mixed& way) {
-  Table rows({"name", "h", "held", "beta"});
-  for (const int n : {4, 8, 12, 16}) {
-    const TriangleMesh mesh = tutorial::block(n);
-    const VariationalInequality problem = tutorial::rubber(way, Space(mesh, way.element));
-    const std::size_t bounds = problem.contact.size();
-    for (const auto& [held, marks] : {std::pair{"nothing", std::vector<bool>(bounds)},
-                                      {"contact set", active_set(problem).active},
-                                      {"all of Gamma_C", std::vector<bool>(bounds, true)}}) {
-      const VariationalInequality linear = held_in_contact(problem, marks);
-      rows.add({way.name, 1.0 / n, held,
-                inf_sup(multiplier_gram(linear, linear.a1), Eigen::MatrixXd(linear.m.asDiagonal()))});
-    }
-  }
-  return rows;
-}
+// `inf_sup_constants`: β over all $v_h$, over those that are 0 on the contact set, and over those that are 0 on all of $Γ_C$.
 
 // ### Solve
 // The worst motion in the norm of $a_1$ at $1/λ = 0$, without contact; and under one wave at other λ. The loads $∇ψ$ have the
@@ -138,7 +122,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       by_lambda({"name", "lambda", "moved"});
   for (const Mixed& way : mixed_methods) {
     report.stage(way.name);
-    beta.add(inf_sup_constants(way));
+    beta.add(tutorial::inf_sup_constants(way));
     for (const int n : {8, 16, 32}) forces.add(tutorial::push(way, n, options));
     if (way.name.starts_with("P1")) continue;
     for (const bool on_fluxes : {false, true})

@@ -60,4 +60,12 @@ inline double error_of_w(const Space& w, const Solution& solution, const PlateTr
   return std::sqrt(square);
 }
 
+/// Sixteen t per decade where the disc of contact still grows with t, then 0 and what leads to it. Thicker plates than
+/// t = 0.1 fall on the obstacle within a ring or two of the rim.
+inline std::vector<double> thicknesses() {
+  std::vector<double> all{3e-3, 1e-3, 1e-4, 1e-6, 1e-8, 1e-20, 0};
+  for (int k = 16; k >= 0; --k) all.insert(all.begin(), std::pow(10, -1 - k / 16.0));
+  return all;
+}
+
 }  // namespace antilock::tutorial

@@ -1,6 +1,7 @@
 #pragma once
 #include "antilock/form/quadrature.hpp"
-#include "common/course.hpp"
+#include "antilock/problem/bounds.hpp"
+#include "backstage/29_pressure.hpp"
 
 namespace antilock::tutorial {
 
@@ -30,6 +31,24 @@ inline Eigen::MatrixXd gradient_loads(const Space& space, int waves, bool on_flu
     }
   }
   return loads;
+}
+
+/// The inf-sup constant over all v_h, over those that are 0 on the contact set, and over those that are 0 on all of Gamma_C.
+inline Table inf_sup_constants(const Mixed& way) {
+  Table rows({"name", "h", "held", "beta"});
+  for (const int n : {4, 8, 12, 16}) {
+    const TriangleMesh mesh = block(n);
+    const VariationalInequality problem = rubber(way, Space(mesh, way.element));
+    const std::size_t bounds = problem.contact.size();
+    for (const auto& [held, marks] : {std::pair{"nothing", std::vector<bool>(bounds)},
+                                      {"contact set", active_set(problem).active},
+                                      {"all of Gamma_C", std::vector<bool>(bounds, true)}}) {
+      const VariationalInequality linear = held_in_contact(problem, marks);
+      rows.add({way.name, 1.0 / n, held,
+                inf_sup(multiplier_gram(linear, linear.a1), Eigen::MatrixXd(linear.m.asDiagonal()))});
+    }
+  }
+  return rows;
 }
 
 }  // namespace antilock::tutorial
