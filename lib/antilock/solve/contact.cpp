@@ -11,47 +11,76 @@
 namespace antilock {
 namespace {
 
-/// Moves of whole sets without progress before single ones: as Judice and Pires have it. One to ten serve alike.
-constexpr int patience = 5;
-
+/// A bound that is off its piece by more than round-off.
 struct Move {
   int bound;
-  Piece to;
+  Piece to;          ///< the piece beyond that end
+  double end;        ///< of the piece, where its value has left it
+  double reached{};  ///< the part of the way at which its value comes there
 };
 
-std::vector<Move> moves(const Stairs& stairs, const Pieces& pieces, const Equilibrium& now) {
+Equilibrium equilibrium(ContactSystem& system, const Stairs& stairs, const Pieces& pieces) {
+  std::vector<char> held(pieces.size());
+  Eigen::VectorXd given(stairs.count());
+  for (int i = 0; i < stairs.count(); ++i) {
+    held[i] = is_held(pieces[i]) ? 1 : 0;
+    given(i) = stairs.given(i, pieces[i]);
+  }
+  return system.solve(held, given);
+}
+
+/// The bounds whose forces have left their pieces, or (`held` = false) those whose values have.
+std::vector<Move> moves(const Stairs& stairs, const Pieces& pieces, const Equilibrium& now,
+                        const std::vector<int>& place, bool held) {
   std::vector<Move> moves;
   for (int i = 0; i < stairs.count(); ++i) {
-    const bool held = is_held(pieces[i]);
-    const double value = held ? now.lambda(i) : now.v(i);
+    if (is_held(pieces[i]) != held) continue;
+    const double value = held ? now.lambda(i) : now.v(place[i]);
     const auto [low, high] = stairs.found(i, pieces[i]);
     const bool under = value<low - now.round_off(i), over = value> high + now.round_off(i);
-    if (under || over) moves.push_back({i, stairs.next(i, pieces[i], held == under)});  // too little force: v must rise
+    if (under || over)  // too little force: v must rise
+      moves.push_back({i, stairs.next(i, pieces[i], held == under), under ? low : high});
   }
   return moves;
+}
+
+/// v goes towards w, as far as contact.hpp says; `beyond` leave their pieces there.
+void descend(const ContactSystem& system, std::vector<Move>& beyond, const Eigen::VectorXd& w, Eigen::VectorXd& v,
+             Pieces& pieces) {
+  const Eigen::VectorXd way = w - v;
+  const std::vector<int>& place = system.bounded();
+  for (Move& m : beyond) {
+    const double all = way(place[m.bound]);
+    m.reached = all != 0 ? std::clamp((m.end - v(place[m.bound])) / all, 0.0, 1.0) : 0;
+  }
+  std::sort(beyond.begin(), beyond.end(), [](const Move& a, const Move& b) { return a.reached < b.reached; });
+  const double first = beyond.front().reached, lowest = (1 - first) * (1 - first) * system.square(way);
+  Eigen::VectorXd next;
+  double part = 1;
+  for (std::size_t stopped = beyond.size();; stopped /= 2, part = beyond[stopped - 1].reached) {
+    next = v + part * way;
+    for (const Move& m : beyond)
+      if (m.reached <= part) next(place[m.bound]) = m.end;
+    if (stopped == 1 || system.square(w - next) < lowest) break;
+  }
+  for (const Move& m : beyond)
+    if (m.reached <= part) pieces[m.bound] = m.to;
+  v = std::move(next);
 }
 
 }  // namespace
 
 ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const std::optional<Pieces>& start,
                             int max_steps) {
-  bool nested = !start;
-  Pieces pieces = stairs.there_are(nested ? system.nested_start(stairs, max_steps) : *start);
-  std::vector<char> held(pieces.size());
-  Eigen::VectorXd given(stairs.count());
-  std::set<Pieces> tried;  // by single moves, since the count has fallen last
-  std::size_t fewest = pieces.size() + 1;
-  for (int steps = 1, left = patience;; ++steps) {
-    for (int i = 0; i < stairs.count(); ++i) {
-      held[i] = is_held(pieces[i]) ? 1 : 0;
-      given(i) = stairs.given(i, pieces[i]);
-    }
-    Equilibrium now = system.solve(held, given);
-    const std::vector<Move> wrong = moves(stairs, pieces, now);
-    const bool fewer = wrong.size() < fewest;
-    left = fewer ? patience : left - 1;
-    if (fewer) fewest = wrong.size(), tried.clear();
-    if (wrong.empty() || (left <= 0 && nested && !tried.insert(pieces).second)) {
+  Pieces pieces = stairs.there_are(start ? *start : system.nested_start(stairs, max_steps));
+  std::set<Pieces> lowest;  // of all pieces whose lowest point is on them
+  Eigen::VectorXd v;
+  for (int steps = 1;; ++steps) {
+    Equilibrium now = equilibrium(system, stairs, pieces);
+    std::vector<Move> wrong = moves(stairs, pieces, now, system.bounded(), false);
+    const bool on_them = wrong.empty();
+    if (on_them) wrong = moves(stairs, pieces, now, system.bounded(), true);
+    if (wrong.empty() || (on_them && !lowest.insert(pieces).second)) {
       for (int i = 0; i < stairs.count(); ++i) now.lambda(i) = stairs.whole_force(i, pieces[i], now.lambda(i));
       return {std::move(now.v), std::move(now.lambda), std::move(pieces), steps};
     }
@@ -59,12 +88,16 @@ ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const s
       throw NotConverged(fmt::format("contact: {} of {} contact conditions still violated after {} steps", wrong.size(),
                                      stairs.count(), steps),
                          static_cast<double>(wrong.size()) / stairs.count(), steps);
-    if (left <= 0 && !nested) {
-      nested = true, left = patience, fewest = pieces.size() + 1;
-      pieces = stairs.there_are(system.nested_start(stairs, max_steps));
+    if (on_them) {
+      for (const Move& m : wrong) pieces[m.bound] = m.to;
+      v = std::move(now.v);
       continue;
     }
-    for (std::size_t k = 0; k < (left > 0 ? wrong.size() : 1); ++k) pieces[wrong[k].bound] = wrong[k].to;
+    if (v.size() == 0) {  // where the descent starts: the nearest point on the pieces
+      v = now.v;
+      for (const Move& m : wrong) v(system.bounded()[m.bound]) = m.end;
+    }
+    descend(system, wrong, now.v, v, pieces);
   }
 }
 

@@ -1,58 +1,65 @@
 #pragma once
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "antilock/solve/stairs.hpp"
 
 namespace antilock {
 
-/// v and lambda = S v - q of C bounded values, one of the two given per bound.
+/// The equilibrium K v = q + lambda in which one of value and force is given per bound.
 struct Equilibrium {
-  Eigen::VectorXd v, lambda;  ///< C each
-  /// C: what round-off makes of the one that was found. A matrix row of n entries in a system (S + E) v = q + e loses
-  /// about sqrt(n) eps of the sum of its terms: 64 eps serves rows of 4096 entries. e moves v by S^-1 e.
+  Eigen::VectorXd v;       ///< n, all unknowns of the system
+  Eigen::VectorXd lambda;  ///< C
+  /// C: what round-off makes of the one that was found. A matrix row of n entries in a system (K + E) v = q + e loses
+  /// about sqrt(n) eps of the sum of its terms: 64 eps serves rows of 4096 entries. e moves v by K^-1 e.
   Eigen::VectorXd round_off;
   static constexpr double unit = 64 * std::numeric_limits<double>::epsilon();
 };
 
-/// The linear system of a contact problem, S symmetric positive definite (C x C): all unknowns that are not bounded are
-/// eliminated from it, once (dense_contact.hpp) or with every set (sparse_contact.hpp).
+/// The linear system of a contact problem, K symmetric positive definite (n x n), C of its unknowns bounded: all others
+/// are eliminated from it, once (dense_contact.hpp: n = C) or with every set (sparse_contact.hpp).
 class ContactSystem {
  public:
+  explicit ContactSystem(std::vector<int> bounded) : bounded_(std::move(bounded)) {}
   virtual ~ContactSystem() = default;
-  /// v_i = given_i where bound i is held, lambda_i = given_i elsewhere; lambda counts from Stairs::force. Throws Error where S is not positive definite.
+  /// v_i = given_i where bound i is held, lambda_i = given_i elsewhere; lambda counts from Stairs::force. Throws Error
+  /// where K is not positive definite.
   virtual Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) = 0;
+  virtual double square(const Eigen::VectorXd& d) const = 0;  ///< d' K d
   /// A start near the answer: that of a smaller problem of the same kind.
   virtual Pieces nested_start(const Stairs& stairs, int max_steps) = 0;
+  const std::vector<int>& bounded() const { return bounded_; }  ///< C: bound -> unknown
+
+ private:
+  std::vector<int> bounded_;
 };
 
 struct ContactAnswer {
-  Eigen::VectorXd v, lambda;  ///< C each, lambda the whole force
+  Eigen::VectorXd v, lambda;  ///< n; C, the whole force
   Pieces pieces;              ///< C
   int steps = 0;              ///< linear systems solved
 };
 
-/// Finds the v that minimises v' S v / 2 - q' v on its stairs: lambda = S v - q, and (v_i, lambda_i) on stair i.
+/// Finds the v that minimises J = v' K v / 2 - q' v and the work of the bounds that give way, on its stairs: lambda =
+/// K v - q, and (v_i, lambda_i) on stair i. A descent: v starts on its pieces and stays on them.
 ///
-///     solve with the pieces as they are
-///     a bound that leaves its piece at an end by more than round-off should be on the next piece beyond that end
-///     none does: that is the answer
-///     the number of such bounds has fallen within the last `patience` steps: move all of them
-///     else: move the first of them alone
+///     solve with the pieces as they are: w, the lowest point of J while these hold
+///     where w leaves no piece, v = w:  a bound whose force leaves its piece is let go; none is: v is the answer
+///     else v goes towards w:  a value whose piece ends on the way stays at that end, and is held from now on
 ///
-/// (J. J. Judice and F. M. Pires, Computers & Operations Research 21 (1994); K. G. Murty, Opsearch 11 (1974).)
+/// How far? While the pieces stay, J(v) = J(w) + (v - w)' K (v - w) / 2. To the first end it falls in any case; all the
+/// way, with every value that leaves its piece stopped, it may rise. So the whole way is tried, then the way on which
+/// the first half of them stops, a quarter, ... the first alone, until J is lower than where the first one stops.
 ///
-/// It ends. Of single moves the last bound, C, moves only while bounds 1, ..., C - 1 are content. Let these be solved for
-/// whatever v_C is: then lambda_C is a strictly rising function of v_C, since its slope is at least the Schur complement
-/// of S there, which is positive; and the stair falls. So the two meet in one point, and a move of bound C from its piece
-/// to the next goes towards that point and never past it: four moves at most. Between two of them bounds 1, ..., C - 1
-/// are a smaller problem of the same kind, which ends by induction. Moves of all bounds come between, `patience` at most
-/// each time that the number of wrong ones reaches a new minimum, and so fewer than (C + 1) patience in all.
-/// In exact arithmetic no set returns among single moves. One that does is a tie by round-off, and is taken as the answer.
+/// It ends: a step on the way holds one bound more at least and never raises J, so after at most C of them v = w.
+/// Letting go lowers J there: J falls in the direction of the new w, its slope along it is that of the forces let go
+/// times their ways, and so not all of these ways lead back. No lowest point is met twice, and they are finitely many. One
+/// that is met again is a tie by round-off, and is taken as the answer. (D. P. Bertsekas, SIAM J. Control Optim. 20,
+/// 1982, projects like this; J. J. More and G. Toraldo, SIAM J. Optim. 1, 1991, let go like this.)
 ///
-/// Without a start it begins at the nested one. Where moves of all bounds from a given start come to nothing, it begins
-/// again at the nested one: single moves end, but from far away they may take long. Throws NotConverged after max_steps
-/// linear systems.
+/// Without a start it begins at the nested one. Throws NotConverged after max_steps linear systems.
 ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const std::optional<Pieces>& start,
                             int max_steps);
 

@@ -1,5 +1,6 @@
 #include "antilock/solve/detail/dense_contact.hpp"
 
+#include <numeric>
 #include <optional>
 
 #include "antilock/core/dense.hpp"
@@ -14,7 +15,16 @@ Cholesky factor_of(const Eigen::MatrixXd& s) {
   return factor;
 }
 
+std::vector<int> from_zero_to(Eigen::Index count) {
+  std::vector<int> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 }  // namespace
+
+DenseContact::DenseContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q)
+    : ContactSystem(from_zero_to(q.size())), s_(s), q_(q) {}
 
 Equilibrium DenseContact::solve(const std::vector<char>& held, const Eigen::VectorXd& given) {
   std::vector<int> free, fixed;

@@ -7,9 +7,10 @@ namespace antilock {
 class DenseContact final : public ContactSystem {
  public:
   /// Both must outlive it.
-  DenseContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q) : s_(s), q_(q) {}
+  DenseContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q);
 
   Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override;
+  double square(const Eigen::VectorXd& d) const override { return d.dot(s_ * d); }
   /// Makes the steps independent of h: the same problem, bounded at every second unknown only (the others are free and
   /// eliminated), solved the same way down to eight, gives the pieces by interpolation. Elimination keeps every order of S
   /// right; interpolated functions (P' S P) would be far too stiff for a beam, whose bending energy does not take their

@@ -84,9 +84,10 @@ class IteratedPenalty {
     step.u(unknown) = factor_.held() != nullptr ? sparse_road(r.r1(unknown), stairs, correction)
                                                 : dense_road(r.r1(unknown), stairs, correction);
     u_ += step.u;
+    const Eigen::VectorXd v = contact_.v.tail(stairs.count());
     for (std::size_t i = 0; i < contact.size(); ++i)  // what is held stands where its bound is, to the last digit
       if (const auto k = static_cast<int>(i);
-          is_held(contact_.pieces[i]) && contact_.v(k) == stairs.given(k, contact_.pieces[i]))
+          is_held(contact_.pieces[i]) && v(k) == stairs.given(k, contact_.pieces[i]))
         u_.set(contact[i], contact_.pieces[i] == Piece::at_lower ? problem_.lower(k) : problem_.upper(k));
     if (p_.size() == 0) return step;
     const Eigen::VectorXd dp = (problem_.b * step.u - r.r2).cwiseQuotient(delta);
@@ -129,10 +130,10 @@ class IteratedPenalty {
     const Stopwatch watch;
     std::vector<int> bounded(stairs.count());
     std::iota(bounded.begin(), bounded.end(), factor_.numbering().interior);
-    SparseContact system(*factor_.held(), r, bounded);
+    SparseContact system(*factor_.held(), r, std::move(bounded));
     ask(system, stairs, correction);
     s_.seconds.contact += watch.seconds();
-    return system.x();
+    return contact_.v;
   }
 
   /// By how much a correction brings u closer: as the past tells; at first, without B, the round-off of the factor.

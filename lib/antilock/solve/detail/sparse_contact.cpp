@@ -34,24 +34,23 @@ bool constants_are_free(const SparseMatrix& upper) {
 
 Equilibrium SparseContact::solve(const std::vector<char>& held, const Eigen::VectorXd& given) {
   std::vector<char> held_places(q_.size(), 0);
-  Eigen::VectorXd q = q_;
-  x_.setZero(q_.size());
+  Eigen::VectorXd q = q_, x = Eigen::VectorXd::Zero(q_.size());
   for (std::size_t i = 0; i < held.size(); ++i) {
-    held_places[bounded_[i]] = held[i];
-    (held[i] != 0 ? x_ : q)(bounded_[i]) += given(static_cast<Eigen::Index>(i));
+    held_places[bounded()[i]] = held[i];
+    (held[i] != 0 ? x : q)(bounded()[i]) += given(static_cast<Eigen::Index>(i));
   }
   k_.hold(held_places);
-  x_ += k_.solve(q - k_.times(x_));
-  const Eigen::VectorXd force = k_.times(x_) - q_;
-  const Eigen::VectorXd noise = Equilibrium::unit * (k_.absolute_times(x_.cwiseAbs()) + q_.cwiseAbs());
+  x += k_.solve(q - k_.times(x));
+  const Eigen::VectorXd force = k_.times(x) - q_;
+  const Eigen::VectorXd noise = Equilibrium::unit * (k_.absolute_times(x.cwiseAbs()) + q_.cwiseAbs());
   Eigen::VectorXd pushed = Eigen::VectorXd::Zero(q_.size());
-  pushed(bounded_) = noise(bounded_);
+  pushed(bounded()) = noise(bounded());
   const Eigen::VectorXd moved = k_.solve(pushed).cwiseAbs();
-  Equilibrium now{x_(bounded_), given, moved(bounded_)};
+  Equilibrium now{std::move(x), given, moved(bounded())};
   for (std::size_t i = 0; i < held.size(); ++i)
     if (const auto k = static_cast<Eigen::Index>(i); held[i] != 0) {
-      now.lambda(k) = force(bounded_[i]);
-      now.round_off(k) = noise(bounded_[i]);
+      now.lambda(k) = force(bounded()[i]);
+      now.round_off(k) = noise(bounded()[i]);
     }
   return now;
 }
@@ -59,11 +58,11 @@ Equilibrium SparseContact::solve(const std::vector<char>& held, const Eigen::Vec
 Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
   // halving takes some 25 factors of K, of a membrane with 2000 bounds 0.1 s
   constexpr std::size_t few = 2000;
-  Pieces start(bounded_.size(), Piece::between);
-  if (bounded_.size() <= 8) return start;
-  if (bounded_.size() <= few || !constants_are_free(k_.upper())) {
+  Pieces start(bounded().size(), Piece::between);
+  if (bounded().size() <= 8) return start;
+  if (bounded().size() <= few || !constants_are_free(k_.upper())) {
     std::vector<int> second;
-    for (std::size_t i = 1; i < bounded_.size(); i += 2) second.push_back(bounded_[i]);
+    for (std::size_t i = 1; i < bounded().size(); i += 2) second.push_back(bounded()[i]);
     SparseContact coarse(k_, q_, second);
     return start_by_halves(stairs, coarse, max_steps);
   }
@@ -71,16 +70,16 @@ Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
   const SparseMatrix& p = aggregates.prolongation;
   if (3 * p.cols() > 2 * p.rows()) return start;  // nothing to aggregate
 
-  std::vector<int> bounded, bound_of(p.cols(), -1), coarse_of;  // aggregate -> its bound, bound -> coarse bound
-  for (const int place : bounded_) {
+  std::vector<int> aggregated, bound_of(p.cols(), -1), coarse_of;  // aggregate -> its bound, bound -> coarse bound
+  for (const int place : bounded()) {
     int& bound = bound_of[aggregates.of[place]];
     if (bound < 0) {
-      bound = static_cast<int>(bounded.size());
-      bounded.push_back(aggregates.of[place]);
+      bound = static_cast<int>(aggregated.size());
+      aggregated.push_back(aggregates.of[place]);
     }
     coarse_of.push_back(bound);
   }
-  const auto count = static_cast<Eigen::Index>(bounded.size());
+  const auto count = static_cast<Eigen::Index>(aggregated.size());
   const Stairs fewer{sums(stairs.lower, coarse_of, count, true), sums(stairs.upper, coarse_of, count, true),
                      sums(stairs.bears, coarse_of, count, false), sums(stairs.force, coarse_of, count, false)};
   const Eigen::VectorXd q = p.transpose() * q_;
@@ -88,15 +87,15 @@ Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
   Pieces pieces;
   try {
     if (k.factorise(std::move(aggregates.coarse))) return start;
-    SparseContact coarse(k, q, bounded);
+    SparseContact coarse(k, q, std::move(aggregated));
     pieces = solve_contact(coarse, fewer, std::nullopt, max_steps).pieces;
   } catch (const Error&) {
     return start;  // a start, no more: the fine problem says what is wrong
   }
   const RowMatrix rows = p;
-  for (std::size_t i = 0; i < bounded_.size(); ++i) {
+  for (std::size_t i = 0; i < bounded().size(); ++i) {
     start[i] = pieces[coarse_of[i]];
-    for (RowMatrix::InnerIterator w(rows, bounded_[i]); w; ++w)
+    for (RowMatrix::InnerIterator w(rows, bounded()[i]); w; ++w)
       start[i] = agreed(start[i], bound_of[w.col()] >= 0 ? pieces[bound_of[w.col()]] : Piece::between);
   }
   return start;

@@ -9,10 +9,11 @@ namespace antilock {
 class SparseContact final : public ContactSystem {
  public:
   /// All must outlive it. q: F entries; bounded: the C places of the bounded unknowns.
-  SparseContact(HeldFactor& k, const Eigen::VectorXd& q, const std::vector<int>& bounded)
-      : k_(k), q_(q), bounded_(bounded) {}
+  SparseContact(HeldFactor& k, const Eigen::VectorXd& q, std::vector<int> bounded)
+      : ContactSystem(std::move(bounded)), k_(k), q_(q) {}
 
   Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override;
+  double square(const Eigen::VectorXd& d) const override { return d.dot(k_.times(d)); }
   /// A start that needs no mesh. Up to 2000 bounds, every second one alone is kept, and K stays whole: right for every K,
   /// and the factors are cheap. Beyond, K is coarsened by smoothed aggregation (Vanek, Mandel, Brezina 1996), the same problem
   /// solved there, in the same way down to a few hundred unknowns, and a bound starts on the piece of all coarse ones
@@ -21,13 +22,9 @@ class SparseContact final : public ContactSystem {
   /// energy; where they do (beams, plates: their rotations) the bounds are halved, however many there are.
   Pieces nested_start(const Stairs& stairs, int max_steps) override;
 
-  const Eigen::VectorXd& x() const { return x_; }  ///< F, of the last `solve`
-
  private:
   HeldFactor& k_;
   const Eigen::VectorXd& q_;
-  const std::vector<int>& bounded_;
-  Eigen::VectorXd x_;
 };
 
 }  // namespace antilock
