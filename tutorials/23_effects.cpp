@@ -164,8 +164,8 @@ void effects(const tutorial::Options& options, tutorial::Report& report) {
 //
 // (a) No triangle, no unknown and no solve more. Up to the error of the model its answer is as near to the truth as that
 // of the meshed layer. (b) One for each ε whose square is above the penalty δ, and one for all others. δ is about
-// $h^2/4096$, so the border is ε = $h/64$: at $h = 1/32$ 0.1 and 0.001 lie above, and three are enough. On corresponding
-// meshes (22) and (23) differ by round-off.
+// 6e-8, so the border is about ε = 2e-4: 0.1 and 0.001 lie above, and three are enough. On corresponding meshes (22)
+// and (23) differ by round-off.
 //
 // ## Exercises
 //

@@ -226,7 +226,7 @@ TEST(Doors, AFactorMadeBeforeSkipsNoCheck) {
   expect_refused([&] { PenaltyFactor{skew}; }, "not symmetric");
   PenaltyFactor factor(good);
   expect_refused([&] { factor.refactor(skew, 0.1); }, "not symmetric");
-  for (const double delta : {0.0, -1.0, nan}) expect_refused([&] { PenaltyFactor(good, delta); }, "delta");
+  for (const double delta : {0.0, -1.0, nan}) expect_refused([&] { PenaltyFactor(good, delta); }, "penalty");
 }
 
 TEST(Doors, TheReportPassesOverNothing) {

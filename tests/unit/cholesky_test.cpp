@@ -7,9 +7,8 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/detail/cholmod_cholesky.hpp"
-#include "antilock/solve/detail/eigen_cholesky.hpp"
 #include "antilock/solve/detail/penalised_matrix.hpp"
+#include "antilock/solve/detail/sparse_cholesky.hpp"
 #include "antilock/study/method.hpp"
 #include "support/dense.hpp"
 
@@ -37,12 +36,10 @@ SparseMatrix two_strings(int size, bool floats) {
   return k;
 }
 
-template <class Factor>
-class CholeskyOf : public testing::Test {};
-using BothFactors = testing::Types<CholmodCholesky, EigenCholesky>;
-TYPED_TEST_SUITE(CholeskyOf, BothFactors);
+class CholeskyOf : public testing::TestWithParam<CholeskyMaker> {};
+INSTANTIATE_TEST_SUITE_P(BothFactors, CholeskyOf, testing::Values(cholmod_cholesky, eigen_cholesky));
 
-TYPED_TEST(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
+TEST_P(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
   const TriangleMesh mesh = unstructured_mesh(8);
   const Space space(mesh, crouzeix_raviart());
   const VariationalInequality problem = paper_problem(space, 0.1);
@@ -54,14 +51,13 @@ TYPED_TEST(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
   const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(full);
   const double round_off = 1e-16 * eigenvalues(size - 1) / eigenvalues(0);  // of x, to first order
   for (const int last : {0, size - free.interior, size}) {
-    TypeParam factor;
-    EXPECT_FALSE(factor.analysed());
-    factor.analyse(k, last);
-    EXPECT_TRUE(factor.analysed());
-    ASSERT_FALSE(factor.factorise(k));
-    EXPECT_LT(away(factor.backward(factor.forward(r)), x), round_off) << last;
+    const auto factor = GetParam()();
+    factor->analyse(k, last);
+    ASSERT_FALSE(factor->factorise(k));
+    EXPECT_LT(away(factor->backward(factor->forward(r)), x), round_off) << last;
     // L L' of the last rows is their Schur complement
-    const Eigen::MatrixXd l = factor.trailing_block(size - last), inside = full.topLeftCorner(size - last, size - last),
+    const Eigen::MatrixXd l = factor->trailing_block(size - last),
+                          inside = full.topLeftCorner(size - last, size - last),
                           beside = full.topRightCorner(size - last, last);
     Eigen::MatrixXd schur = full.bottomRightCorner(last, last);
     if (last < size) schur -= test::product(beside.transpose(), Cholesky(inside).solve(beside));
@@ -71,32 +67,32 @@ TYPED_TEST(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
 }
 
 // 64 rows: the pivot that is lost is 0 or a few times the round-off of 2; the sign that it comes with is chance.
-TYPED_TEST(CholeskyOf, NamesARowOfThePieceThatFloatsAndRecovers) {
+TEST_P(CholeskyOf, NamesARowOfThePieceThatFloatsAndRecovers) {
   for (const int last : {0, 3}) {
-    TypeParam factor;
+    const auto factor = GetParam()();
     SparseMatrix sound = two_strings(64, false), floating = two_strings(64, true), negative = sound;
     negative.coeffRef(70, 70) = -1;
-    factor.analyse(sound, last);
+    factor->analyse(sound, last);
     for (SparseMatrix* k : {&floating, &sound, &negative, &sound}) {
-      const std::optional<int> lost = factor.factorise(*k);
+      const std::optional<int> lost = factor->factorise(*k);
       EXPECT_EQ(lost.has_value(), k != &sound);
       EXPECT_GE(lost.value_or(64), 64) << "the first piece is sound";
     }
-    const Eigen::VectorXd r = Eigen::VectorXd::Ones(128), x = factor.backward(factor.forward(r));
+    const Eigen::VectorXd r = Eigen::VectorXd::Ones(128), x = factor->backward(factor->forward(r));
     // backward stable: a small multiple of eps |K| |x|, and |K| < 4; measured 0.06 times 4 of these
     EXPECT_LT((sound.selfadjointView<Eigen::Upper>() * x - r).norm(),
               4 * std::numeric_limits<double>::epsilon() * 4 * x.norm());
   }
 }
 
-TYPED_TEST(CholeskyOf, SmallestPivotIsThatOfTheElimination) {
+TEST_P(CholeskyOf, SmallestPivotIsThatOfTheElimination) {
   SparseMatrix k(3, 3);
   for (const int i : {0, 1, 2}) k.insert(i, i) = std::pow(10, -i);
   k.makeCompressed();
-  TypeParam factor;
-  factor.analyse(k, 0);
-  ASSERT_FALSE(factor.factorise(k));
-  EXPECT_NEAR(factor.smallest_pivot(), 1e-2, 1e-15);
+  const auto factor = GetParam()();
+  factor->analyse(k, 0);
+  ASSERT_FALSE(factor->factorise(k));
+  EXPECT_NEAR(factor->smallest_pivot(), 1e-2, 1e-15);
 }
 
 constexpr double every_epsilon[]{1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-16, 1e-20, 0.0};
@@ -112,8 +108,8 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOverTheUniformityTable) {
       for (const double epsilon : every_epsilon) {
         SCOPED_TRACE(fmt::format("{}, 1/h = {}, epsilon = {}", method.name(), cells, epsilon));
         const VariationalInequality problem = paper_problem(discrete.space(), epsilon);
-        PenaltyFactor cholmod = PenaltyFactor::on<CholmodCholesky>(problem);
-        PenaltyFactor eigen = PenaltyFactor::on<EigenCholesky>(problem);
+        PenaltyFactor cholmod(problem, {}, ContactRoad::automatic, cholmod_cholesky);
+        PenaltyFactor eigen(problem, {}, ContactRoad::automatic, eigen_cholesky);
         const Solution one = active_set(problem, cholmod), other = active_set(problem, eigen);
         const double apart = away(other.u, one.u);
         EXPECT_LT(apart, 1e-12);
@@ -133,8 +129,8 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOnTheSparseRoad) {
     const Discretisation discrete = method.on(16);
     for (const double epsilon : {1.0, 1e-4, 0.0}) {
       const VariationalInequality problem = paper_problem(discrete.space(), epsilon);
-      PenaltyFactor cholmod = PenaltyFactor::on<CholmodCholesky>(problem, std::nullopt, ContactRoad::sparse);
-      PenaltyFactor eigen = PenaltyFactor::on<EigenCholesky>(problem, std::nullopt, ContactRoad::sparse);
+      PenaltyFactor cholmod(problem, {}, ContactRoad::sparse, cholmod_cholesky);
+      PenaltyFactor eigen(problem, {}, ContactRoad::sparse, eigen_cholesky);
       EXPECT_NE(eigen.held(), nullptr);
       EXPECT_LT(away(active_set(problem, eigen).u, active_set(problem, cholmod).u), 1e-12) << method.name();
     }

@@ -375,7 +375,7 @@ TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
     const Eigen::VectorXd truth = Cholesky(k(unknown, unknown)).solve(r);
     EXPECT_LT(relative_difference(x, truth), 1e-10) << delta;
   }
-  EXPECT_EQ(factor.work().factorisations, 3);
+  EXPECT_EQ(factor.factorisations(), 3);
 }
 
 TEST(Progress, IsReportedOncePerCorrectionAndStopsTheSolve) {

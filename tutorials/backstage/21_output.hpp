@@ -61,7 +61,7 @@ inline Table uzawa_on_its_way(const std::string& method, const VariationalInequa
                               const Solution& full, const std::function<double(const Solution&)>& error) {
   Table table({"method", "quantity", "steps", "error"});
   table.add({method, "accurate enough: stop", early.counters.contact, error(early)});
-  PenaltyFactor factor = PenaltyFactor::moderate(problem, {}, ContactRoad::dense);  // one for every stop
+  PenaltyFactor factor(problem, {}, ContactRoad::dense);  // one for every stop
   Solution u;
   double error_of_u = 0;
   for (double energy = 1e-3; energy > 1e-17; energy /= 4) {

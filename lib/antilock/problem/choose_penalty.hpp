@@ -5,27 +5,40 @@
 
 namespace antilock {
 
-/// The penalty delta of the iterated penalty (solve/) from the matrices alone; dimensionless like compliance. Too large
-/// costs corrections, too small costs digits of A1 in the factor; the answer is the same.
-///
-///     delta = max( r min(2 mean(M), r, 1) / 4096,  6e-8 r^(1/3) R^(2/3) )
-///     r = sum (B' M B)_jj / sum (A1)_jj    over the free unknowns where both are positive
-///     R = max (B' M B)_jj / max (A1)_jj    each is 1 where it lies between 1/8 and 8
-///
-/// - A correction contracts like delta / (delta + sigma), sigma the smallest a0(v, v) / a1(v, v) that is not zero. In
-///   the layer and in rubber A1 and B hold first derivatives (r = 1): sigma falls like h^2 = 2 mean(M), two triangles
-///   to a square. In a beam and in a glue B holds no derivative (r = h^2/4, h^2/3): sigma falls like h^4.
-/// - Round-off in the factor spoils a correction like 1 / (h^2 delta^2): with r = R = 1 a smaller delta than 6e-8 takes
-///   more corrections, not fewer. In the beam, where r is far below R, 6e-11 on 512 cells took 3 corrections but 19
-///   contact steps, 6e-10 takes 6 and 13, 1e-8 took 20 and 9.
-///
-/// Corrections measured with contact, the most over compliance 1e-4, 1e-8 and 0: layer, 1/h = 8 to 128: P1 2, CR
-/// 2, locked P1 6 (with 256 in place of 4096: 3, 4, 10); rubber, n = 8 to 32: crossed, CR, Kouhia-Stenberg 2 (locked P1
-/// 3); beam, n = 2 to 128: 3, 256: 4, 512: 6 (locked, where all of u tends to 0: 6).
-double choose_penalty(const VariationalInequality& problem);
+/// How stiff B' M B is beside A1, from their diagonals at the free unknowns. Of a problem in pieces: the sums over the
+/// pieces, and the largest of them.
+struct RelativeStiffness {
+  double sum_0 = 0, sum_1 = 0;    ///< of the diagonals of B' M B and of A1, where both are positive
+  double most_0 = 0, most_1 = 0;  ///< the largest entry of each
 
-/// The smallest penalty of which a factor of K keeps digits enough of A1 to contract at all: 1e-13 r^(1/3) R^(2/3).
-double smallest_penalty(const VariationalInequality& problem);
+  /// s = r^(1/3) R^(2/3), r the ratio of the sums and R that of the largest; 1 where they cannot be compared. In the layer
+  /// and in rubber A1 and B hold first derivatives, and s is about 1. In a beam and in a glue B holds none.
+  double value() const;
+};
+RelativeStiffness relative_stiffness(const VariationalInequality& problem);
+
+/// The penalty delta of the iterated penalty (solve/) from the matrices alone: A1 times t asks for delta / t, M times t for
+/// t delta. Too large costs corrections, too small costs digits of A1 in the factor; the answer is the same.
+///
+///     delta = 6e-8 s
+///
+/// A correction contracts like delta / (delta + sigma), sigma the smallest a0(v, v) / a1(v, v) that is not zero; it falls
+/// with the mesh, like h^2 in the layer, like h^4 in a beam. Round-off in the factor spoils a correction like eps / (h
+/// delta)^2: with s = 1 a smaller delta takes more corrections, not fewer. In the beam, where r is far below R, 6e-11 on
+/// 512 cells took 3 corrections but 19 contact steps, 6e-10 takes 6 and 13, 1e-8 took 20 and 9.
+///
+/// Corrections measured with contact, the most over compliance 1 to 1e-12 and 0: layer, 1/h = 8 to 128: P1 2, CR 2, locked
+/// P1 4 (with 1e-6 in place of 6e-8: 4, 4, 20); beam, 512 cells: 6, 1024: 12 (locked, where all of u tends to 0).
+constexpr double usual_penalty = 6e-8;
+inline double choose_penalty(const RelativeStiffness& s) { return usual_penalty * s.value(); }
+inline double choose_penalty(const VariationalInequality& problem) {
+  return choose_penalty(relative_stiffness(problem));
+}
+
+/// The smallest penalty of which a factor of K keeps digits enough of A1 to contract at all: 1e-13 s.
+inline double smallest_penalty(const VariationalInequality& problem) {
+  return 1e-13 * relative_stiffness(problem).value();
+}
 
 /// What the factor is made with: max(compliance, penalty), `penalty` chosen by the rule above where none is given.
 /// Throws Error for a penalty that is not positive.

@@ -29,7 +29,7 @@ Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor,
 }
 
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options) {
-  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty, options.road);
+  PenaltyFactor factor(problem, options.penalty, options.road);
   return solve(problem, factor, options);
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -12,10 +11,8 @@ namespace antilock {
 struct Equilibrium {
   Eigen::VectorXd v;       ///< n, all unknowns of the system
   Eigen::VectorXd lambda;  ///< C
-  /// C: what round-off makes of the one that was found. A matrix row of n entries in a system (K + E) v = q + e loses
-  /// about sqrt(n) eps of the sum of its terms: 64 eps serves rows of 4096 entries. e moves v by K^-1 e.
+  /// C: what round-off makes of the one that was found: of a force tuned::round_off of its terms, e; of a value K^-1 e.
   Eigen::VectorXd round_off;
-  static constexpr double unit = 64 * std::numeric_limits<double>::epsilon();
 };
 
 /// The linear system of a contact problem, K symmetric positive definite (n x n), C of its unknowns bounded: all others

@@ -76,7 +76,7 @@ Kkt kkt_report_unchecked(const VariationalInequality& problem, const Solution& s
     moved = moved || u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i));
   }
   const KktRows rows(kkt_parts(problem, u, p), bound_forces(problem, lambda), largest_bound_forces(problem, lambda),
-                     fixed, std::max(u.lpNorm<Eigen::Infinity>(), 1e-6 * solution.moderate), 0,
+                     fixed, std::max(u.lpNorm<Eigen::Infinity>(), TrustLevels{}.refused * solution.moderate), 0,
                      [](double value) { return value; });
   // the prescribed values hold exactly or not at all
   kkt.residual = moved ? std::max(rows.residual(), 1.0) : rows.residual();

@@ -29,7 +29,7 @@ namespace antilock {
 ///     s_i    the bounded value: u_k of a contact unknown k, c . u of a row c of combinations
 ///     c_i    what s_i is at most where no |u| is above 1: 1, and sum_k |c_k|
 ///     force_i  min(own_k, F_0), and its smallest value over |c_k| on the free unknowns of a combination
-///     U      max(|u|, 1e-6 moderate, the displacement that a load which neither lambda nor B' M p bears gives its
+///     U      max(|u|, 1e-6 moderate (what is refused of it), the displacement that a load which neither lambda nor B' M p bears gives its
 ///            unknown alone): a locked u tends to 0, and its round-off is that of its size before
 ///     t      |L| + |A1| |u| + |B'| M |p|, the terms of r1
 ///     own    max(t, |c_k lambda|, U diag(A1 + B' M B)), the forces at one unknown

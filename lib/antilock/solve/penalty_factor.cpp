@@ -8,10 +8,9 @@
 #include <utility>
 
 #include "antilock/core/error.hpp"
-#include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
-#include "antilock/solve/detail/default_cholesky.hpp"
 #include "antilock/solve/detail/tied.hpp"
+#include "antilock/solve/detail/tuned.hpp"
 
 namespace antilock {
 namespace {
@@ -31,9 +30,6 @@ bool same(const Sparse& one, const Sparse& other) {
          std::equal(one.outerIndexPtr(), one.outerIndexPtr() + one.outerSize(), other.outerIndexPtr());
 }
 
-/// By which delta grows where K has no positive pivots: as much as a later one is smaller (iterated_penalty.cpp).
-constexpr double larger_by = 64;
-
 /// Whether the contact problem takes the sparse road (see ContactRoad).
 bool takes_sparse(ContactRoad road, const FreeNumbering& numbering) {
   const auto all = static_cast<double>(numbering.unknown.size()), bounded = all - numbering.interior;
@@ -43,39 +39,25 @@ bool takes_sparse(ContactRoad road, const FreeNumbering& numbering) {
 
 }  // namespace
 
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road,
-                             std::unique_ptr<SparseCholesky> cholesky)
-    : PenaltyFactor(Tied(problem), delta, road, std::move(cholesky)) {}
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty, ContactRoad road,
+                             CholeskyMaker make)
+    : PenaltyFactor(Tied(checked(problem)), moderate_delta(problem, penalty), road, make) {}
 
-PenaltyFactor::PenaltyFactor(const Tied& problem, double delta, ContactRoad road,
-                             std::unique_ptr<SparseCholesky> cholesky)
-    : numbering_(*problem), a1_(problem->a1), b_(problem->b), m_(problem->m), first_delta_(delta) {
-  if (takes_sparse(road, numbering_))
-    held_.emplace(std::move(cholesky));
-  else
-    cholesky_ = std::move(cholesky);
-  // beside a B' M B / delta above 1e14 A1 no digit of A1 is left: any larger delta gives the same answer
-  for (int times = 0;; ++times) try {
-      factorise(*problem, delta * std::pow(larger_by, times));
-      return;
+PenaltyFactor::PenaltyFactor(const Tied& problem, double delta, ContactRoad road, CholeskyMaker make)
+    : numbering_(*problem),
+      a1_(problem->a1),
+      b_(problem->b),
+      m_(problem->m),
+      first_delta_(delta),
+      sparse_(takes_sparse(road, numbering_)),
+      factor_(make) {
+  // a larger penalty leaves the factor more digits of A1, until nothing is stiff beside it any more
+  for (;; delta *= tuned::next_penalty) try {
+      factorise(*problem, delta);
+      break;
     } catch (const Error&) {
-      if (times == 4 || problem->b.rows() == 0 || !std::isfinite(delta)) throw;
+      if (problem->b.rows() == 0 || !(delta < first_delta_ / usual_penalty)) throw;
     }
-}
-
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road)
-    : PenaltyFactor(checked(problem), delta, road, std::make_unique<DefaultCholesky>()) {}
-
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem) : PenaltyFactor(moderate(problem, std::nullopt)) {}
-
-PenaltyFactor PenaltyFactor::moderate(const VariationalInequality& problem, std::optional<double> penalty,
-                                      ContactRoad road) {
-  return moderate(problem, penalty, road, std::make_unique<DefaultCholesky>());
-}
-
-PenaltyFactor PenaltyFactor::moderate(const VariationalInequality& problem, std::optional<double> penalty,
-                                      ContactRoad road, std::unique_ptr<SparseCholesky> cholesky) {
-  return {problem, moderate_delta(checked(problem), penalty), road, std::move(cholesky)};
 }
 
 void PenaltyFactor::check_fits(const VariationalInequality& problem) const {
@@ -116,47 +98,26 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
   delta_ = delta;
   deltas_.setConstant(problem.b.rows(), delta);
   deltas_.tail(problem.ties).setConstant(delta / first_delta_);
-  SparseMatrix k = penalised_matrix(problem, numbering_, deltas_);
-  std::optional<int> lost;
-  Stopwatch watch;
-  if (held_) {
-    lost = held_->factorise(std::move(k));
-    work_.analyse_seconds = held_->analyse_seconds();
-    work_.factor_seconds = watch.lap() - work_.analyse_seconds;
-  } else {
-    if (!cholesky_->analysed()) {
-      cholesky_->analyse(k, static_cast<int>(k.cols()) - numbering_.interior);
-      work_.analyse_seconds = watch.lap();
-    }
-    lost = cholesky_->factorise(k);
-  }
+  const int contact = static_cast<int>(numbering_.unknown.size()) - numbering_.interior;
+  const std::optional<int> lost =
+      factor_.factorise(penalised_matrix(problem, numbering_, deltas_), sparse_ ? 0 : contact);
   if (lost)
     throw Error(fmt::format(
         "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
         "by nothing, a cell is too flat for double precision, or A1 and B are in units far apart; accepted: enough "
         "fixed unknowns, cells, entries of A1 and B' M B of like size",
         delta, numbering_.unknown[*lost]));
-  if (!held_) {
-    contact_block_ = cholesky_->trailing_block(numbering_.interior);
-    work_.factor_seconds = watch.lap();
-  }
-  ++work_.factorisations;
+  if (!sparse_) contact_block_ = factor_.cholesky().trailing_block(numbering_.interior);
 }
-
-double PenaltyFactor::smallest_pivot() const { return held_ ? held_->smallest_pivot() : cholesky_->smallest_pivot(); }
 
 Eigen::VectorXd PenaltyFactor::forward(const Eigen::VectorXd& r) const {
   require_dense();
-  return cholesky_->forward(r);
+  return factor_.cholesky().forward(r);
 }
 
 Eigen::VectorXd PenaltyFactor::backward(Eigen::VectorXd y) const {
   require_dense();
-  return cholesky_->backward(std::move(y));
-}
-
-Eigen::VectorXd PenaltyFactor::solve(const Eigen::VectorXd& r) const {
-  return held_ ? held_->solve(r) : cholesky_->backward(cholesky_->forward(r));
+  return factor_.cholesky().backward(std::move(y));
 }
 
 const Eigen::MatrixXd& PenaltyFactor::contact_block() const {
@@ -165,7 +126,7 @@ const Eigen::MatrixXd& PenaltyFactor::contact_block() const {
 }
 
 void PenaltyFactor::require_dense() const {
-  if (held_)
+  if (sparse_)
     throw Error(
         fmt::format("solve: this factor of {} bounds among {} unknowns has no dense contact block; accepted: a factor "
                     "made with ContactRoad::dense",

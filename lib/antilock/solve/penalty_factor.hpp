@@ -6,7 +6,6 @@
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/detail/held_factor.hpp"
 #include "antilock/solve/detail/penalised_matrix.hpp"
-#include "antilock/solve/detail/sparse_cholesky.hpp"
 
 namespace antilock {
 
@@ -32,20 +31,10 @@ enum class ContactRoad { automatic, dense, sparse };
 /// is the same, every compliance of one matrix pair (A1, B).
 class PenaltyFactor {
  public:
-  /// Throws Error for a malformed problem or a delta that is not positive, if K is not positive definite (then
-  /// A1 + B' M B is singular: a piece is held nowhere), or out of memory.
-  PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road = ContactRoad::automatic);
-  /// The usual one: delta = moderate_delta(problem), the compliance itself where nothing is gained by less.
-  explicit PenaltyFactor(const VariationalInequality& problem);
-  /// The same with the penalty chosen by the caller, where there is one.
-  static PenaltyFactor moderate(const VariationalInequality& problem, std::optional<double> penalty,
-                                ContactRoad road = ContactRoad::automatic);
-  /// The same on a factor of the type `Cholesky`, CholmodCholesky or EigenCholesky; all others are on DefaultCholesky.
-  template <class Cholesky>
-  static PenaltyFactor on(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
-                          ContactRoad road = ContactRoad::automatic) {
-    return moderate(problem, penalty, road, std::make_unique<Cholesky>());
-  }
+  /// delta = moderate_delta(problem, penalty). Throws Error for a malformed problem or a penalty that is not positive, if
+  /// K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of memory.
+  explicit PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
+                         ContactRoad road = ContactRoad::automatic, CholeskyMaker make = default_cholesky);
 
   /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B or
   /// M than this factor's: one walk over the data, about the cost of a residual.
@@ -60,12 +49,12 @@ class PenaltyFactor {
   const Eigen::VectorXd& deltas() const { return deltas_; }
   const FreeNumbering& numbering() const { return numbering_; }
   /// The smallest pivot of K: to about a factor of F its smallest eigenvalue, for next to nothing.
-  double smallest_pivot() const;
+  double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
   /// K^-1 r on the F free places; on the sparse road of the unknowns that are not held, 0 on the held ones.
-  Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
+  Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_.solve(r); }
 
   /// The sparse road's K, which holds unknowns; nullptr on the dense one.
-  HeldFactor* held() { return held_ ? &*held_ : nullptr; }
+  HeldFactor* held() { return sparse_ ? &factor_ : nullptr; }
 
   // The dense road's; on the sparse one they throw Error.
   /// y = L^-1 P r for r on the F free places; the last C entries of y belong to the contact unknowns, in their order.
@@ -75,20 +64,12 @@ class PenaltyFactor {
   /// C x C lower triangular trailing block of L.
   const Eigen::MatrixXd& contact_block() const;
 
-  /// What it has done so far.
-  struct Work {
-    int factorisations = 0;                          ///< numeric ones of the whole K
-    double analyse_seconds = 0, factor_seconds = 0;  ///< of the last analysis and factorisation
-  };
-  const Work& work() const { return work_; }
+  int factorisations() const { return factor_.factorisations(); }  ///< numeric ones so far
+  double analyse_seconds() const { return factor_.analyse_seconds(); }
+  double factor_seconds() const { return factor_.factor_seconds(); }  ///< of the last one of the whole K
 
  private:
-  PenaltyFactor(const Tied& problem, double delta, ContactRoad road, std::unique_ptr<SparseCholesky> cholesky);
-  /// Of a problem that has passed `check`.
-  PenaltyFactor(const VariationalInequality& problem, double delta, ContactRoad road,
-                std::unique_ptr<SparseCholesky> cholesky);
-  static PenaltyFactor moderate(const VariationalInequality& problem, std::optional<double> penalty, ContactRoad road,
-                                std::unique_ptr<SparseCholesky> cholesky);
+  PenaltyFactor(const Tied& problem, double delta, ContactRoad road, CholeskyMaker make);
   /// Whether A1, B and M are the ones that it was made of, to the last bit.
   bool owns(const VariationalInequality& problem) const;
   void check_unknowns(const VariationalInequality& problem) const;
@@ -100,10 +81,9 @@ class PenaltyFactor {
   Eigen::VectorXd m_;
   double first_delta_, delta_ = 0;
   Eigen::VectorXd deltas_;  ///< R
-  Work work_;
-  std::unique_ptr<SparseCholesky> cholesky_;  ///< the dense road's
-  std::optional<HeldFactor> held_;            ///< the sparse road's
-  Eigen::MatrixXd contact_block_;
+  bool sparse_;
+  HeldFactor factor_;
+  Eigen::MatrixXd contact_block_;  ///< of the dense road
 };
 
 }  // namespace antilock

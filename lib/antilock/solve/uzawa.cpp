@@ -10,8 +10,10 @@
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/detail/dense_contact.hpp"
 #include "antilock/solve/detail/iterated_penalty.hpp"
+#include "antilock/solve/detail/tuned.hpp"
 
 namespace antilock {
 namespace {
@@ -196,7 +198,9 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
 }
 
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
-  PenaltyFactor factor = PenaltyFactor::moderate(problem, options.penalty, ContactRoad::dense);
+  // its steps are products with S^-1, whose round-off no correction mends: a penalty that leaves it more digits
+  const double penalty = tuned::next_penalty * choose_penalty(problem);
+  PenaltyFactor factor(problem, options.penalty.value_or(penalty), ContactRoad::dense);
   return uzawa(problem, factor, options);
 }
 

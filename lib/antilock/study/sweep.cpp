@@ -61,7 +61,7 @@ const PenaltyFactor& Sweep::factor() const {
 
 Solution Sweep::solve(ActiveSetOptions options) {
   const double delta = moderate_delta(problem_);
-  const int factorisations_before = factor_ ? factor_->work().factorisations : 0;
+  const int factorisations_before = factor_ ? factor_->factorisations() : 0;
   if (!factor_)
     factor_.emplace(problem_, delta);
   else if (problem_.b.rows() > 0 && factor_->delta() != delta)
@@ -70,7 +70,7 @@ Solution Sweep::solve(ActiveSetOptions options) {
 
   Solution solution = active_set(problem_, *factor_, options);
   pieces_ = solution.pieces;
-  solution.counters.factorisations = factor_->work().factorisations - factorisations_before;
+  solution.counters.factorisations = factor_->factorisations() - factorisations_before;
   if (solution.counters.factorisations == 0) solution.seconds.factor = 0;
   if (factorisations_before > 0) solution.seconds.analyse = 0;
   total_.unknowns = solution.counters.unknowns;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "antilock/core/dense.hpp"
+#include "antilock/solve/detail/tuned.hpp"
 
 namespace antilock {
 
@@ -12,13 +13,13 @@ void Anderson::note(const Twice& reached, const Eigen::VectorXd& g, const Twice&
 }
 
 double Anderson::contraction() const {
-  double most = past_.size() < 2 ? 0.99 : 0.01;
+  double most = past_.size() < 2 ? tuned::slowest : 1 - tuned::slowest;
   for (std::size_t i = 1; i < past_.size(); ++i) {
     const Eigen::VectorXd after = past_[0].reached - past_[i].reached;
     const double apart = (after - past_[0].g + past_[i].g).norm();
     if (apart > 0) most = std::max(most, after.norm() / apart);
   }
-  return std::min(most, 0.99);
+  return std::min(most, tuned::slowest);
 }
 
 void Anderson::mix(Twice& reached, Twice& companion) const {

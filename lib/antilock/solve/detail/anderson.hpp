@@ -14,8 +14,8 @@ class Anderson {
   /// Notes a plain step: `reached` = x + g from some x, and `companion`, a vector that depends affinely on x.
   void note(const Twice& reached, const Eigen::VectorXd& g, const Twice& companion);
 
-  /// By how much a plain step brings two starts closer, at worst over the last start and those before it; 0.01 to 0.99,
-  /// and 0.99 where there is only one. It holds wherever the starts came from. (The ratio of two steps |g| does not: a
+  /// By how much a plain step brings two starts closer, at worst over the last start and those before it; within
+  /// tuned::slowest, and that where there is only one. It holds wherever the starts came from. (The ratio of two steps |g| does not: a
   /// mix makes g smaller, not the error by the same factor.)
   double contraction() const;
 

@@ -5,6 +5,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/solve/detail/tuned.hpp"
 
 namespace antilock {
 namespace {
@@ -40,7 +41,7 @@ Equilibrium DenseContact::solve(const std::vector<char>& held, const Eigen::Vect
   }
   if (!fixed.empty()) now.lambda(fixed) = s_(fixed, Eigen::all) * now.v - q_(fixed);
   // each force by the terms of its own row: one stiff unknown must not hide the pull on a soft one
-  now.round_off = Equilibrium::unit * (s_.cwiseAbs() * now.v.cwiseAbs() + q_.cwiseAbs());
+  now.round_off = tuned::round_off * (s_.cwiseAbs() * now.v.cwiseAbs() + q_.cwiseAbs());
   if (factor) {
     const Eigen::VectorXd moved = factor->solve(Eigen::VectorXd(now.round_off(free))).cwiseAbs();
     now.round_off(free) = moved;

@@ -5,17 +5,17 @@
 #include <vector>
 
 #include "antilock/core/dense.hpp"
+#include "antilock/solve/detail/tuned.hpp"
 
 namespace antilock {
 
 std::optional<double> nearly_dependent_rows(const VariationalInequality& problem) {
-  constexpr Eigen::Index most = 200;
   std::vector<int> rows;  // of compliance 0: the others decide nothing
   for (int row = problem.compliance == 0 ? 0 : static_cast<int>(problem.b.rows()) - problem.ties;
        row < problem.b.rows(); ++row)
     rows.push_back(row);
-  if (rows.size() < 2 || std::min<Eigen::Index>(std::ssize(rows), problem.free_count()) > most ||
-      std::max<Eigen::Index>(std::ssize(rows), problem.size()) > 10 * most)
+  if (rows.size() < 2 || std::min<Eigen::Index>(std::ssize(rows), problem.free_count()) > tuned::few_rows ||
+      std::max<Eigen::Index>(std::ssize(rows), problem.size()) > 10 * tuned::few_rows)
     return std::nullopt;
   Eigen::MatrixXd b = Eigen::MatrixXd(problem.b)(rows, Eigen::all);
   const Eigen::VectorXd m = problem.m(rows);
@@ -29,7 +29,7 @@ std::optional<double> nearly_dependent_rows(const VariationalInequality& problem
     if (b.row(r).squaredNorm() > 0) b.row(r).normalize();
   const Eigen::VectorXd pivots = qr_pivots(b.transpose());
   for (const double pivot : pivots)
-    if (pivot > 2e-15 && pivot < 3e-9) return pivot;
+    if (pivot > tuned::equal && pivot < tuned::apart) return pivot;
   return std::nullopt;
 }
 

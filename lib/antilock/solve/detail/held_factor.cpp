@@ -2,21 +2,20 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/solve/detail/default_cholesky.hpp"
 
 namespace antilock {
 
-HeldFactor::HeldFactor() : HeldFactor(std::make_unique<DefaultCholesky>()) {}
-
-std::optional<int> HeldFactor::factorise(SparseMatrix&& k) {
+std::optional<int> HeldFactor::factorise(SparseMatrix&& k, int last) {
   k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved
   held_.assign(k_.cols(), 0);
-  if (!cholesky_->analysed()) {
-    Stopwatch watch;
-    cholesky_->analyse(k_, 0);
-    analyse_seconds_ = watch.seconds();
+  Stopwatch watch;
+  if (factorisations_++ == 0) {
+    cholesky_->analyse(k_, last);
+    analyse_seconds_ = watch.lap();
   }
-  return cholesky_->factorise(k_);
+  const std::optional<int> lost = cholesky_->factorise(k_);
+  factor_seconds_ = watch.lap();
+  return lost;
 }
 
 void HeldFactor::hold(const std::vector<char>& held) {
@@ -26,7 +25,7 @@ void HeldFactor::hold(const std::vector<char>& held) {
     for (SparseMatrix::InnerIterator it(rest, j); it; ++it)
       if (it.row() != j && (held[j] != 0 || held[it.row()] != 0)) it.valueRef() = 0;
   held_ = held;
-  ++refactorisations_;
+  ++factorisations_;
   if (cholesky_->factorise(rest)) throw Error("contact: K on the unknowns that are not held is not positive definite");
 }
 

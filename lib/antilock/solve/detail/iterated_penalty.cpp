@@ -13,17 +13,13 @@
 #include "antilock/solve/detail/dense_contact.hpp"
 #include "antilock/solve/detail/sparse_contact.hpp"
 #include "antilock/solve/detail/tied.hpp"
+#include "antilock/solve/detail/tuned.hpp"
 #include "antilock/solve/judge.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/residual.hpp"
 
 namespace antilock {
 namespace {
-
-/// Corrections with one penalty: a new factor costs as much as 10 to 20 (measured at 1/h = 128).
-constexpr int corrections_per_penalty = 15;
-/// By which the next penalty is smaller. A correction contracts like delta / (delta + sigma): 0.9 becomes 0.12.
-constexpr double smaller_by = 64;
 
 /// One solve: the factor and where the iterates stand.
 class IteratedPenalty {
@@ -52,7 +48,8 @@ class IteratedPenalty {
       s_.counters.corrections = correction;
       s_.error = now.error;
       if (now.error <= options_.tolerance && now.open <= 1) return finished();
-      if (correction % 5 == 4) require_an_admissible_u(problem_, u_.high, s_);
+      const bool slow = correction % tuned::corrections_per_penalty == tuned::corrections_per_penalty - 1;
+      if (slow) require_an_admissible_u(problem_, u_.high, s_);
       if (correction >= options_.max_corrections || !std::isfinite(moved))
         throw NotConverged(fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative "
                                        "error of u is {:.1e}, accepted {:.0e}, and compliance p = B u holds to {:.1e} "
@@ -61,7 +58,7 @@ class IteratedPenalty {
                            std::max(now.error, options_.tolerance * now.open), correction);
       report(options_.progress, {"corrections", correction + 1, now.error, options_.tolerance}, s_.solver);
       acceleration_.mix(p_, u_);
-      if (correction % corrections_per_penalty == corrections_per_penalty - 1) take_a_smaller_penalty();
+      if (slow) take_a_smaller_penalty();
     }
   }
 
@@ -139,15 +136,16 @@ class IteratedPenalty {
   /// By how much a correction brings u closer: as the past tells; at first, without B, the round-off of the factor.
   double rate(double moved) const {
     if (p_.size() > 0) return acceleration_.contraction();
-    if (s_.history.empty()) return std::min(0.99, rounding_of_the_factor(problem_, factor_));
+    if (s_.history.empty()) return std::min(tuned::slowest, rounding_of_the_factor(problem_, factor_));
     const double before = s_.history.back() * u_.high.lpNorm<Eigen::Infinity>();
-    return moved < before ? std::clamp(moved / before, 0.01, 0.99) : 0.99;
+    return moved < before ? std::clamp(moved / before, 1 - tuned::slowest, tuned::slowest) : tuned::slowest;
   }
 
   /// No smaller than the compliance, and than what leaves a factor digits of A1.
   void take_a_smaller_penalty() {
     const double before = factor_.delta(), compliance = problem_.b.rows() > problem_.ties ? problem_.compliance : 0;
-    const double delta = std::max({before / smaller_by, compliance, std::min(before, smallest_penalty(problem_))});
+    const double delta =
+        std::max({before / tuned::next_penalty, compliance, std::min(before, smallest_penalty(problem_))});
     if (problem_.b.rows() == 0 || delta >= before) return;
     try {
       factor_.refactor(problem_, delta);
@@ -167,11 +165,10 @@ class IteratedPenalty {
 
   Solution finished() {
     s_.counters.unknowns = problem_.free_count();
-    s_.counters.factorisations = factor_.work().factorisations;
-    if (factor_.held() != nullptr) s_.counters.factorisations += factor_.held()->refactorisations();
+    s_.counters.factorisations = factor_.factorisations();
     s_.counters.solves = s_.counters.corrections + 1;
-    s_.seconds.analyse = factor_.work().analyse_seconds;
-    s_.seconds.factor = factor_.work().factor_seconds;
+    s_.seconds.analyse = factor_.analyse_seconds();
+    s_.seconds.factor = factor_.factor_seconds();
     for (const Piece piece : contact_.pieces) s_.active.push_back(is_held(piece));
     s_.pieces = std::move(contact_.pieces);
     s_.u = std::move(u_.high);
@@ -188,7 +185,7 @@ class IteratedPenalty {
   Twice u_, p_;            ///< N, R
   ContactAnswer contact_;  ///< of the last correction
   Eigen::MatrixXd schur_;  ///< C x C, S = L_C L_C', of the factor as it is now; empty on the sparse road
-  Anderson acceleration_{6};
+  Anderson acceleration_{tuned::depth};
 };
 
 }  // namespace

@@ -43,7 +43,7 @@ CorrectionOptions corrections_to(double asked);
 ///
 /// Once the contact set stays, a mode with a0 = sigma a1 is multiplied by (delta - compliance) / (delta + sigma) < 1 in
 /// each correction: it converges for every delta, fast where delta is small beside sigma, and Anderson's mix
-/// (anderson.hpp) does the rest. After 15 corrections the next 15 are made with delta / 64. Throws NotConverged, with how
+/// (anderson.hpp) does the rest. After 15 corrections the next 15 are made with delta / 64 (tuned.hpp). Throws NotConverged, with how
 /// far it came, after max_corrections, and as judge.hpp says where no u is admissible or the answer does not hold. The
 /// caller has asked the factor whether it fits.
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,

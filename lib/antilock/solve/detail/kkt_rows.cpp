@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "antilock/solve/detail/tuned.hpp"
+
 namespace antilock {
 namespace {
 
@@ -71,7 +73,7 @@ KktRows::KktRows(const KktParts& parts, const Eigen::VectorXd& bounds, const Eig
       continue;
     }
     // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
-    const double beyond = most(std::abs(r1(i)) - 8 * std::numeric_limits<double>::epsilon() * parts.terms(i), 0);
+    const double beyond = most(std::abs(r1(i)) - tuned::equal * parts.terms(i), 0);
     residual_ = most(residual_, ratio(beyond, std::min(own(i), scales_.with_reactions)));
   }
   residual_ = over_all(most(residual_, ratio(parts.strain, scales_.u)));

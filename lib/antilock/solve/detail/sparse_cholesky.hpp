@@ -1,6 +1,6 @@
 #pragma once
 #include <Eigen/Core>
-#include <limits>
+#include <memory>
 #include <optional>
 
 #include "antilock/core/matrix.hpp"
@@ -8,22 +8,16 @@
 namespace antilock {
 
 /// Sparse Cholesky factor L L' = P K P' of a symmetric positive definite K (F x F), of which the upper triangle is read.
-/// What the solvers ask of a factor; `CholmodCholesky` and `EigenCholesky` answer alike, to round-off.
 class SparseCholesky {
  public:
   virtual ~SparseCholesky() = default;
 
-  /// A pivot below this part of its diagonal entry of K is nothing but the round-off of that entry. Sound problems stay
-  /// above 1e-12, on meshes and layers of every kind.
-  static constexpr double lost_pivot = 64 * std::numeric_limits<double>::epsilon();
-
   /// Orders and analyses the pattern of K. `last` > 0: the last rows of K stay the last ones, in their order, and the
   /// factor's own ordering is for the rest. Throws Error out of memory.
   virtual void analyse(SparseMatrix& k, int last) = 0;
-  virtual bool analysed() const = 0;
 
   /// A numeric factorisation of a matrix of the analysed pattern. Returns the row of K whose pivot is not positive or
-  /// nothing but round-off (`lost_pivot`); empty: K is positive definite. Throws Error out of memory.
+  /// nothing but round-off (tuned::round_off); empty: K is positive definite. Throws Error out of memory.
   virtual std::optional<int> factorise(SparseMatrix& k) = 0;
 
   /// The smallest pivot: to about a factor of F the smallest eigenvalue of K, for next to nothing. Infinite of no rows.
@@ -33,5 +27,21 @@ class SparseCholesky {
   /// The trailing block of L (lower triangular) from place `first` of the order on.
   virtual Eigen::MatrixXd trailing_block(int first) const = 0;
 };
+
+/// Who makes a factor. The two below answer alike, to round-off.
+using CholeskyMaker = std::unique_ptr<SparseCholesky> (*)();
+
+/// CHOLMOD's, supernodal on a BLAS: the fastest that there is. Where rows are to stay last, CAMD orders the rest (a minimum
+/// degree under that constraint, as good as AMD without it); else CHOLMOD chooses between AMD and METIS.
+std::unique_ptr<SparseCholesky> cholmod_cholesky();
+/// Eigen's (simplicial, headers alone), where CHOLMOD and a BLAS are not to be had: in a browser. AMD orders what is not to
+/// stay last.
+std::unique_ptr<SparseCholesky> eigen_cholesky();
+
+#ifdef ANTILOCK_WITHOUT_CHOLMOD  // the build for the browser says so
+constexpr CholeskyMaker default_cholesky = eigen_cholesky;
+#else
+constexpr CholeskyMaker default_cholesky = cholmod_cholesky;
+#endif
 
 }  // namespace antilock

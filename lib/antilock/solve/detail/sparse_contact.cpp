@@ -6,6 +6,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/solve/detail/aggregation.hpp"
+#include "antilock/solve/detail/tuned.hpp"
 
 namespace antilock {
 namespace {
@@ -42,7 +43,7 @@ Equilibrium SparseContact::solve(const std::vector<char>& held, const Eigen::Vec
   k_.hold(held_places);
   x += k_.solve(q - k_.times(x));
   const Eigen::VectorXd force = k_.times(x) - q_;
-  const Eigen::VectorXd noise = Equilibrium::unit * (k_.absolute_times(x.cwiseAbs()) + q_.cwiseAbs());
+  const Eigen::VectorXd noise = tuned::round_off * (k_.absolute_times(x.cwiseAbs()) + q_.cwiseAbs());
   Eigen::VectorXd pushed = Eigen::VectorXd::Zero(q_.size());
   pushed(bounded()) = noise(bounded());
   const Eigen::VectorXd moved = k_.solve(pushed).cwiseAbs();
@@ -56,11 +57,9 @@ Equilibrium SparseContact::solve(const std::vector<char>& held, const Eigen::Vec
 }
 
 Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
-  // halving takes some 25 factors of K, of a membrane with 2000 bounds 0.1 s
-  constexpr std::size_t few = 2000;
   Pieces start(bounded().size(), Piece::between);
   if (bounded().size() <= 8) return start;
-  if (bounded().size() <= few || !constants_are_free(k_.upper())) {
+  if (!constants_are_free(k_.upper())) {
     std::vector<int> second;
     for (std::size_t i = 1; i < bounded().size(); i += 2) second.push_back(bounded()[i]);
     SparseContact coarse(k_, q_, second);

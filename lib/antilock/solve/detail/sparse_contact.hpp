@@ -14,12 +14,12 @@ class SparseContact final : public ContactSystem {
 
   Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override;
   double square(const Eigen::VectorXd& d) const override { return d.dot(k_.times(d)); }
-  /// A start that needs no mesh. Up to 2000 bounds, every second one alone is kept, and K stays whole: right for every K,
-  /// and the factors are cheap. Beyond, K is coarsened by smoothed aggregation (Vanek, Mandel, Brezina 1996), the same problem
-  /// solved there, in the same way down to a few hundred unknowns, and a bound starts on the piece of all coarse ones
-  /// that its unknown depends on, where they agree. Rather too small a set than too large: a hole in it is filled in a
+  /// A start that needs no mesh. K is coarsened by smoothed aggregation (Vanek, Mandel, Brezina 1996), the same problem
+  /// solved there, in the same way down to eight bounds, and a bound starts on the piece of all coarse ones that its
+  /// unknown depends on, where they agree. Rather too small a set than too large: a hole in it is filled in a
   /// step or two, what is too much is given up one row of cells at a time. Aggregation supposes that constants cost no
-  /// energy; where they do (beams, plates: their rotations) the bounds are halved, however many there are.
+  /// energy; where they do (beams, plates: their rotations) every second bound alone is kept, and K stays whole: right for
+  /// every K, but each of the factors is of all of it.
   Pieces nested_start(const Stairs& stairs, int max_steps) override;
 
  private:

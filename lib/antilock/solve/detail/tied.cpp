@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/detail/tuned.hpp"
+
 namespace antilock {
 namespace {
 
@@ -27,9 +30,13 @@ Tied::Tied(const VariationalInequality& problem) : problem_(problem) {
   std::vector<char> fixed(n, 0);
   for (const int i : problem.fixed) fixed[i] = 1;
   Eigen::VectorXd stiffness = problem.a1.diagonal();
+  const double delta = moderate_delta(problem);
+  for (Eigen::Index row = 0; row < rows; ++row)
+    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b)
+      stiffness(b.col()) += problem.m(row) * b.value() * b.value() / delta;
   const double mean = stiffness.mean();
   for (double& s : stiffness)
-    if (!(s > 0)) s = mean > 0 ? mean : 1;  // held by B alone
+    if (!(s > 0)) s = mean > 0 ? mean : 1;  // held by another bound
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index row = 0; row < rows; ++row)
     for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) entries.emplace_back(row, b.col(), b.value());
@@ -43,7 +50,7 @@ Tied::Tied(const VariationalInequality& problem) : problem_(problem) {
       if (fixed[c.col()] == 0) yields += value * value / stiffness(c.col());
     }
     entries.emplace_back(rows + k, n + k, -1);
-    tied.m(rows + k) = 4096 / yields;
+    tied.m(rows + k) = tuned::tie / yields;
     tied.contact.push_back(static_cast<int>(n + k));
   }
   tied.b.resize(rows + ties, n + ties);

@@ -11,8 +11,8 @@ namespace antilock {
 ///     B gains the row (c, -1),   lower <= w <= upper,   A1 and the load are 0 at w
 ///
 /// Rows are scaled by a power of two, their largest entry to 1 or more and below 2: the units of a row do not matter.
-/// M of such a row is what K gains, M (c, -1)' (c, -1): 4096 times the stiffness 1 / sum (c_j^2 / (A1)_jj) that c . u
-/// has at least, so that a correction leaves about 1/4096 of the distance between w and c . u.
+/// M of such a row is what K gains, M (c, -1)' (c, -1): tuned::tie times the stiffness 1 / sum (c_j^2 / K_jj) that c . u
+/// has at least, K with the usual penalty.
 ///
 /// Without combinations it is the problem itself, which must then outlive this.
 class Tied {

@@ -1,0 +1,48 @@
+#pragma once
+#include <limits>
+
+#include "antilock/solve/kkt.hpp"
+
+/// The constants of solve/ that are neither promises (TrustLevels, CorrectionOptions) nor mathematics, and why they are
+/// what they are. Those of the penalty stand in problem/choose_penalty.hpp, those of the two roads in penalty_factor.hpp.
+namespace antilock::tuned {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+
+/// A sum of n rounded terms loses about sqrt(n) eps of them: 64 eps serves rows of 4096 entries. A force is known to so
+/// much of its terms; a pivot below so much of its diagonal entry is nothing but its round-off (sound problems stay above
+/// 1e-12, on meshes and layers of every kind).
+constexpr double round_off = 64 * eps;
+
+/// What assembly and one product leave between two numbers that are equal: a handful of roundings. So near a row of B is
+/// closed, and two rows are one.
+constexpr double equal = 8 * eps;
+
+/// Rows of B that are nearer to dependent than this, but not equal, are warned of. Where a row is closed, a mode of the
+/// singular value s of B is open by `equal` / s of u: by half of what is refused at this s. (Measured: rows (1, 1) and
+/// (1, 1 + d) under the load (1, 1), for which u = 0, are right to d = 1e-8, s = 5e-9, and leave u = d / 4 from 1e-9 on.)
+constexpr double apart = 2 * equal / TrustLevels{}.refused;
+
+/// Rows of B that are looked at so: a dense factor of so many takes milliseconds.
+constexpr int few_rows = 200;
+
+/// Corrections with one penalty: a new factor costs as much as 10 to 20 (measured at 1/h = 128).
+constexpr int corrections_per_penalty = 15;
+
+/// By which the next penalty is smaller, and larger where K has no positive pivots. A correction contracts like delta /
+/// (delta + sigma): 0.9 becomes 0.12.
+constexpr double next_penalty = 64;
+
+/// Iterates that Anderson's acceleration keeps: as many slow modes less one are gone. Two to five were seen, in locked P1;
+/// each costs two vectors of u and p.
+constexpr int depth = 6;
+
+/// A rate of convergence outside 1 - slowest to slowest is not believed: two corrections tell no more than two digits, and
+/// 100 of them, the most that are made, gain one digit at least.
+constexpr double slowest = 0.99;
+
+/// A row that ties a bounded combination c . u to its own unknown w is so much stiffer than c . u: a correction leaves
+/// about 1/4096 of the distance between the two.
+constexpr double tie = 4096;
+
+}  // namespace antilock::tuned
