@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <optional>
 
 #include "drawing/axis.hpp"
@@ -185,6 +186,12 @@ Meaning unknown(const std::string& column, const std::string& entry) {
 }
 
 }  // namespace
+
+void tell_unknown(const Meaning& meaning) {
+  if (!meaning.known && !meaning.name.empty())
+    fmt::print(stderr, "render: \"{}\" is no key of a curve (--help lists them), and has a look of its own\n",
+               meaning.name);
+}
 
 std::vector<std::string> known_keys() {
   std::vector<std::string> keys;

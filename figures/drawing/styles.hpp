@@ -33,6 +33,9 @@ Meaning meaning_of(const std::vector<std::string>& columns, const std::vector<st
 /// name.
 Meaning meaning_of(const std::string& key);
 
+/// One line on standard error about a meaning that the table does not have: a key that is misspelt looks like a name.
+void tell_unknown(const Meaning& meaning);
+
 /// Every key of that table, in its order.
 std::vector<std::string> known_keys();
 

@@ -142,6 +142,7 @@ Axis y_axis(const ChartStyle& style, double low, double high, double room, doubl
 Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
   const Table table(file);
   const Curves curves = read_curves(table, style);
+  for (std::size_t n = 0; n < curves.series.size(); ++n) tell_unknown(curves.series[n]);
   Sample low{HUGE_VAL, HUGE_VAL}, high{0, 0};
   for (const auto& [names, samples] : curves.samples)
     for (const Sample& s : samples) {

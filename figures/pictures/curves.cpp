@@ -92,6 +92,7 @@ Page curves_picture(const std::filesystem::path& file, const CurvesStyle& style)
   std::vector<std::string> names;
   for (const std::string& key : style.meanings) {
     const Meaning meaning = meaning_of(key);
+    tell_unknown(meaning);
     looks.push_back(meaning.known ? meaning.look : other_look(looks.size()));
     names.push_back(meaning.name);
   }

@@ -1,5 +1,9 @@
 #include "render/options.hpp"
 
+#include <fmt/format.h>
+
+#include "drawing/styles.hpp"
+
 namespace antilock::figures {
 namespace {
 
@@ -23,6 +27,14 @@ std::vector<Surface> titled(const Request& request) {
   return surfaces;
 }
 
+/// For --help: what a curve may be called.
+std::string keys() {
+  return fmt::format(
+      "Keys of curves, each with its colour, marker and name: {}.\nAny other word is drawn in a look of its own, and a "
+      "line on standard error says so.",
+      fmt::join(known_keys(), "; "));
+}
+
 void default_name(std::string& name, const std::string& column) {
   if (name.empty()) name = column;
 }
@@ -31,11 +43,11 @@ void default_name(std::string& name, const std::string& column) {
 
 void add_pictures(CLI::App& app, Request& request) {
   auto* domain = add_picture(app, request, "domain", "a labelled domain (Figures 1, 2)", "OUTLINE.csv");
-  domain->add_option("--title", request.title);
+  domain->add_option("--title", request.title, "above the picture");
   domain->callback([&] { request.draw = [&] { return domain_picture(request.inputs.at(0), request.title); }; });
 
   auto* mesh = add_picture(app, request, "mesh", "a mesh with its groups (Figures 3, 6)", "MESH.msh");
-  mesh->add_option("--title", request.title);
+  mesh->add_option("--title", request.title, "above the picture");
   mesh->callback([&] { request.draw = [&] { return mesh_picture(request.inputs.at(0), request.title); }; });
 
   auto* surface =
@@ -90,16 +102,18 @@ void add_pictures(CLI::App& app, Request& request) {
   });
 
   auto* chart = add_picture(app, request, "chart", "curves of a table on logarithmic scales (Figure 9)", "TABLE.csv");
-  chart->add_option("--x", request.chart.x, "column")->required();
-  chart->add_option("--y", request.chart.y, "column")->required();
+  chart->add_option("--x", request.chart.x, "column of the x axis")->required();
+  chart->add_option("--y", request.chart.y, "column of the y axis")->required();
   chart->add_option("--x-name", request.chart.x_name, "name of the axis (default: the column)");
   chart->add_option("--y-name", request.chart.y_name, "name of the axis (default: the column)");
   chart->add_option("--panel-by", request.chart.panel_by, "columns whose values make panels")->delimiter(',');
-  chart->add_option("--series-by", request.chart.series_by, "columns whose values make curves")->delimiter(',');
+  chart->add_option("--series-by", request.chart.series_by, "columns whose values make curves: keys, below")
+      ->delimiter(',');
   chart->add_option("--only", request.chart.filters, "column=value: only these rows");
   chart->add_flag("--linear-y", request.chart.linear_y, "y on a straight scale");
   chart->add_option("--slope", request.chart.slopes, "lines of these slopes")->delimiter(',');
-  chart->add_option("--title", request.chart.title);
+  chart->add_option("--title", request.chart.title, "above the picture");
+  chart->footer(keys());
   chart->callback([&] {
     request.draw = [&] {
       default_name(request.chart.x_name, request.chart.x);
@@ -113,10 +127,13 @@ void add_pictures(CLI::App& app, Request& request) {
   curves->add_option("--x-name", request.curves.x_name, "name of the axis (default: the column)");
   curves->add_option("--panel", request.curves.panels, "a panel: 'COLUMN COLUMN ...', - for none")->required();
   curves->add_option("--y-name", request.curves.y_names, "name of a panel's axis (default: its columns)");
-  curves->add_option("--curve", request.curves.meanings, "what each curve is: a key of styles.cpp, or 'KEY: more'")
+  curves
+      ->add_option("--curve", request.curves.meanings,
+                   "what each curve is: a key, below, or 'KEY: more'; one per column")
       ->required();
   curves->add_option("--stems", request.curves.stems, "panels (1, 2, ...) whose values stand alone");
   curves->add_flag("--jumps", request.curves.jumps, "break curves where they jump");
+  curves->footer(keys());
   curves->callback([&] {
     request.draw = [&] {
       default_name(request.curves.x_name, request.curves.x);
@@ -133,7 +150,7 @@ void add_pictures(CLI::App& app, Request& request) {
   map->add_option("--z-name", request.map.z_name, "name of the quantity (default: the column)");
   map->add_option("--panel-by", request.map.panel_by, "columns whose values make panels")->delimiter(',');
   map->add_option("--only", request.map.filters, "column=value: only these rows");
-  map->add_option("--title", request.map.title);
+  map->add_option("--title", request.map.title, "above the picture");
   map->callback([&] {
     request.draw = [&] {
       default_name(request.map.x_name, request.map.x);
@@ -149,11 +166,11 @@ void add_pictures(CLI::App& app, Request& request) {
   bars->add_option("--x-name", request.bars.x_name, "name of the axis");
   bars->add_option("--unit", request.bars.unit, "written behind the totals");
   bars->add_option("--only", request.bars.filters, "column=value: only these rows");
-  bars->add_option("--title", request.bars.title);
+  bars->add_option("--title", request.bars.title, "above the picture");
   bars->callback([&] { request.draw = [&] { return bar_picture(request.inputs.at(0), request.bars); }; });
 
   auto* convergence = add_picture(app, request, "convergence", "the convergence study (Figure 9)", "RESULTS.csv");
-  convergence->add_option("--title", request.title);
+  convergence->add_option("--title", request.title, "above the picture");
   convergence->callback([&] {
     request.draw = [&] {
       return chart_picture(

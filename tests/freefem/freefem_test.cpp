@@ -1,35 +1,27 @@
 // The C++ library and FreeFEM, run live on identical meshes, agree: forms, load, linear and contact solutions.
 // Unknowns are matched by coordinate. Where FreeFEM is missing every test here fails with the line that says so.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
 #include "antilock/analysis/worst_load.hpp"
-#include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "cross_check.hpp"
 #include "model_check.hpp"
 #include "numbers.hpp"
 #include "runner.hpp"
+#include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace antilock {
 namespace {
 
-using test::TemporaryFolder;
+using namespace test;
 
 struct Setting {
   const char* element;
@@ -52,11 +44,11 @@ double largest(const SparseMatrix& a) {
   return Eigen::Map<const Eigen::VectorXd>(a.valuePtr(), a.nonZeros()).cwiseAbs().maxCoeff();
 }
 
-class Forms : public ::testing::TestWithParam<Setting> {};
+class FreeFemForms : public ::testing::TestWithParam<Setting> {};
 
 // Relative to the largest entry: entries are sums of a few products, each with a round-off or two (1e-16), and the
 // coordinates carry all digits; 1e-12 leaves room for nothing but that.
-TEST_P(Forms, MatricesAndLoadAgreeEntryByEntry) {
+TEST_P(FreeFemForms, MatricesAndLoadAgreeEntryByEntry) {
   const TriangleMesh mesh = GetParam().mesh(16);
   const Space space(mesh, element(GetParam().element));
   const VariationalInequality ours = assemble(contact_scene(1), space);
@@ -70,7 +62,7 @@ TEST_P(Forms, MatricesAndLoadAgreeEntryByEntry) {
   EXPECT_EQ(ours.fixed, theirs.clamped);
   EXPECT_EQ(ours.contact, theirs.contact);
 }
-INSTANTIATE_TEST_SUITE_P(FreeFem, Forms, ::testing::ValuesIn(settings),
+INSTANTIATE_TEST_SUITE_P(FreeFem, FreeFemForms, ::testing::ValuesIn(settings),
                          [](const auto& info) { return info.param.name(); });
 
 class Solutions : public ::testing::TestWithParam<std::tuple<Setting, double>> {};
@@ -398,16 +390,16 @@ TEST(Coating, AgreesInDisplacementAndForce) {
 }
 INSTANTIATE_TEST_SUITE_P(FreeFem, Elasticity, ::testing::Values(1.0, 1e-4, 1e-8, 0.0));
 
-class Mixed : public ::testing::TestWithParam<double> {};
+class FreeFemMixed : public ::testing::TestWithParam<double> {};
 
 // Boxes, MINI and Taylor-Hood on the same meshes: 1e-8 as for the scalar problem, both sides stop at 1e-10 of u.
-TEST_P(Mixed, AgreesInDisplacementAndForce) {
+TEST_P(FreeFemMixed, AgreesInDisplacementAndForce) {
   const TemporaryFolder folder;
   const freefem::Numbers numbers = freefem::mixed(8, GetParam(), folder.path());
   EXPECT_GT(numbers.all.size(), 1000u);
   for (const freefem::Number& n : numbers.all) ASSERT_LE(n.difference(), 1e-8) << n.name;
 }
-INSTANTIATE_TEST_SUITE_P(FreeFem, Mixed, ::testing::Values(1.0, 1e-2, 1e-6, 1e-20, 0.0));
+INSTANTIATE_TEST_SUITE_P(FreeFem, FreeFemMixed, ::testing::Values(1.0, 1e-2, 1e-6, 1e-20, 0.0));
 
 TEST(FreeFemScripts, EachRunsOnItsOwnMeshesAndWritesItsFiles) {
   const std::vector<std::pair<std::string, std::vector<std::string>>> scripts{

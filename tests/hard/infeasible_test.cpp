@@ -1,19 +1,10 @@
 // Problems that have no solution at epsilon = 0, because K_h and the kernel G_h do not meet, and problems close to
 // them: foretold by the hypotheses' check, refused by the solver, never answered.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-
 #include "antilock/analysis/hypotheses.hpp"
-#include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/solve/kkt.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::infeasible_test {
 namespace {

@@ -1,17 +1,8 @@
 // The naive way fails as the tutorial says, and no wrong answer of it gets past the checks.
 #include "antilock/solve/exhibits/summed_matrix.hpp"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-
-#include "antilock/core/error.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
-#include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::naive_test {
 namespace {

@@ -1,20 +1,7 @@
 // Nasty meshes: needles, slivers, strong grading, thin layers, any numbering and orientation. An answer that quadruple
 // precision proves right, or a refusal of one line.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <map>
-#include <numeric>
-#include <random>
-
-#include "antilock/core/error.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::hard::nasty_mesh_test {
 namespace {
@@ -300,7 +287,9 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
       for (TaggedEdge& e : tagged) e = {vertex[e.to], vertex[e.from], e.tag};
       const TriangleMesh shuffled = make_triangle_mesh(vertices, triangles, region, tagged, "shuffled");
       const Space other(shuffled, chosen());
-      const Solution s = active_set(paper_problem(other, epsilon));
+      VariationalInequality problem = paper_problem(other, epsilon);
+      std::shuffle(problem.contact.begin(), problem.contact.end(), random);  // out of order they only cost steps
+      const Solution s = active_set(problem);
       ASSERT_EQ(other.size(), space.size());
       double worst = 0;
       for (int i = 0; i < other.size(); ++i) {
@@ -314,30 +303,6 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Element, Nasty, testing::Values("P1", "CR"), [](const auto& info) { return info.param; });
-
-TEST(Orientation, ASurfaceTurnedRoundIsTurnedBackASingleTriangleIsRefused) {
-  const TriangleMesh mesh = structured_mesh(4);
-  Triples turned = mesh.triangles;
-  turned.col(1).swap(turned.col(2));
-  const TriangleMesh back = make_triangle_mesh(mesh.vertices, turned, mesh.region, boundary(mesh), "turned");
-  for (int t = 0; t < back.triangle_count(); ++t) EXPECT_GT(back.twice_area(t), 0);
-  EXPECT_EQ(active_set(paper_problem(Space(back, p1()), 0)).u, active_set(paper_problem(Space(mesh, p1()), 0)).u);
-  Triples one = mesh.triangles;
-  std::swap(one(5, 1), one(5, 2));
-  try {
-    make_triangle_mesh(mesh.vertices, one, mesh.region, boundary(mesh), "one turned");
-    FAIL() << "an inverted triangle was taken";
-  } catch (const Error& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("one turned: inverted triangle"), std::string::npos);
-    EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos);
-  }
-}
-
-TEST(Orientation, TrianglesWithoutAreaAreRefused) {
-  for (const double reach : {1.0, 1.1}) {
-    EXPECT_THROW(jittered(structured_mesh(8), reach, 3), Error) << "reach " << reach;
-  }
-}
 
 }  // namespace
 }  // namespace antilock::hard::nasty_mesh_test

@@ -1,21 +1,14 @@
 // Uniform in epsilon, down to and including 0: the solver against the same discrete problem in quadruple precision, and
 // the discrete answer against the truth.
-#include <gtest/gtest.h>
-
 #include <Eigen/SPQRSupport>
 #include <Eigen/UmfPackSupport>
-#include <array>
 #include <cstdlib>
-#include <functional>
 
 #include "antilock/core/dense.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/solve/kkt.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/dense.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::hard::uniformity_test {
 namespace {
@@ -197,7 +190,7 @@ TEST(Formulations, EpsilonZeroIsTheProblemOnTheKernelOfA0) {
 
 // The paper's promise in numbers: below 1e-3 the error no longer depends on epsilon, for elements that do not lock.
 // The truth table carries 1e-7 or better, the errors are 8e-5 and more: within 1 % of each other.
-TEST(Truth, ErrorIsFlatInEpsilonWhereNothingLocks) {
+TEST(UniformError, IsFlatInEpsilonWhereNothingLocks) {
   const TriangleMesh structured = structured_mesh(32), unstructured = unstructured_mesh(32);
   struct Row {
     const TriangleMesh* mesh;

@@ -1,6 +1,4 @@
 // An accuracy asked for in a scene file: the proof in the summary, and what is refused.
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "antilock/exact/truth.hpp"
@@ -9,6 +7,7 @@
 #include "antilock/mesh/msh_file.hpp"
 #include "scenes/runner.hpp"
 #include "support/bodies.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::test::accuracy_test {
 namespace {

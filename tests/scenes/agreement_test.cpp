@@ -1,18 +1,9 @@
 // One question, several models: the change of variable between (22) and (23), the limit (24) against (25), and the body
 // alone against a reference of its own. Loads and obstacles are those of the figures.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "antilock/exact/truth.hpp"
 #include "antilock/measure/contact_zone.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/dense.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::agreement_test {
 namespace {

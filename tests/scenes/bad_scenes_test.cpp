@@ -1,8 +1,6 @@
 // Every scene that cannot be asked: exit status 2, one line on standard error that names file and key, nothing written.
-#include <algorithm>
-#include <array>
-
 #include "scenes/runner.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::test::bad_scenes_test {
 namespace {

@@ -1,14 +1,12 @@
 // Bodies other than the unit square, from mesh files: each answer is known from one of the unit square, or from the
 // library called directly.
-#include "support/bodies.hpp"
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/layered.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "scenes/runner.hpp"
+#include "support/bodies.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::test::bodies_test {
 namespace {

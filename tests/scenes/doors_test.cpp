@@ -1,18 +1,12 @@
 // antilock, the program with subcommands: its numbers against the exact solution, its refusals from outside.
-#include <fmt/format.h>
-
-#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "scenes/runner.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::test {
 namespace {
@@ -32,7 +26,7 @@ class Door : public testing::Test {
   TemporaryFolder folder, log;
 };
 
-TEST(SineLoad, IsRecognisedAndNothingElseIs) {
+TEST(AsSineLoad, IsRecognisedAndNothingElseIs) {
   const Field sines = [](double x, double y) {
     return 3 * y * y * std::sin(M_PI * x) - (1 - y) * std::sin(31 * M_PI * x);
   };

@@ -1,15 +1,9 @@
 // Formulas from files mean what they say, to the last digit.
-#include "antilock/io/expression.hpp"
-
-#include <gtest/gtest.h>
-
-#include <array>
 #include <clocale>
-#include <cmath>
-#include <numbers>
 #include <thread>
 
-#include "antilock/core/error.hpp"
+#include "antilock/io/expression.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::expression_test {
 namespace {

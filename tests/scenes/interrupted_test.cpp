@@ -1,5 +1,6 @@
 // run_scene stopped at any moment: the files of a whole answer, or none, and no draft.
 #include "scenes/runner.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::test::interrupted_test {
 namespace {

@@ -1,16 +1,8 @@
 // What run_scene writes, held to its interface: files, keys, columns, rows, signs, and the numbers of the exact
 // solution.
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <optional>
-#include <set>
 #include <utility>
-#include <vector>
 
 #include "antilock/core/detail/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -18,6 +10,7 @@
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/space/space.hpp"
 #include "scenes/runner.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::test::results_test {
 namespace {

@@ -1,13 +1,6 @@
 // Only what is needed: an absent effect costs nothing, and what a sweep can share it shares. Asserted by counting.
 #include "antilock/study/scene_sweep.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "antilock/core/error.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::sweep_test {
 namespace {

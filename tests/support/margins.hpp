@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <type_traits>
 
 namespace antilock::margins {
@@ -24,25 +25,13 @@ struct At {
     if constexpr (std::is_floating_point_v<A> && std::is_arithmetic_v<B>)
       if (asked) note(file, line, what, observed, static_cast<double>(allowed));
   }
-  template <class A, class B>
-  auto lt(const char* a, const char* b, const A& x, const B& y) const {
-    at_most(a, x, y);
-    return testing::internal::CmpHelperLT(a, b, x, y);
-  }
-  template <class A, class B>
-  auto le(const char* a, const char* b, const A& x, const B& y) const {
-    at_most(a, x, y);
-    return testing::internal::CmpHelperLE(a, b, x, y);
-  }
-  template <class A, class B>
-  auto gt(const char* a, const char* b, const A& x, const B& y) const {
-    at_most(a, y, x);
-    return testing::internal::CmpHelperGT(a, b, x, y);
-  }
-  template <class A, class B>
-  auto ge(const char* a, const char* b, const A& x, const B& y) const {
-    at_most(a, y, x);
-    return testing::internal::CmpHelperGE(a, b, x, y);
+  /// x `op` y, which Holds computes: the greater side is what is allowed.
+  template <class Holds>
+  auto ordered(const char* op) const {
+    return [*this, op](const char* a, const char* b, const auto& x, const auto& y) {
+      op[0] == '<' ? at_most(a, x, y) : at_most(a, y, x);
+      return Holds{}(x, y) ? testing::AssertionSuccess() : testing::internal::CmpHelperOpFailure(a, b, x, y, op);
+    };
   }
   auto near(const char* a, const char* b, const char* c, double x, double y, double tolerance) const {
     at_most(a, std::abs(x - y), tolerance);
@@ -60,10 +49,10 @@ struct At {
 #undef EXPECT_GE
 #undef EXPECT_NEAR
 #undef ASSERT_LT
-#define EXPECT_LT(a, b) EXPECT_PRED_FORMAT2(ANTILOCK_AT.lt, a, b)
-#define EXPECT_LE(a, b) EXPECT_PRED_FORMAT2(ANTILOCK_AT.le, a, b)
-#define EXPECT_GT(a, b) EXPECT_PRED_FORMAT2(ANTILOCK_AT.gt, a, b)
-#define EXPECT_GE(a, b) EXPECT_PRED_FORMAT2(ANTILOCK_AT.ge, a, b)
+#define EXPECT_LT(a, b) EXPECT_PRED_FORMAT2(ANTILOCK_AT.ordered<std::less<>>("<"), a, b)
+#define EXPECT_LE(a, b) EXPECT_PRED_FORMAT2(ANTILOCK_AT.ordered<std::less_equal<>>("<="), a, b)
+#define EXPECT_GT(a, b) EXPECT_PRED_FORMAT2(ANTILOCK_AT.ordered<std::greater<>>(">"), a, b)
+#define EXPECT_GE(a, b) EXPECT_PRED_FORMAT2(ANTILOCK_AT.ordered<std::greater_equal<>>(">="), a, b)
 #define EXPECT_NEAR(a, b, tolerance) EXPECT_PRED_FORMAT3(ANTILOCK_AT.near, a, b, tolerance)
-#define ASSERT_LT(a, b) ASSERT_PRED_FORMAT2(ANTILOCK_AT.lt, a, b)
+#define ASSERT_LT(a, b) ASSERT_PRED_FORMAT2(ANTILOCK_AT.ordered<std::less<>>("<"), a, b)
 // NOLINTEND(cppcoreguidelines-macro-usage)

@@ -1,13 +1,34 @@
 #pragma once
+// What every test begins with: gtest, the standard library's usual pages, a mesh, a problem and its solver, and the scenes
+// that tests share. In the tests' precompiled header.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <random>
+#include <set>
 #include <string>
 #include <vector>
 
+#include "antilock/core/error.hpp"
+#include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
 
 namespace antilock::test {
+
+inline constexpr double infinity = std::numeric_limits<double>::infinity(),
+                        nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A mesh and what to call it in a message.
 struct NamedMesh {

@@ -1,11 +1,4 @@
 // Refinement where the certificate says so, and the accuracy that is asked for.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/analysis/exact_errors.hpp"
@@ -13,7 +6,6 @@
 #include "antilock/exact/truth.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/msh_file.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/bodies.hpp"
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
@@ -21,9 +13,7 @@
 namespace antilock::adapt_test {
 namespace {
 
-using test::area;
-using test::expect_refused;
-using test::length;
+using namespace test;
 
 /// The smallest of twice the area over the square of the longest edge: zero for a flat triangle.
 double flattest(const TriangleMesh& mesh) {

@@ -1,15 +1,8 @@
 // The Timoshenko beam over an obstacle: another member of the class, the same solver; full integration locks.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/core/error.hpp"
 #include "antilock/exact/detail/beam_truth.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/dense.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::beam_test {
 namespace {

@@ -1,22 +1,14 @@
 // Bounds of other shapes: from above, from both sides, on combinations of unknowns. The same solvers, the same report.
-#include "antilock/problem/bounds.hpp"
-
-#include <gtest/gtest.h>
-
 #include <Eigen/LU>
-#include <cmath>
-#include <limits>
-#include <random>
 
 #include "antilock/analysis/certificate.hpp"
 #include "antilock/form/elasticity_forms.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/models/plane_strain.hpp"
-#include "antilock/solve/active_set.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/detail/dense_contact.hpp"
 #include "antilock/solve/exhibits/summed_matrix.hpp"
 #include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
-#include "antilock/solve/kkt.hpp"
 #include "antilock/solve/residual.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "antilock/study/sweep.hpp"
@@ -27,10 +19,7 @@
 namespace antilock::bounds_test {
 namespace {
 
-using test::expect_refused;
-using test::relative_difference;
-using test::stiff_problem;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using namespace test;
 
 RowMatrix rows_of(const Eigen::MatrixXd& rows) {
   RowMatrix sparse = rows.sparseView();
@@ -686,7 +675,7 @@ TEST(Bounds, AGreatUElsewhereHidesNoUpperBound) {
   EXPECT_NEAR(s.lambda(0), -0.1, 1e-12);
 }
 
-TEST(Kkt, ReportsEachSideOfABoundByItself) {
+TEST(KktOfBounds, ReportsEachSideOfABoundByItself) {
   const String string;
   const Solution right = active_set(string.problem);
   const double u = right.u.lpNorm<Eigen::Infinity>(), f = right.lambda.lpNorm<Eigen::Infinity>();
@@ -713,7 +702,7 @@ TEST(Kkt, ReportsEachSideOfABoundByItself) {
   EXPECT_THROW(certify(above, wrong), NotConverged);
 }
 
-TEST(Kkt, ReportsCombinationsInTheirOwnUnits) {
+TEST(KktOfBounds, ReportsCombinationsInTheirOwnUnits) {
   Eigen::MatrixXd rows(1, 3);
   rows << 1e3, -1e3, 0;
   VariationalInequality problem = springs(rows, Eigen::Vector3d(-1, 1, 5));
@@ -730,7 +719,7 @@ TEST(Kkt, ReportsCombinationsInTheirOwnUnits) {
   EXPECT_GT(kkt_report(problem, wrong).residual, 0.01);
 }
 
-TEST(Check, RefusesBoundsThatAreNone) {
+TEST(CheckBounds, RefusesBoundsThatAreNone) {
   const String string;
   const auto refused = [&](const std::function<void(VariationalInequality&)>& spoil, const std::string& words) {
     VariationalInequality bad = string.problem;

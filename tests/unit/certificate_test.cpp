@@ -1,11 +1,4 @@
 // The certificate: never below the true error, close to it at every epsilon, and true however the solve ended.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <random>
-
 #include "antilock/analysis/certificate.hpp"
 #include "antilock/analysis/detail/certified_distance.hpp"
 #include "antilock/analysis/detail/energy_bracket.hpp"
@@ -13,16 +6,14 @@
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/measure/errors.hpp"
 #include "antilock/mesh/layered.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/bodies.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::certificate_test {
 namespace {
 
-using test::expect_refused;
+using namespace test;
 
 /// One question with its answer, and room for what a test does to it.
 struct Answered {

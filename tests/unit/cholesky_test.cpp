@@ -1,16 +1,10 @@
 // Two factors behind one interface: what each promises, and that both give the same answers over the uniformity table.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "antilock/core/dense.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/detail/penalised_matrix.hpp"
 #include "antilock/solve/detail/sparse_cholesky.hpp"
 #include "antilock/study/method.hpp"
 #include "support/dense.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::cholesky_test {
 namespace {

@@ -1,21 +1,15 @@
 // How fast, and how accurate: slopes against manufactured solutions, the accuracy table against the truth.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <memory>
 
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/measure/contact_zone.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/manufactured.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::convergence_test {
 namespace {
 
-using test::Manufactured;
-using test::stiff_problem;
+using namespace test;
 
 /// What the errors on 1/h = 64 must stay below, relative to b + c, the size of the second derivatives of the exact
 /// solution: 10 to 20 % above what was measured over the cases below.

@@ -1,22 +1,13 @@
 // The truth is checked from outside: against the differential equations, the conditions on Sigma and Gamma_C, closed
 // forms, refinement, and the values that an independent script gave.
-#include "antilock/exact/truth.hpp"
-#include "antilock/exact/truth_distance.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <numbers>
-#include <random>
-
-#include "antilock/core/error.hpp"
 #include "antilock/exact/detail/contact_line.hpp"
 #include "antilock/exact/detail/load_response.hpp"
 #include "antilock/exact/detail/sine_transform.hpp"
 #include "antilock/exact/detail/symbols.hpp"
+#include "antilock/exact/truth.hpp"
+#include "antilock/exact/truth_distance.hpp"
 #include "antilock/exact/truth_table.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::exact_test {
 namespace {
@@ -477,10 +468,10 @@ TEST(SineLoad, EvaluatesItsTerms) {
 
 // --- the table ---------------------------------------------------------------------------------------------------
 
-class Table : public testing::TestWithParam<double> {};
-INSTANTIATE_TEST_SUITE_P(EveryEpsilon, Table, testing::Values(1, 0.1, 1e-3, 1e-5, 1e-20, 0));
+class TruthTabulated : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(EveryEpsilon, TruthTabulated, testing::Values(1, 0.1, 1e-3, 1e-5, 1e-20, 0));
 
-TEST_P(Table, MatchesTheSums) {
+TEST_P(TruthTabulated, MatchesTheSums) {
   const Truth truth(rich_load(), GetParam(), true, 14);
   const TruthTable table(truth);
   std::mt19937 random(7);
@@ -502,7 +493,7 @@ TEST_P(Table, MatchesTheSums) {
   EXPECT_LT(stress, 1e-3);    // of 7
 }
 
-TEST_P(Table, IsGoodAroundTheEndOfContact) {
+TEST_P(TruthTabulated, IsGoodAroundTheEndOfContact) {
   const Truth truth(paper_sine_load(), GetParam(), true, 14);
   const TruthTable table(truth);
   const double end = truth.contact_zones()[0].first;
@@ -517,7 +508,7 @@ TEST_P(Table, IsGoodAroundTheEndOfContact) {
   EXPECT_LT(value, 2e-8);
 }
 
-TEST_P(Table, IsExactlyTheTruthOnItsEdges) {
+TEST_P(TruthTabulated, IsExactlyTheTruthOnItsEdges) {
   const Truth truth(paper_sine_load(), GetParam(), true, moderate);
   const TruthTable table(truth);
   for (const double x : {0.0, 0.25, 0.5, 1.0})

@@ -1,13 +1,8 @@
 // The forms of (23): what they must vanish on, integrate exactly and be equal to.
-#include "antilock/form/forms.hpp"
-
-#include <gtest/gtest.h>
-
 #include <Eigen/LU>
-#include <cmath>
-#include <limits>
 
 #include "antilock/core/dense.hpp"
+#include "antilock/form/forms.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
@@ -15,8 +10,7 @@
 namespace antilock::form_test {
 namespace {
 
-using test::expect_refused;
-using test::two_square_meshes;
+using namespace test;
 
 std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart(), &p1_bubble()}; }
 

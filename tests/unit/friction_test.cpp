@@ -1,19 +1,8 @@
 // Bounds that give way: Tresca's friction, and plastic obstacles. Sticks where |lambda| < g, slips where |lambda| = g.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <random>
-
-#include "antilock/core/error.hpp"
 #include "antilock/measure/contact_zone.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/mesh/generate.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/detail/dense_contact.hpp"
-#include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "antilock/study/sweep.hpp"
 #include "support/brute_force.hpp"
@@ -24,8 +13,7 @@
 namespace antilock::friction_test {
 namespace {
 
-using test::expect_refused;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using namespace test;
 
 /// A bar of stiffness 1, held at x = 0, pulled by `pull` at x = 1, on a floor with g = 1 per length: it slips on the last
 /// `pull` of it, u = (x - 1 + pull)^2 / 2 there.
@@ -301,7 +289,7 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
       expect_refused([&] { solve(bad); }, words);
   };
   refused(-1, 4, "force_bound 0 is -1");
-  refused(std::numeric_limits<double>::quiet_NaN(), 4, "force_bound 0 is nan");
+  refused(nan, 4, "force_bound 0 is nan");
   refused(1, 3, "force_bound has 3 entries; accepted none, or 4");
   const TriangleMesh mesh = structured_mesh(2);
   const Space space(mesh, p1());

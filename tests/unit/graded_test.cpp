@@ -1,14 +1,6 @@
 // Graded lines and tensor meshes, and what they are for: degrees on them.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include "antilock/analysis/kernel.hpp"
-#include "antilock/core/error.hpp"
 #include "antilock/mesh/graded.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
+#include "antilock/analysis/kernel.hpp"
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 

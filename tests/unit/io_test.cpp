@@ -1,34 +1,26 @@
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <array>
 #include <charconv>
-#include <cmath>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
-#include <functional>
-#include <limits>
 #include <sstream>
 
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/detail/draft.hpp"
 #include "antilock/core/detail/result_folder.hpp"
-#include "antilock/core/error.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/space/element.hpp"
+#include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace antilock::io_test {
 namespace {
 
-using test::contents;
-using test::TemporaryFolder;
+using namespace test;
 namespace fs = std::filesystem;
 
 std::string refusal(const std::function<void()>& write) {

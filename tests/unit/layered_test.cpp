@@ -1,16 +1,7 @@
 // The layer in columns under any body: its shape, its tags, and what it does to P1.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
+#include "antilock/mesh/layered.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/exact/truth.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/mesh/layered.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/bodies.hpp"
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
@@ -18,10 +9,7 @@
 namespace antilock::layered_test {
 namespace {
 
-using test::area;
-using test::expect_refused;
-using test::length;
-using test::NamedMesh;
+using namespace test;
 
 int count(const TriangleMesh& mesh, EdgeTag tag) {
   return static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), tag));
@@ -115,7 +103,7 @@ TEST(LayeredMesh, CuresP1OfLocking) {
 
 TEST(ExtrudedLayer, RefusesWhatItCannotStandUnder) {
   const TriangleMesh body = structured_mesh(4, {0});
-  for (const double epsilon : {-1e-9, 1.5, std::numeric_limits<double>::quiet_NaN()})
+  for (const double epsilon : {-1e-9, 1.5, nan})
     expect_refused([&] { extruded(body, epsilon); }, "accepted 0 <= epsilon <= 1");
   TriangleMesh lifted = body, clamped = body, low = unstructured_mesh(4, {0});
   lifted.vertices.col(1).array() += 0.5;

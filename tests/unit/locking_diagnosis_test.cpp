@@ -1,19 +1,10 @@
 // The diagnosis of locking held against what is kept: members of the class, elements and meshes, locked and not.
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <map>
-#include <random>
-
 #include "antilock/analysis/locking.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/mesh/families.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::locking_diagnosis_test {

@@ -1,26 +1,19 @@
 // Locking is a property of the discretisation, not a bug: P1 on an unstructured mesh must lock, the others must not.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
+#include "antilock/analysis/locking.hpp"
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/analysis/locking.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/measure/errors.hpp"
 #include "antilock/mesh/families.hpp"
 #include "antilock/mesh/refine.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::locking_test {
 namespace {
 
-using test::relative_difference;
-using test::stiff_problem;
+using namespace test;
 
 /// The whole displacement of the layer in the truth at small epsilon (max of u on Gamma_C, by the sine series).
 constexpr double layer_displacement = 0.0457160;
@@ -101,7 +94,7 @@ LockingDiagnosis diagnosis_of(const Element& element, bool in_columns) {
   return diagnose_locking(stiff_problem(Space(coarse, element), 0), stiff_problem(Space(fine, element), 0));
 }
 
-TEST(LockingDiagnosis, TellsThePapersOwnProblemRight) {
+TEST(DiagnosisOfThePapersProblem, TellsThePapersOwnProblemRight) {
   // the kernel of a0 on all unknowns, the body's included, is large in every case and tells nothing
   const TriangleMesh mesh = unstructured_mesh(8);
   EXPECT_GT(antilock::kernel_dimension(stiff_problem(Space(mesh, p1()), 0)), 50);
@@ -113,7 +106,7 @@ TEST(LockingDiagnosis, TellsThePapersOwnProblemRight) {
   EXPECT_FALSE(diagnosis_of(crouzeix_raviart(), false).locks());
 }
 
-TEST(LockingDiagnosis, CountsTheMotionsOfTheBounds) {
+TEST(DiagnosisOfThePapersProblem, CountsTheMotionsOfTheBounds) {
   const LockingDiagnosis p1_columns = diagnosis_of(p1(), true), p2_anywhere = diagnosis_of(p2(), false);
   EXPECT_EQ(p1_columns.coarse, 3);
   EXPECT_EQ(p1_columns.coarse_bounds, 3);
@@ -126,7 +119,7 @@ TEST(LockingDiagnosis, CountsTheMotionsOfTheBounds) {
   EXPECT_NE(p1_columns.text().find("does not lock for this reason"), std::string::npos);
 }
 
-TEST(LockingDiagnosis, RefusesWhatItCannotTell) {
+TEST(DiagnosisOfThePapersProblem, RefusesWhatItCannotTell) {
   const TriangleMesh mesh = structured_mesh(4);
   const Space space(mesh, p1());
   const VariationalInequality problem = stiff_problem(space, 0);

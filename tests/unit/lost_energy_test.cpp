@@ -1,17 +1,9 @@
 // What an answer says of its own locking, held against a second solve of the same size whose layer cannot lock.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-#include <random>
-
-#include "antilock/analysis/detail/ties.hpp"
 #include "antilock/analysis/lost_energy.hpp"
+#include "antilock/analysis/detail/ties.hpp"
 #include "antilock/exact/truth.hpp"
-#include "antilock/measure/errors.hpp"
 #include "antilock/mesh/families.hpp"
 #include "antilock/mesh/layered.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/bodies.hpp"
 #include "support/scenes.hpp"
 

@@ -1,8 +1,4 @@
 // Norms against integrals done by hand; rates, contact zones and energy.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/analysis/detail/energy_bracket.hpp"
 #include "antilock/analysis/negative_part.hpp"
@@ -13,17 +9,14 @@
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/detail/contact_trace.hpp"
-#include "antilock/measure/errors.hpp"
 #include "antilock/measure/residual.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::measure_test {
 namespace {
 
-using test::stiff_problem;
-using test::two_square_meshes;
+using namespace test;
 
 std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()}; }
 

@@ -1,17 +1,7 @@
 // Invariants of the meshes of Figures 3 and 6, and of their variants.
-#include <fmt/format.h>
 #include <gmshc.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <limits>
-#include <map>
-#include <numbers>
-#include <set>
 
 #include "antilock/mesh/detail/gmsh_session.hpp"
 #include "antilock/mesh/families.hpp"
@@ -26,10 +16,7 @@ namespace {
 // gmsh works for each of these tests, whatever tests/run keeps (mesh/detail/kept_meshes.hpp)
 [[maybe_unused]] const int nothing_kept = unsetenv("ANTILOCK_MESHES");
 
-using test::area;
-using test::expect_refused;
-using test::length;
-using test::NamedMesh;
+using namespace test;
 
 std::vector<NamedMesh> all_meshes() {
   std::vector<NamedMesh> meshes;
@@ -382,7 +369,6 @@ TEST(Mesh, LatticesAreOfCongruentTriangles) {
 }
 
 TEST(Mesh, RefusesRequestsOutOfRange) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   for (const int cells : {0, -3, 2049}) expect_refused([&] { structured_mesh(cells); }, "accepted 1 to 2048");
   for (const int cells : {0, -3, 513}) expect_refused([&] { unstructured_mesh(cells); }, "accepted 1 to 512");
   for (const double depth : {-0.1, 1.1, nan}) {

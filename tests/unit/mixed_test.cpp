@@ -1,29 +1,19 @@
 // Means of the rows of B: projected and mixed forms, and what they need under contact.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <random>
-
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/nearest.hpp"
-#include "antilock/core/error.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/problem/projected.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::mixed_test {
 namespace {
 
-using test::expect_refused;
-using test::stiff_problem;
+using namespace test;
 
 double value(const FactoredForm& form, const Eigen::VectorXd& u) {
   const Eigen::VectorXd bu = form.b * u;

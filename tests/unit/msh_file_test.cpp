@@ -1,14 +1,7 @@
-#include "antilock/mesh/msh_file.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <functional>
 #include <sstream>
 
-#include "antilock/core/error.hpp"
-#include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/msh_file.hpp"
+#include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
 
 namespace antilock::msh_file_test {

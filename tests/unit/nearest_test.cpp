@@ -1,17 +1,11 @@
 // The nearest element of K_h and of K_0h, dual norms, and the numbers of (5) that they are compared with.
 #include "antilock/analysis/nearest.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/residual.hpp"
-#include "antilock/models/anti_plane.hpp"
 #include "antilock/study/method.hpp"
+#include "support/scenes.hpp"
 
 namespace antilock::nearest_test {
 namespace {

@@ -1,21 +1,14 @@
 // Nearly incompressible elasticity with Signorini contact: another member of the class, the same solver.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
+#include "antilock/models/plane_strain.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/dense.hpp"
-#include "antilock/core/error.hpp"
-#include "antilock/mesh/generate.hpp"
 #include "antilock/models/coating.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::plane_strain_test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using namespace test;
 
 TriangleMesh right_mesh(int cells) { return with_free_sides(structured_mesh(cells, Domain{0})); }
 TriangleMesh crossed_mesh(int cells) { return with_free_sides(structured_mesh(cells, Domain{0}, Diagonal::crossed)); }

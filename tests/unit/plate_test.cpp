@@ -1,24 +1,14 @@
 // Reissner and Mindlin's plate over an obstacle: the class in two dimensions, bounds under all of it.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
+#include "antilock/models/plate.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/core/error.hpp"
 #include "antilock/exact/plate_truth.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/plate.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/solve/kkt.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::plate_test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using namespace test;
 
 struct Method {
   std::string name;

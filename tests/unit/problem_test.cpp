@@ -1,20 +1,12 @@
 // Scenes become discrete inequalities; malformed ones are refused before any solver sees them.
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-
 #include "antilock/form/forms.hpp"
-#include "antilock/models/anti_plane.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::problem_test {
 namespace {
 
-using test::expect_refused;
-using test::stiff_problem;
+using namespace test;
 
 TEST(Assemble, ClassParameterIsTheSquareOfEpsilon) {
   const TriangleMesh mesh = structured_mesh(4);
@@ -88,7 +80,6 @@ TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
       EXPECT_EQ(problem.lower(i), -0.5 * space.points()(problem.contact[i], 0));
   }
   const Space space(mesh, p1());
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   expect_refused([&] { stiff_problem(space, 0.1, {[nan](double x) { return x > 0 && x < 1 ? nan : 0; }}); },
                  "is not finite");
 }
@@ -120,7 +111,7 @@ TEST(ChoosePenalty, IsInTheUnitsOfCompliance) {
     scaled.m /= s;
     EXPECT_NEAR(choose_penalty(scaled) / (delta / s), 1, 1e-13);
   }
-  for (const double penalty : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+  for (const double penalty : {0.0, -1.0, std::nan(""), infinity})
     expect_refused([&] { moderate_delta(problem, penalty); }, "accepted: a positive number");
 }
 
@@ -141,7 +132,7 @@ void refused(const std::function<void(VariationalInequality&)>& spoil, const std
   expect_refused([&] { check(problem); }, words);
 }
 
-TEST(Check, RefusesSizesThatDoNotFit) {
+TEST(Check, RefusesWhatIsNoProblem) {
   using P = VariationalInequality;
   refused([](P& p) { p = {}; }, "no unknowns");
   refused([](P& p) { p.load.conservativeResize(p.load.size() - 1); }, "a1 is");
@@ -149,11 +140,6 @@ TEST(Check, RefusesSizesThatDoNotFit) {
   refused([](P& p) { p.m.conservativeResize(p.m.size() - 1); }, "M has");
   refused([](P& p) { p.fixed.pop_back(); }, "one value per fixed unknown");
   refused([](P& p) { p.contact.pop_back(); }, "one bound per contact unknown");
-}
-
-TEST(Check, RefusesEntriesThatAreNotFinite) {
-  using P = VariationalInequality;
-  const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
   refused([=](P& p) { p.a1.valuePtr()[0] = nan; }, "not finite");
   refused([=](P& p) { p.b.valuePtr()[3] = infinity; }, "not finite");
   refused([=](P& p) { p.load(1) = nan; }, "not finite");
@@ -161,14 +147,9 @@ TEST(Check, RefusesEntriesThatAreNotFinite) {
   refused([=](P& p) { p.fixed_values(0) = nan; }, "not finite");
   refused([=](P& p) { p.m(3) = nan; }, "not finite");
   refused([=](P& p) { p.m(p.m.size() - 1) = infinity; }, "not finite");
-}
-
-TEST(Check, RefusesWhatTheClassExcludes) {
-  using P = VariationalInequality;
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   refused([](P& p) { p.m(2) = 0; }, "M is not positive");
   refused([](P& p) { p.m(2) = -1; }, "M is not positive");
-  for (const double compliance : {-1e-300, -1.0, nan, std::numeric_limits<double>::infinity()})
+  for (const double compliance : {-1e-300, -1.0, nan, infinity})
     refused([=](P& p) { p.compliance = compliance; }, "accepted: a finite number, 0 or more");
   refused([](P& p) { p.a1.coeffRef(0, 1) *= 1 + 1e-9; }, "not symmetric");
   refused([](P& p) { p.a1.coeffRef(1, 0) = 0; }, "not symmetric");
@@ -183,10 +164,6 @@ TEST(Check, RefusesWhatTheClassExcludes) {
         },
         "not symmetric");
   }
-}
-
-TEST(Check, RefusesIndicesOutOfRangeAndTwice) {
-  using P = VariationalInequality;
   refused([](P& p) { p.fixed[0] = -1; }, "out of range");
   refused([](P& p) { p.contact[0] = p.size(); }, "out of range");
   refused([](P& p) { p.fixed[1] = p.fixed[0]; }, "fixed or bounded twice");
@@ -201,10 +178,6 @@ TEST(Check, RefusesIndicesOutOfRangeAndTwice) {
         p.fixed_values = Eigen::VectorXd::Zero(p.size());
       },
       "every unknown is fixed");
-}
-
-TEST(Check, RefusesUncompressedMatrices) {
-  using P = VariationalInequality;
   refused([](P& p) { p.a1.uncompress(); }, "compressed");
   refused([](P& p) { p.b.uncompress(); }, "compressed");
 }

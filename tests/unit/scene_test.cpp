@@ -1,19 +1,11 @@
 // A scene says which effects there are, and refuses what makes no sense with one line.
 #include "antilock/scene/scene.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include "support/scenes.hpp"
 
 namespace antilock::scene_test {
 namespace {
 
-using test::expect_refused;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using namespace test;
 
 TEST(Scene, NamesTheEffectsPresent) {
   using Names = std::vector<std::string>;

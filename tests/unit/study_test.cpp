@@ -1,12 +1,8 @@
 // The room study: tables that are asked by name, methods that make their meshes and spaces, sweeps
 // over any problem.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <fstream>
 #include <sstream>
 
-#include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/timoshenko_beam.hpp"

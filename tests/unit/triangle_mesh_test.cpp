@@ -1,16 +1,11 @@
 // make_triangle_mesh lets nothing through that a finite element relies on and that is not so.
 #include "antilock/mesh/triangle_mesh.hpp"
-
-#include <gtest/gtest.h>
-
-#include <limits>
-
 #include "support/scenes.hpp"
 
 namespace antilock::triangle_mesh_test {
 namespace {
 
-using test::expect_refused;
+using namespace test;
 
 /// What make_triangle_mesh is given; the default is two triangles on the unit square, contact below.
 struct Input {
@@ -62,94 +57,42 @@ TEST(TriangleMesh, TurnsASurfaceThatIsClockwiseAsAWhole) {
   EXPECT_EQ(std::count(both.edge_tag.begin(), both.edge_tag.end(), EdgeTag::sigma), 1);  // found without being tagged
 }
 
-TEST(TriangleMesh, RefusesIndicesOutOfRange) {
+TEST(TriangleMesh, RefusesWhatIsNoMesh) {
+  using I = Input;
+  const auto refused = [](const std::string& words, const std::function<void(I&)>& spoil) {
+    Input input;
+    spoil(input);
+    input.refused(words);
+  };
   for (const int bad : {-1, 4, 1000}) {
-    Input input;
-    input.triangles(1, 1) = bad;
-    input.refused("accepted 0 to 3");
-    input = {};
-    input.tagged[2].to = bad;
-    input.refused("tagged edge");
+    refused("accepted 0 to 3", [=](I& i) { i.triangles(1, 1) = bad; });
+    refused("tagged edge", [=](I& i) { i.tagged[2].to = bad; });
   }
-}
-
-TEST(TriangleMesh, RefusesCoordinatesThatAreNotFinite) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    Input input;
-    input.vertices(2, 1) = bad;
-    input.refused("not finite");
-  }
-}
-
-TEST(TriangleMesh, RefusesNoTriangleAndARegionTooFew) {
-  Input input;
-  input.triangles.resize(0, 3);
-  input.region.clear();
-  input.refused("no triangles");
-  input = {};
-  input.region.pop_back();
-  input.refused("one region a triangle");
-}
-
-TEST(TriangleMesh, RefusesADegenerateTriangle) {
-  Input input;
-  input.vertices.row(2) << 0.5, 0;  // on the line of 0 and 1
-  input.refused("degenerate");
-  input.vertices.row(2) << 0.5, 1e-16;
-  input.refused("degenerate");
-  input = {};
-  input.triangles.row(1) << 0, 3, 3;
-  input.refused("degenerate");
-}
-
-TEST(TriangleMesh, RefusesAnInvertedTriangle) {
-  Input input;
-  input.triangles.row(1) << 0, 3, 2;
-  input.refused("inverted");
-}
-
-TEST(TriangleMesh, RefusesTwoVerticesInOnePlace) {
-  Input input;  // a crack along the diagonal
-  input.add_vertex(1, 1);
-  input.add_vertex(0, 0);
-  input.triangles.row(1) << 5, 4, 3;
-  input.tagged[2] = {4, 3, EdgeTag::clamped};
-  input.tagged[3] = {3, 5, EdgeTag::clamped};
-  input.refused("two vertices share the place");
-}
-
-TEST(TriangleMesh, RefusesAVertexOfNoTriangle) {
-  Input input;
-  input.add_vertex(0.3, 0.4);
-  input.refused("belongs to no triangle");
-}
-
-TEST(TriangleMesh, RefusesAHangingNode) {
-  Input input;  // the lower triangle split at the middle of the diagonal, the upper one not
-  input.add_vertex(0.5, 0.5);
-  input.triangles.row(0) << 0, 1, 4;
-  input.add_triangle(1, 2, 4);
-  input.refused("hangs on the edge");
-}
-
-TEST(TriangleMesh, RefusesOverlappingTriangles) {
-  Input input;  // both on the right of the diagonal 0-2, each counterclockwise
-  input.vertices.row(3) << 0.9, 0.5;
-  input.triangles.row(1) << 0, 3, 2;
-  input.refused("overlapping");
-}
-
-TEST(TriangleMesh, RefusesAnEdgeOfThreeTriangles) {
-  Input input;
-  input.add_vertex(0.9, 0.2);
-  input.add_triangle(0, 4, 2);
-  input.refused("three triangles share the edge");
-}
-
-TEST(TriangleMesh, RefusesABoundaryEdgeWithoutTag) {
-  Input input;
-  input.tagged.erase(input.tagged.begin() + 2);
-  input.refused("in no group");
+  refused("not finite", [](I& i) { i.vertices(2, 1) = nan; });
+  refused("not finite", [](I& i) { i.vertices(2, 1) = infinity; });
+  refused("no triangles", [](I& i) { i.triangles.resize(0, 3), i.region.clear(); });
+  refused("one region a triangle", [](I& i) { i.region.pop_back(); });
+  refused("degenerate", [](I& i) { i.vertices.row(2) << 0.5, 0; });  // on the line of 0 and 1
+  refused("degenerate", [](I& i) { i.vertices.row(2) << 0.5, 1e-16; });
+  refused("degenerate", [](I& i) { i.triangles.row(1) << 0, 3, 3; });
+  refused("inverted", [](I& i) { i.triangles.row(1) << 0, 3, 2; });
+  refused("two vertices share the place", [](I& i) {  // a crack along the diagonal
+    i.add_vertex(1, 1), i.add_vertex(0, 0);
+    i.triangles.row(1) << 5, 4, 3;
+    i.tagged[2] = {4, 3, EdgeTag::clamped}, i.tagged[3] = {3, 5, EdgeTag::clamped};
+  });
+  refused("belongs to no triangle", [](I& i) { i.add_vertex(0.3, 0.4); });
+  refused("hangs on the edge", [](I& i) {  // the lower triangle split at the middle of the diagonal, the upper one not
+    i.add_vertex(0.5, 0.5), i.add_triangle(1, 2, 4);
+    i.triangles.row(0) << 0, 1, 4;
+  });
+  refused("overlapping", [](I& i) {  // both on the right of the diagonal 0-2, each counterclockwise
+    i.vertices.row(3) << 0.9, 0.5;
+    i.triangles.row(1) << 0, 3, 2;
+  });
+  refused("three triangles share the edge", [](I& i) { i.add_vertex(0.9, 0.2), i.add_triangle(0, 4, 2); });
+  refused("in no group", [](I& i) { i.tagged.erase(i.tagged.begin() + 2); });
+  refused("no triangle is in the group body", [](I& i) { i.region.assign(2, Region::layer); });
 }
 
 TEST(TriangleMesh, RefusesATaggedEdgeThatIsNoEdgeOrInTheWrongPlace) {
@@ -186,12 +129,6 @@ TEST(TriangleMesh, RefusesAPieceThatNothingHolds) {
   input = {};
   for (TaggedEdge& edge : input.tagged) edge.tag = EdgeTag::contact;
   input.refused("clamped, which is needed");
-}
-
-TEST(TriangleMesh, RefusesALayerWithoutBody) {
-  Input input;
-  input.region.assign(2, Region::layer);
-  input.refused("no triangle is in the group body");
 }
 
 }  // namespace

@@ -1,20 +1,10 @@
 // Uzawa, the paper's algorithm: slow, but to the same answer; or no answer.
 #include "antilock/solve/uzawa.hpp"
-#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/solve/kkt.hpp"
+#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "support/brute_force.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
@@ -22,27 +12,10 @@
 namespace antilock::uzawa_test {
 namespace {
 
-using test::expect_refused;
-using test::relative_difference;
-using test::stiff_problem;
-using test::two_square_meshes;
+using namespace test;
 
 UnilateralContact gap() {
   return {[](double x) { return x * (x - 0.4) * (1 - x); }};
-}
-
-TEST(Uzawa, IsTheBruteForceAnswer) {
-  for (const auto& [name, mesh] : two_square_meshes(4))
-    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
-      const Space space(mesh, *element);
-      for (const double epsilon : {1.0, 1e-2})
-        for (const UnilateralContact& obstacle : {UnilateralContact{}, gap()}) {
-          const VariationalInequality problem = stiff_problem(space, epsilon, obstacle);
-          // steps of 1e-10 that shrink by a factor of about 1 - 2 / condition leave some 1e-8
-          EXPECT_LT(relative_difference(uzawa(problem).u, test::brute_force(problem).u), 1e-8)
-              << name << element->name() << epsilon;
-        }
-    }
 }
 
 TEST(Uzawa, AgreesWithTheActiveSet) {
@@ -78,12 +51,15 @@ TEST(Uzawa, WithThePapersLinearSolverAgreesWhereItWorks) {
 TEST(Uzawa, RefusesAStepThatGoesNowhere) {
   const TriangleMesh mesh = structured_mesh(4);
   const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 1);
-  for (const double step : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+  for (const double step : {0.0, -1.0, nan}) {
     UzawaOptions options;
     options.step = step;
     expect_refused([&] { uzawa(problem, options); }, "accepted: a positive number");
     expect_refused([&] { uzawa_cg_ilut(problem, options); }, "accepted: a positive number");
   }
+  UzawaOptions options;
+  options.enough = {1e-6, 1e-3};
+  expect_refused([&] { uzawa_cg_ilut(problem, options); }, "options.enough");
 }
 
 TEST(Uzawa, WithThePapersLinearSolverIsRightOrSaysThatItIsNot) {
@@ -150,13 +126,6 @@ TEST(Uzawa, TheDualityGapBoundsWhatIsLeft) {
   }
 }
 
-TEST(Uzawa, WithThePapersLinearSolverDoesNotKnowWhatIsEnough) {
-  const TriangleMesh mesh = structured_mesh(4);
-  UzawaOptions options;
-  options.enough = {1e-6, 1e-3};
-  expect_refused([&] { uzawa_cg_ilut(stiff_problem(Space(mesh, p1()), 1), options); }, "options.enough");
-}
-
 TEST(Uzawa, KeepsOneEntryOfHistoryAStep) {
   const TriangleMesh mesh = structured_mesh(8);
   const Solution s = uzawa(stiff_problem(Space(mesh, p1()), 0.1));
@@ -209,7 +178,7 @@ TEST(Uzawa, UnitsDecadesApartTakeAStepEach) {
 
 TEST(Uzawa, EquationsAreSolvedForTheirForces) {
   VariationalInequality problem = chain_in_units_apart();
-  problem.upper = Eigen::VectorXd::Constant(5, std::numeric_limits<double>::infinity());
+  problem.upper = Eigen::VectorXd::Constant(5, infinity);
   problem.lower(1) = problem.upper(1) = 0.25e-4;
   problem.lower(3) = problem.upper(3) = -0.125;
   const Solution exact = active_set(problem), s = uzawa(problem);
@@ -218,12 +187,6 @@ TEST(Uzawa, EquationsAreSolvedForTheirForces) {
   EXPECT_EQ(s.active, exact.active);
   EXPECT_LT((s.lambda - exact.lambda).cwiseQuotient(exact.lambda.cwiseAbs().cwiseMax(1e-3)).cwiseAbs().maxCoeff(),
             1e-5);
-  // nothing but equations: no step at all
-  problem.upper = problem.lower;
-  const Solution held = uzawa(problem);
-  EXPECT_EQ(held.counters.contact, 0);
-  EXPECT_EQ(held.u, problem.lower);
-  EXPECT_EQ(held.active, std::vector<bool>(5, true));
 }
 
 TEST(Uzawa, OneUnknownStopsAtEitherBound) {
@@ -269,6 +232,7 @@ TEST(Uzawa, AnEquationAloneTakesNoStep) {
   const Solution s = uzawa(problem);
   EXPECT_EQ(s.counters.contact, 0);
   EXPECT_EQ(s.u(0), -1);
+  EXPECT_TRUE(s.active[0]);
   EXPECT_NEAR(s.lambda(0), 8, 1e-13);
 }
 

@@ -1,17 +1,9 @@
 // The supremum of the error over a ball of loads: the exact side in closed form, the quadratic form of the error, its
 // largest eigenvalue.
 #include "antilock/analysis/worst_load.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "antilock/core/dense.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
@@ -19,7 +11,7 @@ namespace antilock::worst_load_test {
 namespace {
 
 using std::numbers::pi;
-using test::expect_refused;
+using namespace test;
 
 /// E column by column.
 Eigen::MatrixXd matrix_of(ErrorForm& form) {

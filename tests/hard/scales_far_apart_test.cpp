@@ -1,17 +1,10 @@
 // Problems of one's own whose stiffnesses and forces lie far apart, or that are as small as can be: what is large in
 // one place must hide nothing in another.
-#include <gtest/gtest.h>
-
-#include <cmath>
-
-#include "antilock/core/error.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::hard::scales_test {
+namespace antilock::hard::scales_far_apart_test {
 namespace {
 
 /// A1 (full), its load, and the first unknowns kept above `lower`; no stiff form yet.
@@ -44,7 +37,7 @@ std::vector<std::vector<bool>> every_start(std::size_t n) {
 }
 
 // CHOLMOD's constrained ordering once wrote past its end here; the sanitizers watch.
-TEST(Scales, OneUnknownAndItIsInContact) {
+TEST(ScalesFarApart, OneUnknownAndItIsInContact) {
   for (const double load : {-1.0, 1.0}) {
     const Solution s = active_set(
         body(Eigen::MatrixXd::Constant(1, 1, 2), Eigen::VectorXd::Constant(1, load), Eigen::VectorXd::Zero(1)));
@@ -55,7 +48,7 @@ TEST(Scales, OneUnknownAndItIsInContact) {
 
 // A spring of stiffness K beside one of stiffness 1 that is pulled off its obstacle by next to nothing, from every
 // start.
-TEST(Scales, AStiffUnknownHidesNoPullOnASoftOne) {
+TEST(ScalesFarApart, AStiffUnknownHidesNoPullOnASoftOne) {
   for (const double k : {1e6, 1e9, 1e12, 1e14})
     for (const double off : {1e-2, 1e-4, 1e-6})
       for (const auto& start : every_start(2)) {
@@ -70,7 +63,7 @@ TEST(Scales, AStiffUnknownHidesNoPullOnASoftOne) {
 }
 
 // The same, coupled, and the stiff one in contact with a force of 2 K: the start is the solver's own.
-TEST(Scales, AGreatContactForceHidesNoSmallOne) {
+TEST(ScalesFarApart, AGreatContactForceHidesNoSmallOne) {
   for (const double k : {1e6, 1e9, 1e12})
     for (const double off : {1e-2, 1e-4}) {
       Eigen::Matrix2d a1;
@@ -84,7 +77,7 @@ TEST(Scales, AGreatContactForceHidesNoSmallOne) {
 // u_0 is pressed to 0.83 against a row of B alone: a contact force of 0.3 / compliance. u_2 hangs on u_1 by a spring
 // and knows the truth (0.31 + 2 u_1) / 2.3, u_1 = 0.1 u_0 / 0.35, as compliance -> 0. Right or refused, never in
 // between.
-TEST(Scales, AContactForceFarAboveTheLoadStaysWhereItIs) {
+TEST(ScalesFarApart, AContactForceFarAboveTheLoadStaysWhereItIs) {
   Eigen::Matrix3d a1;
   a1 << 3, -1, 0, -1, 3, -2, 0, -2, 2.3;
   Eigen::MatrixXd b(2, 3);
@@ -107,7 +100,7 @@ TEST(Scales, AContactForceFarAboveTheLoadStaysWhereItIs) {
 }
 
 // The report of a wrong u in a place of small forces, beside a force of 1e12.
-TEST(Scales, TheReportSeesSmallForcesBesideGreatOnes) {
+TEST(ScalesFarApart, TheReportSeesSmallForcesBesideGreatOnes) {
   const VariationalInequality v =
       body(Eigen::Vector3d(1e12, 1, 1).asDiagonal(), Eigen::Vector3d(-1e12, -2, 1), Eigen::Vector2d(0, -1));
   const Solution right = active_set(v);
@@ -126,7 +119,7 @@ TEST(Scales, TheReportSeesSmallForcesBesideGreatOnes) {
 }
 
 // Prescribed values alone, and an obstacle that keeps the rest at zero: nothing moves in the first correction.
-TEST(Scales, WhatDoesNotMoveHasSettled) {
+TEST(ScalesFarApart, WhatDoesNotMoveHasSettled) {
   Eigen::Matrix3d a1;
   a1 << 2, -1, -1, -1, 2, 0, -1, 0, 1;  // u_0 held up by the obstacle, u_1 hangs on it, u_2 is pushed down
   for (const bool in_contact : {true, false}) {
@@ -170,7 +163,7 @@ VariationalInequality hardly_held_stiff_chain(double held, double compliance) {
 
 // Without B too the first solve is not taken on trust: a double keeps 1e-16 / held of it. The corrections' residual adds 40
 // terms in long double, each rounded by 2^-64: 2e-18 / held is left. The bound is 10 times that.
-TEST(Scales, AChainThatIsHardlyHeldIsRightWithoutAStiffForm) {
+TEST(ScalesFarApart, AChainThatIsHardlyHeldIsRightWithoutAStiffForm) {
   for (const double held : {1e-4, 1e-6, 1e-8, 1e-10}) {
     const VariationalInequality v = hardly_held_chain(held);
     EXPECT_LT(distance(active_set(v).u, quad_reference(v, {}).u), 1e-10 + 2e-17 / held) << held;
@@ -178,7 +171,7 @@ TEST(Scales, AChainThatIsHardlyHeldIsRightWithoutAStiffForm) {
 }
 
 // With B as well.
-TEST(Scales, AChainThatIsHardlyHeldIsRightWithAStiffForm) {
+TEST(ScalesFarApart, AChainThatIsHardlyHeldIsRightWithAStiffForm) {
   for (const double held : {1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 3e-9, 1e-9})
     for (const double penalty : {1e-1, 1e-2, 3e-3, 1e-4})
       for (const double compliance : {0.0, 1e-5}) {
@@ -191,7 +184,7 @@ TEST(Scales, AChainThatIsHardlyHeldIsRightWithAStiffForm) {
 }
 
 // Asked for more digits than a double holds: residuals are exact, so that corrections settle with the factor they have.
-TEST(Scales, MoreDigitsNeedNoOtherFactor) {
+TEST(ScalesFarApart, MoreDigitsNeedNoOtherFactor) {
   for (const double held : {1e-4, 2e-4, 5e-4})
     for (const double penalty : {1e-2, 3e-3})
       for (const double compliance : {0.0, 1e-5}) {
@@ -206,7 +199,7 @@ TEST(Scales, MoreDigitsNeedNoOtherFactor) {
 // u_0 hangs on u_1, which B holds at 0, and its bound is 0.005. Before B holds it, u_1 lifts u_0 off; after, u_0 sinks
 // in by less than the round-off of u_2, decoupled and far larger. Zero is not admissible: a bound that is not met might
 // be the one trace of a problem without an answer.
-TEST(Scales, AGreatUHidesNoBoundThatIsReachedLate) {
+TEST(ScalesFarApart, AGreatUHidesNoBoundThatIsReachedLate) {
   Eigen::Matrix3d a1;
   a1 << 1, -0.5, 0, -0.5, 1, 0, 0, 0, 1;
   for (const double great : {1e12, 1e13})
@@ -223,7 +216,7 @@ TEST(Scales, AGreatUHidesNoBoundThatIsReachedLate) {
 
 // Rows of B that tie pairs of springs together, u = 1/2 in all of them, beside a prescribed value. What has settled
 // beside that one may leave the slower rows far from closed: each holds to 1e-4 of its own terms.
-TEST(Scales, AGreatUHidesNoRowThatIsNotClosed) {
+TEST(ScalesFarApart, AGreatUHidesNoRowThatIsNotClosed) {
   constexpr int pairs = 8, n = 2 * pairs + 1;
   for (const double great : {1e4, 1e7, 1e8, 1e9, 1e10, 1e12, 1e14}) {
     Eigen::MatrixXd a1 = Eigen::MatrixXd::Identity(n, n), b = Eigen::MatrixXd::Zero(pairs, n);
@@ -246,7 +239,7 @@ TEST(Scales, AGreatUHidesNoRowThatIsNotClosed) {
 }
 
 // A chain that B locks altogether: u falls to the round-off of its size before, no sooner, and stays there.
-TEST(Scales, ALockedUStopsAtItsRoundOff) {
+TEST(ScalesFarApart, ALockedUStopsAtItsRoundOff) {
   for (const int n : {5, 20})
     for (const double penalty : {1e-2, 1e-4})
       for (const double beside : {0.0, 0.4, -0.4999}) {
@@ -269,7 +262,7 @@ TEST(Scales, ALockedUStopsAtItsRoundOff) {
       }
 }
 
-TEST(Scales, AFactorOfAnotherProblemIsRefused) {
+TEST(ScalesFarApart, AFactorOfAnotherProblemIsRefused) {
   const TriangleMesh mesh = structured_mesh(4), finer = structured_mesh(5);
   PenaltyFactor factor(test::stiff_problem(Space(finer, p1()), 0.1));
   const VariationalInequality problem = test::stiff_problem(Space(mesh, p1()), 0.1);
@@ -278,4 +271,4 @@ TEST(Scales, AFactorOfAnotherProblemIsRefused) {
 }
 
 }  // namespace
-}  // namespace antilock::hard::scales_test
+}  // namespace antilock::hard::scales_far_apart_test

@@ -1,22 +1,13 @@
 // The checks that every solve passes, fed with wrong answers on purpose.
-#include <gtest/gtest.h>
-
-#include <functional>
-#include <limits>
-
 #include "antilock/analysis/hypotheses.hpp"
-#include "antilock/core/error.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/solve/kkt.hpp"
+#include "support/scenes.hpp"
 
-namespace antilock::trust_test {
+namespace antilock::wrong_answers_are_refused_test {
 namespace {
 
-class Trust : public testing::TestWithParam<double> {
+class WrongAnswers : public testing::TestWithParam<double> {
  protected:
-  Trust()
+  WrongAnswers()
       : mesh_(structured_mesh(16)),
         space_(mesh_, crouzeix_raviart()),
         problem_(assemble(Scene({paper_load}, StiffLayer{GetParam()}, UnilateralContact{}), space_)),
@@ -32,20 +23,21 @@ class Trust : public testing::TestWithParam<double> {
   Solution solution_;
 };
 
-TEST_P(Trust, TheRightAnswerIsTrustedWithoutAWarning) {
+TEST_P(WrongAnswers, TheRightAnswerIsTrustedWithoutAWarning) {
   EXPECT_TRUE(solution_.warning.empty());
   EXPECT_LT(worst_violation(solution_.kkt), 1e-10);
 }
 
 // Each fault is one that a solver can commit; each must be seen by the number that stands for its condition.
-TEST_P(Trust, EveryKindOfWrongAnswerIsRefused) {
+TEST_P(WrongAnswers, EveryKindOfWrongAnswerIsRefused) {
   ASSERT_GE(first(true), 0);
   ASSERT_GE(first(false), 0);
   const double u_scale = solution_.u.lpNorm<Eigen::Infinity>(), f_scale = problem_.load.lpNorm<Eigen::Infinity>();
-  const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double inf = test::infinity, nan = test::nan;
   const std::vector<std::pair<std::string, std::function<void(Solution&)>>> faults{
       {"one unknown in the body moved", [&](Solution& s) { s.u(space_.size() - 1) += 1e-2 * u_scale; }},
-      {"every unknown scaled", [](Solution& s) { s.u *= 1.001; }},
+      {"one unknown in contact moved", [&](Solution& s) { s.u(problem_.contact[first(false)]) += 1e-3 * u_scale; }},
+      {"every unknown scaled", [](Solution& s) { s.u *= 1 + 1e-4; }},
       {"no answer at all", [](Solution& s) { s.u.setZero(), s.p.setZero(), s.lambda.setZero(); }},
       {"a locked layer",
        [&](Solution& s) {
@@ -53,6 +45,9 @@ TEST_P(Trust, EveryKindOfWrongAnswerIsRefused) {
            if (space_.points()(i, 1) <= 0) s.u(i) = 0;
        }},
       {"the layer stress forgotten", [](Solution& s) { s.p.setZero(); }},
+      {"the layer stress scaled", [](Solution& s) { s.p *= 1.01; }},
+      {"contact forces scaled", [](Solution& s) { s.lambda *= 0.9; }},
+      {"contact forces turned", [](Solution& s) { s.lambda *= -1; }},
       {"the layer stress of one triangle", [](Solution& s) { s.p(s.p.size() / 2) *= 2; }},
       {"contact forces forgotten", [](Solution& s) { s.lambda.setZero(); }},
       {"a contact that pulls", [&](Solution& s) { s.lambda(first(true)) = -0.1 * f_scale; }},
@@ -72,20 +67,7 @@ TEST_P(Trust, EveryKindOfWrongAnswerIsRefused) {
   }
 }
 
-TEST_P(Trust, TheSignsAreReportedApart) {
-  Solution wrong = solution_;
-  wrong.u(problem_.contact[first(true)]) = -0.25 * wrong.u.lpNorm<Eigen::Infinity>();
-  EXPECT_NEAR(kkt_report(problem_, wrong).min_gap, -0.25, 1e-12);
-  wrong = solution_;
-  const double scale = std::max(problem_.load.lpNorm<Eigen::Infinity>(), wrong.lambda.lpNorm<Eigen::Infinity>());
-  wrong.lambda(first(true)) = -0.5 * scale;
-  EXPECT_NEAR(kkt_report(problem_, wrong).min_pressure, -0.5, 0.05);
-  wrong = solution_;
-  wrong.lambda(first(false)) = 0.5 * scale;
-  EXPECT_GT(kkt_report(problem_, wrong).complementarity, 1e-3 * wrong.u(problem_.contact[first(false)]));
-}
-
-TEST_P(Trust, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
+TEST_P(WrongAnswers, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
   Solution slightly = solution_;
   slightly.u *= 1 + 1e-8;
   certify(problem_, slightly);
@@ -103,12 +85,13 @@ TEST_P(Trust, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
     FAIL() << "not refused";
   } catch (const NotConverged& refusal) {
     EXPECT_NE(std::string(refusal.what()).find("active set: answer refused"), std::string::npos) << refusal.what();
+    EXPECT_NEAR(refusal.reached, worst_violation(kkt_report(problem_, slightly)), 1e-15);
     EXPECT_GT(refusal.reached, 1e-6);
   }
 }
 
 // The terms of A1 u are h^-2 times larger than the forces they balance: an error must not hide behind them.
-TEST_P(Trust, AWrongAnswerIsRefusedOnAFineMeshToo) {
+TEST_P(WrongAnswers, AWrongAnswerIsRefusedOnAFineMeshToo) {
   const TriangleMesh mesh = structured_mesh(128);
   const Space space(mesh, p1());
   const VariationalInequality problem =
@@ -120,7 +103,7 @@ TEST_P(Trust, AWrongAnswerIsRefusedOnAFineMeshToo) {
 }
 
 // Scale-free: load and answer multiplied by a power of two give the same report bit for bit, right or wrong.
-TEST_P(Trust, TheReportDoesNotSeeTheScaleOfTheLoad) {
+TEST_P(WrongAnswers, TheReportDoesNotSeeTheScaleOfTheLoad) {
   Solution wrong = solution_;
   wrong.u *= 1.0001;
   wrong.lambda(first(true)) *= -1;
@@ -142,7 +125,7 @@ TEST_P(Trust, TheReportDoesNotSeeTheScaleOfTheLoad) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Epsilon, Trust, testing::Values(1.0, 1e-2, 1e-8, 0.0),
+INSTANTIATE_TEST_SUITE_P(Epsilon, WrongAnswers, testing::Values(1.0, 1e-2, 1e-8, 0.0),
                          [](const auto& info) { return "Case" + std::to_string(info.index); });
 
 /// n unknowns in a row with springs between neighbours.
@@ -188,7 +171,7 @@ VariationalInequality impossible(double far, double unit) {
   return problem;
 }
 
-TEST(Infeasible, IsSeenBesideAFarBoundAndInAnyUnits) {
+TEST(Impossible, IsSeenBesideAFarBoundAndInAnyUnits) {
   for (const double far : {0.0, -1e3, -1e6, -1e9}) {
     EXPECT_THROW(active_set(impossible(far, 1)), NotConverged) << far;
     EXPECT_GT(distance_to_kernel(impossible(far, 1)), 0.1) << far;
@@ -199,7 +182,7 @@ TEST(Infeasible, IsSeenBesideAFarBoundAndInAnyUnits) {
   }
 }
 
-TEST(Report, AFarBoundDoesNotHideABrokenCompliance) {
+TEST(Impossible, AFarBoundDoesNotHideABrokenCompliance) {
   for (const double far : {0.0, -1e3, -1e6, -1e9}) {
     VariationalInequality problem = impossible(far, 1);
     problem.lower(0) = -1;
@@ -216,4 +199,4 @@ TEST(Report, AFarBoundDoesNotHideABrokenCompliance) {
 }
 
 }  // namespace
-}  // namespace antilock::trust_test
+}  // namespace antilock::wrong_answers_are_refused_test

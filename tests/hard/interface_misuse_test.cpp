@@ -1,12 +1,7 @@
 // No quiet wrong answer through any door: what an ordinary mistake at the programming interface comes to. Each of these
 // was once answered with a number, or ended the program.
-#include <gtest/gtest.h>
-
-#include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <limits>
-#include <string>
 
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/analysis/worst_load.hpp"
@@ -16,23 +11,18 @@
 #include "antilock/form/detail/averaged.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/contact_zone.hpp"
-#include "antilock/measure/errors.hpp"
-#include "antilock/mesh/generate.hpp"
-#include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/plate.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "antilock/study/table.hpp"
 #include "hard/adversary.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::hard::doors_test {
+namespace antilock::hard::interface_misuse_test {
 namespace {
 
-using test::expect_refused;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
+using namespace test;
 
 double down(double, double) { return -10; }
 
@@ -52,7 +42,7 @@ VariationalInequality rubbing_chain(int n, double g) {
   return problem;
 }
 
-TEST(Doors, SceneAndMeshAgreeOnTheDepthOfTheLayer) {
+TEST(InterfaceMisuse, SceneAndMeshAgreeOnTheDepthOfTheLayer) {
   const TriangleMesh unit = structured_mesh(4), flat = structured_mesh(4, {0.25});
   const Space on_unit(unit, p1()), on_flat(flat, p1());
   expect_refused([&] { assemble(Scene(Body{down}, ThinLayer{0.25}), on_unit); }, "accepted: y = -0.25");
@@ -60,7 +50,7 @@ TEST(Doors, SceneAndMeshAgreeOnTheDepthOfTheLayer) {
   EXPECT_NO_THROW(assemble(Scene(Body{down}, ThinLayer{0.25}), on_flat));
 }
 
-TEST(Doors, FrictionMayBearFarMoreThanTheForces) {
+TEST(InterfaceMisuse, FrictionMayBearFarMoreThanTheForces) {
   for (const double g : {10.0, 1e10, 1e15, 1e300}) {
     EXPECT_EQ(active_set(rubbing_chain(5, g)).u.lpNorm<Eigen::Infinity>(), 0) << g;
     VariationalInequality two_sided = rubbing_chain(5, g);
@@ -71,7 +61,7 @@ TEST(Doors, FrictionMayBearFarMoreThanTheForces) {
   }
 }
 
-TEST(Doors, UzawaKnowsNoUnits) {
+TEST(InterfaceMisuse, UzawaKnowsNoUnits) {
   for (const double unit : {1e-300, 1e-100, 1e100, 1e300}) {
     VariationalInequality problem = rubbing_chain(5, 0.3 * unit);
     problem.a1 *= unit;
@@ -81,7 +71,7 @@ TEST(Doors, UzawaKnowsNoUnits) {
 }
 
 // Rows of B decades apart: on the way to u the mix of the corrections is 1e8 to 1e15 times its size.
-TEST(Doors, TheWayToAnAnswerMayBeLong) {
+TEST(InterfaceMisuse, TheWayToAnAnswerMayBeLong) {
   for (const unsigned seed : {454U, 696U, 723U, 914U, 986U, 1132U}) {
     const VariationalInequality problem = random_problem(seed);
     const Judgement judgement = judge(problem, test::exact_answer(problem));
@@ -89,7 +79,7 @@ TEST(Doors, TheWayToAnAnswerMayBeLong) {
   }
 }
 
-TEST(Doors, AFrictionWithoutLimitSticksInEveryElement) {
+TEST(InterfaceMisuse, AFrictionWithoutLimitSticksInEveryElement) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(4, {0}));
   for (const char* name : {"P1", "P2", "CR"})
     for (const double g : {1e300, infinity}) {
@@ -106,7 +96,7 @@ TEST(Doors, AFrictionWithoutLimitSticksInEveryElement) {
     }
 }
 
-TEST(Doors, TheSpacesOfOneBodyHaveOneMesh) {
+TEST(InterfaceMisuse, TheSpacesOfOneBodyHaveOneMesh) {
   const TriangleMesh coarse = structured_mesh(2, {0}), fine = structured_mesh(4, {0});
   const Space a(coarse, p1()), b(fine, p1()), c(coarse, p2());
   expect_refused([&] { assemble(PlaneStrain{}, {a, b}); }, "different meshes");
@@ -114,7 +104,7 @@ TEST(Doors, TheSpacesOfOneBodyHaveOneMesh) {
   expect_refused([&] { assemble(Plate{}, PlateSpace{a, {c, a}, ShearRule::mean}); }, "one element twice");
 }
 
-TEST(Doors, APlateHasALoadAndAnObstacleSomewhere) {
+TEST(InterfaceMisuse, APlateHasALoadAndAnObstacleSomewhere) {
   const TriangleMesh disc = disc_mesh(3);
   const Space space(disc, p1());
   const PlateSpace on{space, {space, space}, ShearRule::edges};
@@ -126,7 +116,7 @@ TEST(Doors, APlateHasALoadAndAnObstacleSomewhere) {
   expect_refused([&] { assemble(plate, on); }, "empty");
 }
 
-TEST(Doors, ExactSolutionsRefuseWhatTheyAreNotFor) {
+TEST(InterfaceMisuse, ExactSolutionsRefuseWhatTheyAreNotFor) {
   for (const double t : {nan, -0.1, infinity}) expect_refused([&] { PlateTruth truth(t); }, "thickness");
   expect_refused([] { PlateTruth(1e-4, infinity); }, "load");
   expect_refused([] { PlateTruth(1e-4, 256, 1e-300); }, "gap");
@@ -139,7 +129,7 @@ TEST(Doors, ExactSolutionsRefuseWhatTheyAreNotFor) {
   expect_refused([] { LoadModes(1000000); }, "accepted: 1 to 4096");
 }
 
-TEST(Doors, WorstLoadsAreThoseOfTheUnitSquares) {
+TEST(InterfaceMisuse, WorstLoadsAreThoseOfTheUnitSquares) {
   const TriangleMesh mesh = structured_mesh(4);
   TriangleMesh wide = mesh;
   wide.vertices.col(0) *= 2;
@@ -149,7 +139,7 @@ TEST(Doors, WorstLoadsAreThoseOfTheUnitSquares) {
   EXPECT_NO_THROW(ErrorForm(space, LoadModes(8)));
 }
 
-TEST(Doors, EigenvaluesOfAnySizeAndUnit) {
+TEST(InterfaceMisuse, EigenvaluesOfAnySizeAndUnit) {
   const auto times = [](double s) { return [s](const Eigen::VectorXd& x) { return Eigen::VectorXd(s * x); }; };
   for (const Eigen::Index n : {1, 2, 5}) EXPECT_EQ(largest_eigenvalue(times(0), n), 0);
   for (const double s : {1e-300, 1e300}) EXPECT_NEAR(largest_eigenvalue(times(s), 4) / s, 1, 1e-12);
@@ -163,7 +153,7 @@ TEST(Doors, EigenvaluesOfAnySizeAndUnit) {
   expect_refused([&] { smallest_eigenvalue(singular); }, "singular");
 }
 
-TEST(Doors, AveragesOverBoxesThatCanBeCounted) {
+TEST(InterfaceMisuse, AveragesOverBoxesThatCanBeCounted) {
   const TriangleMesh mesh = structured_mesh(4), other = structured_mesh(1);
   const Space space(mesh, p1());
   const FactoredForm form = layer_strain(space);
@@ -171,7 +161,7 @@ TEST(Doors, AveragesOverBoxesThatCanBeCounted) {
   expect_refused([&] { box_shares(other, form, 0.1, 0.1); }, "the mesh of the form");
 }
 
-TEST(Doors, ErrorsAndEnergiesAreOfTheirOwnSpace) {
+TEST(InterfaceMisuse, ErrorsAndEnergiesAreOfTheirOwnSpace) {
   const TriangleMesh mesh = structured_mesh(4);
   const Space affine(mesh, p1()), broken(mesh, crouzeix_raviart());
   const VariationalInequality problem = assemble(Scene(Body{down}, StiffLayer{0.1}), affine);
@@ -188,7 +178,7 @@ TEST(Doors, ErrorsAndEnergiesAreOfTheirOwnSpace) {
   expect_refused([] { slope({1, 0.5, 0.25}, {1, 0.5}); }, "one per width");
 }
 
-TEST(Doors, ContactLengthsAreThoseOfTheirBasis) {
+TEST(InterfaceMisuse, ContactLengthsAreThoseOfTheirBasis) {
   const TriangleMesh mesh = structured_mesh(4);
   for (int degree = 2; degree <= 6; ++degree) {  // Newton and Cotes: what the clamped ends of Gamma_C keep
     const double at_end[] = {1.0 / 6, 1.0 / 8, 7.0 / 90, 19.0 / 288, 41.0 / 840};
@@ -198,7 +188,7 @@ TEST(Doors, ContactLengthsAreThoseOfTheirBasis) {
   }
 }
 
-TEST(Doors, TablesPassOverNothing) {
+TEST(InterfaceMisuse, TablesPassOverNothing) {
   Table table({"h", "e,f"});
   table.add({1, 1});
   table.add({0.5, nan});
@@ -218,7 +208,7 @@ TEST(Doors, TablesPassOverNothing) {
   std::filesystem::remove(path);
 }
 
-TEST(Doors, ARefusedGapLeavesTheSweepAsItWas) {
+TEST(InterfaceMisuse, ARefusedGapLeavesTheSweepAsItWas) {
   const TriangleMesh mesh = structured_mesh(4);
   const Space space(mesh, p1());
   UnilateralContact apart;
@@ -230,7 +220,7 @@ TEST(Doors, ARefusedGapLeavesTheSweepAsItWas) {
   EXPECT_NO_THROW(sweep.solve());
 }
 
-TEST(Doors, AnErrorIsAccurateEnoughForASaneShare) {
+TEST(InterfaceMisuse, AnErrorIsAccurateEnoughForASaneShare) {
   const EnergyBracket bracket{-1, -0.9};
   for (const double bad : {0.0, -1.0, nan, infinity}) {
     expect_refused([&] { accurate_enough(bracket, bad); }, "times as coarse");
@@ -239,4 +229,4 @@ TEST(Doors, AnErrorIsAccurateEnoughForASaneShare) {
 }
 
 }  // namespace
-}  // namespace antilock::hard::doors_test
+}  // namespace antilock::hard::interface_misuse_test

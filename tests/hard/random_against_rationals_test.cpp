@@ -1,26 +1,15 @@
 // The adversary: problems made by chance over twelve decades, each against rational arithmetic. `adversary` (the program)
 // runs thousands; here is a fixed list.
-#include "hard/adversary.hpp"
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <functional>
-#include <limits>
-
-#include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/detail/dependent_rows.hpp"
-#include "antilock/solve/kkt.hpp"
 #include "antilock/solve/uzawa.hpp"
+#include "hard/adversary.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::hard::adversary_test {
+namespace antilock::hard::random_against_rationals_test {
 namespace {
 
-using test::expect_refused;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+using namespace test;
 
 /// A1 (full), its load, B with M = 1, and bounds of some unknowns.
 VariationalInequality problem_of(const Eigen::MatrixXd& a1, const Eigen::VectorXd& load, const Eigen::MatrixXd& b,
@@ -109,7 +98,7 @@ VariationalInequality mirrored(VariationalInequality problem) {
   problem.load *= -1;
   problem.fixed_values *= -1;
   problem.upper = -problem.lower;
-  problem.lower.setConstant(-std::numeric_limits<double>::infinity());
+  problem.lower.setConstant(-infinity);
   return problem;
 }
 
@@ -123,7 +112,7 @@ TEST(Mirror, UpperBoundsAreJudgedLikeLowerOnes) {
   }
 }
 
-TEST(Doors, AGreatLoadOnAnUnknownInContactHidesNothing) {
+TEST(NothingInSilence, AGreatLoadOnAnUnknownInContactHidesNothing) {
   Eigen::Matrix2d a1;
   a1 << 14, 4, 4, 6;
   for (const double load : {1e8, 1e11, 1e14, 1e18, 1e25}) {
@@ -134,7 +123,7 @@ TEST(Doors, AGreatLoadOnAnUnknownInContactHidesNothing) {
   }
 }
 
-TEST(Doors, WhatNoUCanMeetIsRefusedUnderAnyLoad) {
+TEST(NothingInSilence, WhatNoUCanMeetIsRefusedUnderAnyLoad) {
   // B says u_0 = 0, its bound says 0.05
   Eigen::MatrixXd b(1, 3);
   b << 1, 0, 0;
@@ -147,7 +136,7 @@ TEST(Doors, WhatNoUCanMeetIsRefusedUnderAnyLoad) {
       }
 }
 
-TEST(Doors, RowsThatAreNearlyDependentAreWarnedOf) {
+TEST(NothingInSilence, RowsThatAreNearlyDependentAreWarnedOf) {
   // B u = 0 says u_0 = u_1 and, by a second row that differs by `apart`, u_1 = 0: then u = (0, 0, 1.5); else (3, 3, 3)
   for (const double apart : {1e-3, 1e-6, 1e-8, 1e-9, 1e-11, 1e-12, 1e-13, 4e-14, 1e-15, 2e-16, 0.0}) {
     Eigen::MatrixXd b(2, 3);
@@ -165,7 +154,7 @@ TEST(Doors, RowsThatAreNearlyDependentAreWarnedOf) {
 }
 
 // As far as dependent_rows.hpp says: up to 200 rows.
-TEST(Doors, RowsThatAreNearlyDependentAreLookedForAmongTwoHundred) {
+TEST(NothingInSilence, RowsThatAreNearlyDependentAreLookedForAmongTwoHundred) {
   for (const int rows : {2, 200, 201}) {
     Eigen::MatrixXd b = Eigen::MatrixXd::Identity(rows, rows);
     b.row(1) = b.row(0);
@@ -179,7 +168,7 @@ TEST(Doors, RowsThatAreNearlyDependentAreLookedForAmongTwoHundred) {
   }
 }
 
-TEST(Doors, UnitsAreTheCallersOwn) {
+TEST(NothingInSilence, UnitsAreTheCallersOwn) {
   // M times s at compliance s, and A1 and the load times s at compliance 1 / s, are the same problem
   const VariationalInequality one = problem_of(chain(), Eigen::Vector3d(1, -2, 3), Eigen::RowVector3d(1, -1, 0.5), {1},
                                                Eigen::VectorXd::Constant(1, -0.1), 0.5);
@@ -198,7 +187,7 @@ TEST(Doors, UnitsAreTheCallersOwn) {
 }
 
 // Every overload refuses what the headers say, with a factor made before as well.
-TEST(Doors, AFactorMadeBeforeSkipsNoCheck) {
+TEST(NothingInSilence, AFactorMadeBeforeSkipsNoCheck) {
   const VariationalInequality good = problem_of(chain(), Eigen::Vector3d(1, -2, 3), Eigen::RowVector3d(1, -1, 0.5),
                                                 {0, 1}, Eigen::Vector2d(-0.1, -0.1), 0.5);
   const auto refused = [&](const std::function<void(VariationalInequality&)>& spoil, const std::string& words) {
@@ -229,7 +218,7 @@ TEST(Doors, AFactorMadeBeforeSkipsNoCheck) {
   for (const double delta : {0.0, -1.0, nan}) expect_refused([&] { PenaltyFactor(good, delta); }, "penalty");
 }
 
-TEST(Doors, TheReportPassesOverNothing) {
+TEST(NothingInSilence, TheReportPassesOverNothing) {
   const VariationalInequality problem = problem_of(chain(), Eigen::Vector3d(1, -2, 3), Eigen::RowVector3d(1, -1, 0.5),
                                                    {0, 1}, Eigen::Vector2d(-0.1, -0.1), 0.5);
   const Solution right = active_set(problem);
@@ -245,9 +234,9 @@ TEST(Doors, TheReportPassesOverNothing) {
      : condition == 1 ? kkt.min_pressure
      : condition == 2 ? kkt.complementarity
                       : kkt.residual) = nan;
-    EXPECT_EQ(worst_violation(kkt), std::numeric_limits<double>::infinity()) << condition;
+    EXPECT_EQ(worst_violation(kkt), infinity) << condition;
   }
 }
 
 }  // namespace
-}  // namespace antilock::hard::adversary_test
+}  // namespace antilock::hard::random_against_rationals_test
