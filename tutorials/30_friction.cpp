@@ -76,6 +76,7 @@
 
 #include "antilock/solve/uzawa.hpp"
 #include "backstage/30_floor.hpp"
+#include "backstage/30_slipping_bar.hpp"
 #include "backstage/30_slipping_patch.hpp"
 #include "common/course.hpp"
 

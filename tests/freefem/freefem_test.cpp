@@ -364,7 +364,7 @@ TEST_P(Elasticity, AgreesWithFrictionInTheZonesAndTheForces) {
 }
 
 // The coating from thick to the limit; unstructured, so that P1 and P2 lock and CR does not.
-TEST(Coating, AgreesInDisplacementAndForce) {
+TEST(FreeFemCoating, AgreesInDisplacementAndForce) {
   const TriangleMesh mesh = with_free_sides(unstructured_mesh(8));
   const Element &one = p1(), &cr = crouzeix_raviart();
   using Row = std::tuple<std::string, const Element*, const Element*>;

@@ -54,6 +54,9 @@ TEST_F(Door, TruthGivesTheExactSolutionAtPoints) {
   const auto summary = nlohmann::json::parse(contents(folder / "s.json"));
   EXPECT_EQ(summary["kind"], "exact");
   EXPECT_NEAR(summary["energy"], truth.energy(), 1e-12);
+  // u solves the inequality, 0 and 2 u are in K: a(u, u) = L(u), and J(u) = -a(u, u) / 2. 1e-4 is what the summary promises
+  EXPECT_NEAR(summary["norms"]["energy"], std::sqrt(-2 * truth.energy()), 1e-4);
+  EXPECT_EQ(summary["load"], "10*sin(2*pi*x)");
   EXPECT_NEAR(summary["contact"][0][0], 0.69753, 1e-5);  // five digits are printed in the project's table of truths
 }
 

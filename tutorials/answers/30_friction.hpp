@@ -32,21 +32,7 @@ const std::vector<tutorial::Exercise> exercises{
      "it slips on (1/2, 1), where friction balances the whole pull, by (x - 1/2)^2 / 2: its end moves by 1/8",
      [](const tutorial::Options& options, tutorial::Report& report) {
        const int n = options.cells;
-       VariationalInequality bar;  // u_0 ... u_n; nothing is stiff
-       std::vector<Eigen::Triplet<double>> entries;
-       for (int i = 0; i < n; ++i)
-         for (const int j : {i, i + 1})
-           for (const int k : {i, i + 1}) entries.emplace_back(j, k, j == k ? n : -n);
-       bar.a1.resize(n + 1, n + 1);
-       bar.a1.setFromTriplets(entries.begin(), entries.end());
-       bar.b.resize(0, n + 1);
-       bar.load = 0.5 * Eigen::VectorXd::Unit(n + 1, n);
-       bar.fixed = {0};
-       bar.fixed_values = Eigen::VectorXd::Zero(1);
-       for (int i = 1; i <= n; ++i) bar.contact.push_back(i);
-       bar.lower = bar.upper = Eigen::VectorXd::Zero(n);
-       bar.force_bound = Eigen::VectorXd::Constant(n, 1.0 / n);
-       bar.force_bound(n - 1) = 0.5 / n;
+       const VariationalInequality bar = tutorial::bar_on_a_floor(n, 0.5);
        const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(n + 1, 0, 1);
        const Eigen::VectorXd exact = 0.5 * (x - 0.5).max(0).square();
        for (const Solution& s : {active_set(bar), uzawa(bar)})

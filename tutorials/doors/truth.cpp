@@ -10,6 +10,8 @@
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/io/detail/csv_reader.hpp"
 #include "antilock/measure/detail/point_values.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/mesh/generate.hpp"
 #include "common/command_line.hpp"
 #include "doors/doors.hpp"
 
@@ -36,6 +38,18 @@ const char* const outside = "outside the domain; accepted: points of the closed 
 // Up to this many points each is summed on its own, a millisecond each; beyond, the table is cheaper, 0.1 s to build.
 constexpr Eigen::Index few = 256;
 
+/// The norms of the solution: the errors of the function 0, on a mesh whose quadrature leaves 1e-4 of them.
+json norms_of(const Truth& truth) {
+  const TriangleMesh mesh = structured_mesh(64);
+  const Space space(mesh, p1());
+  Solution zero;
+  zero.u.setZero(space.size());
+  zero.p.setZero(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
+  const TruthTable table(truth);
+  const Errors norm = measure_errors(space, zero, truth.epsilon(), reference(table));
+  return {{"max", norm.max}, {"l2", norm.l2}, {"h1", norm.h1}, {"energy", norm.energy}};
+}
+
 Known by_series(const Truth& truth, const Eigen::MatrixXd& points, bool layer) {
   Known known;
   std::optional<TruthTable> table;
@@ -60,6 +74,7 @@ Known by_series(const Truth& truth, const Eigen::MatrixXd& points, bool layer) {
                      {"gradient", fmt::format("4e-6 of the largest; 5e-4 within 1e-4 of an end of contact")},
                      {"p", "1e-6; 1e-4 near an end of contact, where it jumps at epsilon = 0"},
                      {"contact", 1.0 / n},
+                     {"norms", "1e-4 of each"},
                      {"energy", 1e-8}}}};
   return known;
 }
@@ -122,8 +137,13 @@ int truth(int argc, char** argv) {
   const SceneFile file = read_scene_file(scene);
   const Eigen::MatrixXd points = read_csv(std::cin, "standard input", {"x", "y"});
   const std::optional<Truth> series = truth_of(file.scene);
-  const Known known = series ? by_series(*series, points, std::holds_alternative<StiffLayer>(file.scene.layer()))
-                             : by_certificate(file, accuracy, points);
+  Known known = series ? by_series(*series, points, std::holds_alternative<StiffLayer>(file.scene.layer()))
+                       : by_certificate(file, accuracy, points);
+  known.summary["units"] = "everything is dimensionless";
+  known.summary["load"] = file.words.load;
+  known.summary["epsilon"] = file.scene.epsilon() ? json(*file.scene.epsilon()) : json(nullptr);
+  known.summary["gap"] = file.scene.contact() ? json(file.words.gap) : json(nullptr);
+  if (!summary.empty() && series && file.scene.layer_depth() > 0) known.summary["norms"] = norms_of(*series);
   if (!summary.empty()) write_file(summary, [&](std::ostream& out) { out << known.summary.dump(2) << '\n'; });
   fmt::print("x,y,u,u_x,u_y,p\n");
   for (std::size_t i = 0; i < known.rows.size(); ++i) {
