@@ -49,8 +49,7 @@ TEST(Element, ReproducesPolynomialsOfItsDegree) {
     const int degree = element->conforming() && element->per_edge() > 0 ? 2 : 1;
     for (Eigen::Index i = 0; i < nodes.rows(); ++i) values(i) = polynomial(nodes.row(i), degree);
     for (const Eigen::Vector3d& at : sample_points())
-      EXPECT_NEAR(values.dot(element->basis(at)), polynomial(at.transpose(), degree), round_off)
-          << element->name();
+      EXPECT_NEAR(values.dot(element->basis(at)), polynomial(at.transpose(), degree), round_off) << element->name();
   }
 }
 
