@@ -37,7 +37,7 @@
 //
 // $$ A_δ\,du = r_1 + δ^{-1} B' M r_2,   u ← u + du,   p ← p + δ^{-1} (B\,du - r_2), $$
 //
-// as `cure` does in chapter 18, and on it $du = -\text{gap} - u$. The penalty $δ = h^2/256$ follows the mesh. Each level of
+// as `cure` does in chapter 18, and on it $du = -\text{gap} - u$. The penalty $δ$ is about $10^{-9}$ on every mesh. Each level of
 // refinement begins with the contact set of the level before.
 //
 // ## Why columns: the kernel again

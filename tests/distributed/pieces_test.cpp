@@ -215,10 +215,10 @@ TEST(Snesvi, LosesTheSummedMatrixAndSolvesTheSplitForm) {
     const MeshPart piece = piece_of(mesh, strips(mesh, ranks()), rank(), ranks());
     const Space space(piece.mesh, p1());
     if (epsilon > 0) {
-      const SnesviEnd end = snesvi(Inequality(question, piece, space, true));
+      const SnesviEnd end = snesvi(Inequality(question, piece, space, Penalty::compliance));
       EXPECT_EQ(end.converged, epsilon == 1e-2) << end.reason;
     }
-    const Inequality problem(question, piece, space);
+    const Inequality problem(question, piece, space, Penalty::rule);
     State state = zero_state(problem);
     const SnesviEnd end = snesvi_split(problem, state);
     EXPECT_TRUE(end.converged) << end.reason;

@@ -89,7 +89,8 @@ Ended by_snesvi(const Asked& asked) {
       distributed::piece_of(mesh, distributed::strips(mesh, asked.ranks), distributed::rank(), asked.ranks);
   const Space space(piece.mesh, p1());
   const bool summed = asked.what == "SNESVI, summed";
-  const distributed::Inequality problem(paper_scene(asked.epsilon), piece, space, summed);
+  const distributed::Inequality problem(paper_scene(asked.epsilon), piece, space,
+                                        summed ? distributed::Penalty::compliance : distributed::Penalty::rule);
   distributed::State state = distributed::zero_state(problem);
   const distributed::SnesviEnd end = summed ? distributed::snesvi(problem) : distributed::snesvi_split(problem, state);
   return {problem.rows().total(), end.corrections, end.linear, 0, 0, 0, end.largest, 0, end.reason};

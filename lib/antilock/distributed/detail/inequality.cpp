@@ -9,22 +9,17 @@
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/models/anti_plane.hpp"
+#include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/detail/tuned.hpp"
 
 namespace antilock::distributed {
 namespace {
 
-/// Smaller than Cholesky can bear (6e-8), so that delta follows h^2 to 1/h = 2000; measured at 8.4 million unknowns:
-/// with the larger floor 59 iterations, with this one 14.
-constexpr double least_delta = 1e-9;
-
-/// The mean width of the layer's columns: a correction contracts like delta / h^2, h in the direction of x.
-double column_width(const TriangleMesh& mesh) {
-  double length = 0;
-  long long edges = 0;
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] == EdgeTag::contact) length += mesh.edge_length(e), ++edges;
-  edges = sum(edges);
-  return edges > 0 ? sum(length) / static_cast<double>(edges) : 1;
+/// The same on every rank.
+double penalty_over_all(RelativeStiffness s) {
+  s.sum_0 = sum(s.sum_0), s.sum_1 = sum(s.sum_1);
+  s.most_0 = largest(s.most_0), s.most_1 = largest(s.most_1);
+  return choose_penalty(s);
 }
 
 long long layer_triangles(const TriangleMesh& mesh) {
@@ -33,7 +28,7 @@ long long layer_triangles(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Inequality::Inequality(const Scene& scene, const MeshPart& piece, const Space& space, bool summed)
+Inequality::Inequality(const Scene& scene, const MeshPart& piece, const Space& space, Penalty penalty)
     : rows_(piece, space) {
   const bool here = layer_triangles(piece.mesh) > 0, somewhere = sum(layer_triangles(piece.mesh)) > 0;
   together(
@@ -50,9 +45,9 @@ Inequality::Inequality(const Scene& scene, const MeshPart& piece, const Space& s
       });
   stiff_ = sum(static_cast<long long>(part_.m.size())) > 0;
   if (stiff_) part_.compliance = largest(part_.m.size() > 0 ? part_.compliance : 0);
-  const double h = column_width(piece.mesh);
-  delta_ = stiff_ ? std::max({part_.compliance, h * h / 256, least_delta}) : 1;
-  if (summed && stiff_) delta_ = part_.compliance;
+  const double rule =
+      penalty_over_all(relative_stiffness(part_)) / (penalty == Penalty::loop ? tuned::next_penalty : 1);
+  if (stiff_) delta_ = penalty == Penalty::compliance ? part_.compliance : std::max(part_.compliance, rule);
   // B' M B is the layer's y-derivatives: the same form with weight delta^-1 on the layer is A1 + delta^-1 B' M B
   if (stiff_)
     sum_k(gradient_form(space, {1, 1}, {1, 1 / delta_}));
