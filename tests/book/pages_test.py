@@ -33,6 +33,10 @@ int main() { return 0; }
 """,
     "07_middle": """// # A second chapter
 //
+// Run: 07_middle              a moment
+// Run: 07_middle --cells 4
+// Run: 07_middle --exercise 1
+//
 // Needs: [00](00_start.cpp) (all of it).
 //
 // Words before the figure.
@@ -43,6 +47,12 @@ int main() { return 0; }
 // ```
 // :live: in a listing is no figure
 // ```
+//
+// ## Exercises
+//
+// 1. A question
+//    of two lines.
+// 2. On paper.
 int main() {
   // ### Output
   // :live: convergence
@@ -50,6 +60,8 @@ int main() {
 }
 """,
     "27_later": """// # A third chapter
+//
+// Run: 27_later
 //
 // Needs: [07](07_middle.cpp).
 //
@@ -65,6 +77,7 @@ int main() {
 // :output: two rows
 //
 // Words at the end.
+#include "petsc/launched.hpp"
 int main() {}
 """,
 }
@@ -156,6 +169,16 @@ class Pages(unittest.TestCase):
         self.assertEqual(places("27_later"), [])
         self.assertRegex(self.page("00_start"), r'(?s)Needs: nothing,\nat all\..*images/string.*class="live".*The picture')
         self.assertRegex(self.page("07_middle"), r'(?s)Words before.*data-kind="locking".*Words after.*no figure.*### Output.*"convergence"')
+
+    # ---- runs
+
+    def test_a_command_is_a_button_and_an_exercise_asks_for_a_prediction(self):
+        page = self.page("07_middle")
+        self.assertEqual(re.findall(r'data-run="([^"]*)"', page), ["", "--exercise 1", "", "--cells 4"])  # the first one is the default run
+        self.assertRegex(page, r'1\. A question\n   of two lines\. <span class="predict"><input [^>]*> <button [^>]*"--exercise 1"')
+        self.assertNotIn("| `07_middle --exercise 1`", page)  # it stands in its place
+        self.assertIn("does not run in a page", self.page("27_later"))
+        self.assertNotIn("data-run", self.page("27_later"))
 
     # ---- pictures and output
 
