@@ -9,7 +9,6 @@
 //
 // **The picture.** The smallest constant $C$ with which Theorem 2 holds at ε = 1e-6, for four methods. *For three of
 // them one constant serves all meshes shown.*
-//
 // :figure: falk
 //
 // **Predict.** Theorem 2 bounds the error by how near $K_h$ comes to $u$, times a constant. (a) The error of locked P1
@@ -217,7 +216,6 @@ void judge(const Method& method, const Table& own, tutorial::Report& report) {
 // $1/h = 8$ to 32. The others do with one constant, 1.3, although the proof has $M/α ∼ ε^{-2}$ in it. All of the
 // locking sits in $C$. (b) In the first infimum (exercise 1): the element of $K_h$ that is near $u$ has a slope in the
 // layer, for which the energy's norm charges $ε^{-2}$.
-//
 // :figure: consistency
 //
 // ## Exercises

@@ -196,7 +196,6 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // ## What came out
 //
 // :figure: families_of_loads
-//
 // :output: worst load of the ball, epsilon = 0
 //
 // P1 in columns and Crouzeix–Raviart halve their worst error with $h$. P1 on the unstructured mesh comes down to
@@ -208,12 +207,10 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // (a) One arch, largest at $Σ$: $ψ_1 \sin πx$. Under our load P1 loses a quarter of that.
 // (b) No: three functions cannot fit four waves.
-//
 // :figure: worst_loads
 //
 // Where nothing locks, the worst load sits on the worst triangles of the body. Where a method locks, it sits on the layer
 // and has the first wave that the kernel cannot hold.
-//
 // :figure: families_by_epsilon
 //
 // **With contact** the climb finds nothing worse for P1 than one arch: it lifts the whole layer, and no point touches.

@@ -52,7 +52,6 @@
 // (For Crouzeix–Raviart $A_1$ is singular: some functions of the layer cost nothing along $x$, only across. Give them a
 // small energy $s$ along $x$; then $σ ∼ 1/s$, and the factor above tends to 0 with $s$. So the part of $p$ that holds
 // these functions is right after the first correction.)
-//
 // :figure: layer_stress
 //
 // ## Asymptotic-preserving is not locking-free
@@ -201,7 +200,6 @@ void judge(const Table& results, const Table& conditions, const Table& lines, tu
 // of its answers is $u = 0$ there, error 0.045, the whole ridge. The paper's conjugate gradients with ILUT (an
 // incomplete factorisation that drops small entries) give up from ε = 1e-3 on. The split form has the same error to 1 %
 // from 1e-3 to 1e-16, and `cure` agrees with the library. The condition number of $A_δ$ is 1e8 from ε = 1e-4 down.
-//
 // :output: stiff lines of slope 2: the deepest u on Sigma
 //
 // Every method tends to a limit of its own with order 2 in ε: all are asymptotic-preserving. P1 off the lines tends to

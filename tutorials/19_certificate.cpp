@@ -7,7 +7,6 @@
 //
 // Needs: [00](00_string_on_an_obstacle.cpp) (energy, cone), [04](04_reference_solution.cpp) (Uzawa),
 // [08](08_crouzeix_raviart.cpp) (Crouzeix-Raviart), [18](18_roundoff.cpp) (the layer stress `p` is an unknown).
-//
 // :figure: certificate_width
 //
 // **The picture.** Each triangle shows its share of a proved bound of the error at `ε = 1e-6`. *Where P1 locks, its
@@ -73,7 +72,6 @@
 // for $u_h$ itself. An iteration that is stopped early leaves forces $r_1$ unbalanced (chapter 03's residual). Their
 // size in the energy norm is $ρ = (r_1^T A_δ^{-1} r_1)^{1/2}$, with the matrix $A_δ$ of chapter 03 (this $ρ$ is not Uzawa's
 // step). The bound then has $m + ρ$ in place of $m$.
-//
 // :figure: certificate_flux
 //
 // **The function of $K$.** From P1 on the same mesh; then the bound is large where P1 locks. Or from the *strip*:
@@ -197,16 +195,13 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // (a) Nowhere: bound / error is 1.28 to 1.47 for CR at every `ε` that was tried. The identity says why: of the width
 // the displacement has 0.6, the stress 0.4, the works of contact next to nothing. So the bound is about
 // $(1/0.6)^{1/2} = 1.29$ times the error of the displacement, whatever `ε` is.
-//
 // :figure: effectivity
 //
 // (b) From step 8 on: then the algebraic error is below that of the mesh.
-//
 // :figure: uzawa_plateau
 //
 // Where P1 locks the ratio comes near 1, because its displacement is nearly all of the error, and the bracket stays
 // open by what locking costs. Nobody has to know $u$ to see that.
-//
 // :figure: energy_bracket
 //
 // ## Exercises

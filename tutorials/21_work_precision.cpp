@@ -185,9 +185,7 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
 // (a) The linear solves of the active set do not grow. It needs at most 4 contact steps, on fine meshes 1 or 2, since
 // it starts from the contact set of a coarser one. Uzawa's steps grow by the factor 2 at ε = 1 and by almost 4 at 1e-6
 // each time $h$ is halved.
-//
 // :output: Uzawa's steps to 12 digits
-//
 // :figure: uzawa_steps
 //
 // If they go on growing like this, at 1/h = 256 they are some 200,000 at ε = 1e-6 (extrapolated). With the paper's linear
@@ -196,9 +194,7 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
 // (b) No: it comes to a level line. The bracket stops Uzawa there, after less than half of the steps, within 1 % of the
 // error. On columns a quarter of the coarse bracket's width is that of the mesh's own, to 1 %. `price_list.md` says what
 // 1e-2, 1e-3 and 1e-4 cost, or "never".
-//
 // :figure: stopping
-//
 // :figure: stages
 //
 // ## Exercises

@@ -190,9 +190,7 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 // (b) $27n^2$ unknowns less $12n^2$ conditions: $15n^2 - 9n + 2$ = 3698 functions for $n = 16$. Durán–Liberman leaves
 // three per vertex off the rim, 2163. At $t = 0$ P1 keeps nothing: its error is all of $w$, 1.08. It fails the patch
 // test, by 0.19 and 0.39; the cures pass it to 6e-15.
-//
 // :output: Duran-Liberman:
-//
 // :figure: plate_error
 //
 // The largest error over $t ≤ 0.1$ falls like $h^{1.92}$ to $h^{1.98}$. Durán–Liberman's is 1.40 times what interpolation

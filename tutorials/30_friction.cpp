@@ -202,18 +202,15 @@ void judge(const Table& checks, const Table& forces, tutorial::Report& report) {
 //
 // (a) At λ = 1 to the *left*: the left half slips inwards, to the right, and $T$ is $-0.016$. In the limit to the right: it
 // slips outwards, and $T = 0.012$. The two effects cancel between λ = 5 and λ = 10.
-//
 // :figure: friction_by_lambda
 //
 // (b) Where they cancel. P1 on crossed triangles sticks on 0.16 at λ = 1, on 0.41 at λ = 5, on 0.28 at λ = 10 and on 0.22
 // in the limit. A sum of $|T|$ over the floor would show none of this: it has no sign.
-//
 // :output: Crouzeix-Raviart with jumps: T
 //
 // The three elements that do not lock have the forces of the reference at every λ, with one factor for all large λ and at
 // most 2 corrections. The friction force converges like $h^2$, the normal force less evenly. Locked P1 slides to one side
 // and its normal force is 196 % too large.
-//
 // :output: active set and Uzawa
 //
 // The active set takes 2 or 3 steps and Uzawa some thousands. But a step of the active set is a solve, and a step of Uzawa

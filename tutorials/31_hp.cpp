@@ -54,7 +54,6 @@
 // Lines through the layer leave it in columns, so no degree locks (chapter 16). A distance $d$ in $x$ is felt up to
 // $d$ in the body and up to $d/ε$ in the layer. So layers wider than ε get rows in the body above Σ, narrower ones
 // in the layer above $Γ_C$, as in this mesh.
-//
 // :figure: hp_mesh
 //
 // Contact is asked at the unknowns: $K_h ⊄ K$ for $p ≥ 2$. Column `below` says how far $u_h$ is below 0 between them.
@@ -190,12 +189,10 @@ void judge(const Table& results, const Exact& exact, tutorial::Report& report) {
 // ## What came out
 //
 // (a) 3/2. The position of $c$ in its cell decides over a factor of ten, so the worst position of nine is taken first:
-//
 // :output: P4, equal cells, epsilon = 0, h1
 //
 // The multiple of $h^{3/2}$ is the same on all four meshes to 3 %. At ε = 1 the smooth part of $u$ hides it in $H^1$. On $Γ_C$
 // it is there (0.24 to 0.27 times $h^{3/2}$), and at ε = 0 the order on $Γ_C$ is 2, as derived above.
-//
 // :figure: hp_contact
 //
 // Graded, P1 to P4 have the orders 0.93, 1.83, 2.89, 4.3 in $H^1$ at ε = 0. On $Γ_C$ at ε = 1 the term with $s_p$ shows
