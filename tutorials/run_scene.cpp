@@ -17,10 +17,10 @@
 #include "antilock/core/detail/result_folder.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/detail/scene_checks.hpp"
+#include "antilock/io/detail/scene_problem.hpp"
 #include "antilock/io/detail/scene_results.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/io/scene_file.hpp"
-#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "common/command_line.hpp"
@@ -38,11 +38,27 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   f = "10*sin(2*pi*x)"          # in x and y: + - * / ^, sin cos exp sqrt abs, pi, comparisons, x < 0.5 ? 1 : 2
   [layer]                       # leave out: no layer
   epsilon = 1e-6                # 0 (the rigid limit) to 1
+                                # or the two numbers of a real layer, relative to a body of stiffness 1:
+                                # thickness = 0.01 and stiffness = 100 (s = 1 before a_x^-, s / thickness^2 before a_y^-)
+  load = "0"                    # optional, scaled layer: a force on the layer as it is stretched
   model = "scaled"              # "scaled" (default): problem (23) on (0,1) x (-1,0)
                                 # "thin": (22) on (0,1) x (-epsilon,0), epsilon from 1e-3
                                 # "ventcel": the limit (25) on Sigma, no layer mesh, epsilon = 0
   [contact]                     # leave out: no obstacle
   gap = "0"                     # how far the obstacle lies below: u >= -gap(x)
+  ceiling = "0.2"               # optional: u <= ceiling(x) too; where it presses down, the pressure is negative
+  [body]                        # optional
+  stiffness = "1 + 9*(x > 0.5)" # on each triangle as at its centroid; or per group of surfaces of a mesh file, which are
+                                # parts of the body: stiffness = { left = 1, right = 10 }
+  [[edge]]                      # one per group of curves of a mesh file beside clamped and contact
+  group = "top"                 # free = true, or one of: displacement = "0.05", traction = "x", spring = "2" (force -2 u)
+  free = true
+  [at]                          # optional: u there, in the summary
+  points = [[0.25, -1.0]]
+  [model]                       # optional
+  kind = "plane strain"         # a block pressed down by push = 0.1 on the gap, its sides free, f upwards. Without a layer:
+                                # rubber, epsilon = 1/lambda, mu = 1. With one: a coating of that thickness and of the block's
+                                # material (young = 1, poisson = 0.3) divided by it. friction = "0.1": Tresca's bound
   [mesh]                        # required
   kind = "unstructured"         # "structured" (cells up to 2048), "unstructured" (up to 512), "layered" (up to 512: the
                                 # unstructured body over a scaled layer in columns) or "file"
@@ -50,7 +66,7 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   refinements = 2               # optional: every triangle of that mesh is cut into four so many times; with "petsc" each
                                 # rank refines its own strip of a small mesh
   [method]                      # optional
-  element = "CR"                # "P1" (default), "CR" (Crouzeix-Raviart) or "P2"
+  element = "CR"                # "P1" (default), "CR" (Crouzeix-Raviart), "P2", "P3" or "P4"
   solver = "active-set"         # (default), "uzawa", the paper's, or "petsc": PETSc, alone or under mpiexec
   tolerance = 1e-10             # relative, on the algebraic error; at most 1e-3
   accuracy = 1e-2               # refine until the proved relative error in the energy norm is at most this: [mesh] is
@@ -59,12 +75,14 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   most_unknowns = 2000000       # with accuracy: the limit
 
 A mesh from a file has the physical groups body, layer (if the scene has one), clamped and contact. The body may be any
-shape on and above y = 0 with a bottom edge on that line; all of that edge is contact, or has the layer below it.
+shape on and above y = 0 with a bottom edge on that line; all of that edge is contact, or has the layer below it. A scaled
+layer that the file does not hold is grown below the contact edges, in columns. accuracy and "petsc" refuse what is new in
+[body], [[edge]], ceiling and the layer's numbers.
 
-Written to the results folder: summary.json; solution.csv (x,y,u); contact.csv (x,gap,pressure; with contact only), where
+Written to the results folder: summary.json; solution.csv (x,y,u; in plane strain x,y,u_x,u_y); contact.csv (x,gap,pressure; with contact only), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
-render surface DIR/solution.vtu --out picture.png
+render surface DIR/solution.vtu --out picture.png (in plane strain: render deformed)
 In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
 blas is the library of dense linear algebra, its kernels and threads (where OpenBLAS does not know the CPU and falls
 back to old kernels, the program starts again with wider ones; ANTILOCK_KEEP_KERNELS=1 leaves them);
@@ -108,7 +126,8 @@ ProgressHook follower(double most_seconds) {
   };
 }
 
-Solution solve(const VariationalInequality& problem, const MethodRequest& method, const ProgressHook& follow) {
+Solution solve(const VariationalInequality& problem, const MethodRequest& method, std::optional<double> penalty,
+               const ProgressHook& follow) {
   const double tolerance = std::max(method.tolerance, MethodRequest::finest_tolerance);
   Solution solution;
   if (method.solver == "uzawa") {
@@ -120,6 +139,7 @@ Solution solve(const VariationalInequality& problem, const MethodRequest& method
     ActiveSetOptions options;
     options.corrections = corrections_to(tolerance);
     options.corrections.progress = follow;
+    options.penalty = penalty;
     solution = active_set(problem, options);
   }
   if (method.tolerance < tolerance)
@@ -145,7 +165,11 @@ struct Asked {
 void told(const Asked& asked, const SceneFile& file, Answer& answer, tutorial::Report& report,
           const CertifiedSolution* certified = nullptr) {
   Stopwatch watch;
-  std::optional<LayerReport> layer = report_layer(file.scene, answer.space, answer.problem, answer.solution);
+  std::optional<LayerReport> layer = layer_report_of(file, answer);
+  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
+      stiff != nullptr && file.words.more.find("layer thickness") != std::string::npos)
+    fmt::print("  layer: {:g} before a_x^-, {:g} before a_y^-\n", stiff->s,
+               stiff->s / (stiff->epsilon * stiff->epsilon));
   if (layer) answer.warning = joined(layer->warning, answer.warning);
   answer.seconds.solve += watch.lap();
   report.stage("files");
@@ -155,7 +179,8 @@ void told(const Asked& asked, const SceneFile& file, Answer& answer, tutorial::R
   report.finish();
   if (!answer.warning.empty()) fmt::print("  warning: {}\n", answer.warning);
   const std::string name = (asked.out / "solution").string();
-  if (result_files(asked.files).vtu) fmt::print("  a picture of it: render surface {0}.vtu --out {0}.png\n", name);
+  if (result_files(asked.files).vtu)
+    fmt::print("  a picture of it: render {1} {0}.vtu --out {0}.png\n", name, file.elastic ? "deformed" : "surface");
 }
 
 /// An accuracy is asked for: the mesh is the first one, and every level says how far it came.
@@ -214,13 +239,13 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   const Space space(*mesh, element(file.method.element));
   if (space.free_count() == 0)
     throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
-  Answer answer{mesh, space, assemble(file.scene, space), {}, seconds, ""};
+  Answer answer{mesh, space, problem_of(file, space), {}, seconds, ""};
   const std::string load = load_warning(file, space, answer.problem);
   answer.seconds.assemble = watch.lap();
 
   report.stage(fmt::format("solve: {}, {} unknowns", file.method.solver, answer.problem.free_count()));
   try {
-    answer.solution = solve(answer.problem, file.method, follower(asked.most_seconds));
+    answer.solution = solve(answer.problem, file.method, penalty_of(file, space), follower(asked.most_seconds));
   } catch (const NotConverged& failure) {
     throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
   }

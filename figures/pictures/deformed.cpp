@@ -70,7 +70,6 @@ void draw_obstacle(Page& page, const Frame& at, const Table& line, double bottom
 }  // namespace
 
 Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& style) {
-  check(style.range);
   std::vector<vtkSmartPointer<vtkPolyData>> read;
   vtkBoundingBox seen;
   for (const Surface& body : bodies) {
@@ -78,6 +77,13 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
     seen.AddBounds(read.back()->GetBounds());
     seen.AddBox(at_rest(*read.back()));
   }
+  std::vector<double> values;
+  for (const auto& body : read)
+    for (vtkIdType cell = 0; cell < body->GetNumberOfCells(); ++cell)
+      values.push_back(body->GetCellData()->GetScalars()->GetTuple1(cell));
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const Range range = style.range.value_or(*most > *least ? Range{*least, *most} : Range{*least, *least + 1});
+  check(range);
   std::optional<Table> obstacle;
   if (!style.obstacle.empty()) obstacle.emplace(style.obstacle);
   for (std::size_t i = 0; obstacle && i < obstacle->rows(); ++i)
@@ -93,14 +99,14 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
     const double left = margin + static_cast<double>(i) * (body_width + gap);
     const Frame at{unit.x0, unit.y0, unit.scale, {left, foot}};
     if (obstacle) draw_obstacle(page, at, *obstacle, bottom);
-    draw_body(page, at, *read[i], style.range, 0.8);
+    draw_body(page, at, *read[i], range, 0.8);
     const vtkBoundingBox rest = at_rest(*read[i]);
     const Point low = at(rest.GetBound(0), rest.GetBound(2)), high = at(rest.GetBound(1), rest.GetBound(3));
     page.line({low, {high.x, low.y}, high, {low.x, high.y}, low}, {4, palette::ink, {22, 14}});
     page.text({left + 0.5 * body_width, page.height() - 70.0}, bodies[i].title,
               {name_size, {0.5}, 0, palette::ink, body_width});
   }
-  draw_colour_bar(page, {Page::width - bar_room + 80.0, foot + 0.2 * body_height, 56, 0.55 * body_height}, style.range,
+  draw_colour_bar(page, {Page::width - bar_room + 80.0, foot + 0.2 * body_height, 56, 0.55 * body_height}, range,
                   style.name, heads);
   return page;
 }

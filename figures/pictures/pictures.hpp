@@ -49,9 +49,9 @@ Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style);
 /// Deformed bodies (VTU with cell data pressure) side by side on one scale, coloured by it; dashed:
 /// where they were.
 struct DeformedStyle {
-  Range range{0, 1};               ///< of the colours; values outside have two colours of their own
-  std::string name = "pressure";   ///< of the colours
-  std::filesystem::path obstacle;  ///< table x,y of a line to draw below; empty: none
+  std::optional<Range> range = {};  ///< of the colours; values outside have two of their own. Empty: that of the data
+  std::string name = "pressure";    ///< of the colours
+  std::filesystem::path obstacle;   ///< table x,y of a line to draw below; empty: none
 };
 Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& style);
 

@@ -91,12 +91,13 @@ void add_pictures(CLI::App& app, Request& request) {
 
   auto* deformed = add_picture(app, request, "deformed", "deformed bodies, side by side", "SOLUTION.vtu");
   deformed->add_option("--title", request.titles, "one title per solution");
-  deformed->add_option("--range", request.range, "smallest and largest value of the colours")->expected(2)->required();
+  deformed->add_option("--range", request.range, "smallest and largest value of the colours; default: the data's")
+      ->expected(2);
   deformed->add_option("--name", request.deformed.name, "what the colours are")->capture_default_str();
   deformed->add_option("--obstacle", request.deformed.obstacle, "table x,y of the line below them");
   deformed->callback([&] {
     request.draw = [&] {
-      request.deformed.range = {request.range[0], request.range[1]};
+      if (!request.range.empty()) request.deformed.range = Range{request.range[0], request.range[1]};
       return deformed_picture(titled(request), request.deformed);
     };
   });

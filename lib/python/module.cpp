@@ -13,11 +13,11 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/io/detail/scene_checks.hpp"
+#include "antilock/io/detail/scene_problem.hpp"
 #include "antilock/io/detail/scene_results.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
 
@@ -105,14 +105,15 @@ std::pair<Answer, std::optional<CertifiedSolution>> answer_of(const SceneFile& f
     return {std::move(answer), std::move(found)};
   }
   const Space space(*mesh, element(file.method.element));
-  Answer answer{mesh, space, assemble(file.scene, space), {}, {meshed, watch.lap(), 0, 0}, ""};
+  Answer answer{mesh, space, problem_of(file, space), {}, {meshed, watch.lap(), 0, 0}, ""};
   const std::string load = load_warning(file, space, answer.problem);
   if (file.method.solver == "uzawa") {
     UzawaOptions options;
     options.tolerance = file.method.tolerance, options.progress = not_interrupted;
     answer.solution = uzawa(answer.problem, options);
   } else {
-    answer.solution = active_set(answer.problem, {corrections(file.method.tolerance), {}, {}, 1000, {}});
+    answer.solution =
+        active_set(answer.problem, {corrections(file.method.tolerance), penalty_of(file, space), {}, 1000, {}});
   }
   answer.seconds.solve = watch.lap();
   for (const std::string& said : {answer.solution.warning, load, gap_warning(file, space, answer.solution)})
@@ -128,7 +129,7 @@ py::dict run(const std::string& text, const std::string& folder, const std::stri
     const Unlocked unlocked;
     found.emplace(answer_of(file));
     Answer& answer = found->first;
-    std::optional<LayerReport> layer = report_layer(file.scene, answer.space, answer.problem, answer.solution);
+    std::optional<LayerReport> layer = layer_report_of(file, answer);
     if (layer && !layer->warning.empty())
       answer.warning = layer->warning + (answer.warning.empty() ? "" : "; ") + answer.warning;
     summary = summary_of(file, answer);
@@ -139,7 +140,10 @@ py::dict run(const std::string& text, const std::string& folder, const std::stri
   const auto given = [](auto& owned) { return py::cast(std::move(owned)); };  // moved into the array, not copied
   py::dict arrays("points"_a = answer.space.points(), "vertices"_a = answer.mesh->vertices,
                   "triangles"_a = answer.mesh->triangles);
-  if (file.scene.contact()) arrays["contact"] = contact_table(answer.space, answer.problem, answer.solution);
+  if (file.scene.contact()) {
+    const NormalContact normal = normal_contact(answer);
+    arrays["contact"] = contact_table(answer.space, normal.problem, normal.solution);
+  }
   arrays["u"] = given(answer.solution.u), arrays["p"] = given(answer.solution.p);
   return arrays;
 }
@@ -247,7 +251,7 @@ PYBIND11_MODULE(_antilock, module) {
   module.def("assemble", [](const std::string& text, const std::string& folder) {
     const SceneFile file = scene_of(text, folder);
     const TriangleMesh mesh = make_mesh(file);
-    return assemble(file.scene, Space(mesh, element(file.method.element)));
+    return problem_of(file, Space(mesh, element(file.method.element)));
   });
   module.def("run", &run);
   module.def("certify", &certify_scene);

@@ -90,7 +90,7 @@ const std::vector<BadScene> bad_scenes = {
     {"VentcelNotTheLimit", "layer.epsilon", with_layer("epsilon = 1e-6\nmodel = \"ventcel\"")},
     {"ThinRigid", "layer.epsilon", with_layer("epsilon = 0\nmodel = \"thin\"")},
     {"ThinTooThin", "layer.epsilon", with_layer("epsilon = 1e-4\nmodel = \"thin\"")},
-    {"LayerUnknownKey", "layer.thickness", with_layer("epsilon = 1\nthickness = 1")},
+    {"LayerUnknownKey", "layer.depth", with_layer("epsilon = 1\ndepth = 1")},
     // contact
     {"GapANumber", "contact.gap", with_contact("gap = 0")},
     {"GapDependsOnY", "contact.gap", with_contact("gap = \"y\"")},
@@ -124,6 +124,21 @@ const std::vector<BadScene> bad_scenes = {
     {"MeshUnknownKey", "mesh.size", with_mesh("kind = \"structured\"\ncells = 8\nsize = 0.1")},
     // the method
     {"ElementUnknown", "method.element", with_method("element = \"P7\"")},
+    {"LayerTwoWays", "layer.epsilon", with_layer("epsilon = 0.1\nthickness = 0.1")},
+    {"LayerThicknessAlone", "layer.stiffness", with_layer("thickness = 0.1")},
+    {"LayerThicknessZero", "layer.thickness", with_layer("thickness = 0\nstiffness = 1")},
+    {"LayerStiffnessNegative", "layer.stiffness", with_layer("thickness = 0.1\nstiffness = -1")},
+    {"LayerLoadOnVentcel", "layer.load", with_layer("epsilon = 0\nmodel = \"ventcel\"\nload = \"1\"")},
+    {"CeilingIsANumber", "contact.ceiling", with_contact("ceiling = 1")},
+    {"EdgesWithoutAFile", "edge", load + mesh + "[[edge]]\ngroup = \"top\"\nfree = true\n"},
+    {"EdgeIsASection", "edge", load + mesh + "[edge]\ngroup = \"top\"\n"},
+    {"BodyGroupsWithoutAFile", "body", load + mesh + "[body]\nstiffness = { left = 1 }\n"},
+    {"AccuracyOfAStiffness", "method.accuracy", with_method("accuracy = 0.1") + "[body]\nstiffness = \"2\"\n"},
+    {"PetscOfACeiling", "method.solver", with_method("solver = \"petsc\"") + "[contact]\nceiling = \"2\"\n"},
+    {"ModelKindUnknown", "model.kind", load + mesh + "[model]\nkind = \"plane stress\"\n"},
+    {"ModelWithoutContact", "model.kind", load + mesh + "[model]\nkind = \"plane strain\"\n"},
+    {"ModelKeyOfTheOther", "model.young", with_contact("") + "[model]\nkind = \"plane strain\"\nyoung = 1\n"},
+    {"ModelEpsilonTooLarge", "model.epsilon", with_contact("") + "[model]\nkind = \"plane strain\"\nepsilon = 2\n"},
     {"ElementInSmallLetters", "method.element", with_method("element = \"cr\"")},
     {"SolverUnknown", "method.solver", with_method("solver = \"newton\"")},
     {"ToleranceZero", "method.tolerance", with_method("tolerance = 0")},
@@ -186,7 +201,7 @@ void PrintTo(const BadMesh& bad, std::ostream* out) { *out << bad.name; }  // NO
 const std::string scaled_layer = "[layer]\nepsilon = 0.1\n", thin_layer = scaled_layer + "model = \"thin\"\n";
 
 const std::vector<BadMesh> bad_meshes = {
-    {"NoLayerGroup", square, scaled_layer},
+    {"NoLayerGroup", square, thin_layer},
     {"NoContactGroup", msh(square_nodes, clamped_edges + square_triangles), ""},
     {"NoClampedGroup", msh(square_nodes, contact_edge + square_triangles), ""},
     {"NoBodyGroup", msh(square_nodes, contact_edge + clamped_edges), ""},

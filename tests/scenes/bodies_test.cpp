@@ -1,9 +1,13 @@
 // Bodies other than the unit square, from mesh files: each answer is known from one of the unit square, or from the
 // library called directly.
+#include <fmt/format.h>
+
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/layered.hpp"
+#include "antilock/models/coating.hpp"
 #include "scenes/runner.hpp"
 #include "support/bodies.hpp"
 #include "support/scenes.hpp"
@@ -64,6 +68,164 @@ TEST(Bodies, OfAnyShapeAreWhatTheLibrarySolves) {
     const Solution direct = active_set(assemble(scene, space));
     EXPECT_NEAR(file.run->summary()["u_max"].get<double>(), direct.u.maxCoeff(), 1e-9);
     EXPECT_NEAR(file.run->summary()["u_min"].get<double>(), direct.u.minCoeff(), 1e-9);
+  }
+}
+
+/// The unit square with its sides in the groups left, right and top; contact below. `halves`: the body in two surfaces.
+std::string named_square(const TemporaryFolder& folder, int cells, bool halves = false) {
+  TriangleMesh mesh = structured_mesh(cells, {0});
+  const std::vector<EdgeCondition> edges{{"left"}, {"right"}, {"top"}};
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
+    const Eigen::RowVector2d middle = (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1))) / 2;
+    mesh.edge_tag[e] = natural_group(middle(0) == 0 ? 0 : middle(0) == 1 ? 1 : 2);
+  }
+  const std::string path = (folder / "square.msh").string();
+  write_msh(path, mesh, edges);
+  if (!halves) return path;
+  std::string text = contents(path), out;
+  text.replace(text.find("2 1 \"body\""), 10, "2 1 \"soft\"\n2 2 \"stiff\"");
+  text.replace(text.find("\n5\n"), 3, "\n6\n");
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line); out += line + "\n") {
+    int number = 0, type = 0, tags = 0, a = 0, b = 0, v[3];
+    std::istringstream fields(line);
+    if (!(fields >> number >> type >> tags >> a >> b >> v[0] >> v[1] >> v[2]) || type != 2 || tags != 2) continue;
+    double x = 0;
+    for (const int i : v) x += mesh.vertices(i - 1, 0) / 3;
+    if (x > 0.5) line = fmt::format("{} 2 2 2 2 {} {} {}", number, v[0], v[1], v[2]);
+  }
+  std::ofstream(path) << out;
+  return path;
+}
+std::string scene_on(const std::string& mesh, const std::string& sections, const std::string& element,
+                     const char* f = "0") {
+  return fmt::format("[load]\nf = \"{}\"\n{}[mesh]\nkind = \"file\"\nfile = \"{}\"\n[method]\nelement = \"{}\"\n", f,
+                     sections, mesh, element);
+}
+std::string edge(const std::string& group, const std::string& what) {
+  return "[[edge]]\ngroup = \"" + group + "\"\n" + what + "\n";
+}
+
+// u = 3 - 2 x, by what holds at the left, a spring at the right (-u_x = -2 = -k u, u(1) = 1) or the same force, nothing
+// above and below: in every space exactly.
+TEST(Bodies, HoldPullAndSpringOnTheEdgesOfAGroup) {
+  for (const std::string element : {"P1", "CR", "P2", "P3", "P4"})
+    for (const std::string right : {"spring = \"2\"", "traction = \"-2 + 0*x\"", "displacement = \"1\""}) {
+      const TemporaryFolder folder;
+      const SceneRun run(scene_on(named_square(folder, 4),
+                                  edge("left", "displacement = \"3 + y - y\"") + edge("right", right) +
+                                      edge("top", "free = true") + "[at]\npoints = [[0.25, 0.6], [1, 1]]\n",
+                                  element));
+      ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+      const auto s = run.summary();
+      const Csv u = read_csv(run.results / "solution.csv");
+      EXPECT_LE((u.rows.col(2).array() - 3 + 2 * u.rows.col(0).array()).abs().maxCoeff(), 1e-12) << element << right;
+      EXPECT_NEAR(s["at"][0]["u"].get<double>(), 2.5, 1e-12);
+      EXPECT_NEAR(s["at"][1]["u"].get<double>(), 1, 1e-12);
+    }
+}
+
+// u_x is 1 in a half of stiffness 1 and 0.1 in one of 10 under the traction 1, by a formula or per group.
+TEST(Bodies, AreAsStiffAsTheirPartsAre) {
+  for (const std::string stiffness : {"\"1 + 9*(x > 0.5)\"", "{ soft = 1, stiff = 10 }"}) {
+    const TemporaryFolder folder;
+    const SceneRun run(scene_on(named_square(folder, 4, stiffness.front() == '{'),
+                                "[body]\nstiffness = " + stiffness + "\n" + edge("left", "displacement = \"0\"") +
+                                    edge("right", "traction = \"1\"") + edge("top", "free = true"),
+                                "CR"));
+    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+    EXPECT_NEAR(run.summary()["u_max"].get<double>(), 0.55, 1e-12) << stiffness;
+  }
+}
+
+// A body and a layer twice as stiff under twice the load move alike; a ceiling is a floor upside down.
+TEST(Bodies, ScaleAndTurnRound) {
+  const auto asked = [](const std::string& sections, const char* f) {
+    return SceneRun(fmt::format("[load]\nf = \"{}\"\n{}[mesh]\nkind = \"structured\"\ncells = 8\n", f, sections))
+        .summary();
+  };
+  const auto one = asked("[layer]\nepsilon = 0.1\n[contact]\n", "10*sin(2*pi*x)"),
+             two = asked("[body]\nstiffness = \"2\"\n[layer]\nthickness = 0.1\nstiffness = 20\n[contact]\n",
+                         "20*sin(2*pi*x)"),
+             below = asked("[contact]\ngap = \"0.01\"\n", "-5"),
+             above = asked("[contact]\ngap = \"1\"\nceiling = \"0.01\"\n", "5");
+  EXPECT_NEAR(two["u_max"].get<double>(), one["u_max"].get<double>(), 1e-12);
+  EXPECT_NEAR(two["energy"].get<double>(), 2 * one["energy"].get<double>(), 1e-12);
+  EXPECT_NEAR(above["u_max"].get<double>(), -below["u_min"].get<double>(), 1e-12);
+  EXPECT_EQ(above["contact"]["active"], below["contact"]["active"]);
+  EXPECT_GT(above["contact"]["active"].get<int>(), 0);
+}
+
+TEST(Bodies, GrowTheirLayer) {
+  const OnMesh body(structured_mesh(8, {0}), "[layer]\nepsilon = 0.1\n[contact]\n", "10*sin(2*pi*x)");
+  const OnMesh both(extruded(structured_mesh(8, {0}), 0.1), "[layer]\nepsilon = 0.1\n[contact]\n", "10*sin(2*pi*x)");
+  ASSERT_EQ(body.run->outcome.status, 0) << body.run->outcome.err;
+  EXPECT_EQ(body.energy(), both.energy());
+}
+
+TEST(Bodies, InPlaneStrainAreWhatTheLibrarySolves) {
+  const std::string pressed =
+      "[contact]\ngap = \"(x - 0.5)^2\"\n[mesh]\nkind = \"structured\"\ncells = 8\n"
+      "[method]\nelement = \"CR\"\n[load]\nf = \"0\"\n";
+  const auto gap = [](double x) { return (x - 0.5) * (x - 0.5); };
+  const auto expect = [&](const std::string& sections, const VariationalInequality& problem) {
+    const SceneRun run(pressed + sections);
+    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+    const Solution direct = active_set(problem);
+    EXPECT_EQ(run.summary()["u_max"].get<double>(), direct.u.maxCoeff());
+    const Csv contact = read_csv(run.results / "contact.csv");
+    EXPECT_NEAR(contact.rows.col(2).sum() / 8, direct.lambda.head(8).sum(), 1e-12);
+  };
+  const TriangleMesh square = with_free_sides(structured_mesh(8, {0})), coated = with_free_sides(structured_mesh(8));
+  const Space on_square(square, crouzeix_raviart()), on_coated(coated, crouzeix_raviart());
+  PlaneStrain rubber;
+  rubber.gap = gap;
+  rubber.epsilon = 1e-3;
+  expect("[model]\nkind = \"plane strain\"\nepsilon = 1e-3\n", assemble(rubber, {on_square, on_square}));
+  rubber.friction = [](double) { return 0.05; };
+  expect("[model]\nkind = \"plane strain\"\nepsilon = 1e-3\nfriction = \"0.05\"\n",
+         assemble(rubber, {on_square, on_square}));
+  Coating coating;
+  coating.gap = gap;
+  coating.thickness = 1e-3;
+  expect("[model]\nkind = \"plane strain\"\n[layer]\nepsilon = 1e-3\n", assemble(coating, {on_coated, on_coated}));
+}
+
+TEST(Bodies, ALockedCoatingSaysSo) {
+  const std::string scene = "[model]\nkind = \"plane strain\"\n[load]\nf = \"0\"\n[layer]\nepsilon = 1e-4\n[contact]\n";
+  for (const auto& [mesh, locks] : {std::pair{"unstructured", true}, {"structured", false}}) {
+    const SceneRun run(scene + "[mesh]\nkind = \"" + mesh + "\"\ncells = 8\n");
+    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+    const std::string warning = run.summary()["warning"];
+    EXPECT_EQ(warning.find("locks") != warning.npos, locks) << warning;
+  }
+}
+
+TEST(Bodies, RefuseWhatTheirGroupsDoNotSay) {
+  const TemporaryFolder folder;
+  const std::string square = named_square(folder, 2), left = edge("left", "displacement = \"0\""),
+                    right = edge("right", "free = true"), top = edge("top", "free = true");
+  const std::vector<std::pair<std::string, std::string>> bad{
+      {left + right, "group \"top\""},
+      {left + right + top + edge("hole", "free = true"), "has no curve in the group \"hole\""},
+      {left + right + top + top, "edge[3].group: \"top\" has its condition already"},
+      {left + right + edge("clamped", "free = true"), "\"clamped\" has its condition already"},
+      {left + right + edge("top", "free = true\nspring = \"1\""), "has 2 conditions; accepted: exactly one"},
+      {left + right + edge("top", "free = false"), "free: is not true"},
+      {left + right + edge("top", "pull = \"1\""), "edge[2].pull: unknown key"},
+      {left + right + edge("top", "traction = \"z\""), "edge[2].traction"},
+      {left + right + edge("top", "spring = \"-1\""), "edge[2].spring: is -1 at"},
+      {left + right + top + "[body]\nstiffness = \"x - 1\"\n", "body.stiffness: is "},
+      {left + right + top + "[body]\nstiffness = { soft = 1 }\n", "soft"},
+      {left + right + top + "[at]\npoints = [[2, 2]]\n", "at.points: (2, 2) is outside"},
+      {left + right + top + "[at]\npoints = [1]\n", "at.points: has an entry that is no place"}};
+  for (const auto& [sections, what] : bad) {
+    const SceneRun run(scene_on(square, sections, "CR"));
+    EXPECT_EQ(run.outcome.status, 2) << sections;
+    EXPECT_NE(run.outcome.err.find(what), std::string::npos) << what << ": " << run.outcome.err;
+    EXPECT_EQ(std::count(run.outcome.err.begin(), run.outcome.err.end(), '\n'), 1) << run.outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(run.results / "summary.json"));
   }
 }
 

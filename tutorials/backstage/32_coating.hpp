@@ -47,15 +47,7 @@ inline void write_coating(const std::filesystem::path& out, const Method& method
                           const Solution& solution, const Coating& scene) {
   if (method.file == "p1") write_freefem_mesh(out / "mesh.freefem.msh", space.x.mesh());
   if (method.file != "p1" && method.file != "cr") return;
-  Eigen::VectorXd pressure = Eigen::VectorXd::Zero(space.x.mesh().triangle_count());
-  const Lame &body = scene.body, &layer = scene.layer;
-  const FactoredForm of_body = strain_rows(space, {{{body.lambda, 0, 0, body.lambda + 2 * body.mu}}}, Region::body);
-  const Eigen::VectorXd stress = of_body.b * solution.u;
-  for (Eigen::Index row = 0; row < stress.size(); ++row) pressure(of_body.cell[row]) = -stress(row);
-  int row = 0;  // the first of two per triangle of the layer is v_Y + nu t u_x
-  for (int t = 0; t < space.x.mesh().triangle_count(); ++t)
-    if (space.x.mesh().region[t] == Region::layer) pressure(t) = -(layer.lambda + 2 * layer.mu) * solution.p(2 * row++);
-  write_deformed_vtu(out / (method.file + ".vtu"), space, solution.u, pressure);
+  write_deformed_vtu(out / (method.file + ".vtu"), space, solution.u, pressure(scene, space, solution.u, solution.p));
 }
 
 /// Prints the tables of the chapter; writes force.csv, and punch.csv of the picture.

@@ -315,6 +315,10 @@ std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, 
       std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), groups, groups == 1 ? "" : "s",
       element.name(), element.degree());
   if (element.degree() > 2) return report;
+  if (const std::string beyond = scene.beyond_the_paper(); !beyond.empty()) {
+    report.diagnosis += "; what it costs is not asked of a scene with " + beyond;
+    return report;
+  }
   try {
     report.lost = lost_energy(scene, space, problem, solution).share();
   } catch (const Error& error) {  // the answer stands, whatever becomes of what is told about it

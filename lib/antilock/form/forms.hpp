@@ -17,7 +17,9 @@ struct Stiffness {
 
 /// N x N matrix of the sum over the triangles of  int stiffness.x d/dx u d/dx v + stiffness.y d/dy u d/dy v.
 /// The forms a+ and a_x^- of (23) are {1, 1} on the body and {1, 0} on the layer.
-Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer);
+/// `of_body`, where it is given, is a factor on each triangle of the body, taken at its centroid; throws Error where it is not positive.
+Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer,
+                                          const Field& of_body = {});
 
 /// The factored form of a_y^-(u, v) = (B u, M B v), (23): a row of B is d/dy at a quadrature point of a layer triangle,
 /// M its weight. For P1 and CR d/dy is constant on a triangle: one row each, M its area.
@@ -31,6 +33,11 @@ Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region = 
 
 /// Of degree 5, or 2 k for an element of degree k > 2: what it leaves out is smaller than the error of the element.
 const Quadrature& load_rule(const Element& element);
+
+/// N values of int g phi_i over the edges with this tag, by Gauss points exact for g of degree k + 3.
+Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g);
+/// N x N matrix of int k u v over them.
+Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Field& k);
 
 /// N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25), on the contact edges of a mesh of the body alone.
 /// The trace is the continuous piecewise affine function through the unknowns on Sigma and the clamped ends: for P1 the

@@ -1,13 +1,27 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "antilock/core/error.hpp"
 #include "antilock/form/detail/sparse_assembly.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/form/quadrature.hpp"
 
 namespace antilock {
 
-Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer) {
+Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer,
+                                          const Field& of_body) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
-  const auto weight = [&](int t) -> const Stiffness& { return mesh.region[t] == Region::body ? body : layer; };
+  const auto weight = [&](int t) -> Stiffness {
+    if (mesh.region[t] == Region::layer) return layer;
+    if (!of_body) return body;
+    const Eigen::Vector2d x = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3));
+    const double factor = of_body(x(0), x(1));
+    if (!(factor > 0 && std::isfinite(factor)))
+      throw Error(fmt::format("stiffness({:.6g}, {:.6g}) = {}; accepted: a positive number", x(0), x(1), factor));
+    return {factor * body.x, factor * body.y};
+  };
 
   if (element.degree() == 1) {
     // the gradients are constant on a triangle: one point is exact
@@ -15,8 +29,9 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& b
     return sum_element_matrices(space, [&](int t) -> Eigen::Matrix3d {
       const Eigen::Matrix<double, 3, 2> gradient = derivative * barycentric_gradients(mesh, t);
       const double area = mesh.area(t);
-      return area * weight(t).x * gradient.col(0) * gradient.col(0).transpose() +
-             area * weight(t).y * gradient.col(1) * gradient.col(1).transpose();
+      const Stiffness stiffness = weight(t);
+      return area * stiffness.x * gradient.col(0) * gradient.col(0).transpose() +
+             area * stiffness.y * gradient.col(1) * gradient.col(1).transpose();
     });
   }
   const Quadrature& rule = triangle_rule(2 * (element.degree() - 1));
@@ -25,11 +40,12 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& b
   return sum_element_matrices(space, [&](int t) -> Eigen::MatrixXd {
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(element.unknowns(), element.unknowns());
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+    const Stiffness stiffness = weight(t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::MatrixX2d gradient = derivative[q] * lambda;
       const double w = rule.weights(q) * mesh.area(t);
-      matrix += w * weight(t).x * gradient.col(0) * gradient.col(0).transpose() +
-                w * weight(t).y * gradient.col(1) * gradient.col(1).transpose();
+      matrix += w * stiffness.x * gradient.col(0) * gradient.col(0).transpose() +
+                w * stiffness.y * gradient.col(1) * gradient.col(1).transpose();
     }
     return matrix;
   });

@@ -23,12 +23,16 @@ void write_csv(const std::filesystem::path& path, const std::vector<std::string>
 }
 
 void write_solution_csv(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u) {
-  if (u.size() != space.size() || !u.allFinite())
+  if ((u.size() != space.size() && u.size() != 2 * space.size()) || !u.allFinite())
     throw Error(fmt::format("{}: u must be {} finite values, one an unknown; it has {}, {} of them finite",
                             path.string(), space.size(), u.size(), u.array().isFinite().count()));
-  Eigen::MatrixXd rows(u.size(), 3);
-  rows << space.points(), u;
-  write_csv(path, {"x", "y", "u"}, rows);
+  const Eigen::Index components = u.size() / space.size();
+  Eigen::MatrixXd rows(space.size(), 2 + components);
+  rows << space.points(), u.reshaped(space.size(), components);
+  write_csv(
+      path,
+      components == 1 ? std::vector<std::string>{"x", "y", "u"} : std::vector<std::string>{"x", "y", "u_x", "u_y"},
+      rows);
 }
 
 }  // namespace antilock

@@ -33,9 +33,9 @@ struct Group {
   const char* name;
 };
 constexpr std::array groups = {
-    Group{1, static_cast<int>(EdgeTag::sigma), "sigma"}, Group{1, static_cast<int>(EdgeTag::clamped), "clamped"},
-    Group{1, static_cast<int>(EdgeTag::contact), "contact"}, Group{2, static_cast<int>(Region::body), "body"},
-    Group{2, static_cast<int>(Region::layer), "layer"}};
+    Group{1, static_cast<int>(EdgeTag::sigma), "sigma"},     Group{1, static_cast<int>(EdgeTag::clamped), "clamped"},
+    Group{1, static_cast<int>(EdgeTag::contact), "contact"}, Group{1, static_cast<int>(EdgeTag::free), "free"},
+    Group{2, static_cast<int>(Region::body), "body"},        Group{2, static_cast<int>(Region::layer), "layer"}};
 
 /// The groups that the mesh has elements of.
 std::vector<Group> groups_present(const TriangleMesh& mesh, const std::vector<Labelled>& edges) {
@@ -54,12 +54,16 @@ std::vector<Group> groups_present(const TriangleMesh& mesh, const std::vector<La
 
 }  // namespace
 
-void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh, const std::vector<EdgeCondition>& named) {
   const auto edges = labelled_edges(mesh);
   write_file(path, [&](std::ostream& out) {
     Text text(out);
     text.print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
-    const auto names = groups_present(mesh, edges);
+    auto names = groups_present(mesh, edges);
+    for (int k = 0; k < static_cast<int>(named.size()); ++k)
+      for (const EdgeTag tag : {natural_group(k), held_group(k)})
+        if (std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), tag) > 0)
+          names.push_back({1, static_cast<int>(tag), named[k].group.c_str()});
     text.print("$PhysicalNames\n{}\n", names.size());
     for (const Group& group : names) text.print("{} {} \"{}\"\n", group.dimension, group.number, group.name);
     text.print("$EndPhysicalNames\n$Nodes\n{}\n", mesh.vertex_count());

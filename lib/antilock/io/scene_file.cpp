@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
+#include <memory>
+#include <sstream>
 
 #include "antilock/io/detail/scene_checks.hpp"
 #include "antilock/io/detail/scene_section.hpp"
 #include "antilock/io/expression.hpp"
+#include "antilock/measure/detail/point_values.hpp"
 
 namespace antilock {
 namespace {
@@ -47,11 +51,9 @@ Expression expression(const Section& section, const std::string& key, const std:
   }
 }
 
-Field read_load(const Section& section, SceneWords& words) {
-  section.only({"f"});
-  words.load = section.text("f", "an expression in x and y in quotes, as \"10*sin(2*pi*x)\"");
-  const Expression f = expression(section, "f", words.load, {"x", "y"});
-  return [f, where = section.where("f")](double x, double y) {
+/// A field or a profile whose every value that is not finite names the file and the key.
+Field field(const Section& section, const std::string& key, const std::string& text) {
+  return [f = expression(section, key, text, {"x", "y"}), where = section.where(key)](double x, double y) {
     try {
       return f(x, y);
     } catch (const Error& error) {
@@ -59,35 +61,197 @@ Field read_load(const Section& section, SceneWords& words) {
     }
   };
 }
-
-UnilateralContact read_contact(const Section& section, SceneWords& words) {
-  section.only({"gap"});
-  words.gap = section.has("gap") ? section.text("gap", "an expression in x in quotes, as \"0.01\"") : "0";
-  const Expression gap = expression(section, "gap", words.gap, {"x"});
-  return {[gap, where = section.where("gap")](double x) {
+/// The same where negative values are refused, and 0 unless `zero_too`.
+Field field_above(const Section& section, const std::string& key, const std::string& text, bool zero_too) {
+  return [f = field(section, key, text), where = section.where(key), zero_too](double x, double y) {
+    const double value = f(x, y);
+    if (value < 0 || (value == 0 && !zero_too))
+      throw Error(fmt::format("{}is {:g} at ({:g}, {:g}); accepted: {} 0", where, value, x, y,
+                              zero_too ? "at least" : "above"));
+    return value;
+  };
+}
+Profile profile(const Section& section, const std::string& key, const std::string& text) {
+  return [f = expression(section, key, text, {"x"}), where = section.where(key)](double x) {
     try {
-      return gap(x);
+      return f(x);
     } catch (const Error& error) {
       throw Error(where + error.what());
     }
-  }};
+  };
+}
+const char* const in_x_and_y = "an expression in x and y in quotes, as \"10*sin(2*pi*x)\"";
+const char* const in_x = "an expression in x in quotes, as \"0.01\"";
+
+/// Keeps the question of a section as JSON, for the summary.
+void keep(SceneWords& words, const std::string& name, const toml::node& node) {
+  std::ostringstream json;
+  json << toml::json_formatter{node};
+  words.more += fmt::format("{}\"{}\": {}", words.more.empty() ? "" : ", ", name, json.str());
+}
+
+Body read_body(const Section& load, const std::optional<Section>& body, SceneWords& words) {
+  load.only({"f"});
+  words.load = load.text("f", in_x_and_y);
+  Body read{field(load, "f", words.load)};
+  if (!body) return read;
+  body->only({"stiffness"});
+  if (body->table()["stiffness"].is_table()) return read;  // by groups of the mesh file: read_groups
+  const std::string text = body->text("stiffness", std::string(in_x_and_y) + ", or a table per group");
+  read.stiffness = field_above(*body, "stiffness", text, false);
+  return read;
+}
+
+/// `stiffness = { left = 1, right = 10 }`: the surfaces of the file and their numbers, found by place.
+void read_groups(const Section& body, const std::filesystem::path& mesh, const MoreGroups& groups, Body& read,
+                 std::vector<std::string>& names) {
+  const toml::table* table = body.table()["stiffness"].as_table();
+  if (table == nullptr) return;
+  std::vector<double> numbers;
+  const Section section = *body.section("stiffness");
+  for (const auto& [group, value] : *table) {
+    names.emplace_back(group.str());
+    numbers.push_back(section.number(names.back(), "the stiffness of that group, above 0"));
+    if (!(numbers.back() > 0)) body.refuse("stiffness", "is not above 0 on a group; accepted: positive numbers");
+  }
+  struct Parts {
+    TriangleMesh mesh;
+    std::vector<int> part;
+    std::optional<Space> space;
+    std::optional<PointValues> places;
+  };
+  MoreGroups all = groups;
+  all.bodies = names;
+  read.stiffness = [=, parts = std::make_shared<Parts>()](double x, double y) {
+    if (!parts->space) {  // asked for the first time
+      parts->mesh = read_msh(mesh.string(), all, &parts->part);
+      parts->space.emplace(parts->mesh, p1());
+      parts->places.emplace(*parts->space);
+    }
+    const auto at = parts->places->locate({x, y}, 1e-9);
+    const int part = at ? parts->part[at->triangle] : -1;
+    return part < 0 ? 1.0 : numbers[part];
+  };
+}
+
+UnilateralContact read_contact(const Section& section, SceneWords& words) {
+  section.only({"gap", "ceiling"});
+  words.gap = section.has("gap") ? section.text("gap", in_x) : "0";
+  UnilateralContact contact{profile(section, "gap", words.gap)};
+  if (!section.has("ceiling")) return contact;
+  contact.ceiling = profile(section, "ceiling", section.text("ceiling", in_x));
+  keep(words, "ceiling", *section.table().get("ceiling"));
+  return contact;
 }
 
 Layer read_layer(const Section& section, SceneWords& words) {
-  section.only({"epsilon", "model"});
+  section.only({"epsilon", "model", "thickness", "stiffness", "load"});
   const std::string model = section.has("model") ? section.one_of("model", {"scaled", "ventcel", "thin"}) : "scaled";
-  const std::string accepted = model == "scaled"    ? "0 < epsilon <= 1, or exactly 0 (the rigid limit)"
+  const bool numbers = section.has("thickness") || section.has("stiffness");
+  for (const char* key : {"thickness", "stiffness", "load"})
+    if (section.has(key)) {
+      if (model != "scaled")
+        section.refuse(key, fmt::format("does not go with model = \"{}\"; accepted: with \"scaled\" only", model));
+      keep(words, std::string("layer ") + key, *section.table().get(key));
+    }
+  if (numbers && section.has("epsilon"))
+    section.refuse("epsilon", "stands beside thickness or stiffness; accepted: epsilon, or the other two");
+  const std::string key = numbers ? "thickness" : "epsilon";
+  const std::string accepted = model == "scaled"    ? fmt::format("0 < {0} <= 1, or exactly 0 (the rigid limit)", key)
                                : model == "ventcel" ? "exactly 0 (the model is the limit epsilon = 0)"
                                                     : "1e-3 <= epsilon <= 1 (below, use the scaled model)";
-  const double epsilon = section.number("epsilon", accepted);
-  const double least = model == "thin" ? 1e-3 : 0, most = model == "ventcel" ? 0 : 1;
+  const double epsilon = section.number(key, accepted);
+  const double least = model == "thin" ? 1e-3 : numbers ? 1e-300 : 0, most = model == "ventcel" ? 0 : 1;
   if (!(epsilon >= least && epsilon <= most))
-    section.refuse("epsilon",
-                   fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon, model, accepted));
+    section.refuse(key, fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon, model,
+                                    numbers ? "0 < thickness <= 1" : accepted));
   words.model = model;
   if (model == "ventcel") return VentcelLayer{};
   if (model == "thin") return ThinLayer{epsilon};
-  return StiffLayer{epsilon};
+  StiffLayer layer{epsilon};
+  if (numbers) {
+    const double stiffness = section.number("stiffness", "above 0, relative to a body of stiffness 1");
+    if (!(stiffness > 0)) section.refuse("stiffness", fmt::format("{}; accepted: above 0", stiffness));
+    layer.s = stiffness * epsilon;
+  }
+  if (section.has("load")) layer.load = field(section, "load", section.text("load", in_x_and_y));
+  return layer;
+}
+
+std::vector<EdgeCondition> read_edges(const std::vector<Section>& sections, MoreGroups& groups) {
+  using Kind = EdgeCondition::Kind;
+  std::vector<EdgeCondition> edges;
+  for (const Section& section : sections) {
+    section.only({"group", "free", "displacement", "traction", "spring"});
+    EdgeCondition edge{section.text("group", "the name of a group of curves of the mesh file")};
+    if (edge.group == "clamped" || edge.group == "contact" || edge.group == "sigma" ||
+        groups.curves.contains(edge.group))
+      section.refuse("group", "\"" + printable(edge.group) + "\" has its condition already; accepted: another group");
+    int conditions = section.has("free") && section.yes("free") ? 1 : 0;
+    for (const auto& [key, kind] :
+         {std::pair{"displacement", Kind::displacement}, {"traction", Kind::traction}, {"spring", Kind::spring}})
+      if (section.has(key)) {
+        ++conditions;
+        edge.kind = kind;
+        const std::string text = section.text(key, in_x_and_y);
+        edge.value = kind == Kind::spring ? field_above(section, key, text, true) : field(section, key, text);
+      }
+    if (conditions != 1)
+      section.refuse("group", fmt::format("\"{}\" has {} conditions; accepted: exactly one of free, displacement, "
+                                          "traction, spring",
+                                          printable(edge.group), conditions));
+    const auto k = static_cast<int>(edges.size());
+    groups.curves[edge.group] = edge.kind == Kind::displacement ? held_group(k) : natural_group(k);
+    edges.push_back(std::move(edge));
+  }
+  return edges;
+}
+
+std::vector<Eigen::Vector2d> read_points(const Section& section) {
+  section.only({"points"});
+  const std::string accepted = "; accepted: a list of places, as [[0.25, -1.0]]";
+  const toml::array* list = section.table()["points"].as_array();
+  if (list == nullptr) section.refuse("points", "is no list" + accepted);
+  std::vector<Eigen::Vector2d> points;
+  for (const toml::node& node : *list) {
+    const toml::array* pair = node.as_array();
+    const auto x = pair != nullptr && pair->size() == 2 ? (*pair)[0].value<double>() : std::nullopt;
+    const auto y = x ? (*pair)[1].value<double>() : std::nullopt;
+    if (!y || !std::isfinite(*x) || !std::isfinite(*y))
+      section.refuse("points", "has an entry that is no place" + accepted);
+    points.emplace_back(*x, *y);
+  }
+  return points;
+}
+
+/// [model] kind = "plane strain"; empty for "anti-plane".
+std::optional<ElasticRequest> read_model(const Section& section, const Layer& layer) {
+  if (section.one_of("kind", {"anti-plane", "plane strain"}) == "anti-plane") {
+    section.only({"kind"});
+    return std::nullopt;
+  }
+  const bool coated = !std::holds_alternative<NoLayer>(layer);
+  if (coated) {
+    if (!std::holds_alternative<StiffLayer>(layer))
+      section.refuse("kind", "\"plane strain\" goes with the scaled layer, or none; accepted: model = \"scaled\"");
+    section.only({"kind", "push", "friction", "young", "poisson"});
+  } else {
+    section.only({"kind", "push", "friction", "epsilon"});
+  }
+  ElasticRequest elastic;
+  const auto number = [&](const char* key, double fallback, double least, double most) {
+    const std::string accepted = fmt::format("{:g} to {:g}", least, most);
+    const double value = section.has(key) ? section.number(key, accepted) : fallback;
+    if (!(value >= least && value <= most))
+      section.refuse(key, fmt::format("{} is out of range; accepted: {}", value, accepted));
+    return value;
+  };
+  elastic.push = number("push", 0.1, -1e6, 1e6);
+  elastic.epsilon = number("epsilon", 1e-8, 0, 1);
+  const double young = number("young", 1, 1e-6, 1e6), nu = number("poisson", 0.3, 0, 0.49);
+  elastic.material = {young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
+  if (section.has("friction")) elastic.friction = profile(section, "friction", section.text("friction", in_x));
+  return elastic;
 }
 
 constexpr int most_structured = 2048, most_unstructured = 512;
@@ -154,7 +318,7 @@ void read_accuracy(const Section& section, MethodRequest& method) {
 MethodRequest read_method(const Section& section) {
   section.only({"element", "solver", "tolerance", "accuracy", "of", "most_unknowns"});
   MethodRequest method;
-  if (section.has("element")) method.element = section.one_of("element", {"P1", "CR", "P2"});
+  if (section.has("element")) method.element = section.one_of("element", {"P1", "CR", "P2", "P3", "P4"});
   if (section.has("solver")) method.solver = section.one_of("solver", {"active-set", "uzawa", "petsc"});
   read_accuracy(section, method);
   if (!section.has("tolerance")) return method;
@@ -176,10 +340,32 @@ void check_together(const Section& root, const Scene& scene, const MeshRequest& 
         "accuracy",
         "does not go with model = \"ventcel\"; accepted: model = \"scaled\" with epsilon = 0, "
         "which is the same problem");
-  if (method.element == "P2" && method.solver == "petsc")
-    root.section("method")->refuse("element", "\"P2\" does not go with solver = \"petsc\"; accepted: \"P1\", \"CR\"");
-  if (method.element == "P2" && std::holds_alternative<VentcelLayer>(scene.layer()))
-    root.section("method")->refuse("element", "\"P2\" does not go with model = \"ventcel\"; accepted: \"P1\", \"CR\"");
+  const bool high = method.element != "P1" && method.element != "CR", petsc = method.solver == "petsc";
+  if (high && (petsc || std::holds_alternative<VentcelLayer>(scene.layer())))
+    root.section("method")->refuse("element",
+                                   fmt::format("\"{}\" does not go with {}; accepted: \"P1\", \"CR\"", method.element,
+                                               petsc ? "solver = \"petsc\"" : "model = \"ventcel\""));
+  const std::string beyond = root.has("at") && petsc ? "points" : scene.beyond_the_paper();
+  if (!beyond.empty() && (petsc || method.accuracy))
+    root.section("method")->refuse(
+        petsc ? "solver" : "accuracy",
+        fmt::format("does not go with {}; accepted: {}", beyond,
+                    petsc ? "\"active-set\", \"uzawa\"" : "a scene without it, or no accuracy"));
+}
+
+/// What plane strain has no use for yet.
+void check_elastic(const Section& root, const Scene& scene, const MethodRequest& method) {
+  const auto refuse = [&](const std::string& what, const std::string& accepted) {
+    root.section("model")->refuse("kind", "\"plane strain\" does not go with " + what + "; accepted: " + accepted);
+  };
+  if (method.accuracy || method.solver != "active-set") refuse("accuracy or another solver", "solver = \"active-set\"");
+  if (!scene.contact() || scene.contact()->ceiling)
+    refuse("a scene without contact, or with a ceiling", "a section [contact]");
+  if (scene.body().stiffness) refuse("a stiffness of the body", "young and poisson in [model]");
+  const auto* layer = std::get_if<StiffLayer>(&scene.layer());
+  if (layer != nullptr && layer->load) refuse("a load on the layer", "none");
+  for (const EdgeCondition& edge : scene.edges())
+    if (edge.kind != EdgeCondition::Kind::free) refuse("a condition on the group " + edge.group, "free edges");
 }
 
 }  // namespace
@@ -192,7 +378,7 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   const std::string name = printable(path.string(), 1000);
   const toml::table table = parse(text, name);
   const Section root(name, "", table);
-  root.only({"title", "load", "layer", "contact", "mesh", "method"});
+  root.only({"title", "load", "body", "layer", "contact", "edge", "at", "model", "mesh", "method"});
   for (const std::string required : {"load", "mesh"})
     if (!root.has(required)) root.refuse(required, fmt::format("is missing; accepted: a section [{}]", required));
 
@@ -200,8 +386,17 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   SceneWords words;
   const MeshRequest mesh = read_mesh(*root.section("mesh"), path.parent_path(), words);
   const bool unit_square = mesh.kind != MeshRequest::Kind::file;  // what a file holds is known when it is read
-  const Body body{read_load(*root.section("load"), words)};
+  const auto body_section = root.section("body");
+  Body body = read_body(*root.section("load"), body_section, words);
   if (unit_square) sample_load(body.load);
+  MoreGroups groups;
+  const std::vector<EdgeCondition> edges = read_edges(root.sections("edge"), groups);
+  if (body_section) read_groups(*body_section, mesh.file, groups, body, groups.bodies);
+  if (unit_square && !(groups.curves.empty() && groups.bodies.empty()))
+    root.refuse(groups.bodies.empty() ? "edge" : "body",
+                "names groups of a mesh file; accepted: with kind = \"file\" only");
+  for (const char* section : {"body", "edge", "at", "model"})
+    if (root.has(section)) keep(words, section, *table.get(section));
   const auto layer_section = root.section("layer"), contact_section = root.section("contact");
   const Layer layer = layer_section ? read_layer(*layer_section, words) : NoLayer{};
   auto contact = contact_section ? std::optional(read_contact(*contact_section, words)) : std::nullopt;
@@ -211,13 +406,18 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   const MethodRequest method = method_section ? read_method(*method_section) : MethodRequest{};
   const Scene scene = [&] {
     try {
-      return Scene(body, layer, contact);
+      return Scene(body, layer, contact, edges);
     } catch (const Error& error) {  // what is left for the scene to refuse: a gap that no clamped end can keep
       throw Error(contact_section->where("gap") + error.what());
     }
   }();
+  const auto model = root.section("model"), points = root.section("at");
+  const auto elastic = model ? read_model(*model, layer) : std::nullopt;
   check_together(root, scene, mesh, method);
-  return {name, title, scene, mesh, method, words};
+  if (elastic) check_elastic(root, scene, method);
+  return {name,   title, scene,  mesh,
+          method, words, groups, points ? read_points(*points) : std::vector<Eigen::Vector2d>{},
+          elastic};
 }
 
 }  // namespace antilock

@@ -4,7 +4,8 @@
 #include <string>
 
 #include "antilock/analysis/certificate.hpp"
-#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/mesh/msh_file.hpp"
+#include "antilock/models/plane_strain.hpp"
 #include "antilock/scene/scene.hpp"
 
 namespace antilock {
@@ -33,9 +34,18 @@ struct MethodRequest {
 /// The words of the file, for the summary, which repeats the question; empty where the section is absent.
 struct SceneWords {
   std::string load, gap, model, mesh, file;
+  std::string more = {};  ///< JSON of the sections body, edge, at and model, and of the layer's numbers and the ceiling
 };
 
-/// A question asked in TOML, sections load, layer, contact, mesh, method (tutorials/scenes holds examples).
+/// [model] kind = "plane strain": a block that is pressed down, of rubber or with a coating (models/).
+struct ElasticRequest {
+  double push = 0.1;      ///< how far the clamped edges are moved down
+  double epsilon = 1e-8;  ///< 1/lambda of the rubber, mu = 1; read without a layer
+  Lame material = {};     ///< of block and coating; read with a layer, whose epsilon is the thickness
+  Profile friction = {};  ///< Tresca's bound; empty: none
+};
+
+/// A question asked in TOML (tutorials/scenes holds examples, run_scene --help lists the keys).
 struct SceneFile {
   std::string name;  ///< the path as it was given: every message starts with it
   std::string title;
@@ -43,6 +53,9 @@ struct SceneFile {
   MeshRequest mesh;
   MethodRequest method;
   SceneWords words;
+  MoreGroups groups = {};                ///< of the mesh file: those that [[edge]] and a table of stiffnesses name
+  std::vector<Eigen::Vector2d> at = {};  ///< where the summary tells u
+  std::optional<ElasticRequest> elastic = {};
 };
 
 /// Reads and checks everything that can be checked without a mesh. Throws Error, one line `FILE: KEY: what is wrong;

@@ -12,6 +12,7 @@
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/mesh/refine.hpp"
+#include "antilock/models/plane_strain.hpp"
 
 namespace antilock {
 namespace {
@@ -111,10 +112,17 @@ void check_contact_side(const TriangleMesh& mesh, double bottom, double wanted) 
                             length, bottom, wanted));
 }
 
-TriangleMesh read_mesh_of(const Scene& scene, const std::string& path) {
-  TriangleMesh mesh = read_msh(path);
+TriangleMesh read_mesh_of(const SceneFile& scene_file) {
+  const Scene& scene = scene_file.scene;
+  const std::string path = scene_file.mesh.file.string();
+  TriangleMesh mesh = read_msh(path, scene_file.groups);
   const double depth = scene.layer_depth();
-  const bool has_layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer) > 0;
+  const auto layered = [&] { return std::count(mesh.region.begin(), mesh.region.end(), Region::layer) > 0; };
+  if (!layered() && std::holds_alternative<StiffLayer>(scene.layer())) {
+    check_bottom_edge(mesh, EdgeTag::contact);
+    mesh = extruded(mesh, *scene.epsilon());  // the layer grows below the body
+  }
+  const bool has_layer = layered();
   try {
     if (has_layer && depth == 0)
       throw Error("has a group layer, which this scene has no use for; accepted: a mesh of the body alone");
@@ -145,7 +153,7 @@ TriangleMesh checked_mesh(const SceneFile& file) {
       case Kind::file:
         break;
     }
-    return read_mesh_of(file.scene, file.mesh.file.string());
+    return read_mesh_of(file);
   };
   try {
     return make();
@@ -164,6 +172,7 @@ TriangleMesh checked_mesh(const SceneFile& file) {
 TriangleMesh make_mesh(const SceneFile& file) {
   constexpr std::int64_t most_triangles = 1 << 25;
   TriangleMesh mesh = checked_mesh(file);
+  if (file.elastic && file.mesh.kind != MeshRequest::Kind::file) mesh = with_free_sides(std::move(mesh));
   if (file.mesh.kind == MeshRequest::Kind::file) check_on_mesh(file, mesh);
   const std::int64_t triangles = static_cast<std::int64_t>(mesh.triangle_count()) << (2 * file.mesh.refinements);
   if (triangles > most_triangles)

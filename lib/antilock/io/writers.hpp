@@ -5,20 +5,22 @@
 #include <vector>
 
 #include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/scene/scene.hpp"
 #include "antilock/space/detail/vector_space.hpp"
 #include "antilock/space/space.hpp"
 
 namespace antilock {
 
-/// MSH 2.2 ASCII with the physical groups of Figure 2.
-void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh);
+/// MSH 2.2 ASCII with the physical groups of Figure 2 and, with their names, those of `edges`; free edges of no other group are in "free".
+void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh,
+               const std::vector<EdgeCondition>& edges = {});
 /// FreeFEM's native .msh: nv nt nbe; x y label; i j k region; i j label. The same numbering, labels as in
 /// EdgeTag/Region.
 void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& mesh);
 /// A table: one header line, then rows, comma separated. Here and below a number is the shortest text that reads back
 /// as the same double (up to 17 digits). Every writer throws Error, `path` first, and leaves no partial file.
 void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header, const Eigen::MatrixXd& rows);
-/// `x,y,u`: one row per unknown.
+/// `x,y,u`, or `x,y,u_x,u_y` for the 2 N values of a displacement: one row per unknown of the space.
 void write_solution_csv(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u);
 /// What a VTU file may hold beside u; an empty vector is left out.
 struct VtuFields {

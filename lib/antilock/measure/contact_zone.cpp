@@ -15,7 +15,7 @@ ContactZone contact_zone(const Space& space, const VariationalInequality& proble
   zone.points = static_cast<int>(problem.contact.size());
   for (int i = 0; i < zone.points; ++i) {
     if (!solution.active[i]) continue;
-    const double x = space.points()(problem.contact[i], 0);
+    const double x = space.points()(problem.contact[i] % space.size(), 0);
     ++zone.active;
     zone.from = std::min(zone.from.value_or(x), x);
     zone.to = std::max(zone.to.value_or(x), x);
@@ -38,7 +38,7 @@ Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& 
   require_firm_bounds(problem, "contact table");
   const auto count = static_cast<Eigen::Index>(problem.contact.size());
   Eigen::MatrixX3d table(count, 3);
-  table.col(0) = space.points().col(0)(problem.contact);
+  table.col(0) = space.points().col(0)(space.contact());
   table.col(1) = slack(problem, solution.u);
   table.col(2) = solution.lambda.cwiseQuotient(contact_lengths(space));
   return table;

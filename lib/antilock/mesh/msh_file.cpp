@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -51,9 +52,9 @@ std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const 
   return index;
 }
 
-TriangleMesh resolve(const MshLines& lines, const MshFile& file) {
-  const std::map<std::string_view, EdgeTag> edge_tags = {
-      {"sigma", EdgeTag::sigma}, {"clamped", EdgeTag::clamped}, {"contact", EdgeTag::contact}};
+TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroups& more, std::vector<int>* part) {
+  std::map<std::string, EdgeTag> edge_tags = more.curves;
+  edge_tags.insert({{"sigma", EdgeTag::sigma}, {"clamped", EdgeTag::clamped}, {"contact", EdgeTag::contact}});
   const auto index = number_nodes(lines, file.nodes);
   std::vector<std::array<int, 3>> corners;
   std::vector<Region> region;
@@ -78,13 +79,22 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file) {
       edges.push_back({vertices[0], vertices[1], edge_tags.at(name)});
     } else {
       corners.push_back(vertices);
-      region.push_back(name == "body" ? Region::body : Region::layer);
+      region.push_back(name == "layer" ? Region::layer : Region::body);
+      if (part != nullptr) {
+        const auto at = std::find(more.bodies.begin(), more.bodies.end(), name);
+        part->push_back(at == more.bodies.end() ? -1 : static_cast<int>(at - more.bodies.begin()));
+      }
     }
   }
-  for (const char* name : {"body", "clamped", "contact"})
-    if (!found.contains(name))
+  for (const std::string name : {"body", "clamped", "contact"})
+    if (!found.contains(name) && !(name == "body" && !more.bodies.empty()) &&
+        !(name == "clamped" && !more.curves.empty()))
       lines.refuse_file(
           fmt::format("has nothing in the physical group {}; needed: body, clamped, contact", in_quotes(name)));
+  for (const auto& [name, tag] : more.curves)
+    if (!found.contains(name)) lines.refuse_file(fmt::format("has no curve in the group {}", in_quotes(name)));
+  for (const std::string& name : more.bodies)
+    if (!found.contains(name)) lines.refuse_file(fmt::format("has no surface in the group {}", in_quotes(name)));
   for (const auto& [place, name] : file.names)
     if (!found.contains(name))
       lines.refuse_file(fmt::format("names the physical group {}, but it is empty", in_quotes(name)));
@@ -98,18 +108,21 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file) {
 
 }  // namespace
 
-TriangleMesh read_msh(std::istream& in, const std::string& name) {
+TriangleMesh read_msh(std::istream& in, const std::string& name, const MoreGroups& more, std::vector<int>* part) {
   MshLines lines(in, name);
-  return resolve(lines, read_sections(lines));
+  std::map<std::string, int> dimensions;
+  for (const auto& [curve, tag] : more.curves) dimensions[curve] = 1;
+  for (const std::string& body : more.bodies) dimensions[body] = 2;
+  return resolve(lines, read_sections(lines, dimensions), more, part);
 }
 
-TriangleMesh read_msh(const std::string& path) {
+TriangleMesh read_msh(const std::string& path, const MoreGroups& more, std::vector<int>* part) {
   std::error_code ignored;  // a folder, or a device that never ends
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
     throw Error(path + ": is a folder or a device; accepted: a MSH file");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(path + ": cannot be opened; accepted: a MSH file, 2.2 or 4.1, ASCII");
-  return read_msh(in, path);
+  return read_msh(in, path, more, part);
 }
 
 }  // namespace antilock

@@ -1,6 +1,8 @@
 #pragma once
 #include <iosfwd>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "antilock/mesh/triangle_mesh.hpp"
 
@@ -10,7 +12,14 @@ namespace antilock {
 /// (sigma may be left out: it is where body meets layer). Throws Error, `name` first, for a file that is missing,
 /// binary, truncated, of another version, with other elements than points, lines and triangles, with unknown or
 /// missing groups, or that make_triangle_mesh refuses.
-TriangleMesh read_msh(const std::string& path);
-TriangleMesh read_msh(std::istream& in, const std::string& name);
+/// `more` groups are accepted beside these: curves with their tags, after which no edge need be clamped, and surfaces,
+/// which are parts of the body; `part` is filled with the place in `bodies` of each triangle, -1 for none.
+struct MoreGroups {
+  std::map<std::string, EdgeTag> curves = {};
+  std::vector<std::string> bodies = {};
+};
+TriangleMesh read_msh(const std::string& path, const MoreGroups& more = {}, std::vector<int>* part = nullptr);
+TriangleMesh read_msh(std::istream& in, const std::string& name, const MoreGroups& more = {},
+                      std::vector<int>* part = nullptr);
 
 }  // namespace antilock

@@ -139,7 +139,7 @@ void check_held(const TriangleMesh& mesh, const std::string& where) {
     stack.push_back(t);
   };
   for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] == EdgeTag::clamped) reach(mesh.edge_triangles(e, 0));
+    if (is_held(mesh.edge_tag[e]) || group_of(mesh.edge_tag[e]) >= 0) reach(mesh.edge_triangles(e, 0));
   if (stack.empty()) throw Error(where + ": no edge is in the group clamped, which is needed");
   while (!stack.empty()) {
     const int t = stack.back();

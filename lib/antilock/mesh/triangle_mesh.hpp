@@ -9,7 +9,17 @@ namespace antilock {
 
 /// Physical groups of Figure 2; the numbers are those of the MSH and FreeFEM files.
 enum class Region { body = 1, layer = 2 };
-enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5, free = 6 };  // free: elasticity only
+enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5, free = 6 };
+/// The tags of named groups of edges, k = 0, 1, ...: those where u is given, and all others. Whoever moves tags from mesh
+/// to mesh moves them along.
+constexpr EdgeTag natural_group(int k) { return static_cast<EdgeTag>(10 + k); }
+constexpr EdgeTag held_group(int k) { return static_cast<EdgeTag>(1000 + k); }
+constexpr bool is_held(EdgeTag tag) { return tag == EdgeTag::clamped || tag >= held_group(0); }
+/// k, or -1 for a tag of no named group.
+constexpr int group_of(EdgeTag tag) {
+  const int number = static_cast<int>(tag);
+  return number >= 1000 ? number - 1000 : number >= 10 ? number - 10 : -1;
+}
 
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< n x 2, coordinates x, y
 using Triples = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;    ///< n x 3, indices from 0

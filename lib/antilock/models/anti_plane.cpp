@@ -36,6 +36,32 @@ void check_fit(const Scene& scene, const Space& space) {
 
 }  // namespace
 
+namespace {
+
+/// What the named groups of edges add to A1, to the load and to the given values.
+void add_edges(VariationalInequality& problem, const Scene& scene, const Space& space) {
+  using Kind = EdgeCondition::Kind;
+  const TriangleMesh& mesh = space.mesh();
+  const Eigen::MatrixX3d nodes = space.element().nodes();
+  for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k) {
+    const auto& [group, kind, value] = scene.edges()[k];
+    if (kind == Kind::traction) problem.load += edge_load(space, natural_group(k), value);
+    if (kind == Kind::spring) problem.a1 += edge_mass(space, natural_group(k), value);
+    if (kind != Kind::displacement) continue;
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      for (int i = 0; i < 3; ++i)
+        for (Eigen::Index j = 0; j < nodes.rows(); ++j) {
+          if (mesh.edge_tag[mesh.triangle_edges(t, i)] != held_group(k) || nodes(j, i) != 0) continue;
+          const int unknown = space.unknowns()(t, j);
+          const auto place = std::lower_bound(problem.fixed.begin(), problem.fixed.end(), unknown);
+          problem.fixed_values(place - problem.fixed.begin()) =
+              value(space.points()(unknown, 0), space.points()(unknown, 1));
+        }
+  }
+}
+
+}  // namespace
+
 double compliance(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
 
 Eigen::VectorXd contact_bounds(const UnilateralContact& contact, const Space& space) {
@@ -52,26 +78,35 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   check_fit(scene, space);
   VariationalInequality problem;
   problem.b.resize(0, space.size());
-  problem.load = load_vector(space, scene.body().load);
+  const auto& [load, stiffness] = scene.body();
+  problem.load = load_vector(space, load);
 
   if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
-    problem.a1 = gradient_form(space, {1, 1}, {1, 0});  // a+ + a_x^- of (23)
-    FactoredForm strain = layer_strain(space);          // a_y^-, factored
+    problem.a1 = gradient_form(space, {1, 1}, {stiff->s, 0}, stiffness);  // a+ + a_x^- of (23)
+    FactoredForm strain = layer_strain(space);                            // a_y^-, factored
     problem.b.swap(strain.b);
-    problem.m = std::move(strain.m);
+    problem.m = stiff->s * strain.m;
+    if (stiff->load) problem.load += load_vector(space, stiff->load, Region::layer);
     problem.compliance = compliance(*stiff);
   } else if (const auto* thin = std::get_if<ThinLayer>(&scene.layer())) {
-    problem.a1 = gradient_form(space, {1, 1}, {1 / thin->epsilon, 1 / thin->epsilon});  // mu / epsilon of (22)
+    problem.a1 =
+        gradient_form(space, {1, 1}, {1 / thin->epsilon, 1 / thin->epsilon}, stiffness);  // mu / epsilon of (22)
   } else {
-    problem.a1 = gradient_form(space, {1, 1}, {0, 0});
+    problem.a1 = gradient_form(space, {1, 1}, {0, 0}, stiffness);
     if (std::holds_alternative<VentcelLayer>(scene.layer())) problem.a1 += ventcel_form(space);
   }
 
   problem.fixed = space.clamped();
   problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  add_edges(problem, scene, space);
   if (scene.contact()) {
     problem.contact = space.contact();
     problem.lower = contact_bounds(*scene.contact(), space);
+    if (const Profile& ceiling = scene.contact()->ceiling) {
+      problem.upper.resize(problem.lower.size());
+      for (Eigen::Index i = 0; i < problem.upper.size(); ++i)
+        problem.upper(i) = ceiling(space.points()(space.contact()[i], 0));
+    }
   }
   return problem;
 }

@@ -32,6 +32,24 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
   return problem;
 }
 
+Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const Eigen::VectorXd& u,
+                         const Eigen::VectorXd& p) {
+  const TriangleMesh& mesh = space.x.mesh();
+  const auto& [lambda, mu] = coating.body;
+  const FactoredForm body = strain_rows(space, {{{lambda, 0, 0, lambda + 2 * mu}}}, Region::body);
+  const Eigen::VectorXd stress = body.b * u;
+  Eigen::VectorXd pressure = Eigen::VectorXd::Zero(mesh.triangle_count());
+  const Eigen::Index points = divergence_rule(space).weights.size();
+  for (Eigen::Index row = 0; row < stress.size(); ++row)
+    pressure(body.cell[row]) -= stress(row) / static_cast<double>(points);
+  Eigen::Index row = 0;  // of each point of the coating the first of two
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer)
+      for (Eigen::Index q = 0; q < points; ++q, row += 2)
+        pressure(t) -= (coating.layer.lambda + 2 * coating.layer.mu) * p(row) / static_cast<double>(points);
+  return pressure;
+}
+
 std::optional<double> penalty(const Coating& coating, const VectorSpace& space) {
   if (coating.thickness == 0 || !(space.x.element().conforming() || space.y.element().conforming())) return {};
   return std::max(coating.thickness * coating.thickness, 1e-12);

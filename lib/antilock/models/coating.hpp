@@ -26,6 +26,11 @@ struct Coating : Press {
 /// without a layer.
 VariationalInequality assemble(const Coating& coating, const VectorSpace& space);
 
+/// T values: minus the stress in y, in the body that of the mean strain of a triangle, in the coating the mean of what is
+/// found there.
+Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const Eigen::VectorXd& u,
+                         const Eigen::VectorXd& p);
+
 /// The penalty to solve it with (ActiveSetOptions). B = B_0 + t B_1 depends on t. Where d/dy does not map onto the rows,
 /// there are motions of B_0 u = 0 whose B_1 u no small motion can cancel: for them a0 = c t^2 a1, which is neither stiff
 /// nor 0, and a penalty far above t^2 brings them in with t^2 / delta per correction. The cure is delta = t^2, as long as

@@ -23,8 +23,8 @@ void check_epsilon(const std::string& model, double epsilon, double smallest, co
 
 }  // namespace
 
-Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact)
-    : body_(std::move(body)), layer_(layer), contact_(std::move(contact)) {
+Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, std::vector<EdgeCondition> edges)
+    : body_(std::move(body)), layer_(std::move(layer)), contact_(std::move(contact)), edges_(std::move(edges)) {
   if (!body_.load) throw Error("body: no load given; accepted: a function f(x, y)");
   if (const auto* stiff = std::get_if<StiffLayer>(&layer_))
     check_epsilon("scaled", stiff->epsilon, 0, "0 < epsilon <= 1, or exactly 0 (the rigid limit)");
@@ -40,6 +40,15 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact)
                       "accepted: gap >= 0 at x = {}",
                       x, gap, fmt::join(contact_->held, " and x = ")));
   }
+}
+
+std::string Scene::beyond_the_paper() const {
+  if (!edges_.empty()) return "edges in named groups";
+  if (body_.stiffness) return "a stiffness of the body";
+  if (contact_ && contact_->ceiling) return "a ceiling";
+  if (const auto* stiff = std::get_if<StiffLayer>(&layer_); stiff != nullptr && (stiff->s != 1 || stiff->load))
+    return stiff->load ? "a load on the layer" : "a layer of its own stiffness";
+  return "";
 }
 
 double Scene::layer_depth() const {

@@ -15,13 +15,26 @@ using Profile = std::function<double(double x)>;          ///< a function on the
 /// The elastic body Omega+ = (0,1) x (0,1), clamped on its sides and its top, under the body force f of (21).
 struct Body {
   Field load;
+  Field stiffness = {};  ///< positive, constant on each triangle: taken at its centroid; empty: 1
+};
+
+/// What holds on the edges of a named group of a mesh file: the outward derivative of u times the stiffness is 0 (free), g
+/// (traction) or -k u (spring, k >= 0), or u itself is given (displacement).
+struct EdgeCondition {
+  enum class Kind { free, displacement, traction, spring };
+  std::string group;
+  Kind kind = Kind::free;
+  Field value = {};
 };
 
 /// An effect of a scene is a type; an effect that is absent brings no mesh, no unknown and no iteration.
 struct NoLayer {};  ///< the body alone; contact, if any, on Sigma (y = 0)
 /// The stiff layer after the change of variable, (23), on (0,1) x (-1,0).
 struct StiffLayer {
-  double epsilon;  ///< 0 <= epsilon <= 1; exactly 0 is the limit problem (24) on the same mesh
+  double epsilon;  ///< 0 <= epsilon <= 1: its thickness; exactly 0 is the limit problem (24) on the same mesh
+  /// s > 0, stiffness times thickness, relative to the body: s stands before a_x^-, s / epsilon^2 before a_y^-
+  double s = 1;
+  Field load = {};  ///< a body force on the stretched layer; empty: none
 };
 /// The layer replaced by its limit (25): a second-derivative term on Sigma, no layer mesh.
 struct VentcelLayer {};
@@ -35,17 +48,23 @@ using Layer = std::variant<NoLayer, StiffLayer, VentcelLayer, ThinLayer>;
 struct UnilateralContact {
   Profile gap = [](double) { return 0.0; };  ///< distance of the obstacle at x (negative: it presses in)
   std::vector<double> held = {0, 1};         ///< where beside Gamma_C u = 0 is prescribed: gap >= 0 there
+  Profile ceiling = {};                      ///< u <= ceiling too; empty: none
 };
 
 /// A question to answer: which body, which layer, contact or not.
 /// Construction throws Error where the combination is meaningless, with the reason.
 class Scene {
  public:
-  explicit Scene(Body body, Layer layer = NoLayer{}, std::optional<UnilateralContact> contact = std::nullopt);
+  explicit Scene(Body body, Layer layer = NoLayer{}, std::optional<UnilateralContact> contact = std::nullopt,
+                 std::vector<EdgeCondition> edges = {});
 
   const Body& body() const { return body_; }
   const Layer& layer() const { return layer_; }
   const std::optional<UnilateralContact>& contact() const { return contact_; }
+  /// Of the groups of its mesh (natural_group, held_group), in their order.
+  const std::vector<EdgeCondition>& edges() const { return edges_; }
+  /// What goes beyond the paper's problem, in words; empty where nothing does.
+  std::string beyond_the_paper() const;
   /// Depth of the layer's mesh below Sigma: 0 (no mesh), 1 (scaled) or epsilon (thin).
   double layer_depth() const;
   /// The paper's epsilon; empty without a layer (0 for Ventcel).
@@ -57,6 +76,7 @@ class Scene {
   Body body_;
   Layer layer_;
   std::optional<UnilateralContact> contact_;
+  std::vector<EdgeCondition> edges_;
 };
 
 /// The load of every figure here, f = 10 sin(2 pi x); the paper gives none.

@@ -32,8 +32,9 @@ Space::Space(const TriangleMesh& mesh, const Element& element) : mesh_(&mesh), e
   }
 
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::clamped && mesh.edge_tag[e] != EdgeTag::contact) continue;
-    auto& marked = mesh.edge_tag[e] == EdgeTag::clamped ? on_clamped : on_contact;
+    const bool held = is_held(mesh.edge_tag[e]);
+    if (!held && mesh.edge_tag[e] != EdgeTag::contact) continue;
+    auto& marked = held ? on_clamped : on_contact;
     for (int k = 0; k < per_edge; ++k) marked[first_edge + per_edge * e + k] = 1;
     for (int k = 0; k < per_vertex; ++k)
       for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)}) marked[per_vertex * v + k] = 1;

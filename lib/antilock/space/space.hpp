@@ -19,7 +19,7 @@ class Space {
   const Points& points() const { return points_; }               ///< N x 2, where each unknown sits
   /// T x m: the global unknown behind each local one.
   const Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& unknowns() const { return unknowns_; }
-  const std::vector<int>& clamped() const { return clamped_; }  ///< unknowns on clamped edges (u = 0), ascending
+  const std::vector<int>& clamped() const { return clamped_; }  ///< unknowns where u is given, ascending
   const std::vector<int>& contact() const { return contact_; }  ///< unknowns on Gamma_C that are not clamped, by x
   int free_count() const { return size() - static_cast<int>(clamped_.size()); }
 

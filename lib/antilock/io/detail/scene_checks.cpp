@@ -108,7 +108,9 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   }
   // the basis sums to 1, and with the places of the unknowns as weights to x and to y
   const Points& at = space.points();
-  const Eigen::Vector3d seen(problem.load.sum(), problem.load.dot(at.col(0)), problem.load.dot(at.col(1)));
+  const bool alone = !file.elastic && file.scene.beyond_the_paper().empty();  // else edges and the layer load, too
+  const Eigen::VectorXd load = alone ? problem.load : load_vector(space, f);
+  const Eigen::Vector3d seen(load.sum(), load.dot(at.col(0)), load.dot(at.col(1)));
   for (int i = 0; i < 3; ++i)
     if (std::abs(seen(i) - sampled(i)) > telling * std::max(size(i), std::abs(seen(i))))
       return fmt::format(
@@ -153,7 +155,7 @@ std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
 }
 
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
-  if (!file.scene.contact()) return "";
+  if (!file.scene.contact() || file.elastic) return "";
   const TriangleMesh& mesh = space.mesh();
   std::vector<std::pair<double, double>> line;  // x and u_h at the contact unknowns and at the clamped ends of Gamma_C
   for (const int i : space.contact()) line.emplace_back(space.points()(i, 0), solution.u(i));

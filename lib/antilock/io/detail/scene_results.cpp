@@ -11,8 +11,10 @@
 #include "antilock/core/detail/blas.hpp"
 #include "antilock/core/detail/result_folder.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/io/detail/scene_problem.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/io/writers.hpp"
+#include "antilock/measure/detail/point_values.hpp"
 #include "antilock/measure/errors.hpp"
 
 namespace antilock {
@@ -45,13 +47,15 @@ Json question(const SceneFile& file) {
     method["of"] = file.method.of == Quantity::stress ? "stress" : "displacement";
     method["most_unknowns"] = file.method.most_unknowns;
   }
-  return {{"title", file.title},
-          {"load", words.load},
-          {"layer", layer},
-          {"gap", file.scene.contact() ? Json(words.gap) : Json(nullptr)},
-          {"mesh", mesh},
-          {"method", method},
-          {"version", ANTILOCK_VERSION}};
+  Json asked = {{"title", file.title},
+                {"load", words.load},
+                {"layer", layer},
+                {"gap", file.scene.contact() ? Json(words.gap) : Json(nullptr)},
+                {"mesh", mesh},
+                {"method", method},
+                {"version", ANTILOCK_VERSION}};
+  if (!words.more.empty()) asked.update(Json::parse("{" + words.more + "}"));
+  return asked;
 }
 
 /// What was asked, what is proved, and the way there.
@@ -106,7 +110,25 @@ SceneSummary summary_of(const SceneFile& file, const Answer& answer) {
   s.energy = energy(answer.problem, solution);
   s.u_max = solution.u.maxCoeff();
   s.u_min = solution.u.minCoeff();
-  if (file.scene.contact()) s.zone = contact_zone(answer.space, answer.problem, solution);
+  if (file.scene.contact()) {
+    const NormalContact normal = normal_contact(answer);
+    s.zone = contact_zone(answer.space, normal.problem, normal.solution);
+  }
+  const Eigen::Index size = answer.space.size(), components = solution.u.size() / size;
+  s.at.resize(static_cast<Eigen::Index>(file.at.size()), 2 + components);
+  if (s.at.rows() > 0) {
+    const PointValues values(answer.space);
+    for (Eigen::Index i = 0; i < s.at.rows(); ++i) {
+      const Eigen::Vector2d& x = file.at[i];
+      const auto place = values.locate(x, 1e-9);
+      if (!place)
+        throw Error(fmt::format("{}: at.points: ({:g}, {:g}) is outside the mesh; accepted: points of body and layer",
+                                file.name, x(0), x(1)));
+      s.at.row(i).head<2>() = x;
+      for (Eigen::Index k = 0; k < components; ++k)
+        s.at(i, 2 + k) = values.value(solution.u.segment(k * size, size), *place);
+    }
+  }
   s.kkt = solution.kkt;
   s.contact_steps = solution.counters.contact;
   s.corrections = solution.counters.corrections;
@@ -152,6 +174,12 @@ void write_summary(const std::filesystem::path& path, const SceneFile& file, con
                      {"levels", summary.parallel->levels},
                      {"linear_iterations", summary.parallel->linear_iterations},
                      {"memory_mb", summary.parallel->memory_mb}};
+  for (Eigen::Index i = 0; i < summary.at.rows(); ++i) {
+    const auto& row = summary.at.row(i);
+    Json here = {{"x", row(0)}, {"y", row(1)}};
+    for (Eigen::Index k = 2; k < row.size(); ++k) here[row.size() == 3 ? "u" : k == 2 ? "u_x" : "u_y"] = row(k);
+    s["at"].push_back(here);
+  }
   if (certified != nullptr) s["certificate"] = certificate(file, *certified);
   s["warning"] = summary.warning;
   s["scene"] = question(file);
@@ -194,15 +222,22 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
   const bool contact = file.scene.contact().has_value();
   const auto write = [&](const std::filesystem::path& draft) {
     if (asked.csv) write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
-    VtuFields more{layer_stress(*answer.mesh, answer.solution.p), {}};
+    VtuFields more;
+    if (!file.elastic) more.p = layer_stress(*answer.mesh, answer.solution.p);
     if (contact) {
-      Eigen::MatrixX3d table = contact_table(answer.space, answer.problem, answer.solution);
-      table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
+      const NormalContact normal = normal_contact(answer);
+      Eigen::MatrixX3d table = contact_table(answer.space, normal.problem, normal.solution);
+      if (!file.scene.contact()->ceiling)                           // which presses downwards: a pressure below 0
+        table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
       if (asked.csv) write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
       more.pressure = table.col(2);
     }
-    if (asked.mesh) write_msh(draft / "mesh.msh", *answer.mesh);
-    if (asked.vtu) write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
+    if (asked.mesh) write_msh(draft / "mesh.msh", *answer.mesh, file.scene.edges());
+    const std::filesystem::path vtu = draft / "solution.vtu";
+    if (asked.vtu && file.elastic)
+      write_deformed_vtu(vtu, {answer.space, answer.space}, answer.solution.u, pressure_of(file, answer));
+    else if (asked.vtu)
+      write_vtu(vtu, answer.space, answer.solution.u, more);
     write_summary(draft / "summary.json", file, summary, answer.seconds, watch.seconds(), certified);
   };
   std::vector<std::string> stale = pieces_in(folder);

@@ -8,6 +8,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "antilock/core/error.hpp"
 #include "antilock/io/expression.hpp"
@@ -63,6 +64,23 @@ class Section {
     if (*value < 1 || *value > most) refuse(key, fmt::format("{} is out of range{}", *value, accepted));
     return static_cast<int>(*value);
   }
+  bool yes(const std::string& key) const {
+    const auto value = table_[key].value_exact<bool>();
+    if (!value || !*value) refuse(key, "is not true; accepted: true, or leave the key out");
+    return true;
+  }
+  /// [[key]]: its tables, named key[0], key[1], ...
+  std::vector<Section> sections(const std::string& key) const {
+    std::vector<Section> all;
+    if (!has(key)) return all;
+    const toml::array* array = table_[key].as_array();
+    if (array == nullptr || !array->is_array_of_tables())
+      refuse(key, fmt::format("{}; accepted: sections [[{}]]", what_stands_there(key), key));
+    for (const toml::node& node : *array)
+      all.emplace_back(file_, fmt::format("{}[{}]", key, all.size()), *node.as_table());
+    return all;
+  }
+  const toml::table& table() const { return table_; }
   std::optional<Section> section(const std::string& key) const {
     if (!has(key)) return std::nullopt;
     const toml::table* table = table_[key].as_table();

@@ -40,9 +40,9 @@ void read_format(MshLines& lines, MshFile& file) {
 }
 
 /// Records: dimension number "name".
-void read_names(MshLines& lines, MshFile& file) {
-  const std::map<std::string_view, int> known = {
-      {"body", 2}, {"layer", 2}, {"sigma", 1}, {"clamped", 1}, {"contact", 1}};
+void read_names(MshLines& lines, MshFile& file, std::map<std::string, int> known) {
+  const std::string named = known.empty() ? "" : ", and those that the scene names";
+  known.insert({{"body", 2}, {"layer", 2}, {"sigma", 1}, {"clamped", 1}, {"contact", 1}});
   lines.next_record("PhysicalNames", 1, "their number");
   const std::int64_t count = lines.count(0);
   for (std::int64_t i = 0; i < count; ++i) {
@@ -56,8 +56,8 @@ void read_names(MshLines& lines, MshFile& file) {
     const std::string name(line.substr(open + 1, close - open - 1));
     const auto group = known.find(name);
     if (group == known.end() || group->second != dimension)
-      lines.refuse(fmt::format("unknown {} group {}; accepted: surfaces body, layer; curves sigma, clamped, contact",
-                               dimension_names[dimension], in_quotes(name)));
+      lines.refuse(fmt::format("unknown {} group {}; accepted: surfaces body, layer; curves sigma, clamped, contact{}",
+                               dimension_names[dimension], in_quotes(name), named));
     for (const auto& [place, other] : file.names)
       if (other == name) lines.refuse(fmt::format("the group {} is named twice", in_quotes(name)));
     if (!file.names.emplace(Place{dimension, lines.integer(1)}, name).second)
@@ -178,7 +178,7 @@ void read_elements_4(MshLines& lines, MshFile& file) {
 
 }  // namespace
 
-MshFile read_sections(MshLines& lines) {
+MshFile read_sections(MshLines& lines, const std::map<std::string, int>& more) {
   if (!lines.next() || lines.line().substr(0, 11) != "$MeshFormat")
     lines.refuse_file("is no MSH file: it does not start with $MeshFormat; accepted: MSH 2.2 or 4.1, ASCII");
   MshFile file;
@@ -191,7 +191,7 @@ MshFile read_sections(MshLines& lines) {
     if (!seen.insert(section).second && section != "Comments")
       lines.refuse(fmt::format("a second {}", in_quotes('$' + section)));
     if (section == "PhysicalNames") {
-      read_names(lines, file);
+      read_names(lines, file, more);
     } else if (section == "Entities" && file.version_4) {
       read_entities(lines, file);
     } else if (section == "Nodes") {

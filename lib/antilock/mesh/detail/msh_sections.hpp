@@ -40,6 +40,7 @@ struct MshFile {
 constexpr std::array dimension_names = {"point", "curve", "surface", "volume"};
 
 /// Reads and checks every section that a mesh needs, 2.2 or 4.1; throws Error at the first fault.
-MshFile read_sections(MshLines& lines);
+/// `more`: the names that it may have beside body, layer, sigma, clamped and contact, with their dimensions.
+MshFile read_sections(MshLines& lines, const std::map<std::string, int>& more = {});
 
 }  // namespace antilock

@@ -1,0 +1,57 @@
+// Integrals over the edges of a group: what pulls there, and springs.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "antilock/core/error.hpp"
+#include "antilock/form/forms.hpp"
+
+namespace antilock {
+namespace {
+
+/// act(triangle, weight, values of the basis, value of f) at the Gauss points of each edge with the tag.
+template <class Act>
+void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
+  const TriangleMesh& mesh = space.mesh();
+  const auto [points, weights] = gauss_rule(space.element().degree() + 2);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const int e = mesh.triangle_edges(t, i);
+      if (mesh.edge_tag[e] != tag) continue;
+      for (Eigen::Index q = 0; q < points.size(); ++q) {
+        Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+        lambda((i + 1) % 3) = 1 - points(q);
+        lambda((i + 2) % 3) = points(q);
+        const Eigen::Vector2d x = point_in(mesh, t, lambda);
+        const double value = f(x(0), x(1));
+        if (!std::isfinite(value))
+          throw Error(fmt::format("edge: its value at ({:.6g}, {:.6g}) is not finite", x(0), x(1)));
+        act(t, weights(q) * mesh.edge_length(e) * value, space.element().basis(lambda));
+      }
+    }
+}
+
+}  // namespace
+
+Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g) {
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());
+  at_points(space, tag, g, [&](int t, double weighted, const Eigen::VectorXd& basis) {
+    for (Eigen::Index i = 0; i < basis.size(); ++i) load(space.unknowns()(t, i)) += weighted * basis(i);
+  });
+  return load;
+}
+
+Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Field& k) {
+  std::vector<Eigen::Triplet<double>> entries;
+  at_points(space, tag, k, [&](int t, double weighted, const Eigen::VectorXd& basis) {
+    if (weighted < 0) throw Error("spring: its stiffness is negative; accepted: 0 or more");
+    for (Eigen::Index i = 0; i < basis.size(); ++i)
+      for (Eigen::Index j = 0; j < basis.size(); ++j)
+        entries.emplace_back(space.unknowns()(t, i), space.unknowns()(t, j), weighted * basis(i) * basis(j));
+  });
+  Eigen::SparseMatrix<double> mass(space.size(), space.size());
+  mass.setFromTriplets(entries.begin(), entries.end());
+  return mass;
+}
+
+}  // namespace antilock
