@@ -150,6 +150,7 @@ py::dict run(const std::string& text, const std::string& folder, const std::stri
 
 py::dict certify_scene(const std::string& text, double accuracy, const std::string& folder) {
   const SceneFile file = scene_of(text, folder);
+  require_paper_problem(file, "certify");
   const CertifiedSolution found = [&] {
     const Unlocked unlocked;
     return solve_to(file.scene, make_mesh(file), {accuracy, Quantity::displacement, file.method.most_unknowns, {}, 1});

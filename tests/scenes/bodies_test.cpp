@@ -229,6 +229,16 @@ TEST(Bodies, RefuseWhatTheirGroupsDoNotSay) {
   }
 }
 
+TEST(Bodies, BeyondThePaperAreRefusedByTheDoorsThatDoNotKnowThem) {
+  for (const std::string name : {"coated_arch", "pressed_rubber"}) {
+    const TemporaryFolder folder;
+    const Outcome outcome = run_antilock(
+        "sweep " + in_shell(std::string(EXAMPLE_SCENES) + "/" + name + ".toml") + " --epsilon 1:1e-2:2", folder);
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_NE(outcome.err.find("sweep: does not know "), outcome.err.npos) << outcome.err;
+  }
+}
+
 TEST(Bodies, OnTwoFeetHaveNoVentcelLayer) {
   const OnMesh file(bridge(8), "[layer]\nepsilon = 0\nmodel = \"ventcel\"\n", "1");
   EXPECT_EQ(file.run->outcome.status, 2);

@@ -410,6 +410,8 @@ TEST(Certificate, RefusesWhatItCannotProve) {
   expect_refused([&] { certify(run.scene, conforming, p1_problem, p1_solution); }, "element P1");
   const Answered ventcel(structured_mesh(4, {0}), Scene({paper_load}, VentcelLayer{}, UnilateralContact{}));
   expect_refused([&] { ventcel.certified(); }, "epsilon = 0");
+  const Answered stiff(structured_mesh(4, {0}), Scene(Body{paper_load, [](double, double) { return 2.0; }}));
+  expect_refused([&] { stiff.certified(); }, "no flux for a stiffness");
   Companion low = p1_companion(p1_solution);
   for (const int i : p1_problem.contact) low.at_vertices(i) -= 0.1;
   expect_refused([&] { certify(run.scene, run.space, run.problem, run.solution, {.companion = &low}); },

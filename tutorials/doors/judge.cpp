@@ -135,6 +135,7 @@ int judge(int argc, char** argv) {
   if (const auto status = line.parse(argc, argv)) return *status;
 
   const SceneFile file = read_scene_file(scene);
+  require_paper_problem(file, "judge");
   const TriangleMesh mesh = read_msh(mesh_file.string());
   const Eigen::MatrixXd rows = read_csv(answer.string(), {"x", "y", "u"});
   std::optional<Space> space;

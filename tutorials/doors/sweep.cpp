@@ -80,6 +80,7 @@ int sweep(int argc, char** argv) {
   if (const auto status = line.parse(argc, argv)) return *status;
 
   SceneFile file = read_scene_file(scene);
+  require_paper_problem(file, "sweep");
   if (!std::holds_alternative<StiffLayer>(file.scene.layer()))
     throw Error(file.name + ": layer.model: epsilon does not vary in this scene; accepted: a scaled layer");
   std::vector<Scene> scenes;  // an epsilon out of range is refused here

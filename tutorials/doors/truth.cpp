@@ -135,6 +135,7 @@ int truth(int argc, char** argv) {
       "Example: printf 'x,y\\n0.25,-1\\n' | antilock truth tutorials/scenes/figure8.toml");
   if (const auto status = line.parse(argc, argv)) return *status;
   const SceneFile file = read_scene_file(scene);
+  require_paper_problem(file, "truth");
   const Eigen::MatrixXd points = read_csv(std::cin, "standard input", {"x", "y"});
   const std::optional<Truth> series = truth_of(file.scene);
   Known known = series ? by_series(*series, points, std::holds_alternative<StiffLayer>(file.scene.layer()))

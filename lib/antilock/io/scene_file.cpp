@@ -370,6 +370,12 @@ void check_elastic(const Section& root, const Scene& scene, const MethodRequest&
 
 }  // namespace
 
+void require_paper_problem(const SceneFile& file, const std::string& who) {
+  const std::string beyond = file.elastic ? "plane strain" : file.scene.beyond_the_paper();
+  if (!beyond.empty())
+    throw Error(fmt::format("{}: {}: does not know {}; accepted: a scene without it", file.name, who, beyond));
+}
+
 SceneFile read_scene_file(const std::filesystem::path& path) {
   return read_scene(read_text(path, printable(path.string(), 1000)), path);
 }

@@ -72,6 +72,10 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
 /// or load.f and contact.gap where these have no value on the body of a file.
 TriangleMesh make_mesh(const SceneFile& file);
 
+/// Throws Error, `FILE: WHO: ...`, for a scene that goes beyond the paper's problem: plane strain, or what
+/// Scene::beyond_the_paper names.
+void require_paper_problem(const SceneFile& file, const std::string& who);
+
 /// The mesh width to report: 1/cells of the refined mesh, or the longest edge of a mesh from a file and of one refined to an accuracy.
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh);
 

@@ -20,6 +20,8 @@ void check_request(const Scene& scene, const Space& space, const VariationalIneq
   if (space.element().name() != "CR")
     throw Error("certificate: element " + space.element().name() +
                 " has no flux in equilibrium; accepted: CR, and certified_distance to it");
+  if (const std::string beyond = scene.beyond_the_paper(); !beyond.empty())
+    throw Error("certificate: has no flux for " + beyond + "; accepted: a scene without it");
   if (std::holds_alternative<VentcelLayer>(scene.layer()))
     throw Error(
         "certificate: the Ventcel layer has no flux of its own; accepted: the scaled layer with epsilon = 0, which is "
