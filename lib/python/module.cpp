@@ -30,9 +30,9 @@ namespace {
 
 using Unlocked = py::gil_scoped_release;
 
-VariationalInequality problem_of(SparseMatrix a1, RowMatrix b, VectorXd m, VectorXd load, double compliance,
-                                 std::vector<int> fixed, VectorXd fixed_values, std::vector<int> contact,
-                                 VectorXd lower, VectorXd upper, VectorXd force_bound) {
+VariationalInequality problem_from(SparseMatrix a1, RowMatrix b, VectorXd m, VectorXd load, double compliance,
+                                   std::vector<int> fixed, VectorXd fixed_values, std::vector<int> contact,
+                                   VectorXd lower, VectorXd upper, VectorXd force_bound) {
   VariationalInequality problem{std::move(a1),
                                 std::move(b),
                                 std::move(m),
@@ -197,7 +197,7 @@ PYBIND11_MODULE(_antilock, module) {
 
   using P = VariationalInequality;
   py::class_<P>(module, "Problem")
-      .def(py::init(&problem_of))
+      .def(py::init(&problem_from))
       .def("solve", py::overload_cast<const P&, double>(&answer_of), "tolerance"_a = 1e-10,
            "The answer, to a relative error of u. Throws NotConverged, or Error for a problem that has none.")
       .def_readwrite("compliance", &P::compliance, "0 or more")
