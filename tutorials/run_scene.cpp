@@ -70,7 +70,7 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   solver = "active-set"         # (default), "uzawa", the paper's, or "petsc": PETSc, alone or under mpiexec
   tolerance = 1e-10             # relative, on the algebraic error; at most 1e-3
   accuracy = 1e-2               # refine until the proved relative error in the energy norm is at most this: [mesh] is
-                                # the first mesh then, the element is CR, the solver active-set
+                                # the first mesh then, the element CR unless another is named, the solver active-set
   of = "displacement"           # with accuracy: of the displacement (default) or of the "stress"
   most_unknowns = 2000000       # with accuracy: the limit
 
@@ -201,7 +201,8 @@ void answer_certified(const SceneFile& file, const TriangleMesh& first, const As
   };
   CertifiedSolution found = [&] {
     try {
-      const Accuracy accuracy{*method.accuracy, method.of, method.most_unknowns, {}, method.tolerance};
+      const Accuracy accuracy{*method.accuracy,        method.of, method.most_unknowns, {}, method.tolerance,
+                              &element(method.element)};
       return solve_to(file.scene, first, accuracy, progress);
     } catch (const NotConverged& failure) {
       throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
@@ -210,13 +211,13 @@ void answer_certified(const SceneFile& file, const TriangleMesh& first, const As
       throw Error(what.rfind(file.name, 0) == 0 ? what : file.name + ": method.accuracy: " + what);
     }
   }();
-  const SolveSeconds& spent = found.cr.solution.seconds;
+  const SolveSeconds& spent = found.answer.solution.seconds;
   const double factor = spent.analyse + spent.factor;
-  found.cr.seconds = {mesh_seconds, 0, factor, watch.seconds() - factor};
-  found.cr.warning = joined(found.cr.warning, polygon_warning(file, first));
-  told(asked, file, found.cr, report, &found);
+  found.answer.seconds = {mesh_seconds, 0, factor, watch.seconds() - factor};
+  found.answer.warning = joined(found.answer.warning, polygon_warning(file, first));
+  told(asked, file, found.answer, report, &found);
   fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
-             found.certificate.relative(method.of), found.history.size(), found.cr.space.free_count(),
+             found.certificate.relative(method.of), found.history.size(), found.answer.space.free_count(),
              asked.out.string());
 }
 

@@ -98,10 +98,12 @@ std::pair<Answer, std::optional<CertifiedSolution>> answer_of(const SceneFile& f
   auto mesh = std::make_shared<const TriangleMesh>(make_mesh(file));
   const double meshed = watch.lap();
   if (file.method.accuracy) {
-    const Accuracy asked{*file.method.accuracy, file.method.of, file.method.most_unknowns, {}, file.method.tolerance};
+    const Accuracy asked{*file.method.accuracy,     file.method.of,
+                         file.method.most_unknowns, {},
+                         file.method.tolerance,     &element(file.method.element)};
     CertifiedSolution found = solve_to(file.scene, *mesh, asked);
-    found.cr.seconds = {meshed, 0, 0, watch.lap()};
-    Answer answer = found.cr;
+    found.answer.seconds = {meshed, 0, 0, watch.lap()};
+    Answer answer = found.answer;
     return {std::move(answer), std::move(found)};
   }
   const Space space(*mesh, element(file.method.element));
@@ -159,7 +161,7 @@ py::dict certify_scene(const std::string& text, double accuracy, const std::stri
   return py::dict("energy_lower"_a = proof.energy_lower, "energy_upper"_a = proof.energy_upper,
                   "bound"_a = proof.displacement, "relative"_a = proof.relative(Quantity::displacement),
                   "layer_share"_a = proof.layer_share, "unknowns"_a = found.history.back().unknowns,
-                  "warning"_a = found.cr.warning);
+                  "warning"_a = found.answer.warning);
 }
 
 /// The exact solution and its table.

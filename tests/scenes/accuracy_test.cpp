@@ -1,10 +1,14 @@
 // An accuracy asked for in a scene file: the proof in the summary, and what is refused.
 #include <nlohmann/json.hpp>
+#include <numbers>
 
-#include "antilock/exact/truth.hpp"
+#include "antilock/exact/truth_table.hpp"
 #include "antilock/io/writers.hpp"
+#include "antilock/measure/errors.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/msh_file.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
 #include "scenes/runner.hpp"
 #include "support/bodies.hpp"
 #include "support/scenes.hpp"
@@ -63,6 +67,53 @@ TEST(Accuracy, GoesWithABodyFromAFile) {
   EXPECT_LE(run.summary()["certificate"]["relative"], 0.1);
 }
 
+TEST(Accuracy, IsProvedOfP1AndP2Answers) {
+  for (const std::string element : {"P1", "P2"})
+    for (const double epsilon : {1.0, 0.3}) {
+      const SceneRun run(scene("accuracy = 0.2\nelement = \"" + element + "\"", fmt::format("epsilon = {}", epsilon)));
+      ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+      const auto summary = run.summary();
+      EXPECT_EQ(summary["element"], element);
+      EXPECT_LE(summary["certificate"]["relative"], 0.2);
+      const Truth truth(paper_sine_load(), epsilon, true, 14);
+      const TriangleMesh mesh = read_msh((run.results / "mesh.msh").string());
+      const Space space(mesh, antilock::element(element));
+      const VariationalInequality problem =
+          assemble(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
+      const Solution same = active_set(problem);  // the gap is 0: the same problem
+      EXPECT_NEAR(summary["energy"], energy(problem, same), 1e-9);
+      EXPECT_GE(summary["certificate"]["bound"],
+                measure_errors(space, same, epsilon, reference(TruthTable(truth))).energy);
+    }
+}
+
+TEST(Accuracy, OfALockedAnswerEndsWithWhatLocks) {
+  for (const std::string element : {"P1", "P2"}) {
+    const SceneRun run(scene("accuracy = 0.1\nelement = \"" + element + "\""));
+    EXPECT_EQ(run.outcome.status, 3);
+    EXPECT_NE(run.outcome.err.find(element + " locks in this layer"), std::string::npos) << run.outcome.err;
+    EXPECT_NE(run.outcome.err.find("in 1 level"), std::string::npos) << run.outcome.err;
+    EXPECT_EQ(run.outcome.err.find("can be reached"), std::string::npos) << run.outcome.err;
+    EXPECT_EQ(run.output.file_count(), 0);
+  }
+}
+
+TEST(Accuracy, OfACurveIsProvedOfItsPolygonAndSaysSo) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "arch.msh").string();
+  for (const double rise : {0.2, 0.0}) {
+    TriangleMesh mesh = unstructured_mesh(8, {0});
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+      mesh.vertices(v, 1) *= 1 + rise * std::sin(std::numbers::pi * mesh.vertices(v, 0));
+    write_msh(path, mesh);
+    const SceneRun run("[load]\nf = \"-5\"\n[contact]\n[mesh]\nkind = \"file\"\nfile = \"" + path +
+                       "\"\n[method]\naccuracy = 0.2\n");
+    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+    const std::string warning = run.summary()["warning"];
+    EXPECT_EQ(warning.find("proved of this polygon") != std::string::npos, rise > 0) << warning;
+  }
+}
+
 TEST(Accuracy, OutOfReachIsStatusThreeAndNoFiles) {
   const SceneRun run(scene("accuracy = 0.001\nmost_unknowns = 20000"));
   EXPECT_EQ(run.outcome.status, 3);
@@ -85,7 +136,7 @@ TEST(Accuracy, RefusesWithTheKey) {
   refused(scene("most_unknowns = 1000"), "method.most_unknowns: ");
   refused(scene("accuracy = 0.1\nmost_unknowns = 0"), "method.most_unknowns: ");
   refused(scene("accuracy = 0.1\nmost_unknowns = 50"), "cannot hold the first mesh");
-  refused(scene("accuracy = 0.1\nelement = \"P1\""), "method.element: ");
+  refused(scene("accuracy = 0.1\nelement = \"P1\"\nof = \"stress\""), "method.of: ");
   refused(scene("accuracy = 0.1\nsolver = \"uzawa\""), "method.solver: ");
   refused(scene("accuracy = 0.1", "epsilon = 0\nmodel = \"ventcel\""), "method.accuracy: ");
 }

@@ -39,6 +39,8 @@ TEST(AsSineLoad, IsRecognisedAndNothingElseIs) {
   EXPECT_FALSE(as_sine_load([](double x, double) { return x; }));
   EXPECT_FALSE(as_sine_load([](double x, double y) { return std::sin(M_PI * x) * std::exp(9 * y); }));
   EXPECT_FALSE(as_sine_load([](double x, double) { return std::sin(33 * M_PI * x); }));
+  EXPECT_FALSE(as_sine_load([](double x, double) { return std::sin(M_PI * x) + 1e-9 * x; }));
+  EXPECT_FALSE(as_sine_load([](double x, double) { return std::sin(M_PI * x) + (std::abs(x - 0.3003) < 1e-4); }));
 }
 
 TEST_F(Door, TruthGivesTheExactSolutionAtPoints) {
@@ -198,7 +200,29 @@ TEST_F(Door, LockcheckDiagnosesAndSolvesMatrices) {
   }
 }
 
+TEST_F(Door, JudgeKnowsWhatItsSeriesAndItsDiagnosisAreOf) {
+  TriangleMesh mesh = unstructured_mesh(8);
+  const Scene asked({paper_load}, StiffLayer{1e-4}, UnilateralContact{});
+  const auto told = [&](double times) {
+    const Space space(mesh, p1());
+    write_msh(folder / "mesh.msh", mesh);
+    hand_in(folder / "u.csv", space, times * active_set(assemble(asked, space)).u);
+    const Outcome outcome = ask("judge " + file("scene.toml", scene(1e-4)) + " " + in_shell(folder / "mesh.msh") + " " +
+                                in_shell(folder / "u.csv") + " --accuracy 0.3");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+  };
+  EXPECT_NE(told(1).find("P1 locks in this layer"), std::string::npos);
+  const std::string half = told(0.5);
+  EXPECT_EQ(half.find("P1 locks"), std::string::npos) << half;
+  EXPECT_NE(half.find("not the discrete solution on its mesh"), std::string::npos) << half;
+  EXPECT_NE(half.find("errors (exact)"), std::string::npos) << half;
+  for (int v = 0; v < mesh.vertex_count(); ++v) mesh.vertices(v, 1) *= mesh.vertices(v, 1) > 0 ? 0.9 : 1;
+  EXPECT_EQ(told(1).find("errors (exact)"), std::string::npos) << "the series is of the unit square";
+}
+
 TEST_F(Door, RefusesInOneLine) {
+  const std::string one = file("one.mtx", "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n");
   const std::string good = file("scene.toml", scene(1e-2)), points = file("points.csv", "x,y\n0.25,-1\n");
   for (const auto& [arguments, says] :
        {std::pair<std::string, std::string>{"", "antilock SUBCOMMAND"},
@@ -215,6 +239,10 @@ TEST_F(Door, RefusesInOneLine) {
              points + " " + points,
          "bad.mtx: line 3: the entry (3, 1) of a matrix 2 x 2"},
         {"lockcheck " + points + " " + points + " " + points, "no Matrix Market header"},
+        {"lockcheck " + one + " " + one + " " + one, "accepted: a LOAD, --finer, or both"},
+        {"lockcheck " + one + " " + one + " " + one + " " +
+             file("huge.mtx", "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1e200\n"),
+         "accepted: a load whose energy is a number"},
         {"judge " + good + " " + points + " " + points, "points.csv"}}) {
     const Outcome told = ask(arguments);
     EXPECT_EQ(told.status, 2) << arguments;

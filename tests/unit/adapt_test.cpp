@@ -106,7 +106,7 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
         const std::string at = fmt::format("epsilon = {:g}, asked {:g}", epsilon, asked);
         EXPECT_LE(found.certificate.relative(of), asked) << at;
         EXPECT_GE(found.certificate.relative(of), asked / 2) << at;
-        const auto& [mesh, space, problem, solution, seconds, warning] = found.cr;
+        const auto& [mesh, space, problem, solution, seconds, warning] = found.answer;
         const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
         const auto exact = exact_errors(*mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
         EXPECT_LE(exact.displacement, found.certificate.displacement) << at;
@@ -136,8 +136,8 @@ TEST(SolveTo, IsCheapWhereTheSolutionIsLocal) {
   const Profile needle = [](double x) { return 0.1 - 0.12 * std::exp(-std::pow((x - 0.75) / 0.004, 2)); };
   const CertifiedSolution on_needle = solve_to(scene_of(paper_load, epsilon, {needle}), first_mesh(epsilon), {1e-1});
   EXPECT_LE(on_needle.history.back().unknowns, 5000);
-  EXPECT_TRUE(std::find(on_needle.cr.solution.active.begin(), on_needle.cr.solution.active.end(), true) !=
-              on_needle.cr.solution.active.end());
+  EXPECT_TRUE(std::find(on_needle.answer.solution.active.begin(), on_needle.answer.solution.active.end(), true) !=
+              on_needle.answer.solution.active.end());
 }
 
 // Unknowns times the square of the error is the price of a family of meshes, whatever is asked. Adapted meshes are held

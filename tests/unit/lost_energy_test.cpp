@@ -157,6 +157,22 @@ TEST(LostEnergy, SeesTheThinLayerOf22AsItSees23) {
   EXPECT_NE(thin.report.warning.find("locks"), std::string::npos);
 }
 
+// Waves of the gap shorter than the edges: every v above them is far above u_h, which sinks in between its points.
+TEST(LostEnergy, IsToldByALawWhereTheGapIsFinerThanTheMesh) {
+  const UnilateralContact wild{
+      [](double x) { return 0.3 * (1 + std::cos(200 * std::numbers::pi * x)) - 0.3 * x * (1 - x); }};
+  for (const double epsilon : {1.0, 0.1, 0.05, 0.02}) {
+    const Scene scene({paper_load}, StiffLayer{epsilon}, wild);
+    const TriangleMesh mesh = unstructured_mesh(16);
+    const Space space(mesh, p1());
+    const VariationalInequality problem = assemble(scene, space);
+    const LayerReport report = *report_layer(scene, space, problem, active_set(problem));
+    EXPECT_FALSE(report.lost) << epsilon;
+    EXPECT_EQ(report.warning.find("by the law of bending") != std::string::npos, epsilon < 0.1)
+        << epsilon << report.warning;
+  }
+}
+
 TEST(LostEnergy, IsNoneWhereTheObstacleHoldsTheLayer) {
   // pressed down everywhere: the layer has nowhere to go, and a locked layer is the right one
   const Scene down({[](double x, double) { return -10 * std::sin(std::numbers::pi * x); }}, StiffLayer{1e-6},

@@ -69,8 +69,9 @@ inline Table accuracy_rows(const std::string& load, const Exact& exact, const st
   rows.add(row(answer, "bound", answer.bound));
   if (load != "paper") return rows;
   const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
-  rows.add(row(answer, "error",
-               relative_error(exact, load_scene(load, exact.epsilon), found.cr.space, found.cr.solution, v, of)));
+  rows.add(
+      row(answer, "error",
+          relative_error(exact, load_scene(load, exact.epsilon), found.answer.space, found.answer.solution, v, of)));
   return rows;
 }
 

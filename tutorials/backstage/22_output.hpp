@@ -69,7 +69,7 @@ inline void show_accuracies(const std::filesystem::path& out, const Table& answe
     const bool bisect = growth == Growth::bisect;
     const CertifiedSolution found =
         solve_to(scene, unstructured_mesh(8, {bisect ? 1.0 : 0.0}), {0.15, Quantity::displacement, 2e6, growth});
-    write_density(out / (bisect ? "bisected.vtu" : "extruded.vtu"), *found.cr.mesh, found.certificate.indicator);
+    write_density(out / (bisect ? "bisected.vtu" : "extruded.vtu"), *found.answer.mesh, found.certificate.indicator);
   }
 }
 

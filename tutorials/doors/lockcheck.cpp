@@ -104,11 +104,18 @@ int lockcheck(int argc, char** argv) {
 
   const VariationalInequality problem = read_problem(files);
   if (problem.b.rows() == 0) throw Error(files.b.string() + ": no row: nothing becomes stiff; accepted: a B with rows");
+  if (files.load.empty() && !line.given("--finer"))
+    throw Error(
+        "antilock lockcheck: nothing to do: one mesh without a load tells nothing; accepted: a LOAD, --finer, or both");
+  std::string diagnosis;
   if (line.given("--finer")) {
     finer.a1 = fine[0], finer.b = fine[1], finer.m = fine[2];
-    fmt::print("{}\n", diagnose_locking(problem, read_problem(finer)).text());
+    diagnosis = diagnose_locking(problem, read_problem(finer)).text();
   }
-  if (files.load.empty()) return 0;
+  if (files.load.empty()) {
+    fmt::print("{}\n", diagnosis);
+    return 0;
+  }
 
   Sweep sweep(problem);
   Table table({"compliance", "energy", "largest_u", "corrections", "kkt"});
@@ -117,14 +124,19 @@ int lockcheck(int argc, char** argv) {
   for (const double compliance : {1.0, 1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 0.0}) {
     sweep.set_compliance(compliance);
     const Solution solution = sweep.solve();
-    table.add({compliance, energy(sweep.problem(), solution), solution.u.lpNorm<Eigen::Infinity>(),
-               solution.counters.corrections, solution.kkt.residual});
+    const double j = energy(sweep.problem(), solution);
+    if (!std::isfinite(j))
+      throw Error(fmt::format("{}: the energy of the answer is {}; accepted: a load whose energy is a number",
+                              files.load.string(), j));
+    table.add(
+        {compliance, j, solution.u.lpNorm<Eigen::Infinity>(), solution.counters.corrections, solution.kkt.residual});
     answers.conservativeResize(answers.rows() + n, Eigen::NoChange);
     auto rows = answers.bottomRows(n);
     rows << Eigen::VectorXd::Constant(n, compliance), Eigen::VectorXd::LinSpaced(n, 0, double(n - 1)), solution.u,
         Eigen::VectorXd::Zero(n);
     rows(problem.contact, 3) = solution.lambda;
   }
+  if (!diagnosis.empty()) fmt::print("{}\n", diagnosis);
   table.print("the answers as the compliance tends to 0");
   if (!out.empty()) write_csv(out, {"compliance", "unknown", "u", "lambda"}, answers);
   return 0;

@@ -82,7 +82,7 @@ Known by_series(const Truth& truth, const Eigen::MatrixXd& points, bool layer) {
 Known by_certificate(const SceneFile& file, double accuracy, const Eigen::MatrixXd& points) {
   const CertifiedSolution found = certified(file, accuracy);
   Known known;
-  const auto& [mesh, space, problem, solution, seconds, warning] = found.cr;
+  const auto& [mesh, space, problem, solution, seconds, warning] = found.answer;
   const PointValues at(space);
   const bool scaled = std::holds_alternative<StiffLayer>(file.scene.layer());
   for (Eigen::Index i = 0; i < points.rows(); ++i) {

@@ -8,6 +8,9 @@
 
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/adapt/detail/marking.hpp"
+#include "antilock/analysis/detail/certified_distance.hpp"
+#include "antilock/analysis/detail/ties.hpp"
+#include "antilock/analysis/lost_energy.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/layered.hpp"
@@ -29,7 +32,50 @@ Growth growth_of(const Scene& scene) {
   return stiff != nullptr && stiff->epsilon <= thin ? Growth::extrude : Growth::bisect;
 }
 
+/// A conforming answer and what is proved of it, on the mesh of a Crouzeix-Raviart solution.
+struct Conforming {
+  Answer answer;
+  Companion v;
+  Certificate certificate;
+};
+
+Conforming conforming_answer(const Scene& scene, const Element& element,
+                             const std::shared_ptr<const TriangleMesh>& mesh,
+                             const std::function<Certificate(const Companion&)>& certified) {
+  const auto solved = [&](const Element& of) {
+    Answer answer{mesh, Space(*mesh, of), {}, {}, {}, ""};
+    answer.problem = assemble(scene, answer.space);
+    if (scene.contact() && of.degree() == 1) answer.problem.lower = admissible_bounds(*scene.contact(), answer.space);
+    answer.solution = active_set(answer.problem);
+    return answer;
+  };
+  Answer linear = solved(p1());
+  Companion v = p1_companion(linear.solution);
+  Certificate certificate = certified(v);
+  if (element.degree() == 1) return {std::move(linear), std::move(v), std::move(certificate)};
+  Answer own = solved(element);
+  certificate.displacement = certified_distance(certificate, v, own.space, own.problem, own.solution);
+  return {std::move(own), std::move(v), std::move(certificate)};
+}
+
+/// Of an answer that locks: what is told of it, where the unknowns that would be needed are more than the limit. The
+/// error's square is at least twice what is lost, and lost over kept falls like h^2 for P1 and h^4 for P2.
+std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate, const Accuracy& accuracy) {
+  const auto report = report_layer(scene, answer.space, answer.problem, answer.solution);
+  if (!report || !report->lost || report->warning.empty()) return "";
+  const LostEnergy energy = lost_energy(scene, answer.space, answer.problem, answer.solution);
+  const double enough = std::pow(accuracy.relative * (certificate.norm + certificate.displacement), 2) / 2;
+  const double now = *report->lost / (1 - *report->lost), then = enough / energy.motion;  // lost over kept
+  const double times = std::pow(now / then, 1.0 / accuracy.element->degree());            // the unknowns, as h^-2
+  return answer.space.free_count() * times > accuracy.most_unknowns ? report->warning : "";
+}
+
 void check_request(const Accuracy& accuracy) {
+  if (accuracy.element->degree() > (accuracy.element->conforming() ? 2 : 1) || accuracy.element->per_triangle() > 0)
+    throw Error("accuracy: element " + accuracy.element->name() + " is not accepted; accepted: CR, P1, P2");
+  if (accuracy.element->conforming() && accuracy.of != Quantity::displacement)
+    throw Error("accuracy: the stress is that of CR; accepted with element " + accuracy.element->name() +
+                ": the displacement");
   if (!(accuracy.relative > 0 && accuracy.relative < 1))
     throw Error(fmt::format("accuracy: {} is out of range; accepted: above 0, below 1", accuracy.relative));
   if (!(accuracy.most_unknowns >= 1))
@@ -119,14 +165,17 @@ Marking marking(const std::vector<Level>& history, int marks) {
   return marking;
 }
 
-[[noreturn]] void refuse(const Accuracy& accuracy, const std::vector<Level>& history, const std::string& why) {
+[[noreturn]] void refuse(const Accuracy& accuracy, const std::vector<Level>& history, const std::string& why,
+                         bool converges = true) {
   const Level& last = history.back();
   const double reachable = last.relative * std::sqrt(last.unknowns / accuracy.most_unknowns);
   throw NotConverged(
       fmt::format(
           "accuracy: {:.3g} is not reached within {:.0f} unknowns: {}; proved so far: {:.3g} with {} unknowns in "
-          "{} levels; within the limit about {:.2g} can be reached",
-          accuracy.relative, accuracy.most_unknowns, why, last.relative, last.unknowns, history.size(), reachable),
+          "{} level{}{}",
+          accuracy.relative, accuracy.most_unknowns, why, last.relative, last.unknowns, history.size(),
+          history.size() == 1 ? "" : "s",
+          converges ? fmt::format("; within the limit about {:.2g} can be reached", reachable) : ""),
       last.relative, static_cast<int>(history.size()));
 }
 
@@ -138,7 +187,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   Stopwatch watch;
   double seconds = 0;
   const Scene scene = with_layer_to_solve(asked);
-  const Growth growth = accuracy.growth.value_or(growth_of(scene));
+  const bool conforming = accuracy.element->conforming();
+  const Growth growth = accuracy.growth.value_or(conforming && !in_columns(first) ? Growth::bisect : growth_of(scene));
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   if (growth == Growth::extrude && stiff == nullptr)
     throw Error("accuracy: there is no scaled layer to extrude; accepted: growth by bisection");
@@ -154,7 +204,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
 
   CarriedContact contact_set;
   while (true) {
-    const Space space(now.mesh, crouzeix_raviart());
+    auto mesh = std::make_shared<const TriangleMesh>(now.mesh);
+    const Space space(*mesh, crouzeix_raviart());
     if (space.free_count() > accuracy.most_unknowns) {
       if (history.empty())
         throw Error(
@@ -180,9 +231,20 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       if (enough || tolerance <= CorrectionOptions{}.tolerance) break;
     }
     contact_set.keep(space, solution);
+    std::optional<Answer> answer;
+    if (conforming) {
+      Conforming own = conforming_answer(scene, *accuracy.element, mesh, [&](const Companion& companion) {
+        return certify(scene, space, problem, solution, {.factor = &factor, .companion = &companion});
+      });
+      answer = std::move(own.answer), v = std::move(own.v), certificate = std::move(own.certificate);
+    } else {
+      answer = Answer{mesh, space, std::move(problem), std::move(solution), {}, ""};
+    }
+    answer->warning = warning;
+    answer->solution.warning.clear();  // the certificate counts what the corrections left
     seconds += watch.lap();
     const double relative = certificate.relative(accuracy.of);
-    history.push_back({space.free_count(), certificate.bound(accuracy.of), relative, seconds});
+    history.push_back({answer->space.free_count(), certificate.bound(accuracy.of), relative, seconds});
     quote(history, accuracy.relative);
     if (progress) progress(history.back());
     if (relative <= accuracy.relative) {
@@ -191,15 +253,13 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       companion.u = std::move(v.at_vertices);
       companion.p = std::move(v.stress);
       if (v.layer)
-        for (int i = 0; i < now.mesh.vertex_count(); ++i)
-          if (now.mesh.vertices(i, 1) < 0) companion.u(i) = v.layer->value(now.mesh.vertices.row(i).transpose());
-      solution.warning.clear();  // the certificate counts what the corrections left
-      const auto mesh = std::make_shared<const TriangleMesh>(std::move(now.mesh));
-      return {{mesh, Space(*mesh, crouzeix_raviart()), std::move(problem), std::move(solution), {}, warning},
-              std::move(companion),
-              std::move(certificate),
-              std::move(history)};
+        for (int i = 0; i < mesh->vertex_count(); ++i)
+          if (mesh->vertices(i, 1) < 0) companion.u(i) = v.layer->value(mesh->vertices.row(i).transpose());
+      return {std::move(*answer), std::move(companion), std::move(certificate), std::move(history)};
     }
+    if (conforming)
+      if (const std::string why = locked(scene, *answer, certificate, accuracy); !why.empty())
+        refuse(accuracy, history, why, false);
     if (const double needed = history.back().quoted_unknowns; needed > accuracy.most_unknowns)
       refuse(accuracy, history, fmt::format("about {:.2g} are needed", needed));
     now = grown(now, growth, epsilon, certificate.indicator, marking(history, now.marks));

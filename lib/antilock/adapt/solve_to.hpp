@@ -18,8 +18,11 @@ struct Accuracy {
   Quantity of =
       Quantity::displacement;  ///< or the stress field in the middle of the two fluxes: a quarter of the unknowns
   double most_unknowns = 2e6;  ///< of Crouzeix-Raviart, on the last mesh
-  std::optional<Growth> growth = {};  ///< empty: columns for epsilon <= 0.1, else everything is bisected
-  double tolerance = 1;               ///< relative, on the algebraic error; no less than the certificate needs
+  std::optional<Growth> growth =
+      {};                ///< empty: columns for epsilon <= 0.1 (P1, P2: where the first mesh has them), else
+                         ///< everything is bisected
+  double tolerance = 1;  ///< relative, on the algebraic error; no less than the certificate needs
+  const Element* element = &crouzeix_raviart();  ///< or P1, P2, on the mesh as it is: displacement alone
 };
 
 /// One mesh on the way.
@@ -32,8 +35,8 @@ struct Level {
 
 /// The answer and its proof.
 struct CertifiedSolution {
-  Answer cr;  ///< Crouzeix-Raviart on the last mesh; its warning is empty, or what the certificate cannot see of
-              ///< the load
+  Answer answer;  ///< of the element asked for, on the last mesh; its warning is empty, or what the certificate cannot
+                  ///< see of the load
   Solution companion;  ///< the displacement that is certified: u at the vertices, p per layer triangle; where the layer
                        ///< is bisected at small epsilon it lives on columns there, u interpolates it and p is empty
   Certificate certificate;
@@ -45,8 +48,13 @@ struct CertifiedSolution {
 /// bisected. `first` is the first mesh, of any body; where the layer is extruded, one of the body alone will do, and
 /// the Ventcel layer is the scaled one with epsilon = 0. Refinement inherits its triangles' shapes: gmsh's at 1/h = 8
 /// cost 6 % more unknowns than a fine mesh of gmsh's own, those at 1/h = 16 1 %. `progress` is called after every level.
-/// Throws Error for an accuracy outside (0, 1), a limit that cannot hold the first mesh, a scene and a mesh that do not
-/// fit; NotConverged where the accuracy is not to be reached within the limit, with what is.
+///
+/// A P1 answer is the companion itself, in K between the vertices, too; Crouzeix-Raviart beside it gives the flux. A P2
+/// answer is as far from u as that P1 function is, and as it is from that (certified_distance). Where either locks, h
+/// must come down to epsilon first: an end that needs more than the limit is told at once, with what locks.
+///
+/// Throws Error for an accuracy outside (0, 1), another element, a limit that cannot hold the first mesh, a scene and a
+/// mesh that do not fit; NotConverged where the accuracy is not to be reached within the limit, with what is.
 CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const Accuracy& accuracy,
                            const std::function<void(const Level&)>& progress = {});
 

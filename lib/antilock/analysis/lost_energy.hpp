@@ -15,12 +15,13 @@ struct LostEnergy {
   double lost = 0;    ///< J(u_h) - J(v), a lower bound of J(u_h) - J(u): negative where v is the worse of the two
   double motion = 0;  ///< what the motion of the layer is worth: the larger of J(v_0) - J(v) and |v - v_0|_a^2 / 2, v_0
                       ///< the function whose layer is held at 0
+  double doubt = 0;   ///< what J(v) owes to bounds that keep v above the obstacle between its points, at most
   int unknowns = 0;   ///< of the problem solved for v
 
   double scale = 0;  ///< |J(u_h)|
 
-  /// The share that is lost, 0 to 1; 0 where the motion is worth less than 1e-8 of J(u_h). Empty where v has so
-  /// much more energy than u_h that it tells nothing: by a twentieth of the motion.
+  /// The share that is lost, 0 to 1; 0 where the motion is worth less than 1e-8 of J(u_h). Empty where v tells nothing: it
+  /// has more energy than u_h by a twentieth of the motion, or its doubt decides whether a twentieth is lost.
   std::optional<double> share() const;
 };
 

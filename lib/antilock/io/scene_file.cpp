@@ -288,7 +288,7 @@ MeshRequest read_mesh(const Section& section, const std::filesystem::path& folde
   return {kind, cells, {}, read_refinements(section, cells)};
 }
 
-/// An accuracy and what goes with it: the mesh is found, by Crouzeix-Raviart and the active set.
+/// An accuracy and what goes with it: the mesh is found, with the active set.
 void read_accuracy(const Section& section, MethodRequest& method) {
   for (const char* key : {"of", "most_unknowns"})
     if (section.has(key) && !section.has("accuracy"))
@@ -308,9 +308,9 @@ void read_accuracy(const Section& section, MethodRequest& method) {
   method.tolerance =
       std::min(MethodRequest::roughest_tolerance, 1e-2 * *method.accuracy);  // unless the scene says less
   if (!section.has("element")) method.element = "CR";
-  if (method.element != "CR")
-    section.refuse("element",
-                   "\"" + method.element + "\" has no flux to prove an accuracy by; accepted with accuracy: \"CR\"");
+  if (method.element != "CR" && method.of == Quantity::stress)
+    section.refuse(
+        "of", "\"stress\" is proved of CR alone; accepted with element = \"" + method.element + "\": \"displacement\"");
   if (method.solver != "active-set")
     section.refuse("solver", "\"" + method.solver + "\" does not go with accuracy; accepted: \"active-set\"");
 }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -112,10 +113,29 @@ void check_contact_side(const TriangleMesh& mesh, double bottom, double wanted) 
                             length, bottom, wanted));
 }
 
+/// Columns whose x a file has rounded are columns: from Sigma down, a layer edge that is off the vertical by no more than
+/// a file's digits is made vertical. At a tiny epsilon such an edge would tie its neighbours to each other.
+void straighten_columns(TriangleMesh& mesh) {
+  constexpr double digits = 1e-8;
+  std::vector<std::array<int, 2>> edges;  // of the layer, the upper vertex first
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    std::array<int, 2> ends{mesh.edges(e, 0), mesh.edges(e, 1)};
+    if (mesh.vertices(ends[0], 1) < mesh.vertices(ends[1], 1)) std::swap(ends[0], ends[1]);
+    if (mesh.vertices(ends[0], 1) <= slack && mesh.vertices(ends[1], 1) < -slack) edges.push_back(ends);
+  }
+  const auto y = [&](const std::array<int, 2>& edge) { return mesh.vertices(edge[0], 1); };
+  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return y(a) > y(b); });
+  for (const auto& [upper, lower] : edges) {
+    const Eigen::RowVector2d along = (mesh.vertices.row(upper) - mesh.vertices.row(lower)).cwiseAbs();
+    if (along(0) <= std::min(digits, 1e-3 * along(1))) mesh.vertices(lower, 0) = mesh.vertices(upper, 0);
+  }
+}
+
 TriangleMesh read_mesh_of(const SceneFile& scene_file) {
   const Scene& scene = scene_file.scene;
   const std::string path = scene_file.mesh.file.string();
   TriangleMesh mesh = read_msh(path, scene_file.groups);
+  if (scene.layer_depth() > 0) straighten_columns(mesh);
   const double depth = scene.layer_depth();
   const auto layered = [&] { return std::count(mesh.region.begin(), mesh.region.end(), Region::layer) > 0; };
   if (!layered() && std::holds_alternative<StiffLayer>(scene.layer())) {

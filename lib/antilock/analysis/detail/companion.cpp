@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "antilock/core/error.hpp"
 #include "antilock/mesh/layered.hpp"
@@ -191,7 +192,14 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
       if (fixed[v]) value(v) = companion.at_vertices(old);
     }
   }
-  if (scene.contact()) strip.lower = admissible_bounds(*scene.contact(), p1_space, prescribed);
+  std::map<double, double> above;  // near v on Gamma_C is u_CR on Sigma, at the same x
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    if (on_line[v] && !held[v]) above[mesh.vertices(v, 0)] = companion.at_vertices(v);
+  const Field near = [&](double x, double y) {
+    const auto found = above.find(x);
+    return found != above.end() ? found->second : prescribed ? prescribed(x, y) : 0;
+  };
+  if (scene.contact()) strip.lower = admissible_bounds(*scene.contact(), p1_space, near);
   strip.fixed.clear();
   for (int v = 0; v < columns.vertex_count(); ++v)
     if (fixed[v]) strip.fixed.push_back(v);
