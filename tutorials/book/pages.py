@@ -288,7 +288,7 @@ class Book:
     def sources_to_keep(self):
         """What the chapters are made of, in one file for all of them: on every page a copy of its own weighs more."""
         with zipfile.ZipFile(self.out / "sources.zip", "w", zipfile.ZIP_DEFLATED, compresslevel=9) as kept:
-            for pattern in ("tutorials/*.cpp", "tutorials/*/*.[ch]pp", "tutorials/scenes/*", "freefem/*.edp"):
+            for pattern in ("tutorials/*.cpp", "tutorials/*/*.[ch]pp", "tutorials/scenes/*.toml", "tutorials/scenes/*.msh", "freefem/*.edp"):
                 for path in sorted(ROOT.glob(pattern)):
                     kept.writestr(zipfile.ZipInfo(str(path.relative_to(ROOT))), path.read_bytes(), zipfile.ZIP_DEFLATED)
 
