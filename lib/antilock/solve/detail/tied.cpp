@@ -1,7 +1,10 @@
 #include "antilock/solve/detail/tied.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
+#include "antilock/core/error.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/detail/tuned.hpp"
 
@@ -34,9 +37,12 @@ Tied::Tied(const VariationalInequality& problem) : problem_(problem) {
   for (Eigen::Index row = 0; row < rows; ++row)
     for (RowMatrix::InnerIterator b(problem.b, row); b; ++b)
       stiffness(b.col()) += problem.m(row) * b.value() * b.value() / delta;
-  const double mean = stiffness.mean();
-  for (double& s : stiffness)
-    if (!(s > 0)) s = mean > 0 ? mean : 1;  // held by another bound
+  for (Eigen::Index j = 0; j < n; ++j)  // the tie would hide it from the factor but for round-off
+    if (fixed[j] == 0 && !(stiffness(j) > 0))
+      throw Error(
+          fmt::format("solve: unknown {} is held by nothing: A1 and B' M B are 0 there; accepted: a matrix A1 + "
+                      "B' M B that is positive definite on the free unknowns",
+                      j));
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index row = 0; row < rows; ++row)
     for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) entries.emplace_back(row, b.col(), b.value());
