@@ -87,6 +87,8 @@ class Book:
 
             def replaced(found):
                 to = self.link(found[3], where)
+                if to is None and found[1]:  # a picture that the book has not: its sentence
+                    return found[2]
                 return found[0] if to == found[3] else f"{found[1]}[{found[2]}]({to})" if to else f"`{found[3].lstrip('./')}`"
 
             def numbered(found):
