@@ -80,7 +80,7 @@ TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
       EXPECT_EQ(problem.lower(i), -0.5 * space.points()(problem.contact[i], 0));
   }
   const Space space(mesh, p1());
-  expect_refused([&] { stiff_problem(space, 0.1, {[nan](double x) { return x > 0 && x < 1 ? nan : 0; }}); },
+  expect_refused([&] { stiff_problem(space, 0.1, {[](double x) { return x > 0 && x < 1 ? nan : 0; }}); },
                  "is not finite");
 }
 
