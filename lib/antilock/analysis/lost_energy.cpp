@@ -308,7 +308,10 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
     for (SparseMatrix::InnerIterator entry(strip.a1, i); entry; ++entry)
       if (const int row = number[entry.row()]; row >= 0) a(row, number[i]) = entry.value();
   const Eigen::VectorXd residual = strip.load - strip.a1 * still;
-  if (!above.empty()) still(above) = Cholesky(std::move(a)).solve(Eigen::VectorXd(residual(above)));
+  if (!above.empty()) {
+    const Eigen::VectorXd solved = Cholesky(std::move(a)).solve(Eigen::VectorXd(residual(above)));
+    still(above) = solved;
+  }
   const double j = energy(strip, moved), j_still = still.dot(strip.a1 * still) / 2 - strip.load.dot(still);
   const Eigen::VectorXd way = moved.u - still;
   for (std::size_t i = 0; i < raised.size(); ++i) found.doubt += moved.lambda(Eigen::Index(i)) * raised[i];
