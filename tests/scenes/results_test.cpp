@@ -459,8 +459,8 @@ TEST(Results, TheMeshOfARunServesAsAMeshFile) {
   const SceneRun second(
       scene(layer("1e-3") + contact, "kind = \"file\"\nfile = \"" + (first.results / "mesh.msh").string() + "\"", cr));
   ASSERT_EQ(second.outcome.status, 0) << second.outcome.err;
-  // the same mesh, numbered the same way: the same numbers
-  EXPECT_EQ(second.summary()["energy"], first.summary()["energy"]);
+  // the same mesh, numbered the same way; gmsh's columns, off by 4e-13 at most, are made vertical where a file is read
+  EXPECT_NEAR(second.summary()["energy"].get<double>(), first.summary()["energy"].get<double>(), 1e-11);
 }
 
 TEST(Unreachable, ToleranceIsSaidInOneLineAndNothingIsWritten) {

@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "antilock/io/detail/scene_checks.hpp"
 #include "antilock/io/expression.hpp"
@@ -115,10 +114,9 @@ void check_contact_side(const TriangleMesh& mesh, double bottom, double wanted) 
 }
 
 /// Columns whose x a file has rounded are columns: from Sigma down, a layer edge that is off the vertical by no more than
-/// a file's digits is made vertical. At a tiny epsilon such an edge would tie its neighbours to each other. What is off
-/// by the last digits of a double stays: the mesh of a run is read back as it was.
+/// a file's digits is made vertical. At a tiny epsilon such an edge would tie its neighbours to each other.
 void straighten_columns(TriangleMesh& mesh) {
-  constexpr double digits = 1e-8, last_digits = 4 * std::numeric_limits<double>::epsilon();
+  constexpr double digits = 1e-8;
   std::vector<std::array<int, 2>> edges;  // of the layer, the upper vertex first
   for (int e = 0; e < mesh.edge_count(); ++e) {
     std::array<int, 2> ends{mesh.edges(e, 0), mesh.edges(e, 1)};
@@ -129,8 +127,7 @@ void straighten_columns(TriangleMesh& mesh) {
   std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return y(a) > y(b); });
   for (const auto& [upper, lower] : edges) {
     const Eigen::RowVector2d along = (mesh.vertices.row(upper) - mesh.vertices.row(lower)).cwiseAbs();
-    if (along(0) > last_digits && along(0) <= std::min(digits, 1e-3 * along(1)))
-      mesh.vertices(lower, 0) = mesh.vertices(upper, 0);
+    if (along(0) <= std::min(digits, 1e-3 * along(1))) mesh.vertices(lower, 0) = mesh.vertices(upper, 0);
   }
 }
 
