@@ -63,10 +63,9 @@ Conforming conforming_answer(const Scene& scene, const Element& element,
 std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate, const Accuracy& accuracy) {
   const auto report = report_layer(scene, answer.space, answer.problem, answer.solution);
   if (!report || !report->lost || report->warning.empty()) return "";
-  const LostEnergy energy = lost_energy(scene, answer.space, answer.problem, answer.solution);
   const double enough = std::pow(accuracy.relative * (certificate.norm + certificate.displacement), 2) / 2;
-  const double now = *report->lost / (1 - *report->lost), then = enough / energy.motion;  // lost over kept
-  const double times = std::pow(now / then, 1.0 / accuracy.element->degree());            // the unknowns, as h^-2
+  const double now = *report->lost / (1 - *report->lost), then = enough / report->motion;  // lost over kept
+  const double times = std::pow(now / then, 1.0 / accuracy.element->degree());             // the unknowns, as h^-2
   return answer.space.free_count() * times > accuracy.most_unknowns ? report->warning : "";
 }
 

@@ -347,7 +347,8 @@ std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, 
     return report;
   }
   try {
-    report.lost = lost_energy(scene, space, problem, solution).share();
+    const LostEnergy energy = lost_energy(scene, space, problem, solution);
+    report.lost = energy.share(), report.motion = energy.motion;
   } catch (const Error& error) {  // the answer stands, whatever becomes of what is told about it
     report.diagnosis += std::string("; what it costs is not known: ") + error.what();
     return report;

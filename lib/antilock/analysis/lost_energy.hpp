@@ -37,6 +37,7 @@ struct LayerReport {
   std::string
       warning;  ///< empty, or one sentence with the word "locks", the share, how it is known (proved; by a law where
                 ///< `lost` is empty) and the remedies
+  double motion = 0;  ///< LostEnergy::motion, what `lost` is a share of
 };
 /// Empty for a scene without a layer. The number is made for P1 and P2 alone, and on layers in columns for none:
 /// what can be told from the mesh costs nothing.
