@@ -21,8 +21,6 @@
 #include "antilock/io/detail/scene_results.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/io/scene_file.hpp"
-#include "antilock/solve/active_set.hpp"
-#include "antilock/solve/uzawa.hpp"
 #include "common/command_line.hpp"
 #include "common/tutorial.hpp"
 
@@ -126,37 +124,10 @@ ProgressHook follower(double most_seconds) {
   };
 }
 
-Solution solve(const VariationalInequality& problem, const MethodRequest& method, std::optional<double> penalty,
-               const ProgressHook& follow) {
-  const double tolerance = std::max(method.tolerance, MethodRequest::finest_tolerance);
-  Solution solution;
-  if (method.solver == "uzawa") {
-    UzawaOptions options;
-    options.tolerance = tolerance;
-    options.progress = follow;
-    solution = uzawa(problem, options);
-  } else {
-    ActiveSetOptions options;
-    options.corrections = corrections_to(tolerance);
-    options.corrections.progress = follow;
-    options.penalty = penalty;
-    solution = active_set(problem, options);
-  }
-  if (method.tolerance < tolerance)
-    throw NotConverged(fmt::format("{}: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
-                                   "double precision goes no further",
-                                   method.solver, tolerance, solution.counters.corrections, method.tolerance),
-                       tolerance, solution.counters.corrections);
-  return solution;
-}
-
-/// Both texts, or the one that is not empty.
-std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : "; ") + b; }
-
 /// What the command line asks for beside the scene.
 struct Asked {
   std::filesystem::path out;
-  std::string files = "summary,csv,mesh,vtu";
+  ResultFiles files;
   double most_seconds = std::numeric_limits<double>::infinity();
   bool restart = false, direct = false;
 };
@@ -166,8 +137,7 @@ void told(const Asked& asked, const SceneFile& file, Answer& answer, tutorial::R
           const CertifiedSolution* certified = nullptr) {
   Stopwatch watch;
   std::optional<LayerReport> layer = layer_report_of(file, answer);
-  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
-      stiff != nullptr && file.words.more.find("layer thickness") != std::string::npos)
+  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer()); stiff != nullptr && file.words.thickness)
     fmt::print("  layer: {:g} before a_x^-, {:g} before a_y^-\n", stiff->s,
                stiff->s / (stiff->epsilon * stiff->epsilon));
   if (layer) answer.warning = joined(layer->warning, answer.warning);
@@ -175,11 +145,11 @@ void told(const Asked& asked, const SceneFile& file, Answer& answer, tutorial::R
   report.stage("files");
   SceneSummary summary = summary_of(file, answer);
   summary.layer = std::move(layer);
-  write_scene_results(asked.out, file, answer, summary, certified, result_files(asked.files));
+  write_scene_results(asked.out, file, answer, summary, certified, asked.files);
   report.finish();
   if (!answer.warning.empty()) fmt::print("  warning: {}\n", answer.warning);
   const std::string name = (asked.out / "solution").string();
-  if (result_files(asked.files).vtu)
+  if (asked.files.vtu)
     fmt::print("  a picture of it: render {1} {0}.vtu --out {0}.png\n", name, file.elastic ? "deformed" : "surface");
 }
 
@@ -246,7 +216,7 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
 
   report.stage(fmt::format("solve: {}, {} unknowns", file.method.solver, answer.problem.free_count()));
   try {
-    answer.solution = solve(answer.problem, file.method, penalty_of(file, space), follower(asked.most_seconds));
+    answer.solution = solve_as_asked(file, space, answer.problem, follower(asked.most_seconds));
   } catch (const NotConverged& failure) {
     throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
   }
@@ -275,9 +245,10 @@ int main(int argc, char** argv) {
       "run_scene");
   std::filesystem::path scene;
   Asked asked;
+  std::string files = "summary,csv,mesh,vtu";
   line.add_required("SCENE", scene, "the scene file, in TOML");
   line.add("--out", asked.out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  line.add("--files", asked.files, "which files to write: any of summary, csv, mesh, vtu, with commas between them");
+  line.add("--files", files, "which files to write: any of summary, csv, mesh, vtu, with commas between them");
   line.add("--direct", asked.direct,
            "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
   line.add("--restart", asked.restart, "with solver = \"petsc\": start from the last level of a run that was ended");
@@ -292,7 +263,7 @@ int main(int argc, char** argv) {
     return fail(message, status);
   };
   try {
-    result_files(asked.files);  // a name that is none is refused before the work
+    asked.files = result_files(files);  // a name that is none is refused before the work
     answer(scene, asked, report, argv);
   } catch (const NotConverged& failure) {
     return failed(failure.what(), 3);

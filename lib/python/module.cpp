@@ -19,7 +19,6 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/uzawa.hpp"
 
 namespace py = pybind11;
 using namespace py::literals;
@@ -109,17 +108,9 @@ std::pair<Answer, std::optional<CertifiedSolution>> answer_of(const SceneFile& f
   const Space space(*mesh, element(file.method.element));
   Answer answer{mesh, space, problem_of(file, space), {}, {meshed, watch.lap(), 0, 0}, ""};
   const std::string load = load_warning(file, space, answer.problem);
-  if (file.method.solver == "uzawa") {
-    UzawaOptions options;
-    options.tolerance = file.method.tolerance, options.progress = not_interrupted;
-    answer.solution = uzawa(answer.problem, options);
-  } else {
-    answer.solution =
-        active_set(answer.problem, {corrections(file.method.tolerance), penalty_of(file, space), {}, 1000, {}});
-  }
+  answer.solution = solve_as_asked(file, space, answer.problem, not_interrupted);
   answer.seconds.solve = watch.lap();
-  for (const std::string& said : {answer.solution.warning, load, gap_warning(file, space, answer.solution)})
-    if (!said.empty()) answer.warning += (answer.warning.empty() ? "" : "; ") + said;
+  answer.warning = joined(joined(answer.solution.warning, load), gap_warning(file, space, answer.solution));
   return {std::move(answer), std::nullopt};
 }
 
@@ -132,8 +123,7 @@ py::dict run(const std::string& text, const std::string& folder, const std::stri
     found.emplace(answer_of(file));
     Answer& answer = found->first;
     std::optional<LayerReport> layer = layer_report_of(file, answer);
-    if (layer && !layer->warning.empty())
-      answer.warning = layer->warning + (answer.warning.empty() ? "" : "; ") + answer.warning;
+    if (layer) answer.warning = joined(layer->warning, answer.warning);
     summary = summary_of(file, answer);
     summary.layer = std::move(layer);
   }

@@ -52,14 +52,21 @@ Expression expression(const Section& section, const std::string& key, const std:
 }
 
 /// A field or a profile whose every value that is not finite names the file and the key.
-Field field(const Section& section, const std::string& key, const std::string& text) {
-  return [f = expression(section, key, text, {"x", "y"}), where = section.where(key)](double x, double y) {
+auto named(const Section& section, const std::string& key, const std::string& text,
+           const std::vector<std::string>& variables) {
+  return [f = expression(section, key, text, variables), where = section.where(key)](auto... at) {
     try {
-      return f(x, y);
+      return f(at...);
     } catch (const Error& error) {
       throw Error(where + error.what());
     }
   };
+}
+Field field(const Section& section, const std::string& key, const std::string& text) {
+  return named(section, key, text, {"x", "y"});
+}
+Profile profile(const Section& section, const std::string& key, const std::string& text) {
+  return named(section, key, text, {"x"});
 }
 /// The same where negative values are refused, and 0 unless `zero_too`.
 Field field_above(const Section& section, const std::string& key, const std::string& text, bool zero_too) {
@@ -69,15 +76,6 @@ Field field_above(const Section& section, const std::string& key, const std::str
       throw Error(fmt::format("{}is {:g} at ({:g}, {:g}); accepted: {} 0", where, value, x, y,
                               zero_too ? "at least" : "above"));
     return value;
-  };
-}
-Profile profile(const Section& section, const std::string& key, const std::string& text) {
-  return [f = expression(section, key, text, {"x"}), where = section.where(key)](double x) {
-    try {
-      return f(x);
-    } catch (const Error& error) {
-      throw Error(where + error.what());
-    }
   };
 }
 const char* const in_x_and_y = "an expression in x and y in quotes, as \"10*sin(2*pi*x)\"";
@@ -166,6 +164,7 @@ Layer read_layer(const Section& section, SceneWords& words) {
     section.refuse(key, fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon, model,
                                     numbers ? "0 < thickness <= 1" : accepted));
   words.model = model;
+  words.thickness = numbers;
   if (model == "ventcel") return VentcelLayer{};
   if (model == "thin") return ThinLayer{epsilon};
   StiffLayer layer{epsilon};

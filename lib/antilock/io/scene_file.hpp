@@ -35,6 +35,7 @@ struct MethodRequest {
 struct SceneWords {
   std::string load, gap, model, mesh, file;
   std::string more = {};  ///< JSON of the sections body, edge, at and model, and of the layer's numbers and the ceiling
+  bool thickness = false;  ///< the layer is given by its thickness and stiffness, not by epsilon
 };
 
 /// [model] kind = "plane strain": a block that is pressed down, of rubber or with a coating (models/).

@@ -2,9 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "antilock/analysis/locking.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/coating.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/solve/uzawa.hpp"
 
 namespace antilock {
 namespace {
@@ -45,20 +50,44 @@ VariationalInequality problem_of(const SceneFile& file, const Space& space) {
   return of_both;
 }
 
-std::optional<double> penalty_of(const SceneFile& file, const Space& space) {
-  const auto coating = coating_of(file);
-  return coating ? penalty(*coating, {space, space}) : std::nullopt;
+Solution solve_as_asked(const SceneFile& file, const Space& space, const VariationalInequality& problem,
+                        const ProgressHook& follow) {
+  const MethodRequest& method = file.method;
+  const double tolerance = std::max(method.tolerance, MethodRequest::finest_tolerance);
+  Solution solution;
+  if (method.solver == "uzawa") {
+    UzawaOptions options;
+    options.tolerance = tolerance;
+    options.progress = follow;
+    solution = uzawa(problem, options);
+  } else {
+    ActiveSetOptions options;
+    options.corrections = corrections_to(tolerance);
+    options.corrections.progress = follow;
+    if (const auto coating = coating_of(file)) options.penalty = penalty(*coating, {space, space});
+    solution = active_set(problem, options);
+  }
+  if (method.tolerance < tolerance)
+    throw NotConverged(fmt::format("{}: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
+                                   "double precision goes no further",
+                                   method.solver, tolerance, solution.counters.corrections, method.tolerance),
+                       tolerance, solution.counters.corrections);
+  return solution;
 }
 
+std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : "; ") + b; }
+
 NormalContact normal_contact(const Answer& answer) {
-  NormalContact normal{answer.problem, answer.solution};
+  const auto& [problem, solution] = std::tie(answer.problem, answer.solution);
   const std::size_t count = answer.space.contact().size();
-  normal.problem.contact.resize(count);
-  normal.solution.active.resize(count);
-  normal.problem.force_bound.resize(0);
-  if (normal.problem.upper.size() > static_cast<Eigen::Index>(count)) normal.problem.upper.resize(0);
-  normal.problem.lower.conservativeResize(static_cast<Eigen::Index>(count));
-  normal.solution.lambda.conservativeResize(static_cast<Eigen::Index>(count));
+  const auto all = static_cast<Eigen::Index>(count);
+  NormalContact normal;
+  normal.problem.contact.assign(problem.contact.begin(), problem.contact.begin() + all);
+  normal.problem.lower = problem.lower.head(all);
+  if (problem.upper.size() == all) normal.problem.upper = problem.upper;  // a ceiling; friction's are behind
+  normal.solution.u = solution.u;
+  normal.solution.lambda = solution.lambda.head(all);
+  normal.solution.active.assign(solution.active.begin(), solution.active.begin() + all);
   return normal;
 }
 

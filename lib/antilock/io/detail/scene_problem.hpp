@@ -1,5 +1,8 @@
 #pragma once
+#include <string>
+
 #include "antilock/analysis/lost_energy.hpp"
+#include "antilock/core/detail/progress.hpp"
 #include "antilock/io/scene_file.hpp"
 #include "antilock/measure/detail/answer.hpp"
 
@@ -8,10 +11,16 @@ namespace antilock {
 /// The discrete problem of a scene file on a space of its mesh: the scene's, or in plane strain that of two components in
 /// this space (size 2 N). Throws Error.
 VariationalInequality problem_of(const SceneFile& file, const Space& space);
-/// The penalty to solve it with; empty: the usual one.
-std::optional<double> penalty_of(const SceneFile& file, const Space& space);
+/// The solution by the solver and to the tolerance of [method]; `follow` may end it. Throws NotConverged, and where double
+/// precision goes no further than the tolerance asked for.
+Solution solve_as_asked(const SceneFile& file, const Space& space, const VariationalInequality& problem,
+                        const ProgressHook& follow);
 
-/// The normal bounds of an answer alone, by x: friction's stand behind them. What contact.csv and the zone are made of.
+/// Both texts, or the one that is not empty: warnings are a line.
+std::string joined(const std::string& a, const std::string& b);
+
+/// The normal bounds of an answer alone, by x: friction's stand behind them. What contact.csv and the zone are made of: the
+/// bounds with u, lambda and active, and no matrix.
 struct NormalContact {
   VariationalInequality problem;
   Solution solution;
