@@ -26,6 +26,5 @@ add_library(antilock::distributed ALIAS antilock_distributed)
 target_link_libraries(antilock_distributed PUBLIC antilock PkgConfig::PETSc MPI::MPI_CXX PRIVATE antilock_warnings)
 # MPI's C++ interface is not used, and its header is not free of warnings
 target_compile_definitions(antilock_distributed PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-set_target_properties(antilock_distributed PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
-target_compile_options(antilock_distributed PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+set_target_properties(antilock_distributed PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
 target_precompile_headers(antilock_distributed REUSE_FROM antilock_precompiled)

@@ -8,7 +8,6 @@ foreach(part spqr umfpack cholmod camd ccolamd colamd amd suitesparseconfig open
   find_library(SuiteSparse_${part}_LIBRARY ${part} PATH_SUFFIXES openblas-pthread)
   list(APPEND SuiteSparse_LIBRARIES ${SuiteSparse_${part}_LIBRARY})
   list(APPEND required SuiteSparse_${part}_LIBRARY)
-  mark_as_advanced(SuiteSparse_${part}_LIBRARY)
 endforeach()
 include(FindPackageHandleStandardArgs)
 find_package_handle_standard_args(SuiteSparse REQUIRED_VARS ${required})
