@@ -75,7 +75,8 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
 A mesh from a file has the physical groups body, layer (if the scene has one), clamped and contact. The body may be any
 shape on and above y = 0 with a bottom edge on that line; all of that edge is contact, or has the layer below it. A scaled
 layer that the file does not hold is grown below the contact edges, in columns. accuracy and "petsc" refuse what is new in
-[body], [[edge]], ceiling and the layer's numbers.
+[body], [[edge]], ceiling and the layer's numbers. Where a file of the same name, .geo or .brep, lies beside the mesh file,
+accuracy and refinements put the new vertices of the body's boundary on its curves (gmsh reads it; a .geo is a script).
 
 Written to the results folder: summary.json; solution.csv (x,y,u; in plane strain x,y,u_x,u_y); contact.csv (x,gap,pressure; with contact only), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
@@ -87,7 +88,7 @@ back to old kernels, the program starts again with wider ones; ANTILOCK_KEEP_KER
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
 motion that is lost at least (proved, for P1 and P2 in a layer without columns), kept is 1 - lost_energy;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
-polygon of the mesh, with load and gap as sampled; warning says what to
+polygon of the last mesh, with load and gap as sampled; warning says what to
 doubt: a layer that locks, an answer above the trusted error, a load that the mesh misses.
 Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8

@@ -25,8 +25,12 @@ int main() {
           const book::LiveNumbers n = figure.solve(epsilon, book::LiveTruth(epsilon));
           fmt::print("{{\"element\": \"{}\", \"mesh\": \"{}\", \"moved\": {}, \"cells\": {}, \"exponent\": {}, ",
                      element->name(), kind.name, kind.amount, cells, exponent);
-          fmt::print("\"kept\": {:.17g}, \"error\": {:.17g}, \"touching\": {}, \"largest\": {:.17g}}}\n",
-                     100 * n.largest_on_contact / n.ridge, n.error, n.touching, n.largest_on_contact);
+          fmt::print("\"kept\": {:.17g}, \"error\": {:.17g}, \"touching\": {}, ", 100 * n.largest_on_contact / n.ridge,
+                     n.error, n.touching);
+          std::string warning = figure.warning();  // its quotes, as JSON has them
+          for (std::size_t at = 0; (at = warning.find('"', at)) != std::string::npos; at += 2)
+            warning.insert(at, 1, '\\');
+          fmt::print("\"largest\": {:.17g}, \"warning\": \"{}\"}}\n", n.largest_on_contact, warning);
         }
       }
 }

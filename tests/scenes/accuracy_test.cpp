@@ -114,6 +114,66 @@ TEST(Accuracy, OfACurveIsProvedOfItsPolygonAndSaysSo) {
   }
 }
 
+// A body whose top is an arc of a circle through (0, 1), (1/2, 1 + rise) and (1, 1), first as a polygon of a few edges.
+// With the arc's .geo beside it the brackets of two first meshes meet; without it they belong to two polygons.
+TEST(Accuracy, OfACurveReturnsToTheGeometryBesideTheMesh) {
+  const TemporaryFolder folder;
+  const double rise = -0.1, radius = (0.25 + rise * rise) / (2 * -rise), centre = 1 + rise + radius;
+  const auto arc = [&](double x) { return centre - std::sqrt(radius * radius - (x - 0.5) * (x - 0.5)); };
+  const std::string geometry = fmt::format(
+      "Point(1) = {{0, 0, 0}}; Point(2) = {{1, 0, 0}}; Point(3) = {{1, 1, 0}}; Point(4) = {{0, 1, 0}};\n"
+      "Point(5) = {{0.5, {:.17g}, 0}};\nLine(1) = {{1, 2}}; Line(2) = {{2, 3}}; Line(4) = {{4, 1}};\n",
+      centre);
+  const auto run = [&](int cells, const std::string& curve, double row = 1,
+                       const std::string& more = "accuracy = 0.05") {
+    TriangleMesh mesh = structured_mesh(cells, {0});
+    for (int v = 0; v < mesh.vertex_count(); ++v) {
+      double& y = mesh.vertices(v, 1);
+      if (y > 0 && y < 1) y = 1 - (1 - y) * row;  // row < 1: flat triangles below the arc
+      y *= arc(mesh.vertices(v, 0));
+    }
+    write_msh(folder / "arch.msh", mesh);
+    std::filesystem::remove(folder / "arch.geo");
+    if (!curve.empty()) std::ofstream(folder / "arch.geo") << geometry << curve;
+    return SceneRun("[load]\nf = \"10\"\n[mesh]\nkind = \"file\"\nfile = \"" + (folder / "arch.msh").string() + "\"\n" +
+                    (more == "refinements" ? "refinements = 3\n" : "[method]\n" + more + "\n"));
+  };
+  const auto bracket = [&](int cells, const std::string& curve) {
+    const SceneRun found = run(cells, curve);
+    EXPECT_EQ(found.outcome.status, 0) << found.outcome.err;
+    const auto summary = found.summary();
+    const std::string of = summary["certificate"]["proved_of"], warning = summary["warning"];
+    EXPECT_EQ(of.find("on the curves of arch.geo") != std::string::npos, !curve.empty()) << of;
+    EXPECT_EQ(warning, "") << "four edges look like no curve";
+    return std::pair<double, double>(summary["certificate"]["energy_lower"], summary["certificate"]["energy_upper"]);
+  };
+  const std::string circle = "Circle(3) = {3, 5, 4};\n";
+  const auto coarse = bracket(2, circle), fine = bracket(4, circle), polygon = bracket(2, ""), other = bracket(4, "");
+  EXPECT_LT(std::max(coarse.first, fine.first), std::min(coarse.second, fine.second));
+  EXPECT_LT(polygon.second, other.first)
+      << "the polygon of two edges lies above that of four: a larger body, less energy";
+  EXPECT_LT(other.second, fine.first);
+
+  const SceneRun refinements = run(2, circle, 1, "refinements");
+  const TriangleMesh mesh = read_msh((refinements.output / "results/mesh.msh").string());
+  int on_top = 0;
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    if (const double x = mesh.vertices(v, 0); mesh.vertices(v, 1) > arc(x) - 1e-3) {
+      EXPECT_NEAR(mesh.vertices(v, 1), arc(x), 1e-8) << x;  // gmsh looks for the nearest point to 1e-9 of its parameter
+      ++on_top;
+    }
+  EXPECT_EQ(on_top, 17);
+
+  const auto refused = [&](const SceneRun& found, const std::string& why) {
+    EXPECT_EQ(found.outcome.status, 2);
+    EXPECT_NE(found.outcome.err.find(why), std::string::npos) << found.outcome.err;
+    EXPECT_EQ(found.output.file_count(), 0);
+  };
+  refused(run(2, "Line(3) = {3, 4};\n"), "arch.geo: no curve of it holds the edge of the boundary from");
+  refused(run(2, "Line(3) = {3, \n"), "syntax error");
+  refused(run(2, circle, 0.02), "for which the first mesh is too coarse: inverted");
+}
+
 TEST(Accuracy, OutOfReachIsStatusThreeAndNoFiles) {
   const SceneRun run(scene("accuracy = 0.001\nmost_unknowns = 20000"));
   EXPECT_EQ(run.outcome.status, 3);

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "antilock/core/error.hpp"
+#include "antilock/mesh/refine.hpp"
 
 namespace antilock {
 namespace {
@@ -58,6 +59,8 @@ TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangl
     }
   }
 
+  follow_geometry(mesh, middle, vertices);
+
   std::vector<std::array<int, 3>> pieces;
   std::vector<Region> region;
   const auto add = [&](int t, int a, int b, int c) {
@@ -93,7 +96,10 @@ TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangl
   Triples corners(static_cast<Eigen::Index>(pieces.size()), 3);
   for (std::size_t k = 0; k < pieces.size(); ++k)
     corners.row(static_cast<Eigen::Index>(k)) << pieces[k][0], pieces[k][1], pieces[k][2];
-  return make_triangle_mesh(std::move(vertices), std::move(corners), std::move(region), tagged, "bisected mesh");
+  TriangleMesh finer = make_triangle_mesh(std::move(vertices), std::move(corners), std::move(region), tagged,
+                                          refinement_name(mesh, "bisected mesh"));
+  finer.geometry = mesh.geometry;
+  return finer;
 }
 
 TriangleMesh longest_edge_first(TriangleMesh mesh) {

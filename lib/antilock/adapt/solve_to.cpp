@@ -108,8 +108,10 @@ TriangleMesh body_of(const TriangleMesh& mesh) {
     tagged.push_back(
         {number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag == EdgeTag::sigma ? EdgeTag::contact : tag});
   }
-  return make_triangle_mesh(std::move(points), std::move(triangles), std::vector<Region>(count, Region::body), tagged,
-                            "body");
+  TriangleMesh body = make_triangle_mesh(std::move(points), std::move(triangles),
+                                         std::vector<Region>(count, Region::body), tagged, "body");
+  body.geometry = mesh.geometry;
+  return body;
 }
 
 /// A contact set from one mesh to the next, by x: on the piece of the nearest unknowns on both sides, where they agree.

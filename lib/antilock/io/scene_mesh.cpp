@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "antilock/io/detail/scene_checks.hpp"
 #include "antilock/io/expression.hpp"
@@ -131,6 +132,17 @@ void straighten_columns(TriangleMesh& mesh) {
   }
 }
 
+/// A .geo or .brep file of the same name beside the mesh file is what refinement returns to; held against the boundary.
+void find_geometry(TriangleMesh& mesh, const std::filesystem::path& file) {
+  for (const char* kind : {".brep", ".geo"})
+    if (auto beside = file; std::filesystem::is_regular_file(beside.replace_extension(kind)))
+      mesh.geometry = beside.string();
+  Points middles(mesh.edge_count(), 2);
+  std::vector<int> all(mesh.edge_count());
+  std::iota(all.begin(), all.end(), 0);
+  follow_geometry(mesh, all, middles);
+}
+
 TriangleMesh read_mesh_of(const SceneFile& scene_file) {
   const Scene& scene = scene_file.scene;
   const std::string path = scene_file.mesh.file.string();
@@ -142,6 +154,7 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
     check_bottom_edge(mesh, EdgeTag::contact);
     mesh = extruded(mesh, *scene.epsilon());  // the layer grows below the body
   }
+  if (scene_file.method.accuracy || scene_file.mesh.refinements > 0) find_geometry(mesh, path);
   const bool has_layer = layered();
   try {
     if (has_layer && depth == 0)

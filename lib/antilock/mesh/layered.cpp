@@ -108,7 +108,10 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon) {
   for (std::size_t i = 0; i < vertices.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = vertices[i];
   Triples corners(static_cast<Eigen::Index>(triangles.size()), 3);
   for (std::size_t t = 0; t < triangles.size(); ++t) corners.row(static_cast<Eigen::Index>(t)) = triangles[t];
-  return make_triangle_mesh(std::move(points), std::move(corners), std::move(region), tagged, "extruded layer");
+  TriangleMesh mesh =
+      make_triangle_mesh(std::move(points), std::move(corners), std::move(region), tagged, "extruded layer");
+  mesh.geometry = body.geometry;
+  return mesh;
 }
 
 TriangleMesh layered_mesh(int cells, double epsilon) {

@@ -1,6 +1,54 @@
 #include "antilock/mesh/refine.hpp"
 
+#include <fmt/format.h>
+
+#include <numeric>
+#include <optional>
+
+#include "antilock/core/error.hpp"
+#include "antilock/mesh/detail/gmsh_session.hpp"
+
 namespace antilock {
+
+void follow_geometry(const TriangleMesh& mesh, const std::vector<int>& middle, Points& vertices) {
+  if (mesh.geometry.empty()) return;
+  constexpr double slack = 1e-6;  // of the mesh's size: mesh files have from 6 to 16 digits
+  const double size = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).maxCoeff();
+  // a session per call: gmsh has one global model, which the next mesh needs
+  const GmshSession gmsh;
+  const std::vector<int> curves = gmsh.read_curves(mesh.geometry);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const EdgeTag tag = mesh.edge_tag[e];
+    if (middle[e] < 0 || mesh.edge_triangles(e, 1) >= 0 || tag == EdgeTag::contact ||
+        mesh.region[mesh.edge_triangles(e, 0)] == Region::layer)
+      continue;
+    Eigen::Matrix3d asked = Eigen::Matrix3d::Zero(), found;  // both ends and the middle, a column each
+    asked.topLeftCorner<2, 1>() = mesh.vertices.row(mesh.edges(e, 0));
+    asked.block<2, 1>(0, 1) = mesh.vertices.row(mesh.edges(e, 1));
+    asked.col(2) = (asked.col(0) + asked.col(1)) / 2;
+    std::optional<double> nearest;
+    for (const int curve : curves) {
+      const std::vector<double> points = gmsh.nearest(curve, {asked.data(), asked.data() + 9});
+      found = Eigen::Map<const Eigen::Matrix3d>(points.data());
+      const Eigen::RowVector3d away = (found - asked).colwise().norm();
+      if (std::max(away(0), away(1)) > slack * size || (nearest && *nearest <= away(2))) continue;
+      nearest = away(2);
+      // a straight curve leaves the middle where it is, to the last digit
+      if (away(2) > slack * (asked.col(1) - asked.col(0)).norm()) vertices.row(middle[e]) = found.col(2).head<2>();
+    }
+    if (!nearest)
+      throw Error(
+          fmt::format("{}: no curve of it holds the edge of the boundary from {} to {}; accepted: the geometry "
+                      "that the mesh was made from, or no file of that name beside it",
+                      mesh.geometry, mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1))));
+  }
+}
+
+std::string refinement_name(const TriangleMesh& mesh, const std::string& how) {
+  return mesh.geometry.empty()
+             ? how
+             : how + " on the curves of " + mesh.geometry + ", for which the first mesh is too coarse";
+}
 
 TriangleMesh refined(const TriangleMesh& mesh) {
   const int corners = mesh.vertex_count();  // the midpoint of edge e becomes vertex corners + e
@@ -14,6 +62,9 @@ TriangleMesh refined(const TriangleMesh& mesh) {
     tagged.push_back({from, middle, mesh.edge_tag[e]});
     tagged.push_back({middle, to, mesh.edge_tag[e]});
   }
+  std::vector<int> middle(mesh.edge_count());
+  std::iota(middle.begin(), middle.end(), corners);
+  follow_geometry(mesh, middle, vertices);
   Triples triangles(4 * mesh.triangle_count(), 3);
   std::vector<Region> region;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -24,7 +75,10 @@ TriangleMesh refined(const TriangleMesh& mesh) {
     triangles.row(4 * t + 3) = m;
     region.insert(region.end(), 4, mesh.region[t]);
   }
-  return make_triangle_mesh(std::move(vertices), std::move(triangles), std::move(region), tagged, "refined mesh");
+  TriangleMesh finer = make_triangle_mesh(std::move(vertices), std::move(triangles), std::move(region), tagged,
+                                          refinement_name(mesh, "refined mesh"));
+  finer.geometry = mesh.geometry;
+  return finer;
 }
 
 }  // namespace antilock

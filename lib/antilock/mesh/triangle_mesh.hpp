@@ -35,6 +35,8 @@ struct TriangleMesh {
   Triples triangle_edges;         ///< T x 3 edges; edge i lies opposite vertex i
   Pairs edge_triangles;           ///< E x 2 triangles; the second is -1 on the boundary
   std::vector<EdgeTag> edge_tag;  ///< E; sigma where body meets layer, clamped or contact on the whole boundary
+  std::string geometry = {};      ///< a .geo or .brep file on whose curves the body's boundary has its vertices, and to
+      ///< which every refinement returns (mesh/refine.hpp); empty: the boundary is the polygon
 
   int vertex_count() const { return static_cast<int>(vertices.rows()); }
   int triangle_count() const { return static_cast<int>(triangles.rows()); }

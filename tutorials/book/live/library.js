@@ -16,10 +16,11 @@ antilock.data = (() => {
 antilock.library = async () => {
   const { module, files } = await antilock.data(), system = new antilockSystem.System({ files });
   let memory, said = "";
-  const thrown = (at) => {
+  const text = (at) => {
     const all = new Uint8Array(memory.buffer);
-    said = new TextDecoder().decode(all.slice(at, all.indexOf(0, at)));
+    return new TextDecoder().decode(all.slice(at, all.indexOf(0, at)));
   };
+  const thrown = (at) => { said = text(at); };
   const { exports } = await WebAssembly.instantiate(module, { page: { thrown }, wasi_snapshot_preview1: system.imports() });
   memory = system.memory = exports.memory;
   exports._initialize?.();
@@ -43,6 +44,7 @@ antilock.library = async () => {
         doubles(call("solve", element, epsilon), 10);
       return { largest, ridge, error, ms, unknowns, corrections, factorisations, touching, contact, from, kept: 100 * largest / ridge };
     },
+    warning: (element) => text(call("warning", element)),
     surface: (element) => {
       const at = call("surface", element), size = call("surface_size");
       return new Float32Array(memory.buffer, at, size).slice();

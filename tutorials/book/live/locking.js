@@ -31,11 +31,12 @@ antilock.figures.locking = async (box) => {
       <span class="live-key">exact u on Γ<sub>C</sub></span></div>
     <table class="live-table"><thead><tr><th></th><th>unknowns</th><th>error</th><th>corrections</th><th>in contact</th><th>from x</th><th>ms</th></tr></thead>
     <tbody>${names.map((name) => `<tr><th scope="row">${name}</th>${"<td></td>".repeat(6)}</tr>`).join("")}</tbody></table>
+    <p class="live-warning" role="status"></p>
     <p class="live-note">Both solved in <span id="live-ms"></span> ms. Error: the largest at the unknowns. Drag a picture to turn it, or use its arrow keys.
       Crouzeix–Raviart jumps between triangles: the white specks are its jumps.</p>
     <p class="live-said" role="status"></p>`;
   const parts = Object.fromEntries([...still.querySelectorAll("[id]")].map((part) => [part.id.slice(5), part]));
-  const at = (id) => parts[id], said = still.querySelector(".live-said");
+  const at = (id) => parts[id], said = still.querySelector(".live-said"), warning = still.querySelector(".live-warning");
   const canvases = [...still.querySelectorAll("canvas")], rows = [...still.querySelectorAll("tbody tr")];
   const paint = canvases.map((canvas) => {
     const places = [() => [0, -1.14, 0], () => [1, -1.14, 0], () => [1.13, 1, 0], () => [-0.05, 0, 0], () => [0.5, -1.14, 0], (r) => [0, -1, r + 0.03]];
@@ -87,6 +88,7 @@ antilock.figures.locking = async (box) => {
         library.discretise(i, mesh, cells, moved);
         solved[i] = library.solve(i, epsilon);
         solved[i].corners = library.surface(i);
+        solved[i].warning = library.warning(i);
       }
       ridge = library.ridge(epsilon, 65);
       draw();
@@ -100,6 +102,7 @@ antilock.figures.locking = async (box) => {
         rows[i].dataset.touching = s.touching;
       });
       at("ms").textContent = (solved[0].ms + solved[1].ms).toFixed(1);
+      warning.textContent = solved.map((s) => s.warning).filter(Boolean).join(" ");
       said.textContent = "";
       box.dataset.state = "ready";
       box.dataset.step = (performance.now() - began).toFixed(2);

@@ -69,6 +69,8 @@ EXPORT(solve) const double* solve(int element, double epsilon) {
   told([&] { numbers = figures[element]->solve(epsilon, truth_at(epsilon)); });
   return &numbers.largest_on_contact;
 }
+/// Of the last solve: empty, or the sentence of run_scene.
+EXPORT(warning) const char* warning(int element) { return figures[element]->warning().c_str(); }
 /// x, y, u per corner; `size` tells how many numbers there are. The same for the lines below.
 EXPORT(surface) const float* surface(int element) {
   picture = figures[element]->picture();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "antilock/analysis/lost_energy.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -46,6 +47,7 @@ LiveNumbers LiveFigure::solve(double epsilon, const LiveTruth& truth) {
   LiveNumbers numbers;
   numbers.milliseconds = 1e3 * watch.seconds();
   const Space& space = discrete_.space();
+  warning_ = report_layer(paper_scene(epsilon), space, sweep_.problem(), solution_)->warning;
   for (std::size_t i = 0; i < space.contact().size(); ++i) {
     const int unknown = space.contact()[i];
     numbers.largest_on_contact = std::max(numbers.largest_on_contact, solution_.u(unknown));

@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <vector>
 
 #include "antilock/exact/truth_table.hpp"
@@ -38,6 +39,8 @@ class LiveFigure {
 
   /// Solves (23), or (24) at epsilon = 0, and compares with the exact solution.
   LiveNumbers solve(double epsilon, const LiveTruth& truth);
+  /// What run_scene would say of the layer of the last solve: empty, or one sentence.
+  const std::string& warning() const { return warning_; }
   /// x, y, u of the three corners of every triangle, in the order of the mesh: 9 numbers per triangle.
   std::vector<float> picture() const;
   /// x, u_h and 1 (in contact) or 0 at every unknown of Gamma_C, by x: 3 numbers per unknown.
@@ -48,6 +51,7 @@ class LiveFigure {
   Discretisation discrete_;
   SceneSweep sweep_;
   Solution solution_;
+  std::string warning_;
 };
 
 /// x and the exact u at `points` places along Gamma_C: 2 numbers per place.

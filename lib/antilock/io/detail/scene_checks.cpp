@@ -130,7 +130,7 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
 }
 
 std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
-  if (file.mesh.kind != MeshRequest::Kind::file) return "";
+  if (file.mesh.kind != MeshRequest::Kind::file || !mesh.geometry.empty()) return "";
   constexpr double corner = 0.7071;  // the cosine of 45 degrees, what a regular octagon turns by
   std::vector<Eigen::RowVector2d> turn(mesh.vertex_count(), Eigen::RowVector2d::Zero());
   std::vector<double> cosine(mesh.vertex_count(), 1);  // of the turn at a vertex of the boundary
@@ -150,7 +150,7 @@ std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
   if (curved < 6) return "";
   return fmt::format(
       "mesh.file: the boundary turns a little at {} vertices, as the mesh of a curve does; what is proved is proved of "
-      "this polygon",
+      "this polygon; a .geo or .brep file beside the mesh file is what refinement returns to",
       curved);
 }
 

@@ -62,6 +62,9 @@ Json question(const SceneFile& file) {
 Json certificate(const SceneFile& file, const CertifiedSolution& certified) {
   const Certificate& proof = certified.certificate;
   Json levels = Json::array();
+  const std::string& geometry = certified.answer.mesh->geometry;
+  const std::string corners =
+      geometry.empty() ? "" : ", its corners on the curves of " + std::filesystem::path(geometry).filename().string();
   for (const Level& level : certified.history)
     levels.push_back({{"unknowns", level.unknowns}, {"bound", level.bound}, {"seconds", level.seconds}});
   return {{"asked", *file.method.accuracy},
@@ -70,7 +73,7 @@ Json certificate(const SceneFile& file, const CertifiedSolution& certified) {
           {"bound", finite("the certified error", proof.bound(file.method.of))},
           {"energy_lower", proof.energy_lower},
           {"energy_upper", proof.energy_upper},
-          {"proved_of", "the polygon of the mesh, with load and gap as sampled"},
+          {"proved_of", "the polygon of the last mesh" + corners + ", with load and gap as sampled"},
           {"levels", levels}};
 }
 

@@ -91,6 +91,26 @@ void GmshSession::generate() const {
   call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
 }
 
+std::vector<int> GmshSession::read_curves(const std::string& path) const {
+  call<decltype(gmshMerge)>("gmshMerge", path.c_str());
+  int* entities = nullptr;
+  std::size_t count = 0;
+  call<decltype(gmshModelGetEntities)>("gmshModelGetEntities", &entities, &count, /*dim*/ 1);
+  std::vector<int> tags;
+  const std::vector<int> all = taken(entities, count);  // dimension and tag
+  for (std::size_t i = 1; i < all.size(); i += 2) tags.push_back(all[i]);
+  return tags;
+}
+
+std::vector<double> GmshSession::nearest(int curve, std::vector<double> xyz) const {
+  double *points = nullptr, *parameters = nullptr;
+  std::size_t point_count = 0, parameter_count = 0;
+  call<decltype(gmshModelGetClosestPoint)>("gmshModelGetClosestPoint", 1, curve, xyz.data(), xyz.size(), &points,
+                                           &point_count, &parameters, &parameter_count);
+  free_by_gmsh(parameters);
+  return taken(points, point_count);
+}
+
 GmshSession::Nodes GmshSession::nodes() const {
   std::size_t *tags = nullptr, tag_count = 0, coordinate_count = 0, parameter_count = 0;
   double *coordinates = nullptr, *parameters = nullptr;

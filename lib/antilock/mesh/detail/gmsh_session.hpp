@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
-#include <span>
+#include <string>
 #include <type_traits>
 #include <vector>
 
@@ -43,6 +43,11 @@ class GmshSession {
   int add_surface(std::array<int, 4> lines) const;
   /// Hands the geometry to the mesher and makes triangles.
   void generate() const;
+
+  /// Reads a .geo or .brep file; the tags of its curves. Throws Error where gmsh cannot read it.
+  std::vector<int> read_curves(const std::string& path) const;
+  /// The points of a curve that are nearest to some points, three coordinates each.
+  std::vector<double> nearest(int curve, std::vector<double> xyz) const;
 
   struct Nodes {
     std::vector<std::size_t> tags;
