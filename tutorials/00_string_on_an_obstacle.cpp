@@ -24,15 +24,15 @@
 //
 // The first term is what it costs to stretch the string, the second what the load gains when the string gives way. The
 // floor allows only the shapes in $K = \{ v : v ≥ 0 \}$. This set is *convex*: the straight way between two of its
-// shapes stays in it. It is even a *cone*: with $v$ it contains $t v$ for every $t ≥ 0$.
+// shapes stays in it. It is even a *cone*: with a shape it contains each positive multiple of it.
 //
 // **Why $v - u$ and not $v$.** Without a floor one finds the shape of least energy as one finds the lowest point of a
-// parabola: the derivative of $J$ is 0 in every direction $v$, and $a(u, v) = L(v)$ for all $v$. Here this is too
-// much. If the string lies on the floor at its best shape $u$, a lower one may well have less energy, but it is not
-// allowed, and the derivative in that direction says nothing. So ask only about directions that stay in $K$. All of
-// them are of one kind: choose any allowed shape $v$ and go from $u$ straight towards it. The direction is $v - u$,
-// the points on the way are $u + t (v - u)$, and they are in $K$ for $0 ≤ t ≤ 1$, because $K$ is convex. As $u$ has
-// the least energy in $K$, the energy on the way is not below that of $u$:
+// parabola: the derivative of $J$ is 0 in every direction $v$, and $a(u, v) = L(v)$ for all $v$. Here this is too much.
+// If the string lies on the floor at its best shape $u$, a lower one may well have less energy, but it is not allowed,
+// and the derivative in that direction says nothing. So ask only about directions that stay in $K$. All of them are of
+// one kind: choose any allowed shape $v$ and go from $u$ straight towards it. The direction is $v - u$. The points on
+// the way are $u + t (v - u)$ with $0 ≤ t ≤ 1$, and they are allowed, because $K$ is convex. As $u$ has the least
+// energy of all allowed shapes, the energy on the way is not below its own:
 //
 // $$ 0 ≤ J(u + t(v - u)) - J(u) = t (a(u, v - u) - L(v - u)) + ½ t^2 a(v - u, v - u). $$
 //
@@ -41,31 +41,29 @@
 // $$ u ∈ K,   a(u, v - u) ≥ L(v - u)   for all v ∈ K. $$
 //
 // This is a *variational inequality*. It loses nothing. Put $t = 1$ into the first formula: $J(v) - J(u)$ is the sum of
-// two terms, the inequality says that the first is not negative, and the second is half of $a(v - u, v - u) ≥ 0$. So
-// $J(v) ≥ J(u)$ for each $v$ in $K$. Where the string is free, $v$ may be a little above or a little below $u$. Both
-// signs of $v - u$ are allowed, and $≥$ becomes the familiar $=$. Where the string touches, only the way up is allowed,
-// and $≥$ is all that can be said. So one inequality holds an equation where nothing touches and a sign where something
+// two terms. The inequality says that the first is not negative, and the second is half a square. So $J(v) ≥ J(u)$ for
+// each allowed $v$. Where the string is free, $v$ may be a little above or a little below $u$. Both signs of the
+// difference are allowed, and $≥$ becomes the familiar $=$. Where the string touches, only the way up is allowed, and
+// $≥$ is all that can be said. So one inequality holds an equation where nothing touches and a sign where something
 // does. Where one ends and the other begins is part of the answer.
 //
-// **The same as a picture.** Let $w$ be the string without a floor: $L(v) = a(w, v)$ for all $v$. Put this into the
-// inequality for $L(v - u)$: $a(u, v - u) ≥ a(w, v - u)$, or $a(w - u, v - u) ≤ 0$. Seen from $u$, the way to $w$ makes
-// no acute angle with the way to any $v$ in $K$. So $u$ is the *projection* of $w$ onto $K$: its nearest element, when
-// lengths are measured by $a(v, v)^{1/2}$.
+// **The same in a picture.** Let $w$ be the string without a floor: $L(v) = a(w, v)$ for all $v$. The inequality
+// becomes $a(u, v - u) ≥ a(w, v - u)$, or $a(w - u, v - u) ≤ 0$. Seen from $u$, the way to $w$ makes no acute angle
+// with a way to a $v$ in $K$. So $u$ is the *projection* of $w$ onto $K$: nearest there, with lengths $a(v, v)^{1/2}$.
 // :figure: projection
 //
-// **The multiplier is the contact force.** Now let $u$ and $v$ be linear between nodes $x_i = i h$, so that
-// $u = ∑ u_i φ_i$ with the hat functions $φ_i$. Such a $u$ is in $K$ if no $u_i$ is negative. Write $u$ for the vector
-// of the $u_i$ too. With the matrix $A_{ij} = a(φ_i, φ_j)$ and the vector $b_i = L(φ_i)$ the inequality reads
-// $(A u - b)^T (v - u) ≥ 0$. Call $λ = A u - b$ the *multiplier*: $A u = b + λ$, so it is the force that is missing for
-// equilibrium, and only the floor can exert it. What is known of it follows from three shapes $v$. Put $v = u + φ_i$:
-// $λ_i ≥ 0$. Put $v = 0$: $λ^T u ≤ 0$. Put $v = 2u$: $λ^T u ≥ 0$. So $λ^T u = 0$, and as no term $λ_i u_i$ of this sum is
-// negative, each is 0. For every inner node
+// **The multiplier is the contact force.** Now let the string be linear between the nodes $x_i = i h$, so that
+// $u = ∑ u_i φ_i$ with hat functions $φ_i$. It is in $K$ if none of its values at the nodes is negative. Write $u$ for
+// the vector of these values too. With the matrix $A_{ij} = a(φ_i, φ_j)$ and the loads $b_i = L(φ_i)$ the inequality
+// reads $(A u - b)^T (v - u) ≥ 0$. Call $λ = A u - b$ the *multiplier*: $A u = b + λ$, so it is the force that is
+// missing for equilibrium, and only the floor can exert it. What is known of it follows from three shapes. Put
+// $v = u + φ_i$: $λ_i ≥ 0$. Put $v = 0$: $λ^T u ≤ 0$. Put $v = 2u$: $λ^T u ≥ 0$. So $λ^T u = 0$, and as no term of this
+// sum is negative, each is 0. For every inner node
 //
 // $$ u_i ≥ 0,   λ_i ≥ 0,   λ_i u_i = 0,   A u = b + λ. $$
 //
-// The string is not below the floor; the floor only pushes; it pushes only where it is touched. Two numbers that are
-// not negative and have the product 0 are called *complementary*. The four together are the *KKT conditions* of
-// Karush, Kuhn and Tucker. Both programs below look for this pair.
+// The string is not below the floor; the floor only pushes, and only where it is touched. Two numbers that are not
+// negative and have the product 0 are *complementary*; the four are the *KKT conditions* of Karush, Kuhn and Tucker.
 
 #include <numbers>
 
@@ -103,14 +101,13 @@ struct Answer {
 };
 
 // ### Solve
-// **Active set.** Guess which nodes touch. There $u_i = $ floor; elsewhere $λ_i = 0$, and the equation gives $u$.
-// Then look at the signs: a node that sank below the floor should have touched; a node that the floor would have to
-// pull should not. When the guess repeats itself, all signs are right. The guess is called the *active set*.
+// **Active set.** Guess which nodes touch. There the string is on the floor; elsewhere there is no force, and the
+// equation gives the shape. Then look at the signs: a node that sank below the floor should have touched; a node that
+// the floor would have to pull should not. When the guess, the *active set*, repeats itself, all signs are right.
 //
 // It does repeat itself. A force upwards at one node lowers no other node: no entry of $A^{-1}$ is negative (such an
 // $A$ is an *M-matrix*). From the second guess on, each shape is the one before without the pull of the nodes that were
-// let go. So it lies above the one before, and no node comes back: the set can only shrink. For other matrices the loop
-// may go round.
+// let go. So it lies above the one before: no node comes back, the set only shrinks. Other matrices may cycle.
 Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
   Answer answer;
@@ -135,21 +132,21 @@ Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   return answer;
 }
 
-// **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor,
-// push more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$, with a number $ρ$ of
-// our choice, the length of the step. A pair that no step changes satisfies the KKT conditions: where $λ_i > 0$ it has
-// $u_i = floor$, and where $λ_i = 0$ it has $u_i ≥ floor$. The steps get there because each goes downhill, in
+// **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor, push
+// more; where it is above, push less, but never pull: $λ_i ← \max(0, λ_i - ρ (u_i - floor))$. The *step* $ρ$ is a
+// number of our choice. A pair that no step changes satisfies the KKT conditions: where there is a force the string is
+// on the floor, and where there is none it is not below. The steps get there because each goes downhill, in
 //
 // $$ D(λ) = ½ (b + λ)^T A^{-1} (b + λ) - floor ∑ λ_i,   λ ≥ 0, $$
 //
-// the energy that the string stores, less the work of the floor (the *dual* energy). Its gradient in $λ$ is
+// the energy that the string stores, less the work of the floor (the *dual* energy). Its gradient is
 // $A^{-1} (b + λ) - floor = u - floor$. The step goes against it, and the maximum projects back onto $λ ≥ 0$: this is a
-// *projected gradient* method. Its operator is $A^{-1}$, the *compliance*: force in, displacement out. A step multiplies
-// the part of the error that belongs to the eigenvalue $σ$ of $A^{-1}$ by $1 - ρσ$. $A$ has the eigenvalues
-// $4 \sin^2(kπh/2)/h$, so the $σ$ lie between about $h/4$ and $1/(π² h)$. Every $ρ < 2π² h$, which is 2 / largest $σ$, is
-// safe. The part with the smallest $σ$ is the slowest: its factor is $1 - ρ h/4$, at best about $1 - π² h²/2$. So halve
-// $h$, and a digit takes four times as many steps. The *condition number* $κ$ = largest / smallest eigenvalue, here
-// $4/(π² h²)$, says it in one number: the factor is $1 - 2/κ$.
+// *projected gradient* method. Its operator is $A^{-1}$, the *compliance*: force in, displacement out. A step
+// multiplies the part of the error that belongs to the eigenvalue $σ$ of the compliance by $1 - ρσ$. The eigenvalues of
+// $A$ are $4 \sin^2(kπh/2)/h$, so those of the compliance lie between about $h/4$ and $1/(π² h)$. Every step below 2 /
+// largest, $ρ < 2π² h$, is safe. The part with the smallest is the slowest: its factor is $1 - ρ h/4$, at best about
+// $1 - π² h²/2$. So halve $h$, and a digit takes four times as many steps. The *condition number* $κ$ = largest /
+// smallest eigenvalue, here $4/(π² h²)$, says it in one number: the factor is $1 - 2/κ$.
 Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
   const Cholesky factor(s.a);
   Answer answer{s.b, 0 * s.b};
@@ -162,15 +159,15 @@ Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
   return answer;
 }
 
-// **The truth.** Where the string is free it is $U(x) = α \sin 2πx + s x$ with $α = 10/(4π²)$, since $-u'' = f$. Contact
-// starts at $c$: $U(c) = 0$. A kink at $c$ would be a jump of $u'$ from a negative value up to 0, which only a pull can
-// hold. So $U'(c) = 0$. Both together say $\tan z = z$ for $z = 2πc$: $c = 0.715148...$ and $s = -2πα \cos z$.
+// **The truth.** Where the string is free it is $U(x) = α \sin 2πx + s x$, $α = 10/(4π²)$, since $-u'' = f$. Contact
+// starts at $c$, where $U$ is 0. A kink there would be a jump of $u'$ from a negative value up to 0, which only a pull
+// can hold. So $U'(c) = 0$, too. Both together say $\tan z = z$ for $z = 2πc$: $c = 0.715148...$, $s = -2πα \cos z$.
 //
 // **The discrete string.** With exact loads a free string is exact at its nodes. So left of the first node $x_j$ that
-// touches it is $U(x_i) - U(x_j) x_i/x_j$, which solves $-u'' = f$ and is 0 at both ends. As $U$ and $U'$ are 0 at $c$,
-// its error is about $|f(c)| (x_j - c)²/2$. If $x_j$ were more than half a cell to the right of $c$, the node before it
-// would lie below the floor. If it were more than half a cell to the left, the floor would have to pull at $x_j$. So
-// $x_j$ is the node nearest to $c$, up to a part of a cell that falls with $h$.
+// touches it is $U(x) - U(x_j) x/x_j$, which solves $-u'' = f$ and is 0 at both ends. As $U$ and its slope are 0 at
+// $c$, its error is about $|f(c)| (x_j - c)²/2$. If this node were more than half a cell to the right of $c$, the node
+// before it would lie below the floor. If it were more than half a cell to the left, the floor would have to pull at
+// it. So it is the node nearest to $c$, up to a part of a cell that falls with $h$.
 void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& report) {
   const String s = hang(options.cells);
   const double rho = 1.9 * pi * pi * s.h;
@@ -179,14 +176,8 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
   fmt::print("  linear solves: active set {}, Uzawa {}\n", active.solves, uzawa.solves);
   // ### Output
   const double from = tutorial::contact_starts(active.lambda), c = tutorial::touches_from(0);
-  VectorXd exact = active.u, expected = active.u;
-  for (int i = 0; i < active.u.size(); ++i) {
-    const double x = (i + 1) * s.h;
-    exact(i) = x < c ? tutorial::free_part(x) : 0;
-    expected(i) = x < from ? tutorial::free_part(x) - tutorial::free_part(from) * x / from : 0;
-  }
-  tutorial::write_string(options.out, guesses, active.lambda, exact);
-  tutorial::write_projection(options.out / "projection.csv");
+  const VectorXd expected = tutorial::discrete_string(options.cells, from);
+  tutorial::write_string(options.out, guesses, active.lambda, tutorial::exact_string(options.cells));
   const double left_over = (s.a * active.u - s.b - active.lambda).cwiseAbs().maxCoeff();
   report.claim(active.u.minCoeff() >= 0 && active.lambda.minCoeff() >= 0 && active.u.dot(active.lambda) == 0 &&
                    left_over <= 1e-12,  // round-off: 2e-14 on 128 cells
@@ -208,9 +199,9 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // :figure: string_steps
 //
 // (a) Nine of $2^{31}$. Each guess corrects the one before, and from the second one on they only shrink. (b) Four times
-// as many: the law of the last verdict is $1/h²$. Contact starts at 0.7151 and not at $1/2$, where the load turns down,
-// since the lifted half pulls its neighbour up. Where the string lies flat $u'' = 0$, so the pressure is $-f$: from the
-// first touch on, the floor carries the whole load.
+// as many, as the last verdict says. Contact starts at 0.7151 and not at the middle, where the load turns down, since
+// the lifted half pulls its neighbour up. Where the string lies flat it does not bend, so the pressure is $-f$: from
+// the first touch on, the floor carries the whole load.
 //
 // ## Exercises
 //

@@ -34,9 +34,10 @@
 //
 // **From (21) to (22).** Let $K_ε = \{ v : v = 0 on Γ_{D,ε}, v ≥ 0 on Γ_{C,ε} \}$, and $v ∈ K_ε$. Multiply the first
 // line by $v - u$ and integrate by parts on both parts. On $Σ$ the body leaves $∂_n u^+ (v - u)$ and the layer, whose
-// outward normal is $-n$, leaves $-ε^{-1} ∂_n u^- (v - u)$: they cancel, by the second line. On the clamped parts
-// $v - u = 0$. On $Γ_{C,ε}$ one term is left, the work of the pressure. It stands beside the load. It is not negative,
-// since $u ∂_n u = 0$, $∂_n u ≥ 0$ and $v ≥ 0$. Leave it out, and the equation becomes an inequality:
+// outward normal is $-n$, leaves $-ε^{-1} ∂_n u^- (v - u)$: they cancel, by the second line. Where the body or the
+// layer is clamped, both displacements are 0. On the side of the obstacle one term is left, the work of the pressure.
+// It stands beside the load. This work is not negative: by the third line the pressure does no work on $u$ and is
+// nowhere negative, and $v$ is nowhere negative either. Leave it out, and the equation becomes an inequality:
 //
 // $$ ε^{-1} ∫_{Γ_{C,ε}} ∂_n u (v - u) = ε^{-1} ∫_{Γ_{C,ε}} (∂_n u) v ≥ 0. $$
 //
@@ -56,9 +57,13 @@
 //
 // $$ a^+(u,v) = ∫_{Ω^+} ∇u·∇v,   a_x^-(u,v) = ∫_{Ω^-} ∂_x u ∂_x v,   a_y^-(u,v) = ∫_{Ω^-} ∂_y u ∂_y v. $$
 //
-// Write $Γ_D$ and $Γ_C$ for $Γ_{D,ε}$ and $Γ_{C,ε}$ after the change of variable: $Γ_C$ is the side $y = -1$. Write
-// $Ω$ for body and unit layer together, and $(f, v)$ for $∫_{Ω^+} f v$. Let $V$ be the displacements that are 0 on
-// $Γ_D$, and $K = \{ v ∈ V : v ≥ 0 on Γ_C \}$. Then the problem of this whole course reads
+// After the change of variable leave the $ε$ out of the names too: $Γ_C$ is the side $y = -1$, and $Γ_D$ is what is
+// clamped. Write $Ω$ for body and unit layer together, and $(f, v)$ for the work of the load. The displacements that
+// are allowed without and with the obstacle are
+//
+// $$ V = \{ v : v = 0 on Γ_D \},   K = \{ v ∈ V : v ≥ 0 on Γ_C \},   (f, v) = ∫_{Ω^+} f v, $$
+//
+// and the problem of this whole course reads
 //
 // $$ u ∈ K,   a^+(u, v-u) + a_x^-(u, v-u) + ε^{-2} a_y^-(u, v-u) ≥ (f, v-u)   for all v ∈ K. \tag{23} $$
 //
@@ -116,10 +121,10 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 //
 // Form and solution are the same on both domains, but for round-off (chapter 18). (a) Neither more nor less. A function
 // of $x$ alone has the energy $ε^{-1} ∫ |∂_x u|²$ on an area like $ε$: the two factors cancel. (b) More, like $ε^{-2}$.
-// A change across takes place over the depth $ε$. So the slope grows like $1/ε$, its square like $ε^{-2}$, and the same
-// two factors cancel. As $ε → 0$ this costs more than any load supplies: in the limit the displacement does not vary
-// across the layer. The stiff form enforces it, and a discretisation must be able to do it. That is what this course is
-// about.
+// A change across takes place over the thickness of the layer. So its slope grows like $1/ε$, the square of the slope
+// like $ε^{-2}$, and the same two factors cancel. As the layer becomes thinner this costs more than any load supplies:
+// in the limit the displacement does not vary across the layer. The stiff form enforces it, and a discretisation must
+// be able to do it. That is what this course is about.
 //
 // ## Exercises
 //

@@ -17,8 +17,8 @@
 // ## From (23) to matrices
 //
 // Let $φ_i$ be the hat function of vertex $i$ and $u = ∑ u_i φ_i$. Let $K_h$ be the set of the P1 functions in $K$: 0
-// at the clamped vertices, not negative at the vertices of $Γ_C$. The discrete problem, (26) in the paper, is (23)
-// with $K_h$ in place of $K$. Its solution is $u_h$. The moderate form becomes a matrix,
+// at the clamped vertices, not negative at those of $Γ_C$. The discrete problem, (26) in the paper, is (23) with $K_h$
+// in place of $K$. Its solution is $u_h$. The moderate form becomes a matrix,
 // $(A_1)_{ij} = a^+(φ_i, φ_j) + a_x^-(φ_i, φ_j)$. The stiff form keeps its factors. On a triangle $T$ of the layer
 // $∂_y u$ is a number; let row $T$ of $B$ compute it from $u$, and let $M$ be the diagonal matrix of the areas. Then
 //
@@ -90,35 +90,28 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
 // $$ A_1 u + B^T M p = L + λ,   B u = ε² p. $$
 //
 // No large number is left, and no division by $ε$. One matrix is factored, with a moderate number $δ$ where $ε²$ stood:
-//
-// $$ A_δ = A_1 + δ^{-1} B^T M B. $$
-//
-// It would solve another problem, that of a softer layer. So its answer is corrected until the two equations hold. What
-// they leave over for a given $u$ and $p$ are their *residuals*:
+// $A_δ = A_1 + δ^{-1} B^T M B$. It would solve another problem, that of a softer layer. So its answer is corrected
+// until the two equations hold. What they leave over for a given $u$ and $p$ are their *residuals*:
 //
 // $$ r_1 = L - A_1 u - B^T M p + λ,   r_2 = ε² p - B u. $$
 //
 // One *correction* solves $A_δ du = r_1 + δ^{-1} B^T M r_2$ and puts $dp = (B du - r_2)/δ$. Insert both: after it
-// $r_1 = 0$ and $r_2 = (ε² - δ) dp$. With $δ = ε²$ nothing would be left over. When $r_1 = r_2 = 0$ and the signs on
-// $Γ_C$ are right, $u$ and $p$ solve (26), whatever $δ$ was. This is the *iterated penalty* method.
+// $r_1 = 0$ and $r_2 = (ε² - δ) dp$. With $δ = ε²$ nothing would be left over. When both residuals are 0 and the signs
+// are right, $u$ and $p$ solve (26), whatever $δ$ was. This is the *iterated penalty* method.
 //
 // How fast? Let $r_1 = 0$, as after the first correction, and let $r_2$ be an eigenvector of $B A_1^{-1} B^T M$ with
-// the eigenvalue $σ$. A correction multiplies it by
-//
-// $$ \frac{δ - ε²}{δ + σ}. $$
-//
-// A small $δ$ is fast, but too small a $δ$ rounds the digits of $A_1$ away again.
+// the eigenvalue $σ$. A correction multiplies it by $(δ - ε²)/(δ + σ)$. A small $δ$ is fast, but too small a $δ$ rounds
+// the digits of $A_1$ away again.
 //
 // **The contact loop** runs in each correction, since the $λ$ in $r_1$ is not known beforehand. It is that of chapter
-// 00. Guess which vertices of $Γ_C$ touch. There $u + du = 0$, and the row of the vertex gives $λ$. Elsewhere $λ = 0$,
-// and the row is an equation for $du$. Solve, and look at the signs. So there are two loops, one in the other:
+// 00: guess what touches, solve, look at the signs. So there are two loops, one in the other:
 //
 // ```text
 // repeat                            until du no longer counts
 //   r1 without lambda, r2           from u and p
 //   repeat                          until the guess repeats itself
 //     du = -u where it touches, A_delta du = r elsewhere
-//     new guess by the signs of lambda and u + du
+//     lambda = A_delta du - r where it touches, new guess by the signs of lambda and u + du
 //   u += du,  p += (B du - r2) / delta
 // ```
 struct Answer {
@@ -175,12 +168,8 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
   const Table stresses = layer_stress(problem);
 
   // ### Output
-  history.print("the corrections");
-  history.write(options.out / "corrections.csv");
-  stresses.print("the layer stress");
-  const Space space(mesh, p1());  // says which vertex carries which number, for the picture
-  write_solution_csv(options.out / "solution.csv", space, u);
-  write_vtu(options.out / "solution.vtu", space, u);
+  const Space space(mesh, p1());  // says which vertex carries which number
+  tutorial::show_by_hand(options.out, space, u, history, stresses);
 
   // And now the library, from the scene to the answer.
   const VariationalInequality same = assemble(tutorial::paper_scene(options.epsilon), space);
@@ -199,10 +188,9 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 //
 // (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference of $u$ along it,
 // divided by its length $h$. So one row of $B$ couples two vertices of one vertical line, and never two lines. This is
-// chapter 02's kernel again: one function per line. (b) No, as the second table shows. $B u$ falls like $ε²$, and $p$,
-// their quotient, tends to the stress of the rigid layer. It is what holds the layer straight, and this takes a finite
-// force. The `du` of the corrections fall by a constant factor. After the first correction the contact set hardly
-// moves: one contact step is enough.
+// chapter 02's kernel: one function per line. (b) No, by the second table. $B u$ falls like $ε²$, and $p$, their
+// quotient, tends to the stress of the rigid layer, a finite force that holds it straight. The `du` of the corrections
+// fall by a constant factor. After the first the contact set hardly moves: one contact step is enough.
 //
 // ## The same loop in the library
 //

@@ -12,9 +12,9 @@
 // valley over the right half, where it presses the body on the obstacle. On the layer "its value along the normal to Σ
 // is constant and nonnegative over Ω⁻" (Section 4.1). So the layer shows a ridge, a function of $x$ alone.
 //
-// **Predict.** Push the layer from below, on $Γ_C$, with the pressure $\sin kπx$, which has $k$ half waves, and look
-// how far it gives way. (a) At $ε = 1$ layer and body are of one material. Twice as many half waves: how many times as
-// stiff is the answer? (b) And at $ε = 10^{-6}$, where the layer cannot vary across?
+// **Predict.** Push the layer from below with the pressure $\sin kπx$, which has $k$ half waves, and look how far it
+// gives way. (a) At $ε = 1$ layer and body are of one material. Twice as many half waves: how many times as stiff is
+// the answer? (b) And at $ε = 10^{-6}$, where the layer cannot vary across?
 //
 // ## A truth without a mesh
 //
@@ -22,7 +22,8 @@
 // fine mesh, by Uzawa's algorithm (chapter 21 measures what that costs), and takes this for the truth. Ours needs no
 // mesh. All of it follows from two ordinary differential equations, and every verdict of this course rests on them.
 //
-// All displacements are 0 at $x = 0$ and at $x = 1$, in the body and in the layer. So write them as sums of sines,
+// All displacements are 0 on the left and on the right side, in the body and in the layer. So write them as sums of
+// sines,
 //
 // $$ u(x, y) = ∑_k u_k(y) \sin kπx,   f = ∑_k f_k(y) \sin kπx,   a = kπ. $$
 //
@@ -31,32 +32,37 @@
 //
 // $$ u_k'' = a^2 u_k - f_k   (0 < y < 1),   ε^{-2} u_k'' = a^2 u_k   (-1 < y < 0). $$
 //
-// Both are solved by $\sinh$ and $\cosh$. On $Σ$ two things pass from the layer to the body: the displacement
-// $w = u_k(0)$, and the layer stress $p = ε^{-2} ∂_y u$, which must be the slope $∂_y u^+$ of the body. On top $u_k = 0$.
+// Both are solved by the hyperbolic sine and cosine. On $Σ$ two things pass from the layer to the body: the
+// displacement $w = u_k(0)$, and the layer stress $p = ε^{-2} ∂_y u$, which must be the slope $∂_y u^+$ of the body. On
+// top the body is clamped.
 //
-// **The body.** Hold $Σ$ at $w$. Without a load $u_k = w \sinh(a(1 - y))/\sinh a$, whose slope on $Σ$ is $-T w$. With
-// $w = 0$ the load alone leaves a slope there, the pull $g$:
+// **The body.** Hold its lower side at $w$. Without a load it is $u_k = w \sinh(a(1 - y))/\sinh a$, whose slope there
+// is $-T w$. If instead the lower side is held at 0, the load leaves a slope there, the pull $g$. Both together:
 //
 // $$ ∂_y u^+ = g - T w,   T = a \coth a,   g = ∫_0^1 f_k(y) \frac{\sinh(a(1 - y))}{\sinh a} dy. $$
 //
-// **The layer.** Let $c = u_k(-1)$ be the displacement on $Γ_C$ and $λ$ the pressure there. The outward normal points
-// down, so $p = -λ$ on $Γ_C$. With $κ = ε a$ and $z = a/ε$ the solution that starts so is, at the height $η = 1 + y$,
+// **The layer.** Let $c$ be the displacement of the side that may touch, and $λ$ the pressure there. The outward normal
+// points down, so $p = -λ$ on this side. The solution that starts so is, at the height $η = 1 + y$ above it,
 //
-// $$ u_k = c \cosh κη - (λ/z) \sinh κη,   p = z c \sinh κη - λ \cosh κη. $$
+// $$ u_k = c \cosh κη - (λ/z) \sinh κη,   p = z c \sinh κη - λ \cosh κη,   κ = ε a,   z = a/ε. $$
 //
-// **Together.** At $η = 1$ put this $u_k$ for $w$ and this $p$ for $∂_y u^+$ into the body's line, and solve for $λ$:
+// **Together.** At the top of the layer, $η = 1$, put its $u_k$ for $w$ and its $p$ for $∂_y u^+$ into the body's line,
+// and solve for the pressure:
 //
 // $$ λ = s c - q,   s_k(ε) = z \frac{T + z \tanh κ}{z + T \tanh κ},   q = \frac{g}{\cosh κ + (T/z) \sinh κ}. $$
 //
 // This is all that the obstacle feels of body and layer. The *symbol* $s_k(ε)$ is the stiffness against $k$ half waves.
-// For $ε → 0$, $z \tanh κ → a^2$ and $s_k → T + a^2$. A rigid layer resists like a string: $a^2$ comes from its own
-// energy along $x$. And $T ≈ a$ is the body's. But for $κ > 1$, that is for half waves of a length $1/k$ below $πε$,
-// about three times the thickness of the layer, $\tanh κ ≈ 1$ and $s_k ≈ a/ε$. Such a wave dies out in the layer before
-// it reaches $Σ$.
+// How large is it? For thin layers $z \tanh κ → a^2$, so
+//
+// $$ s_k(ε) → T + a^2   (ε → 0),   s_k(ε) ≈ a/ε   (κ > 1). $$
+//
+// A rigid layer resists like a string: $a^2$ comes from its own energy along $x$. And $T ≈ a$ is the body's. The other
+// case, $κ > 1$, is that of half waves shorter than $πε$, about three times the thickness of the layer. There
+// $\tanh κ ≈ 1$, and such a wave dies out in the layer before it reaches the body.
 // :figure: modes
 //
-// **The contact.** Left open are $c(x) = ∑ c_k \sin kπx$, the displacement on $Γ_C$, and the pressure
-// $λ(x) = ∑ (s_k c_k - q_k) \sin kπx$, with
+// **The contact.** Left open are the displacement $c(x)$ and the pressure $λ(x)$ on the side that may touch. Their sine
+// coefficients are $c_k$ and $s_k c_k - q_k$, by the last line, and the signs decide between them:
 //
 // $$ c ≥ 0,   λ ≥ 0,   λ c = 0. $$
 //

@@ -10,8 +10,7 @@
 //
 // **The picture.** Errors at ε = 0 under loads $f$ with $∫ f^2 = 1$: left under our load $\sin 2πx$, scaled to this
 // size, right under the worst load of this size, below the worst that was found with contact. *Follow P3 and P4 on the
-// unstructured mesh from the left panel to the right one.* The picture stands at the end of this page, because it
-// answers question (b).
+// unstructured mesh from the left panel to the right one.* It stands at the end of this page, because it answers (b).
 //
 // **Predict.** (a) Of all loads of this size, which one loses most where P1 locks: one arch $\sin πx$ or many short
 // waves, near $Σ$ or far from it? (b) At ε = 0 the layer of $P_p$ on an unstructured mesh has $p - 1$ functions left
@@ -45,13 +44,10 @@
 //
 // The sums end at $k^2 + (m - ½)^2 ≤ W^2$, $W = 2/h$. What do the later waves add? The layer only takes away: it holds
 // the body back, so the work $(f, S f)$ of a load is at most that of the same load on the free body, where a later wave
-// is divided by more than $(πW)^2$. In a conforming method the error is no larger than $u$ itself, by the formula above.
-// Hence a load of later waves has an error of at most $1/(πW)$, and all loads together
-//
-// $$ E_h^2 ≤ E_W^2 + (πW)^{-2},   E_W: the supremum over the waves up to W. $$
-//
-// The run prints both. (For Crouzeix–Raviart the gradient of $I_h u$ is the mean of that of $u$, chapter 08. So
-// $a_h(u, v_h) = a_h(I_h u, v_h)$, and this gives an eigenvalue, too; what the later waves add to it is not proved.)
+// is divided by more than $(πW)^2$. In a conforming method the error is no larger than $u$ itself, by the formula
+// above. Hence a load of later waves has an error of at most $1/(πW)$, and with $E_W$ for the waves up to $W$ alone
+// $E_h^2 ≤ E_W^2 + (πW)^{-2}$. The run prints both. (For Crouzeix–Raviart $a_h(u, v_h) = a_h(I_h u, v_h)$, by chapter
+// 08's means of gradients. This gives an eigenvalue, too; what the later waves add to it is not proved.)
 //
 // ## How much a space of this size must lose
 //
@@ -63,9 +59,8 @@
 // $$ E_h(0) ≥ ℓ_{d+1},   ℓ_k = |ψ_k| / (a \coth a + a^2)^{1/2},   a = kπ,   ψ_k = \sinh(a(1 - y))/\sinh a. $$
 //
 // Proof ($|ψ_k|$ is the $L^2$ norm on $(0, 1)$): let $e_k$ be $ψ_k \sin kπx$ in the body and $\sin kπx$ in the layer. It
-// is harmonic in the body. So for every $v$ with $∂_y v = 0$ in the layer $a(e_k, v)$ asks for the trace of $v$ on $Σ$ only:
-//
-// $$ a(e_k, v) = (a \coth a + a^2) ∫_Σ v \sin kπx. $$
+// is harmonic in the body. So for every $v$ with $∂_y v = 0$ in the layer $a(e_k, v)$ asks for the trace of $v$ on $Σ$
+// only: it is $(a \coth a + a^2) ∫_Σ v \sin kπx$.
 //
 // The traces of $G_h$ have dimension $d$, so "$a(z, v_h) = 0$ for all $v_h ∈ G_h$" is $d$ conditions. Some combination
 // $z ≠ 0$ of the $d + 1$ functions $e_1, ..., e_{d+1}$ fulfils them: the method cannot see it. Load the body with
@@ -103,8 +98,7 @@ const std::vector<Method> all_methods{{&p1(), structured()},
                                       {&p1(), mesh_family("layered")},
                                       {&crouzeix_raviart(), unstructured()},
                                       {&p2(), unstructured()}};
-constexpr const char *one_load = "our load", *ball = "worst load of the ball",
-                     *between = "worst load of the ball, between", *arches = "p arches, no contact",
+constexpr const char *one_load = "our load", *ball = "worst load of the ball", *arches = "p arches, no contact",
                      *contact = "contact, at least";
 
 // One method on one mesh: forms of the error, for all ε.
@@ -142,14 +136,9 @@ void judge(const Method& method, const Table& own, tutorial::Report& report) {
     return report.claim_within(climbs.last("error") / rigid.where("load", arches).number("error"), p == 1 ? 0.99 : 0.9,
                                p == 1 ? 1.01 : 1, fmt::format("{}: contact over no contact (observed)", name));
   }
-  Table suprema({"h", "supremum", "over_width", "ratio"});  // over ε first, then the order in h
-  for (const Entry& h : worst.different("h")) {
-    const Table here = own.where("load", ball).where("h", h);
-    const double supremum = here.most("error");
-    suprema.add({h, supremum, here.most("over_width"), supremum / here.where("epsilon", 1).number("error")});
-  }
+  const Table suprema = tutorial::suprema_over_epsilon(own.where("load", ball));  // then the order in h
   report.claim(suprema.most("ratio") < 1.02, "{}: locking ratio {:.4f} (observed)", name, suprema.most("ratio"));
-  const Table denser = own.where("load", between);
+  const Table denser = own.where("load", "worst load of the ball, between");
   report.claim(denser.most("error") < 1.001 * suprema.where("h", denser.first("h")).number("supremum"),
                "{}: twice as many epsilons leave the supremum as it is (observed)", name);
   report.claim_orders(suprema, "supremum", 0.85, 1.1, name + " on the ball");
@@ -178,7 +167,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       }
       if (n != finest / 2) continue;  // twice as many ε: the supremum must not change
       for (const double epsilon : {0.3, 0.03, 1e-3, 1e-6}) {
-        add(between, epsilon, on.worst(epsilon).error);
+        add("worst load of the ball, between", epsilon, on.worst(epsilon).error);
         add("our load, between", epsilon, on.ours(epsilon));  // for the picture
       }
       tutorial::draw_load(options.out, method, on.form.modes(), on.worst(0).load);
@@ -205,17 +194,15 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // the coarser mesh has half as many waves.) P1 layered is within a third of the width: of all spaces of as many
 // unknowns none could have less than three quarters of its worst error.
 //
-// (a) One arch, largest at $Σ$: $ψ_1 \sin πx$. Under our load P1 loses a quarter of that.
-// (b) No: three functions cannot fit four waves.
+// (a) One arch, largest at $Σ$: $ψ_1 \sin πx$; our load costs P1 a quarter. (b) No: three functions cannot fit four waves.
 // :figure: worst_loads
 //
-// Where nothing locks, the worst load sits on the worst triangles of the body. Where a method locks, it sits on the layer
-// and has the first wave that the kernel cannot hold.
+// Where nothing locks, the worst load sits on the body's worst triangles; else on the layer, in the first wave not
+// held.
 // :figure: families_by_epsilon
 //
-// **With contact** the climb finds nothing worse for P1 than one arch: it lifts the whole layer, and no point touches.
-// P2 loses less than under two arches without contact: where the load presses down, the layer lies on the obstacle, and
-// what does not move cannot be lost.
+// **With contact** the climb finds nothing worse for P1 than one arch, which lifts the whole layer: no point touches.
+// P2 loses less than under two arches without contact: where the load presses down, the layer does not move at all.
 //
 // ## Exercises
 //

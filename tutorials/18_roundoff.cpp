@@ -65,8 +65,7 @@
 //
 // Field lines do not follow meshes. So let the stiff lines of the layer have the slope 2. Those that meet a side are
 // held there, those from the right half of $Σ$ reach $Γ_C$ and move. A mesh with cells of $h × 2h$ in the layer has its
-// diagonals along them, which are columns for P1. On the structured mesh of Figure 3 and on the unstructured one no
-// edge follows a line.
+// diagonals along them, which are columns for P1. On the structured and the unstructured mesh no edge follows them.
 
 #include <Eigen/CholmodSupport>
 

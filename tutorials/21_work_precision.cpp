@@ -19,9 +19,8 @@
 //
 // A method is an element, a kind of mesh and a solver. Three solvers of (23): the primal-dual active set on $Γ_C$,
 // Uzawa with a Cholesky factor, and Uzawa as the paper ran it, with conjugate gradients and ILUT. Each point is the
-// median of five runs, without the seconds of mesh and assembly. A run that fails, or takes longer than the limit, is
-// drawn as failed; where time was the reason, finer meshes are not tried. No verdict is about seconds, which depend on
-// the machine.
+// median of five runs, without mesh and assembly. A run that fails, or takes longer than the limit, is drawn as failed;
+// where time was the reason, finer meshes are not tried. No verdict is about seconds: they depend on the machine.
 //
 // ## How many steps
 //

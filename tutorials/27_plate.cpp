@@ -5,10 +5,9 @@
 // Run: 27_plate --exercise 1
 // Run: 27_plate --exercise 2
 //
-// Needs: [07](07_kernel.cpp) for kernels, [08](08_crouzeix_raviart.cpp) for Crouzeix–Raviart (CR),
-// [13](13_uniform.cpp) for the supremum over ε, [25](25_beam.cpp) for the beam and its shear,
-// [26](26_elasticity.cpp) for the patch test. **Here ε is the parameter of the class (1) itself: $ε = t^2$**, the square
-// of the thickness $t$ but for a factor.
+// Needs: [07](07_kernel.cpp) for kernels, [08](08_crouzeix_raviart.cpp) for Crouzeix–Raviart (CR), [13](13_uniform.cpp)
+// for the supremum over ε, [25](25_beam.cpp) for the beam and its shear, [26](26_elasticity.cpp) for the patch test.
+// **Here ε is the parameter of the class (1) itself: $ε = t^2$**, the square of the thickness $t$ but for a factor.
 //
 // **The picture.** A round plate, clamped at its rim, is pressed on a flat obstacle at height $-1$. *With P1 a thin
 // plate does not move, whether its shear is integrated exactly or at one point. With two other elements on the same

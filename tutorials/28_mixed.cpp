@@ -6,31 +6,25 @@
 // Needs: [10](10_limits.cpp) for the limit, [12](12_contact_sets.cpp) for Definition 1 and the hidden slope,
 // [13](13_uniform.cpp) for Theorem 4, [14](14_estimates.cpp) for coercivity.
 //
-// **The picture.** P1 on the mesh on which it locks, but the strain across the layer is averaged before it is squared.
-// *Means over boxes of side $2h$ cure locking, if half of the stiff form is kept as it is. Each other average shown misses
-// one hypothesis of Theorem 4.*
+// **The picture.** P1 where it locks, but the strain across the layer is averaged before it is squared. *Means over
+// boxes of side $2h$ cure locking, if half of the stiff form is kept. The others miss a hypothesis of Theorem 4.*
 //
 // **Predict.** (a) The fewer conditions are asked, the less a method locks. What goes wrong if the strain is averaged over
 // a whole column of the layer? (b) And if all of the stiff form is averaged over boxes, none of it kept as it is?
 //
 // ## The third family of cures: another stiff form
 //
-// Mesh, element and degree change the discrete functions. A *mixed* method ([7] of the paper; [4], which appeared in 2005,
-// and [25] with contact) changes the stiff form instead. Write $B u$ for the strain that is squared in it, and $ε_c$ for the
-// class parameter: in (23) they are $∂_y u$ and $ε^2$. The stress $p$ is an unknown in a space $Q_h$ of its own, tied to the
-// strain by
-//
-// $$ ε_c (p, q) = (B u, q) \text{ for all } q ∈ Q_h. $$
-//
-// The right side sees of the strain only its projection on the space of stresses, $P_h B u$. So the stress is this
-// projection, divided by the class parameter. Put it into the equation of the displacement, and the stress is gone. What is
-// left is the problem with a *projected form* in place of $a_0$:
+// Mesh, element and degree change the discrete functions. A *mixed* method ([7] of the paper; [4], which appeared in
+// 2005, and [25] with contact) changes the stiff form instead. Write $B u$ for the strain that is squared in it, and
+// $ε_c$ for the class parameter: in (23) they are $∂_y u$ and $ε^2$. The stress $p$ is an unknown in a space $Q_h$ of
+// tied to the strain by $ε_c (p, q) = (B u, q)$ for all $q$ of this space. The right side sees of the strain only its
+// projection on the space of stresses, $P_h B u$. So the stress is this projection, divided by the class parameter. Put
+// into the equation of the displacement it leaves the problem with a *projected form* in place of $a_0$:
 //
 // $$ a_{0h}(u, v) = (P_h B u, P_h B v). $$
 //
-// To choose the stresses means to choose what is averaged. If they are constant on groups of triangles, the projection is
-// the mean over each group. In the library the rows of $B$ become these means (`averaged`). Averages over smaller groups ask
-// for more, and averages over larger groups ask for less.
+// To choose the stresses is to choose what is averaged. If they are constant on groups of triangles, the projection is
+// the mean over each group. In the library these means are the rows of $B$. Small groups ask for more, large for less.
 //
 // ## Theorem 4 for another stiff form
 //
@@ -69,16 +63,10 @@
 // If $ε_* > 0$, do the same with a $w$ of $K$ and $w_h$ of $K_h$. Then the stiff terms do not vanish. By (iv) they tend to
 // those with $a_0$, so the limit solves (1) at $ε_*$. ∎
 //
-// **(i) against (ii).** Let the groups shrink with $h$. Then (iii) and (iv) always hold. For in
-//
-// $$ (B v_h, q) = (P_h B v_h, q) + (B v_h, q - P_h q) $$
-//
-// the last term vanishes, because means over small groups come near $q$. With larger groups more functions are left, which
-// helps (ii). But the form sees less, which hurts (i). The way out (Arnold and Brezzi 1993, for plates) keeps half of $a_0$:
-//
-// $$ a_1 + ½ a_0 + (ε_c^{-1} - ½) a_{0h}. $$
-//
-// Then (i) holds with half of the α of $a_1 + a_0$.
+// **(i) against (ii).** Let the groups shrink with $h$. Then (iii) and (iv) always hold: $(B v_h, q)$ differs from
+// $(P_h B v_h, q)$ by $(B v_h, q - P_h q)$, which vanishes, because means over small groups come near $q$. Larger
+// groups leave more functions, which helps (ii), but the form sees less, which hurts (i). One way out (Arnold and
+// Brezzi 1993, for plates) keeps half of $a_0$: $a_1 + ½ a_0 + (ε_c^{-1} - ½) a_{0h}$. Then (i) holds with half the α.
 
 #include "backstage/28_mixed.hpp"
 #include "antilock/analysis/kernel.hpp"
@@ -141,24 +129,9 @@ Table measure(const Projection& way, int cells, const std::vector<Exact>& truth)
   return rows;
 }
 
-void judge(const Table& layer, const Truth& limit, tutorial::Report& report);
-
-void study(const tutorial::Options& options, tutorial::Report& report) {
-  const std::vector<Exact> truth =
-      tutorial::exact_solutions({1, 0.3, 0.1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-6, 1e-10, 1e-20, 0}, 14);
-  Table layer(tutorial::projection_columns);
-  for (const Projection& way : projections)
-    for (const int n : {8, 12, 16, 24, 32})
-      if (n <= options.cells) layer.add(measure(way, n, truth));
-  // ### Output
-  tutorial::show_projections(options.out, layer);
-  judge(layer, truth.back().truth, report);
-}
-
 void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
   const auto of = [&](const char* name) { return layer.where("name", name).where("epsilon", 0); };
   const auto sup = [&](const char* name) { return tutorial::supremum(layer.where("name", name), "h1", "epsilon"); };
-  const auto orders = [](const Table& rows, const char* what) { return tutorial::supremum(rows, what, "epsilon"); };
   // What has no function on the layer loses all of $u^0$ there.
   const double lost = layer_norm(limit);
   for (const char* name : {"P1 as it is", "patches (half kept)"})
@@ -166,10 +139,7 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
                  "(observed) {}: (ii) fails, u^0 stays {:.3f} away; so does the worst error, {:.3f}: |u^0| on the "
                  "layer is {:.3f}",
                  name, of(name).last("near"), of(name).last("h1"), lost);
-  // In the limit the $v$ that columns do not see are equal on Σ and on $Γ_C$: the slope that they hide (exercise 3).
-  using std::numbers::pi;
-  const double kappa = std::sqrt(pi * pi + 1), sum = kappa * kappa + pi * pi,
-               slope = pi * std::sqrt(0.5 * (0.5 - 2 * kappa / std::tanh(kappa / 2) / sum) / sum);
+  const double slope = tutorial::slope_hidden_by_columns();
   const Table columns_h = of("columns (half kept)");
   report.claim(columns_h.least("hidden") > 0.85 * slope && columns_h.most("hidden") < 1.02 * slope,
                "(proved) columns (half kept): (iii) fails, K_0h hides a slope of {:.3f}, in the limit {:.3f}",
@@ -178,7 +148,7 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
   report.claim(stays < 0.1, "(observed) and the worst error stays, {:.3f}, order {:.2f}", columns_h.last("h1"), stays);
   // A zigzag across the layer, of a wave length of some $h$, has energy from $∂_x$ alone: α ~ $h^2$.
   const Table alone = of("boxes (nothing kept)").where_number("alpha", [](double a) { return std::isfinite(a); });
-  const tutorial::Supremum alpha = orders(alone, "alpha");
+  const tutorial::Supremum alpha = tutorial::supremum(alone, "alpha", "epsilon");
   report.claim(alpha.low > 1.8 && alpha.high < 2.1,
                "(observed) boxes (nothing kept): (i) fails, alpha ~ h^{:.2f}, h^{:.2f}", alpha.low, alpha.high);
   const tutorial::Supremum grows = sup("boxes (nothing kept)");
@@ -197,7 +167,7 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
                    share);
   }
   for (const char* name : {"boxes (half kept)", "Crouzeix-Raviart"}) {
-    const tutorial::Supremum worst = sup(name), near = orders(of(name), "near");
+    const tutorial::Supremum worst = sup(name), near = tutorial::supremum(of(name), "near", "epsilon");
     const double ratio = worst.rows.last("worst") / layer.where("name", name).where("epsilon", 1).last("h1");
     report.claim(near.low > 0.9 && near.high < 1.1, "(observed) {}: (ii), u^0 is h^{:.2f} to h^{:.2f} from K_0h", name,
                  near.low, near.high);
@@ -208,6 +178,18 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
     report.claim(layer.where("name", name).most("corrections") <= 4, "(observed) {}: {} corrections at most", name,
                  layer.where("name", name).most("corrections"));
   }
+}
+
+void study(const tutorial::Options& options, tutorial::Report& report) {
+  const std::vector<Exact> truth =
+      tutorial::exact_solutions({1, 0.3, 0.1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-6, 1e-10, 1e-20, 0}, 14);
+  Table layer(tutorial::projection_columns);
+  for (const Projection& way : projections)
+    for (const int n : {8, 12, 16, 24, 32})
+      if (n <= options.cells) layer.add(measure(way, n, truth));
+  // ### Output
+  tutorial::show_projections(options.out, layer);
+  judge(layer, truth.back().truth, report);
 }
 
 // ## What came out

@@ -101,8 +101,7 @@ Table climb(const std::string& series, const std::vector<Grading>& levels, const
   return rows;
 }
 
-// P4 on equal cells: how good it is depends on where $c$ lies in its cell, from mesh to mesh anew. So the mesh is shifted
-// through nine positions, and the worst counts.
+// P4 on equal cells: how good it is depends on where $c$ lies in its cell. So nine positions are taken: the worst counts.
 Table shifted(const Exact& exact) {
   Table rows({"h", "share", "h1", "contact"});
   for (const int n : {6, 8, 11, 16})
@@ -198,9 +197,8 @@ void judge(const Table& results, const Exact& exact, tutorial::Report& report) {
 // Graded, P1 to P4 have the orders 0.93, 1.83, 2.89, 4.3 in $H^1$ at ε = 0. On $Γ_C$ at ε = 1 the term with $s_p$ shows
 // already: the error of graded P4 is 3.2e-5 and 1.1e-5 at 1/h = 8 and 16 (`results.csv`), order 1.5.
 //
-// hp at ε = 0 divides the $H^1$ error by 6.0, 7.3, 9.0 and 10.4 per level from P2 on. This factor still grows from level
-// to level, so six levels do not yet show a rate. The order in $N$ grows from 1.5 to 4.0. At ε = 1e-20 the error is the
-// same.
+// hp at ε = 0 divides the $H^1$ error by 6.0, 7.3, 9.0 and 10.4 per level from P2 on. This factor still grows from
+// level to level, so six levels show no rate yet. The order in $N$ grows from 1.5 to 4.0. It is the same at ε = 1e-20.
 //
 // (b) In $H^1$ the degree: with 8 layers at every degree the errors are the same to 0.1 % (exercise 3, ε = 1). On $Γ_C$ it
 // is the layers: P6 with 0 to 4 of them has 1.7e-2, 3.8e-3, 3.9e-4, 5.6e-5, 4.7e-6 there, about $q^{-3/2} = 8$ times less

@@ -9,55 +9,65 @@
 // Needs: [07](07_kernel.cpp) for kernels, [10](10_limits.cpp) for the stretched layer and its limit, [13](13_uniform.cpp)
 // for the supremum, [26](26_elasticity.cpp) for elasticity and the jumps of Crouzeix–Raviart (CR).
 //
-// **The picture.** A block is pressed on a round punch. Its lower side carries a coating that is a million times thinner and
-// stiffer than the block (drawn stretched to the depth 1). *P1 on arbitrary triangles holds the coating flat: it touches the
-// punch at its top alone, and the contact force is 73 % too large. With CR on the same triangles the coating follows the
-// block.*
+// **The picture.** A block is pressed on a round punch. Its lower side carries a coating, a million times thinner and
+// stiffer (drawn stretched to the depth 1). *P1 on arbitrary triangles holds the coating flat: it touches the punch at
+// its top alone, and the contact force is 73 % too large. With CR the coating follows the block.*
 //
-// **Predict.** The displacement has two components, $u$ along the coating and $v$ across it. (a) P1 locks, CR does not. Which
-// of the two components has to be CR: $u$, $v$, or both? (b) The coating is stretched along $x$. In plane strain, with
-// Lamé's pair $λ, μ$, does it resist with the modulus $2μ$, with $λ + 2μ$, or with something between?
+// **Predict.** The displacement has two components, $u$ along the coating and $v$ across it. (a) P1 locks, CR does not.
+// Which of the two has to be CR, or both? (b) The coating is stretched along $x$. In plane strain, with Lamé's pair
+// $λ, μ$, does it resist with the modulus $2μ$, with $λ + 2μ$, or with something between?
 //
 // ## From a thin coating to the class
 //
-// The coating has the thickness $t$ and the moduli $λ/t$ and $μ/t$: half as thick means twice as stiff. (All lengths are
-// relative to the side of the block. In the anti-plane problem (22) the same scaling is $μ/ε$.) With a factor 1/2 its energy is
+// The coating has the thickness $t$ and the moduli $λ/t$ and $μ/t$: half as thick means twice as stiff. (All lengths
+// are relative to the side of the block. In (22) the same scaling is $μ/ε$.) Its energy is half of
 //
 // $$ \frac{1}{t} ∫_{-t}^{0} λ (u_x + v_y)^2 + 2μ u_x^2 + 2μ v_y^2 + μ (u_y + v_x)^2. $$
 //
-// Stretch it: $Y = y/t$, so $∂_y = t^{-1} ∂_Y$ and $dy = t\, dY$. The factors $1/t$ and $t$ cancel:
+// Stretch it: with $Y = y/t$ a slope across is divided by $t$, the area is multiplied by it. The factor in front
+// cancels:
 //
 // $$ ∫_{-1}^{0} λ (u_x + v_Y/t)^2 + 2μ u_x^2 + 2μ (v_Y/t)^2 + μ (u_Y/t + v_x)^2. $$
 //
-// For small $t$ both $u_Y$ and $v_Y$ must be small. But $v_Y/t$ need not be: it has a best value for each $u_x$, because a
-// sheet that is stretched becomes thinner. Complete the square in $v_Y/t$, with $ν = λ/(λ + 2μ)$:
+// For thin coatings both slopes across, $u_Y$ and $v_Y$, must be small, since they are divided by $t$. But the quotient
+// $v_Y/t$ need not be small: it has a best value for each $u_x$, because a sheet that is stretched becomes thinner.
+// Complete the square in this quotient. With $ν = λ/(λ + 2μ)$ what is integrated becomes
 //
 // $$ (λ + 2μ) (v_Y/t + ν u_x)^2 + E_m u_x^2 + μ (u_Y/t + v_x)^2,   E_m = λ + 2μ - \frac{λ^2}{λ + 2μ} = \frac{4μ(λ + μ)}{λ + 2μ}. $$
 //
-// This is the class (1) with the parameter $t^2$. $a_1$ gains $∫ E_m u_x^2$. $B$ has two rows per point, with weights $λ + 2μ$
-// and $μ$ in $M$:
+// This is the class (1) with the parameter $t^2$. The middle term joins $a_1$. The two squares are the stiff form:
+// times $t$, what is squared in them gives two rows of $B$ per point, with weights $λ + 2μ$ and $μ$ in $M$:
 //
 // $$ v_Y + ν t u_x,   u_Y + t v_x. $$
 //
-// At $t = 0$ both rows lose their second term. Then $u$ and $v$ do not depend on $Y$, and the coating is a *membrane* of
-// modulus $E_m$ on the lower side of the block. Without the completed square $a_1$ would hold $2 μ u_x^2$, and this would be
-// the modulus at $t = 0$: too soft, and not the limit of what stands there for $t > 0$ (exercise 1).
+// In the limit both rows lose their second term. Then the displacement does not depend on $Y$, and the coating is a
+// *membrane* of modulus $E_m$ on the lower side of the block. Without the completed square $a_1$ would hold
+// $2 μ u_x^2$, and this would be the modulus of the limit: too soft, since thin coatings do not tend to it (exercise
+// 1).
 //
 // ## Which component locks
 //
-// Contact asks for $v ≥ -$gap on $Γ_C$, and the only way for $v$ to get there is through the layer, with $v_Y = 0$. That is
-// the problem of chapter 06 again, for $v$ alone. On arbitrary triangles P1 has no function of $x$ alone: then $v = 0$ in
-// the coating. What $u$ does in the coating is its own affair: locked, it costs some stretching and does not touch the
-// obstacle.
+// Contact asks for $v ≥ -$gap on $Γ_C$. In the limit $v$ does not change across the layer, so what touches the punch is
+// the lower side of the block. For $v$ this is the problem of chapter 06: on arbitrary triangles P1 has no function of
+// $x$ alone but 0, so the coating cannot move towards the punch or away from it. For $u$ the same happens. But $u$ is
+// not asked to be anywhere on $Γ_C$. If it is locked, the coating and with it the lower side of the block are not
+// stretched. This costs some energy, and the block still comes to lie on the punch.
 //
 // ## Rows that depend on t
 //
-// In all chapters before, $B$ did not depend on the parameter. Here $B = B_0 + t B_1$. Take a motion with $B_0 w = 0$. If
-// another motion $z$ has $B_0 z = -B_1 w$, then $B (w + t z)$ is of order $t^2$, and $w + t z$ is free. If there is none,
-// $a_0(w, w)$ is $t^2$ times a number: the motion is neither stiff nor free, whatever $t$ is. For the iterated penalty of
-// chapter 18 with a penalty $δ$ far above $t^2$ it looks free at first, and each correction brings in $t^2/δ$ of its energy
-// only. The remedy is $δ = t^2$, which a factor bears down to $t = 10^{-6}$. CR in both components needs no remedy: its
-// $∂_Y$ takes any values, one per triangle, so there always is a $z$.
+// In all chapters before, $B$ did not depend on the parameter. Here $B = B_0 + t B_1$. Take a motion $w$ that costs
+// nothing in the limit, $B_0 w = 0$. Can it be corrected by a small motion $t z$ so that it costs nothing for $t > 0$,
+// too? Multiply out:
+//
+// $$ B (w + t z) = t (B_1 w + B_0 z) + t^2 B_1 z. $$
+//
+// If some $z$ has $B_0 z = -B_1 w$, the first term is gone. The stiff energy is the square of the rest divided by
+// $t^2$: it is of order $t^2$, and the motion is free. If there is no such $z$, the stiff energy keeps a part that does
+// not depend on $t$: the motion is neither stiff nor free, however thin the coating is. The iterated penalty of chapter
+// 18 divides by $δ$ in place of $t^2$. With $δ$ far above $t^2$ it sees only the share $t^2/δ$ of this part, and each
+// correction brings in one more such share: it takes many. The remedy is $δ = t^2$. Down to $t = 10^{-6}$ the factor
+// still keeps enough digits of $A_1$. CR in both components needs no remedy: its slope across takes any values, one per
+// triangle, so there always is a $z$.
 
 #include "backstage/32_coating.hpp"
 #include "common/course.hpp"

@@ -5,6 +5,7 @@
 // Run: certificate_cost --cells 64 --repeats 1
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -16,7 +17,6 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/table.hpp"
-#include "common/command_line.hpp"
 
 namespace antilock {
 namespace {
@@ -123,11 +123,11 @@ void adapted_over_uniform(Table& table, int cells, int repeats) {
 int main(int argc, char** argv) {
   int cells = 128, repeats = 3;
   std::filesystem::path out;
-  antilock::tutorial::CommandLine line("What a certificate costs, and what an adapted mesh saves", "certificate_cost");
-  line.add("--cells", cells, "1/h of the uniform mesh", 16, 256);
-  line.add("--repeats", repeats, "runs behind each median", 1, 100);
-  line.add("--out", out, "a table of what was asked and measured, CSV");
-  if (const auto status = line.parse(argc, argv)) return *status;
+  CLI::App line("What a certificate costs, and what an adapted mesh saves");
+  line.add_option("--cells", cells, "1/h of the uniform mesh")->check(CLI::Range(16, 256));
+  line.add_option("--repeats", repeats, "runs behind each median")->check(CLI::Range(1, 100));
+  line.add_option("--out", out, "a table of what was asked and measured, CSV");
+  CLI11_PARSE(line, argc, argv);
   antilock::Table table({"what", "asked", "measured"});
   antilock::certificate_over_solve(table, cells, repeats);
   for (const int n : {32, cells}) antilock::diagnosis_over_solve(table, n, repeats);

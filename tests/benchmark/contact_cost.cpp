@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
 
@@ -17,7 +18,6 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/detail/loops_on_one_thread.hpp"
 #include "benchmark/unconstrained_cholesky.hpp"
-#include "common/command_line.hpp"
 
 namespace antilock {
 namespace {
@@ -203,14 +203,13 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
 }  // namespace antilock
 
 int main(int argc, char** argv) {
-  antilock::tutorial::CommandLine line("The cost of contact over one unconstrained sparse Cholesky solve",
-                                       "contact_cost");
+  CLI::App line("The cost of contact over one unconstrained sparse Cholesky solve");
   int finest = 512, repeats = 9;
   std::filesystem::path folder = "results/benchmark";
-  line.add("--cells", finest, "finest mesh, 1/h", 64, 1024);
-  line.add("--repeats", repeats, "runs behind each median", 1, 1000);
-  line.add("--out", folder, "folder of the results");
-  if (const auto status = line.parse(argc, argv)) return *status;
+  line.add_option("--cells", finest, "finest mesh, 1/h")->check(CLI::Range(64, 1024));
+  line.add_option("--repeats", repeats, "runs behind each median")->check(CLI::Range(1, 1000));
+  line.add_option("--out", folder, "folder of the results");
+  CLI11_PARSE(line, argc, argv);
   try {
     antilock::benchmark(finest, repeats, folder);
   } catch (const antilock::Error& error) {

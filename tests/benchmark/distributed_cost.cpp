@@ -4,6 +4,7 @@
 //         distributed_cost --cells 1024 --serial            the library's own factor, in this process
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <ctime>
 
 #include "antilock/core/stopwatch.hpp"
@@ -12,7 +13,6 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "common/command_line.hpp"
 
 using namespace antilock;
 
@@ -60,21 +60,20 @@ void petsc(const Scene& scene, const Element& element, int cells, bool levels) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  tutorial::CommandLine line(
+  CLI::App line(
       "The cost of the distributed road and of the serial one: "
       "solver,element,ranks,unknowns,mesh,assemble,setup or factor,solve,CPU of these two,iterations,corrections,"
-      "most iterations,contact sets,peak MB of the largest rank,residual",
-      "distributed_cost");
+      "most iterations,contact sets,peak MB of the largest rank,residual");
   int cells = 256;
   double epsilon = 1e-6;
   std::string name = "P1";
   bool alone = false, levels = false;
-  line.add("--cells", cells, "1/h", 1, 1 << 14);
-  line.add("--epsilon", epsilon, "epsilon", 0, 1);
-  line.add("--element", name, "P1 or CR");
-  line.add("--serial", alone, "the serial library");
-  line.add("--levels", levels, "every level too");
-  if (const auto status = line.parse(argc, argv)) return *status;
+  line.add_option("--cells", cells, "1/h")->check(CLI::Range(1, 1 << 14));
+  line.add_option("--epsilon", epsilon, "epsilon")->check(CLI::Range(0.0, 1.0));
+  line.add_option("--element", name, "P1 or CR");
+  line.add_flag("--serial", alone, "the serial library");
+  line.add_flag("--levels", levels, "every level too");
+  CLI11_PARSE(line, argc, argv);
   const distributed::Session session;
   try {
     const Scene scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{});

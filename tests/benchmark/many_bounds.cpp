@@ -5,13 +5,13 @@
 // Run: many_bounds --crossover --out results/benchmark     bounds on k rows of the vertices instead: 20 s
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "common/command_line.hpp"
 #include "support/membrane.hpp"
 
 namespace antilock {
@@ -78,14 +78,14 @@ void crossover(const std::filesystem::path& folder) {
 }  // namespace antilock
 
 int main(int argc, char** argv) {
-  antilock::tutorial::CommandLine line("The cost of bounds on all unknowns", "many_bounds");
+  CLI::App line("The cost of bounds on all unknowns");
   int finest = 512;
   bool rows = false;
   std::filesystem::path folder = "results/benchmark";
-  line.add("--cells", finest, "finest mesh, 1/h", 16, 512);
-  line.add("--crossover", rows, "bounds on a few rows of vertices, to see where the two roads cost the same");
-  line.add("--out", folder, "folder of the results");
-  if (const auto status = line.parse(argc, argv)) return *status;
+  line.add_option("--cells", finest, "finest mesh, 1/h")->check(CLI::Range(16, 512));
+  line.add_flag("--crossover", rows, "bounds on a few rows of vertices, to see where the two roads cost the same");
+  line.add_option("--out", folder, "folder of the results");
+  CLI11_PARSE(line, argc, argv);
   try {
     if (rows)
       antilock::crossover(folder);

@@ -49,8 +49,8 @@ inline void write_projection(const std::filesystem::path& path) {
   table.write(path);
 }
 
-/// shapes.csv (the string, with and without the floor, and the pressure of the floor) and active_sets.csv (the first eight
-/// guesses and the last), at the nodes x_i = i h.
+/// projection.csv, shapes.csv (the string, with and without the floor, and the pressure of the floor) and active_sets.csv
+/// (the first eight guesses and the last), at the nodes x_i = i h.
 inline void write_string(const std::filesystem::path& out, const std::vector<Eigen::VectorXd>& guesses,
                          const Eigen::VectorXd& lambda, const Eigen::VectorXd& exact) {
   const Eigen::Index n = lambda.size();
@@ -66,6 +66,7 @@ inline void write_string(const std::filesystem::path& out, const std::vector<Eig
     row.emplace_back(at(guesses.back()));
     steps.add(row);
   }
+  write_projection(out / "projection.csv");
   shapes.write(out / "shapes.csv");
   steps.write(out / "active_sets.csv");
 }

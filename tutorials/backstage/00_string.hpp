@@ -28,4 +28,16 @@ inline double free_part(double x) {
   return 10 / (4 * pi * pi) * (std::sin(2 * pi * x) - 2 * pi * x * std::cos(2 * pi * touches_from(0)));
 }
 
+/// The discrete string of so many cells that touches from the node `from` on, at its inner nodes: what the page derives.
+inline Eigen::VectorXd discrete_string(int cells, double from) {
+  Eigen::VectorXd u(cells - 1);
+  for (int i = 1; i < cells; ++i) {
+    const double x = i / static_cast<double>(cells);
+    u(i - 1) = x < from ? free_part(x) - free_part(from) * x / from : 0;
+  }
+  return u;
+}
+/// The exact string at the same nodes: there nothing is to be taken off, since U is 0 where contact starts.
+inline Eigen::VectorXd exact_string(int cells) { return discrete_string(cells, touches_from(0)); }
+
 }  // namespace antilock::tutorial

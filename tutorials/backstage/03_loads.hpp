@@ -1,7 +1,9 @@
 #pragma once
-// The load of chapter 03, by a rule for triangles.
+// The load of chapter 03, by a rule for triangles, and its files.
 #include "antilock/form/quadrature.hpp"
+#include "antilock/io/writers.hpp"
 #include "antilock/scene/scene.hpp"
+#include "antilock/study/table.hpp"
 
 namespace antilock::tutorial {
 
@@ -16,6 +18,16 @@ inline void add_loads(Eigen::VectorXd& load, const Eigen::RowVector3i& vertices,
     const double x = corners.col(0).dot(lambda);
     load(vertices) += area * radon_rule().weights(q) * paper_load(x, 0) * lambda;
   }
+}
+
+/// Prints both tables; writes corrections.csv, and solution.csv and .vtu for the picture.
+inline void show_by_hand(const std::filesystem::path& out, const Space& space, const Eigen::VectorXd& u,
+                         const Table& corrections, const Table& stresses) {
+  corrections.print("the corrections");
+  corrections.write(out / "corrections.csv");
+  stresses.print("the layer stress");
+  write_solution_csv(out / "solution.csv", space, u);
+  write_vtu(out / "solution.vtu", space, u);
 }
 
 }  // namespace antilock::tutorial

@@ -4,9 +4,7 @@
 #include "antilock/analysis/load_ascent.hpp"
 #include "antilock/analysis/worst_load.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/mesh/generate.hpp"
 #include "antilock/study/method.hpp"
-#include "antilock/study/table.hpp"
 #include "common/course.hpp"
 
 namespace antilock::tutorial {
@@ -45,6 +43,17 @@ inline int unknowns_of_body(const Space& space) {
       all.insert(space.unknowns()(t, i));
   for (const int i : space.clamped()) all.erase(i);
   return static_cast<int>(all.size());
+}
+
+/// One row per h of the errors under the worst loads, the largest over epsilon: over the width, over that at epsilon = 1.
+inline Table suprema_over_epsilon(const Table& worst) {
+  Table suprema({"h", "supremum", "over_width", "ratio"});
+  for (const Entry& h : worst.different("h")) {
+    const Table here = worst.where("h", h);
+    suprema.add({h, here.most("error"), here.most("over_width"),
+                 here.most("error") / here.where("epsilon", 1).number("error")});
+  }
+  return suprema;
 }
 
 /// Prints the errors at epsilon = 0 by h. Writes errors.csv (the rows at epsilon = 0) and epsilon.csv (those at this h

@@ -10,6 +10,13 @@ namespace antilock::tutorial {
 inline const std::vector<std::string> projection_columns{"name", "h",      "epsilon",     "h1",     "alpha",
                                                          "near", "hidden", "corrections", "seconds"};
 
+/// What columns hide in the limit: the v that they do not see are equal on Sigma and on Gamma_C (exercise 3 of the page).
+inline double slope_hidden_by_columns() {
+  using std::numbers::pi;
+  const double kappa = std::sqrt(pi * pi + 1), sum = kappa * kappa + pi * pi;
+  return pi * std::sqrt(0.5 * (0.5 - 2 * kappa / std::tanh(kappa / 2) / sum) / sum);
+}
+
 /// Hypotheses beside conclusion, one row per projection and mesh: prints them; writes projections.csv and layer.csv.
 inline void show_projections(const std::filesystem::path& out, const Table& layer) {
   Table rows(

@@ -50,4 +50,14 @@ inline std::vector<Entry> floor_row(const Rubber& rubber, int cells, const Space
           known ? off(tangential, at->second.second) : 0.0};
 }
 
+/// At most by how many h^2 of itself T is off, and by how many h per cent N.
+inline std::pair<double, double> off_by(const Table& floor) {
+  double of_t = 0, of_n = 0;
+  for (const Table& row : floor.rows()) {
+    of_t = std::max(of_t, row.number("T off") * std::pow(row.number("h"), -2) / 100);
+    of_n = std::max(of_n, row.number("N off") / row.number("h"));
+  }
+  return {of_t, of_n};
+}
+
 }  // namespace antilock::tutorial
