@@ -160,7 +160,7 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
                "(proved) boxes (half kept): (i), alpha is at least half of that on V, 0.9129");
   // $∫ ∂_y v\, φ = ∫ ∂_y v\, (φ - P_h φ)$, and of φ the means over squares of side $s$ miss $s π / 24^{1/2}$.
   for (const Table& row : half.rows()) {
-    const double share = row.number("hidden") / (2 * row.number("h") * pi / std::sqrt(24.0));
+    const double share = row.number("hidden") / (2 * row.number("h") * std::numbers::pi / std::sqrt(24.0));
     if (row.number("h") == half.least("h") || share > 1 || share < 0.4)
       report.claim(share < 1 && share > 0.4,
                    "(proved) and (iii): the slope hidden is {:.3f}, {:.2f} of what means miss", row.number("hidden"),
