@@ -56,7 +56,11 @@ void GmshSession::check(int failed, const char* name) const {
 }
 
 GmshSession::GmshSession() {
+#if GMSH_API_VERSION_MINOR < 9
   call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, /*readConfigFiles=*/0);
+#else
+  call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, /*readConfigFiles=*/0, /*run=*/0);
+#endif
   set("General.Terminal", 0);
   set("General.NumThreads", 1);  // the mesh depends on the number of threads
   set("Mesh.RandomSeed", 1);
