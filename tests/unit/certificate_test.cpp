@@ -102,11 +102,13 @@ double flux_norm2(const Answered& run, const EquilibratedFlux& flux, const Compa
       gradient += v.at_vertices(run.mesh.triangles(t, i)) * barycentric_gradients(run.mesh, t).row(i).transpose();
     const bool layer = run.mesh.region[t] == Region::layer;
     if (layer) gradient(1) = v.stress(row++);
+    const double stiffness = layer ? flux.law.stiffness : stiffness_on(run.scene.body().stiffness, run.mesh, t);
+    gradient *= stiffness;
     const Eigen::MatrixX2d tau = flux.tau(run.mesh, t, rule.points);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::Vector2d sigma = flux.cell[t].s + (layer ? Eigen::Vector2d(0, 0) : tau.row(q).transpose());
       const Eigen::Vector2d d = combination(gradient, sigma);
-      sum += run.mesh.area(t) * rule.weights(q) * (layer ? flux.law.squared(d) : d.squaredNorm());
+      sum += run.mesh.area(t) * rule.weights(q) * (layer ? flux.law.squared(d) : d.squaredNorm() / stiffness);
     }
   }
   return sum;
@@ -128,25 +130,26 @@ double left_side(const Answered& run, const EquilibratedFlux& flux, const Compan
 
 TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
   const Profile gap = [](double x) { return 0.05 - 0.9 * x * (1 - x) * (1 + 0.5 * x); };
-  const Field prescribed = [](double x, double y) { return 0.3 * (x - 0.4) * (x + y) + 0.1 * y * y + 0.03; };
+  using Kind = EdgeCondition::Kind;
+  // on the layer's side the displacement is that of Sigma's end
+  const std::vector<EdgeCondition> edges{
+      {"held", Kind::displacement, [](double x, double y) { return 0.3 * (x - 0.4) * (y + 0.2) + 0.03; }},
+      {"pulled", Kind::traction, [](double, double y) { return std::sin(3 * y); }}};
+  const Body body{paper_load, [](double, double) { return 2.5; }};
   for (const double epsilon : {1.0, 1e-2})
     for (const double amount : {0.0, 0.05}) {
-      // prescribed values that depend on y are for the body's sides; in the layer they are those of Sigma's ends
-      const Field values = [&](double x, double y) { return prescribed(x, std::max(y, 0.0)); };
-      Answered run(layered_mesh(6, epsilon), test::stiff_scene(epsilon, {gap}));
-      for (std::size_t i = 0; i < run.problem.fixed.size(); ++i) {
-        const auto ends = run.mesh.edges.row(run.problem.fixed[i]);
-        double mean = 0;
-        for (int k = 0; k < 2; ++k) mean += values(run.mesh.vertices(ends(k), 0), run.mesh.vertices(ends(k), 1)) / 2;
-        run.problem.fixed_values(static_cast<Eigen::Index>(i)) = mean;
-      }
-      run.solution = active_set(run.problem);
+      TriangleMesh mesh = layered_mesh(6, epsilon);
+      for (int e = 0; e < mesh.edge_count(); ++e)
+        if (mesh.edge_tag[e] == EdgeTag::clamped) {
+          const auto x = mesh.vertices(mesh.edges.row(e), Eigen::all).colwise().mean().eval();
+          mesh.edge_tag[e] = x(0) < 1 ? held_group(0) : x(1) > 0 ? natural_group(1) : EdgeTag::free;
+        }
+      Answered run(std::move(mesh), Scene(body, StiffLayer{epsilon, 3}, UnilateralContact{gap}, edges));
       disturb(run, amount, 7);
       const EquilibratedFlux flux = run.flux();
-      const Companion v = strip_companion(run.scene, run.space, run.problem, run.solution, values);
+      const Companion v = run.strip();
       ASSERT_FALSE(v.layer);
-      const Certificate found =
-          certify(run.scene, run.space, run.problem, run.solution, {.prescribed = values, .companion = &v});
+      const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
       const double left = left_side(run, flux, v, gap);
       EXPECT_GT(flux.lambda.sum(), 0.1);
       EXPECT_NEAR(found.mismatch * found.mismatch / 2 + found.contact_work, left, 1e-10);
@@ -169,8 +172,7 @@ TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
       // the same v as a function on columns of its own
       Companion apart = v;
       apart.layer.emplace(run.mesh, v.at_vertices, v.stress);
-      const Certificate other =
-          certify(run.scene, run.space, run.problem, run.solution, {.prescribed = values, .companion = &apart});
+      const Certificate other = certify(run.scene, run.space, run.problem, run.solution, {.companion = &apart});
       EXPECT_NEAR(other.displacement, found.displacement, 1e-10);
       EXPECT_NEAR(other.gradient, found.gradient, 1e-10);
       EXPECT_NEAR(other.stress, found.stress, 1e-10);
@@ -410,8 +412,23 @@ TEST(Certificate, RefusesWhatItCannotProve) {
   expect_refused([&] { certify(run.scene, conforming, p1_problem, p1_solution); }, "element P1");
   const Answered ventcel(structured_mesh(4, {0}), Scene({paper_load}, VentcelLayer{}, UnilateralContact{}));
   expect_refused([&] { ventcel.certified(); }, "epsilon = 0");
-  const Answered stiff(structured_mesh(4, {0}), Scene(Body{paper_load, [](double, double) { return 2.0; }}));
-  expect_refused([&] { stiff.certified(); }, "no flux for a stiffness");
+  using Kind = EdgeCondition::Kind;
+  const auto one = [](double, double) { return 1.0; };
+  const auto on_top = [&](const EdgeCondition& edge, const Field& stiffness = {}) {
+    TriangleMesh mesh = structured_mesh(4, {0});
+    for (int e = 0; e < mesh.edge_count(); ++e)
+      if (mesh.vertices(mesh.edges.row(e), 1).minCoeff() == 1)
+        mesh.edge_tag[e] = edge.kind == Kind::displacement ? held_group(0) : natural_group(0);
+    Answered(std::move(mesh), Scene(Body{paper_load, stiffness}, NoLayer{}, {}, {edge})).certified();
+  };
+  expect_refused([&] { on_top({"top", Kind::spring, one}); }, "no flux for a spring on the group top");
+  expect_refused([&] { on_top({"top", Kind::displacement, one}); }, "values that do not jump");
+  expect_refused(
+      [&] {
+        on_top({"top", Kind::displacement, [](double x, double) { return x * (1 - x); }});
+      },
+      "affine on every edge");
+  expect_refused([&] { on_top({"top"}, [](double x, double) { return 1 + x; }); }, "one number per triangle");
   Companion low = p1_companion(p1_solution);
   for (const int i : p1_problem.contact) low.at_vertices(i) -= 0.1;
   expect_refused([&] { certify(run.scene, run.space, run.problem, run.solution, {.companion = &low}); },
@@ -424,9 +441,113 @@ TEST(Certificate, RefusesWhatItCannotProve) {
                  "another number of values");
   run.problem.fixed_values(0) = 1;
   run.solution = active_set(run.problem);
-  expect_refused([&] { run.certified(); }, "the function behind the fixed values");
+  expect_refused([&] { run.certified(); }, "the scene's values");
   run.solution.u(5) = std::nan("");
   expect_refused([&] { run.certified(); }, "not finite");
+}
+
+/// u = a(x) b(y) on the unit square, b affine and a smooth on the halves x < 1/2 and x > 1/2, whose stiffness differs: the
+/// flux is continuous. u is given at the left, a traction at the right and on top. Below, u lies on the obstacle under a
+/// pressure of its own.
+struct Pulled {
+  double k[2], slope, wave[2], bend[2], b0, b1;
+
+  int half(double x) const { return x < 0.5 ? 0 : 1; }
+  double stiffness(double x) const { return k[half(x)]; }
+  double a(double x, int order = 0) const {  // its derivatives: the flux k a' is `slope` at 1/2
+    const int i = half(x);
+    const double s = x - 0.5, w = wave[i];
+    if (order == 0) return 2 + slope / k[i] * s + bend[i] * (1 - std::cos(w * s));
+    if (order == 1) return slope / k[i] + bend[i] * w * std::sin(w * s);
+    return bend[i] * w * w * std::cos(w * s);
+  }
+  double b(double y) const { return b0 + b1 * y; }
+  Eigen::Vector2d flux(double x, double y) const { return stiffness(x) * Eigen::Vector2d(a(x, 1) * b(y), a(x) * b1); }
+  Scene scene() const {
+    using Kind = EdgeCondition::Kind;
+    const auto u = *this;
+    return Scene(Body{[u](double x, double y) { return -u.stiffness(x) * u.a(x, 2) * u.b(y); },
+                      [u](double x, double) { return u.stiffness(x); }},
+                 NoLayer{}, UnilateralContact{[u](double x) { return -u.a(x) * u.b0; }, {}},
+                 {{"left", Kind::displacement, [u](double x, double y) { return u.a(x) * u.b(y); }},
+                  {"right", Kind::traction, [u](double x, double y) { return u.flux(x, y)(0); }},
+                  {"top", Kind::traction, [u](double x, double y) { return u.flux(x, y)(1); }}});
+  }
+};
+
+TEST(Certificate, IsNeverBelowTheErrorOfTwentyPulledBodies) {
+  std::mt19937 random(33);
+  const auto between = [&](double low, double high) { return low + (high - low) * random() / std::mt19937::max(); };
+  const Quadrature& rule = triangle_rule(12);
+  double sharpest = 1e9, bluntest = 0;
+  for (int k = 0; k < 20; ++k) {
+    const bool jumps = k % 2 == 0;  // the stiffness, on a mesh that follows it
+    Pulled u{{between(0.5, 5), between(0.5, 5)}, between(-1, 1), {between(1, 9), between(1, 9)}, {}, between(-1, 1), 0};
+    for (double& bend : u.bend) bend = between(-0.4, 0.4);
+    if (!jumps) u.k[1] = u.k[0], u.wave[1] = u.wave[0], u.bend[1] = u.bend[0];
+    u.b1 = -between(0.2, 2);  // a > 0 and b' < 0: the obstacle presses everywhere
+    const int cells = 2 * (2 + k / 3);
+    TriangleMesh mesh = jumps ? structured_mesh(cells, {0}) : unstructured_mesh(cells, {0});
+    for (int e = 0; e < mesh.edge_count(); ++e) {
+      if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
+      const auto x = mesh.vertices(mesh.edges.row(e), Eigen::all).colwise().mean().eval();
+      mesh.edge_tag[e] = x(0) == 0 ? held_group(0) : natural_group(x(0) == 1 ? 1 : 2);
+    }
+    Answered run(std::move(mesh), u.scene());
+    if (k % 5 == 4) disturb(run, 0.02, static_cast<unsigned>(k));
+    const EquilibratedFlux flux = run.flux();
+    const Companion v = run.strip();
+    const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
+    double displacement = 0, gradient = 0, stress = 0, energy = 0;
+    for (int t = 0; t < run.mesh.triangle_count(); ++t) {
+      const Eigen::Vector3d corners = v.at_vertices(run.mesh.triangles.row(t));
+      const double kappa = stiffness_on(run.scene.body().stiffness, run.mesh, t);
+      const Eigen::Vector2d of_v = kappa * barycentric_gradients(run.mesh, t).transpose() * corners;
+      const Eigen::MatrixX2d tau = flux.tau(run.mesh, t, rule.points);
+      for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+        const Eigen::Vector2d x = point_in(run.mesh, t, rule.points.row(q)), exact = u.flux(x(0), x(1)),
+                              s = flux.cell[t].s, sigma = s + tau.row(q).transpose();
+        const double weight = run.mesh.area(t) * rule.weights(q) / kappa;
+        displacement += weight * (exact - of_v).squaredNorm();
+        gradient += weight * (exact - s).squaredNorm();
+        stress += weight * (exact - (sigma + of_v) / 2).squaredNorm();
+        energy +=
+            weight * (exact.squaredNorm() / 2 - kappa * run.scene.body().load(x(0), x(1)) * u.a(x(0)) * u.b(x(1)));
+      }
+    }
+    const auto [points, weights] = gauss_rule(40);
+    for (const double side : {0.0, 0.5})  // the traction's work, half by half
+      for (Eigen::Index q = 0; q < points.size(); ++q) {
+        const double x = side + points(q) / 2;
+        energy -= weights(q) / 2 * (u.flux(x, 1)(1) * u.a(x) * u.b(1) + u.flux(1, x)(0) * u.a(1) * u.b(x));
+      }
+    const std::string at = fmt::format("case {}, {} cells", k, cells);
+    EXPECT_GE(found.displacement, std::sqrt(displacement)) << at;
+    EXPECT_GE(found.gradient, std::sqrt(gradient)) << at;
+    EXPECT_GE(found.stress, std::sqrt(stress)) << at;
+    EXPECT_LE(found.energy_lower, energy + 1e-9 * std::abs(energy)) << at;  // the rules: 1e-11
+    EXPECT_GE(found.energy_upper, energy - 1e-9 * std::abs(energy)) << at;
+    if (k % 5 == 4) continue;
+    EXPECT_LE(found.imbalance, 1e-3 * found.displacement) << at << ": the flux takes the traction as it is";
+    sharpest = std::min(sharpest, found.displacement / std::sqrt(displacement));
+    bluntest = std::max(bluntest, found.displacement / std::sqrt(displacement));
+  }
+  fmt::print("bound / error of pulled bodies: {:.3f} to {:.3f}\n", sharpest, bluntest);
+  EXPECT_LT(bluntest, 2.7);  // 2.30 seen: v must clear a curved obstacle that presses everywhere
+}
+
+// Body, layer and load twice as stiff and large: the same u, and sqrt(2) times every norm.
+TEST(Certificate, ScalesWithTheStiffness) {
+  const auto proved = [](double k) {
+    return Answered(unstructured_mesh(8), Scene(Body{[k](double x, double y) { return k * paper_load(x, y); },
+                                                     [k](double, double) { return k; }},
+                                                StiffLayer{1e-3, k}, UnilateralContact{}))
+        .certified();
+  };
+  const Certificate one = proved(1), two = proved(2);
+  EXPECT_NEAR(two.displacement, std::sqrt(2) * one.displacement, 1e-10);
+  EXPECT_NEAR(two.stress, std::sqrt(2) * one.stress, 1e-10);
+  EXPECT_NEAR(two.energy_lower, 2 * one.energy_lower, 1e-10);
 }
 
 // Random loads, meshes and epsilons; a third of the solves is disturbed or comes with another contact set.

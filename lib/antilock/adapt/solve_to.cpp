@@ -24,7 +24,7 @@ constexpr double thin = 0.1;  // up to this epsilon columns are the cheaper laye
 
 Scene with_layer_to_solve(const Scene& scene) {
   if (!std::holds_alternative<VentcelLayer>(scene.layer())) return scene;
-  return Scene(scene.body(), StiffLayer{0}, scene.contact());
+  return Scene(scene.body(), StiffLayer{0}, scene.contact(), scene.edges());
 }
 
 Growth growth_of(const Scene& scene) {
@@ -226,7 +226,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       options.corrections = corrections_to(std::max(tolerance, CorrectionOptions{}.tolerance));
       solution = active_set(problem, factor, options);
       options.start = solution.pieces;
-      v = strip_companion(scene, space, problem, solution, {}, !layer_may_lock);
+      v = strip_companion(scene, space, problem, solution, !layer_may_lock);
       certificate = certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});
       const bool enough = certificate.imbalance <= 0.1 * certificate.mismatch;
       if (enough || tolerance <= CorrectionOptions{}.tolerance) break;

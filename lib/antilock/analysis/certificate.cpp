@@ -1,25 +1,42 @@
-// Notation. A = 1 in the body; diag(1, epsilon^-2) in the scaled layer, 1/epsilon in the thin one. |q| of a flux is
-// counted by A^-1: in the scaled layer q_x^2 + epsilon^2 q_y^2, so that nothing is divided by epsilon and epsilon = 0 is
-// no exception. g the gap, u the exact solution, v a conforming function with v >= -g on Gamma_C and v = u on Gamma_D.
-// u_h, p any function of the Crouzeix-Raviart space and any layer stress; S_h = A grad u_h, (d_x u_h, p) in the scaled
-// layer; r = A1 u + B' M p - b, one force per edge E.
+// Notation. A = kappa in the body, one number per triangle (1 unless the scene says more); s diag(1, epsilon^-2) in the
+// scaled layer (s = 1 in the paper), 1/epsilon in the thin one. |q| of a flux is counted by A^-1: |q|^2 / kappa, in the
+// scaled layer (q_x^2 + epsilon^2 q_y^2) / s, so that nothing is divided by epsilon and epsilon = 0 is no exception. g the
+// gap, u the exact solution, v a conforming function with v >= -g on Gamma_C and v = u on Gamma_D, where u is given, affine
+// on every edge. G the traction, the flux given on other edges of the body; 0 where they are free. u_h, p any function of
+// the Crouzeix-Raviart space and any layer stress; S_h = A grad u_h, s (d_x u_h, p) in the scaled layer; r = A1 u +
+// B' M p - b, one force per edge E, the traction a part of b.
 //
 // 1. The flux. On a body triangle T with centroid c and vertices P_i
 //
-//     sigma = grad u_h + tau,   tau = -f_T (x - 3 c) / 2 - mean_T(f x) - 1/3 sum_i f_i lambda_i (x - P_i);
+//     sigma = S_h + tau,   tau = -f_T (x - 3 c) / 2 - mean_T(f x) - 1/3 sum_i f_i lambda_i (x - P_i) + tau_G;
 //
 // sigma = S_h in the layer. The first two terms are Marini's (1985): their flux through the edge E is -int_T f phi_E,
 // phi_E the basis function of E, and their divergence -f_T. The third one is new: lambda_i (x - P_i) has no flux through
 // any edge and the divergence 3 lambda_i - 1. With f_i = 12 mean_T(f lambda_i) - 3 f_T, the vertex values of the L2
 // projection f_1 of f on the affine functions, -div sigma = f_T + sum_i f_i (3 lambda_i - 1) / 3 = f_1, since the f_i
-// have the mean f_T. Row E of A1 u + B' M p - b says that sigma.n, constant on E from either side, sums up to r_E / |E|.
-// So, for every w of H1, with lambda_E = r_E^+ on Gamma_C, r1 = r - lambda on the free edges,
+// have the mean f_T. The fourth is for the edges E of T under a traction. Let G_1 = mean_E(G) + 12 m (s - 1/2) be the
+// projection of G on the affine functions of E, s from 0 at its end P_j to 1 at P_k, m the mean of G (s - 1/2). The field
+// curl(lambda_j lambda_k) has no divergence and flows through E alone, with (1 - 2 s) / |E|. So
 //
-//     (sigma, grad w) = (f_1, w) + sum_E lambda_E mean_E(w) + R(w) + sum_{E in Gamma_D} r_E mean_E(w),          (a)
+//     tau_G = sum_E c_E (curl(lambda_j lambda_k) - its mean over T),   c_E = -6 m |E|,   curl = (d_y, -d_x),
+//
+// makes sigma.n affine on E with the slope of G_1, and constant on all other edges; div sigma is as before. All of tau has
+// mean zero on T (means of lambda_i x are (3 c + P_i) / 12), and b has the terms int f phi_E and int G phi_E of all phi_E
+// of T, affine on T and on its edges. So row E of r = A1 u + B' M p - b says that the constants of sigma.n, from either
+// side of E, sum up to r_E / |E|, and to that beside mean_E(G) under a traction. For every w of H1, with lambda_E = r_E^+
+// on Gamma_C, r1 = r - lambda on the free edges,
+//
+//     (sigma, grad w) = (f_1, w) + <G_1, w> + sum_E lambda_E mean_E(w) + R(w) + sum_{Gamma_D} r_E mean_E(w),    (a)
 //     R(w) = sum_E r1_E mean_E(w).
 //
-// 2. What stays small. (f - f_1, w) <= osc |grad w|, osc^2 = sum_T (h_T / pi)^2 |f - f_1|_T^2, by Poincare's inequality
-// with constant h_T / pi (Payne and Weinberger 1960), since f - f_1 has mean zero on T. And R(w) = r1' I_h w, I_h the
+// 2. What stays small. (f - f_1, w) + <G - G_1, w> <= osc |w|_a,
+//
+//     osc^2 = sum_T kappa^-1 ((h_T / pi) |f - f_1|_T + sum_E C_E |G - G_1|_E)^2,   C_E^2 = h_T^2 (1/pi^2 + 1/pi) |E| / |T|:
+//
+// both differences have mean zero, so that w may be replaced by z = w - mean_T(w), and |z|_T <= (h_T / pi) |grad w|_T is
+// Poincare's inequality (Payne and Weinberger 1960). For |z|_E integrate div((x - P) z^2) over T, P the corner opposite E:
+// (x - P).n is 2 |T| / |E| on E and 0 on the other edges, so (2 |T| / |E|) |z|_E^2 = 2 |z|_T^2 + 2 int z (x - P).grad z <=
+// 2 |z|_T^2 + 2 h_T |z|_T |grad z|_T. And R(w) = r1' I_h w, I_h the
 // interpolation by means over edges: its gradients are the means of grad w, so |I_h w|_a <= |w|_a, and for w = 0 on
 // Gamma_D, with K = A1 + delta^-1 B' M B, delta >= epsilon^2, on the free unknowns: |R(w)| <= rho |w|_a,
 // rho^2 = r1' K^-1 r1. Set q = osc + rho.
@@ -27,15 +44,15 @@
 // 3. The bounds. Put e = A^-1/2 (A grad u - S_h), and w, t the same with A grad v and sigma in place of A grad u. The
 // inequality for u with v, and (a) with u - v, which is 0 on Gamma_D, give
 //
-//     (e - t, e - w) <= (f - f_1, u - v) - sum_E lambda_E mean_E(u - v) - R(u - v) <= C + q |e - w|,
+//     (e - t, e - w) <= (f - f_1, u - v) + <G - G_1, u - v> - sum_E lambda_E mean_E(u - v) - R(u - v) <= C + q |e - w|,
 //     C = sum_E lambda_E mean_E(v + g) >= 0,
 //
 // since lambda_E >= 0 and u + g >= 0. With m = |w - t| = |A grad v - sigma|:
 // - Y = |e - w| = |u - v|_a: (e - t, e - w) = Y^2 + (w - t, e - w), so Y^2 <= (m + q) Y + C.
 // - X = |e - (w + t) / 2|: (e - t, e - w) = X^2 - m^2 / 4 and |e - w| <= X + m / 2, so
 //   (X - q / 2)^2 <= (m + q)^2 / 4 + C. That is the midpoint of the two fluxes.
-// - |e| <= X + |w + t| / 2, and |w + t| = m: on each triangle of the body tau has mean zero (means of lambda_i x are
-//   (3 c + P_i) / 12), so that w, constant there, and t = tau are orthogonal; in the layer t = 0.
+// - |e| <= X + |w + t| / 2, and |w + t| = m: on each triangle of the body w is constant and t, of tau, has mean zero, so
+//   that they are orthogonal; in the layer t = 0.
 //
 //     |u - v|_a                         <= (m + q) / 2 + ((m + q)^2 / 4 + C)^(1/2)
 //     |A grad u - (sigma + A grad v)/2| <= q / 2 + ((m + q)^2 / 4 + C)^(1/2)
@@ -45,11 +62,11 @@
 //
 //     m^2 / 2 + C = J(v) - D - R(v),   D = -|sigma|^2 / 2 - sum_E lambda_E mean_E(g) + sum_{Gamma_D} r_E mean_E(u_D).
 //
-// A term (f - f_1, v) drops out: v is affine on the body's triangles, which are those of sigma. In the layer v may live
+// The terms (f - f_1, v) and <G - G_1, v> drop out: v is affine on the body's triangles, which are those of sigma. In the layer v may live
 // on columns of its own: of them only its energy and its means over the edges of the other mesh are needed.
 //
-// 5. The energy. For v = u the identity reads J(u) = D + m_u^2 / 2 + C_u - (f - f_1, u) + R(u), where C_u >= 0. With v
-// of the bound above, (f - f_1, u) = (f - f_1, u - v) and R(u) = R(v) + R(u - v), hence
+// 5. The energy. For v = u the identity reads J(u) = D + m_u^2 / 2 + C_u - (f - f_1, u) - <G - G_1, u> + R(u), where C_u
+// >= 0. With v of the bound above, u may be replaced by u - v in both, and R(u) = R(v) + R(u - v), hence
 //     D + R(v) - q |u - v|_a <= J(u) <= J(v).
 #include "antilock/analysis/certificate.hpp"
 
@@ -60,6 +77,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
+#include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
 namespace {
@@ -67,9 +85,10 @@ namespace {
 /// v as the sums over triangles and edges need it.
 class Conforming {
  public:
-  Conforming(const Space& space, const LayerLaw& law, const Companion& v) : mesh_(space.mesh()), law_(law), v_(v) {
+  Conforming(const Space& space, const EquilibratedFlux& sigma, const Companion& v)
+      : mesh_(space.mesh()), sigma_(sigma), law_(sigma.law), v_(v) {
     const auto layer = std::count(mesh_.region.begin(), mesh_.region.end(), Region::layer);
-    if (v.at_vertices.size() != mesh_.vertex_count() || (law.split && !v.layer && v.stress.size() != layer))
+    if (v.at_vertices.size() != mesh_.vertex_count() || (law_.split && !v.layer && v.stress.size() != layer))
       throw Error("certificate: the companion has another number of values than the mesh has vertices or layer cells");
     if (!v.at_vertices.allFinite() || !v.stress.allFinite()) throw Error("certificate: the companion is not finite");
   }
@@ -80,13 +99,13 @@ class Conforming {
     Eigen::Vector2d flux = Eigen::Vector2d::Zero();
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh_, t);
     for (int i = 0; i < 3; ++i) flux += v_.at_vertices(mesh_.triangles(t, i)) * lambda.row(i).transpose();
-    if (mesh_.region[t] == Region::body) return flux;
-    flux *= law_.stiffness;
+    if (mesh_.region[t] == Region::body) return sigma_.cell[t].stiffness * flux;
     if (law_.split) flux(1) = v_.stress(row);
+    flux *= law_.stiffness;
     return flux;
   }
   /// At a point of the layer, whatever mesh v has there.
-  Eigen::Vector2d flux_at(const Eigen::Vector2d& x) const { return v_.layer->flux(x); }
+  Eigen::Vector2d flux_at(const Eigen::Vector2d& x) const { return law_.stiffness * v_.layer->flux(x); }
   double mean(int e) const {
     const int a = mesh_.edges(e, 0), b = mesh_.edges(e, 1);
     const bool in_body = mesh_.region[mesh_.edge_triangles(e, 0)] == Region::body ||
@@ -100,26 +119,28 @@ class Conforming {
     double sum = 0;
     const TriangleMesh& mesh = v_.layer->mesh();
     for (int t = v_.layer->first_triangle(); t < mesh.triangle_count(); ++t)
-      sum += mesh.area(t) * law_.squared(v_.layer->flux_of(t - v_.layer->first_triangle()));
+      sum += mesh.area(t) * law_.squared(law_.stiffness * v_.layer->flux_of(t - v_.layer->first_triangle()));
     return sum;
   }
 
  private:
   const TriangleMesh& mesh_;
+  const EquilibratedFlux& sigma_;
   const LayerLaw& law_;
   const Companion& v_;
 };
 
-/// v is the prescribed function at the ends of fixed edges, and that has the fixed values as its means.
-void check_prescribed(const Space& space, const VariationalInequality& problem, const Companion& v,
-                      const Field& prescribed) {
+/// v is what the scene prescribes at the ends of fixed edges, and that has the fixed values as its means.
+void check_prescribed(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                      const Companion& v) {
   const TriangleMesh& mesh = space.mesh();
+  const Eigen::VectorXd prescribed = prescribed_values(scene, mesh);
   for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
     const int e = problem.fixed[i];
     double mean = 0;
     for (int end = 0; end < 2; ++end) {
       const int vertex = mesh.edges(e, end);
-      const double asked = prescribed ? prescribed(mesh.vertices(vertex, 0), mesh.vertices(vertex, 1)) : 0;
+      const double asked = prescribed(vertex);
       const double found = v.layer && mesh.vertices(vertex, 1) < 0
                                ? v.layer->value(mesh.vertices.row(vertex).transpose())
                                : v.at_vertices(vertex);
@@ -130,10 +151,10 @@ void check_prescribed(const Space& space, const VariationalInequality& problem, 
     }
     const double value = problem.fixed_values(static_cast<Eigen::Index>(i));
     if (!(std::abs(value - mean) <= 1e-11 * std::max(1.0, std::abs(mean))))
-      throw Error(
-          fmt::format("certificate: {} is fixed between {} and {}, where the prescribed function has the mean "
-                      "{}; accepted: the function behind the fixed values",
-                      value, mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1)), mean));
+      throw Error(fmt::format(
+          "certificate: {} is fixed between {} and {}, where the scene prescribes the mean {}; accepted: the "
+          "scene's values",
+          value, mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1)), mean));
   }
 }
 
@@ -178,17 +199,17 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
                     const Solution& solution, const CertificateOptions& options) {
   const EquilibratedFlux flux = equilibrated_flux(scene, space, problem, solution);
   Companion made;
-  if (options.companion == nullptr) made = strip_companion(scene, space, problem, solution, options.prescribed);
+  if (options.companion == nullptr) made = strip_companion(scene, space, problem, solution);
   const Companion& companion = options.companion != nullptr ? *options.companion : made;
   const TriangleMesh& mesh = space.mesh();
-  const Conforming v(space, flux.law, companion);
+  const Conforming v(space, flux, companion);
   const Quadrature& midpoints = midpoint_rule();
 
   Certificate certificate;
   certificate.oscillation = std::sqrt(flux.oscillation2);
   certificate.imbalance = unbalanced(problem, flux, options.factor);
   certificate.indicator = Eigen::VectorXd::Zero(mesh.triangle_count());
-  double norm2 = v.layer_norm2(), work = 0;  // |v|_a^2, (f, v)
+  double norm2 = v.layer_norm2(), work = 0;  // |v|_a^2, (f, v) and the traction's
   double mismatch2 = 0;                      // m^2 of the triangles that v shares
   int row = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -197,8 +218,8 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
     double mismatch = 0;
     if (mesh.region[t] == Region::body) {
       const Eigen::Vector2d gradient = v.flux(t, 0);
-      mismatch = area * (gradient - here.s).squaredNorm() + here.tau2;  // tau has mean zero on T
-      norm2 += area * gradient.squaredNorm();
+      mismatch = area / here.stiffness * (gradient - here.s).squaredNorm() + here.tau2;  // tau has mean zero on T
+      norm2 += area / here.stiffness * gradient.squaredNorm();
       for (int i = 0; i < 3; ++i)  // mean(f lambda_i) = (f_i + 3 f_T) / 12
         work += area * (here.f(i) + 3 * here.mean) / 12 * companion.at_vertices(mesh.triangles(t, i));
     } else if (v.on_mesh(t)) {
@@ -217,7 +238,8 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
     certificate.indicator(t) += mismatch / 2 + here.oscillation2;
   }
   certificate.norm = std::sqrt(norm2);
-  check_prescribed(space, problem, companion, options.prescribed);
+  work += flux.pull.dot(companion.at_vertices);
+  check_prescribed(scene, space, problem, companion);
   if (scene.contact() && companion.layer)
     check_admissible(*scene.contact(), companion.layer->mesh(), companion.layer->v());
   else if (scene.contact())

@@ -10,7 +10,8 @@ enum class Quantity { displacement, stress };
 
 /// A proved bound of the error against the exact solution u of (23), (24), (22) or the body alone, known from one
 /// Crouzeix-Raviart solution and one conforming function v of K; equally sharp for every epsilon in [0, 1]. Everything
-/// is dimensionless, in the energy norm |.|_a of Remark 4. It holds up to round-off, for load and gap as sampled.
+/// is dimensionless, in the energy norm |.|_a of Remark 4. It holds up to round-off, for load, gap, traction, displacement
+/// and stiffness as sampled.
 struct Certificate {
   double displacement = 0;  ///< >= |u - v|_a, v the companion
   double gradient = 0;      ///< >= |A grad u - S_h|, S_h the broken flux of Crouzeix-Raviart: the same number
@@ -33,7 +34,6 @@ struct Certificate {
 
 struct CertificateOptions {
   PenaltyFactor* factor = nullptr;       ///< of the problem, where there is one: rho costs one half of a solve with it
-  Field prescribed = {};                 ///< its values at the vertices are the boundary values; empty: 0
   const Companion* companion = nullptr;  ///< v; none: strip_companion makes it
 };
 

@@ -15,9 +15,13 @@ struct Stiffness {
   double x = 1, y = 1;
 };
 
+/// The factor that `of_body` is on a triangle of the body: its value at the centroid; 1 where it is empty. Throws Error
+/// where it is not positive.
+double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle);
+
 /// N x N matrix of the sum over the triangles of  int stiffness.x d/dx u d/dx v + stiffness.y d/dy u d/dy v.
 /// The forms a+ and a_x^- of (23) are {1, 1} on the body and {1, 0} on the layer.
-/// `of_body`, where it is given, is a factor on each triangle of the body, taken at its centroid; throws Error where it is not positive.
+/// `of_body` is a factor on each triangle of the body, stiffness_on.
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer,
                                           const Field& of_body = {});
 

@@ -9,17 +9,22 @@
 
 namespace antilock {
 
+double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle) {
+  if (!of_body) return 1;
+  const Eigen::Vector2d x = point_in(mesh, triangle, Eigen::Vector3d::Constant(1.0 / 3));
+  const double factor = of_body(x(0), x(1));
+  if (!(factor > 0 && std::isfinite(factor)))
+    throw Error(fmt::format("stiffness({:.6g}, {:.6g}) = {}; accepted: a positive number", x(0), x(1), factor));
+  return factor;
+}
+
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer,
                                           const Field& of_body) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const auto weight = [&](int t) -> Stiffness {
     if (mesh.region[t] == Region::layer) return layer;
-    if (!of_body) return body;
-    const Eigen::Vector2d x = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3));
-    const double factor = of_body(x(0), x(1));
-    if (!(factor > 0 && std::isfinite(factor)))
-      throw Error(fmt::format("stiffness({:.6g}, {:.6g}) = {}; accepted: a positive number", x(0), x(1), factor));
+    const double factor = stiffness_on(of_body, mesh, t);
     return {factor * body.x, factor * body.y};
   };
 

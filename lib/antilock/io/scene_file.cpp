@@ -344,7 +344,9 @@ void check_together(const Section& root, const Scene& scene, const MeshRequest& 
     root.section("method")->refuse("element",
                                    fmt::format("\"{}\" does not go with {}; accepted: \"P1\", \"CR\"", method.element,
                                                petsc ? "solver = \"petsc\"" : "model = \"ventcel\""));
-  const std::string beyond = root.has("at") && petsc ? "points" : scene.beyond_the_paper();
+  const std::string beyond = !petsc           ? scene.beyond_the_certificate()
+                             : root.has("at") ? "points"
+                                              : scene.beyond_the_paper();
   if (!beyond.empty() && (petsc || method.accuracy))
     root.section("method")->refuse(
         petsc ? "solver" : "accuracy",

@@ -81,14 +81,14 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon) {
       triangles.emplace_back(number[body.triangles(t, 0)], number[body.triangles(t, 1)], number[body.triangles(t, 2)]);
   std::vector<Region> region(triangles.size(), Region::body);
   std::vector<TaggedEdge> tagged;
-  std::vector<char> held(body.vertex_count(),
-                         0);  // where the body's outline ends on Sigma, the layer's side is as it is
+  std::vector<EdgeTag> side(body.vertex_count(),
+                            EdgeTag::free);  // where the body is held beside Sigma, so is the layer
   for (int e = 0; e < body.edge_count(); ++e) {
     const int from = number[body.edges(e, 0)], to = number[body.edges(e, 1)];
     const bool on_outline = body.edge_triangles(e, 1) < 0 && body.region[body.edge_triangles(e, 0)] == Region::body;
     if (on_outline && body.edge_tag[e] != EdgeTag::contact) {
       tagged.push_back({from, to, body.edge_tag[e]});
-      if (is_held(body.edge_tag[e])) held[body.edges(e, 0)] = held[body.edges(e, 1)] = 1;
+      if (is_held(body.edge_tag[e])) side[body.edges(e, 0)] = side[body.edges(e, 1)] = body.edge_tag[e];
     }
   }
   for (const auto& [left, right] : columns) {
@@ -96,8 +96,7 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon) {
       triangles.emplace_back(vertex(left, j + 1), vertex(right, j + 1), vertex(right, j));
       triangles.emplace_back(vertex(left, j + 1), vertex(right, j), vertex(left, j));
       for (const int v : {left, right})
-        if (degree[v] == 1)
-          tagged.push_back({vertex(v, j), vertex(v, j + 1), held[v] ? EdgeTag::clamped : EdgeTag::free});
+        if (degree[v] == 1) tagged.push_back({vertex(v, j), vertex(v, j + 1), side[v]});
     }
     tagged.push_back({vertex(left, 0), vertex(right, 0), EdgeTag::sigma});
     tagged.push_back({vertex(left, rows), vertex(right, rows), EdgeTag::contact});

@@ -38,6 +38,11 @@ void check_fit(const Scene& scene, const Space& space) {
 
 namespace {
 
+/// The displacement that a group is given; below Sigma that of Sigma's end.
+double given(const EdgeCondition& edge, Region region, const Eigen::RowVector2d& x) {
+  return edge.value(x(0), region == Region::layer ? 0 : x(1));
+}
+
 /// What the named groups of edges add to A1, to the load and to the given values.
 void add_edges(VariationalInequality& problem, const Scene& scene, const Space& space) {
   using Kind = EdgeCondition::Kind;
@@ -55,7 +60,7 @@ void add_edges(VariationalInequality& problem, const Scene& scene, const Space& 
           const int unknown = space.unknowns()(t, j);
           const auto place = std::lower_bound(problem.fixed.begin(), problem.fixed.end(), unknown);
           problem.fixed_values(place - problem.fixed.begin()) =
-              value(space.points()(unknown, 0), space.points()(unknown, 1));
+              given(scene.edges()[k], mesh.region[t], space.points().row(unknown));
         }
   }
 }
@@ -63,6 +68,15 @@ void add_edges(VariationalInequality& problem, const Scene& scene, const Space& 
 }  // namespace
 
 double compliance(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
+
+Eigen::VectorXd prescribed_values(const Scene& scene, const TriangleMesh& mesh) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(mesh.vertex_count());
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    for (int end = 0; end < 2 && mesh.edge_tag[e] >= held_group(0); ++end)
+      values(mesh.edges(e, end)) = given(scene.edges()[group_of(mesh.edge_tag[e])],
+                                         mesh.region[mesh.edge_triangles(e, 0)], mesh.vertices.row(mesh.edges(e, end)));
+  return values;
+}
 
 Eigen::VectorXd contact_bounds(const UnilateralContact& contact, const Space& space) {
   Eigen::VectorXd lower(static_cast<Eigen::Index>(space.contact().size()));

@@ -12,6 +12,9 @@ VariationalInequality assemble(const Scene& scene, const Space& space);
 
 /// The class parameter of (1), which in (23) is the square of the paper's epsilon. The one place that says so.
 double compliance(const StiffLayer& layer);
+/// V values: what is given at the ends of held edges, 0 elsewhere. On the side of a layer it is what is given above, on y =
+/// 0.
+Eigen::VectorXd prescribed_values(const Scene& scene, const TriangleMesh& mesh);
 /// C bounds u >= -gap(x), one a contact unknown of the space. Throws Error where the gap is not finite.
 Eigen::VectorXd contact_bounds(const UnilateralContact& contact, const Space& space);
 

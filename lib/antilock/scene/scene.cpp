@@ -45,10 +45,16 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, s
 std::string Scene::beyond_the_paper() const {
   if (!edges_.empty()) return "edges in named groups";
   if (body_.stiffness) return "a stiffness of the body";
+  const auto* stiff = std::get_if<StiffLayer>(&layer_);
+  return stiff != nullptr && stiff->s != 1 ? "a layer of its own stiffness" : beyond_the_certificate();
+}
+
+std::string Scene::beyond_the_certificate() const {
+  for (const EdgeCondition& edge : edges_)
+    if (edge.kind == EdgeCondition::Kind::spring) return "a spring on the group " + edge.group;
   if (contact_ && contact_->ceiling) return "a ceiling";
-  if (const auto* stiff = std::get_if<StiffLayer>(&layer_); stiff != nullptr && (stiff->s != 1 || stiff->load))
-    return stiff->load ? "a load on the layer" : "a layer of its own stiffness";
-  return "";
+  const auto* stiff = std::get_if<StiffLayer>(&layer_);
+  return stiff != nullptr && stiff->load ? "a load on the layer" : "";
 }
 
 double Scene::layer_depth() const {

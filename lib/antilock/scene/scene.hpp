@@ -63,8 +63,10 @@ class Scene {
   const std::optional<UnilateralContact>& contact() const { return contact_; }
   /// Of the groups of its mesh (natural_group, held_group), in their order.
   const std::vector<EdgeCondition>& edges() const { return edges_; }
-  /// What goes beyond the paper's problem, in words; empty where nothing does.
+  /// What goes beyond the paper's problem, in words, and what of it the certificate has no proof for; empty where nothing
+  /// does.
   std::string beyond_the_paper() const;
+  std::string beyond_the_certificate() const;
   /// Depth of the layer's mesh below Sigma: 0 (no mesh), 1 (scaled) or epsilon (thin).
   double layer_depth() const;
   /// The paper's epsilon; empty without a layer (0 for Ventcel).

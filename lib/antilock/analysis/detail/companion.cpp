@@ -8,16 +8,13 @@
 #include <map>
 
 #include "antilock/core/error.hpp"
+#include "antilock/form/forms.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {
 namespace {
-
-double at(const Field& prescribed, const TriangleMesh& mesh, int vertex) {
-  return prescribed ? prescribed(mesh.vertices(vertex, 0), mesh.vertices(vertex, 1)) : 0;
-}
 
 /// The vertices whose value is known: ends of fixed and of clamped edges.
 std::vector<char> held_vertices(const Space& space, const VariationalInequality& problem) {
@@ -29,21 +26,23 @@ std::vector<char> held_vertices(const Space& space, const VariationalInequality&
 }
 
 /// The mean of u_CR over the body's triangles at each vertex; the known values where they are known.
-Eigen::VectorXd averages(const Space& space, const Solution& solution, const std::vector<char>& held,
-                         const Field& prescribed) {
+Eigen::VectorXd averages(const Scene& scene, const Space& space, const Solution& solution,
+                         const std::vector<char>& held) {
   const TriangleMesh& mesh = space.mesh();
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh.vertex_count()), count = sum;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != Region::body) continue;
     const Eigen::Vector3d u = solution.u(space.unknowns().row(t));
+    const double stiffness = stiffness_on(scene.body().stiffness, mesh, t);
     for (int i = 0; i < 3; ++i) {
-      sum(mesh.triangles(t, i)) += u.sum() - 2 * u(i);  // phi_i = 1 - 2 lambda_i
-      ++count(mesh.triangles(t, i));
+      sum(mesh.triangles(t, i)) += stiffness * (u.sum() - 2 * u(i));  // phi_i = 1 - 2 lambda_i
+      count(mesh.triangles(t, i)) += stiffness;
     }
   }
+  const Eigen::VectorXd known = prescribed_values(scene, mesh);
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     if (held[v])
-      sum(v) = at(prescribed, mesh, v);
+      sum(v) = known(v);
     else if (count(v) > 0)
       sum(v) /= count(v);
   }
@@ -144,28 +143,27 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const std::v
   return lower;
 }
 
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& prescribed) {
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& near) {
   const TriangleMesh& mesh = space.mesh();
+  const auto at = [&](int v) { return near ? near(mesh.vertices(v, 0), mesh.vertices(v, 1)) : 0; };
   std::vector<int> place(mesh.vertex_count(), -1);
   for (std::size_t i = 0; i < space.contact().size(); ++i) place[space.contact()[i]] = static_cast<int>(i);
   std::vector<Chord> chords;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const int from = mesh.edges(e, 0), to = mesh.edges(e, 1);
-    chords.push_back({{place[from], place[to]},
-                      {mesh.vertices(from, 0), mesh.vertices(to, 0)},
-                      {at(prescribed, mesh, from), at(prescribed, mesh, to)}});
+    chords.push_back({{place[from], place[to]}, {mesh.vertices(from, 0), mesh.vertices(to, 0)}, {at(from), at(to)}});
   }
   return admissible_bounds(contact, chords, static_cast<int>(space.contact().size()));
 }
 
 Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                          const Solution& solution, const Field& prescribed, bool on_mesh) {
+                          const Solution& solution, bool on_mesh) {
   const TriangleMesh& mesh = space.mesh();
   const auto* stiff = on_mesh ? nullptr : std::get_if<StiffLayer>(&scene.layer());
   const std::vector<char> held = held_vertices(space, problem);
   Companion companion;
-  companion.at_vertices = averages(space, solution, held, prescribed);
+  companion.at_vertices = averages(scene, space, solution, held);
 
   const EdgeTag line_tag = scene.layer_depth() > 0 ? EdgeTag::sigma : EdgeTag::contact;
   std::vector<char> on_line(mesh.vertex_count(), 0);
@@ -179,11 +177,8 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
   const Space p1_space(columns, p1());
   VariationalInequality strip = assemble(scene, p1_space);
   std::vector<char> fixed(columns.vertex_count(), 0);
-  Eigen::VectorXd value = Eigen::VectorXd::Zero(columns.vertex_count());
-  for (const int v : p1_space.clamped()) {
-    fixed[v] = 1;
-    value(v) = at(prescribed, columns, v);
-  }
+  Eigen::VectorXd value = prescribed_values(scene, columns);
+  for (const int v : p1_space.clamped()) fixed[v] = 1;
   for (int t = 0; t < columns.triangle_count(); ++t) {
     if (columns.region[t] != Region::body) continue;
     for (int i = 0; i < 3; ++i) {
@@ -194,10 +189,10 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
   }
   std::map<double, double> above;  // near v on Gamma_C is u_CR on Sigma, at the same x
   for (int v = 0; v < mesh.vertex_count(); ++v)
-    if (on_line[v] && !held[v]) above[mesh.vertices(v, 0)] = companion.at_vertices(v);
-  const Field near = [&](double x, double y) {
+    if (on_line[v]) above[mesh.vertices(v, 0)] = companion.at_vertices(v);
+  const Field near = [&](double x, double) {
     const auto found = above.find(x);
-    return found != above.end() ? found->second : prescribed ? prescribed(x, y) : 0;
+    return found != above.end() ? found->second : 0;
   };
   if (scene.contact()) strip.lower = admissible_bounds(*scene.contact(), p1_space, near);
   strip.fixed.clear();

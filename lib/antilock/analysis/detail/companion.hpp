@@ -22,8 +22,8 @@ struct Companion {
 /// Bounds for the contact unknowns of a P1 space under which v >= -gap on the whole of Gamma_C, not at the vertices
 /// alone. Per edge the one of two that is nearer to v: -gap at the ends, raised by what its chord leaves out, which is
 /// right where the gap is smooth; or the largest -gap at both ends, which is right where it has a step or a kink. The gap
-/// is sampled at 33 points per edge. `prescribed`: v at the clamped ends, and near it elsewhere (empty: 0).
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& prescribed = {});
+/// is sampled at 33 points per edge. `near`: v at the held ends, and near it elsewhere (empty: 0).
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& near = {});
 
 /// A piece of Gamma_C on which v is affine, but for a bubble.
 struct Chord {
@@ -35,14 +35,13 @@ struct Chord {
 /// The same for `count` values of v on chords.
 Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const std::vector<Chord>& chords, int count);
 
-/// The strip: v is the average of u_CR at the body's vertices off Sigma, and on Sigma and in the layer the function of
+/// The strip: v is the average of u_CR, weighted by the stiffness, at the body's vertices off Sigma, and on Sigma and in the layer the function of
 /// least energy in K, by active set. The scaled layer has columns for it under the vertices of Sigma (mesh/layered.hpp),
 /// the mesh's own where it is extruded already: P1 cannot lock on them. A handful of unknowns per column, whatever the
-/// body has. `prescribed`: the function whose values at the vertices are the boundary values (empty: 0). Throws what
-/// active_set throws.
+/// body has. Throws what active_set throws.
 /// `on_mesh`: no columns of its own, P1 on the layer's triangles as they are, which lock unless epsilon is large.
 Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                          const Solution& solution, const Field& prescribed = {}, bool on_mesh = false);
+                          const Solution& solution, bool on_mesh = false);
 
 /// A P1 solution on the mesh itself as the companion.
 Companion p1_companion(const Solution& p1_solution);

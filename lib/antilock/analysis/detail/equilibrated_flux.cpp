@@ -14,13 +14,19 @@
 namespace antilock {
 namespace {
 
+/// The traction on the edges with a tag; null where there is none.
+const Field* traction_on(const Scene& scene, EdgeTag tag) {
+  const int k = group_of(tag);
+  return k < 0 || scene.edges()[k].kind != EdgeCondition::Kind::traction ? nullptr : &scene.edges()[k].value;
+}
+
 void check_request(const Scene& scene, const Space& space, const VariationalInequality& problem,
                    const Solution& solution) {
   require_lower_bounds(problem, "certificate");
   if (space.element().name() != "CR")
     throw Error("certificate: element " + space.element().name() +
                 " has no flux in equilibrium; accepted: CR, and certified_distance to it");
-  if (const std::string beyond = scene.beyond_the_paper(); !beyond.empty())
+  if (const std::string beyond = scene.beyond_the_certificate(); !beyond.empty())
     throw Error("certificate: has no flux for " + beyond + "; accepted: a scene without it");
   if (std::holds_alternative<VentcelLayer>(scene.layer()))
     throw Error(
@@ -39,6 +45,10 @@ void check_request(const Scene& scene, const Space& space, const VariationalIneq
     throw Error("certificate: the solution is not finite; accepted: finite numbers");
   if (problem.contact.empty() == scene.contact().has_value() && !space.contact().empty())
     throw Error("certificate: scene and problem do not agree whether there is contact");
+  for (int e = 0; e < space.mesh().edge_count(); ++e)
+    if (traction_on(scene, space.mesh().edge_tag[e]) != nullptr &&
+        region[space.mesh().edge_triangles(e, 0)] == Region::layer)
+      throw Error("certificate: has no flux for a traction on the layer; accepted: on the body");
   for (const int e : problem.fixed)
     if (space.mesh().edge_triangles(e, 1) >= 0)
       throw Error("certificate: a value is fixed inside the domain; accepted: on the boundary");
@@ -46,6 +56,64 @@ void check_request(const Scene& scene, const Space& space, const VariationalIneq
     if (space.mesh().edge_tag[e] != EdgeTag::contact)
       throw Error("certificate: an unknown off Gamma_C is bounded; accepted: bounds on the edges in the group contact");
 }
+
+/// The conforming v takes the displacement given on an edge as it is: affine, and the same at a vertex from either side.
+void check_displacement(const Scene& scene, const TriangleMesh& mesh) {
+  const Eigen::VectorXd at_vertices = prescribed_values(scene, mesh);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const int from = mesh.edges(e, 0), to = mesh.edges(e, 1), k = group_of(mesh.edge_tag[e]);
+    if (!is_held(mesh.edge_tag[e]) || (k >= 0 && mesh.region[mesh.edge_triangles(e, 0)] == Region::layer)) continue;
+    for (int part = 0; part <= 4; ++part) {
+      const double s = part / 4.0, affine = (1 - s) * at_vertices(from) + s * at_vertices(to);
+      const Eigen::RowVector2d x = (1 - s) * mesh.vertices.row(from) + s * mesh.vertices.row(to);
+      if (const double off = (k < 0 ? 0 : scene.edges()[k].value(x(0), x(1))) - affine;
+          !(std::abs(off) <= 1e-11 * std::max(1.0, std::abs(affine))))
+        throw Error(
+            fmt::format("certificate: the displacement given at ({:.6g}, {:.6g}) is {:.1e} off that of the vertices "
+                        "beside it; accepted: values that do not jump, affine on every edge of the mesh",
+                        x(0), x(1), off));
+    }
+  }
+}
+
+/// kappa of a triangle, which must be one number on it, as far as six more points tell.
+double constant_stiffness(const Field& stiffness, const TriangleMesh& mesh, int t) {
+  const double kappa = stiffness_on(stiffness, mesh, t);
+  for (int i = 0; i < 6 && stiffness; ++i) {  // beside the corners, then beside the middles of the edges
+    Eigen::Vector3d there = Eigen::Vector3d::Unit(i % 3);
+    if (i >= 3) there = (Eigen::Vector3d::Ones() - there) / 2;
+    const Eigen::Vector2d x = point_in(mesh, t, 0.98 * there + Eigen::Vector3d::Constant(0.02 / 3));
+    if (const double other = stiffness(x(0), x(1)); std::abs(other - kappa) > 1e-12 * kappa)
+      throw Error(
+          fmt::format("certificate: the stiffness is {:.6g} and {:.6g} on the triangle at ({:.6g}, {:.6g}); "
+                      "accepted: one number per triangle, as of groups of surfaces",
+                      kappa, other, x(0), x(1)));
+  }
+  return kappa;
+}
+
+/// A traction g on edge i of a triangle, from its corner (i + 1) % 3 (s = 0) to the next (s = 1): the means of g and of
+/// g (s - 1/2), and |g - g_1| over the edge, g_1 = mean + 12 moment (s - 1/2).
+struct TractionOn {
+  double mean = 0, moment = 0, rest = 0;
+
+  TractionOn(const TriangleMesh& mesh, int t, int i, const Field& g) {
+    static const auto rule = gauss_rule(12);
+    const auto& [points, weights] = rule;
+    Eigen::VectorXd values(points.size());
+    for (Eigen::Index q = 0; q < points.size(); ++q) {
+      Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+      lambda((i + 1) % 3) = 1 - points(q);
+      lambda((i + 2) % 3) = points(q);
+      const Eigen::Vector2d x = point_in(mesh, t, lambda);
+      values(q) = g(x(0), x(1));
+      mean += weights(q) * values(q);
+      moment += weights(q) * values(q) * (points(q) - 0.5);
+    }
+    const Eigen::ArrayXd off = values.array() - mean - 12 * moment * (points.array() - 0.5);
+    rest = std::sqrt(mesh.edge_length(mesh.triangle_edges(t, i)) * weights.dot(off.square().matrix()));
+  }
+};
 
 /// f on a triangle by a rule: f_T, the mean of f x, f_1 and the mean of (f - f_1)^2.
 struct LoadOn {
@@ -115,7 +183,9 @@ void check_same_question(const VariationalInequality& problem, const Solution& s
 LayerLaw::LayerLaw(const Scene& scene) {
   if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
     split = true;
-    y = compliance(*stiff);
+    stiffness = stiff->s;
+    x = 1 / stiff->s;
+    y = compliance(*stiff) / stiff->s;
   } else if (const auto* thin = std::get_if<ThinLayer>(&scene.layer())) {
     stiffness = 1 / thin->epsilon;
     x = y = thin->epsilon;
@@ -135,17 +205,28 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Ei
     const double rotation = 0.5 * here.mean + l.dot(here.f) / 3;
     tau.row(q) = constant - rotation * (l * corner) + l * weighted / 3;
   }
+  if (here.traction.isZero(0)) return tau;
+  const Eigen::Matrix<double, 3, 2> gradient = barycentric_gradients(mesh, t);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;  // grad (lambda_j lambda_k) less its mean, turned
+    const Eigen::MatrixX2d slope = (lambda.col(j).array() - 1.0 / 3).matrix() * gradient.row(k) +
+                                   (lambda.col(k).array() - 1.0 / 3).matrix() * gradient.row(j);
+    tau.col(0) += here.traction(i) * slope.col(1);
+    tau.col(1) -= here.traction(i) * slope.col(0);
+  }
   return tau;
 }
 
 EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const VariationalInequality& problem,
                                    const Solution& solution) {
   check_request(scene, space, problem, solution);
+  check_displacement(scene, space.mesh());
   static const Quadrature& fine_rule = triangle_rule(12);
   const TriangleMesh& mesh = space.mesh();
   const Quadrature &rule = load_rule(space.element()), &square_rule = radon_rule();  // tau^2 is of degree 4
   EquilibratedFlux flux(scene);
   flux.cell.resize(mesh.triangle_count());
+  flux.pull = Eigen::VectorXd::Zero(mesh.vertex_count());
   Eigen::VectorXd assembled = Eigen::VectorXd::Zero(space.size());  // r with the load as the solver integrates it
   Eigen::VectorXd finer = Eigen::VectorXd::Zero(space.size());      // what a finer rule adds to the load
   Eigen::VectorXd values;
@@ -159,7 +240,7 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const
     here.s = gradient;
     if (mesh.region[t] == Region::layer) {
       here.s *= flux.law.stiffness;
-      if (flux.law.split) here.s(1) = solution.p(layer_row++);
+      if (flux.law.split) here.s(1) = flux.law.stiffness * solution.p(layer_row++);
       flux.norm2 += area * flux.law.squared(here.s);
     } else {
       const LoadOn usual(mesh, t, rule, scene.body().load, values);
@@ -171,15 +252,40 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const
       here.mean = load.mean;
       here.moment = load.moment;
       here.f = load.f;
-      here.oscillation2 = std::pow(longest_edge(mesh, t) / std::numbers::pi, 2) * area * load.rest2;
+      here.stiffness = constant_stiffness(scene.body().stiffness, mesh, t);
+      here.s *= here.stiffness;
+      const double h = longest_edge(mesh, t);
+      double oscillation = h / std::numbers::pi * std::sqrt(area * load.rest2);
+      for (int i = 0; i < 3; ++i) {
+        const Field* const g = traction_on(scene, mesh.edge_tag[mesh.triangle_edges(t, i)]);
+        if (g == nullptr) continue;
+        const TractionOn edge(mesh, t, i, *g);
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const double length = mesh.edge_length(mesh.triangle_edges(t, i));
+        here.traction(i) = -6 * edge.moment * length;
+        flux.pull(mesh.triangles(t, j)) += length * (edge.mean / 2 - edge.moment);
+        flux.pull(mesh.triangles(t, k)) += length * (edge.mean / 2 + edge.moment);
+        finer(unknown(i)) += length * edge.mean;
+        finer(unknown(j)) += 2 * length * edge.moment;
+        finer(unknown(k)) -= 2 * length * edge.moment;
+        oscillation += edge.rest * h * std::sqrt(length / area * (1 / std::numbers::pi + 1) / std::numbers::pi);
+      }
+      here.oscillation2 = oscillation * oscillation / here.stiffness;
       flux.oscillation2 += here.oscillation2;
       for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= area * usual.of_basis(i);
       const Eigen::MatrixX2d tau = flux.tau(mesh, t, square_rule.points);
-      here.tau2 = area * square_rule.weights.dot(tau.rowwise().squaredNorm());
+      here.tau2 = area / here.stiffness * square_rule.weights.dot(tau.rowwise().squaredNorm());
       flux.tau2 += here.tau2;
-      flux.norm2 += area * here.s.squaredNorm() + here.tau2;  // tau has mean zero on T
+      flux.norm2 += area * here.s.squaredNorm() / here.stiffness + here.tau2;  // tau has mean zero on T
     }
     for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= 2 * area * here.s.dot(lambda.row(i));  // grad phi_i
+  }
+  for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k) {
+    const Field* const g = traction_on(scene, natural_group(k));
+    if (g == nullptr) continue;
+    const Eigen::VectorXd usual = edge_load(space, natural_group(k), *g);
+    assembled -= usual;
+    finer -= usual;
   }
   check_same_question(problem, solution, assembled);
   flux.residual = assembled - finer;

@@ -11,21 +11,23 @@ namespace antilock {
 /// How the layer turns a gradient into a flux, and how a flux counts in the energy: |q|^2 = x q_x^2 + y q_y^2.
 struct LayerLaw {
   explicit LayerLaw(const Scene& scene);
-  bool split = false;    ///< the scaled layer: the flux is (d_x u, p), p its own unknown; else it is stiffness * grad u
-  double stiffness = 1;  ///< 1 / epsilon for the thin layer
-  double x = 1, y = 1;   ///< weights: 1 and epsilon^2 for the scaled layer, epsilon and epsilon for the thin one
+  bool split = false;  ///< the scaled layer: the flux is s (d_x u, p), p its own unknown; else it is stiffness * grad u
+  double stiffness = 1;  ///< s for the scaled layer, 1 / epsilon for the thin one
+  double x = 1, y = 1;   ///< weights: 1/s and epsilon^2 / s for the scaled layer, epsilon and epsilon for the thin one
 
   double squared(const Eigen::Vector2d& flux) const { return x * flux(0) * flux(0) + y * flux(1) * flux(1); }
 };
 
 /// The flux of Crouzeix-Raviart on one triangle, sigma = s + tau; tau = 0 in the layer.
 struct FluxCell {
-  Eigen::Vector2d s = Eigen::Vector2d::Zero();       ///< A grad u_h; (d_x u_h, p) in the scaled layer
-  double mean = 0;                                   ///< f_T, the mean of f
-  Eigen::Vector2d moment = Eigen::Vector2d::Zero();  ///< the mean of f x
-  Eigen::Vector3d f = Eigen::Vector3d::Zero();       ///< f_1 at the vertices: f projected on the affine functions
-  double oscillation2 = 0;                           ///< (h_T / pi)^2 |f - f_1|_T^2
-  double tau2 = 0;                                   ///< |tau|_T^2
+  Eigen::Vector2d s = Eigen::Vector2d::Zero();         ///< A grad u_h; s (d_x u_h, p) in the scaled layer
+  double stiffness = 1;                                ///< kappa, of the body
+  double mean = 0;                                     ///< f_T, the mean of f
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();    ///< the mean of f x
+  Eigen::Vector3d f = Eigen::Vector3d::Zero();         ///< f_1 at the vertices: f projected on the affine functions
+  Eigen::Vector3d traction = Eigen::Vector3d::Zero();  ///< c_E of its edges
+  double oscillation2 = 0;                             ///< osc_T^2
+  double tau2 = 0;                                     ///< |tau|_T^2, counted by A^-1
 };
 
 /// A flux in equilibrium with f_1, built from any u and p on the Crouzeix-Raviart space (derivation in
@@ -39,8 +41,9 @@ struct EquilibratedFlux {
   Eigen::VectorXd lambda;      ///< C, the positive part of r on Gamma_C: contact forces
   Eigen::VectorXd imbalance;   ///< N, r1: what is left of r on free unknowns; 0 on the fixed ones
   Eigen::VectorXd gap;         ///< C, the mean of the gap over each contact edge
+  Eigen::VectorXd pull;        ///< V, the work of the traction on the P1 function of each vertex
   double norm2 = 0;            ///< |sigma|^2, counted by A^-1
-  double tau2 = 0;             ///< |tau|^2
+  double tau2 = 0;             ///< |tau|^2, counted by A^-1
   double oscillation2 = 0;     ///< osc^2, the sum over the triangles
   double dual = 0;             ///< D, the energy of the dual problem at sigma
 
@@ -50,9 +53,10 @@ struct EquilibratedFlux {
 
 /// Builds it; u and p need satisfy no equation. Where f is far from affine on a triangle, a finer rule integrates it
 /// than the solver used, and the difference is a part of r. Throws Error for another element than Crouzeix-Raviart, for
-/// the Ventcel layer (accepted in its place: the scaled layer with epsilon = 0, the same problem), for a solution of
-/// another size or with entries that are not finite, and for a problem that is not this scene's on this space (its load
-/// above all).
+/// what Scene::beyond_the_certificate names, for a stiffness that varies on a triangle (as sampled), a traction on the
+/// layer, a displacement that is not affine on an edge or jumps between two, for the Ventcel layer (accepted in its place:
+/// the scaled layer with epsilon = 0, the same problem), for a solution of another size or with entries that are not
+/// finite, and for a problem that is not this scene's on this space (its load above all).
 EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const VariationalInequality& problem,
                                    const Solution& solution);
 
