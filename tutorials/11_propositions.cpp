@@ -20,10 +20,12 @@
 // discrete problems are chapter 10's (1) and (2) with discrete sets, $K_h$ and $K_{0h} = K_h ∩ G_h$; the paper calls them
 // (6) and (7). For our problem (7) is (27) of chapter 05.
 //
-// **Proposition 1: ε to 0 at fixed $h$.** $u_h^ε → u_h^0$. The proof is that of Theorem 1, for discrete functions. It is
-// even easier, because in a space of finitely many dimensions a bounded sequence has parts that converge strongly, not only
-// weakly. No mesh is excluded. So locked P1 has a limit as well. The order is 2 for every method: a mesh has no waves beyond
-// $1/h$, so below $ε ∼ h$ each wave is changed by a share like $ε^2$, and the sum that made 3/2 of it breaks off.
+// **Proposition 1: ε to 0 at fixed $h$.** $u_h^ε → u_h^0$. The proof is that of Theorem 1, for discrete functions. It
+// is even easier, because in a space of finitely many dimensions a bounded sequence has parts that converge strongly,
+// not only weakly. No mesh is excluded. So locked P1 has a limit as well. The order is 2 for every method. For the
+// exact solution it was 3/2, because of the waves $k$ above $1/ε$, which the layer answers in another way (chapter 10).
+// A mesh has no waves beyond $1/h$. So once ε is below $h$ there are none of these: each wave that the mesh has is
+// changed by a share like $ε^2$, and so is their sum.
 //
 // **Proposition 2: $h$ to 0 at fixed ε, and at ε = 0.** If $K_h$ approaches $K$, then $u_h^ε → u^ε$. If $K_{0h}$
 // approaches $K_0$, then $u_h^0 → u^0$. (Both are Theorem 3 of [chapter 14](14_estimates.cpp), which also asks for two
@@ -34,25 +36,29 @@
 //
 // $$ ‖u^ε-u_h^ε‖_h ≤ ‖u^ε-u^0‖ + ‖u^0-u_h^0‖_h + ‖u_h^0-u_h^ε‖_h. \tag{18} $$
 //
-// The first step is Theorem 1, no mesh is in it. The second is Proposition 2, no ε is in it. Only the third holds both, and
-// is new. Its proof runs along the three steps of Theorem 1.
+// The first step is Theorem 1, and no mesh is in it. The second is Proposition 2, and no ε is in it. Only the third
+// holds both, and is new. Its proof runs along the three steps of Theorem 1.
 //
 // *Bounded:* the test function is now an element of $K_{0h}$, one per mesh. As $K_{0h}$ approaches $K_0$, these can be
-// chosen so that they converge, and so are bounded. Hence the discrete solutions are bounded, and their stiff form is at most
-// $C ε^2$, with one $C$ for all ε and $h$. *Weak limit:* it is in $K$, since $K_h$ approaches $K$. The stiff form can only
-// lose in it, and it is 0 in the limit, so the weak limit is in $K_0$. What does it solve? Take any $w$ of $K_0$, and
-// elements of $K_{0h}$ that tend to it, as test functions. Drop the stiff term and go to the limit: it solves (2), so it is
-// $u^0$. *Strong:* test (6) with the discrete limit $u_h^0$, which the stiff form does not see:
+// chosen so that they converge, and so are bounded. Hence the discrete solutions are bounded, and their stiff form is
+// at most $C ε^2$, with one $C$ for all ε and $h$.
+//
+// *Weak limit:* a part of them has one. It is in $K$, since $K_h$ approaches $K$. Their stiff forms tend to 0, and a
+// form can only lose by a weak limit, so the stiff form of the limit is 0, too: the limit is in $K_0$. What does it
+// solve? Take any $w$ of $K_0$, and elements of $K_{0h}$ that tend to it, as test functions. Drop the stiff term and go
+// to the limit, as in chapter 10: it solves (2), so it is $u^0$.
+//
+// *Strong:* test (6) with the discrete limit $u_h^0$, which the stiff form does not see:
 //
 // $$ α ‖u_h^0 - u_h^ε‖_h^2 ≤ L(u_h^ε - u_h^0) - a_1(u_h^0, u_h^ε - u_h^0) → 0. \tag{19} $$
 //
 // The right side tends to 0, because both discrete solutions in it tend to the same $u^0$: one weakly, as was just shown, the
 // other strongly, by Proposition 2.
 //
-// **Where locked P1 leaves this road.** Its $K_{0h}$ holds no function that moves the layer. So its discrete limit is 0 there,
-// and in the body it tends to the solution $u^c$ that is clamped on $Σ$. The second step tends to $‖u^0 - u^c‖$, a number
-// that the sine series gives: 0.138, most of it the 0.126 of $u^0$ on the layer. The third step of locked P1 does tend to 0
-// along $ε = h^2$. What is wrong with locked P1 is not that it does not converge, but where to.
+// **Where locked P1 leaves this road.** Its $K_{0h}$ holds no function that moves the layer. So its discrete limit is 0
+// there, and in the body it tends to the solution $u^c$ that is clamped on $Σ$. The second step tends to $‖u^0 - u^c‖$,
+// a number that the sine series gives: 0.138, most of it the 0.126 of $u^0$ on the layer. The third step of locked P1
+// does tend to 0 along $ε = h^2$, because both of its discrete solutions go to the same place. It is the wrong place.
 
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/h1_norm.hpp"

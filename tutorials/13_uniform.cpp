@@ -8,7 +8,7 @@
 // [12](12_contact_sets.cpp) (approaches).
 //
 // **The picture.** What P1 loses of the layer's displacement over what it keeps, over the plane of ε and $h$, on four
-// families of meshes. *Each family has its own wall, or none: a line, to the left of which nearly all is lost.*
+// families of meshes. *Yellow: nearly all is lost. Dark: nearly nothing. Each family has a border of its own, or none.*
 //
 // :figure: locking_map
 //
@@ -25,9 +25,9 @@
 // $$ \lim_{h → 0} \sup_{0 < ε ≤ 1} ‖u_h^ε - u^ε‖_h = 0. $$
 //
 // Nothing is said about how fast. A method is **robust** if the worst error has the order that the error has where
-// nothing is stiff, at ε = 1. Robust is more: a method whose worst error falls like $h^{1/2}$ is free of locking, and not
-// robust. Babuška and Suri, [3] of the paper, measure it by the *locking ratio*: at equal unknowns $N$ the worst error
-// over the error at ε = 1,
+// nothing is stiff, at ε = 1. Robust is more: a method whose worst error falls like $h^{1/2}$ is free of locking, and
+// not robust. Babuška and Suri, [3] of the paper, measure it by the *locking ratio*. Write $E(ε, N)$ for the error with
+// $N$ unknowns. The ratio is the worst error over the error at ε = 1,
 //
 // $$ L(N) = \frac{\sup_ε E(ε, N)}{E(1, N)}. $$
 //
@@ -52,8 +52,8 @@
 // (H0nc) and (H1nc) as well, which conforming methods have for nothing and Crouzeix–Raviart has:
 // [chapter 14](14_estimates.cpp). The paper leaves them out here.) Suppose that a method with both properties is not
 // free of locking. Then there are $h_n → 0$ and $ε_n$ with errors above some $c > 0$. Numbers of $[0, 1]$ have limit
-// points, so a part of the $ε_n$ tends to some $\bar ε$. If $\bar ε > 0$, this contradicts Proposition 4. If
-// $\bar ε = 0$, both $h$ and ε tend to 0, and it contradicts Proposition 3.
+// points, so a part of the $ε_n$ tends to some $\bar ε$. If $\bar ε > 0$, the $ε_n$ keep away from 0 from some $n$ on,
+// and this contradicts Proposition 4. If $\bar ε = 0$, both $h$ and ε tend to 0, and it contradicts Proposition 3.
 //
 // **Theorem 5** is Theorem 4 for P1 on the structured mesh. In the layer the interpolant of a smooth $v ∈ K_0$ takes
 // one value per vertical line, so it is in $K_{0h}$. Smooth $v$ are enough, by Lemma 1. **Theorem 7** is Theorem 4
@@ -198,8 +198,9 @@ void judge(const Method& method, const Table& own, const Table& worst, double lo
 // Hypothesis and conclusion of Theorem 4 go together. Where the distance from $u^0$ to $K_{0h}$ falls like
 // $h^{0.98}$, so does the worst error, and the locking ratio is at most 1.02: these methods are robust. For P1 off
 // columns both stay, on the unstructured mesh at 0.148 on 1/32 and never below 0.126, and the locking ratio grows.
-// (a) Yes, with order 0.98. On $[0.01, 1]$ the fall begins once the wall, $ε = 5.84 k$ of chapter 06, is to the left of
-// 0.01. (b) No: refining moves the wall to smaller ε, so in $]0, 1]$ there is always an ε to the left of it.
+// (a) Yes, with order 0.98. The *wall* is the ε at which half is lost, $5.84 k$ by chapter 06. On $[0.01, 1]$ the error
+// falls once it is to the left of 0.01. (b) No: refining moves the wall, and in $]0, 1]$ there is always an ε left of
+// it.
 //
 // :figure: restricted
 //

@@ -21,50 +21,56 @@
 //
 // ## Who is right?
 //
-// Estimate (28) promises $C ε^{-2} h^{3/4}$. All runs so far show $h$, at every ε, where nothing locks. The paper
+// Estimate (28) promises $C ε^{-2} h^{3/4}$. All runs so far show order 1, at every ε, where nothing locks. The paper
 // proves uniform convergence (Theorems 5 and 7) without an order. This chapter proves one. $‖f‖$ is the norm of the
 // load in $L^2(Ω^+)$. In this chapter $h$ is the longest edge: on the structured mesh $\sqrt 2$ over the number of cells
 // per unit side.
 //
 // **Step 1: how smooth is $u$?** One would like to put the second derivative along $x$ into the problem as a test function:
 // this gives the energy of the first one. But an inequality accepts only functions of $K$. Heat helps. Let it flow along $x$
-// for a time $t$, with the sides held at 0, and call the result $P_t u$. Heat keeps $u ≥ 0$ on $Γ_C$, so the result is in
+// for a time $t$, with the sides held at 0, and call the result $P_t u$. Heat keeps what is not negative so, and the result is in
 // $K$, and $a(u, u - P_t u) ≤ (f, u - P_t u)$. Divide by $t$ and let $t → 0$. The heat equation says that
 // $(u - P_t u)/t → -∂_{xx} u$, so what comes out is
 //
 // $$ X = a(∂_x u, ∂_x u) ≤ (f, -∂_{xx} u). $$
 //
-// The slopes along $x$ have a finite energy, and nothing was said about where contact ends. In the body the equation gives
-// the other second derivative, $∂_{yy} u = -f - ∂_{xx} u$. Square this and insert $X$. With $|u|_2$ for the norm of all
-// second derivatives the result is *Theorem A*, for every ε from 0 to 1,
+// The slopes along $x$ have a finite energy, and nothing was said about where contact ends. In the body the equation
+// gives the other second derivative, $∂_{yy} u = -f - ∂_{xx} u$. Square it and insert $X$:
+//
+// $$ ‖∂_{yy} u‖^2 = ‖f‖^2 + 2 (f, ∂_{xx} u) + ‖∂_{xx} u‖^2 ≤ ‖f‖^2 - 2 X + ‖∂_{xx} u‖^2. $$
+//
+// The part of $X$ in the body cancels the derivatives with an $x$ in them, and that of the layer is left. With $|u|_2$
+// for the norm of all second derivatives this is *Theorem A*, for every ε from 0 to 1,
 //
 // $$ |u|_{2,Ω^+}^2 + 2 F^2 ≤ ‖f‖^2,   F^2 = ‖∂_{xx} u‖^2 + ε^{-2} ‖∂_{xy} u‖^2 on Ω^-. $$
 //
 // **Step 2: half of the error costs one line.** $I_h u$ takes the means of $u$ over edges, so its gradient is the mean
-// of $∇u$ on each triangle. Hence $u - I_h u$ is orthogonal to $V_h$, and Pythagoras holds with $e = I_h u - u_h$:
+// of $∇u$ on each triangle. The gradients of $V_h$ are constant there, so $a(u - I_h u, v_h) = 0$ for all $v_h$ of
+// $V_h$, and Pythagoras holds with $e = I_h u - u_h$:
 //
 // $$ |u - u_h|_a^2 = |u - I_h u|_a^2 + |e|_a^2. $$
 //
 // A function differs from its mean on a triangle by at most $h/π$ times its gradient, in the norm of $L^2$ (Payne and
-// Weinberger). Use it for both slopes in the body, and for $∂_x u$ and $ε p$ in the layer. Then Theorem A says
-// $|u - I_h u|_a ≤ (h/π) ‖f‖$, *on every mesh*.
+// Weinberger). Use it for both slopes in the body, and in the layer for $∂_x u$ and for $ε p = ε^{-1} ∂_y u$, which is
+// what the energy norm counts. Then Theorem A says $|u - I_h u|_a ≤ (h/π) ‖f‖$, *on every mesh*.
 //
 // **Step 3: the other half** is $|e|_a^2 ≤ a(u, e) - (f, e)$, because $I_h u$ is in $K_h$ and may be put into the discrete
-// inequality. If $e$ did not jump, the right side would be the work of the contact pressure alone. So one has to see what the
-// flux σ of $u$ does on its jumps. Let $σ_h$ have the mean fluxes of $u$ through the edges: the *Raviart-Thomas interpolant*.
-// Its flux is constant along an edge, and the jumps of $e$ have mean 0, so $σ_h$ does no work on them. Three terms are left:
-// $η$, the distance of the means of σ and $σ_h$ over triangles; the load, at most $(h/π)‖f‖$; and contact,
-// $T_C = ∑_E \bar λ ∫_E (u - u_h)$, with $\bar λ$ the mean pressure over an edge $E$ of $Γ_C$.
+// inequality. If $e$ did not jump, the right side would be the work of the contact pressure alone. So one has to see
+// what the flux σ of $u$ does on the jumps of $e$. Let $σ_h$ have the mean fluxes of $u$ through the edges: the
+// *Raviart-Thomas interpolant*. Its flux is constant along an edge, and the jumps of $e$ have mean 0, so $σ_h$ does no
+// work on them. Three terms are left: $η$, the distance of the means of σ and $σ_h$ over triangles; the load, at most
+// $(h/π)‖f‖$; and contact, $T_C = ∑_E \bar λ ∫_E (u - u_h)$, with $\bar λ$ the mean pressure over an edge $E$ of $Γ_C$.
 //
-// **Step 4: contact.** As $u_h$ is not negative at midpoints, $T_C$ is at most the sum of $\bar λ ∫_E u$. This is positive
-// only on an edge where contact ends: on others the pressure is 0, or $u$ is. On such an edge let contact hold on a length
-// $m$ and not on the other $n$. If $n$ is small, then $u$ is small, because its slope lives on little length. If $m$ is
-// small, the mean pressure is. The two factors cancel, and $T_C ≤ 0.56 h^2 ‖f‖^2$ wherever contact ends (*Lemma B*, with
-// the mechanism of Drouet and Hild).
+// **Step 4: contact.** As $u_h$ is not negative at midpoints, $T_C$ is at most the sum of $\bar λ ∫_E u$. This is
+// positive only on an edge where contact ends: on others the pressure is 0, or $u$ is. Such an edge has a part with
+// contact and a part without. If the part without is short, then $u$ is small, because its slope lives on little
+// length. If the part with contact is short, the mean pressure is small. The two factors cancel, and
+// $T_C ≤ 0.56 h^2 ‖f‖^2$ wherever contact ends (*Lemma B*, with the mechanism of Drouet and Hild).
 //
 // **Step 5: flux.** The layer has no load, so $σ_h$ is constant on a triangle. If one edge is vertical, its
 // $x$-component is the mean of $∂_x u$ over this edge. By Theorem A that is near the mean over the triangle. Without a
-// vertical edge the stress $p$ enters. Then its change along $x$ counts, $‖∂_x p‖$, and Theorem A bounds only ε times it.
+// vertical edge the stress $p$ enters. Then its change along $x$ counts. Theorem A bounds only ε times that, because
+// $ε^{-1} ∂_{xy} u$, which stands in $F$, is $ε ∂_x p$.
 // *Theorem C:* on shape-regular meshes (no angle tends to 0), if each layer triangle has a vertical edge,
 // $|u - u_h|_a ≤ C h ‖f‖$ for CR and P1; on the structured mesh $C = 1.7$ and $1.3$.
 //
@@ -186,7 +192,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // (b) P1 locks on rows, and keeps the share that the stiffness $(k/ε)^2$ predicts to three digits. CR does not lock,
 // but its part in the layer falls like $h^{0.8}$ on rows and like $h$ on columns. The whole error hides this at these
 // $h$, where the layer's part is small. So *order h on any mesh at every ε* is false, though the error looks like it.
-// Proved: order $h$ on columns, 1/2 for CR on any shape-regular mesh, at most 3/4 on rows at ε = 0. Open: order $h$ on
+// Proved: order 1 on columns, 1/2 for CR on any shape-regular mesh, at most 3/4 on rows at ε = 0. Open: order 1 on
 // meshes of gmsh. That P1's wall and CR's lost quarter are one number is derived for rows, a conjecture elsewhere.
 //
 // ## Exercises

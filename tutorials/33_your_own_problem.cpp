@@ -23,9 +23,10 @@
 //
 // $$ a_1 = ∫ u' v' + ∫ w' z',   a_0 = ∫ (u - w)(v - z),   L = -q ∫ v,   K = \{ w ≥ -g \}. $$
 //
-// $u = w$ at every point leaves no pair: a broken line may bend at its own corners only, and they share none. Asked
-// only against the hat functions of the lower string (a *mortar*, a condition on mean values: $∫ (u - w) φ_i = 0$),
-// it makes $w$ a projection of $u$: $n$ values of $u$ stay free.
+// $u = w$ at every point leaves no pair: a broken line may bend at its own corners only, and the two share none. The
+// other way is to ask less. A *mortar* asks for mean values only, $∫ (u - w) φ_i = 0$ with the hat functions $φ_i$ of
+// the lower string. These are $n - 1$ conditions for $n + (n - 1)$ values. For each $u$ they fix the $n - 1$ values of
+// $w$, which becomes a projection of $u$. So the $n$ values of $u$ stay free.
 //
 // ## A glue with four conditions
 //

@@ -41,19 +41,20 @@ Axis value_axis(const Table& table, const std::vector<std::string>& columns) {
   return Axis::linear(low - room, high + room);
 }
 
-/// The pieces of a curve between its jumps: steps that are three times as high as both of their
-/// neighbours, and a fiftieth of the whole.
+/// The pieces of a curve between its jumps: steps that are unlike both of their neighbours, by three quarters of these and
+/// a hundredth of the whole.
 std::vector<std::vector<Point>> pieces(const std::vector<Point>& curve) {
   const auto [low, high] =
       std::minmax_element(curve.begin(), curve.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
-  const auto step = [&](std::size_t i) {  // from point i to the next
-    return i + 1 < curve.size() ? std::abs(curve[i + 1].y - curve[i].y) : 0;
+  const double least = 0.01 * (high->y - low->y);
+  const auto step = [&](std::size_t i) { return curve[i + 1].y - curve[i].y; };
+  const auto unlike = [&](std::size_t i, std::size_t beside) {
+    return std::abs(step(i) - step(beside)) > std::max(0.75 * std::abs(step(beside)), least);
   };
   std::vector<std::vector<Point>> found(1);
   for (std::size_t i = 0; i < curve.size(); ++i) {
     found.back().push_back(curve[i]);
-    const double beside = std::max(i > 0 ? step(i - 1) : 0, step(i + 1));
-    if (step(i) > 3 * beside && step(i) > 0.02 * (high->y - low->y)) found.emplace_back();
+    if (i > 0 && i + 2 < curve.size() && unlike(i, i - 1) && unlike(i, i + 1)) found.emplace_back();
   }
   return found;
 }
@@ -96,7 +97,10 @@ Page curves_picture(const std::filesystem::path& file, const CurvesStyle& style)
     looks.push_back(meaning.known ? meaning.look : other_look(looks.size()));
     names.push_back(meaning.name);
   }
-  const Axis x = Axis::linear(table.number(0, style.x), table.number(table.rows() - 1, style.x));
+  const bool marked = table.rows() <= dense;
+  const double first = table.number(0, style.x), last = table.number(table.rows() - 1, style.x),
+               room = marked ? 0.03 * (last - first) : 0;  // a marker stands on no frame and no number
+  const Axis x = Axis::linear(first - room, last + room);
 
   const std::size_t count = style.panels.size();
   const Legend legend(Page(1), names);
@@ -128,7 +132,7 @@ Page curves_picture(const std::filesystem::path& file, const CurvesStyle& style)
     legend.draw(page, 24, [&](std::size_t n, const Box& box) {
       const Look& look = looks[n];
       page.line({{box.x, box.centre().y}, {box.right(), box.centre().y}}, {look.width, look.colour});
-      if (style.meanings[n] != "exact" && table.rows() <= dense)
+      if (style.meanings[n] != "exact" && marked)
         page.marker(box.centre(), look.marker, 0.75 * look.marker_size(), look.colour);
     });
   return page;
