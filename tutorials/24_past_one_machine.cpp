@@ -11,7 +11,7 @@
 //
 // **The picture.** One mesh on more *ranks*, the processes that share a problem (strong scaling), and as many
 // unknowns on each rank (weak scaling). *Where each rank owns whole columns of the layer, the iterations hardly grow
-// with the ranks.* The third curve is prediction (a).
+// with the ranks.* It stands at the end of this page, because its third curve answers (a).
 //
 // **Predict.** (a) The triangles are dealt out in squares, as on a chessboard, so that columns are cut. By what factor
 // do the iterations grow on four ranks, and why? (b) PETSc has a solver of its own for variational inequalities. It is
@@ -143,8 +143,11 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 
 // ## What came out
 //
-// (a) By a factor of 1.5 at least, because a cut column is no longer merged as a whole. (b) $u = 0$, everywhere: at ε = 1e-6
-// round-off hides the residual. At ε = 1e-2 the same solver is right, and in the split form it is right at 1e-6.
+// (a) By a factor of 1.5 at least, because a cut column is no longer merged as a whole.
+// :figure: past_one_machine
+//
+// (b) $u = 0$, everywhere: at ε = 1e-6 round-off hides the residual. At ε = 1e-2 the same solver is right, and in the
+// split form it is right at 1e-6.
 //
 // ## Exercises
 //
