@@ -74,13 +74,15 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
 
 A mesh from a file has the physical groups body, layer (if the scene has one), clamped and contact. The body may be any
 shape on and above y = 0 with a bottom edge on that line; all of that edge is contact, or has the layer below it. A scaled
-layer that the file does not hold is grown below the contact edges, in columns. accuracy refuses springs, a ceiling, a
+layer that the file does not hold is grown below the contact edges, in columns. In a file with the body alone these edges may be
+curved, each x once: the layer grows along their normals, and gap(x) is asked at the x of the edge. accuracy refuses springs, a ceiling, a
 load on the layer, a stiffness that varies on a triangle and a displacement that is not affine on the edges of the mesh;
 "petsc" refuses all of [body], [[edge]], [at], ceiling and the layer's numbers. Where a file of the same name, .geo or
 .brep, lies beside the mesh file, accuracy and refinements put the new vertices of the body's boundary on its curves (gmsh
 reads it; a .geo is a script).
 
-Written to the results folder: summary.json; solution.csv (x,y,u; in plane strain x,y,u_x,u_y); contact.csv (x,gap,pressure; with contact only), where
+Written to the results folder: summary.json; solution.csv (x,y,u; in plane strain x,y,u_x,u_y); contact.csv (x,gap,pressure; with contact only,
+with friction a column of that name: the tangential force per length), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
 render surface DIR/solution.vtu --out picture.png (in plane strain: render deformed)

@@ -3,6 +3,7 @@
 #include <vtkBrush.h>
 #include <vtkContext2D.h>
 #include <vtkImageData.h>
+#include <vtkImageShrink3D.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
 #include <vtkPen.h>
@@ -135,12 +136,18 @@ std::optional<std::string> Page::layout_fault() const { return figures::layout_f
 
 double Page::smallest_type() const { return figures::smallest_type(laid_texts(), width); }
 
-void Page::save(const std::filesystem::path& path, int compression) const {
+void Page::save(const std::filesystem::path& path, int compression, bool half) const {
   const vtkSmartPointer<vtkImageData> image = render_in_bands(scenes_, pieces_, width, height_);
   for (const Text& text : texts_) typesetter_.draw(*image, text.at, text.markup, text.style);
 
   vtkNew<vtkPNGWriter> writer;
-  writer->SetInputData(image);
+  vtkNew<vtkImageShrink3D> halves;  // means over 2 x 2 pixels
+  halves->SetInputData(image);
+  halves->SetShrinkFactors(2, 2, 1);
+  if (half)
+    writer->SetInputConnection(halves->GetOutputPort());
+  else
+    writer->SetInputData(image);
   writer->SetCompressionLevel(compression);
   writer->WriteToMemoryOn();
   writer->Write();

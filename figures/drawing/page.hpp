@@ -53,8 +53,8 @@ class Page {
   double smallest_type() const;
 
   /// Renders and writes a PNG file, whole or not at all. Throws Error where it cannot be written. Compression: 0 to 9; 9
-  /// takes twice as long as 8 and saves less than half a per cent, 1 takes a quarter of the time.
-  void save(const std::filesystem::path& path, int compression = 8) const;
+  /// takes twice as long as 8 and saves less than half a per cent, 1 takes a quarter of the time. `half`: of half the width and height.
+  void save(const std::filesystem::path& path, int compression = 8, bool half = false) const;
 
  private:
   struct Text {

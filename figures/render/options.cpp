@@ -15,6 +15,7 @@ CLI::App* add_picture(CLI::App& app, Request& request, const std::string& name, 
   picture->add_option("--compression", request.compression, "of the PNG file; less is faster and makes a larger file")
       ->check(CLI::Range(0, 9))
       ->capture_default_str();
+  picture->add_flag("--half", request.half, "half as wide and high: a fifth of the file");
   picture->add_flag("--check-layout", request.check_layout,
                     "fail where a text is too small, leaves the page, or overlaps another one");
   return picture;

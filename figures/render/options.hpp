@@ -14,7 +14,7 @@ struct Request {
   std::string out, title;
   std::vector<std::string> inputs, titles;
   std::vector<double> range, own_range, window;
-  bool check_layout = false;
+  bool check_layout = false, half = false;
   int compression = 8;
   std::string own_name = "$u$";
   std::optional<double> height_factor;

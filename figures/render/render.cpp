@@ -38,7 +38,7 @@ int draw(int argc, char** argv) {
     if (const auto fault = page.layout_fault()) return fail(*fault);
     fmt::print("smallest type {:.2f} pixels where the picture is {} wide\n", page.smallest_type(), shown_width);
   }
-  page.save(request.out, request.compression);
+  page.save(request.out, request.compression, request.half);
   return 0;
 }
 

@@ -85,7 +85,7 @@ std::string named_square(const TemporaryFolder& folder, int cells, bool halves =
   write_msh(path, mesh, edges);
   if (!halves) return path;
   std::string text = contents(path), out;
-  text.replace(text.find("2 1 \"body\""), 10, "2 1 \"soft\"\n2 2 \"stiff\"");
+  text.replace(text.find("2 1 \"body\""), 10, "2 1 \"body\"\n2 2 \"stiff\"");
   text.replace(text.find("\n5\n"), 3, "\n6\n");
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line); out += line + "\n") {
@@ -129,12 +129,16 @@ TEST(Bodies, HoldPullAndSpringOnTheEdgesOfAGroup) {
 
 // u_x is 1 in a half of stiffness 1 and 0.1 in one of 10 under the traction 1, by a formula or per group.
 TEST(Bodies, AreAsStiffAsTheirPartsAre) {
-  for (const std::string stiffness : {"\"1 + 9*(x > 0.5)\"", "{ soft = 1, stiff = 10 }"}) {
+  for (const std::string stiffness : {"\"1 + 9*(x > 0.5)\"", "{ body = 1, stiff = 10 }", "{ stiff = 10 }"}) {
     const TemporaryFolder folder;
     const SceneRun run(scene_on(named_square(folder, 4, stiffness.front() == '{'),
                                 "[body]\nstiffness = " + stiffness + "\n" + edge("left", "displacement = \"0\"") +
                                     edge("right", "traction = \"1\"") + edge("top", "free = true"),
                                 "CR"));
+    if (stiffness == "{ stiff = 10 }") {
+      EXPECT_NE(run.outcome.err.find("body.stiffness: names no group of the surface at"), std::string::npos);
+      continue;
+    }
     ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
     EXPECT_NEAR(run.summary()["u_max"].get<double>(), 0.55, 1e-12) << stiffness;
   }
@@ -177,6 +181,11 @@ TEST(Bodies, InPlaneStrainAreWhatTheLibrarySolves) {
     EXPECT_EQ(run.summary()["u_max"].get<double>(), direct.u.maxCoeff());
     const Csv contact = read_csv(run.results / "contact.csv");
     EXPECT_NEAR(contact.rows.col(2).sum() / 8, direct.lambda.head(8).sum(), 1e-12);
+    ASSERT_EQ(contact.rows.cols(), problem.contact.size() > 8 ? 4 : 3) << "a column where friction acts";
+    if (contact.rows.cols() == 4) {
+      EXPECT_NEAR((contact.rows.col(3) / 8 - direct.lambda.tail(8)).lpNorm<Eigen::Infinity>(), 0, 1e-12);
+      EXPECT_NEAR(contact.rows.col(3).lpNorm<Eigen::Infinity>(), 0.05, 1e-12) << "it slides somewhere";
+    }
   };
   const TriangleMesh square = with_free_sides(structured_mesh(8, {0})), coated = with_free_sides(structured_mesh(8));
   const Space on_square(square, crouzeix_raviart()), on_coated(coated, crouzeix_raviart());
@@ -237,6 +246,29 @@ TEST(Bodies, BeyondThePaperAreRefusedByTheDoorsThatDoNotKnowThem) {
         "sweep " + in_shell(std::string(EXAMPLE_SCENES) + "/" + name + ".toml") + " --epsilon 1:1e-2:2", folder);
     EXPECT_EQ(outcome.status, 2);
     EXPECT_NE(outcome.err.find("sweep: does not know "), outcome.err.npos) << outcome.err;
+  }
+}
+
+TEST(Bodies, OnACurvedGammaCAreRefusedWhatTheyHaveNoAnswerFor) {
+  const std::string scenes = EXAMPLE_SCENES, scene = contents(scenes + "/coated_arch.toml");
+  const auto with = [&](const std::string& from, const std::string& to) {
+    std::string text = scene;
+    for (const auto& [a, b] :
+         {std::pair<std::string, std::string>{"\"coated_arch.msh", "\"" + scenes + "/coated_arch.msh"}, {from, to}})
+      text.replace(text.find(a), a.size(), b);
+    return SceneRun(text);
+  };
+  const std::string element = "element = \"CR\"";
+  for (const auto& [from, to, what] :
+       {std::tuple{element, std::string("accuracy = 0.1"), "do not go with an accuracy asked of a layer"},
+        {std::string("traction = \"-0.3 + 0.2*x\""), std::string("free = true\n[model]\nkind = \"plane strain\""),
+         "do not go with plane strain"},
+        {std::string("[contact]"), std::string("load = \"1\"\n[contact]"), "do not go with a load on the layer"},
+        {std::string("thickness = 0.05"), std::string("thickness = 0.65"), "meets itself"}}) {
+    const SceneRun run = with(from, to);
+    EXPECT_EQ(run.outcome.status, 2) << to;
+    EXPECT_NE(run.outcome.err.find(what), std::string::npos) << run.outcome.err;
+    EXPECT_EQ(std::count(run.outcome.err.begin(), run.outcome.err.end(), '\n'), 1) << run.outcome.err;
   }
 }
 

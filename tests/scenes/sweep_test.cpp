@@ -48,6 +48,41 @@ TEST(OnlyWhatIsNeeded, AVentcelLayerCostsWhatTheBodyAloneCosts) {
   }
 }
 
+// Each function of a scene is asked where its effect is, and nowhere else.
+TEST(OnlyWhatIsNeeded, EdgesAndStiffnessAreIntegratedWhereTheyAre) {
+  constexpr int n = 16;
+  struct Calls {
+    int load = 0, stiffness = 0, traction = 0, spring = 0, displacement = 0;
+  } calls;
+  using Kind = EdgeCondition::Kind;
+  const auto counted = [](int& count) { return [&count](double, double) { return 1.0 + 0 * ++count; }; };
+  const Body bare{counted(calls.load)}, stiff{counted(calls.load), counted(calls.stiffness)};
+  const std::vector<EdgeCondition> held{{"left", Kind::displacement, counted(calls.displacement)},
+                                        {"right", Kind::traction, counted(calls.traction)},
+                                        {"top", Kind::spring, counted(calls.spring)}};
+  for (const Layer& layer : {Layer(NoLayer{}), Layer(StiffLayer{1e-3})}) {
+    TriangleMesh mesh = structured_mesh(n, {std::holds_alternative<NoLayer>(layer) ? 0.0 : 1.0});
+    for (int e = 0; e < mesh.edge_count(); ++e) {
+      const auto x = mesh.vertices(mesh.edges.row(e), Eigen::all).colwise().mean().eval();
+      if (mesh.edge_tag[e] == EdgeTag::clamped && x(1) > 0)
+        mesh.edge_tag[e] = x(0) == 0 ? held_group(0) : natural_group(x(0) == 1 ? 1 : 2);
+    }
+    const Space space(mesh, crouzeix_raviart());
+    calls = {};
+    assemble(Scene(bare, layer, {}, {{"left", Kind::displacement, counted(calls.displacement)}, {"right"}, {"top"}}),
+             space);
+    const int points = calls.load;
+    EXPECT_EQ(calls.stiffness + calls.traction + calls.spring, 0);
+    calls = {};
+    assemble(Scene(stiff, layer, {}, held), space);
+    EXPECT_EQ(calls.load, points);
+    EXPECT_EQ(calls.stiffness, 2 * n * n) << "the body's triangles";
+    EXPECT_EQ(calls.traction, 3 * n) << "three Gauss points per edge";
+    EXPECT_EQ(calls.spring, 3 * n);
+    EXPECT_EQ(calls.displacement, n);
+  }
+}
+
 TEST(Sweep, GivesTheAnswersOfScenesSolvedOneByOne) {
   const TriangleMesh mesh = unstructured_mesh(12);
   const Space space(mesh, crouzeix_raviart());

@@ -185,6 +185,8 @@ Marking marking(const std::vector<Level>& history, int marks) {
 CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const Accuracy& accuracy,
                            const std::function<void(const Level&)>& progress) {
   check_request(accuracy);
+  if (first.curved())
+    throw Error("accuracy: has no flux for a layer along the normals of a curved edge; accepted: a layer below y = 0");
   Stopwatch watch;
   double seconds = 0;
   const Scene scene = with_layer_to_solve(asked);

@@ -26,8 +26,9 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& b
                                           const Field& of_body = {});
 
 /// The factored form of a_y^-(u, v) = (B u, M B v), (23): a row of B is d/dy at a quadrature point of a layer triangle,
-/// M its weight. For P1 and CR d/dy is constant on a triangle: one row each, M its area.
-FactoredForm layer_strain(const Space& space);
+/// M its weight. For P1 and CR d/dy is constant on a triangle: one row each, M its area. `direction`: of a triangle, another
+/// than y.
+FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int triangle)>& direction = {});
 /// The rule behind the rows of B, a triangle: d/dy u_h is of degree k - 1 and is squared, so 2 (k - 1): the centroid
 /// for degree 1, the edge midpoints for degree 2.
 const Quadrature& strain_rule(const Element& element);

@@ -5,7 +5,7 @@ namespace antilock {
 
 const Quadrature& strain_rule(const Element& element) { return triangle_rule(2 * (element.degree() - 1)); }
 
-FactoredForm layer_strain(const Space& space) {
+FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int)>& direction) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const Quadrature& rule = strain_rule(element);
@@ -26,7 +26,9 @@ FactoredForm layer_strain(const Space& space) {
     const int t = strain.cell[r];
     const Eigen::Index q = r % points;
     strain.m(r) = rule.weights(q) * mesh.area(t);
-    const Eigen::VectorXd dy = derivative[q] * barycentric_gradients(mesh, t).col(1);
+    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+    const Eigen::Vector3d slope = direction ? Eigen::Vector3d(lambda * direction(t)) : Eigen::Vector3d(lambda.col(1));
+    const Eigen::VectorXd dy = derivative[q] * slope;
     for (Eigen::Index i = 0; i < m; ++i) row[i] = {space.unknowns()(t, i), dy(i)};
     std::sort(row.begin(), row.end());
     for (Eigen::Index i = 0; i < m; ++i) {

@@ -120,15 +120,19 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, const M
   };
   MoreGroups all = groups;
   all.bodies = names;
-  read.stiffness = [=, parts = std::make_shared<Parts>()](double x, double y) {
+  read.stiffness = [=, parts = std::make_shared<Parts>(), where = body.where("stiffness")](double x, double y) {
     if (!parts->space) {  // asked for the first time
       parts->mesh = read_msh(mesh.string(), all, &parts->part);
       parts->space.emplace(parts->mesh, p1());
       parts->places.emplace(*parts->space);
     }
-    const auto at = parts->places->locate({x, y}, 1e-9);
+    auto at = parts->places->locate({x, y}, 1e-9);
+    if (!at) at = parts->places->locate({x, y}, 0.5);  // beside the file's polygon, where refinement follows a curve
     const int part = at ? parts->part[at->triangle] : -1;
-    return part < 0 ? 1.0 : numbers[part];
+    if (part < 0)
+      throw Error(fmt::format("{}names no group of the surface at ({:g}, {:g}); accepted: all groups of the body",
+                              where, x, y));
+    return numbers[part];
   };
 }
 

@@ -143,13 +143,40 @@ void find_geometry(TriangleMesh& mesh, const std::filesystem::path& file) {
   follow_geometry(mesh, all, middles);
 }
 
+/// Whether Gamma_C of a body is no straight line y = const. Throws Error for what does not go with that.
+bool is_curved(const SceneFile& file, const TriangleMesh& mesh) {
+  double low = 1e300, high = -1e300;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    for (int end = 0; end < 2 && mesh.edge_tag[e] == EdgeTag::contact; ++end) {
+      low = std::min(low, mesh.vertices(mesh.edges(e, end), 1));
+      high = std::max(high, mesh.vertices(mesh.edges(e, end), 1));
+    }
+  const bool curved = high - low > slack;
+  const auto* layer = std::get_if<StiffLayer>(&file.scene.layer());
+  const char* const what = file.elastic                    ? "plane strain"
+                           : file.method.solver == "petsc" ? "solver = \"petsc\""
+                           : layer == nullptr              ? file.scene.epsilon() ? "this model of a layer" : ""
+                           : layer->load                   ? "a load on the layer"
+                           : file.method.accuracy          ? "an accuracy asked of a layer"
+                                                           : "";
+  if (curved && *what != 0)
+    throw Error(
+        fmt::format("has contact edges off the line y = 0, which do not go with {}; accepted: all on that line", what));
+  return curved;
+}
+
 TriangleMesh read_mesh_of(const SceneFile& scene_file) {
   const Scene& scene = scene_file.scene;
   const std::string path = scene_file.mesh.file.string();
   TriangleMesh mesh = read_msh(path, scene_file.groups);
-  if (scene.layer_depth() > 0) straighten_columns(mesh);
   const double depth = scene.layer_depth();
   const auto layered = [&] { return std::count(mesh.region.begin(), mesh.region.end(), Region::layer) > 0; };
+  if (!layered() && is_curved(scene_file, mesh)) {
+    if (scene_file.method.accuracy || scene_file.mesh.refinements > 0) find_geometry(mesh, path);
+    TriangleMesh below = extruded(mesh, scene.epsilon().value_or(0), true);  // which says what Sigma may be
+    return depth > 0 ? below : mesh;
+  }
+  if (depth > 0) straighten_columns(mesh);
   if (!layered() && std::holds_alternative<StiffLayer>(scene.layer())) {
     check_bottom_edge(mesh, EdgeTag::contact);
     mesh = extruded(mesh, *scene.epsilon());  // the layer grows below the body

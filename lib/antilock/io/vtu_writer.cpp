@@ -4,17 +4,21 @@
 #include "antilock/core/error.hpp"
 #include "antilock/io/detail/vtu_grid.hpp"
 #include "antilock/io/writers.hpp"
+#include "antilock/mesh/layered.hpp"
 
 namespace antilock {
 namespace {
 
+Points drawn(const TriangleMesh& mesh) { return mesh.curved() ? drawn_along_normals(mesh) : mesh.vertices; }
+
 /// Three points per triangle, so that a field that jumps from triangle to triangle can.
 VtuGrid torn_grid(const TriangleMesh& mesh) {
+  const Points vertices = drawn(mesh);
   const int corners = 3 * mesh.triangle_count();
   VtuGrid grid{Points(corners, 2), Triples(mesh.triangle_count(), 3), {}, {}};
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) {
-      grid.points.row(3 * t + i) = mesh.vertices.row(mesh.triangles(t, i));
+      grid.points.row(3 * t + i) = vertices.row(mesh.triangles(t, i));
       grid.triangles(t, i) = 3 * t + i;
     }
   return grid;
@@ -78,7 +82,7 @@ void write_vtu(const std::filesystem::path& path, const Space& space, const Eige
     check_values(path, "pressure", "per contact unknown", more.pressure, static_cast<int>(space.contact().size()));
   // elements with unknowns at the vertices share them; the others jump there
   const bool shared = space.element().per_vertex() > 0;
-  VtuGrid grid = shared ? VtuGrid{mesh.vertices, mesh.triangles, {}, {}} : torn_grid(mesh);
+  VtuGrid grid = shared ? VtuGrid{drawn(mesh), mesh.triangles, {}, {}} : torn_grid(mesh);
   grid.point_data.push_back({"u", shared ? Eigen::VectorXd(u.head(mesh.vertex_count())) : corner_values(space, u)});
   if (more.pressure.size() > 0) grid.point_data.push_back({"pressure", point_pressure(space, more.pressure)});
   add_regions(grid, mesh);

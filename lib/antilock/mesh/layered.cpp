@@ -28,7 +28,7 @@ std::vector<int> body_numbers(const TriangleMesh& mesh) {
 }
 
 /// The edges of Sigma, each from left to right.
-std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh) {
+std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh, bool along_normals) {
   const bool has_layer = std::find(mesh.region.begin(), mesh.region.end(), Region::layer) != mesh.region.end();
   const EdgeTag sigma = has_layer ? EdgeTag::sigma : EdgeTag::contact;
   std::vector<std::array<int, 2>> edges;
@@ -37,17 +37,53 @@ std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh) {
     std::array<int, 2> ends{mesh.edges(e, 0), mesh.edges(e, 1)};
     if (mesh.vertices(ends[0], 0) > mesh.vertices(ends[1], 0)) std::swap(ends[0], ends[1]);
     for (const int v : ends)
-      if (std::abs(mesh.vertices(v, 1)) > on_line)
+      if (!along_normals && std::abs(mesh.vertices(v, 1)) > on_line)
         throw Error("extruded layer: Sigma has a vertex at " + mesh.place(v) + "; accepted: Sigma on the line y = 0");
+    const int t = mesh.edge_triangles(e, 0);
+    const Eigen::RowVector2d along = mesh.vertices.row(ends[1]) - mesh.vertices.row(ends[0]),
+                             up = mesh.vertices(mesh.triangles.row(t), Eigen::all).colwise().mean() -
+                                  mesh.vertices.row(ends[0]);
+    if (along_normals && along(0) * up(1) <= along(1) * up(0))
+      throw Error("extruded layer: the body is not above its contact edge at " + mesh.place(ends[0]) +
+                  "; accepted: edges with the body above them");
     edges.push_back(ends);
   }
   if (edges.empty()) throw Error("extruded layer: the body has no edge in the group contact or sigma to stand on");
   return edges;
 }
 
+/// The curvature at the vertices of Sigma, where two of its edges meet; 0 elsewhere. Throws what extruded() says of normals.
+Eigen::VectorXd curvatures(const TriangleMesh& mesh, std::vector<std::array<int, 2>> edges, double thickness) {
+  const auto x = [&](int v) { return mesh.vertices(v, 0); };
+  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return x(a[0]) < x(b[0]); });
+  Eigen::VectorXd turn = Eigen::VectorXd::Zero(mesh.vertex_count()), length = turn, count = turn;
+  double end = edges.empty() ? 0 : x(edges[0][0]);
+  for (const auto& [left, right] : edges) {
+    const Eigen::RowVector2d along = mesh.vertices.row(right) - mesh.vertices.row(left);
+    if (x(left) < end - on_line || !(along(0) > 1e-6 * along.norm()))
+      throw Error("extruded layer: Sigma has an edge at " + mesh.place(left) +
+                  " that is vertical or above another; accepted: every x once");
+    end = x(right);
+    for (const int v : {left, right}) {
+      turn(v) += (v == left ? 1 : -1) * std::atan2(along(1), along(0));
+      length(v) += along.norm() / 2;
+      ++count(v);
+    }
+  }
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    turn(v) = count(v) == 2 ? turn(v) / length(v) : 0;
+    if (1 + thickness * turn(v) <= 0)
+      throw Error(
+          fmt::format("extruded layer: the layer, {:g} thick, meets itself at {}, where Sigma is a hollow of radius "
+                      "{:.3g}; accepted: a thickness below that",
+                      thickness, mesh.place(v), -1 / turn(v)));
+  }
+  return turn;
+}
+
 }  // namespace
 
-TriangleMesh extruded(const TriangleMesh& body, double epsilon) {
+TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_normals) {
   if (!(epsilon >= 0 && epsilon <= 1))
     throw Error(fmt::format("extruded layer: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
   const std::vector<int> number = body_numbers(body);
@@ -55,13 +91,14 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon) {
   std::vector<Eigen::RowVector2d> vertices(kept);
   for (int v = 0; v < body.vertex_count(); ++v) {
     if (number[v] < 0) continue;
-    if (body.vertices(v, 1) < -on_line)
+    if (!along_normals && body.vertices(v, 1) < -on_line)
       throw Error("extruded layer: the body has a vertex at " + body.place(v) + "; accepted: a body above y = 0");
     vertices[number[v]] = body.vertices.row(v);
   }
-  const auto columns = sigma_edges(body);
+  const auto columns = sigma_edges(body, along_normals);
+  const Eigen::VectorXd curvature = along_normals ? curvatures(body, columns, epsilon) : Eigen::VectorXd();
   double length = 0;
-  for (const auto& [left, right] : columns) length += body.vertices(right, 0) - body.vertices(left, 0);
+  for (const auto& [left, right] : columns) length += (body.vertices.row(right) - body.vertices.row(left)).norm();
   const double cells = epsilon * static_cast<double>(columns.size()) / length;  // epsilon / h
   const int rows = std::max(1, static_cast<int>(std::ceil(cells - 1e-9)));
 
@@ -71,7 +108,9 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon) {
     for (const int v : ends)
       if (++degree[v] == 1) {
         below[v] = static_cast<int>(vertices.size());
-        for (int j = 1; j <= rows; ++j) vertices.emplace_back(body.vertices(v, 0), -static_cast<double>(j) / rows);
+        for (int j = 1; j <= rows; ++j)
+          vertices.emplace_back(body.vertices(v, 0),
+                                (along_normals ? body.vertices(v, 1) : 0) - static_cast<double>(j) / rows);
       }
   const auto vertex = [&](int v, int row) { return row == 0 ? number[v] : below[v] + row - 1; };
 
@@ -91,7 +130,19 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon) {
       if (is_held(body.edge_tag[e])) side[body.edges(e, 0)] = side[body.edges(e, 1)] = body.edge_tag[e];
     }
   }
+  std::vector<Bend> bend(along_normals ? triangles.size() : 0);
   for (const auto& [left, right] : columns) {
+    if (along_normals) {
+      const Eigen::RowVector2d along = body.vertices.row(right) - body.vertices.row(left);
+      const double slope = along(1) / along(0), ends = (degree[left] == 2 ? 1 : 0) + (degree[right] == 2 ? 1 : 0);
+      bend.insert(bend.end(), 2 * rows,
+                  {body.vertices(left, 1) - slope * body.vertices(left, 0), slope,
+                   (curvature(left) + curvature(right)) / std::max(ends, 1.0)});
+      for (const int v : {left, right})
+        if (degree[v] == 1 && side[v] >= held_group(0))
+          throw Error("extruded layer: a displacement is given at " + body.place(v) +
+                      ", where a curved Sigma ends; accepted: clamped or free there");
+    }
     for (int j = 0; j < rows; ++j) {
       triangles.emplace_back(vertex(left, j + 1), vertex(right, j + 1), vertex(right, j));
       triangles.emplace_back(vertex(left, j + 1), vertex(right, j), vertex(left, j));
@@ -110,7 +161,26 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon) {
   TriangleMesh mesh =
       make_triangle_mesh(std::move(points), std::move(corners), std::move(region), tagged, "extruded layer");
   mesh.geometry = body.geometry;
+  mesh.bend = std::move(bend);
   return mesh;
+}
+
+Points drawn_along_normals(const TriangleMesh& mesh) {
+  Points points = mesh.vertices, normal = Points::Zero(mesh.vertex_count(), 2);
+  Eigen::VectorXd depth = Eigen::VectorXd::Zero(mesh.vertex_count());
+  double thickness = (points.col(0).maxCoeff() - points.col(0).minCoeff()) / 10;
+  for (std::size_t t = 0; t < mesh.bend.size(); ++t) {
+    if (mesh.region[t] != Region::layer) continue;
+    const Bend& bend = mesh.bend[t];
+    if (bend.curvature < 0) thickness = std::min(thickness, -0.5 / bend.curvature);
+    for (const int v : mesh.triangles.row(static_cast<Eigen::Index>(t))) {
+      depth(v) = bend.foot + bend.slope * points(v, 0) - points(v, 1);
+      normal.row(v) += Eigen::RowVector2d(bend.slope, -1).normalized();
+    }
+  }
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    if (depth(v) > 0) points.row(v) += depth(v) * (Eigen::RowVector2d(0, 1) + thickness * normal.row(v).normalized());
+  return points;
 }
 
 TriangleMesh layered_mesh(int cells, double epsilon) {

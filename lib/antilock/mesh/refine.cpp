@@ -78,6 +78,7 @@ TriangleMesh refined(const TriangleMesh& mesh) {
   TriangleMesh finer = make_triangle_mesh(std::move(vertices), std::move(triangles), std::move(region), tagged,
                                           refinement_name(mesh, "refined mesh"));
   finer.geometry = mesh.geometry;
+  for (const Bend& bend : mesh.bend) finer.bend.insert(finer.bend.end(), 4, bend);
   return finer;
 }
 

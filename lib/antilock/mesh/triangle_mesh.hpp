@@ -25,6 +25,17 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< 
 using Triples = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;    ///< n x 3, indices from 0
 using Pairs = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;      ///< n x 2, indices from 0
 
+/// How a column of a layer hangs below an edge of a curved Sigma, y = foot + slope x (mesh/layered.hpp).
+struct Bend {
+  double foot = 0, slope = 0;
+  double curvature = 0;  ///< of Sigma: above 0 where the normals out of the body spread
+
+  /// J = 1 + thickness * curvature * depth, of a point.
+  double stretch(const Eigen::Vector2d& x, double thickness) const {
+    return 1 + thickness * curvature * (foot + slope * x(0) - x(1));
+  }
+};
+
 /// A conforming mesh of Omega (Figure 2): positively oriented triangles, numbered edges, tagged boundary.
 /// Lengths are dimensionless (the body's side is 1).
 struct TriangleMesh {
@@ -38,6 +49,9 @@ struct TriangleMesh {
   std::string geometry = {};      ///< a .geo or .brep file on whose curves the body's boundary has its vertices, and to
       ///< which every refinement returns (mesh/refine.hpp); empty: the boundary is the polygon
 
+  std::vector<Bend> bend = {};  ///< T, where the layer follows a curved Sigma; else empty
+
+  bool curved() const { return !bend.empty(); }
   int vertex_count() const { return static_cast<int>(vertices.rows()); }
   int triangle_count() const { return static_cast<int>(triangles.rows()); }
   int edge_count() const { return static_cast<int>(edges.rows()); }

@@ -25,6 +25,12 @@ void check_fit(const Scene& scene, const Space& space) {
         "scene and mesh: the scene has no layer to mesh, the mesh has a group layer; accepted: a mesh of the body");
   if (!mesh_has_layer && scene.layer_depth() > 0)
     throw Error("scene and mesh: the scene has a layer, the mesh has no group layer, which is needed");
+  if (space.mesh().curved()) return;
+  for (int e = 0; mesh_has_layer && e < space.mesh().edge_count(); ++e)
+    if (const int v = space.mesh().edges(e, 0);
+        space.mesh().edge_tag[e] == EdgeTag::sigma && std::abs(space.mesh().vertices(v, 1)) > 1e-6)
+      throw Error("scene and mesh: Sigma has a vertex at " + space.mesh().place(v) +
+                  "; accepted: Sigma on the line y = 0, or a layer that is grown along its normals");
   // (22) and (23) differ by the depth of their meshes
   const double lowest = space.mesh().vertices.col(1).minCoeff(), wanted = -scene.layer_depth();
   if (mesh_has_layer && (lowest < wanted - 1e-6 || (lowest > wanted + 1e-6 && is_whole(space.mesh()))))
@@ -41,6 +47,21 @@ namespace {
 /// The displacement that a group is given; below Sigma that of Sigma's end.
 double given(const EdgeCondition& edge, Region region, const Eigen::RowVector2d& x) {
   return edge.value(x(0), region == Region::layer ? 0 : x(1));
+}
+
+/// The layer below a curved Sigma: both forms in its own coordinates, as mesh/layered.hpp has them.
+void follow_normals(VariationalInequality& problem, const StiffLayer& layer, const Space& space) {
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = strain_rule(space.element());
+  FactoredForm along = layer_strain(space, [&](int t) { return Eigen::Vector2d(1, mesh.bend[t].slope); });
+  for (Eigen::Index row = 0; row < along.m.size(); ++row) {
+    const int t = along.cell[row];
+    const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(row % rule.weights.size()));
+    const double j = mesh.bend[t].stretch(x, layer.epsilon), length = std::hypot(1, mesh.bend[t].slope);
+    problem.m(row) *= length * j;
+    along.m(row) *= layer.s / (length * j);
+  }
+  problem.a1 += Eigen::SparseMatrix<double>(along.b.transpose() * along.m.asDiagonal() * along.b);
 }
 
 /// What the named groups of edges add to A1, to the load and to the given values.
@@ -96,10 +117,12 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   problem.load = load_vector(space, load);
 
   if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
-    problem.a1 = gradient_form(space, {1, 1}, {stiff->s, 0}, stiffness);  // a+ + a_x^- of (23)
-    FactoredForm strain = layer_strain(space);                            // a_y^-, factored
+    const bool curved = space.mesh().curved();
+    problem.a1 = gradient_form(space, {1, 1}, {curved ? 0 : stiff->s, 0}, stiffness);  // a+ + a_x^- of (23)
+    FactoredForm strain = layer_strain(space);                                         // a_y^-, factored
     problem.b.swap(strain.b);
     problem.m = stiff->s * strain.m;
+    if (curved) follow_normals(problem, *stiff, space);
     if (stiff->load) problem.load += load_vector(space, stiff->load, Region::layer);
     problem.compliance = compliance(*stiff);
   } else if (const auto* thin = std::get_if<ThinLayer>(&scene.layer())) {

@@ -14,6 +14,8 @@ SceneSweep::SceneSweep(const Scene& scene, const Space& space)
 void SceneSweep::set_epsilon(double epsilon) {
   if (!std::holds_alternative<StiffLayer>(scene_.layer()))
     throw Error("sweep: epsilon does not vary in this scene; accepted: a scene with a scaled layer, (23)");
+  if (space_->mesh().curved())
+    throw Error("sweep: epsilon is part of the forms of a layer along normals; accepted: a layer below y = 0");
   const StiffLayer layer{epsilon};
   scene_ = Scene(scene_.body(), layer, scene_.contact());  // checks epsilon
   problem_.compliance = compliance(layer);

@@ -92,6 +92,20 @@ Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p)
   return stress;
 }
 
+/// The table of contact with the tangential force per length behind it; 0 where an unknown is held.
+Eigen::MatrixXd with_friction(const Eigen::MatrixX3d& table, const Answer& answer) {
+  const std::vector<int>& contact = answer.space.contact();
+  const Eigen::VectorXd length = contact_lengths(answer.space);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(table.rows(), 4);
+  all.leftCols<3>() = table;
+  for (std::size_t i = contact.size(); i < answer.problem.contact.size();
+       ++i) {  // the bounds of u_x, in the same order
+    const auto row = std::find(contact.begin(), contact.end(), answer.problem.contact[i]) - contact.begin();
+    all(row, 3) = answer.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
+  }
+  return all;
+}
+
 /// What an earlier run on several ranks left in the folder: its pictures would pass for those of this one.
 std::vector<std::string> pieces_in(const std::filesystem::path& folder) {
   std::vector<std::string> names;
@@ -232,7 +246,10 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
       Eigen::MatrixX3d table = contact_table(answer.space, normal.problem, normal.solution);
       if (!file.scene.contact()->ceiling)                           // which presses downwards: a pressure below 0
         table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
-      if (asked.csv) write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
+      if (asked.csv && file.elastic && file.elastic->friction)
+        write_csv(draft / "contact.csv", {"x", "gap", "pressure", "friction"}, with_friction(table, answer));
+      else if (asked.csv)
+        write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
       more.pressure = table.col(2);
     }
     if (asked.mesh) write_msh(draft / "mesh.msh", *answer.mesh, file.scene.edges());
