@@ -238,6 +238,19 @@ TEST(SolveTo, RefusesWithASentence) {
   }
 }
 
+// The kinks of this gap are finer than the first meshes, whose bounds rise as they meet them: extrapolated from there, more
+// unknowns would seem to be needed than there may be.
+TEST(SolveTo, QuotesNothingWhileTheBoundRises) {
+  const Scene scene({paper_load}, StiffLayer{1e-2},
+                    UnilateralContact{[](double x) { return std::abs(std::sin(16 * std::numbers::pi * x)); }});
+  const auto found = solve_to(scene, layered_mesh(8, 1e-2), {0.2, Quantity::displacement, 15000});
+  EXPECT_GT(found.history.size(), 7u);
+  for (std::size_t k = 1; k < found.history.size(); ++k)
+    if (found.history[k].relative >= found.history[k - 1].relative) {
+      EXPECT_EQ(found.history[k].quoted_unknowns, 0) << k;
+    }
+}
+
 // The campaign of the certificate on meshes that were refined by its indicators.
 TEST(SolveTo, BoundsNeverLieOnTheirWay) {
   std::mt19937 random(11);

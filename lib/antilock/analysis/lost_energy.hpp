@@ -12,6 +12,7 @@ namespace antilock {
 /// What an answer has lost because its layer does not follow. J(v) = a(v, v)/2 - L(v); v is a function of K that is
 /// free to move in the layer.
 struct LostEnergy {
+  static constexpr double telling = 0.05;  ///< v is within a few per cent of the best: whoever has lost 10 % is told so
   double lost = 0;    ///< J(u_h) - J(v), a lower bound of J(u_h) - J(u): negative where v is the worse of the two
   double motion = 0;  ///< what the motion of the layer is worth: the larger of J(v_0) - J(v) and |v - v_0|_a^2 / 2, v_0
                       ///< the function whose layer is held at 0

@@ -1,0 +1,82 @@
+// The sentence on locking that every door says.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "antilock/analysis/detail/ties.hpp"
+#include "antilock/analysis/lost_energy.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/form/forms.hpp"
+
+namespace antilock {
+namespace {
+
+/// The law of bending: one wave over the length of Sigma moves the layer and the body, at the price `soft`, and the
+/// interpolant of that wave has slopes in y, which cost x times that. The share that is lost is then x / (1 + x).
+double by_bending(const Scene& scene, const Space& space) {
+  const bool thin = std::holds_alternative<ThinLayer>(scene.layer());
+  const TriangleMesh& mesh = space.mesh();
+  double length = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == EdgeTag::sigma) length += mesh.edge_length(e);
+  const double epsilon = *scene.epsilon(), c = 2 * std::numbers::pi / length;
+  const Eigen::VectorXd wave = (c * space.points().col(0)).array().sin();
+  const double soft = (c * c + c) * length / 2, slopes = wave.dot(gradient_form(space, {0, 0}, {0, 1}) * wave);
+  return slopes / (slopes + soft * (thin ? epsilon : epsilon * epsilon));
+}
+
+}  // namespace
+
+std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                                        const Solution& solution) {
+  const Element& element = space.element();
+  const TriangleMesh& mesh = space.mesh();
+  if (!scene.epsilon()) return std::nullopt;
+  if (!(scene.layer_depth() > 0)) return LayerReport{"no layer mesh: nothing here can lock", {}, ""};
+  if (!element.conforming())
+    return LayerReport{
+        element.name() + " does not lock: half a motion without strain per layer triangle, on any mesh (Theorem 7)",
+        {},
+        ""};
+  if (in_columns(mesh))
+    return LayerReport{element.name() + " does not lock here: the columns of the layer are free of each other", {}, ""};
+  LayerReport report;
+  const int groups = tied_groups(mesh);
+  report.diagnosis = fmt::format(
+      "below {} edges of Sigma the layer's triangles are tied into {} group{} by edges that are not vertical; without "
+      "strain {} is one polynomial of degree {} in x on each",
+      std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), groups, groups == 1 ? "" : "s",
+      element.name(), element.degree());
+  if (element.degree() > 2) return report;
+  if (const std::string beyond = scene.beyond_the_paper(); !beyond.empty()) {
+    report.diagnosis += "; what it costs is not asked of a scene with " + beyond;
+    return report;
+  }
+  try {
+    const LostEnergy energy = lost_energy(scene, space, problem, solution);
+    report.lost = energy.share(), report.motion = energy.motion;
+  } catch (const Error& error) {  // the answer stands, whatever becomes of what is told about it
+    report.diagnosis += std::string("; what it costs is not known: ") + error.what();
+    return report;
+  }
+  const double share = report.lost ? *report.lost : by_bending(scene, space);
+  const double least = report.lost
+                           ? LostEnergy::telling
+                           : 2 * LostEnergy::telling;  // the law is an upper bound: it names who has lost a tenth
+  if (share < least) {
+    report.diagnosis +=
+        fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy", *scene.epsilon(), 100 * least);
+    return report;
+  }
+  report.diagnosis += fmt::format("; at epsilon = {:g} it locks", *scene.epsilon());
+  report.warning = fmt::format(
+      "{} locks in this layer: it loses {} {:.0f} % of the energy that the layer's motion releases ({}); "
+      "remedy: element = \"CR\", or a layer in columns (kind = \"layered\")",
+      element.name(), report.lost ? "at least" : "about", std::min(std::floor(100 * share), 99.0),
+      report.lost ? "proved" : "by the law of bending");
+  return report;
+}
+
+}  // namespace antilock
