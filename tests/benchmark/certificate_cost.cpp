@@ -78,9 +78,8 @@ void diagnosis_over_solve(Table& table, int cells, int repeats) {
   const Scene scene({paper_load}, StiffLayer{1e-2}, UnilateralContact{});
   const VariationalInequality problem = assemble(scene, space);
   std::vector<double> solve, diagnosis;
-  auto of_processor = [last =
-                                 std::clock()]() mutable {  // a few milliseconds each at 1/h = 32: other programs would
-    const std::clock_t now = std::clock();                  // stand in wall seconds
+  auto of_processor = [last = std::clock()]() mutable {  // a few milliseconds each at 1/h = 32: other programs would
+    const std::clock_t now = std::clock();               // stand in wall seconds
     return static_cast<double>(now - std::exchange(last, now));
   };
   for (int k = 0; k < 5 * repeats * (128 / std::min(cells, 128)); ++k) {

@@ -60,6 +60,11 @@ Line sigma_line(const TriangleMesh& mesh) {
   return line;
 }
 
+/// A vertex of the layer alone.
+bool below(const TriangleMesh& mesh, const Line& sigma, int v) {
+  return sigma.place[v] < 0 && mesh.vertices(v, 1) <= 0;
+}
+
 /// W: the values of its hats at the vertices of the body, a column per hat; none for a hat that is not 0 where v is held.
 /// The first row of hats is Sigma, one per vertex; above, the heights are halved towards Sigma, and a hat is about as wide
 /// as it is high.
@@ -68,18 +73,10 @@ SparseMatrix hats(const TriangleMesh& mesh, const Line& sigma, const std::vector
     Eigen::VectorXd x;
     int first;
   };
-  std::vector<char> in_body(mesh.vertex_count(), 0);
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3 && mesh.region[t] == Region::body; ++i) in_body[mesh.triangles(t, i)] = 1;
-  double left = sigma.x.front(), right = sigma.x.back(), top = 0;
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (!in_body[v]) continue;
-    left = std::min(left, mesh.vertices(v, 0)), right = std::max(right, mesh.vertices(v, 0));
-    top = std::max(top, mesh.vertices(v, 1));
-  }
+  const double left = mesh.vertices.col(0).minCoeff(), right = mesh.vertices.col(0).maxCoeff();
   std::map<double, Row> rows;  // by height
   rows[0].x = Eigen::Map<const Eigen::VectorXd>(sigma.x.data(), static_cast<Eigen::Index>(sigma.x.size()));
-  for (double y = top; y > sigma.length / static_cast<double>(sigma.edge.size()); y /= 2)
+  for (double y = mesh.vertices.col(1).maxCoeff(); y > sigma.length / static_cast<double>(sigma.edge.size()); y /= 2)
     rows[y].x =
         Eigen::VectorXd::LinSpaced(1 + std::max(1, static_cast<int>(std::ceil((right - left) / y))), left, right);
   int count = 0;
@@ -99,19 +96,40 @@ SparseMatrix hats(const TriangleMesh& mesh, const Line& sigma, const std::vector
     }
   };
   for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (!in_body[v]) continue;
+    if (below(mesh, sigma, v)) continue;
     const double y = std::max(mesh.vertices(v, 1), 0.0);
     const auto above = rows.lower_bound(y);
     if (y == 0) add(v, above->second, 1);
     if (y == 0 || above == rows.end()) continue;
-    const auto& [low, below] = *std::prev(above);
-    add(v, below, (above->first - y) / (above->first - low));
+    const auto& [low, under] = *std::prev(above);
+    add(v, under, (above->first - y) / (above->first - low));
     add(v, above->second, (y - low) / (above->first - low));
   }
   std::erase_if(values, [&](const auto& value) { return value.value() == 0 || left_out[value.col()]; });
   SparseMatrix w(mesh.vertex_count(), count);
   w.setFromTriplets(values.begin(), values.end());
   return w;
+}
+
+/// The form of the layer on its triangles that have a vertex on Sigma.
+SparseMatrix layer_at(const Line& sigma, const TriangleMesh& mesh, const Scene& scene) {
+  const auto* thin = std::get_if<ThinLayer>(&scene.layer());
+  const Eigen::Vector2d root =
+      thin != nullptr ? Eigen::Vector2d::Constant(std::sqrt(1 / thin->epsilon)) : Eigen::Vector2d(1, 0);
+  std::vector<Eigen::Triplet<double>> values;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::RowVector3i v = mesh.triangles.row(t);
+    if (mesh.region[t] == Region::body || std::max({sigma.place[v(0)], sigma.place[v(1)], sigma.place[v(2)]}) < 0)
+      continue;
+    const Eigen::Matrix<double, 3, 2> half =
+        std::sqrt(mesh.area(t)) * barycentric_gradients(mesh, t) * root.asDiagonal();
+    const Eigen::Matrix3d form = half * half.transpose();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) values.emplace_back(v(i), v(j), form(i, j));
+  }
+  SparseMatrix layer(mesh.vertex_count(), mesh.vertex_count());
+  layer.setFromTriplets(values.begin(), values.end());
+  return layer;
 }
 
 /// a+(u_h, phi) for u_h of P2 and the P1 functions phi of the mesh cut once more. A quadratic's gradient is affine: its
@@ -175,11 +193,15 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   w.conservativeResize(w.rows(), size);
   const auto unknown = [&](int i, int row) { return row == 0 ? i : hat_count + (row - 1) * points + i; };
 
-  // J(u_h) in the layer, and what u_h leaves of the forces on the body
-  const SparseMatrix body_of_u = gradient_form(space, {1, 1}, {0, 0});
-  const Eigen::VectorXd work = body_of_u * solution.u;
+  // J(u_h) in the layer, and what u_h leaves of the forces on the body. For P1 the body's form is a1 less what the layer's
+  // triangles have at Sigma; its rows below are not read
+  SparseMatrix body_of_u = linear ? gradient_form(space, {1, 1}, {0, 0}) : problem.a1;
+  if (!linear) body_of_u -= layer_at(sigma, mesh, scene);
+  Eigen::VectorXd work = body_of_u * solution.u;
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    if (below(mesh, sigma, v)) work(v) = 0;
   const double layer_energy = energy(problem, solution) - solution.u.dot(work / 2 - problem.load);
-  const SparseMatrix body = linear ? gradient_form(fine, {1, 1}, {0, 0}) : body_of_u;
+  const SparseMatrix body = linear ? gradient_form(fine, {1, 1}, {0, 0}) : std::move(body_of_u);
   VariationalInequality strip;
   strip.load =
       w.transpose() * (linear ? load_vector(fine, scene.body().load) - work_of_quadratics(space, mesh, solution.u)
