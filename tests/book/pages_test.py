@@ -13,6 +13,7 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tutorials/book"))
+from library import EXAMPLES, Library  # noqa: E402
 from pages import EXTRA  # noqa: E402
 
 STILLS = ("hero", "string", "figure9", "roundoff")
@@ -81,6 +82,7 @@ int main() {
 int main() {}
 """,
 }
+EXAMPLE = "TEST(SolveTo, TakesTheVentcelLayerForTheRigidLimit) {\n  solve_to();\n}\nTEST(SolveTo, Other) {\n}\n"
 
 
 def small_repository(root):
@@ -96,6 +98,10 @@ def small_repository(root):
         "// ## Answers on paper\n//\n// **3.** By chapter 00, $x = 1$.\n")
     (root / "freefem/00_start.edp").write_text("// ### Solve\nreal a = 1;\n")
     (root / "lib/antilock/core/error.hpp").write_text("#pragma once\nclass Error {};\n")
+    for folder, file, text in (("lib/antilock/adapt", "solve_to.hpp", "#pragma once\nint solve_to();\n"),
+                               ("tests/unit", "adapt_test.cpp", EXAMPLE)):
+        (root / folder).mkdir(parents=True)
+        (root / folder / file).write_text(text)
     (root / "tutorials/README.md").write_text("# Tutorials\n\n## The theory as experiments\n\nNone.\n")
     (root / "tutorials/book/index.md").write_text("# The index\n\nBegin with [a start](00_start.cpp).\n\n:live:\n\n:chapters:\n")
     for page in EXTRA:
@@ -199,6 +205,14 @@ class Pages(unittest.TestCase):
         self.assertNotIn("The answers to the exercises", self.page("07_middle"))
         self.assertNotIn("Answers on paper", self.page("00_start"))
 
+    # ---- the library
+
+    def test_a_header_has_its_example(self):
+        self.assertRegex(self.page("library_adapt"), r"(?s)solve_to\.hpp.*adapt_test.cpp`:\n\n```cpp\nTEST\(SolveTo, Takes\w+\) {\n  solve_to\(\);\n}\n```")
+        library = Library(ROOT / "lib")
+        for header in EXAMPLES:
+            self.assertGreater(len(library.example(ROOT / "lib/antilock" / header)), 0)
+
     # ---- tables and captions
 
     def test_letters_that_are_written_out_become_signs(self):
@@ -247,6 +261,8 @@ class Pages(unittest.TestCase):
                 ('step "Dance"', "freefem/00_start.edp", "// ### Dance")):
             with self.subTest(line=line):
                 self.refused(says, file, line, self.pages)
+        with self.subTest("example"):
+            self.refused("solve_to.hpp: its example, SolveTo", "tests/unit/adapt_test.cpp", "", self.pages, "TakesTheVentcelLayer")
         with self.subTest("title"):
             self.refused("accepted: at most six", chapter, "// # A title of more than six words", self.pages, "// # A first chapter")
 

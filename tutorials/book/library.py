@@ -3,9 +3,23 @@ import re
 
 from docutils.nodes import make_id
 
+from literate import BookError
+
 ROOMS = "core scene mesh space form problem models solve exact measure analysis adapt study distributed io".split()
 TYPE = re.compile(r"^(?:class|struct|enum class) (\w+)[^;]*$")
 FUNCTION = re.compile(r"^(?!return|using|namespace|template|#|//|\})(?:[\w:<>,*&]+ )+[*&]?(\w+)\(")
+# By header, an example: a file of tests/, and of it one test (none: the whole program). The tests run them all.
+EXAMPLES = {
+    "scene/scene.hpp": ("package/main.cpp", None),
+    "space/space.hpp": ("unit/space_test.cpp", "Space, CrouzeixRaviartUnknownsAreEdgeMidpoints"),
+    "problem/variational_inequality.hpp": ("unit/problem_test.cpp", "Check, TakesAnA1OfZerosWhereBHoldsEverything"),
+    "solve/active_set.hpp": ("unit/solve_test.cpp", "ActiveSet, LimitProblemOnAStructuredMeshIsVentcels"),
+    "solve/contact.hpp": ("unit/contact_problem_test.cpp", "ContactProblem, StartingAtTheAnswerTakesOneStep"),
+    "analysis/locking.hpp": ("unit/locking_diagnosis_test.cpp", "LockingDiagnosis, FindsThatAHalfIsHeld"),
+    "analysis/certificate.hpp": ("unit/certificate_test.cpp", "Certificate, BoundsTheEnergyOfAScaledSolution"),
+    "analysis/lost_energy.hpp": ("unit/lost_energy_test.cpp", "LostEnergy, IsToldByALawWhereTheGapIsFinerThanTheMesh"),
+    "adapt/solve_to.hpp": ("unit/adapt_test.cpp", "SolveTo, TakesTheVentcelLayerForTheRigidLimit"),
+}
 
 
 class Library:
@@ -41,6 +55,18 @@ class Library:
                         pages.setdefault(name, self.page(header, ".html"))
         return known
 
+    def example(self, header):
+        """The lines of the header's example; a BookError where the test is gone."""
+        if self.short(header) not in EXAMPLES:
+            return []
+        file, test = EXAMPLES[self.short(header)]
+        path = self.lib.parent / "tests" / file
+        text = path.read_text() if path.exists() else ""
+        code = text if test is None else (re.findall(rf"(?ms)^TEST\({test}\) \{{$.*?^\}}$", text) or [""])[0]
+        if not code:
+            raise BookError(f"{self.short(header)}: its example, {test or 'a program'} in tests/{file}, is not there (library.py)")
+        return [f"An example, from `tests/{file}`:", "", "```cpp", code.rstrip(), "```", ""]
+
     def write(self, write, chapters):
         """A page per room: each header, and the chapters that use what it declares. They are its examples: each is a
         program that the tests run."""
@@ -48,14 +74,14 @@ class Library:
         for room in self.rooms:
             out = [f"# Room {room}", ""]
             for header in self.headers(room):
-                out += [f"## {self.short(header)}", "", "```cpp", header.read_text().rstrip(), "```", ""]
+                out += [f"## {self.short(header)}", "", "```cpp", header.read_text().rstrip(), "```", "", *self.example(header)]
                 used = {name: ", ".join(f"[{stem[:2]}]({stem}.md)" for stem in words if name in words[stem]) for name in self.declared(header)}
                 out += [f"- `{name}`: used in chapter {chapters}" for name, chapters in used.items() if chapters]
                 unused = ", ".join(f"`{name}`" for name, chapters in used.items() if not chapters)
                 out += [f"- no chapter uses {unused} by name", ""] if unused and "/detail/" not in str(header) else [""]
             write(f"library_{room}", out)
-        write("library", ["# The library's headers", "", "A room includes only rooms before it. Below each header stand the chapters that use it:",
-                          "each is a program, compiled and run by the tests, so each is an example that works.", "",
+        write("library", ["# The library's headers", "", "A room includes only rooms before it. Below each header stand the chapters that use it, and",
+                          "below central ones an example: the tests compile and run them all.", "",
                           "```{toctree}", ":maxdepth: 2", "", *(f"library_{room}" for room in self.rooms), "```"])
 
 
