@@ -129,6 +129,7 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
     problem.a1 =
         gradient_form(space, {1, 1}, {1 / thin->epsilon, 1 / thin->epsilon}, stiffness);  // mu / epsilon of (22)
   } else {
+    static_assert(std::variant_size_v<Layer> == 4, "what a new layer adds to A1 and to B stands here");
     problem.a1 = gradient_form(space, {1, 1}, {0, 0}, stiffness);
     if (std::holds_alternative<VentcelLayer>(scene.layer())) problem.a1 += ventcel_form(space);
   }
