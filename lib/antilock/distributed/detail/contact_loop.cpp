@@ -45,12 +45,23 @@ class HeldSystem {
     ok(PCFactorSetMatSolverType(factor, MATSOLVERMUMPS));
   }
   /// Holds the rows of the set; moves what they do to the others (K times `jump`) to the right-hand side.
-  void hold(const std::vector<PetscInt>& rows, bool changed, Vec jump, Vec rhs) {
-    if (changed) {
-      ok(MatCopy(problem_.k(), held_, SAME_NONZERO_PATTERN));
-      ok(MatZeroRowsColumns(held_, static_cast<PetscInt>(rows.size()), rows.data(), 1 / problem_.delta(), jump, rhs));
-      ok(KSPSetOperators(solver_, held_, held_)), ok(KSPSetUp(solver_));
-    }
+  void hold(const std::vector<PetscInt>& rows, Vec jump, Vec rhs) {
+    ok(MatCopy(problem_.k(), held_, SAME_NONZERO_PATTERN));
+    ok(MatZeroRowsColumns(held_, static_cast<PetscInt>(rows.size()), rows.data(), 1 / problem_.delta(), jump, rhs));
+    ok(KSPSetOperators(solver_, held_, held_));
+  }
+  void set_up() { ok(KSPSetUp(solver_)); }
+  /// Conjugate gradients with an incomplete factor of each rank's own rows. They stand column by column, so it is exact
+  /// along a column of the layer. Where there is no such factor, du is 0.
+  void smooth(Vec rhs, Vec du, int iterations) {
+    LinearSolver smoother;
+    PC factor = nullptr;
+    ok(KSPCreate(PETSC_COMM_WORLD, &smoother)), ok(KSPSetType(smoother, KSPCG)), ok(KSPGetPC(smoother, &factor));
+    ok(PCSetType(factor, PCBJACOBI)), ok(KSPSetOperators(smoother, held_, held_));
+    ok(KSPSetTolerances(smoother, 0, 1e-300, PETSC_DEFAULT, iterations)), ok(KSPSolve(smoother, rhs, du));
+    KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+    ok(KSPGetConvergedReason(smoother, &reason));
+    if (reason < 0 && reason != KSP_DIVERGED_ITS) ok(VecSet(du, 0));
   }
   /// The iterations that it took. Throws NotConverged.
   int solve(Vec rhs, Vec du, double inner, int most) {
@@ -140,15 +151,18 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
           std::max(report.change, unbalanced), step);
 
     watch.lap();
-    const bool new_set = step == 0 || changed > 0;
-    system.hold(held, new_set, jump, rhs);
+    const bool new_set = step == 0 || changed > 0, smooth = step == 0 && options.smoothings > 0;
+    if (new_set) system.hold(held, jump, rhs);
     {
       Entries right(rhs);  // solved for inexactly, the known du on the set would be off; so it is added afterwards
       for (const PetscInt row : held) right[row - rows.first()] = 0;
     }
+    const bool due = !smooth && (new_set || report.setups == 0);
+    if (due) system.set_up();
+    report.setups += due;
     report.seconds_setup += watch.lap();
-    report.setups += new_set;
-    const int iterations = system.solve(rhs, du, options.inner, options.most_iterations);
+    if (smooth) system.smooth(rhs, du, options.smoothings);
+    const int iterations = smooth ? 0 : system.solve(rhs, du, options.inner, options.most_iterations);
     report.linear_iterations += iterations;
     report.most_iterations = std::max(report.most_iterations, iterations);
     ++report.corrections;

@@ -17,6 +17,7 @@ struct LoopOptions {
   double tolerance = 1e-10;   ///< largest |du| / largest |u| of the last correction
   double residual = 1e-9;     ///< of the equations, relative to the largest force
   double inner = 1e-4;        ///< conjugate gradients: what they leave of a correction, in the energy norm
+  int smoothings = 0;         ///< in place of the first correction: steps that need no multigrid (contact_loop)
   int most_iterations = 500;  ///< of conjugate gradients, per correction
   int most_corrections = 60;  ///< since the contact set changed last
   int most_sets = 2000;       ///< contact sets tried
@@ -41,7 +42,9 @@ struct LoopReport {
 ///     (A1 + delta^-1 B' M B) du = r1 + delta^-1 B' M r2  off the contact set,  du = bound - u on it
 /// is solved by conjugate gradients with multigrid on the contact set that the last one proposes; the multigrid is set
 /// up anew where the set changed (kept, it takes up to four times the iterations: a released point frees a whole column
-/// of the layer, which the old hierarchy does not know). Residuals are formed from A1, B, M and p, never from K.
+/// of the layer, which the old hierarchy does not know). A start from a coarser level is wrong by short waves alone, which
+/// a few smoothing steps take away: the set that follows them is the right one, or nearly, and multigrid is set up once
+/// and not twice. Residuals are formed from A1, B, M and p, never from K.
 /// Every rank must call it. Throws, on every rank, NotConverged where it does not settle, Stopped where it is told to stop.
 LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptions& options = {});
 

@@ -85,7 +85,7 @@ void Inequality::sum_k(const SparseMatrix& part) {
     columns.clear(), values.clear();
     for (SparseMatrix::InnerIterator entry(part, rows_.unknown(place)); entry; ++entry) {  // symmetric: column = row
       const int column = rows_.place(static_cast<int>(entry.row()));
-      if (column < 0) continue;
+      if (column < 0 || entry.value() == 0) continue;  // 0 across the long edge of a right angle: 7 entries become 5
       columns.push_back(rows_.row(column));
       values.push_back(entry.value());
     }
