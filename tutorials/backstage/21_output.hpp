@@ -68,9 +68,8 @@ inline Table uzawa_on_its_way(const std::string& method, const VariationalInequa
     UzawaOptions options;
     options.enough = {energy, 1e-3};
     const int before = u.counters.contact;
-    // one that took as many steps as the full one has come to its end
-    if (before < full.counters.contact) u = uzawa(problem, factor, options);
-    if (u.counters.contact != before) error_of_u = error(u);  // else it is the same u
+    if (before < full.counters.contact) u = uzawa(problem, factor, options);  // else it has come to its end
+    if (u.counters.contact != before) error_of_u = error(u);                  // else it is the same u
     table.add({method, "error of the iterate", u.counters.contact, error_of_u});
     if (u.counters.contact < full.counters.contact)
       table.add({method, "its algebraic part", u.counters.contact, (u.u - full.u).cwiseAbs().maxCoeff()});

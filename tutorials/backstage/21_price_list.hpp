@@ -2,7 +2,7 @@
 #include <array>
 #include <tuple>
 
-#include "antilock/core/detail/atomic_file.hpp"
+#include "backstage/21_markdown.hpp"
 #include "backstage/21_timing.hpp"
 
 namespace antilock::tutorial {
@@ -40,8 +40,7 @@ inline std::string cell(const std::vector<Price>& prices) {
   return text;
 }
 
-/// The prices of relative errors (at the unknowns) of 1e-2, 1e-3 and 1e-4: price_list.csv has one row per method, epsilon,
-/// solver and error, price_list.md one per method and epsilon.
+/// price_list.csv, one row per method, epsilon, solver and relative error, and price_list.md, one per method and epsilon.
 inline void write_price_list(const std::filesystem::path& folder, const std::vector<TimedRun>& runs) {
   std::vector<std::vector<TimedRun>> methods;  // of each the runs from coarse to fine; solvers in their order
   for (const TimedRun& run : runs) {
@@ -54,7 +53,8 @@ inline void write_price_list(const std::filesystem::path& folder, const std::vec
   });
   constexpr std::array tolerances{1e-2, 1e-3, 1e-4};
   Table csv({"element", "mesh", "epsilon", "solver", "tolerance", "outcome", "seconds", "unknowns"});
-  std::string solvers, page = "| element and mesh | epsilon | 1e-2 | 1e-3 | 1e-4 |\n|---|---|---|---|---|\n";
+  Table page({"element and mesh", "epsilon", "1e-2", "1e-3", "1e-4"});
+  std::string solvers;
   for (auto first = methods.begin(), next = first; first != methods.end(); first = next) {
     const TimedRun& m = first->front();
     std::array<std::vector<Price>, tolerances.size()> row;
@@ -66,17 +66,15 @@ inline void write_price_list(const std::filesystem::path& folder, const std::vec
         csv.add({m.element, m.mesh, m.epsilon, next->front().solver, tolerances[i], p.outcome, p.seconds, p.unknowns});
       }
     }
-    page += fmt::format("| {} {} | {:g} | {} | {} | {} |\n", m.element, m.mesh, m.epsilon, cell(row[0]), cell(row[1]),
-                        cell(row[2]));
+    page.add({m.element + " " + m.mesh, m.epsilon, cell(row[0]), cell(row[1]), cell(row[2])});
   }
   csv.write(folder / "price_list.csv");
-  write_file(folder / "price_list.md", [&](std::ostream& out) {
-    out << fmt::format("1/h from 8 to {}. Unknowns: seconds of {}", runs.back().cells, solvers)
-        << ", without mesh and assembly, until the relative error at the unknowns is below 1e-2, 1e-3, 1e-4. `-`: "
-           "failed "
-           "or over the limit; `never`: locked; `>`: not even on the finest mesh measured.\n\n"
-        << page;
-  });
+  write_markdown(folder / "price_list.md",
+                 fmt::format("1/h from 8 to {}. Unknowns: seconds of {}, without mesh and assembly, until the relative "
+                             "error at the unknowns is below 1e-2, 1e-3, 1e-4. `-`: failed or over the limit; `never`: "
+                             "locked; `>`: not even on the finest mesh measured.",
+                             runs.back().cells, solvers),
+                 page);
 }
 
 }  // namespace antilock::tutorial

@@ -1,7 +1,6 @@
 #pragma once
 #include <algorithm>
 
-#include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "common/course.hpp"
 
@@ -42,17 +41,15 @@ struct Timing {
   int repeats = 5;
   std::vector<TimedRun> runs{};
 
-  /// Marks a run as failed where the same method was over the limit on a coarser mesh.
-  bool given_up(TimedRun& run) const {
-    const bool hopeless = std::any_of(
-        runs.begin(), runs.end(), [&](const TimedRun& r) { return r.same_method(run) && !r.ok && r.seconds >= limit; });
+  bool given_up(TimedRun& run) const {  // failed, where the same method was over the limit on a coarser mesh
+    const auto over = [&](const TimedRun& r) { return r.same_method(run) && !r.ok && r.seconds >= limit; };
+    const bool hopeless = std::any_of(runs.begin(), runs.end(), over);
     if (hopeless) run.fail(limit, "not tried: over the limit on a coarser mesh");
     return hopeless;
   }
-  /// Times one solver. `run` says what is solved: element, mesh, epsilon, cells, unknowns, mesh_seconds. `limited` false:
-  /// a solver that no limit stops.
+  /// Times one solver. `run` says what is solved: element, mesh, epsilon, cells, unknowns, mesh_seconds.
   void add(TimedRun run, const std::string& solver, const std::function<Solution()>& solve,
-           const std::function<Errors(const Solution&)>& errors, bool limited = true) {
+           const std::function<Errors(const Solution&)>& errors, bool limited = true) {  // false: no limit stops it
     run.solver = solver;
     if (!given_up(run)) {
       const Stopwatch since_start;

@@ -1,41 +1,36 @@
 #pragma once
-#include "antilock/core/detail/atomic_file.hpp"
+#include "backstage/21_markdown.hpp"
 #include "backstage/22_accuracies.hpp"
 
 namespace antilock::tutorial {
 
 /// The price list as Markdown: one row per load, epsilon and accuracy, one column per way.
 inline void write_price_list(const std::filesystem::path& file, const Table& answers, const Table& uniform) {
-  const auto cell = [](const Table& row) {
-    return fmt::format(" {:.0f}: {:.2g} s, {:.2g} |", row.number("unknowns"), row.number("seconds"),
-                       row.number("value"));
+  Table page({"load", "epsilon", "asked", "uniform", "bisected", "extruded", "midpoint stress"});
+  const auto cell = [](const Table& rows) -> Entry {
+    if (rows.size() == 0) return "-";
+    const Table row = rows.rows().front();
+    return fmt::format("{:.0f}: {:.2g} s, {:.2g}", row.number("unknowns"), row.number("seconds"), row.number("value"));
   };
-  std::string page =
-      "Unknowns: seconds of all levels, certified relative error. Uniform: the first of gmsh's meshes that is proved "
-      "good "
-      "enough, without gmsh's seconds. `-`: not on the finest mesh measured; extruded at epsilon = 1 is not tried.\n\n"
-      "| load | epsilon | asked | uniform | bisected | extruded | midpoint stress |\n|---|---|---|---|---|---|---|\n";
   for (const Entry& load : answers.different("load"))
     for (const Entry& epsilon : answers.different("epsilon"))
       for (const Entry& asked : answers.different("asked")) {
-        page += fmt::format("| {} | {} | {} |", load.text(), epsilon.text(), asked.text());
+        const auto here = [&](const Table& all) {
+          return all.where("load", load).where("epsilon", epsilon).where("quantity", "bound");
+        };
         const auto good = [&](double value) { return value <= asked.number(); };
-        const Table enough = uniform.where("load", load)
-                                 .where("epsilon", epsilon)
-                                 .where("quantity", "bound")
-                                 .where_number("value", good);
-        page += enough.size() > 0 ? cell(enough.rows().front()) : " - |";
-        for (const char* way : {"bisected", "extruded", "midpoint"}) {
-          const Table row = answers.where("load", load)
-                                .where("epsilon", epsilon)
-                                .where("asked", asked)
-                                .where("method", way)
-                                .where("quantity", "bound");
-          page += row.size() > 0 ? cell(row) : " - |";
-        }
-        page += "\n";
+        const auto way = [&](const char* name) {
+          return cell(here(answers).where("asked", asked).where("method", name));
+        };
+        page.add({load, epsilon, asked, cell(here(uniform).where_number("value", good)), way("bisected"),
+                  way("extruded"), way("midpoint")});
       }
-  write_file(file, [&](std::ostream& out) { out << page; });
+  write_markdown(
+      file,
+      "Unknowns: seconds of all levels, certified relative error. Uniform: the first of gmsh's meshes that is "
+      "proved good enough, without gmsh's seconds. `-`: not on the finest mesh measured; extruded at epsilon "
+      "= 1 is not tried.",
+      page);
 }
 
 /// The certificate of a scene on a mesh.

@@ -19,13 +19,10 @@ inline TriangleMesh block(int cells) { return with_free_sides(structured_mesh(ce
 
 /// The block of chapter 26 at 1/lambda = 0, pushed down on its obstacle.
 inline VariationalInequality rubber(const Mixed& way, const Space& space, double push = 0.1) {
-  PlaneStrain scene;
-  scene.epsilon = 0;
-  scene.push = push;
-  scene.gap = [](double x) { return (x - 0.5) * (x - 0.5); };
-  scene.jump_weight = way.element.conforming() ? 0 : 1;
-  scene.continuous_pressure = way.pressure_per_vertex;
-  return assemble(scene, {space, space});
+  const Press press{.push = push,
+                    .gap = [](double x) { return (x - 0.5) * (x - 0.5); },
+                    .jump_weight = way.element.conforming() ? 0.0 : 1.0};
+  return assemble(PlaneStrain{press, 0, way.pressure_per_vertex}, {space, space});
 }
 
 /// The inf-sup constant of the stress of (23)'s layer, in the dual norm, which is taken on the mesh cut twice.
