@@ -77,7 +77,7 @@ using namespace antilock;
 double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the round punch below
 
 // ### Mesh
-// A `Method` is one of six discretisations: triangles in columns or arbitrary ones, an element per component.
+// A `CoatedBlock` is one of six discretisations: triangles in columns or arbitrary ones, an element per component.
 //
 // ### Forms
 // `models/coating.cpp` is those two formulas: `strain_form` for the block and for $E_m u_x^2$, `strain_rows` for $B$. The top
@@ -102,7 +102,7 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
 void press(const tutorial::Options& options, double thickness, tutorial::Report& report) {
   Table forces({"method", "locks", "h", "t", "force", "percent", "corrections"});
   Table diagnoses({"method", "locks", "found", "says"});
-  for (const tutorial::Method& method : tutorial::methods()) {
+  for (const tutorial::CoatedBlock& method : tutorial::coated_blocks()) {
     report.stage(method.name);
     for (const int n : {options.cells / 4, options.cells / 2, options.cells}) {
       const TriangleMesh mesh = method.mesh(n);

@@ -19,7 +19,7 @@ struct Bar {
   double total() const { return std::accumulate(parts.begin(), parts.end(), 0.0); }
 };
 
-std::vector<Bar> read_bars(const Table& table, const BarStyle& style, const std::string& file) {
+std::vector<Bar> read_bars(const CsvTable& table, const BarStyle& style, const std::string& file) {
   std::vector<Bar> bars;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (!selected(table, row, style.filters)) continue;
@@ -44,7 +44,7 @@ Colour part_colour(std::size_t n, std::size_t count) { return viridis((n + 0.5) 
 }  // namespace
 
 Page bar_picture(const std::filesystem::path& file, const BarStyle& style) {
-  const Table table(file);
+  const CsvTable table(file);
   const auto bars = read_bars(table, style, file.string());
   const std::vector<std::string>& names = style.parts;
   constexpr double size = number_size;

@@ -37,7 +37,7 @@ struct Curves {
 };
 
 /// What a row's curve means: its element alone is not a method where the panel says the mesh.
-Meaning series_meaning(const Table& table, std::size_t row, const ChartStyle& style) {
+Meaning series_meaning(const CsvTable& table, std::size_t row, const ChartStyle& style) {
   const Meaning plain = row_meaning(table, row, style.series_by);
   std::vector<std::string> columns = style.series_by;
   columns.insert(columns.end(), style.panel_by.begin(), style.panel_by.end());
@@ -45,7 +45,7 @@ Meaning series_meaning(const Table& table, std::size_t row, const ChartStyle& st
   return method.rank.size() < columns.size() ? method : plain;  // one row of the table of styles, not two
 }
 
-Curves read_curves(const Table& table, const ChartStyle& style) {
+Curves read_curves(const CsvTable& table, const ChartStyle& style) {
   Curves curves;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (!selected(table, row, style.filters)) continue;
@@ -140,7 +140,7 @@ Axis y_axis(const ChartStyle& style, double low, double high, double room, doubl
 }  // namespace
 
 Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
-  const Table table(file);
+  const CsvTable table(file);
   const Curves curves = read_curves(table, style);
   for (std::size_t n = 0; n < curves.series.size(); ++n) tell_unknown(curves.series[n]);
   Sample low{HUGE_VAL, HUGE_VAL}, high{0, 0};

@@ -28,7 +28,7 @@ std::vector<std::string> split_columns(const std::string& list) {
 }
 
 /// The straight axis of these columns, with some room above and below; stems stand on 0.
-Axis value_axis(const Table& table, const std::vector<std::string>& columns) {
+Axis value_axis(const CsvTable& table, const std::vector<std::string>& columns) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const std::string& column : columns) {
     if (column == nothing) continue;
@@ -80,7 +80,7 @@ void draw_curve(Page& page, const std::vector<Point>& points, const Look& look, 
 }  // namespace
 
 Page curves_picture(const std::filesystem::path& file, const CurvesStyle& style) {
-  const Table table(file);
+  const CsvTable table(file);
   if (table.rows() < 2) throw Error(fmt::format("{}: a curve needs two rows", file.string()));
   std::vector<Axis> values;
   for (const std::string& list : style.panels) {

@@ -58,7 +58,7 @@ void draw_body(Page& page, const Frame& at, vtkPolyData& body, const Range& rang
 }
 
 /// The obstacle fills everything below its line; strips, since a polygon must be convex.
-void draw_obstacle(Page& page, const Frame& at, const Table& line, double bottom) {
+void draw_obstacle(Page& page, const Frame& at, const CsvTable& line, double bottom) {
   for (std::size_t i = 0; i + 1 < line.rows(); ++i) {
     const double x0 = line.number(i, "x"), x1 = line.number(i + 1, "x"), y0 = line.number(i, "y"),
                  y1 = line.number(i + 1, "y");
@@ -84,7 +84,7 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const Range range = style.range.value_or(*most > *least ? Range{*least, *most} : Range{*least, *least + 1});
   check(range);
-  std::optional<Table> obstacle;
+  std::optional<CsvTable> obstacle;
   if (!style.obstacle.empty()) obstacle.emplace(style.obstacle);
   for (std::size_t i = 0; obstacle && i < obstacle->rows(); ++i)
     seen.AddPoint(obstacle->number(i, "x"), obstacle->number(i, "y"), 0);

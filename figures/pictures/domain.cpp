@@ -40,7 +40,7 @@ Colour colour_of(const std::string& name) {
 }
 
 /// The corners of one part: rows of the same kind and name that follow each other.
-std::vector<Part> read_parts(const Table& table) {
+std::vector<Part> read_parts(const CsvTable& table) {
   std::vector<Part> parts;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const auto &kind = table.text(row, "kind"), &name = table.text(row, "name"), &label = table.text(row, "label");
@@ -84,7 +84,7 @@ void draw(Page& page, const Part& part) {
 }  // namespace
 
 Page domain_picture(const std::filesystem::path& outline, const std::string& title) {
-  std::vector<Part> parts = read_parts(Table(outline));
+  std::vector<Part> parts = read_parts(CsvTable(outline));
   const Part window = parts.front();
   if (window.kind != "page" || window.corners.size() != 2 || !(window.corners[1].x > window.corners[0].x) ||
       !(window.corners[1].y > window.corners[0].y))

@@ -95,7 +95,7 @@ void draw_scale(Page& page, const Box& box, const Bands& bands, const std::strin
 }  // namespace
 
 Page map_picture(const std::filesystem::path& file, const MapStyle& style) {
-  const Table table(file);
+  const CsvTable table(file);
   Grids grids;
   Meanings panels;
   std::vector<double> xs, ys, zs;

@@ -8,7 +8,7 @@
 
 namespace antilock::figures {
 
-bool selected(const Table& table, std::size_t row, const std::vector<std::string>& filters) {
+bool selected(const CsvTable& table, std::size_t row, const std::vector<std::string>& filters) {
   return std::all_of(filters.begin(), filters.end(), [&](const std::string& filter) {
     const auto equals = filter.find('=');
     if (equals == std::string::npos) throw Error(fmt::format("filter '{}': accepted: column=value", filter));
@@ -16,7 +16,7 @@ bool selected(const Table& table, std::size_t row, const std::vector<std::string
   });
 }
 
-Meaning row_meaning(const Table& table, std::size_t row, const std::vector<std::string>& columns) {
+Meaning row_meaning(const CsvTable& table, std::size_t row, const std::vector<std::string>& columns) {
   std::vector<std::string> entries;
   entries.reserve(columns.size());
   for (const std::string& column : columns) entries.push_back(table.text(row, column));

@@ -9,10 +9,10 @@
 namespace antilock::figures {
 
 /// Whether a row passes every filter `column=value`. Throws Error for a filter of another form.
-bool selected(const Table& table, std::size_t row, const std::vector<std::string>& filters);
+bool selected(const CsvTable& table, std::size_t row, const std::vector<std::string>& filters);
 
 /// What the row's entries of these columns mean together.
-Meaning row_meaning(const Table& table, std::size_t row, const std::vector<std::string>& columns);
+Meaning row_meaning(const CsvTable& table, std::size_t row, const std::vector<std::string>& columns);
 
 /// The different meanings of the rows of a table, such as those that make panels, ordered by their
 /// ranks.

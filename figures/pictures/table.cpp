@@ -29,7 +29,7 @@ std::vector<std::string> fields_of(const std::string& line) {
 
 }  // namespace
 
-Table::Table(const std::filesystem::path& path) : name_(path.string()) {
+CsvTable::CsvTable(const std::filesystem::path& path) : name_(path.string()) {
   std::ifstream in(path);
   if (!in || std::filesystem::is_directory(path))
     throw Error(fmt::format("{}: cannot be read; run the tutorial that writes it first", name_));
@@ -49,18 +49,18 @@ Table::Table(const std::filesystem::path& path) : name_(path.string()) {
   if (rows_.empty()) throw Error(fmt::format("{}: no rows; accepted: CSV with a header line", name_));
 }
 
-std::size_t Table::column_index(const std::string& column) const {
+std::size_t CsvTable::column_index(const std::string& column) const {
   const auto found = std::find(header_.begin(), header_.end(), column);
   if (found == header_.end())
     throw Error(fmt::format("{}: no column '{}'; it has {}", name_, column, fmt::join(header_, ", ")));
   return static_cast<std::size_t>(found - header_.begin());
 }
 
-const std::string& Table::text(std::size_t row, const std::string& column) const {
+const std::string& CsvTable::text(std::size_t row, const std::string& column) const {
   return rows_[row][column_index(column)];
 }
 
-double Table::number(std::size_t row, const std::string& column) const {
+double CsvTable::number(std::size_t row, const std::string& column) const {
   const std::string& field = text(row, column);
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
@@ -69,7 +69,7 @@ double Table::number(std::size_t row, const std::string& column) const {
   return value;
 }
 
-std::vector<std::string> Table::values(const std::string& column) const {
+std::vector<std::string> CsvTable::values(const std::string& column) const {
   std::vector<std::string> different;
   for (std::size_t row = 0; row < rows(); ++row)
     if (std::find(different.begin(), different.end(), text(row, column)) == different.end())

@@ -7,10 +7,10 @@ namespace antilock::figures {
 
 /// A CSV file in memory: one header line, then rows of as many fields; a field may stand in double
 /// quotes.
-class Table {
+class CsvTable {
  public:
   /// Throws Error, naming file and line, for a file that is missing, empty, without rows or ragged.
-  explicit Table(const std::filesystem::path& path);
+  explicit CsvTable(const std::filesystem::path& path);
 
   std::size_t rows() const { return rows_.size(); }
   /// Throws Error where there is no such column.

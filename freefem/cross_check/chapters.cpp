@@ -77,7 +77,7 @@ void fill_glue(VariationalInequality& problem, int n, bool mortar) {
 
 Numbers string_on_an_obstacle(int cells, const std::filesystem::path& folder) {
   run("00_string_on_an_obstacle", {"-cells", std::to_string(cells), "-out", folder});
-  const Table nodes = read_table(folder / "string.csv"), summary = read_table(folder / "summary.csv");
+  const ScriptTable nodes = read_table(folder / "string.csv"), summary = read_table(folder / "summary.csv");
   VariationalInequality problem = strings({cells});
   problem.load.setConstant(-32.0 / cells);
   problem.load(0) = problem.load(cells) = -16.0 / cells;
@@ -96,7 +96,7 @@ Numbers string_on_an_obstacle(int cells, const std::filesystem::path& folder) {
 
 Numbers by_hand(int cells, double epsilon, const std::filesystem::path& folder) {
   run("03_by_hand", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
-  const Table solution = read_table(folder / "solution.csv"), summary = read_table(folder / "summary.csv");
+  const ScriptTable solution = read_table(folder / "solution.csv"), summary = read_table(folder / "summary.csv");
   const TriangleMesh mesh = structured_mesh(cells);
   const Space space(mesh, p1());
   const VariationalInequality problem =
@@ -121,7 +121,7 @@ Numbers kernels(int cells, const std::filesystem::path& folder) {
   const TriangleMesh unstructured = unstructured_mesh(4);
   write_freefem_mesh(folder / "mesh.freefem.msh", unstructured);
   run("07_kernel", {"-cells", std::to_string(cells), "-mesh", folder / "mesh.freefem.msh", "-out", folder});
-  const Table table = read_table(folder / "kernel.csv", 1);
+  const ScriptTable table = read_table(folder / "kernel.csv", 1);
   Numbers numbers;
   const Scene scene(Body{paper_load}, StiffLayer{0});
   for (Eigen::Index row = 0; row < table.rows.rows(); ++row) {
@@ -148,7 +148,7 @@ Numbers estimates(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
   write_freefem_mesh(folder / "mesh.freefem.msh", mesh);
   run("15_promises", {"-mesh", folder / "mesh.freefem.msh", "-out", folder});
-  const Table table = read_table(folder / "estimates.csv", 1);
+  const ScriptTable table = read_table(folder / "estimates.csv", 1);
   const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
   const Space conforming(mesh, p1()), broken(mesh, crouzeix_raviart());
   SceneSweep p1_sweep(scene, conforming), cr_sweep(scene, broken);
@@ -177,7 +177,7 @@ Numbers estimates(int cells, const std::filesystem::path& folder) {
 Numbers glued_strings(int cells, const std::filesystem::path& folder) {
   constexpr double load = 32, gap = 0.5;
   run("33_your_own_problem", {"-cells", std::to_string(cells), "-out", folder});
-  const Table table = read_table(folder / "results.csv", 2);
+  const ScriptTable table = read_table(folder / "results.csv", 2);
   if (table.rows.rows() != 26) throw Error(fmt::format("results.csv: {} rows; accepted 26", table.rows.rows()));
   Numbers numbers;
   Eigen::Index row = 0;
@@ -208,7 +208,7 @@ namespace {
 
 /// u of a file x, y, u at the points of a space, each relative to the largest of ours.
 void compare_values(Numbers& numbers, const std::string& what, const Space& space, const Eigen::VectorXd& ours,
-                    const Table& theirs) {
+                    const ScriptTable& theirs) {
   Points places(theirs.rows.rows(), 2);
   places << theirs.column("x"), theirs.column("y");
   const Eigen::VectorXd u = theirs.column("u")(match(space.points(), places));
@@ -226,7 +226,7 @@ Numbers mixed(int cells, double epsilon, const std::filesystem::path& folder) {
   write_freefem_mesh(body, block);
   run("28_mixed", {"-mesh", mesh, "-body", body, "-cells", std::to_string(cells), "-epsilon",
                    fmt::format("{}", epsilon), "-out", folder});
-  const Table summary = read_table(folder / "summary.csv", 2);
+  const ScriptTable summary = read_table(folder / "summary.csv", 2);
   if (summary.rows.rows() != 3) throw Error(fmt::format("summary.csv: {} rows; accepted 3", summary.rows.rows()));
   Numbers numbers;
   const auto took = [&](Eigen::Index row, const Solution& ours) {

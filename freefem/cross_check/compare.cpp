@@ -35,7 +35,7 @@ using freefem::Line;
 
 namespace {
 
-struct Method {
+struct Compared {
   std::string element;
   bool structured;
   std::string name() const { return element + (structured ? " structured" : " unstructured"); }
@@ -45,7 +45,7 @@ struct Method {
   }
 };
 
-TriangleMesh make_mesh(const Method& method, int cells) {
+TriangleMesh make_mesh(const Compared& method, int cells) {
   return method.structured ? structured_mesh(cells) : unstructured_mesh(cells);
 }
 
@@ -92,7 +92,7 @@ Line meshes(int cells, const std::filesystem::path& out) {
     const auto file = out / "freefem" / "mesh.freefem.msh";
     write_freefem_mesh(file, mesh);
     freefem::run("02_meshes", {"-mesh", file, "-cells", std::to_string(cells), "-out", out / "freefem"});
-    const freefem::Table t = freefem::read_table(out / "freefem" / "imported.csv");
+    const freefem::ScriptTable t = freefem::read_table(out / "freefem" / "imported.csv");
     const double counts = std::abs(t.column("vertices")(0) - mesh.vertex_count()) +
                           std::abs(t.column("triangles")(0) - mesh.triangle_count()) +
                           std::abs(t.column("edges")(0) - mesh.edge_count());
@@ -103,7 +103,7 @@ Line meshes(int cells, const std::filesystem::path& out) {
 }
 
 /// The convergence study: one method, every epsilon and mesh; the worst difference and the seconds together.
-Line study(const Method& method, int cells, const std::filesystem::path& out) {
+Line study(const Compared& method, int cells, const std::filesystem::path& out) {
   Line all{"09_convergence", "", ""};
   int meshes = 0;
   for (int n = std::max(4, cells / 4); n <= cells; n *= 2) {
@@ -140,8 +140,8 @@ std::string same_zones(const VariationalInequality& problem, const Solution& our
 /// The beam, both integrations, at epsilon = 1e-4.
 std::vector<Line> beams(int cells, const std::filesystem::path& out) {
   freefem::run("25_beam", {"-cells", std::to_string(cells), "-epsilon", "1e-4", "-out", out / "freefem"});
-  const freefem::Table nodes = freefem::read_table(out / "freefem" / "beam.csv"),
-                       summary = freefem::read_table(out / "freefem" / "summary.csv", 1);
+  const freefem::ScriptTable nodes = freefem::read_table(out / "freefem" / "beam.csv"),
+                             summary = freefem::read_table(out / "freefem" / "summary.csv", 1);
   std::vector<Line> lines;
   for (const bool full : {true, false}) {
     Beam beam;
@@ -241,7 +241,7 @@ std::vector<Line> plates(int rings, const std::filesystem::path& out) {
 }
 
 /// FreeFEM with the plain sum: shown, not asked to agree.
-Line plain_sum(const Method& method, double epsilon, int cells, const std::filesystem::path& out) {
+Line plain_sum(const Compared& method, double epsilon, int cells, const std::filesystem::path& out) {
   const TriangleMesh mesh = make_mesh(method, cells);
   const Space space(mesh, element(method.element));
   Line line;
@@ -363,8 +363,8 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
   }
   lines.push_back(uzawa_steps(1, 0.37, out));
   lines.push_back(uzawa_steps(0.1, 1.4, out));
-  const std::vector<Method> methods{{"P1", true}, {"P1", false}, {"CR", true}, {"CR", false}};
-  for (const Method& method : {methods[0], methods[1], methods[3]}) {
+  const std::vector<Compared> methods{{"P1", true}, {"P1", false}, {"CR", true}, {"CR", false}};
+  for (const Compared& method : {methods[0], methods[1], methods[3]}) {
     const TriangleMesh mesh = make_mesh(method, cells);
     const Space space(mesh, element(method.element));
     Both both = solve_both(method.script(), method.script(), space, epsilon, out);
@@ -379,7 +379,7 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
     write_vtu(out / "figure8_freefem.vtu", space, both.theirs.u);
     write_vtu(out / "figure8_difference.vtu", space, both.theirs.u - both.ours.u);
   }
-  for (const Method& method : methods) lines.push_back(study(method, cells, out));
+  for (const Compared& method : methods) lines.push_back(study(method, cells, out));
   for (const Line& line : numbers(cells, out)) lines.push_back(line);
   for (const Line& line : beams(2 * cells, out)) lines.push_back(line);
   for (const bool friction : {false, true})

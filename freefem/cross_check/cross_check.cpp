@@ -24,14 +24,14 @@ std::filesystem::path mesh_in(const std::filesystem::path& folder, const Space& 
   return file;
 }
 
-Points places(const Table& table) {
+Points places(const ScriptTable& table) {
   Points points(table.rows.rows(), 2);
   points << table.column("x"), table.column("y");
   return points;
 }
 
 /// The rows of a table of contact unknowns, by x.
-std::vector<int> by_x(const Table& table) {
+std::vector<int> by_x(const ScriptTable& table) {
   const Eigen::VectorXd x = table.column("x");
   std::vector<int> order(x.size());
   std::iota(order.begin(), order.end(), 0);
@@ -40,7 +40,7 @@ std::vector<int> by_x(const Table& table) {
 }
 
 SparseMatrix matrix(const std::filesystem::path& path, const std::vector<int>& ours) {
-  const Table table = read_table(path);
+  const ScriptTable table = read_table(path);
   std::vector<Eigen::Triplet<double>> entries;
   for (Eigen::Index k = 0; k < table.rows.rows(); ++k) {
     const double row = table.rows(k, 0), column = table.rows(k, 1), n = static_cast<double>(ours.size());
@@ -79,7 +79,7 @@ std::vector<int> match(const Points& ours, const Points& theirs) {
 Discretisation assemble(const Space& space, const std::filesystem::path& folder) {
   run("matrices",
       {"-mesh", mesh_in(folder, space), "-element", space.element().name() == "CR" ? "P1nc" : "P1", "-out", folder});
-  const Table unknowns = read_table(folder / "unknowns.csv");
+  const ScriptTable unknowns = read_table(folder / "unknowns.csv");
   const std::vector<int> theirs = match(space.points(), places(unknowns));
   std::vector<int> ours(theirs.size());
   for (std::size_t i = 0; i < theirs.size(); ++i) ours[theirs[i]] = static_cast<int>(i);
@@ -102,8 +102,8 @@ Answer solve(const std::string& script, const Space& space, double epsilon, cons
   all.insert(all.end(), options.begin(), options.end());
   run(script, all);
 
-  const Table solution = read_table(folder / "solution.csv"), contact = read_table(folder / "contact.csv"),
-              summary = read_table(folder / "summary.csv", 1);
+  const ScriptTable solution = read_table(folder / "solution.csv"), contact = read_table(folder / "contact.csv"),
+                    summary = read_table(folder / "summary.csv", 1);
   Answer answer;
   answer.road = summary.names.at(0);
   answer.u = solution.column("u")(match(space.points(), places(solution)));
@@ -126,7 +126,7 @@ History uzawa_history(const Space& space, double epsilon, double rho, int steps,
   run("04_reference_solution",
       {"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-solver", "uzawa", "-rho",
        fmt::format("{}", rho), "-steps", std::to_string(steps), "-out", folder});
-  const Table history = read_table(folder / "history.csv"), summary = read_table(folder / "summary.csv", 1);
+  const ScriptTable history = read_table(folder / "history.csv"), summary = read_table(folder / "summary.csv", 1);
   return {summary.names.at(0), history.column("change"), summary.column("seconds")(0)};
 }
 
@@ -140,9 +140,9 @@ void run_elastic(const std::string& script, const TriangleMesh& mesh, double par
 }
 
 ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space) {
-  const Table x = read_table(folder / (name + "_x.csv")), y = read_table(folder / (name + "_y.csv")),
-              summary = read_table(folder / (name + "_summary.csv"), 1),
-              contact = read_table(folder / (name + "_contact.csv"));
+  const ScriptTable x = read_table(folder / (name + "_x.csv")), y = read_table(folder / (name + "_y.csv")),
+                    summary = read_table(folder / (name + "_summary.csv"), 1),
+                    contact = read_table(folder / (name + "_contact.csv"));
   ElasticAnswer answer;
   answer.u.resize(space.size());
   answer.u << x.column("u")(match(space.x.points(), places(x))), y.column("u")(match(space.y.points(), places(y)));
@@ -156,7 +156,7 @@ ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::str
 
 ElasticAnswer friction_answer(const std::filesystem::path& folder, const std::string& name, const VectorSpace& space) {
   ElasticAnswer answer = elastic_answer(folder, name, space);
-  const Table floor = read_table(folder / (name + "_floor.csv"));
+  const ScriptTable floor = read_table(folder / (name + "_floor.csv"));
   const Eigen::VectorXd normal = answer.force, tangential = floor.column("force")(by_x(floor));
   answer.force.resize(normal.size() + tangential.size());
   answer.force << normal, tangential;
@@ -174,7 +174,8 @@ void run_plate(const TriangleMesh& mesh, double epsilon, const std::filesystem::
 }
 
 PlateAnswer plate_answer(const std::filesystem::path& folder, const std::string& name, const Space& deflection) {
-  const Table values = read_table(folder / (name + ".csv")), summary = read_table(folder / (name + "_summary.csv"), 1);
+  const ScriptTable values = read_table(folder / (name + ".csv")),
+                    summary = read_table(folder / (name + "_summary.csv"), 1);
   const std::vector<int> order = match(deflection.points(), places(values));
   return {summary.names.at(0), values.column("u")(order), values.column("force")(order), summary.column("energy")(0),
           summary.column("seconds")(0)};

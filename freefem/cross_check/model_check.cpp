@@ -52,7 +52,7 @@ double extrapolated(double coarse, double fine) { return (4 * fine - coarse) / 3
 
 std::vector<SceneCheck> model_check(const std::filesystem::path& folder, const std::string& mistake, int their_cells) {
   run("model_check", {"-break", mistake, "-cells", std::to_string(their_cells), "-out", folder});
-  const Table table = read_table(folder / "model_check.csv", 1);
+  const ScriptTable table = read_table(folder / "model_check.csv", 1);
   const Body body{paper_load};
   const UnilateralContact obstacle;
   struct Pair {

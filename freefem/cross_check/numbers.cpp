@@ -27,8 +27,8 @@ std::filesystem::path written(const TriangleMesh& mesh, const std::filesystem::p
   return folder / "mesh.freefem.msh";
 }
 
-Table results(const std::filesystem::path& path, Eigen::Index rows, int text = 0) {
-  Table table = read_table(path, text);
+ScriptTable results(const std::filesystem::path& path, Eigen::Index rows, int text = 0) {
+  ScriptTable table = read_table(path, text);
   if (table.rows.rows() != rows)
     throw Error(fmt::format("{}: {} rows; accepted {}", path.string(), table.rows.rows(), rows));
   return table;
@@ -70,7 +70,7 @@ Numbers roundoff(const std::string& element, int cells, const std::filesystem::p
   const TriangleMesh mesh = structured_mesh(cells);
   const Space space(mesh, antilock::element(element));
   run("18_roundoff", {"-mesh", written(mesh, folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
-  const Table table = results(folder / "results.csv", 17, 1);
+  const ScriptTable table = results(folder / "results.csv", 17, 1);
   SceneSweep sweep(contact_scene(1), space);
   Numbers numbers;
   for (int i = 0; i < 17; ++i) {
@@ -100,7 +100,7 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
                           Scene(body, VentcelLayer{}, obstacle),
                           Scene(body, ThinLayer{epsilon}, obstacle)};
   run("23_effects", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
-  const Table table = results(folder / "effects.csv", 8, 1);
+  const ScriptTable table = results(folder / "effects.csv", 8, 1);
   Numbers numbers;
   for (int i = 0; i < 8; ++i) {
     numbers.took(table.names[i]);
@@ -125,7 +125,7 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
 Numbers limits(int cells, const std::filesystem::path& folder) {
   const TriangleMesh structured = structured_mesh(cells), unstructured = unstructured_mesh(cells);
   run("11_propositions", {"-cells", std::to_string(cells), "-mesh", written(unstructured, folder), "-out", folder});
-  const Table table = results(folder / "limits.csv", 36, 2);
+  const ScriptTable table = results(folder / "limits.csv", 36, 2);
   const Reference zero{[](double, double) { return 0.0; },
                        [](double, double) { return Eigen::Vector2d::Zero().eval(); },
                        [](double, double) { return 0.0; }};
@@ -162,7 +162,7 @@ Numbers limits(int cells, const std::filesystem::path& folder) {
 Numbers certificate(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
   run("19_certificate", {"-mesh", written(mesh, folder), "-out", folder});
-  const Table table = results(folder / "results.csv", 5, 1);
+  const ScriptTable table = results(folder / "results.csv", 5, 1);
   const Space above(mesh, p1()), below(mesh, crouzeix_raviart());
   SceneSweep upper(contact_scene(1), above), lower(contact_scene(1), below);
   Numbers numbers;
@@ -191,7 +191,7 @@ Numbers certificate(int cells, const std::filesystem::path& folder) {
 std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
   run("16_degree", {"-mesh", written(mesh, folder), "-epsilon", "1e-2", "-out", folder});
-  const Table table = results(folder / "results.csv", 2, 1);
+  const ScriptTable table = results(folder / "results.csv", 2, 1);
   std::vector<Numbers> both(2);
   for (int i = 0; i < 2; ++i) {
     const Space space(mesh, i == 0 ? p1() : p2());
@@ -215,7 +215,7 @@ std::vector<Numbers> graded_layers(int cells, const std::filesystem::path& folde
   for (const auto& [epsilon, end] : {std::pair{1.0, 0.6081771}, {1e-2, 0.6975326}}) {
     run("31_hp", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-end",
                   fmt::format("{}", end), "-out", folder});
-    const Table table = results(folder / "results.csv", 2, 1);
+    const ScriptTable table = results(folder / "results.csv", 2, 1);
     const TriangleMesh mesh = graded_mesh(end, 1.0 / cells, 4, 0.25, epsilon);
     for (int i = 0; i < 2; ++i) {
       const Space space(mesh, lagrange(i + 1));

@@ -53,17 +53,17 @@ void run(const std::string& script, const std::vector<std::string>& options) {
 
 void check() { run("--check", {}); }
 
-Eigen::VectorXd Table::column(const std::string& name) const {
+Eigen::VectorXd ScriptTable::column(const std::string& name) const {
   const auto found = std::find(header.begin(), header.end(), name);
   if (found == header.end()) throw Error("table: no column " + name);
   return rows.col(found - header.begin());
 }
 
-Table read_table(const std::filesystem::path& path, int text) {
+ScriptTable read_table(const std::filesystem::path& path, int text) {
   std::ifstream in(path);
   std::string line;
   if (!std::getline(in, line)) throw Error(path.string() + ": cannot be read, or is empty");
-  Table table{split(line), {}, {}};
+  ScriptTable table{split(line), {}, {}};
   if (static_cast<int>(table.header.size()) <= text) throw Error(path.string() + ": no column of numbers");
   std::vector<double> values;
   for (int number = 2; std::getline(in, line); ++number) {

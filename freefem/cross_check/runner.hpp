@@ -13,7 +13,7 @@ void run(const std::string& script, const std::vector<std::string>& options);
 void check();
 
 /// A table of numbers that a script wrote: one header line, then rows, comma separated.
-struct Table {
+struct ScriptTable {
   std::vector<std::string> header;
   Eigen::MatrixXd rows;
   std::vector<std::string> names;  ///< of the rows: their leading fields that are text, a space between them
@@ -22,6 +22,6 @@ struct Table {
 };
 /// Throws Error, naming file and line, for a file that is missing, without a header, ragged, or that holds anything but
 /// finite numbers in the fields behind the first `text`.
-Table read_table(const std::filesystem::path& path, int text = 0);
+ScriptTable read_table(const std::filesystem::path& path, int text = 0);
 
 }  // namespace antilock::freefem

@@ -68,7 +68,7 @@ class ByPlace {
 std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
   const int cells = 8;
   run("13_uniform", {"-cells", std::to_string(cells), "-out", folder});
-  const Table table = read_table(folder / "uniform.csv", 4);
+  const ScriptTable table = read_table(folder / "uniform.csv", 4);
   const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
   const Space fine_space(fine, p1());
   const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
@@ -107,7 +107,7 @@ std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
 Numbers energy_errors(const std::filesystem::path& folder) {
   const int cells = 8;
   run("20_order_h", {"-cells", std::to_string(cells), "-out", folder});
-  const Table table = read_table(folder / "errors.csv", 3);
+  const ScriptTable table = read_table(folder / "errors.csv", 3);
   if (table.rows.rows() != 12) throw Error(fmt::format("errors.csv: {} rows; accepted 12", table.rows.rows()));
   const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
   const Space fine_space(fine, p1());
@@ -141,7 +141,7 @@ Numbers contact_sets(const std::filesystem::path& folder) {
   const int cells = 8;
   const double epsilon = 1e-6;
   run("12_contact_sets", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
-  const Table table = read_table(folder / "results.csv", 3);
+  const ScriptTable table = read_table(folder / "results.csv", 3);
   const auto row = std::find_if(table.names.begin(), table.names.end(),
                                 [](const std::string& n) { return n.find("P1 structured") != std::string::npos; }) -
                    table.names.begin();
@@ -182,7 +182,7 @@ Numbers contact_sets(const std::filesystem::path& folder) {
 
 Numbers worst_loads(int cells, const std::filesystem::path& folder) {
   run("17_families_of_loads", {"-cells", std::to_string(cells), "-out", folder});
-  const Table table = read_table(folder / "worst.csv", 1);
+  const ScriptTable table = read_table(folder / "worst.csv", 1);
   const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
   const Space space(mesh, p1()), fine_space(fine, p1());
   // column j: the work of the load 1 / root of its area on body triangle j, so that a vector's norm is the load's in L2

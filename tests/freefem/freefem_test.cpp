@@ -176,7 +176,7 @@ TEST(PlainSum, LosesTheDigitsThatTheSplitFormKeeps) {
   for (const char* element : {"P1", "CR"}) {
     const TemporaryFolder folder;
     expect_same(freefem::roundoff(element, 16, folder.path()), 1e-10);  // the split form, here and there
-    const freefem::Table table = freefem::read_table(folder / "results.csv", 1);
+    const freefem::ScriptTable table = freefem::read_table(folder / "results.csv", 1);
     const Eigen::VectorXd epsilon = table.column("epsilon"), difference = table.column("difference");
     ASSERT_EQ(epsilon.size(), 17);
     EXPECT_LT(table.column("residual_split").maxCoeff(), 1e-12) << element;
@@ -259,8 +259,8 @@ class Beams : public ::testing::TestWithParam<double> {};
 TEST_P(Beams, AgreeInDeflectionForceAndEnergyForBothIntegrations) {
   const TemporaryFolder folder;
   freefem::run("25_beam", {"-cells", "32", "-epsilon", std::to_string(GetParam()), "-out", folder.path()});
-  const freefem::Table nodes = freefem::read_table(folder / "beam.csv"),
-                       summary = freefem::read_table(folder / "summary.csv", 1);
+  const freefem::ScriptTable nodes = freefem::read_table(folder / "beam.csv"),
+                             summary = freefem::read_table(folder / "summary.csv", 1);
   for (const bool full : {false, true}) {
     Beam beam;
     beam.cells = 32;
@@ -502,7 +502,7 @@ TEST(FreeFemScripts, TheStringIsTheSameAndRight) {
   const TemporaryFolder folder;
   const freefem::Numbers numbers = freefem::string_on_an_obstacle(32, folder.path());
   expect_same(numbers, 1e-11);
-  const freefem::Table summary = freefem::read_table(folder / "summary.csv");
+  const freefem::ScriptTable summary = freefem::read_table(folder / "summary.csv");
   EXPECT_NEAR(summary.column("force")(0), 16, 1e-10);  // the closed form; its contact ends are nodes
   EXPECT_NEAR(summary.column("energy")(0), -64.0 / 3 + 1.0 / 48,
               1e-10);                                 // + q^2 h^2 / 48: what P1 leaves between nodes
@@ -543,7 +543,7 @@ TEST(FreeFemScripts, TheGluedStringsAreTheSame) {
 TEST(FreeFemScripts, AdaptmeshDoesNotSeeTheLocking) {
   const TemporaryFolder folder;
   freefem::run("adaptmesh", {"-out", folder.path()});
-  const freefem::Table table = freefem::read_table(folder / "adaptmesh.csv", 1);
+  const freefem::ScriptTable table = freefem::read_table(folder / "adaptmesh.csv", 1);
   ASSERT_EQ(table.rows.rows(), 14);
   const auto at = [&](const char* name, int row) { return table.column(name)(row); };
   EXPECT_LT(at("in_layer", 6) / at("vertices", 6), 0.05);
@@ -586,7 +586,7 @@ TEST(ModelCheck, SeesALoadInTheLayerAMissingStiffnessAndAnObstacleOnTheWrongSide
 TEST(ModelCheck, TheBeamsLimitIsTheClosedForm) {
   const TemporaryFolder folder;
   freefem::run("25_beam", {"-cells", "192", "-epsilon", "1e-10", "-out", folder.path()});
-  const freefem::Table summary = freefem::read_table(folder / "summary.csv", 1);
+  const freefem::ScriptTable summary = freefem::read_table(folder / "summary.csv", 1);
   EXPECT_NEAR(summary.column("force")(0), 5 * 5832.0 / 9, 0.01 * 3240);
   EXPECT_NEAR(summary.column("energy")(0), -3758.4, 0.001 * 3758.4);
 }
@@ -630,7 +630,7 @@ TEST(FreeFemScripts, TheEnergyErrorIsTheSame) {
 TEST(FreeFemScripts, TheWorstLoadIsTheSame) {
   const TemporaryFolder folder;
   expect_same(freefem::worst_loads(4, folder.path()), 1e-9);
-  const freefem::Table table = freefem::read_table(folder / "worst.csv", 1);
+  const freefem::ScriptTable table = freefem::read_table(folder / "worst.csv", 1);
   const TriangleMesh mesh = structured_mesh(4);
   const Space space(mesh, p1());
   ErrorForm form(space, LoadModes(12));

@@ -10,18 +10,18 @@ namespace {
 
 using namespace test;
 
-struct Method {
+struct PlateElement {
   std::string name;
   const Element &deflection, &rotation;
   ShearRule shear;
 };
-const Method exact_shear{"P1, exact", p1(), p1(), ShearRule::exact};
-const Method one_point{"P1, one point", p1(), p1(), ShearRule::mean};
-const Method duran_liberman{"Duran-Liberman", p1(), p1(), ShearRule::edges};
-const Method arnold_falk{"Arnold-Falk", crouzeix_raviart(), p1_bubble(), ShearRule::mean};
+const PlateElement exact_shear{"P1, exact", p1(), p1(), ShearRule::exact};
+const PlateElement one_point{"P1, one point", p1(), p1(), ShearRule::mean};
+const PlateElement duran_liberman{"Duran-Liberman", p1(), p1(), ShearRule::edges};
+const PlateElement arnold_falk{"Arnold-Falk", crouzeix_raviart(), p1_bubble(), ShearRule::mean};
 
 struct On {
-  On(const Method& method, const TriangleMesh& mesh)
+  On(const PlateElement& method, const TriangleMesh& mesh)
       : w(mesh, method.deflection), theta(mesh, method.rotation), space{w, {theta, theta}, method.shear} {}
   Space w, theta;
   PlateSpace space;
@@ -71,7 +71,7 @@ TEST(DiscMesh, IsADiscOfGoodTriangles) {
 TEST(Plate, BendsExactlyWithConstantCurvature) {
   // grad w is affine: the rotations hold it, and the edge means of w make the shear 0. Whatever the mesh and t.
   for (const TriangleMesh& mesh : {disc_mesh(6), clamped(unstructured_mesh(6, Domain{0}))})
-    for (const Method& method : {duran_liberman, arnold_falk})
+    for (const PlateElement& method : {duran_liberman, arnold_falk})
       for (const double t : {1.0, 1e-3, 1e-20, 0.0}) {
         SCOPED_TRACE(method.name + ", t = " + std::to_string(t));
         const On on(method, mesh);
@@ -119,7 +119,7 @@ TEST(Plate, TheEdgeRuleHasTheExactShearOfItsOwnFields) {
 }
 
 TEST(Plate, P1CannotBendAtAllInTheLimit) {
-  for (const Method& method : {exact_shear, one_point}) {
+  for (const PlateElement& method : {exact_shear, one_point}) {
     const TriangleMesh mesh = disc_mesh(5);
     const On on(method, mesh);
     EXPECT_EQ(kernel_dimension(assemble(Plate{}, on.space)), 0);
@@ -161,7 +161,7 @@ struct Square {
 };
 
 /// Root mean squares of the errors of w at its unknowns and of theta_x at the vertices, relative to those of w and theta.
-std::pair<double, double> errors(const Method& method, const TriangleMesh& mesh, const Square& exact) {
+std::pair<double, double> errors(const PlateElement& method, const TriangleMesh& mesh, const Square& exact) {
   const On on(method, mesh);
   const Solution s = active_set(assemble(exact.plate(), on.space));
   double w = 0, w2 = 0, theta = 0, theta2 = 0;
@@ -184,7 +184,7 @@ TEST(Plate, ConvergesLikeHSquaredUniformlyInTheThickness) {
                                          clamped(unstructured_mesh(16, Domain{0})),
                                          clamped(unstructured_mesh(32, Domain{0}))};
   const auto order = [](const std::vector<double>& error) { return std::log2(error.front() / error.back()) / 2; };
-  for (const Method& method : {duran_liberman, arnold_falk})
+  for (const PlateElement& method : {duran_liberman, arnold_falk})
     for (const double t : {1.0, 0.1, 1e-2, 1e-4, 0.0}) {
       SCOPED_TRACE(method.name + ", t = " + std::to_string(t));
       std::vector<double> w, theta;
@@ -198,12 +198,12 @@ TEST(Plate, ConvergesLikeHSquaredUniformlyInTheThickness) {
       EXPECT_LT(w.back(), 0.02);
       EXPECT_LT(theta.back(), 0.02);
     }
-  for (const Method& method : {exact_shear, one_point}) EXPECT_GT(errors(method, meshes[1], {1e-4}).first, 0.99);
+  for (const PlateElement& method : {exact_shear, one_point}) EXPECT_GT(errors(method, meshes[1], {1e-4}).first, 0.99);
 }
 
 TEST(Plate, ThePressedPlateFulfilsTheConditionsOnBothRoads) {
   const TriangleMesh mesh = disc_mesh(8);
-  for (const Method& method : {duran_liberman, arnold_falk})
+  for (const PlateElement& method : {duran_liberman, arnold_falk})
     for (const double t : {1.0, 1e-2, 1e-8, 1e-20, 0.0}) {
       SCOPED_TRACE(method.name + ", t = " + std::to_string(t));
       const On on(method, mesh);
@@ -220,7 +220,7 @@ TEST(Plate, ThePressedPlateFulfilsTheConditionsOnBothRoads) {
 }
 
 TEST(Plate, TheContactForceTendsToTheExactOne) {
-  for (const Method& method : {duran_liberman, arnold_falk})
+  for (const PlateElement& method : {duran_liberman, arnold_falk})
     for (const double t : {0.1, 1e-2, 0.0}) {
       std::vector<double> off;
       for (const int n : {6, 12}) {
@@ -257,9 +257,9 @@ TEST(Plate, AnObstacleThatP1CannotReachIsRefused) {
   const TriangleMesh mesh = disc_mesh(6);
   Plate lifted{.thickness = 0};
   lifted.gap = [](double x, double y) { return -0.1 * (1 - x * x - y * y); };
-  for (const Method& method : {exact_shear, one_point})
+  for (const PlateElement& method : {exact_shear, one_point})
     EXPECT_THROW(active_set(assemble(lifted, On(method, mesh).space)), NotConverged) << method.name;
-  for (const Method& method : {duran_liberman, arnold_falk})
+  for (const PlateElement& method : {duran_liberman, arnold_falk})
     EXPECT_LT(worst_violation(active_set(assemble(lifted, On(method, mesh).space)).kkt), 1e-9) << method.name;
 }
 

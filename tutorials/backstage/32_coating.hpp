@@ -13,7 +13,7 @@
 namespace antilock::tutorial {
 
 /// A discretisation of the coating: an element per component, on triangles in columns or on arbitrary ones.
-struct Method {
+struct CoatedBlock {
   std::string name, file;
   bool columns;
   const Element &in_x, &in_y;
@@ -22,7 +22,7 @@ struct Method {
     return with_free_sides(columns ? structured_mesh(cells) : unstructured_mesh(cells));
   }
 };
-inline std::vector<Method> methods() {
+inline std::vector<CoatedBlock> coated_blocks() {
   const Element &one = p1(), &cr = crouzeix_raviart();
   return {{"P1 / P1", "p1", false, one, one, true},    {"P2 / P2", "p2", false, p2(), p2(), true},
           {"CR / P1", "cr_p1", false, cr, one, true},  {"P1 / P1 in columns", "columns", true, one, one, false},
@@ -43,7 +43,7 @@ inline double percent_per_h(const std::string& method) {
 }
 
 /// The deformed block and its coating, stretched to depth 1, with the pressure -(stress in y) per triangle.
-inline void write_coating(const std::filesystem::path& out, const Method& method, const VectorSpace& space,
+inline void write_coating(const std::filesystem::path& out, const CoatedBlock& method, const VectorSpace& space,
                           const Solution& solution, const Coating& scene) {
   if (method.file == "p1") write_freefem_mesh(out / "mesh.freefem.msh", space.x.mesh());
   if (method.file != "p1" && method.file != "cr") return;
