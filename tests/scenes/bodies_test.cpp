@@ -212,6 +212,19 @@ TEST(Bodies, ALockedCoatingSaysSo) {
   }
 }
 
+TEST(Bodies, OfLockedRubberSaySo) {
+  for (const auto& [epsilon, element, locks] :
+       {std::tuple{"1e-4", "P1", true}, {"1e-4", "CR", false}, {"1e-4", "P2", false}, {"1", "P1", false}}) {
+    const SceneRun run(
+        fmt::format("[model]\nkind = \"plane strain\"\nepsilon = {}\n[load]\nf = \"0\"\n[contact]\n[mesh]\n"
+                    "kind = \"structured\"\ncells = 8\n[method]\nelement = \"{}\"\n",
+                    epsilon, element));
+    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
+    const std::string warning = run.summary()["warning"];
+    EXPECT_EQ(warning.find("locks") != warning.npos, locks) << epsilon << element << warning;
+  }
+}
+
 TEST(Bodies, RefuseWhatTheirGroupsDoNotSay) {
   const TemporaryFolder folder;
   const std::string square = named_square(folder, 2), left = edge("left", "displacement = \"0\""),

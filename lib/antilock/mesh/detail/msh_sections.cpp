@@ -41,7 +41,6 @@ void read_format(MshLines& lines, MshFile& file) {
 
 /// Records: dimension number "name".
 void read_names(MshLines& lines, MshFile& file, std::map<std::string, int> known) {
-  const std::string named = known.empty() ? "" : ", and those that the scene names";
   known.insert({{"body", 2}, {"layer", 2}, {"sigma", 1}, {"clamped", 1}, {"contact", 1}});
   lines.next_record("PhysicalNames", 1, "their number");
   const std::int64_t count = lines.count(0);
@@ -56,8 +55,10 @@ void read_names(MshLines& lines, MshFile& file, std::map<std::string, int> known
     const std::string name(line.substr(open + 1, close - open - 1));
     const auto group = known.find(name);
     if (group == known.end() || group->second != dimension)
-      lines.refuse(fmt::format("unknown {} group {}; accepted: surfaces body, layer; curves sigma, clamped, contact{}",
-                               dimension_names[dimension], in_quotes(name), named));
+      lines.refuse(
+          fmt::format("unknown {} group {}; accepted: surfaces body, layer; curves sigma, clamped, contact, and "
+                      "those that a scene names in [[edge]] or in [body] stiffness",
+                      dimension_names[dimension], in_quotes(name)));
     for (const auto& [place, other] : file.names)
       if (other == name) lines.refuse(fmt::format("the group {} is named twice", in_quotes(name)));
     if (!file.names.emplace(Place{dimension, lines.integer(1)}, name).second)
