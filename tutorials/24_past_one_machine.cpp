@@ -143,7 +143,7 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
 
 // ## What came out
 //
-// (a) By a factor of 1.5 at least, because a cut column is no longer merged as a whole.
+// (a) By a factor of 2 to 3, because a cut column is no longer merged as a whole.
 // :figure: past_one_machine
 //
 // (b) $u = 0$, everywhere: at ε = 1e-6 round-off hides the residual. At ε = 1e-2 the same solver is right, and in the
