@@ -111,11 +111,16 @@ SparseMatrix hats(const TriangleMesh& mesh, const Line& sigma, const std::vector
   return w;
 }
 
+double own_stiffness(const Scene& scene) {
+  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
+  return stiff != nullptr ? stiff->s : 1;
+}
+
 /// The form of the layer on its triangles that have a vertex on Sigma.
 SparseMatrix layer_at(const Line& sigma, const TriangleMesh& mesh, const Scene& scene) {
   const auto* thin = std::get_if<ThinLayer>(&scene.layer());
-  const Eigen::Vector2d root =
-      thin != nullptr ? Eigen::Vector2d::Constant(std::sqrt(1 / thin->epsilon)) : Eigen::Vector2d(1, 0);
+  Eigen::Vector2d root(std::sqrt(own_stiffness(scene)), 0);
+  if (thin != nullptr) root.setConstant(std::sqrt(1 / thin->epsilon));
   std::vector<Eigen::Triplet<double>> values;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::RowVector3i v = mesh.triangles.row(t);
@@ -167,6 +172,11 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   const auto epsilon = scene.epsilon();
   if (!epsilon || !(scene.layer_depth() > 0) || !element.conforming() || element.degree() > 2)
     throw Error("lost energy: accepted: P1 or P2 on a mesh with a layer");
+  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
+  if ((stiff != nullptr && stiff->load) || (element.degree() == 2 && !scene.beyond_the_paper().empty()))
+    throw Error("lost energy: accepted: a layer without a load, with P2 the scenes of the paper; this has " +
+                scene.beyond_the_paper());
+  const double s = own_stiffness(scene);
   const int corners = space.mesh().vertex_count();
   std::optional<TriangleMesh> cut;
   std::optional<Space> linear;
@@ -175,9 +185,14 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   const TriangleMesh& mesh = fine.mesh();
   const Line sigma = sigma_line(mesh);
   const auto points = static_cast<int>(sigma.x.size());
-  const auto base = [&](int i) { return solution.u(sigma.vertex[i]); };
+  const Eigen::VectorXd at_sigma = solution.u(sigma.vertex);
+  const auto base = [&](int i) { return at_sigma(i); };
   std::vector<char> held(mesh.vertex_count(), 0);
-  for (const int v : problem.fixed) held[v] = 1;
+  for (std::size_t k = 0; k < problem.fixed.size(); ++k) {
+    held[problem.fixed[k]] = 1;
+    if (below(mesh, sigma, problem.fixed[k]) && problem.fixed_values(static_cast<Eigen::Index>(k)) != 0)
+      throw Error("lost energy: accepted: a layer whose sides are held at 0 or free");
+  }
 
   // the unknowns: W, and rows 1 to `rows` of columns below Sigma; all are differences to u_h, on Sigma and constant in y
   constexpr int most_rows = 8;  // k = 1/8: what a wave over the depth loses by it, (pi / 8)^2 / 12, is 1.3 %
@@ -222,9 +237,9 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
       bubble = (solution.u(corners + middle) - (solution.u(ends(0)) + solution.u(ends(1))) / 2) / 4;
     }
     width(i) += dx / 2, width(j) += dx / 2;
-    base_energy += (jump * jump + 16.0 / 3 * bubble * bubble) / dx / 2;
+    base_energy += s * (jump * jump + 16.0 / 3 * bubble * bubble) / dx / 2;
     for (int row = 0; row <= rows; ++row) {
-      const double weight = (row == 0 || row == rows ? 0.5 : 1.0) * height / dx;
+      const double weight = s * (row == 0 || row == rows ? 0.5 : 1.0) * height / dx;
       const int p = unknown(i, row), q = unknown(j, row);
       a1.insert(a1.end(), {{p, p, weight}, {q, q, weight}, {p, q, -weight}, {q, p, -weight}});
       strip.load(p) += weight * jump, strip.load(q) -= weight * jump;
@@ -232,7 +247,7 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
     const auto place = [&, &i = i, &j = j](int end) { return held[sigma.vertex[end]] ? -1 : end; };
     chords.push_back({{place(i), place(j)}, {sigma.x[i], sigma.x[j]}, {base(i), base(j)}, bubble});
   }
-  strip.m = (height * width).replicate(rows, 1);
+  strip.m = (s * height * width).replicate(rows, 1);
   for (int row = 0; row < rows; ++row)
     for (int i = 0; i < points; ++i) {
       b.emplace_back(row * points + i, unknown(i, row), rows);
@@ -248,16 +263,27 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
     for (int i = 0; i < points; ++i)  // held by the layer's side, or its hat was left out
       if (held[sigma.vertex[i]] || (row == 0 && w.col(i).nonZeros() == 0)) strip.fixed.push_back(unknown(i, row));
   strip.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strip.fixed.size()));
-  std::vector<double> bounds, raised;  // raised: by how much the bounds lie above the obstacle at their points
-  if (scene.contact()) {
-    const Eigen::VectorXd lower = admissible_bounds(*scene.contact(), chords, points);
-    for (int i = 0; i < points; ++i) {
-      if (held[sigma.vertex[i]]) continue;
-      strip.contact.push_back(unknown(i, rows)), bounds.push_back(lower(i) - base(i));
-      raised.push_back(lower(i) + scene.contact()->gap(sigma.x[i]));
-    }
+  std::vector<int> free;  // points with bounds
+  Eigen::VectorXd raised = Eigen::VectorXd::Zero(0);
+  strip.lower = raised;
+  if (const auto& contact = scene.contact()) {
+    // v of K between the points, too; `raised`: how far its bounds lie above the obstacle
+    const auto bounds = [&](const Profile& gap, double sign) {
+      std::vector<Chord> seen = chords;
+      for (Chord& chord : seen) chord.near = {sign * chord.near[0], sign * chord.near[1]}, chord.bubble *= sign;
+      UnilateralContact side = *contact;
+      side.gap = gap;
+      return admissible_bounds(side, seen, points);
+    };
+    const Eigen::VectorXd lower = bounds(contact->gap, 1),
+                          upper = contact->ceiling ? bounds(contact->ceiling, -1) : lower;
+    for (int i = 0; i < points; ++i)
+      if (!held[sigma.vertex[i]]) strip.contact.push_back(unknown(i, rows)), free.push_back(i);
+    strip.lower = (lower - at_sigma)(free);
+    raised = lower(free);
+    for (std::size_t k = 0; k < free.size(); ++k) raised(Eigen::Index(k)) += contact->gap(sigma.x[free[k]]);
+    if (contact->ceiling) strip.upper = (-upper - at_sigma)(free);
   }
-  strip.lower = Eigen::Map<const Eigen::VectorXd>(bounds.data(), static_cast<Eigen::Index>(bounds.size()));
 
   LostEnergy found;
   found.unknowns = strip.free_count();
@@ -275,7 +301,7 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   }
   const double j = energy(strip, moved), j_still = still.dot(strip.a1 * still) / 2 - strip.load.dot(still);
   const Eigen::VectorXd way = moved.u - still;
-  for (std::size_t i = 0; i < raised.size(); ++i) found.doubt += moved.lambda(Eigen::Index(i)) * raised[i];
+  found.doubt = moved.lambda.cwiseMax(0).dot(raised);
   found.lost = layer_energy - base_energy - j;
   found.motion =
       std::max(j_still - j, way.dot(strip.a1 * way) / 2 + strip.compliance * moved.p.cwiseAbs2().dot(strip.m) / 2);

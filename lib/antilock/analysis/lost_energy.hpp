@@ -27,7 +27,8 @@ struct LostEnergy {
 };
 
 /// For P1 or P2 on a mesh with a layer, of (23) or (22); derivation in lost_energy.cpp. Costs a small part of the solve.
-/// Throws Error for another element or without a layer's mesh, and what active_set throws.
+/// P1 takes every scene but a load on the layer, P2 those of the paper. Throws Error for others, for another element or
+/// without a layer's mesh, and what active_set throws.
 LostEnergy lost_energy(const Scene& scene, const Space& space, const VariationalInequality& problem,
                        const Solution& solution);
 
@@ -40,8 +41,8 @@ struct LayerReport {
                 ///< `lost` is empty) and the remedies
   double motion = 0;  ///< LostEnergy::motion, what `lost` is a share of
 };
-/// Empty for a scene without a layer. The number is made for P1 and P2 alone, and on layers in columns for none:
-/// what can be told from the mesh costs nothing.
+/// Empty for a scene without a layer. The number is made where lost_energy is, and on layers in columns for none: what can
+/// be told from the mesh costs nothing. Elsewhere the law of bending speaks, and nothing is proved.
 std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, const VariationalInequality& problem,
                                         const Solution& solution);
 

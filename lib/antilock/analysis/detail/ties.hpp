@@ -7,7 +7,7 @@ namespace antilock {
 /// are those that they are tied to. On a group a conforming function without slope in y is one polynomial in x.
 int tied_groups(const TriangleMesh& mesh);
 
-/// Every layer triangle has a vertical edge: each group is a column, between two neighbours on Sigma.
+/// Each group is a column, between two neighbours on Sigma: a group per edge of Sigma, side by side.
 bool in_columns(const TriangleMesh& mesh);
 
 }  // namespace antilock
