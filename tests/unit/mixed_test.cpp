@@ -126,9 +126,16 @@ TEST(Averaged, RefusesSharesThatDoNotFit) {
   for (Eigen::Index r = 0; r < rows; ++r) empty.insert(r, r) = 1;
   expect_refused([&] { averaged(strain, identity(3)); }, "shares of 3 rows");
   expect_refused([&] { averaged(strain, half); }, "sum to 0.5");
+  expect_refused([&] { averaged(strain, (1 + 1e-9) * identity(rows)); }, "sum to 1.000000001");
   expect_refused([&] { averaged(strain, negative); }, "share -1 of row 0");
   expect_refused([&] { averaged(strain, empty); }, "has no row of B");
   expect_refused([&] { box_shares(mesh, strain, 0, 1); }, "accepted: positive lengths");
+  EXPECT_EQ(box_shares(mesh, strain, 1e-8, 2).rows(), 4) << "a box per place in x of the centroids";
+  FactoredForm cut = layer_strain(quadratic), outside = strain;
+  cut.cell.pop_back();
+  expect_refused([&] { vertex_shares(mesh, cut, strain_rule(p2())); }, "not a point of the rule");
+  outside.cell.back() = mesh.triangle_count();
+  expect_refused([&] { box_shares(mesh, outside, 1, 1); }, "in cell 16 of a mesh of 16");
   expect_refused([&] { vertex_shares(mesh, strain, strain_rule(p2())); }, "not a point of the rule");
 }
 

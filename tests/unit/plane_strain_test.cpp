@@ -193,6 +193,37 @@ TEST(Coating, PassesThePatchTest) {
     }
 }
 
+// Any uniform strain, shear too, in the block and another one in the coating, prescribed all round: u is continuous at y =
+// 0, and so are the stresses there, (lambda, mu) / t those of the coating. Minus the stress in y is the pressure everywhere.
+TEST(Coating, PassesThePatchTestInShear) {
+  const TriangleMesh mesh = unstructured_mesh(6);
+  for (const double t : {1.0, 0.1, 1e-2})
+    for (const Element* element : {&p1(), &p2()}) {
+      const Space space(mesh, *element);
+      Coating scene;
+      scene.thickness = t;
+      scene.layer = {0.4, 0.7};
+      const auto [lambda, mu] = scene.body;
+      const auto [lambda_c, mu_c] = scene.layer;
+      const double u_x = 0.3, u_y = -0.2, v_x = 0.7, v_y = -0.5, stress = lambda * u_x + (lambda + 2 * mu) * v_y;
+      const double u_y_c = t * mu * (u_y + v_x) / mu_c - v_x,
+                   v_y_c = (t * stress - lambda_c * u_x) / (lambda_c + 2 * mu_c);
+      VariationalInequality problem = assemble(scene, {space, space});
+      Eigen::VectorXd exact(problem.size());
+      problem.fixed.clear(), problem.contact.clear(), problem.lower.resize(0);
+      for (int i = 0; i < problem.size(); ++i) {
+        const double x = space.points()(i % space.size(), 0), y = space.points()(i % space.size(), 1);
+        exact(i) = i < space.size() ? u_x * x + (y > 0 ? u_y : t * u_y_c) * y : v_x * x + (y > 0 ? v_y : t * v_y_c) * y;
+        if (x == 0 || x == 1 || std::abs(y) == 1) problem.fixed.push_back(i);
+      }
+      problem.fixed_values = exact(problem.fixed);
+      const Solution s = active_set(problem);
+      SCOPED_TRACE(element->name() + " at t = " + std::to_string(t));
+      EXPECT_LE((s.u - exact).cwiseAbs().maxCoeff(), 1e-10);  // CorrectionOptions::tolerance, |u| <= 1
+      EXPECT_LE((pressure(scene, {space, space}, s.u, s.p).array() + stress).abs().maxCoeff(), 1e-8);
+    }
+}
+
 // The limit t -> 0 is the problem at t = 0, in the first order of t: the membrane has the right modulus.
 TEST(Coating, TendsToItsLimit) {
   const TriangleMesh mesh = with_free_sides(unstructured_mesh(8));
@@ -218,9 +249,25 @@ TEST(Coating, RefusesWhatItCannotBe) {
     scene.layer = layer;
     return assemble(scene, {space, space});
   };
-  test::expect_refused([&] { with(-1, {}, x); }, "thickness -1; accepted 0 to 1");
+  for (const double t : {-1.0, 1.5}) test::expect_refused([&] { with(t, {}, x); }, "accepted 0 to 1");
   test::expect_refused([&] { with(0.1, {1, 0}, x); }, "mu = 0; accepted");
   test::expect_refused([&] { with(0.1, {}, none); }, "the mesh has no layer");
+}
+
+// A floor that bears any force holds what stands on it, and nothing else; one that bears none lets it slide.
+TEST(PlaneStrain, SticksToAFloorThatBearsAnything) {
+  TriangleMesh mesh = right_mesh(6);  // and its sides: the triangle in the corner has two such edges
+  std::replace(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::free, EdgeTag::contact);
+  for (const Element* element : {&p1(), &p2(), &crouzeix_raviart()}) {
+    const Spaces spaces(mesh, *element, *element);
+    PlaneStrain scene = platen(1);
+    const auto slip = [&] {
+      return active_set(assemble(scene, spaces.both())).u(spaces.x.contact()).cwiseAbs().maxCoeff();
+    };
+    EXPECT_GT(slip(), 1e-3) << element->name();
+    scene.friction = [](double) { return infinity; };
+    EXPECT_EQ(slip(), 0) << element->name();
+  }
 }
 
 TEST(PlaneStrain, RefusesValuesOutOfRange) {

@@ -2,6 +2,7 @@
 #include "antilock/models/plate.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/exact/plate_truth.hpp"
+#include "antilock/form/detail/plate_forms.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "support/scenes.hpp"
 
@@ -91,6 +92,95 @@ TEST(Plate, BendsExactlyWithConstantCurvature) {
         for (int k = 0; k < mesh.triangle_count(); ++k) area += mesh.area(k);
         EXPECT_NEAR(s.u.dot(problem.a1 * s.u), (0.7 * 7 + 0.3) * area, 1e-10);
       }
+}
+
+TEST(Plate, TheOtherRulesHaveTheShearThatTheySee) {
+  // any w and theta: the square of the strain, or of its mean over each triangle, by a rule of degree 5
+  const TriangleMesh mesh = disc_mesh(3);
+  const Quadrature& rule = radon_rule();
+  for (const PlateElement& method : {exact_shear, one_point, arnold_falk}) {
+    const On on(method, mesh);
+    const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(on.space.size(), 0, 40).array().sin();
+    double exact = 0;
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      const Eigen::VectorXd w = u(on.w.unknowns().row(t)),
+                            x = u.segment(on.space.theta_x(), on.theta.size())(on.theta.unknowns().row(t)),
+                            y = u.segment(on.space.theta_y(), on.theta.size())(on.theta.unknowns().row(t));
+      Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+      double square = 0;
+      for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+        const Eigen::Vector3d at = rule.points.row(q);
+        const Eigen::VectorXd phi = on.theta.element().basis(at);
+        const Eigen::Vector2d strain =
+            (on.w.element().derivative(at) * barycentric_gradients(mesh, t)).transpose() * w -
+            Eigen::Vector2d(phi.dot(x), phi.dot(y));
+        mean += rule.weights(q) * strain;
+        square += rule.weights(q) * strain.squaredNorm();
+      }
+      exact += mesh.area(t) * (method.shear == ShearRule::exact ? square : mean.squaredNorm());
+    }
+    const FactoredForm shear = shear_form(on.space);
+    EXPECT_NEAR(shear.m.dot(Eigen::VectorXd((shear.b * u).cwiseAbs2())), exact, 1e-12 * exact) << method.name;
+  }
+}
+
+// theta = 6 lambda_j lambda_k tau, g = grad 6 lambda_j lambda_k: (1 - nu) |eps|^2 + nu (tr eps)^2 is ((1 - nu) |g|^2 +
+// (1 + nu) (g.tau)^2) / 2, and int g g' = 3 area (2 jj' + 2 kk' + jk' + kj'), j and k the gradients of the coordinates.
+TEST(Plate, TheBubblesOfTheEdgesHaveTheirExactBendingEnergy) {
+  const TriangleMesh mesh = disc_mesh(3);
+  const On on(duran_liberman, mesh);
+  const SparseMatrix a = bending_form(on.space, 0.3);
+  Eigen::VectorXd exact = Eigen::VectorXd::Zero(mesh.edge_count());
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const int e = mesh.triangle_edges(t, i);
+      const Eigen::Matrix<double, 3, 2> d = barycentric_gradients(mesh, t);
+      const Eigen::RowVector2d j = d.row((i + 1) % 3), k = d.row((i + 2) % 3),
+                               tau = (mesh.vertices.row(mesh.edges(e, 1)) - mesh.vertices.row(mesh.edges(e, 0)))
+                                         .normalized();
+      const Eigen::Matrix2d g =
+          3 * mesh.area(t) * (2 * (j.transpose() * j + k.transpose() * k) + j.transpose() * k + k.transpose() * j);
+      exact(e) += (0.7 * g.trace() + 1.3 * tau.dot(tau * g)) / 2;
+    }
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    EXPECT_NEAR(a.coeff(on.space.on_edges() + e, on.space.on_edges() + e), exact(e), 1e-12 * exact(e));
+}
+
+// What is prescribed on the rim has its own means there: of w, and of theta along the edge, whose unknown of the edge rule
+// multiplies a bubble of mean 1. Simpson's rule is exact for cubic w and quadratic theta.
+TEST(Plate, TheRimHasTheMeansOfWhatIsPrescribed) {
+  const TriangleMesh mesh = disc_mesh(3);
+  Plate plate = bent(1);
+  plate.rim = [](double x, double y) { return x * x * x - x * y; };
+  plate.rim_slope_x = [](double x, double y) { return x * x - y; };
+  plate.rim_slope_y = [](double x, double y) { return x * y + y * y; };
+  const auto [points, weights] = gauss_rule(2);  // exact to degree 3
+  for (const PlateElement& method : {duran_liberman, arnold_falk}) {
+    const On on(method, mesh);
+    const VariationalInequality problem = assemble(plate, on.space);
+    std::map<int, double> fixed;
+    for (std::size_t k = 0; k < problem.fixed.size(); ++k)
+      fixed[problem.fixed[k]] = problem.fixed_values(static_cast<Eigen::Index>(k));
+    for (int e = 0; e < mesh.edge_count(); ++e) {
+      if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
+      const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
+      const Eigen::RowVector2d along = (b - a).normalized();
+      double w = 0, theta = 0;
+      for (int q = 0; q < 2; ++q) {
+        const Eigen::RowVector2d x = a + points(q) * (b - a);
+        w += weights(q) * plate.rim(x(0), x(1));
+        theta += weights(q) * (plate.rim_slope_x(x(0), x(1)) * along(0) + plate.rim_slope_y(x(0), x(1)) * along(1));
+      }
+      if (method.shear == ShearRule::edges) {
+        double ends = 0;
+        for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)})
+          ends += (fixed.at(on.space.theta_x() + v) * along(0) + fixed.at(on.space.theta_y() + v) * along(1)) / 2;
+        EXPECT_NEAR(ends + fixed.at(on.space.on_edges() + e), theta, 1e-14);
+      } else {
+        EXPECT_NEAR(fixed.at(e), w, 1e-14);
+      }
+    }
+  }
 }
 
 TEST(Plate, TheEdgeRuleHasTheExactShearOfItsOwnFields) {
@@ -276,6 +366,9 @@ TEST(Plate, ValuesOutOfRangeAreRefused) {
   sunk.gap = [](double x, double) { return x < 0 ? 0.1 : 1e13; };  // large elsewhere: hides nothing
   sunk.rim = [](double, double) { return -1.0; };
   test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at -0.1");
+  sunk.rim = [](double, double) { return 0.0; };  // a thousandth of the gap beside it below
+  sunk.gap = [](double x, double y) { return x * x + y * y > 0.99 ? -1e-4 : 0.1; };
+  test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at 0.0001");
   TriangleMesh rounded = mesh;  // an obstacle that meets the rim, whose corners are where they are to 1e-9
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_tag[e] == EdgeTag::clamped)

@@ -249,8 +249,8 @@ std::optional<ElasticRequest> read_model(const Section& section, const Layer& la
       section.refuse(key, fmt::format("{} is out of range; accepted: {}", value, accepted));
     return value;
   };
-  elastic.push = number("push", 0.1, -1e6, 1e6);
-  elastic.epsilon = number("epsilon", 1e-8, 0, 1);
+  elastic.push = number("push", elastic.push, -1e6, 1e6);
+  elastic.epsilon = number("epsilon", elastic.epsilon, 0, 1);
   const double young = number("young", 1, 1e-6, 1e6), nu = number("poisson", 0.3, 0, 0.49);
   elastic.material = {young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
   if (section.has("friction")) elastic.friction = profile(section, "friction", section.text("friction", in_x));

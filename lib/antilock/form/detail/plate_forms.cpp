@@ -10,7 +10,8 @@ namespace {
 
 using PlateEntries = std::vector<Eigen::Triplet<double>>;
 
-/// The basis of the rotation on a triangle at one point: m unknowns, their values, and strains xx, yy, 2 xy.
+/// The basis of the rotation on a triangle at one point: its unknowns, their values (0 for the bubbles 6 lambda_j lambda_k
+/// of the edges, whose shear has rows of its own), and strains xx, yy, 2 xy.
 struct Rotations {
   Eigen::VectorXi unknown;
   Eigen::MatrixX2d value;
@@ -41,7 +42,6 @@ Rotations rotations(const PlateSpace& space, int t, const Eigen::Vector3d& lambd
     const Eigen::RowVector2d along = tangent(mesh, e);
     const Eigen::RowVector2d slope = 6 * (lambda(j) * to_xy.row(k) + lambda(k) * to_xy.row(j));
     r.unknown(2 * m + i) = space.on_edges() + e;
-    r.value.row(2 * m + i) = 6 * lambda(j) * lambda(k) * along;
     r.strain.row(2 * m + i) << slope(0) * along(0), slope(1) * along(1), slope(0) * along(1) + slope(1) * along(0);
   }
   return r;
