@@ -16,7 +16,6 @@
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/core/detail/result_folder.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/io/detail/scene_checks.hpp"
 #include "antilock/io/detail/scene_problem.hpp"
 #include "antilock/io/detail/scene_results.hpp"
 #include "antilock/io/expression.hpp"
@@ -137,101 +136,47 @@ struct Asked {
   bool restart = false, direct = false;
 };
 
-/// What the layer says of locking joins the warnings; all is written, and the warnings are printed.
-void told(const Asked& asked, const SceneFile& file, Answer& answer, tutorial::Report& report,
-          const CertifiedSolution* certified = nullptr) {
-  Stopwatch watch;
-  std::optional<LayerReport> layer = layer_report_of(file, answer);
-  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer()); stiff != nullptr && file.words.thickness)
-    fmt::print("  layer: {:g} before a_x^-, {:g} before a_y^-\n", stiff->s,
-               stiff->s / (stiff->epsilon * stiff->epsilon));
-  if (layer) answer.warning = joined(layer->warning, answer.warning);
-  answer.seconds.solve += watch.lap();
-  report.stage("files");
-  SceneSummary summary = summary_of(file, answer);
-  summary.layer = std::move(layer);
-  write_scene_results(asked.out, file, answer, summary, certified, asked.files);
-  report.finish();
-  if (!answer.warning.empty()) fmt::print("  warning: {}\n", answer.warning);
-  const std::string name = (asked.out / "solution").string();
-  if (asked.files.vtu)
-    fmt::print("  a picture of it: render {1} {0}.vtu --out {0}.png\n", name, file.elastic ? "deformed" : "surface");
-}
-
-/// An accuracy is asked for: the mesh is the first one, and every level says how far it came.
-void answer_certified(const SceneFile& file, const TriangleMesh& first, const Asked& asked, tutorial::Report& report,
-                      double mesh_seconds) {
-  const Stopwatch watch;
-  const MethodRequest& method = file.method;
-  report.stage(fmt::format("solve to a relative error of {:g}", *method.accuracy));
-  const auto progress = [&](const Level& level) {
-    const std::string quote = level.quoted_unknowns > 0 ? fmt::format(", about {:.0f} unknowns and {:.2g} s in the end",
-                                                                      level.quoted_unknowns, level.quoted_seconds)
-                                                        : "";
-    fmt::print("\n    {} unknowns: proved {:.3g}{}", level.unknowns, level.relative, quote);
-    if (watch.seconds() > asked.most_seconds && level.relative > *method.accuracy)
-      throw NotConverged(fmt::format("stopped after {:.1f} s: proved {:.3g} with {} unknowns, asked for {:g}",
-                                     watch.seconds(), level.relative, level.unknowns, *method.accuracy),
-                         level.relative, 0);
-  };
-  CertifiedSolution found = [&] {
-    try {
-      const Accuracy accuracy{*method.accuracy,        method.of, method.most_unknowns, {}, method.tolerance,
-                              &element(method.element)};
-      return solve_to(file.scene, first, accuracy, progress);
-    } catch (const NotConverged& failure) {
-      throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
-    } catch (const Error& error) {
-      const std::string what = error.what();
-      throw Error(what.rfind(file.name, 0) == 0 ? what : file.name + ": method.accuracy: " + what);
-    }
-  }();
-  const SolveSeconds& spent = found.answer.solution.seconds;
-  const double factor = spent.analyse + spent.factor;
-  found.answer.seconds = {mesh_seconds, 0, factor, watch.seconds() - factor};
-  found.answer.warning = joined(found.answer.warning, polygon_warning(file, first));
-  told(asked, file, found.answer, report, &found);
-  fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
-             found.certificate.relative(method.of), found.history.size(), found.answer.space.free_count(),
-             asked.out.string());
-}
-
 void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Report& report, char** argv) {
-  Stopwatch watch;
-  RunSeconds seconds;
   const SceneFile file = read_scene_file(scene);
+  const MethodRequest& method = file.method;
   check_solver(file, asked.restart || asked.direct, argv);
   check_folder(asked.out);
   check_inputs_stay(asked.out, scene, file);
   fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
 
-  report.stage("mesh");
-  const auto mesh = std::make_shared<const TriangleMesh>(make_mesh(file));
-  seconds.mesh = watch.lap();
-
-  if (file.method.accuracy) return answer_certified(file, *mesh, asked, report, seconds.mesh);
-
-  report.stage(fmt::format("assembly: {} on {} triangles", file.method.element, mesh->triangle_count()));
-  const Space space(*mesh, element(file.method.element));
-  if (space.free_count() == 0)
-    throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
-  Answer answer{mesh, space, problem_of(file, space), {}, seconds, ""};
-  const std::string load = load_warning(file, space, answer.problem);
-  answer.seconds.assemble = watch.lap();
-
-  report.stage(fmt::format("solve: {}, {} unknowns", file.method.solver, answer.problem.free_count()));
-  try {
-    answer.solution = solve_as_asked(file, space, answer.problem, follower(asked.most_seconds));
-  } catch (const NotConverged& failure) {
-    throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
-  }
-  const Solution& solution = answer.solution;
-  answer.warning = joined(joined(solution.warning, load), gap_warning(file, space, solution));
-  answer.seconds.factor = solution.seconds.analyse + solution.seconds.factor;
-  answer.seconds.solve = watch.lap() - answer.seconds.factor;
-  told(asked, file, answer, report);
-  fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", solution.u.minCoeff(),
-             solution.u.maxCoeff(), solution.counters.contact, solution.counters.corrections, asked.out.string());
+  Stopwatch watch;
+  const auto level_done = [&](const Level& level) {
+    const std::string quote = level.quoted_unknowns > 0 ? fmt::format(", about {:.0f} unknowns and {:.2g} s in the end",
+                                                                      level.quoted_unknowns, level.quoted_seconds)
+                                                        : "";
+    fmt::print("\n    {} unknowns: proved {:.3g}{}", level.unknowns, level.relative, quote);
+    if (level.seconds > asked.most_seconds && level.relative > *method.accuracy)
+      throw NotConverged(fmt::format("stopped after {:.1f} s: proved {:.3g} with {} unknowns, asked for {:g}",
+                                     level.seconds, level.relative, level.unknowns, *method.accuracy),
+                         level.relative, 0);
+  };
+  CertifiedSolution found = answer_scene(
+      file, {[&](const std::string& what) { report.stage(what); }, follower(asked.most_seconds), level_done});
+  watch.lap();
+  const SceneSummary summary = summary_of(file, found.answer);
+  found.answer.seconds.solve += watch.lap();
+  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer()); stiff != nullptr && file.words.thickness)
+    fmt::print("  layer: {:g} before a_x^-, {:g} before a_y^-\n", stiff->s,
+               stiff->s / (stiff->epsilon * stiff->epsilon));
+  report.stage("files");
+  write_scene_results(asked.out, file, found.answer, summary, found.history.empty() ? nullptr : &found, asked.files);
+  report.finish();
+  if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
+  const std::string name = (asked.out / "solution").string();
+  if (asked.files.vtu)
+    fmt::print("  a picture of it: render {1} {0}.vtu --out {0}.png\n", name, file.elastic ? "deformed" : "surface");
+  if (found.history.empty())
+    fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,
+               summary.u_max, summary.contact_steps, summary.corrections, asked.out.string());
+  else
+    fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
+               found.certificate.relative(method.of), found.history.size(), found.answer.space.free_count(),
+               asked.out.string());
 }
 
 int fail(const std::string& message, int status) {

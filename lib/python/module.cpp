@@ -10,9 +10,7 @@
 
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/analysis/locking.hpp"
-#include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/sine_load.hpp"
-#include "antilock/io/detail/scene_checks.hpp"
 #include "antilock/io/detail/scene_problem.hpp"
 #include "antilock/io/detail/scene_results.hpp"
 #include "antilock/io/expression.hpp"
@@ -91,44 +89,16 @@ SceneFile scene_of(const std::string& text, const std::string& folder) {
   return file;
 }
 
-/// The answer to a scene: one solve on its mesh, or where an accuracy is asked for as many as it takes.
-std::pair<Answer, std::optional<CertifiedSolution>> answer_of(const SceneFile& file) {
-  Stopwatch watch;
-  auto mesh = std::make_shared<const TriangleMesh>(make_mesh(file));
-  const double meshed = watch.lap();
-  if (file.method.accuracy) {
-    const Accuracy asked{*file.method.accuracy,     file.method.of,
-                         file.method.most_unknowns, {},
-                         file.method.tolerance,     &element(file.method.element)};
-    CertifiedSolution found = solve_to(file.scene, *mesh, asked);
-    found.answer.seconds = {meshed, 0, 0, watch.lap()};
-    Answer answer = found.answer;
-    return {std::move(answer), std::move(found)};
-  }
-  const Space space(*mesh, element(file.method.element));
-  Answer answer{mesh, space, problem_of(file, space), {}, {meshed, watch.lap(), 0, 0}, ""};
-  const std::string load = load_warning(file, space, answer.problem);
-  answer.solution = solve_as_asked(file, space, answer.problem, not_interrupted);
-  answer.seconds.solve = watch.lap();
-  answer.warning = joined(joined(answer.solution.warning, load), gap_warning(file, space, answer.solution));
-  return {std::move(answer), std::nullopt};
-}
-
 py::dict run(const std::string& text, const std::string& folder, const std::string& summary_path) {
   const SceneFile file = scene_of(text, folder);
-  std::optional<std::pair<Answer, std::optional<CertifiedSolution>>> found;
-  SceneSummary summary;
-  {
+  CertifiedSolution found = [&] {
     const Unlocked unlocked;
-    found.emplace(answer_of(file));
-    Answer& answer = found->first;
-    std::optional<LayerReport> layer = layer_report_of(file, answer);
-    if (layer) answer.warning = joined(layer->warning, answer.warning);
-    summary = summary_of(file, answer);
-    summary.layer = std::move(layer);
-  }
-  auto& [answer, certified] = *found;
-  write_summary(summary_path, file, summary, answer.seconds, 0, certified ? &*certified : nullptr);
+    CertifiedSolution answered = answer_scene(file, {{}, not_interrupted, {}});
+    write_summary(summary_path, file, summary_of(file, answered.answer), answered.answer.seconds, 0,
+                  answered.history.empty() ? nullptr : &answered);
+    return answered;
+  }();
+  Answer& answer = found.answer;
   const auto given = [](auto& owned) { return py::cast(std::move(owned)); };  // moved into the array, not copied
   py::dict arrays("points"_a = answer.space.points(), "vertices"_a = answer.mesh->vertices,
                   "triangles"_a = answer.mesh->triangles);
@@ -174,9 +144,10 @@ struct KnownTruth {
 };
 
 TruthPoint at(const KnownTruth* known, double x, double y, double top = 1) {
-  if (!(x >= 0 && x <= 1 && y >= -1 && y <= top))
+  const double in_x = std::clamp(x, 0.0, 1.0), in_y = std::clamp(y, -1.0, top);
+  if (!(std::hypot(x - in_x, y - in_y) <= 1e-9))  // coordinates are rounded; u is right to 1e-8
     throw Error(fmt::format("truth: ({}, {}); accepted: 0 <= x <= 1, -1 <= y <= {}", x, y, top));
-  return known->table.at(x, y);
+  return known->table.at(in_x, in_y);
 }
 
 }  // namespace

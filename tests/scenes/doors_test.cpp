@@ -44,7 +44,7 @@ TEST(AsSineLoad, IsRecognisedAndNothingElseIs) {
 }
 
 TEST_F(Door, TruthGivesTheExactSolutionAtPoints) {
-  const std::string points = file("points.csv", "x,y\n0.25,-1\n0.25,0.5\n0.9,-1\n");
+  const std::string points = file("points.csv", "x,y\n0.25,-1\n0.25,0.5\n-1e-18,1\n");
   const Outcome told = ask("truth " + file("scene.toml", scene(1e-2)) + " --summary " +
                            in_shell((folder / "s.json").string()) + " < " + points);
   ASSERT_EQ(told.status, 0) << told.err;
@@ -131,6 +131,64 @@ TEST_F(Door, JudgeLiftsAnAnswerOutOfTheObstacleAndSaysSo) {
   const Outcome half = ask("judge " + file("scene.toml", scene(0.1)) + " " + in_shell(folder / "mesh.msh") + " " +
                            in_shell(folder / "u.csv") + " --accuracy 0.2");
   EXPECT_NE(half.out.find("this answer is not it"), std::string::npos) << half.out;
+}
+
+TEST_F(Door, JudgeFindsAFaultWhereItWasPut) {
+  const TriangleMesh mesh = jittered_mesh(16, 0.2);
+  const Space space(mesh, p1());
+  write_msh(folder / "mesh.msh", mesh);
+  const std::string out = " --json " + in_shell(folder / "judged.json") + " --where " + in_shell(folder / "where.csv");
+  for (const std::string load : {"10*sin(2*pi*x)", "10*sin(2*pi*x)+0.1*x"})  // of the first an exact solution is known
+    for (const Eigen::RowVector2d& fault : {Eigen::RowVector2d(0.3, 0.6), Eigen::RowVector2d(0.6, -0.5)}) {
+      Eigen::VectorXd u = active_set(assemble(Scene({paper_load}, StiffLayer{0.1}, UnilateralContact{}), space)).u;
+      Eigen::Index at = 0;
+      (space.points().rowwise() - fault).rowwise().norm().minCoeff(&at);
+      u(at) += 0.3;
+      hand_in(folder / "u.csv", space, u);
+      const Outcome told = ask("judge " + file("scene.toml", scene(0.1, load)) + " " + in_shell(folder / "mesh.msh") +
+                               " " + in_shell(folder / "u.csv") + " --accuracy 0.1" + out);
+      ASSERT_EQ(told.status, 0) << told.err;
+      const auto judged = nlohmann::json::parse(contents(folder / "judged.json"));
+      const auto& where = judged["where"];
+      EXPECT_EQ(where["exact"], load.size() < 15);
+      EXPECT_EQ(told.out.find("an estimate") == std::string::npos, where["exact"]) << told.out;
+      // a hat of height 0.3 has about 0.3^2 * 4 of the energy in its six triangles, in the layer up to 100 times as much;
+      // the answer without it is off by 0.1, and Antilock's own by 0.1 of 0.94
+      EXPECT_NEAR(where["layer"], fault(1) < 0 ? 1 : 0, 0.1) << told.out;
+      EXPECT_LE(where["half_lies_in"], 4) << told.out;
+      for (const auto& triangle : where["worst"])
+        EXPECT_LT(std::hypot(triangle["x"].get<double>() - space.points()(at, 0),
+                             triangle["y"].get<double>() - space.points()(at, 1)),
+                  1.0 / 16);  // the centroid of a triangle at that vertex is within 2/3 of its longest edge, 1.3/16
+      std::ifstream table(folder / "where.csv");
+      std::string line;
+      std::getline(table, line);
+      EXPECT_EQ(line, "triangle,region,x,y,error");
+      double squared = 0;
+      for (int t = 0; t < mesh.triangle_count(); ++t) {
+        std::getline(table, line);
+        EXPECT_EQ(line.rfind(fmt::format("{},{},", t, mesh.region[t] == Region::layer ? "layer" : "body"), 0), 0u);
+        squared += std::pow(std::stod(line.substr(line.rfind(',') + 1)), 2);
+      }
+      const double energy = where["exact"] ? judged["errors"]["energy"] : where["energy"];
+      EXPECT_NEAR(std::sqrt(squared), energy, 1e-9 * energy);  // 17 digits each, some 1000 of them
+      // two functions that far from each other, one within `within` of the exact solution: the bound is of that distance
+      EXPECT_LE(energy, judged["bound"].get<double>() + where["within"].get<double>());
+    }
+  std::filesystem::remove(folder / "where.csv");
+  std::ofstream(folder / "u.csv") << "x,y,u\n"
+                                  <<
+      [&] {  // the columns x and y changed places
+        std::string rows;
+        for (int i = 0; i < space.size(); ++i)
+          rows += fmt::format("{:.12g},{:.12g},0\n", space.points()(i, 1), space.points()(i, 0));
+        return rows;
+      }();
+  const Outcome told = ask("judge " + file("scene.toml", scene(0.1)) + " " + in_shell(folder / "mesh.msh") + " " +
+                           in_shell(folder / "u.csv") + out);
+  EXPECT_EQ(told.status, 2);
+  EXPECT_NE(told.err.find("is the first of them that is none"), std::string::npos) << told.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "where.csv"));
 }
 
 TEST_F(Door, SweepIsTheSceneAskedAgainAndAgain) {

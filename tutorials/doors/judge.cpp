@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <numeric>
 
 #include "antilock/analysis/detail/companion.hpp"
 #include "antilock/analysis/lost_energy.hpp"
@@ -12,8 +13,8 @@
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/io/detail/csv_reader.hpp"
+#include "antilock/measure/detail/local_errors.hpp"
 #include "antilock/measure/detail/point_values.hpp"
-#include "antilock/measure/errors.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -23,9 +24,10 @@
 namespace antilock::doors {
 namespace {
 
-/// The values of the file by unknown of the space; empty where a point of the file is none of its unknowns. The digits
-/// of a file are cut off: a point is an unknown where it is within 1e-6 of the triangle's size.
-std::optional<Eigen::VectorXd> values_on(const Space& space, const Eigen::MatrixXd& rows) {
+/// The values of the file by unknown of the space; empty where a point of the file is none of its unknowns, or one for
+/// the second time: `wrong` tells which. The digits of a file are cut off: a point is an unknown where it is within 1e-6
+/// of the triangle's size.
+std::optional<Eigen::VectorXd> values_on(const Space& space, const Eigen::MatrixXd& rows, std::string& wrong) {
   if (rows.rows() != space.size()) return {};
   constexpr double digits = 1e-6;
   const PointValues at(space);
@@ -34,12 +36,15 @@ std::optional<Eigen::VectorXd> values_on(const Space& space, const Eigen::Matrix
   std::vector<char> met(static_cast<std::size_t>(space.size()), 0);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
     const auto place = at.locate(rows.row(i).head(2).transpose(), digits);
-    if (!place) return {};
     int unknown = -1;
-    for (Eigen::Index k = 0; k < nodes.rows(); ++k)
+    for (Eigen::Index k = 0; place && k < nodes.rows(); ++k)
       if ((nodes.row(k).transpose() - place->lambda).lpNorm<Eigen::Infinity>() < 2 * digits)
         unknown = space.unknowns()(place->triangle, k);
-    if (unknown < 0 || met[static_cast<std::size_t>(unknown)]++) return {};
+    if (unknown < 0 || met[static_cast<std::size_t>(unknown)]++) {
+      wrong = fmt::format("row {}, ({:g}, {:g}), is the first of them that is {}; ", i + 1, rows(i, 0), rows(i, 1),
+                          unknown < 0 ? "none" : "there twice");
+      return {};
+    }
     u(unknown) = rows(i, 2);
   }
   return u;
@@ -129,6 +134,56 @@ bool is_unit_square(const TriangleMesh& mesh) {
   return true;
 }
 
+/// Antilock's own answer in place of the exact solution, at any point of its mesh. Both must outlive it.
+Reference reference(const Answer& own, const PointValues& at) {
+  const auto place = [&at](double x, double y) {
+    const auto found = at.locate({x, y}, 1e-6);  // of a triangle's size: its own mesh has the same boundary, rounded
+    if (!found) throw Error(fmt::format("judge: ({}, {}) is outside the mesh of the certified answer", x, y));
+    return *found;
+  };
+  std::vector<int> row(own.mesh->region.size());  // of p, one per layer triangle in their order
+  for (std::size_t t = 1; t < row.size(); ++t) row[t] = row[t - 1] + (own.mesh->region[t - 1] == Region::layer);
+  Reference reference;
+  reference.value = [=, &own, &at](double x, double y) { return at.value(own.solution.u, place(x, y)); };
+  reference.at = [=, &own, &at](double x, double y) {
+    const auto found = place(x, y);
+    const int t = found.triangle;
+    const bool stress = own.mesh->region[t] == Region::layer && own.solution.p.size() > 0;
+    return TruthPoint{at.value(own.solution.u, found), at.gradient(own.solution.u, found),
+                      stress ? own.solution.p(row[t]) : 0};
+  };
+  return reference;
+}
+
+/// Where the error lies. The share of a region is that of the square of the error, since squares add up.
+struct Places {
+  double layer = 0, contact = 0;  // shares: of the layer, and of the triangles with an unknown on the contact boundary
+  std::vector<int> worst;         // the triangles that hold half of the square, the worst first
+};
+
+Places places_of(const Space& space, const Eigen::VectorXd& error) {
+  const TriangleMesh& mesh = space.mesh();
+  std::vector<char> bounded(space.size(), 0);
+  for (const int i : space.contact()) bounded[i] = 1;
+  Places places;
+  const double all = error.squaredNorm();
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const double share = error(t) * error(t) / all;
+    if (mesh.region[t] == Region::layer) places.layer += share;
+    const auto unknowns = space.unknowns().row(t);
+    if (std::any_of(unknowns.begin(), unknowns.end(), [&](int i) { return bounded[i]; })) places.contact += share;
+  }
+  std::vector<int> order(mesh.triangle_count());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return error(a) > error(b); });
+  double sum = 0;
+  for (auto t = order.begin(); t != order.end() && sum < all / 2; ++t) {
+    places.worst.push_back(*t);
+    sum += error(*t) * error(*t);
+  }
+  return places;
+}
+
 double largest(const std::vector<int>& unknowns, const Eigen::VectorXd& u) {
   double most = 0;
   for (const int i : unknowns) most = std::max(most, std::abs(u(i)));
@@ -142,7 +197,7 @@ int judge(int argc, char** argv) {
       "Another program's answer to a scene, on its own mesh: its errors, a proved bound, what it keeps of the "
       "layer's displacement, and whether it locks.",
       "antilock judge");
-  std::filesystem::path scene, mesh_file, answer, out;
+  std::filesystem::path scene, mesh_file, answer, out, where;
   double accuracy = 1e-2;
   std::string row;
   line.add_required("SCENE", scene, "the scene file, in TOML (run_scene --help); its [mesh] is not used");
@@ -152,7 +207,14 @@ int judge(int argc, char** argv) {
   line.add("--accuracy", accuracy, "to which the energy's lower bound is proved, relative, in the energy norm", 1e-4,
            0.5);
   line.add("--json", out, "the same numbers as a JSON file");
+  line.add("--where", where,
+           "a CSV file: triangle,region,x,y,error, one row per triangle of MESH with its centroid and its error in the "
+           "energy norm");
   line.add("--row", row, "NAME of the code: prints a row for the table of codes as well");
+  line.footer(
+      "Where the error lies is measured against the exact solution where that is known. Elsewhere it is an estimate: "
+      "Antilock's own answer to --accuracy stands in for the exact solution, and its own error, which is proved, is "
+      "printed.");
   if (const auto status = line.parse(argc, argv)) return *status;
 
   const SceneFile file = read_scene_file(scene);
@@ -161,13 +223,14 @@ int judge(int argc, char** argv) {
   const Eigen::MatrixXd rows = read_csv(answer.string(), {"x", "y", "u"});
   std::optional<Space> space;
   std::optional<Eigen::VectorXd> u;
+  std::string wrong;
   for (const Element* element : {&p1(), &crouzeix_raviart()})
-    if (!u) u = values_on(space.emplace(mesh, *element), rows);
+    if (!u) u = values_on(space.emplace(mesh, *element), rows, wrong);
   if (!u)
-    throw Error(fmt::format(
-        "{}: {} rows that fit neither the {} vertices nor the {} edge midpoints of {}; accepted: one row per "
-        "vertex or one per midpoint",
-        answer.string(), rows.rows(), mesh.vertex_count(), mesh.edge_count(), mesh_file.string()));
+    throw Error(
+        fmt::format("{}: {} rows that fit neither the {} vertices nor the {} edge midpoints of {}; {}accepted: one row "
+                    "per vertex or one per midpoint",
+                    answer.string(), rows.rows(), mesh.vertex_count(), mesh.edge_count(), mesh_file.string(), wrong));
   const VariationalInequality problem = assemble(file.scene, *space);
   Solution v;
   v.u = *u;
@@ -179,9 +242,10 @@ int judge(int argc, char** argv) {
   std::string text = fmt::format("{}: {}, {} unknowns\n", answer.string(), element, space->free_count());
   const auto say = std::back_inserter(text);  // printed when all is known: a refusal prints nothing else
   const std::optional<Truth> truth = is_unit_square(mesh) ? truth_of(file.scene) : std::nullopt;
+  Eigen::VectorXd error;  // by triangle
   if (truth) {
     const TruthTable table(*truth);
-    const Errors e = measure_errors(*space, v, truth->epsilon(), reference(table));
+    const Errors e = measure_errors(*space, v, truth->epsilon(), reference(table), error);
     found["errors"] = {
         {"max_at_unknowns", e.max_at_unknowns}, {"max", e.max}, {"l2", e.l2}, {"h1", e.h1}, {"energy", e.energy}};
     fmt::format_to(
@@ -205,6 +269,37 @@ int judge(int argc, char** argv) {
                             answer.string(), bound.value));
   found["bound"] = bound.value;
   fmt::format_to(say, "  proved: at most {:.4g} ({})\n", bound.value, bound.of);
+  if (!truth) {
+    const PointValues at(certified.answer.space);
+    measure_errors(*space, v, file.scene.epsilon().value_or(1), reference(certified.answer, at), error);
+  }
+  const Places places = places_of(*space, error);
+  std::string list;
+  nlohmann::json worst = nlohmann::json::array();
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, places.worst.size()); ++i) {
+    const Eigen::Vector2d x = point_in(mesh, places.worst[i], Eigen::Vector3d::Constant(1.0 / 3));
+    fmt::format_to(std::back_inserter(list), "{}({:.3g}, {:.3g})", i > 0 ? ", " : "", x(0), x(1));
+    worst.push_back({{"triangle", places.worst[i]}, {"x", x(0)}, {"y", x(1)}, {"error", error(places.worst[i])}});
+  }
+  if (!places.worst.empty()) {
+    found["where"] = {{"exact", truth.has_value()},
+                      {"within", truth ? 0 : certified.certificate.gradient},
+                      {"energy", error.norm()},
+                      {"layer", places.layer},
+                      {"contact", places.contact},
+                      {"half_lies_in", places.worst.size()},
+                      {"triangles", mesh.triangle_count()},
+                      {"worst", worst}};
+    fmt::format_to(say,
+                   "  where{}: {:.3g} % of the squared error in the body, {:.3g} % in the layer; {:.3g} % in triangles "
+                   "at the contact boundary; half of it in {} of {} triangles, the worst around {}\n",
+                   truth
+                       ? ""
+                       : fmt::format(" (an estimate: {:.4g} from Antilock's own answer, whose error is at most {:.4g})",
+                                     error.norm(), certified.certificate.gradient),
+                   100 * (1 - places.layer), 100 * places.layer, 100 * places.contact, places.worst.size(),
+                   mesh.triangle_count(), list);
+  }
   if (file.scene.layer_depth() > 0 && file.scene.contact()) {
     const double ridge = largest(certified.answer.space.contact(), certified.answer.solution.u);
     const double kept = ridge > 0 ? largest(space->contact(), v.u) / ridge : 1;
@@ -232,6 +327,15 @@ int judge(int argc, char** argv) {
                                             : "not known",
                    bound.value,
                    found.contains("kept") ? fmt::format("{:.1f} %", 100 * found["kept"].get<double>()) : "");
+  if (!where.empty())
+    write_file(where, [&](std::ostream& stream) {
+      stream << "triangle,region,x,y,error\n";
+      for (int t = 0; t < mesh.triangle_count(); ++t) {
+        const Eigen::Vector2d x = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3));
+        stream << t << (mesh.region[t] == Region::layer ? ",layer," : ",body,") << x(0) << ',' << x(1) << ','
+               << error(t) << '\n';
+      }
+    });
   if (!out.empty()) write_file(out, [&](std::ostream& stream) { stream << found.dump(2) << '\n'; });
   fmt::print("{}", text);
   return 0;

@@ -1,6 +1,8 @@
 // antilock truth SCENE.toml < points.csv: the exact solution of a scene at given points.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -38,6 +40,9 @@ const char* const outside = "outside the domain; accepted: points of the closed 
 // Up to this many points each is summed on its own, a millisecond each; beyond, the table is cheaper, 0.1 s to build.
 constexpr Eigen::Index few = 256;
 
+// Another program's coordinates are rounded: a point so far outside counts as on the boundary. u is right to 1e-8.
+constexpr double rounded = 1e-9;
+
 /// The norms of the solution: the errors of the function 0, on a mesh whose quadrature leaves 1e-4 of them.
 json norms_of(const Truth& truth) {
   const TriangleMesh mesh = structured_mesh(64);
@@ -55,9 +60,9 @@ Known by_series(const Truth& truth, const Eigen::MatrixXd& points, bool layer) {
   std::optional<TruthTable> table;
   if (points.rows() > few) table.emplace(truth);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const double x = points(i, 0), y = points(i, 1);
-    if (!(x >= 0 && x <= 1 && y <= 1 && y >= (layer ? -1 : 0)))
-      throw Error(fmt::format("points: ({}, {}) is {}", x, y, outside));
+    const double x = std::clamp(points(i, 0), 0.0, 1.0), y = std::clamp(points(i, 1), layer ? -1.0 : 0.0, 1.0);
+    if (!(std::hypot(x - points(i, 0), y - points(i, 1)) <= rounded))
+      throw Error(fmt::format("points: ({}, {}) is {}", points(i, 0), points(i, 1), outside));
     Row row{table ? table->value(x, y) : truth.value(x, y), table ? table->gradient(x, y) : truth.gradient(x, y)};
     if (layer && y <= 0) row.p = table ? table->layer_stress(x, y) : truth.layer_stress(x, y);
     known.rows.push_back(row);
@@ -86,7 +91,7 @@ Known by_certificate(const SceneFile& file, double accuracy, const Eigen::Matrix
   const PointValues at(space);
   const bool scaled = std::holds_alternative<StiffLayer>(file.scene.layer());
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const auto place = at.locate(points.row(i).transpose());
+    const auto place = at.locate(points.row(i).transpose(), rounded);
     if (!place) throw Error(fmt::format("points: ({}, {}) is {}", points(i, 0), points(i, 1), outside));
     Row row{at.value(solution.u, *place), at.gradient(solution.u, *place)};
     if (scaled && mesh->region[place->triangle] == Region::layer) {

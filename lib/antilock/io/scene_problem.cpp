@@ -6,6 +6,8 @@
 #include <tuple>
 
 #include "antilock/analysis/locking.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/io/detail/scene_checks.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -34,22 +36,7 @@ std::optional<Coating> coating_of(const SceneFile& file) {
   return coating;
 }
 
-}  // namespace
-
-VariationalInequality problem_of(const SceneFile& file, const Space& space) {
-  if (!file.elastic) return assemble(file.scene, space);
-  const VectorSpace both{space, space};
-  const auto problem = [&] {
-    if (const auto coating = coating_of(file)) return assemble(*coating, both);
-    auto rubber = pressed<PlaneStrain>(file);
-    rubber.epsilon = file.elastic->epsilon;
-    return assemble(rubber, both);
-  };
-  VariationalInequality of_both = problem();
-  of_both.load.tail(space.size()) = load_vector(space, file.scene.body().load);  // f acts in y
-  return of_both;
-}
-
+/// The solution by the solver and to the tolerance of [method].
 Solution solve_as_asked(const SceneFile& file, const Space& space, const VariationalInequality& problem,
                         const ProgressHook& follow) {
   const MethodRequest& method = file.method;
@@ -75,7 +62,77 @@ Solution solve_as_asked(const SceneFile& file, const Space& space, const Variati
   return solution;
 }
 
+}  // namespace
+
+VariationalInequality problem_of(const SceneFile& file, const Space& space) {
+  if (!file.elastic) return assemble(file.scene, space);
+  const VectorSpace both{space, space};
+  const auto problem = [&] {
+    if (const auto coating = coating_of(file)) return assemble(*coating, both);
+    auto rubber = pressed<PlaneStrain>(file);
+    rubber.epsilon = file.elastic->epsilon;
+    return assemble(rubber, both);
+  };
+  VariationalInequality of_both = problem();
+  of_both.load.tail(space.size()) = load_vector(space, file.scene.body().load);  // f acts in y
+  return of_both;
+}
+
 std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : "; ") + b; }
+
+CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow) {
+  const MethodRequest& method = file.method;
+  const auto begin = [&](const std::string& what) {
+    if (follow.stage) follow.stage(what);
+  };
+  Stopwatch watch;
+  begin("mesh");
+  const auto mesh = std::make_shared<const TriangleMesh>(make_mesh(file));
+  RunSeconds seconds;
+  seconds.mesh = watch.lap();
+  const auto solved = [&](const auto& solve) {
+    try {
+      return solve();
+    } catch (const NotConverged& failure) {
+      throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
+    }
+  };
+  const auto spent = [&](Answer& answer) {
+    answer.seconds.factor = answer.solution.seconds.analyse + answer.solution.seconds.factor;
+    answer.seconds.solve = watch.lap() - answer.seconds.factor;
+  };
+  if (method.accuracy) {
+    begin(fmt::format("solve to a relative error of {:g}", *method.accuracy));
+    CertifiedSolution found = solved([&] {
+      try {
+        const Accuracy asked{*method.accuracy,        method.of, method.most_unknowns, {}, method.tolerance,
+                             &element(method.element)};
+        return solve_to(file.scene, *mesh, asked, follow.level);
+      } catch (const NotConverged&) {
+        throw;
+      } catch (const Error& error) {
+        const std::string what = error.what();
+        throw Error(what.rfind(file.name, 0) == 0 ? what : file.name + ": method.accuracy: " + what);
+      }
+    });
+    found.answer.seconds = seconds;
+    spent(found.answer);
+    found.answer.warning = joined(found.answer.warning, polygon_warning(file, *mesh));
+    return found;
+  }
+  begin(fmt::format("assembly: {} on {} triangles", method.element, mesh->triangle_count()));
+  const Space space(*mesh, element(method.element));
+  if (space.free_count() == 0)
+    throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
+  Answer answer{mesh, space, problem_of(file, space), {}, seconds, ""};
+  const std::string load = load_warning(file, space, answer.problem);
+  answer.seconds.assemble = watch.lap();
+  begin(fmt::format("solve: {}, {} unknowns", method.solver, answer.problem.free_count()));
+  answer.solution = solved([&] { return solve_as_asked(file, space, answer.problem, follow.solve); });
+  answer.warning = joined(joined(answer.solution.warning, load), gap_warning(file, space, answer.solution));
+  spent(answer);
+  return {std::move(answer), {}, {}, {}};
+}
 
 NormalContact normal_contact(const Answer& answer) {
   const auto& [problem, solution] = std::tie(answer.problem, answer.solution);

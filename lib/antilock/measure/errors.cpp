@@ -9,6 +9,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/measure/detail/local_errors.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {
@@ -71,6 +72,12 @@ Reference reference(const TruthTable& table) {
 }
 
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference) {
+  Eigen::VectorXd by_triangle;
+  return measure_errors(space, solution, epsilon, reference, by_triangle);
+}
+
+Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference,
+                      Eigen::VectorXd& by_triangle) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   check_solution(space, solution);
@@ -88,7 +95,8 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
   for (int i = 0; i < space.size(); ++i)
     errors.max_at_unknowns = larger(
         errors.max_at_unknowns, std::abs(solution.u(i) - reference.value(space.points()(i, 0), space.points()(i, 1))));
-  double l2 = 0, gradient2 = 0, energy2 = 0;
+  double l2 = 0, gradient2 = 0;
+  by_triangle.setZero(mesh.triangle_count());
   Eigen::Index row = 0;
   const Eigen::MatrixXd stress = layer_stress_values(element, rule.points);
   Eigen::VectorXd u(space.unknowns().cols());
@@ -100,6 +108,7 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
       errors.max = larger(errors.max, std::abs(u.dot(sample_basis[k]) - reference.value(x(0), x(1))));
     }
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+    double& energy2 = by_triangle(t);
     const bool in_layer = mesh.region[t] == Region::layer, stiff = in_layer && solution.p.size() > 0;
     for (Eigen::Index q = 0; q < points; ++q) {
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
@@ -122,7 +131,8 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
   }
   errors.l2 = std::sqrt(l2);
   errors.h1 = std::sqrt(l2 + gradient2);
-  errors.energy = std::sqrt(energy2);
+  errors.energy = std::sqrt(by_triangle.sum());
+  by_triangle = by_triangle.cwiseSqrt();
   return errors;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
+#include <functional>
 #include <string>
 
+#include "antilock/adapt/solve_to.hpp"
 #include "antilock/analysis/lost_energy.hpp"
 #include "antilock/core/detail/progress.hpp"
 #include "antilock/io/scene_file.hpp"
@@ -11,10 +13,18 @@ namespace antilock {
 /// The discrete problem of a scene file on a space of its mesh: the scene's, or in plane strain that of two components in
 /// this space (size 2 N). Throws Error.
 VariationalInequality problem_of(const SceneFile& file, const Space& space);
-/// The solution by the solver and to the tolerance of [method]; `follow` may end it. Throws NotConverged, and where double
-/// precision goes no further than the tolerance asked for.
-Solution solve_as_asked(const SceneFile& file, const Space& space, const VariationalInequality& problem,
-                        const ProgressHook& follow);
+
+/// Who follows the answer to a scene; an empty hook costs nothing.
+struct Followers {
+  std::function<void(const std::string&)> stage;  ///< what begins now
+  ProgressHook solve;                             ///< may end a solve on one mesh
+  std::function<void(const Level&)> level;        ///< with an accuracy, after every level
+};
+
+/// The answer to a scene file by its [method]: one solve on its mesh, whose history is empty, or with an accuracy as many
+/// as it takes. `warning` is about the solve, the load, the gap and the polygon; the layer's joins it in summary_of.
+/// Throws Error, and NotConverged with how far it came, also where double precision goes no further than asked.
+CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow);
 
 /// Both texts, or the one that is not empty: warnings are a line.
 std::string joined(const std::string& a, const std::string& b);

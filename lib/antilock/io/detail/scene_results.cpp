@@ -149,7 +149,8 @@ SceneSummary summary_of(const SceneFile& file, const Answer& answer) {
   s.kkt = solution.kkt;
   s.contact_steps = solution.counters.contact;
   s.corrections = solution.counters.corrections;
-  s.warning = answer.warning;
+  s.layer = layer_report_of(file, answer);
+  s.warning = joined(s.layer ? s.layer->warning : "", answer.warning);
   return s;
 }
 

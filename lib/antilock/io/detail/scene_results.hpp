@@ -36,6 +36,7 @@ struct SceneSummary {
   };
   std::optional<Parallel> parallel;
 };
+/// With the layer's report, whose warning comes first.
 SceneSummary summary_of(const SceneFile& file, const Answer& answer);
 
 /// summary.json: the only writer of its keys, which are those of `run_scene --help`. `certified`, where an accuracy was
