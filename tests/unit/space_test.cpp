@@ -97,6 +97,8 @@ TEST(Element, GradientsSumToZero) {
 TEST(Element, IsFoundByNameAndUnknownNamesAreRefused) {
   for (const Element* one : elements()) EXPECT_EQ(&element(one->name()), one);
   for (const char* name : {"", "p1", "Q1"}) test::expect_refused([&] { element(name); }, "accepted \"P1\"");
+  for (int k = 1; k <= 6; ++k) EXPECT_EQ(lagrange(k).degree(), k);
+  for (const int k : {0, 7}) test::expect_refused([&] { lagrange(k); }, "accepted; 1 to 6");
 }
 
 TEST(Space, BarycentricGradientsDifferentiateTheCoordinates) {
