@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/distributed/detail/petsc.hpp"
@@ -29,6 +30,20 @@ constexpr std::array<std::array<const char*, 2>, 9> defaults = {
      {"-pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}}};
 
 enum Outcome : int { unconverged, no_memory, refused };
+
+template <class Value>
+Value over_ranks(Value value, MPI_Datatype type, MPI_Op operation) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, type, operation, PETSC_COMM_WORLD);
+  return value;
+}
+
+std::string said_by(int rank, std::string text) {
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, rank, PETSC_COMM_WORLD);
+  text.resize(length);
+  MPI_Bcast(text.data(), length, MPI_CHAR, rank, PETSC_COMM_WORLD);
+  return text;
+}
 
 }  // namespace
 
@@ -76,13 +91,9 @@ void together(const std::function<void()>& work) {
   } catch (const std::bad_alloc&) {
     outcome = no_memory, failed = rank();
   }
-  int first = 0;
-  MPI_Allreduce(&failed, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD);
+  const int first = over_ranks(failed, MPI_INT, MPI_MIN);
   if (first == ranks()) return;
-  int length = static_cast<int>(message.size());
-  MPI_Bcast(&length, 1, MPI_INT, first, PETSC_COMM_WORLD);
-  message.resize(length);
-  MPI_Bcast(message.data(), length, MPI_CHAR, first, PETSC_COMM_WORLD);
+  message = said_by(first, message);
   MPI_Bcast(&outcome, 1, MPI_INT, first, PETSC_COMM_WORLD);
   MPI_Bcast(&reached, 1, MPI_DOUBLE, first, PETSC_COMM_WORLD);
   MPI_Bcast(&steps, 1, MPI_INT, first, PETSC_COMM_WORLD);
@@ -98,20 +109,9 @@ void abort(const std::string& message, int status) {
   std::_Exit(status);
 }
 
-double sum(double value) {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
-  return value;
-}
-
-double largest(double value) {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
-  return value;
-}
-
-long long sum(long long value) {
-  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_LONG_LONG, MPI_SUM, PETSC_COMM_WORLD);
-  return value;
-}
+double sum(double value) { return over_ranks(value, MPI_DOUBLE, MPI_SUM); }
+double largest(double value) { return over_ranks(value, MPI_DOUBLE, MPI_MAX); }
+long long sum(long long value) { return over_ranks(value, MPI_LONG_LONG, MPI_SUM); }
 
 std::vector<double> gathered(const std::vector<double>& values) {
   std::vector<int> counts(ranks()), starts(ranks() + 1, 0);
@@ -130,25 +130,11 @@ std::vector<long long> each(long long value) {
   return all;
 }
 
-std::string from_first(std::string text) {
-  int length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, PETSC_COMM_WORLD);
-  text.resize(length);
-  MPI_Bcast(text.data(), length, MPI_CHAR, 0, PETSC_COMM_WORLD);
-  return text;
-}
+std::string from_first(std::string text) { return said_by(0, std::move(text)); }
 
 std::string first_said(const std::string& text) {
-  const int mine = text.empty() ? ranks() : rank();
-  int first = 0;
-  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD);
-  if (first == ranks()) return {};
-  std::string said = text;
-  int length = static_cast<int>(text.size());
-  MPI_Bcast(&length, 1, MPI_INT, first, PETSC_COMM_WORLD);
-  said.resize(length);
-  MPI_Bcast(said.data(), length, MPI_CHAR, first, PETSC_COMM_WORLD);
-  return said;
+  const int first = over_ranks(text.empty() ? ranks() : rank(), MPI_INT, MPI_MIN);
+  return first == ranks() ? std::string() : said_by(first, text);
 }
 
 double peak_megabytes() {
