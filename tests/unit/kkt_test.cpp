@@ -143,6 +143,19 @@ TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
   ASSERT_EQ(problem.fixed[0], corner);
   wrong.u(corner) = 1e-9;
   EXPECT_THROW(certify(problem, wrong), NotConverged) << "a clamp that slipped";
+  // the report is linear in what is wrong: above the lower level there is a warning
+  wrong = right;
+  wrong.p *= 1.001;
+  const double unit = worst_violation(kkt_report(problem, wrong)) / 1e-3;
+  for (const double reached : {3e-10, 3e-9}) {
+    wrong = right;
+    wrong.p *= 1 + reached / unit;
+    certify(problem, wrong);
+    EXPECT_EQ(wrong.warning.empty(), reached < TrustLevels{}.trusted) << wrong.warning;
+  }
+  VariationalInequality none = problem;
+  none.load.setZero();
+  EXPECT_EQ(worst_violation(active_set(none).kkt), 0) << "0 of nothing is 0";
 }
 
 }  // namespace
