@@ -5,6 +5,7 @@
 #include "antilock/analysis/exact_errors.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth.hpp"
+#include "antilock/form/forms.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "support/bodies.hpp"
@@ -534,6 +535,38 @@ TEST(Certificate, IsNeverBelowTheErrorOfTwentyPulledBodies) {
   }
   fmt::print("bound / error of pulled bodies: {:.3f} to {:.3f}\n", sharpest, bluntest);
   EXPECT_LT(bluntest, 2.7);  // 2.30 seen: v must clear a curved obstacle that presses everywhere
+}
+
+// (a) for a cubic w: the flux takes an affine load and an affine traction as they are.
+TEST(Certificate, ItsFluxIsInEquilibriumWithAnAffineTraction) {
+  const Field load = [](double x, double y) { return 1 + 2 * x - y; },
+              traction = [](double x, double) { return 3 * x - 1; };
+  TriangleMesh mesh = structured_mesh(4, {0});
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.vertices(mesh.edges.row(e), 1).minCoeff() == 1) mesh.edge_tag[e] = natural_group(0);
+  const Answered run(std::move(mesh), Scene(Body{load, [](double, double) { return 2.0; }}, NoLayer{}, {},
+                                            {{"top", EdgeCondition::Kind::traction, traction}}));
+  const EquilibratedFlux flux = run.flux();
+  const auto w = [](const Eigen::Vector2d& x) { return x(0) * x(0) * x(1); };
+  const Quadrature& rule = triangle_rule(6);
+  double off = 0;
+  for (int t = 0; t < run.mesh.triangle_count(); ++t) {
+    const Eigen::MatrixX2d tau = flux.tau(run.mesh, t, rule.points);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::Vector2d x = point_in(run.mesh, t, rule.points.row(q)), slope(2 * x(0) * x(1), x(0) * x(0));
+      const Eigen::Vector2d sigma = flux.cell[t].s + tau.row(q).transpose();
+      off += run.mesh.area(t) * rule.weights(q) * (sigma.dot(slope) - load(x(0), x(1)) * w(x));
+    }
+  }
+  const auto [points, weights] = gauss_rule(4);
+  for (int e = 0; e < run.mesh.edge_count(); ++e)
+    for (Eigen::Index q = 0; q < points.size(); ++q) {
+      const Eigen::Vector2d x = (1 - points(q)) * run.mesh.vertices.row(run.mesh.edges(e, 0)) +
+                                points(q) * run.mesh.vertices.row(run.mesh.edges(e, 1));
+      const double pull = run.mesh.edge_tag[e] == natural_group(0) ? run.mesh.edge_length(e) * traction(x(0), 1) : 0;
+      off -= weights(q) * (pull + flux.residual(e)) * w(x);
+    }
+  EXPECT_NEAR(off, 0, 1e-13);  // round-off of sums of a few hundred terms below 1
 }
 
 // Body, layer and load twice as stiff and large: the same u, and sqrt(2) times every norm.
