@@ -55,7 +55,7 @@
 
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
+#include "backstage/18_cg_ilut.hpp"
 #include "backstage/21_machine.hpp"
 #include "backstage/21_output.hpp"
 #include "backstage/21_price_list.hpp"
@@ -83,7 +83,7 @@ void add(tutorial::Timing& study, const Method& method, const TriangleMesh& mesh
     study.add(
         run, "Uzawa, Cholesky", [&] { return uzawa(problem, options); }, errors);
     study.add(
-        run, "Uzawa, CG + ILUT", [&] { return uzawa_cg_ilut(problem, options); }, errors);
+        run, "Uzawa, CG + ILUT", [&] { return tutorial::uzawa_cg_ilut(problem, options); }, errors);
     tutorial::add_freefem(study, run, space, exact.table);
   }
 }

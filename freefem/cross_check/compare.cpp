@@ -21,8 +21,8 @@
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/uzawa.hpp"
+#include "backstage/18_cg_ilut.hpp"
 #include "common/command_line.hpp"
 #include "cross_check.hpp"
 #include "lines.hpp"
@@ -321,7 +321,7 @@ Line uzawa_steps(double epsilon, double rho, const std::filesystem::path& out) {
   UzawaOptions options;
   options.step = rho;
   options.tolerance = 1e-8;
-  const Solution ours = uzawa_cg_ilut(problem_on(space, epsilon), options);
+  const Solution ours = tutorial::uzawa_cg_ilut(problem_on(space, epsilon), options);
   const auto steps = static_cast<Eigen::Index>(ours.history.size());
   const freefem::History theirs = freefem::uzawa_history(space, epsilon, rho, static_cast<int>(steps), out / "freefem");
   if (theirs.change.size() != steps) throw Error("history.csv: other steps than the library's");

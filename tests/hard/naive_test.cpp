@@ -1,11 +1,13 @@
 // The naive way fails as the tutorial says, and no wrong answer of it gets past the checks.
-#include "antilock/solve/exhibits/summed_matrix.hpp"
-#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/uzawa.hpp"
+#include "backstage/18_cg_ilut.hpp"
+#include "backstage/18_summed.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::naive_test {
 namespace {
+
+using namespace tutorial;
 
 struct Setting {
   TriangleMesh mesh;

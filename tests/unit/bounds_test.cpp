@@ -7,11 +7,11 @@
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/detail/dense_contact.hpp"
-#include "antilock/solve/exhibits/summed_matrix.hpp"
-#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/residual.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "antilock/study/sweep.hpp"
+#include "backstage/18_cg_ilut.hpp"
+#include "backstage/18_summed.hpp"
 #include "support/brute_force.hpp"
 #include "support/exact_rational.hpp"
 #include "support/scenes.hpp"
@@ -20,6 +20,7 @@ namespace antilock::bounds_test {
 namespace {
 
 using namespace test;
+using namespace tutorial;
 
 RowMatrix rows_of(const Eigen::MatrixXd& rows) {
   RowMatrix sparse = rows.sparseView();

@@ -4,7 +4,7 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
+#include "backstage/18_cg_ilut.hpp"
 #include "support/brute_force.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
@@ -13,6 +13,7 @@ namespace antilock::uzawa_test {
 namespace {
 
 using namespace test;
+using namespace tutorial;
 
 UnilateralContact gap() {
   return {[](double x) { return x * (x - 0.4) * (1 - x); }};

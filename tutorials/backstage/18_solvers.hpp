@@ -2,9 +2,9 @@
 #include <functional>
 
 #include "antilock/core/error.hpp"
-#include "antilock/solve/exhibits/summed_matrix.hpp"
-#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
 #include "antilock/solve/kkt.hpp"
+#include "backstage/18_cg_ilut.hpp"
+#include "backstage/18_summed.hpp"
 #include "common/course.hpp"
 
 namespace antilock::tutorial {

@@ -1,5 +1,4 @@
-#include "antilock/solve/exhibits/uzawa_cg_ilut.hpp"
-
+#pragma once
 #include <fmt/format.h>
 
 #include <Eigen/IterativeLinearSolvers>
@@ -11,15 +10,14 @@
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/detail/penalised_matrix.hpp"
 #include "antilock/solve/kkt.hpp"
+#include "antilock/solve/uzawa.hpp"
 
-namespace antilock {
-namespace {
-
-constexpr double cg_tolerance = 1e-10;  // Eigen stops on the residual relative to the right-hand side
+namespace antilock::tutorial {
 
 /// A^-1 on the free places by CG + ILUT, the paper's linear step; a run that fails is an exception.
 class CgIlut {
  public:
+  static constexpr double cg_tolerance = 1e-10;  // Eigen stops on the residual relative to the right-hand side
   explicit CgIlut(const SparseMatrix& upper) : a_(upper.selfadjointView<Eigen::Upper>()) {
     cg_.preconditioner().setDroptol(1e-6);
     cg_.preconditioner().setFillfactor(20);
@@ -47,9 +45,12 @@ class CgIlut {
   Eigen::ConjugateGradient<SparseMatrix, Eigen::Lower | Eigen::Upper, Eigen::IncompleteLUT<double>> cg_;
 };
 
-}  // namespace
-
-Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options) {
+/// The paper's algorithm with the paper's linear solver (Section 4.2): A1 + compliance^-1 B' M B summed into one
+/// matrix, one run of conjugate gradients preconditioned by ILUT a step. Kept to be compared against: the sum loses
+/// digits, and ILUT breaks down on stiff meshes that are not aligned with the layer, which is reported, never returned
+/// as an answer. Throws Error at compliance = 0, where the sum does not exist, and for options.enough: the duality gap
+/// asks for the matrix condensed on Gamma_C.
+inline Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options = {}) {
   check(problem);
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa, CG + ILUT: step = {}; accepted: a positive number", *options.step));
@@ -121,4 +122,4 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   return s;
 }
 
-}  // namespace antilock
+}  // namespace antilock::tutorial

@@ -1,19 +1,54 @@
-#include "antilock/solve/exhibits/summed_matrix.hpp"
-
+#pragma once
+#include <Eigen/CholmodSupport>
+#include <Eigen/UmfPackSupport>
+#include <array>
 #include <set>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/detail/penalised_matrix.hpp"
-#include "antilock/solve/detail/summed_factor.hpp"
 #include "antilock/solve/kkt.hpp"
 
-namespace antilock {
-namespace {
+namespace antilock::tutorial {
+
+enum class SummedFactor { cholesky, lu };  ///< CHOLMOD; UMFPACK
+
+/// How the naive solver ended. None of them says that the answer is right.
+enum class NaiveEnd {
+  settled,   ///< the contact set reproduced itself
+  cycled,    ///< a contact set came back: it would go round for ever
+  refused,   ///< the factorisation gave up, or returned something that is not finite
+  step_cap,  ///< max_steps reached
+};
+inline std::string to_string(NaiveEnd end) {
+  return std::array{"settled", "cycled", "refused", "step cap"}[static_cast<std::size_t>(end)];
+}
+
+/// An answer that nobody has vouched for: solution.kkt is the report in split form, as it is, and no level of trust was
+/// applied. p is compliance^-1 B u, where u has lost the digits that p is made of.
+struct NaiveAnswer {
+  Solution solution;
+  NaiveEnd end = NaiveEnd::settled;
+};
+
+/// x = K^-1 b by the factor asked for (K symmetric, n x n, both triangles given); empty where the factorisation gives up.
+inline Eigen::VectorXd summed_solve(const SparseMatrix& k, const Eigen::VectorXd& b, SummedFactor kind) {
+  Eigen::VectorXd x;
+  if (kind == SummedFactor::cholesky) {
+    Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor;
+    factor.cholmod().print = 0;
+    factor.compute(k);
+    if (factor.info() == Eigen::Success) x = factor.solve(b);
+  } else {
+    const Eigen::UmfPackLU<SparseMatrix> factor(k);
+    if (factor.info() == Eigen::Success) x = factor.solve(b);
+  }
+  return x.allFinite() ? x : Eigen::VectorXd();
+}
 
 /// The rows and columns of a symmetric matrix (its upper triangle given) that have a place >= 0, both triangles.
-SparseMatrix part(const SparseMatrix& upper, const std::vector<int>& place, int size) {
+inline SparseMatrix part_of(const SparseMatrix& upper, const std::vector<int>& place, int size) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(2 * upper.nonZeros());
   for (int j = 0; j < upper.outerSize(); ++j)
@@ -28,23 +63,10 @@ SparseMatrix part(const SparseMatrix& upper, const std::vector<int>& place, int 
   return whole;
 }
 
-}  // namespace
-
-std::string to_string(NaiveEnd end) {
-  switch (end) {
-    case NaiveEnd::settled:
-      return "settled";
-    case NaiveEnd::cycled:
-      return "cycled";
-    case NaiveEnd::refused:
-      return "refused";
-    case NaiveEnd::step_cap:
-      break;
-  }
-  return "step cap";
-}
-
-NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps) {
+/// An exhibit, to be compared against: what most codes do. A1 + compliance^-1 B' M B summed in double precision,
+/// factored in every step of a primal-dual active set that starts from no contact. The sum forgets A1 digit by digit as
+/// compliance falls; use active_set instead. Throws Error at compliance = 0, where the sum does not exist.
+inline NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps = 100) {
   check(problem);
   require_lower_bounds(problem, "naive");
   if (problem.b.rows() > 0 && problem.compliance == 0)
@@ -85,7 +107,8 @@ NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFacto
       }
     }
     const Eigen::VectorXd rest = b - k.selfadjointView<Eigen::Upper>() * x;
-    const Eigen::VectorXd found = summed_solve(part(k, place, static_cast<int>(inactive.size())), rest(inactive), kind);
+    const Eigen::VectorXd found =
+        summed_solve(part_of(k, place, static_cast<int>(inactive.size())), rest(inactive), kind);
     ++s.counters.factorisations;
     ++s.counters.solves;
     ++s.counters.contact;
@@ -117,4 +140,4 @@ NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFacto
   return answer;
 }
 
-}  // namespace antilock
+}  // namespace antilock::tutorial
