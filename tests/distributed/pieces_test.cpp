@@ -178,7 +178,7 @@ TEST(Report, IsTheSerialOneOfTheSameNumbers) {
     if (serial.u(i) != 0) serial.u(i) += push(space.points()(i, 0), space.points()(i, 1));
   for (int i = 0; i < level->space.size(); ++i)
     if (level->state.u(i) != 0) level->state.u(i) += push(level->space.points()(i, 0), level->space.points()(i, 1));
-  const Eigen::VectorXd forces = -split_residual(problem, serial.u, serial.p, Eigen::VectorXd(0)).r1;
+  const Eigen::VectorXd forces = -exact_residual(problem, serial.u, serial.p, Eigen::VectorXd(0)).r1;
   for (std::size_t i = 0; i < problem.contact.size(); ++i)  // the forces that the distributed side takes
     serial.lambda(static_cast<Eigen::Index>(i)) = serial.active[i] ? forces(problem.contact[i]) : 0;
   serial.moderate = 0;

@@ -196,13 +196,13 @@ TEST_P(Degenerate, TheWorstStartsEndInTheSameAnswer) {
   for (const std::vector<bool>& start :
        {std::vector<bool>(c, true), std::vector<bool>(c, false), alternating, opposite}) {
     ActiveSetOptions options;
-    options.start = held_at_lower(start);
+    options.start = test::held_at_lower(start);
     const Solution s = proved(paper, options);
     EXPECT_EQ(s.active, best.active);
     EXPECT_LT(largest_difference(s.u, best.u), 1e-9 * best.u.lpNorm<Eigen::Infinity>());
   }
   ActiveSetOptions impatient;
-  impatient.start = held_at_lower(opposite);
+  impatient.start = test::held_at_lower(opposite);
   impatient.max_steps = 1;
   EXPECT_THROW(active_set(paper, impatient), NotConverged) << "a cap that is reached is a failure, not an answer";
 }

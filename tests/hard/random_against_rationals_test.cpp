@@ -1,7 +1,7 @@
 // The adversary: problems made by chance over twelve decades, each against rational arithmetic. `adversary` (the program)
 // runs thousands; here is a fixed list.
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/detail/dependent_rows.hpp"
+#include "antilock/solve/judge.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "hard/adversary.hpp"
 #include "support/scenes.hpp"
@@ -153,7 +153,7 @@ TEST(NothingInSilence, RowsThatAreNearlyDependentAreWarnedOf) {
   }
 }
 
-// As far as dependent_rows.hpp says: up to 200 rows.
+// As far as judge.hpp says: up to 200 rows.
 TEST(NothingInSilence, RowsThatAreNearlyDependentAreLookedForAmongTwoHundred) {
   for (const int rows : {2, 200, 201}) {
     Eigen::MatrixXd b = Eigen::MatrixXd::Identity(rows, rows);

@@ -53,7 +53,7 @@ TEST(ScalesFarApart, AStiffUnknownHidesNoPullOnASoftOne) {
     for (const double off : {1e-2, 1e-4, 1e-6})
       for (const auto& start : every_start(2)) {
         ActiveSetOptions options;
-        options.start = held_at_lower(start);
+        options.start = test::held_at_lower(start);
         const Solution s = active_set(
             body(Eigen::Vector2d(k, 1).asDiagonal(), Eigen::Vector2d(1e-4 * k, -1 + off), Eigen::Vector2d(-1, -1)),
             options);

@@ -69,4 +69,11 @@ inline double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorX
   return (a - truth).cwiseAbs().maxCoeff() / truth.cwiseAbs().maxCoeff();
 }
 
+/// at_lower where `active`, else between: a start for bounds from below.
+inline Pieces held_at_lower(const std::vector<bool>& active) {
+  Pieces pieces;
+  for (const bool held : active) pieces.push_back(held ? Piece::at_lower : Piece::between);
+  return pieces;
+}
+
 }  // namespace antilock::test

@@ -278,7 +278,7 @@ TEST(Certificate, HoldsForUzawaAfterAFewSteps) {
     Eigen::VectorXd force = run.problem.load;
     for (Eigen::Index i = 0; i < lambda.size(); ++i) force(run.problem.contact[i]) += lambda(i);
     run.solution.u.setZero();
-    run.solution.u(free) = factor.backward(factor.forward(force(free)));
+    run.solution.u(free) = factor.dense().backward(factor.dense().forward(force(free)));
     run.solution.p = run.problem.b * run.solution.u / run.problem.compliance;
     if (steps == 0 || steps == 1 || steps == 3 || steps == 10 || steps == 100) {
       const ExactErrors exact = exact_errors(run.mesh, run.flux(), run.strip(), truth);
@@ -301,7 +301,7 @@ TEST(Certificate, CountsWhatIsLeftOfTheForcesByTheFactorInHand) {
   EXPECT_EQ(unbalanced(run.problem, run.flux()), rho) << "a factor of its own is the same";
   // rho^2 = max |r1' w|^2 / w' K w, reached by w = K^-1 r1
   const auto& free = factor.numbering().unknown;
-  const Eigen::VectorXd r1 = run.flux().imbalance(free), w = factor.backward(factor.forward(r1));
+  const Eigen::VectorXd r1 = run.flux().imbalance(free), w = factor.dense().backward(factor.dense().forward(r1));
   EXPECT_NEAR(rho * rho, r1.dot(w), 1e-12 * rho * rho);
 }
 

@@ -31,7 +31,7 @@ int loose(const Solution& s) {
 
 TEST(Kkt, SplitResidualIsZeroOfTheSolutionAndTheReactionOnTheClamps) {
   const Solved s(1e-3);
-  const SplitResidual r = split_residual(s.problem, s.solution.u, s.solution.p, s.solution.lambda);
+  const SplitResidual r = exact_residual(s.problem, s.solution.u, s.solution.p, s.solution.lambda);
   Eigen::VectorXd free = r.r1;
   free(s.problem.fixed).setZero();
   EXPECT_LT(free.cwiseAbs().maxCoeff(), 1e-9 * s.problem.load.cwiseAbs().maxCoeff() * 100);
@@ -116,7 +116,7 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
       linear.lower.resize(0);
       linear.fixed_values = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
       Solution wrong = active_set(linear);
-      const SplitResidual r = split_residual(s.problem, wrong.u, wrong.p, Eigen::VectorXd());
+      const SplitResidual r = exact_residual(s.problem, wrong.u, wrong.p, Eigen::VectorXd());
       wrong.lambda = Eigen::VectorXd::Zero(s.problem.lower.size());
       for (std::size_t i = 0; i < active.size(); ++i)
         if (active[i]) wrong.lambda(static_cast<Eigen::Index>(i)) = -r.r1(s.problem.contact[i]);

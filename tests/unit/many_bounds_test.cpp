@@ -232,7 +232,7 @@ TEST(ManyBounds, EveryStartEndsAtTheSameAnswer) {
     ActiveSetOptions options;
     std::vector<bool> start(problem.contact.size(), k == 1);
     if (k > 1) std::generate(start.begin(), start.end(), [&] { return engine() % 2 == 0; });
-    options.start = held_at_lower(start);
+    options.start = test::held_at_lower(start);
     EXPECT_LE(apart(nested, active_set(problem, factor, options)), 1e-13) << k;
   }
 }
@@ -266,7 +266,7 @@ TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
   one.max_steps = 1;
   EXPECT_THROW(active_set(problem, factor, one), NotConverged);
   expect_refused([&] { uzawa(problem, factor); }, "accepted: a factor made with ContactRoad::dense");
-  expect_refused([&] { factor.forward(problem.load); }, "ContactRoad::dense");
+  expect_refused([&] { factor.dense().forward(problem.load); }, "ContactRoad::dense");
   const auto refused = [&](const auto& spoil, const std::string& words) {
     VariationalInequality bad = problem;
     spoil(bad);

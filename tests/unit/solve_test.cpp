@@ -201,7 +201,7 @@ TEST(ActiveSet, RefusesWhatHasNoAnswer) {
 // do, and an error estimate made of that would stop ten times too early.
 TEST(Anderson, TheContractionIsThatOfThePlainSteps) {
   const Eigen::VectorXd rate = Eigen::Vector4d(0.9, 0.1, 0.08, 0.05), fixed_point = Eigen::Vector4d(1, 1, -2, 3);
-  Anderson anderson(6);
+  Anderson anderson;
   Twice x(Eigen::VectorXd::Zero(4)), companion = x;
   double before = 1;
   for (int step = 0; step < 5; ++step) {
@@ -272,7 +272,7 @@ TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
     const std::vector<int>& unknown = factor.numbering().unknown;
     const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + test::gram(problem.b, problem.m) / delta;
     const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.free_count(), -1, 2);
-    const Eigen::VectorXd x = factor.backward(factor.forward(r));
+    const Eigen::VectorXd x = factor.dense().backward(factor.dense().forward(r));
     const Eigen::VectorXd truth = Cholesky(k(unknown, unknown)).solve(r);
     EXPECT_LT(relative_difference(x, truth), 1e-10) << delta;
   }

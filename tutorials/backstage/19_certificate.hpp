@@ -27,7 +27,7 @@ inline Table certify_uzawa(const Exact& exact) {
     Eigen::VectorXd force = problem.load;
     for (Eigen::Index i = 0; i < lambda.size(); ++i) force(problem.contact[i]) += lambda(i);
     now.u = Eigen::VectorXd::Zero(problem.size());
-    now.u(free) = factor.backward(factor.forward(force(free)));
+    now.u(free) = factor.dense().backward(factor.dense().forward(force(free)));
     now.p = problem.b * now.u / problem.compliance;
     for (Eigen::Index i = 0; i < lambda.size(); ++i)
       lambda(i) = std::max(0.0, lambda(i) - rho * (now.u(problem.contact[i]) - problem.lower(i)));

@@ -16,9 +16,7 @@ double RelativeStiffness::value() const {
 
 RelativeStiffness relative_stiffness(const VariationalInequality& problem) {
   const Eigen::VectorXd a1 = problem.a1.diagonal();
-  Eigen::VectorXd a0 = Eigen::VectorXd::Zero(problem.size());
-  for (Eigen::Index row = 0; row < problem.b.rows(); ++row)
-    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) a0(b.col()) += problem.m(row) * b.value() * b.value();
+  Eigen::VectorXd a0 = problem.b.cwiseAbs2().transpose() * problem.m;
   for (const int i : problem.fixed) a0(i) = -1;
   RelativeStiffness s;
   for (int j = 0; j < problem.size(); ++j) {

@@ -35,11 +35,6 @@ inline double choose_penalty(const VariationalInequality& problem) {
   return choose_penalty(relative_stiffness(problem));
 }
 
-/// The smallest penalty of which a factor of K keeps digits enough of A1 to contract at all: 1e-13 s.
-inline double smallest_penalty(const VariationalInequality& problem) {
-  return 1e-13 * relative_stiffness(problem).value();
-}
-
 /// What the factor is made with: max(compliance, penalty), `penalty` chosen by the rule above where none is given.
 /// Throws Error for a penalty that is not positive.
 double moderate_delta(const VariationalInequality& problem, std::optional<double> penalty = {});

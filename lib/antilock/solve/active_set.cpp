@@ -11,8 +11,9 @@ namespace {
 Solution solve(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
   int most = 0;
   const auto contact = [&](const ContactQuestion& asked) {
-    const std::optional<Pieces> start = asked.correction > 0 ? asked.before.pieces : options.start;
-    ContactAnswer answer = solve_contact(asked.system, asked.stairs, start, options.max_steps);
+    const std::optional<Pieces> before(asked.before.pieces);
+    ContactAnswer answer =
+        solve_contact(asked.system, asked.stairs, before->empty() ? options.start : before, options.max_steps);
     most = std::max(most, answer.steps);
     return answer;
   };

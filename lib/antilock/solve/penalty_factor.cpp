@@ -110,27 +110,15 @@ void PenaltyFactor::factorise(const VariationalInequality& problem, double delta
   if (!sparse_) contact_block_ = factor_.cholesky().trailing_block(numbering_.interior);
 }
 
-Eigen::VectorXd PenaltyFactor::forward(const Eigen::VectorXd& r) const {
-  require_dense();
-  return factor_.cholesky().forward(r);
-}
-
-Eigen::VectorXd PenaltyFactor::backward(Eigen::VectorXd y) const {
-  require_dense();
-  return factor_.cholesky().backward(std::move(y));
-}
-
-const Eigen::MatrixXd& PenaltyFactor::contact_block() const {
-  require_dense();
-  return contact_block_;
-}
-
-void PenaltyFactor::require_dense() const {
+const SparseCholesky& PenaltyFactor::dense() const {
   if (sparse_)
     throw Error(
         fmt::format("solve: this factor of {} bounds among {} unknowns has no dense contact block; accepted: a factor "
                     "made with ContactRoad::dense",
                     numbering_.unknown.size() - numbering_.interior, numbering_.unknown.size()));
+  return factor_.cholesky();
 }
+
+const Eigen::MatrixXd& PenaltyFactor::contact_block() const { return dense(), contact_block_; }
 
 }  // namespace antilock

@@ -57,10 +57,9 @@ class PenaltyFactor {
   HeldFactor* held() { return sparse_ ? &factor_ : nullptr; }
 
   // The dense road's; on the sparse one they throw Error.
-  /// y = L^-1 P r for r on the F free places; the last C entries of y belong to the contact unknowns, in their order.
-  Eigen::VectorXd forward(const Eigen::VectorXd& r) const;
-  /// x = P' L'^-1 y.
-  Eigen::VectorXd backward(Eigen::VectorXd y) const;
+  /// The factor itself, of r on the F free places: of L^-1 P r the last C entries belong to the contact unknowns, in their
+  /// order. Like contact_block of the dense road; throws Error on the other.
+  const SparseCholesky& dense() const;
   /// C x C lower triangular trailing block of L.
   const Eigen::MatrixXd& contact_block() const;
 
@@ -73,7 +72,6 @@ class PenaltyFactor {
   /// Whether A1, B and M are the ones that it was made of, to the last bit.
   bool owns(const VariationalInequality& problem) const;
   void check_unknowns(const VariationalInequality& problem) const;
-  void require_dense() const;
   void factorise(const VariationalInequality& problem, double delta);
   FreeNumbering numbering_;
   SparseMatrix a1_;  ///< A1, B and M that it was made of

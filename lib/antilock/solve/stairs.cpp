@@ -85,11 +85,4 @@ Stairs Stairs::of(const std::vector<int>& bounds) const {
   return {of_some(lower, bounds), of_some(upper, bounds), of_some(bears, bounds), of_some(force, bounds)};
 }
 
-Pieces held_at_lower(const std::vector<bool>& active) {
-  Pieces pieces(active.size(), Piece::between);
-  for (std::size_t i = 0; i < active.size(); ++i)
-    if (active[i]) pieces[i] = Piece::at_lower;
-  return pieces;
-}
-
 }  // namespace antilock

@@ -55,8 +55,6 @@ struct Stairs {
   Stairs of(const std::vector<int>& bounds) const;
 };
 
-/// at_lower where `active`, else between: a start for bounds from below.
-Pieces held_at_lower(const std::vector<bool>& active);
 /// The piece of a bound between two others: theirs where they agree, else between.
 inline Piece agreed(Piece one, Piece other) { return one == other ? one : Piece::between; }
 

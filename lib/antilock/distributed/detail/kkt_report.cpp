@@ -48,12 +48,11 @@ Kkt kkt_report(const Inequality& problem, const State& state) {
   const KktRows report(parts, lambda, lambda.cwiseAbs(), std::vector<char>(rows.owned(), 0),
                        u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0,
                        rows.largest_at_clamped(problem.equilibrium(u, p)), [](double value) { return largest(value); });
-  kkt.residual = report.residual();
+  kkt.residual = report.residual;
   kkt.min_gap = kkt.min_pressure = std::numeric_limits<double>::infinity();
   const Stairs stairs{lower};
   for (int i = 0; i < rows.owned(); ++i)
-    if (std::isfinite(lower(i)))
-      report.note_bound(kkt, stairs, i, u(rows.unknown(i)), lambda(i), 1, report.forces()(i));
+    if (std::isfinite(lower(i))) report.note_bound(kkt, stairs, i, u(rows.unknown(i)), lambda(i), 1, report.forces(i));
   kkt.complementarity = largest(kkt.complementarity);
   kkt.min_gap = -largest(-kkt.min_gap), kkt.min_pressure = -largest(-kkt.min_pressure);
   if (std::isinf(kkt.min_gap)) kkt.min_gap = kkt.min_pressure = 0;  // nothing is bounded

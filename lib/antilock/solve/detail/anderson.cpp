@@ -9,7 +9,7 @@ namespace antilock {
 
 void Anderson::note(const Twice& reached, const Eigen::VectorXd& g, const Twice& companion) {
   past_.push_front({reached, companion, g});
-  if (static_cast<int>(past_.size()) > depth_) past_.pop_back();
+  if (past_.size() > depth) past_.pop_back();
 }
 
 double Anderson::contraction() const {

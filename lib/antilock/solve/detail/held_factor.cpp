@@ -39,14 +39,8 @@ Eigen::VectorXd HeldFactor::solve(const Eigen::VectorXd& r) const {
 Eigen::VectorXd HeldFactor::times(const Eigen::VectorXd& x) const { return k_.selfadjointView<Eigen::Upper>() * x; }
 
 Eigen::VectorXd HeldFactor::absolute_times(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd product = Eigen::VectorXd::Zero(x.size());
-  for (Eigen::Index j = 0; j < k_.cols(); ++j)
-    for (SparseMatrix::InnerIterator it(k_, j); it; ++it) {
-      const double size = std::abs(it.value());
-      product(it.row()) += size * x(j);
-      if (it.row() != j) product(j) += size * x(it.row());
-    }
-  return product;
+  const SparseMatrix sizes = k_.cwiseAbs();
+  return sizes.selfadjointView<Eigen::Upper>() * x;
 }
 
 }  // namespace antilock

@@ -40,7 +40,7 @@ class IteratedPenalty {
   /// u, p and lambda of the last correction, the counters and the forward error; the judgement is the caller's.
   Solution solve() {
     for (int correction = 0;; ++correction) {
-      const Correction step = correct(exact_residual(problem_, u_, p_, contact_.lambda), correction);
+      const Correction step = correct(exact_residual(problem_, u_, p_, contact_.lambda));
       const double largest = u_.high.lpNorm<Eigen::Infinity>(), moved = step.u.lpNorm<Eigen::Infinity>();
       if (correction == 0) s_.moderate = largest;
       const Accuracy now = accuracy(problem_, u_, step.u, step.left_of_r2, rate(moved), s_.moderate, options_);
@@ -69,7 +69,7 @@ class IteratedPenalty {
   };
 
   /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp = (B du - r2) / delta.
-  Correction correct(SplitResidual r, int correction) {
+  Correction correct(SplitResidual r) {
     const std::vector<int>&unknown = factor_.numbering().unknown, &contact = problem_.contact;
     const Eigen::VectorXd& delta = factor_.deltas();
     if (p_.size() > 0) r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2).cwiseQuotient(delta);
@@ -78,8 +78,8 @@ class IteratedPenalty {
         Stairs{problem_.lower, problem_.upper, problem_.force_bound, contact_.lambda}.from(u_c).from(low_c);
     const Pieces before = contact_.pieces;
     Correction step{Eigen::VectorXd::Zero(problem_.size()), {}};
-    step.u(unknown) = factor_.held() != nullptr ? sparse_road(r.r1(unknown), stairs, correction)
-                                                : dense_road(r.r1(unknown), stairs, correction);
+    step.u(unknown) =
+        factor_.held() != nullptr ? sparse_road(r.r1(unknown), stairs) : dense_road(r.r1(unknown), stairs);
     u_ += step.u;
     const Eigen::VectorXd v = contact_.v.tail(stairs.count());
     for (std::size_t i = 0; i < contact.size(); ++i)  // what is held stands where its bound is, to the last digit
@@ -95,40 +95,40 @@ class IteratedPenalty {
     return step;
   }
 
-  void ask(ContactSystem& system, const Stairs& stairs, int correction) {
-    contact_ = contact_solver_({system, stairs, contact_, correction, u_.high.lpNorm<Eigen::Infinity>()});
+  void ask(ContactSystem& system, const Stairs& stairs) {
+    contact_ = contact_solver_({system, stairs, contact_, u_.high.lpNorm<Eigen::Infinity>()});
   }
 
   /// The contact problem condensed on the bounded unknowns, the last C places of the factor.
-  Eigen::VectorXd dense_road(Eigen::VectorXd r, const Stairs& stairs, int correction) {
+  Eigen::VectorXd dense_road(Eigen::VectorXd r, const Stairs& stairs) {
     const Eigen::Index c = stairs.count();
     Stopwatch watch;
     // what acts on a bounded unknown itself stays out of the factor: a great load there, which the bound bears, would
     // leave its round-off on the neighbours
     const Eigen::VectorXd r_c = r.tail(c);
     r.tail(c).setZero();
-    Eigen::VectorXd y = factor_.forward(r);
+    Eigen::VectorXd y = factor_.dense().forward(r);
     s_.seconds.solve += watch.lap();
     if (c > 0) {
       const auto l = factor_.contact_block().triangularView<Eigen::Lower>();
       const Eigen::VectorXd q = r_c + l * y.tail(c);
       DenseContact system(schur_, q);
-      ask(system, stairs, correction);
+      ask(system, stairs);
       y.tail(c) = l.transpose() * contact_.v;
       s_.seconds.contact += watch.lap();
     }
-    Eigen::VectorXd du = factor_.backward(std::move(y));
+    Eigen::VectorXd du = factor_.dense().backward(std::move(y));
     s_.seconds.solve += watch.lap();
     return du;
   }
 
   /// The same on all free places.
-  Eigen::VectorXd sparse_road(const Eigen::VectorXd& r, const Stairs& stairs, int correction) {
+  Eigen::VectorXd sparse_road(const Eigen::VectorXd& r, const Stairs& stairs) {
     const Stopwatch watch;
     std::vector<int> bounded(stairs.count());
     std::iota(bounded.begin(), bounded.end(), factor_.numbering().interior);
     SparseContact system(*factor_.held(), r, std::move(bounded));
-    ask(system, stairs, correction);
+    ask(system, stairs);
     s_.seconds.contact += watch.seconds();
     return contact_.v;
   }
@@ -144,8 +144,8 @@ class IteratedPenalty {
   /// No smaller than the compliance, and than what leaves a factor digits of A1.
   void take_a_smaller_penalty() {
     const double before = factor_.delta(), compliance = problem_.b.rows() > problem_.ties ? problem_.compliance : 0;
-    const double delta =
-        std::max({before / tuned::next_penalty, compliance, std::min(before, smallest_penalty(problem_))});
+    const double smallest = tuned::round_off * relative_stiffness(problem_).value();
+    const double delta = std::max({before / tuned::next_penalty, compliance, std::min(before, smallest)});
     if (problem_.b.rows() == 0 || delta >= before) return;
     try {
       factor_.refactor(problem_, delta);
@@ -185,7 +185,7 @@ class IteratedPenalty {
   Twice u_, p_;            ///< N, R
   ContactAnswer contact_;  ///< of the last correction
   Eigen::MatrixXd schur_;  ///< C x C, S = L_C L_C', of the factor as it is now; empty on the sparse road
-  Anderson acceleration_{tuned::depth};
+  Anderson acceleration_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "antilock/core/detail/progress.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/contact.hpp"
+#include "antilock/solve/detail/tuned.hpp"
 #include "antilock/solve/penalty_factor.hpp"
 #include "antilock/solve/solution.hpp"
 
@@ -14,17 +15,16 @@ struct ContactQuestion {
   ContactSystem& system;  ///< DenseContact or SparseContact, as the factor was made
   const Stairs& stairs;
   const ContactAnswer& before;  ///< of the last correction; empty at first
-  int correction;               ///< counts from 0
   double u_scale;               ///< largest |u| so far
 };
 using ContactSolver = std::function<ContactAnswer(const ContactQuestion&)>;
 
 struct CorrectionOptions {
-  double tolerance = 1e-10;    ///< on the relative algebraic error of u in the maximum norm
-  double refused = 1e-6;       ///< KKT report above which no answer is returned (see TrustLevels)
-  int max_corrections = 100;   ///< reached: NotConverged
-  ProgressHook progress = {};  ///< called after every correction that is not the last
-  double contact = 0;          ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
+  double tolerance = 1e-10;                       ///< on the relative algebraic error of u in the maximum norm
+  double refused = 1e-6;                          ///< KKT report above which no answer is returned (see TrustLevels)
+  int max_corrections = tuned::most_corrections;  ///< reached: NotConverged
+  ProgressHook progress = {};                     ///< called after every correction that is not the last
+  double contact = 0;  ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
 };
 
 /// The options for a relative error of `asked` at best. Who asks for little gets little, with a warning: the report may

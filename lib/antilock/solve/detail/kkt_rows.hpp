@@ -21,36 +21,23 @@ struct KktParts {
 /// In one walk over A1 and one over B. u: N entries, p: R.
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p);
 
-/// What is large: U, F_0 and F of kkt.hpp.
-struct KktScales {
-  double u = 0, forces = 0, with_reactions = 0;
-};
-
 /// The report, row by row. Three callers' data differ: what a maximum is taken over (all ranks), which unknowns are fixed,
 /// and what is bounded.
-class KktRows {
- public:
+struct KktRows {
+  double u = 0;            ///< U of kkt.hpp
+  Eigen::VectorXd forces;  ///< N: the force that no unknown would overlook, infinite where fixed
+  double residual = 0;     ///< of the equations
+
   /// `bounds`: N, the sum of the forces of all bounds on each unknown; `largest_bound`: N, the largest of one bound;
   /// `fixed`: N, not 0 where the value is prescribed; `largest_u`: the larger of max |u| and 1e-6 of its size before it
-  /// locked; `over_all`: the maximum over all pieces, in place.
+  /// locked; `over_all`: the maximum over all pieces.
   KktRows(const KktParts& parts, const Eigen::VectorXd& bounds, const Eigen::VectorXd& largest_bound,
           const std::vector<char>& fixed, double largest_u, double reaction,
           const std::function<double(double)>& over_all);
-
-  const KktScales& scales() const { return scales_; }
-  /// N: the force that no unknown would overlook, infinite where fixed.
-  const Eigen::VectorXd& forces() const { return forces_; }
-  /// The residual of the equations.
-  double residual() const { return residual_; }
   /// The rows of bound i, whose value is `value`: each gap by its own bound, so that a far obstacle hides no near one.
   /// `strain`: what the bounded value is at most where no |u| is above 1; `force`: a lambda that nobody would overlook.
   void note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, double lambda, double strain,
                   double force) const;
-
- private:
-  KktScales scales_;
-  Eigen::VectorXd forces_;
-  double residual_ = 0;
 };
 
 }  // namespace antilock

@@ -33,10 +33,7 @@ Tied::Tied(const VariationalInequality& problem) : problem_(problem) {
   std::vector<char> fixed(n, 0);
   for (const int i : problem.fixed) fixed[i] = 1;
   Eigen::VectorXd stiffness = problem.a1.diagonal();
-  const double delta = moderate_delta(problem);
-  for (Eigen::Index row = 0; row < rows; ++row)
-    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b)
-      stiffness(b.col()) += problem.m(row) * b.value() * b.value() / delta;
+  stiffness += problem.b.cwiseAbs2().transpose() * problem.m / moderate_delta(problem);
   for (Eigen::Index j = 0; j < n; ++j)  // the tie would hide it from the factor but for round-off
     if (fixed[j] == 0 && !(stiffness(j) > 0))
       throw Error(

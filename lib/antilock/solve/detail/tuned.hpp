@@ -11,7 +11,8 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// A sum of n rounded terms loses about sqrt(n) eps of them: 64 eps serves rows of 4096 entries. A force is known to so
 /// much of its terms; a pivot below so much of its diagonal entry is nothing but its round-off (sound problems stay above
-/// 1e-12, on meshes and layers of every kind).
+/// 1e-12, on meshes and layers of every kind); of a penalty below it, times the stiffness of B' M B beside A1, a factor
+/// keeps no digit of A1.
 constexpr double round_off = 64 * eps;
 
 /// What assembly and one product leave between two numbers that are equal: a handful of roundings. So near a row of B is
@@ -26,6 +27,9 @@ constexpr double apart = 2 * equal / TrustLevels{}.refused;
 /// Rows of B that are looked at so: a dense factor of so many takes milliseconds.
 constexpr int few_rows = 200;
 
+/// Corrections in all, where the caller asks for no other number: six penalties, and the smallest is reached after four.
+constexpr int most_corrections = 100;
+
 /// Corrections with one penalty: a new factor costs as much as 10 to 20 (measured at 1/h = 128).
 constexpr int corrections_per_penalty = 15;
 
@@ -33,16 +37,12 @@ constexpr int corrections_per_penalty = 15;
 /// (delta + sigma): 0.9 becomes 0.12.
 constexpr double next_penalty = 64;
 
-/// Iterates that Anderson's acceleration keeps: as many slow modes less one are gone. Two to five were seen, in locked P1;
-/// each costs two vectors of u and p.
-constexpr int depth = 6;
-
-/// A rate of convergence outside 1 - slowest to slowest is not believed: two corrections tell no more than two digits, and
-/// 100 of them, the most that are made, gain one digit at least.
-constexpr double slowest = 0.99;
+/// A rate of convergence outside 1 - slowest to slowest is not believed: what is slower makes the error of u no smaller by
+/// a factor e in all corrections that are made.
+constexpr double slowest = 1 - 1.0 / most_corrections;
 
 /// A row that ties a bounded combination c . u to its own unknown w is so much stiffer than c . u: a correction leaves
-/// about 1/4096 of the distance between the two.
-constexpr double tie = 4096;
+/// about 1/4096 of the distance between the two, as if it were made with two penalties less.
+constexpr double tie = next_penalty * next_penalty;
 
 }  // namespace antilock::tuned
