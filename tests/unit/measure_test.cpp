@@ -1,7 +1,6 @@
 // Norms against integrals done by hand; rates, contact zones and energy.
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/analysis/detail/energy_bracket.hpp"
-#include "antilock/analysis/negative_part.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth_table.hpp"
@@ -10,6 +9,7 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/detail/contact_trace.hpp"
 #include "antilock/measure/residual.hpp"
+#include "backstage/12_negative_part.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
@@ -17,6 +17,7 @@ namespace antilock::measure_test {
 namespace {
 
 using namespace test;
+using namespace tutorial;
 
 std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()}; }
 
