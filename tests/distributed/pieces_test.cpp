@@ -8,7 +8,6 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/distributed/detail/kkt_report.hpp"
-#include "antilock/distributed/detail/snesvi.hpp"
 #include "antilock/distributed/detail/strips.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
@@ -19,6 +18,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/residual.hpp"
+#include "petsc/snesvi.hpp"
 
 namespace antilock::distributed {
 namespace {

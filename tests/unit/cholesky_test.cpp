@@ -3,6 +3,7 @@
 #include "antilock/solve/detail/penalised_matrix.hpp"
 #include "antilock/solve/detail/sparse_cholesky.hpp"
 #include "antilock/study/method.hpp"
+#include "book/wasm/host/eigen_cholesky.cpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
@@ -31,7 +32,7 @@ SparseMatrix two_strings(int size, bool floats) {
 }
 
 class CholeskyOf : public testing::TestWithParam<CholeskyMaker> {};
-INSTANTIATE_TEST_SUITE_P(BothFactors, CholeskyOf, testing::Values(cholmod_cholesky, eigen_cholesky));
+INSTANTIATE_TEST_SUITE_P(BothFactors, CholeskyOf, testing::Values(default_cholesky, eigen_cholesky));
 
 TEST_P(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
   const TriangleMesh mesh = unstructured_mesh(8);
@@ -102,7 +103,7 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOverTheUniformityTable) {
       for (const double epsilon : every_epsilon) {
         SCOPED_TRACE(fmt::format("{}, 1/h = {}, epsilon = {}", method.name(), cells, epsilon));
         const VariationalInequality problem = paper_problem(discrete.space(), epsilon);
-        PenaltyFactor cholmod(problem, {}, ContactRoad::automatic, cholmod_cholesky);
+        PenaltyFactor cholmod(problem, {}, ContactRoad::automatic, default_cholesky);
         PenaltyFactor eigen(problem, {}, ContactRoad::automatic, eigen_cholesky);
         const Solution one = active_set(problem, cholmod), other = active_set(problem, eigen);
         const double apart = away(other.u, one.u);
@@ -123,7 +124,7 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOnTheSparseRoad) {
     const Discretisation discrete = method.on(16);
     for (const double epsilon : {1.0, 1e-4, 0.0}) {
       const VariationalInequality problem = paper_problem(discrete.space(), epsilon);
-      PenaltyFactor cholmod(problem, {}, ContactRoad::sparse, cholmod_cholesky);
+      PenaltyFactor cholmod(problem, {}, ContactRoad::sparse, default_cholesky);
       PenaltyFactor eigen(problem, {}, ContactRoad::sparse, eigen_cholesky);
       EXPECT_NE(eigen.held(), nullptr);
       EXPECT_LT(away(active_set(problem, eigen).u, active_set(problem, cholmod).u), 1e-12) << method.name();

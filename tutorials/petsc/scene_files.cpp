@@ -10,12 +10,12 @@
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/detail/kkt_report.hpp"
-#include "antilock/distributed/detail/whole_files.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/io/detail/scene_results.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
+#include "petsc/whole_files.hpp"
 
 namespace antilock::distributed {
 namespace {

@@ -216,6 +216,6 @@ class CholmodCholesky final : public SparseCholesky {
 
 }  // namespace
 
-std::unique_ptr<SparseCholesky> cholmod_cholesky() { return std::make_unique<CholmodCholesky>(); }
+std::unique_ptr<SparseCholesky> default_cholesky() { return std::make_unique<CholmodCholesky>(); }
 
 }  // namespace antilock

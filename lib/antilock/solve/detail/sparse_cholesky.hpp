@@ -28,20 +28,12 @@ class SparseCholesky {
   virtual Eigen::MatrixXd trailing_block(int first) const = 0;
 };
 
-/// Who makes a factor. The two below answer alike, to round-off.
+/// Who makes a factor.
 using CholeskyMaker = std::unique_ptr<SparseCholesky> (*)();
 
 /// CHOLMOD's, supernodal on a BLAS: the fastest that there is. Where rows are to stay last, CAMD orders the rest (a minimum
-/// degree under that constraint, as good as AMD without it); else CHOLMOD chooses between AMD and METIS.
-std::unique_ptr<SparseCholesky> cholmod_cholesky();
-/// Eigen's (simplicial, headers alone), where CHOLMOD and a BLAS are not to be had: in a browser. AMD orders what is not to
-/// stay last.
-std::unique_ptr<SparseCholesky> eigen_cholesky();
-
-#ifdef ANTILOCK_WITHOUT_CHOLMOD  // the build for the browser says so
-constexpr CholeskyMaker default_cholesky = eigen_cholesky;
-#else
-constexpr CholeskyMaker default_cholesky = cholmod_cholesky;
-#endif
+/// degree under that constraint, as good as AMD without it); else CHOLMOD chooses between AMD and METIS. In a browser,
+/// which has neither CHOLMOD nor a BLAS, this is Eigen's (tutorials/book/wasm/host), which answers alike, to round-off.
+std::unique_ptr<SparseCholesky> default_cholesky();
 
 }  // namespace antilock

@@ -1,4 +1,4 @@
-#include "antilock/distributed/detail/whole_files.hpp"
+#include "petsc/whole_files.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "antilock/distributed/detail/snesvi.hpp"
+#include "petsc/snesvi.hpp"
 
 #include <petscsnes.h>
 

@@ -1,3 +1,5 @@
+// The library's sparse Cholesky factor where CHOLMOD and a BLAS are not to be had: Eigen's (simplicial, headers alone). AMD
+// orders what is not to stay last.
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
