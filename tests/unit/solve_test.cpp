@@ -318,7 +318,7 @@ TEST(Progress, StopsUzawaAmongItsSteps) {
     uzawa(problem, options);
     FAIL() << "not stopped";
   } catch (const Stopped& stopped) {
-    EXPECT_EQ(stopped.steps, 256);
+    EXPECT_EQ(stopped.steps, 32);
   }
 }
 

@@ -12,13 +12,13 @@
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/io/detail/csv_reader.hpp"
 #include "antilock/measure/detail/local_errors.hpp"
 #include "antilock/measure/detail/point_values.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/command_line.hpp"
+#include "doors/csv_reader.hpp"
 #include "doors/doors.hpp"
 
 namespace antilock::doors {

@@ -7,15 +7,15 @@
 #include <numeric>
 
 #include "antilock/analysis/locking.hpp"
-#include "antilock/io/detail/csv_reader.hpp"
-#include "antilock/io/detail/matrix_market.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/sweep.hpp"
 #include "antilock/study/table.hpp"
 #include "common/command_line.hpp"
+#include "doors/csv_reader.hpp"
 #include "doors/doors.hpp"
+#include "doors/matrix_market.hpp"
 
 namespace antilock::doors {
 namespace {

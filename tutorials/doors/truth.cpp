@@ -10,11 +10,11 @@
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/detail/csv_reader.hpp"
 #include "antilock/measure/detail/point_values.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "common/command_line.hpp"
+#include "doors/csv_reader.hpp"
 #include "doors/doors.hpp"
 
 namespace antilock::doors {

@@ -18,6 +18,9 @@
 namespace antilock {
 namespace {
 
+/// Steps from one look at the duality gap, the hook and the clock to the next: a step costs far less than a look.
+constexpr int look = 32;
+
 /// v moved to the nearest value that the bounds allow; one that gives way allows any.
 Eigen::VectorXd nearest(const Stairs& stairs, Eigen::VectorXd v) {
   for (int i = 0; i < stairs.count(); ++i)
@@ -88,7 +91,7 @@ class CondensedUzawa {
     while (true) {
       answer.v = compliance_ * f;
       answer.lambda = f - q;
-      if (options_.enough && answer.steps % 32 == 0 && duality_gap(system, stairs, answer) <= options_.enough->energy)
+      if (options_.enough && answer.steps % look == 0 && duality_gap(system, stairs, answer) <= options_.enough->energy)
         break;
       const Eigen::VectorXd next = projected_step(stairs, q, f, answer.v);
       const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), u_scale);  // bounds far from v do not count
@@ -97,9 +100,9 @@ class CondensedUzawa {
       ++answer.steps;
       history.push_back(change);
       if (change <= options_.tolerance) break;
-      if (answer.steps % 256 == 0)
+      if (answer.steps % look == 0)
         report(options_.progress, {"contact", static_cast<int>(history.size()), change, options_.tolerance}, "uzawa");
-      const bool late = answer.steps % 256 == 0 && watch_.seconds() > options_.max_seconds;
+      const bool late = answer.steps % look == 0 && watch_.seconds() > options_.max_seconds;
       if (!std::isfinite(change) || late || static_cast<int>(history.size()) >= options_.max_steps)
         throw NotConverged(
             fmt::format("uzawa: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}; "

@@ -27,7 +27,7 @@ struct UzawaOptions {
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
   std::optional<AccurateEnough> enough;
-  ProgressHook progress = {};  ///< called every 256 steps, and after every correction that is not the last
+  ProgressHook progress = {};  ///< called every 32 steps, and after every correction that is not the last
 };
 
 /// The paper's algorithm: projected gradient on the contact pressure,

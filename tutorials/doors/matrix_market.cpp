@@ -1,4 +1,4 @@
-#include "antilock/io/detail/matrix_market.hpp"
+#include "doors/matrix_market.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 
 #include "antilock/core/error.hpp"
 
-namespace antilock {
+namespace antilock::doors {
 namespace {
 
 /// The lines of a file that are no comments, and where they stand.
@@ -100,4 +100,4 @@ Eigen::VectorXd read_vector(const std::string& path) {
   return matrix.diagonal();
 }
 
-}  // namespace antilock
+}  // namespace antilock::doors

@@ -1,4 +1,4 @@
-#include "antilock/io/detail/csv_reader.hpp"
+#include "doors/csv_reader.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 
 #include "antilock/core/error.hpp"
 
-namespace antilock {
+namespace antilock::doors {
 namespace {
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -65,4 +65,4 @@ Eigen::MatrixXd read_csv(const std::string& path, const std::vector<std::string>
   return read_csv(in, path, header);
 }
 
-}  // namespace antilock
+}  // namespace antilock::doors

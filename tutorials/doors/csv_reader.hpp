@@ -6,7 +6,7 @@
 
 #include "antilock/core/detail/eigen_memory.hpp"
 
-namespace antilock {
+namespace antilock::doors {
 
 /// A table of finite numbers with this header line, comma separated, one row per line; empty lines are passed over. Throws
 /// Error, `NAME: line N: what is wrong; accepted: ...`, for another header, another number of entries, or an entry that is
@@ -15,4 +15,4 @@ Eigen::MatrixXd read_csv(std::istream& in, const std::string& name, const std::v
 /// The same from a file; throws Error where it cannot be opened.
 Eigen::MatrixXd read_csv(const std::string& path, const std::vector<std::string>& header);
 
-}  // namespace antilock
+}  // namespace antilock::doors
