@@ -22,6 +22,7 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/measure/errors.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/solve/active_set.hpp"
 
@@ -244,7 +245,7 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
       a1.insert(a1.end(), {{p, p, weight}, {q, q, weight}, {p, q, -weight}, {q, p, -weight}});
       strip.load(p) += weight * jump, strip.load(q) -= weight * jump;
     }
-    const auto place = [&, &i = i, &j = j](int end) { return held[sigma.vertex[end]] ? -1 : end; };
+    const auto place = [&](int end) { return held[sigma.vertex[end]] ? -1 : end; };
     chords.push_back({{place(i), place(j)}, {sigma.x[i], sigma.x[j]}, {base(i), base(j)}, bubble});
   }
   strip.m = (s * height * width).replicate(rows, 1);
