@@ -109,7 +109,7 @@ Eigen::MatrixXd Supernodes::trailing_block(int first) const {
 }
 
 Eigen::VectorXd Supernodes::pivots() const {
-  Eigen::VectorXd pivots(size);
+  Eigen::VectorXd pivots = Eigen::VectorXd::Zero(size);
   for (int s = 0; s < count; ++s) {
     const Supernode node(*this, s);
     pivots.segment(node.first, node.block.cols()) = node.block.diagonal().cwiseAbs2();
