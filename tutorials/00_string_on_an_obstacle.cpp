@@ -164,10 +164,10 @@ Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
 // can hold. So $U'(c) = 0$, too. Both together say $\tan z = z$ for $z = 2πc$: $c = 0.715148...$, $s = -2πα \cos z$.
 //
 // **The discrete string.** With exact loads a free string is exact at its nodes. So left of the first node $x_j$ that
-// touches it is $U(x) - U(x_j) x/x_j$, which solves $-u'' = f$ and is 0 at both ends. As $U$ and its slope are 0 at
-// $c$, its error is about $|f(c)| (x_j - c)²/2$. If this node were more than half a cell to the right of $c$, the node
-// before it would lie below the floor. If it were more than half a cell to the left, the floor would have to pull at
-// it. So it is the node nearest to $c$, up to a part of a cell that falls with $h$.
+// touches it is $U(x) - U(x_j) x/x_j$, which solves $-u'' = f$ and is 0 at both ends. Near $c$, $U$ is the parabola
+// $|f(c)| (x - c)²/2$: the error is about its value at $x_j$. Were $x_j$ over half a cell right of $c$, the node before
+// it would be nearer to $c$, with a smaller $U$: below the floor. Were it over half a cell left, the kink at it would
+// need more than its load: a pull. So it is the node nearest to $c$, up to a part of a cell that falls with $h$.
 void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& report) {
   const String s = hang(options.cells);
   const double rho = 1.9 * pi * pi * s.h;
@@ -184,7 +184,7 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
                "KKT: the signs exactly, A u = b + lambda to {:.0e} (proved)", left_over);
   report.claim_within((active.u - expected).cwiseAbs().maxCoeff(), 0, 1.5e-13, "u is what it must be, up to (proved)");
   report.claim(std::abs(from - c) <= 0.6 * s.h, "contact from {:.4f} on, the node next to {:.4f} (proved)", from, c);
-  // Where the floor pushes u should be 0, and Uzawa's last change is that u. It is largest there: A is an M-matrix.
+  // Where the floor pushes, u should be 0, and Uzawa's last change is that u. In between the error is a straight line.
   report.claim_within((uzawa.u - active.u).lpNorm<Eigen::Infinity>(), 0, 1.001e-10,
                       "Uzawa's string is off by at most its last change (proved):");
   if (options.cells < 16) return report.not_judged("the price of a digit: from 16 cells on");

@@ -77,8 +77,9 @@ struct Groups {
 };
 
 // ### Forms
-// **The groups.** Each triangle names a leader, at first itself. An edge that ties two triangles makes the last leader
-// of the one follow that of the other. In the end, triangles with the same last leader are one group.
+// **The groups.** Each triangle names a leader, at first itself. Going from leader to leader one comes to a triangle
+// that names itself: the last leader. An edge that ties two triangles makes the last leader of the one follow that of
+// the other. In the end, triangles with the same last leader are one group.
 Groups tied(const TriangleMesh& mesh) {
   std::vector<int> leader(mesh.triangle_count());
   std::iota(leader.begin(), leader.end(), 0);

@@ -13,8 +13,9 @@
 // is constant and nonnegative over Ω⁻" (Section 4.1). So the layer shows a ridge, a function of $x$ alone.
 //
 // **Predict.** Push the layer from below with the pressure $\sin kπx$, which has $k$ half waves, and look how far it
-// gives way. (a) At $ε = 1$ layer and body are of one material. Twice as many half waves: how many times as stiff is
-// the answer? (b) And at $ε = 10^{-6}$, where the layer cannot vary across?
+// gives way. Its stiffness is the pressure per displacement. (a) At $ε = 1$ layer and body are of one material. By
+// which factor does the stiffness grow with twice as many half waves? (b) And at $ε = 10^{-6}$, where the layer cannot
+// vary across?
 //
 // ## A truth without a mesh
 //
@@ -37,7 +38,8 @@
 // top the body is clamped.
 //
 // **The body.** Hold its lower side at $w$. Without a load it is $u_k = w \sinh(a(1 - y))/\sinh a$, whose slope there
-// is $-T w$. If instead the lower side is held at 0, the load leaves a slope there, the pull $g$. Both together:
+// is $-T w$. If instead the lower side is held at 0, the load leaves a slope there, the pull $g$. To find it, multiply
+// the equation by the solution without a load for $w = 1$, and integrate by parts twice. Both together:
 //
 // $$ ∂_y u^+ = g - T w,   T = a \coth a,   g = ∫_0^1 f_k(y) \frac{\sinh(a(1 - y))}{\sinh a} dy. $$
 //
@@ -135,7 +137,8 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   tutorial::modes({1.0, 0.1}, symbol).write(options.out / "modes.csv");
   symbols.print("the symbol, by formula and by P1 on a mesh");
 
-  // For a block P1's stiffness is a (1 + (a h)^2 / 6), for a string it is a^2 exactly (both from one row of the matrix).
+  // One row of the matrix, with a sine put in, gives P1's stiffness: a (1 + (a h)^2 / 6) for a block, a^2 exactly for a
+  // string. The rigid layer is a string under a block. So of its s_k = T + a^2 only T, the share of the block, is off.
   const Table block = symbols.where("epsilon", 1.0), rigid = symbols.where("epsilon", 1e-6);
   report.claim_within(block.most("off by (a h)^2 times") * 6, 0.98, 1.02,
                       "epsilon = 1: off by (a h)^2 / 6 (proved), times");

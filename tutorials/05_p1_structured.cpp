@@ -74,9 +74,10 @@ Table sweep_epsilon(const Space& space) {
   return sweep;
 }
 
-// How the stress hangs together, one line after the other: what the middle is off the straight line, what the line is
-// off $-λ$ at $y = -1$, and off the exact stress at $y = 0$, each over the largest stress. Its values belong to the
-// middles of cells: from the lowest to $Γ_C$ it is half a cell, and from the highest to $Σ$.
+// How well the stress fits, at one $x$ after the other. Lay a straight line through its lowest and its highest value.
+// How far is the middle value off this line, the line off $-λ$ at $y = -1$, and the line off the exact stress at
+// $y = 0$? Each answer is divided by the largest stress. The values belong to the middles of cells, so the line must be
+// continued by half a cell at either end.
 Table off_the_line(const Table& stress, const Eigen::VectorXd& force, const Truth& truth, double h) {
   Table off({"x", "line", "bottom", "top"});
   const double size = std::max(stress.most("top"), -stress.least("bottom")), half = 0.5 * h / (1 - h);

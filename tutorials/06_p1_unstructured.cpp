@@ -57,8 +57,9 @@
 // Let $k$ be the root mean square of $k_T$ over the layer. The stiff form of the interpolant is then about
 // $(k/ε)^2 ‖w''‖^2$. This is the energy of bending: P1 turns the layer into a plate that the paper's layer is not.
 // Who wins, the load or the plate? Let the layer keep the share $s$ of its ridge, and let $u_D$ be the body with
-// $Σ$ clamped, which keeps nothing. Along $u_D + s (u^0 - u_D)$ the energy without bending is $E (½ s^2 - s)$ above
-// that of $u_D$, with $E = a^0(u^0 - u_D, u^0 - u_D)$, and it is least at $s = 1$. Bending adds $½ s^2 E x$:
+// $Σ$ clamped, which keeps nothing. With the moderate form $a_1$ put $E = a_1(u^0 - u_D, u^0 - u_D)$. Along
+// $u_D + s (u^0 - u_D)$ the energy without bending is $E (½ s^2 - s)$ above that of $u_D$: a parabola, least at $u^0$,
+// where $s = 1$. Bending adds $½ s^2 E x$. This $x$ is a number and not the place:
 //
 // $$ x = \frac{‖∂_y I_h w‖^2}{ε^2 E} ≈ \frac{k^2 ‖w''‖^2}{ε^2 E},   E (½ (1 + x) s^2 - s) \text{ is least at }
 // s = \frac{1}{1 + x}. $$

@@ -51,10 +51,10 @@
 //
 // $$ a_1(u^ε, w) - a_1(u^ε, u^ε) ≥ L(w - u^ε). $$
 //
-// All terms but one converge. That one, $a_1(u^ε, u^ε)$, is the same as that of $a_1 + a_0$ in the limit, because the stiff
-// form tends to 0. This sum is never negative, so it can only lose. It stands on the left with a minus sign, so the
-// inequality stays true. It is (2), which has one solution. So $w^0 = u^0$, whatever sequence was chosen, and the whole family
-// tends to it weakly.
+// All terms but one converge. That one is $a_1(u^ε, u^ε)$. It differs from $a_1(u^ε, u^ε) + a_0(u^ε, u^ε)$ by the stiff
+// form, which tends to 0. This sum is never negative, so it can only lose in the limit. It stands on the left with a
+// minus sign, so the inequality stays true. It is (2), which has one solution. So $w^0 = u^0$, whatever sequence was
+// chosen, and the whole family tends to it weakly.
 //
 // **3. It converges strongly.** Put $v = u^0$ into (1), and use that $a_0(u^0, ·) = 0$:
 //

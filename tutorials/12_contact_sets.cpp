@@ -49,10 +49,10 @@
 //
 // So in a bounded sequence the part below 0 vanishes. And where $v_h → v$ weakly, the values on $Γ_C$ converge to those
 // of $v$ (the trace keeps weak limits). So $v ≥ 0$ on $Γ_C$: $v$ is in $K$. The $c_h$ of the run comes from an
-// eigenvalue: the largest ratio of the two sides, with the distance to the mean on the left (P2: to the two chords). It
-// is found over all of $V_h$, so it is an upper bound. The function of the picture shows that functions of $K_h$ come
-// near this bound: it is the worst of those that are 0 at all midpoints. Half of it lies below 0, so the left side is
-// $2^{-1/2}$ times the distance to the mean.
+// eigenvalue: the largest ratio of the two sides, with the distance to the mean on the left. (For P2 it is the distance
+// to the two chords that join its three points on an edge.) The ratio is taken over all of $V_h$, so it is an upper
+// bound. The function of the picture shows that functions of $K_h$ come near this bound: it is the worst of those that
+// are 0 at all midpoints. Half of it lies below 0, so the left side is $2^{-1/2}$ times the distance to the mean.
 //
 // **(9) for $K_0$: a slope that hides in jumps.** Let functions $v_h$ of $K_{0h}$ tend weakly to $v$. On each triangle of
 // the layer $∂_y v_h = 0$. Is $∂_y v = 0$, too? Without jumps it is. With jumps it need not be: a staircase is level on

@@ -16,9 +16,9 @@
 //
 // ## The work of the contact pressure
 //
-// A discrete solution is compared with the exact one in two ways: how far is it, and which forces would hold it. Call
-// $R(v) = a(u, v) - f(v)$ the *residual* of the exact solution. For functions $v$ of $V$ it is the work $∫_{Γ_C} λ v$
-// of the contact pressure, because everything else is in balance. Pressure pushes upwards, and functions of $K$ do not
+// A discrete solution is compared with the exact one in two ways: how far is it, and which forces would hold it. Let
+// $a$ be the three forms of (23), $f(v) = (f, v)$, and $R(v) = a(u, v) - f(v)$ the *residual* of $u$. On $V$ it is the
+// work $∫_{Γ_C} λ v$ of the contact pressure: all else is in balance. Pressure pushes up, and functions of $K$ do not
 // lie below 0. So $R(v) ≥ 0$ for every $v$ of $K$. And $R(u) = 0$, because $u = 0$ wherever there is pressure.
 //
 // Now compare energies. Write $J(v) = ½ a(v, v) - f(v)$ and let $a$ be symmetric, as in (23). Insert $v = u + (v - u)$
@@ -58,8 +58,8 @@
 //
 // ## Two hypotheses that conforming methods have for nothing
 //
-// *(H1nc), coercive:* $a_1 + a_0$ is at least $α$ times the square of the full broken norm, and $α$ does not depend on
-// $h$. On $V$ the form is $∫ |∇v|^2$. A function that is 0 on all sides but the lower one has, by its sine series,
+// *(H1nc), coercive:* $a_1 + a_0$ is at least $α$ times the squared full broken norm, one $α$ for all $h$. On $V$ it is
+// $∫ |∇v|^2$. The longest sine in such a $v$ is half a wave over the width 1, a quarter of one over the height 2. So
 //
 // $$ ∫ |∇v|^2 ≥ μ ∫ v^2,   μ = π^2 (1 + 1/16),   so   α = \frac{μ}{1 + μ} = 0.9129. $$
 //
