@@ -149,8 +149,8 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
 // :output: four meshes
 // :figure: ties
 //
-// Each group has a colour. (a) One: no edge inside the staggered layer is vertical. This mesh is as regular as a mesh
-// can be, and P1 locks on it: regularity is not what decides. (b) One per column. The body's triangles do not matter.
+// Each group has a colour. (a) One: no edge inside the staggered layer is vertical. This mesh is as regular as the
+// others, and P1 locks on it: regularity is not what decides. (b) One per column. The body's triangles do not matter.
 // The unstructured mesh has vertical edges inside its layer, and yet one colour: no line of them goes all the way.
 //
 // ## Exercises

@@ -143,7 +143,7 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
 //
 // ## Exercises
 //
-// 1. The staggered mesh of chapter 02 is as regular as a mesh can be. The kernel on its layer, for P1 and for CR?
+// 1. The staggered mesh of chapter 02 is as regular as the others. The kernel on its layer, for P1 and for CR?
 // 2. $ε = 0$, and vertices moved by a millionth of $h$. How much of the displacement is lost?
 // 3. On paper: P3 on one group of tied triangles: which functions of $x$ are left?
 

@@ -3,7 +3,7 @@
 // The answers to the exercises of 07_kernel, whose page includes this one: to be read after predicting.
 
 const std::vector<tutorial::Exercise> exercises{
-    {"The staggered mesh of chapter 02 is as regular as a mesh can be. The kernel on its layer, for P1 and for CR?",
+    {"The staggered mesh of chapter 02 is as regular as the others. The kernel on its layer, for P1 and for CR?",
      "P1: 0. CR: N_T / 2, on this mesh as on any",
      [](const tutorial::Options&, tutorial::Report& report) {
        const TriangleMesh mesh = mesh_family("staggered").mesh(8);
