@@ -65,7 +65,7 @@
 // ends of the cell. Then $(w + b)' - θ = w' - \bar θ$: the reduced form of $(w, θ)$ is the exact form of $(w + b, θ)$.
 // So this *is* another $V_h$, as long as the load does not see $b$ (exercise 3).
 //
-// The truth is a closed form (`backstage/25_beam_truth.hpp`): contact on $[c, 1 - c]$, at ε = 0 with $c = (72 / q)^{1/4}$.
+// The truth is a closed form (`exact/detail/beam_truth.cpp`): contact on $[c, 1 - c]$, at ε = 0 with $c = (72 / q)^{1/4}$.
 
 #include <cmath>
 
@@ -78,7 +78,6 @@
 #include "common/course.hpp"
 
 using namespace antilock;
-using tutorial::BeamTruth;
 
 // The error of $w$ in $L^2$, between the nodes too. (At the nodes alone the largest error has narrow peaks, where the end
 // of contact passes a node: a list of ε misses them.)

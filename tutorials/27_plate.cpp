@@ -73,22 +73,22 @@
 // $h^2 ‖Δw‖ / 14.6$ in $L^2$. (On a triangle its error is $-½ \sum λ_i λ_j\, w''_{ij}$, with the second differences along the
 // three edges. Its mean square is $\frac{h^4}{720} (\frac{21}{8} (Δw)^2 + \frac{3}{4} |∇^2 w|^2)$, and $∫ |∇^2 w|^2 = ∫ (Δw)^2$.)
 // So $h^2$ is the most to expect, and this number is the unit of a verdict. The truth is a closed form for every $t$
-// (`backstage/27_plate_truth.hpp`): contact on the disc $r ≤ c$. Its energy gives $‖Δw‖^2 = -q ∫ w - F$ with the contact force $F$.
+// (`exact/plate_truth.cpp`): contact on the disc $r ≤ c$. Its energy gives $‖Δw‖^2 = -q ∫ w - F$ with the contact force $F$.
 // *Patch test:* a plate that its rim bends to a constant curvature must have its exact rotation at the vertices.
 
 #include <cmath>
 #include <numbers>
 
 #include "antilock/analysis/kernel.hpp"
+#include "antilock/exact/plate_truth.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/study/sweep.hpp"
 #include "backstage/27_discrete.hpp"
 #include "backstage/27_plate.hpp"
-#include "backstage/27_plate_truth.hpp"
 #include "common/course.hpp"
 
 using namespace antilock;
-using tutorial::Discrete, tutorial::PlateElement, tutorial::PlateTruth, tutorial::error_of_w, tutorial::thicknesses;
+using tutorial::Discrete, tutorial::PlateElement, tutorial::error_of_w, tutorial::thicknesses;
 
 const std::vector<PlateElement> plate_elements{
     {"P1 with exact shear", "p1", p1(), p1(), ShearRule::exact, true},

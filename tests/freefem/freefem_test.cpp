@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <fstream>
 
+#include "antilock/analysis/worst_load.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/study/scene_sweep.hpp"
-#include "backstage/17_worst_load.hpp"
 #include "backstage/18_cg_ilut.hpp"
 #include "cross_check.hpp"
 #include "model_check.hpp"
@@ -22,7 +22,6 @@ namespace antilock {
 namespace {
 
 using namespace test;
-using namespace tutorial;
 
 struct Setting {
   const char* element;
@@ -240,7 +239,7 @@ TEST(FreeFemUzawa, ThePapersOwnTakesTheSameSteps) {
     UzawaOptions options;
     options.step = rho;
     options.tolerance = 1e-8;  // well above that noise
-    const Solution ours = uzawa_cg_ilut(assemble(contact_scene(epsilon), space), options);
+    const Solution ours = tutorial::uzawa_cg_ilut(assemble(contact_scene(epsilon), space), options);
     ASSERT_GE(ours.history.size(), 30u);
     const TemporaryFolder folder;
     const auto steps = static_cast<Eigen::Index>(ours.history.size());

@@ -1,13 +1,11 @@
 // The Timoshenko beam over an obstacle: another member of the class, the same solver; full integration locks.
 #include "antilock/analysis/kernel.hpp"
-#include "backstage/25_beam_truth.hpp"
+#include "antilock/exact/detail/beam_truth.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::beam_test {
 namespace {
-
-using namespace tutorial;
 
 Beam beam(int cells, double epsilon, ShearIntegration shear) {
   Beam b;

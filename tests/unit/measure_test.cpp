@@ -1,6 +1,7 @@
 // Norms against integrals done by hand; rates, contact zones and energy.
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/analysis/detail/energy_bracket.hpp"
+#include "antilock/analysis/negative_part.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth_table.hpp"
@@ -9,7 +10,6 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/detail/contact_trace.hpp"
 #include "antilock/measure/residual.hpp"
-#include "backstage/12_negative_part.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
@@ -17,7 +17,6 @@ namespace antilock::measure_test {
 namespace {
 
 using namespace test;
-using namespace tutorial;
 
 std::vector<const Element*> elements() { return {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()}; }
 

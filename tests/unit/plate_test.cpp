@@ -1,16 +1,15 @@
 // Reissner and Mindlin's plate over an obstacle: the class in two dimensions, bounds under all of it.
 #include "antilock/models/plate.hpp"
 #include "antilock/analysis/kernel.hpp"
+#include "antilock/exact/plate_truth.hpp"
 #include "antilock/form/detail/plate_forms.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "backstage/27_plate_truth.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::plate_test {
 namespace {
 
 using namespace test;
-using namespace tutorial;
 
 struct PlateElement {
   std::string name;

@@ -1,9 +1,9 @@
 // The supremum of the error over a ball of loads: the exact side in closed form, the quadratic form of the error, its
 // largest eigenvalue.
+#include "antilock/analysis/worst_load.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
-#include "backstage/17_worst_load.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
@@ -12,7 +12,6 @@ namespace {
 
 using std::numbers::pi;
 using namespace test;
-using namespace tutorial;
 
 /// E column by column.
 Eigen::MatrixXd matrix_of(ErrorForm& form) {

@@ -1,17 +1,12 @@
-#pragma once
+#include "antilock/analysis/load_ascent.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
-#include <vector>
 
-#include "antilock/exact/truth.hpp"
+namespace antilock {
 
-namespace antilock::tutorial {
-
-/// The load sum_k c_k 2 sin(k pi x) cos(pi y / 2), of L2 norm |c|: the modes m = 1 of LoadModes, as a SineLoad (the
-/// cosine by its Taylor polynomial of degree 12, to 1e-8).
-inline SineLoad load_of_modes(const Eigen::VectorXd& c) {
+SineLoad load_of_modes(const Eigen::VectorXd& c) {
   const double square = std::pow(std::numbers::pi / 2, 2);
   SineLoad load;
   for (int k = 1; k <= c.size(); ++k) {
@@ -26,10 +21,8 @@ inline SineLoad load_of_modes(const Eigen::VectorXd& c) {
   return load;
 }
 
-/// A maximum of `error` on the unit sphere by ascent: gradient by differences, the step doubled after a success and
-/// halved after a failure, from each start. The largest found: a lower bound of the supremum, no more.
-inline double ascend(const std::function<double(const Eigen::VectorXd&)>& error,
-                     const std::vector<Eigen::VectorXd>& starts, int steps = 6) {
+double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
+              int steps) {
   double best = 0;
   for (const Eigen::VectorXd& start : starts) {
     Eigen::VectorXd at = start.normalized();
@@ -53,4 +46,4 @@ inline double ascend(const std::function<double(const Eigen::VectorXd&)>& error,
   return best;
 }
 
-}  // namespace antilock::tutorial
+}  // namespace antilock
