@@ -8,6 +8,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/distributed/detail/kkt_report.hpp"
+#include "antilock/distributed/detail/snesvi.hpp"
 #include "antilock/distributed/detail/strips.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
@@ -18,7 +19,6 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/residual.hpp"
-#include "petsc/snesvi.hpp"
 
 namespace antilock::distributed {
 namespace {

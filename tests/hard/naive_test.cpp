@@ -1,7 +1,7 @@
 // The naive way fails as the tutorial says, and no wrong answer of it gets past the checks.
 #include "antilock/solve/uzawa.hpp"
-#include "backstage/18_cg_ilut.hpp"
-#include "backstage/18_summed.hpp"
+#include "antilock/study/detail/cg_ilut.hpp"
+#include "antilock/study/detail/summed.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::naive_test {

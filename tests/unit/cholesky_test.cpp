@@ -1,9 +1,9 @@
 // Two factors behind one interface: what each promises, and that both give the same answers over the uniformity table.
+#include "../../tutorials/book/wasm/host/eigen_cholesky.cpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/solve/detail/penalised_matrix.hpp"
 #include "antilock/solve/detail/sparse_cholesky.hpp"
 #include "antilock/study/method.hpp"
-#include "book/wasm/host/eigen_cholesky.cpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 

@@ -1,5 +1,5 @@
 // Bounds that give way: Tresca's friction, and plastic obstacles. Sticks where |lambda| < g, slips where |lambda| = g.
-#include "../../tutorials/backstage/30_slipping_bar.hpp"
+#include "antilock/exact/detail/slipping_bar.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/problem/bounds.hpp"

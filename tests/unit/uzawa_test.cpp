@@ -4,7 +4,7 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "backstage/18_cg_ilut.hpp"
+#include "antilock/study/detail/cg_ilut.hpp"
 #include "support/brute_force.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"

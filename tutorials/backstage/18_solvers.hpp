@@ -3,8 +3,8 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/solve/kkt.hpp"
-#include "backstage/18_cg_ilut.hpp"
-#include "backstage/18_summed.hpp"
+#include "antilock/study/detail/cg_ilut.hpp"
+#include "antilock/study/detail/summed.hpp"
 #include "common/course.hpp"
 
 namespace antilock::tutorial {

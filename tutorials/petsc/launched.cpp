@@ -8,13 +8,13 @@
 #include <thread>
 
 #include "antilock/core/error.hpp"
+#include "antilock/distributed/detail/snesvi.hpp"
 #include "antilock/distributed/detail/strips.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/course.hpp"
-#include "petsc/snesvi.hpp"
 
 namespace antilock::tutorial {
 namespace {

@@ -135,7 +135,8 @@ void straighten_columns(TriangleMesh& mesh) {
 /// A .geo or .brep file of the same name beside the mesh file is what refinement returns to; held against the boundary.
 void find_geometry(TriangleMesh& mesh, const std::filesystem::path& file) {
   for (const char* kind : {".brep", ".geo"})
-    if (auto beside = file; std::filesystem::is_regular_file(beside.replace_extension(kind)))
+    if (const auto beside = file.parent_path() / (file.stem().string() + kind);
+        std::filesystem::is_regular_file(beside))
       mesh.geometry = beside.string();
   Points middles(mesh.edge_count(), 2);
   std::vector<int> all(mesh.edge_count());

@@ -1,4 +1,4 @@
-#include "petsc/snesvi.hpp"
+#include "antilock/distributed/detail/snesvi.hpp"
 
 #include <petscsnes.h>
 
