@@ -71,9 +71,9 @@
 // since the $e_k$ are orthogonal in both norms and $ℓ_k$ falls with $k$. For $P_p$ on unstructured meshes $d = p - 1$
 // however fine the mesh is. So every degree locks for the ball (proved).
 //
-// **The sharp limit.** Let $d$ stay and let the body be resolved exactly. Then what is lost is precisely the best $z$
-// of all combinations of $e_1, e_2, ...$ that fulfil the $d$ conditions. The traces are $x (1 - x)$ times polynomials
-// of degree $p - 2$. This is an eigenvalue problem for the coefficients of $z$ (`loss_of_degree` in
+// **The sharp limit.** Let $d$ stay and let the body be resolved exactly. Then what is lost is precisely the largest
+// $‖z‖/|z|_a$ of all combinations $z$ of $e_1, e_2, ...$ that fulfil the $d$ conditions. The traces are $x (1 - x)$
+// times polynomials of degree $p - 2$. This is an eigenvalue problem for the coefficients of $z$ (`loss_of_degree` in
 // `analysis/worst_load`). Discrete bodies lose more, so $E_h(0)$ is never below it (proved).
 //
 // **The width of the ball (proved).** The same proof with $z$ a combination of $n + 1$ sines $\sin kπx \sin mπy$, $n$
@@ -197,8 +197,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // (a) One arch, largest at $Σ$: $ψ_1 \sin πx$; our load costs P1 a quarter. (b) No: three functions cannot fit four waves.
 // :figure: worst_loads
 //
-// Where nothing locks, the worst load sits on the body's worst triangles; else on the layer, in the first wave not
-// held.
+// Where nothing locks, the worst load sits on the body's worst triangles. Where a method locks, it is largest at $Σ$,
+// and along $x$ it is near the first wave that the kernel does not hold.
 // :figure: families_by_epsilon
 //
 // **With contact** the climb finds nothing worse for P1 than one arch, which lifts the whole layer: no point touches.

@@ -59,9 +59,9 @@
 // Plasma physics has the same equation: heat runs along the field lines of a magnet a million times faster than across
 // them. A scheme is called *asymptotic-preserving* there if at fixed $h$ its matrices stay regular and its solution
 // tends to that of a discrete limit problem as ε falls (Degond, Deluzet and Negulescu 2010). The split form is such a
-// scheme *for every element*, locked or not: its limit is (7). Whether (7) is near (2) is another question, that of
-// locking, and the space decides it. (That literature knows: a proof of convergence at all ε asks for an inf-sup
-// condition as well, or for a stabilisation in its place; arXiv:1507.00879.)
+// scheme *for every element*, locked or not: its limit is (7), on $K_{0h}$. Whether (7) is near (2), on $K_0$, is
+// another question, that of locking, and the space decides it. (That literature knows: a proof of convergence at all ε
+// asks for an inf-sup condition as well, or for a stabilisation in its place; arXiv:1507.00879.)
 //
 // Field lines do not follow meshes. So let the stiff lines of the layer have the slope 2. Those that meet a side are
 // held there, those from the right half of $Σ$ reach $Γ_C$ and move. A mesh with cells of $h × 2h$ in the layer has its

@@ -28,9 +28,9 @@
 //
 // **Step 1: how smooth is $u$?** One would like to put the second derivative along $x$ into the problem as a test function:
 // this gives the energy of the first one. But an inequality accepts only functions of $K$. Heat helps. Let it flow along $x$
-// for a time $t$, with the sides held at 0, and call the result $P_t u$. Heat keeps what is not negative so, and the result is in
-// $K$, and $a(u, u - P_t u) ≤ (f, u - P_t u)$. Divide by $t$ and let $t → 0$. The heat equation says that
-// $(u - P_t u)/t → -∂_{xx} u$, so what comes out is
+// for a time $t$, with the sides held at 0, and call the result $P_t u$. What is not negative stays so as heat flows.
+// So $P_t u$ is in $K$, and the inequality says $a(u, u - P_t u) ≤ (f, u - P_t u)$. Divide by $t$ and let $t → 0$. The
+// heat equation says that $(u - P_t u)/t → -∂_{xx} u$, so what comes out is
 //
 // $$ X = a(∂_x u, ∂_x u) ≤ (f, -∂_{xx} u). $$
 //
@@ -81,10 +81,12 @@
 // triangles that point up and $+k w''$ on the others, with the bending length $k = b^2/(8H)$ and $w'' = ∂_{xx} w$. For P1
 // this costs the energy of bending $(k/ε)^2 ‖w''‖^2$: it locks.
 //
-// CR meets the same slope in another role. Multiply it by $χ = ±1$ (up, down). If $w = 0$ on Σ, on $Γ_C$ and near the sides,
-// $(χ ∂_y w, 0)$ is the gradient of an $e_h ∈ V_h$, which has a slope along $x$ and none across. So the stiff form does not
-// see it, and it can be tested with at ε = 0. Where $∂_{xx} u$ jumps by $J$ it finds a work that a smooth $u$ would not do
-// (*Proposition E*): the part $S^-$ of $|e|_a$ in the layer is at least of size $|J| k^{3/4}$ as $h → 0$.
+// CR meets the same slope in another role. Let $w$ now be P1, and 0 on Σ, on $Γ_C$ and near the sides. Multiply its
+// slope across by $χ$, which is $1$ on triangles that point up and $-1$ on the others. Then $(χ ∂_y w, 0)$ is the
+// gradient of an $e_h ∈ V_h$, which has a slope along $x$ and none across. So the stiff form does not see $e_h$, which
+// can serve as a test function at ε = 0. Let $w$ be a bend at the place where $∂_{xx} u$ jumps by $J$. There $e_h$
+// finds a work that a smooth $u$ would not do. Hence (*Proposition E*) the part $S^-$ of $|e|_a$ in the layer is at
+// least of size $|J| k^{3/4}$ as $h → 0$.
 
 #include "backstage/20_order_h.hpp"
 #include "backstage/20_rows.hpp"
@@ -193,7 +195,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // but its part in the layer falls like $h^{0.8}$ on rows and like $h$ on columns. The whole error hides this at these
 // $h$, where the layer's part is small. So *order h on any mesh at every ε* is false, though the error looks like it.
 // Proved: order 1 on columns, 1/2 for CR on any shape-regular mesh, at most 3/4 on rows at ε = 0. Open: order 1 on
-// meshes of gmsh. That P1's wall and CR's lost quarter are one number is derived for rows, a conjecture elsewhere.
+// meshes of gmsh. One number, $k$, sets P1's wall and takes a quarter of an order from CR. This is derived for rows,
+// and a conjecture elsewhere.
 //
 // ## Exercises
 //

@@ -40,11 +40,11 @@
 // $27 λ_0 λ_1 λ_2$ with the three hat functions of its corners. A bubble is 0 on all edges, so no other triangle feels it,
 // and its mean is not 0. So it sets the mean of θ on its triangle to any value, to that of $∇w$ for instance: for every $w$,
 // and every P1 part of θ, there is one θ without shear.
-// - *Durán–Liberman* (1992): $P$ knows of a field, on each triangle, the means along the three edges of its component along
-// the edge, τ. Three numbers fix a field $a + b (-y, x)$, with $a ∈ R^2$ and a number $b$ (Nédélec's lowest field). The one
-// with the same three means is what $P$ makes of a field. $w$ is P1, and $P$ leaves its gradient as it is. θ is P1 and one
-// function per edge, along τ, 0 on the two other edges. It sets the mean of its edge: for every P1 part again one θ without
-// shear.
+// - *Durán–Liberman* (1992): on each triangle $P$ knows three numbers of a field. Each is the mean over one edge of the
+// component along this edge, τ. Three numbers fix a field $a + b (-y, x)$, with $a ∈ R^2$ and a number $b$ (Nédélec's
+// lowest field). The one with the same three means is what $P$ makes of a field. $w$ is P1, and $P$ leaves its gradient
+// as it is. θ is P1 and one function per edge, along τ, 0 on the two other edges. It sets the mean of its edge: for
+// every P1 part again one θ without shear.
 //
 // ## Why both converge uniformly
 //

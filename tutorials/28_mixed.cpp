@@ -16,7 +16,7 @@
 //
 // Mesh, element and degree change the discrete functions. A *mixed* method ([7] of the paper; [4], which appeared in
 // 2005, and [25] with contact) changes the stiff form instead. Write $B u$ for the strain that is squared in it, and
-// $ε_c$ for the class parameter: in (23) they are $∂_y u$ and $ε^2$. The stress $p$ is an unknown in a space $Q_h$ of
+// $ε_c$ for the class parameter: in (23) they are $∂_y u$ and $ε^2$. The stress $p$ is an unknown in a space $Q_h$,
 // tied to the strain by $ε_c (p, q) = (B u, q)$ for all $q$ of this space. The right side sees of the strain only its
 // projection on the space of stresses, $P_h B u$. So the stress is this projection, divided by the class parameter. Put
 // into the equation of the displacement it leaves the problem with a *projected form* in place of $a_0$:
@@ -53,7 +53,7 @@
 // the $u_h$ are bounded, and their stiff form is at most $C ε_c$: it tends to 0.
 // 2. *Where the limits lie.* A weak limit lies in $K$ by (9), and in $G$ by (iii). So it lies in $K_0$.
 // 3. *What the limits solve.* Drop the stiff term on the left, which is not negative, and go to the limit. The two other
-// terms on the left can only lose there: the weak limit solves (2). That has one solution, $u^0$.
+// terms can only fall there ($a_1$ is a square, $j_h$ is asked to): the limit solves (2). That has one solution, $u^0$.
 // 4. *Strong.* Take $w = u^0$, and bring the left side of step 1 to the difference $d = u_h - w_h$:
 //
 // $$ a_1(d, d) + ε_c^{-1} a_{0h}(d, d) ≤ L(d) - a_1(w_h, d) + j_h(w_h) - j_h(u_h). $$

@@ -53,10 +53,10 @@
 // Let rubber be incompressible, without an obstacle, under a load $f = ∇ψ$ with $ψ = 0$ on its free sides. By parts
 // $(f, v) = -(ψ, \operatorname{div} v)$: the load does no work on any motion that keeps the volume. So the block does not
 // move, and its pressure takes up ψ. If λ is finite, it moves by the order of $1/λ$. But a discrete $v_h$ keeps the volume
-// in the mean only. The load does a little work on it, so $u_h$ moves, by an amount that does not depend on λ. Over the
-// exact motion this grows like λ. It is not the locking of Theorem 4: the absolute error does tend to 0 uniformly. A method
-// without it is called *gradient-robust* (Linke 2014 for fluids; Fu, Lehrenfeld, Linke and Streckenbach 2021 for elasticity).
-// CR becomes so by a change of its load alone. In $(f, v_h)$ replace $v_h$ by a field that keeps the volume exactly,
+// in the mean only. The load does a little work on it, so $u_h$ moves by as much at every large λ. Its ratio to the
+// exact motion grows like λ. This is not the locking of Theorem 4: the absolute error tends to 0 uniformly. A method
+// without this growth is *gradient-robust* (Linke 2014 for fluids; Fu, Lehrenfeld, Linke and Streckenbach 2021 for
+// elasticity). CR needs only another load. In $(f, v_h)$ replace $v_h$ by a field that keeps the volume exactly,
 //
 // $$ (Π v_h)(x) = \sum_e \frac{\int_e v_h·n}{2 |T|} (x - x_e)   \text{ on each triangle } T, $$
 //

@@ -51,9 +51,9 @@
 // (a *tensor mesh*), so $N ∼ p^2$ cells times $p^2$ unknowns, and the error should be like $\exp(-b N^{1/4})$. (With small
 // cells near the point only it is $\exp(-b N^{1/3})$, Guo and Babuška 1986.)
 //
-// Lines through the layer leave it in columns, so no degree locks (chapter 16). A distance $d$ in $x$ is felt up to
-// $d$ in the body and up to $d/ε$ in the layer. So layers wider than ε get rows in the body above Σ, narrower ones
-// in the layer above $Γ_C$, as in this mesh.
+// Lines through the stiff layer leave it in columns, so no degree locks (chapter 16). A distance $d$ in $x$ is felt up
+// to $d$ in the body and up to $d/ε$ in the stiff layer. So layers of cells wider than ε get rows in the body above Σ,
+// narrower ones in the stiff layer above $Γ_C$, as in this mesh.
 // :figure: hp_mesh
 //
 // Contact is asked at the unknowns: $K_h ⊄ K$ for $p ≥ 2$. Column `below` says how far $u_h$ is below 0 between them.
