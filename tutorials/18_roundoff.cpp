@@ -4,8 +4,8 @@
 // Run: 18_roundoff --cells 64   a finer mesh: the trap closes at a larger ε
 // Run: 18_roundoff --exercise 1
 //
-// Needs: [03](03_by_hand.cpp) for the layer stress and the iterated penalty, [04](04_reference_solution.cpp) for
-// Schur complements and condition numbers, [06](06_p1_unstructured.cpp) for locking.
+// Needs: [00](00_string_on_an_obstacle.cpp) for condition numbers, [03](03_by_hand.cpp) for the layer stress and the
+// iterated penalty, [06](06_p1_unstructured.cpp) for locking.
 // :live: roundoff
 //
 // **The picture.** Error against ε for five ways to solve one discrete problem, none of which locks. *Where both

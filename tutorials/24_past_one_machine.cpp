@@ -15,11 +15,11 @@
 //
 // **Predict.** (a) The triangles are dealt out in squares, as on a chessboard, so that columns are cut. By what factor
 // do the iterations grow on four ranks, and why? (b) PETSc has a solver of its own for variational inequalities. It is
-// given the summed matrix $A_1 + ε^{-2} B' M B$ at ε = 1e-6. What does it answer?
+// given the summed matrix $A_1 + ε^{-2} B^T M B$ at ε = 1e-6. What does it answer?
 //
 // ## Why the factor stops, and what replaces it
 //
-// Every chapter before factors $A_δ = A_1 + δ^{-1} B' M B$, in $N^{3/2}$ operations for $N$ unknowns in the plane. A
+// Every chapter before factors $A_δ = A_1 + δ^{-1} B^T M B$, in $N^{3/2}$ operations for $N$ unknowns in the plane. A
 // second machine helps little: the order of elimination is found on one processor, and the last and largest blocks of
 // the factor wait for all others.
 //
@@ -30,12 +30,12 @@
 // corrected in one loop. What is left over is formed from $A_1$, $B$, $M$ and $p$, not from $A_δ$, since $A_δ$ has lost
 // digits (chapter 18):
 //
-// $$ r_1 = L - A_1 u - B' M p,   r_2 = ε^2 p - B u. $$
+// $$ r_1 = L - A_1 u - B^T M p,   r_2 = ε^2 p - B u. $$
 //
 // In balance $r_1$ is $-λ$: on a touching point it is what the obstacle adds, with the other sign. So a point stays in
 // contact where $-r_1 > 0$ presses, and comes into contact where $u < -\text{gap}$. Off this set one correction solves
 //
-// $$ A_δ\,du = r_1 + δ^{-1} B' M r_2,   u ← u + du,   p ← p + δ^{-1} (B\,du - r_2), $$
+// $$ A_δ\,du = r_1 + δ^{-1} B^T M r_2,   u ← u + du,   p ← p + δ^{-1} (B\,du - r_2), $$
 //
 // as `cure` does in chapter 18, and on it $du = -\text{gap} - u$. The penalty $δ$ is about $10^{-9}$ on every mesh. Each level of
 // refinement begins with the contact set of the level before.

@@ -61,7 +61,7 @@
 //
 // ## Which way it slips
 //
-// Two things move the floor of a pressed block sideways. A pressure $p$ on the surface of a half plane *draws it
+// Two things move the lower side of a pressed block sideways. A pressure $p$ on the surface of a half plane *draws it
 // inwards*: $∂_x u_x = -(1 - 2ν) p / (2μ)$ there, with Poisson's ratio ν. For $μ = 1$ this is $-p/(2λ + 2)$: it is
 // strong for λ = 1, and it vanishes for incompressible rubber. And the block, shortened by the push, *bulges outwards*,
 // the more so the less it can be compressed. For small λ the first wins, for large λ the second. Between, they cancel.
