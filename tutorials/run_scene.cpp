@@ -89,7 +89,7 @@ In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh
 blas is the library of dense linear algebra, its kernels and threads (where OpenBLAS does not know the CPU and falls
 back to old kernels, the program starts again with wider ones; ANTILOCK_KEEP_KERNELS=1 leaves them);
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
-motion that is lost at least (proved, for P1 and P2 in a layer without columns), kept is 1 - lost_energy;
+motion that is lost at least (proved; null where it locks and that is not), kept is 1 - lost_energy;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
 polygon of the last mesh, with load and gap as sampled; warning says what to
 doubt: a layer that locks, an answer above the trusted error, a load that the mesh misses.

@@ -306,7 +306,9 @@ TEST(Warnings, ALayerThatLocksIsNamedWithWhatIsLost) {
     EXPECT_NE(s["warning"].get<std::string>().find("P1 locks in this layer: it loses at least 31 %"),
               std::string::npos);
     EXPECT_NE(run.outcome.out.find("  warning: P1 locks"), std::string::npos) << run.outcome.out;
-    EXPECT_NEAR(s["locking"]["lost_energy"].get<double>(), 0.319, 2e-3);
+    // the second solve's 0.319, and what a layer constant in y does not reach: (2 pi epsilon)^2 / 3 for one wave, four times
+    // that for two
+    EXPECT_NEAR(s["locking"]["lost_energy"].get<double>(), 0.319, 5e-3);
     EXPECT_EQ(s["locking"]["kept"].get<double>() + s["locking"]["lost_energy"].get<double>(), 1);
   }
   for (const auto& [epsilon, kind, method] : std::vector<std::array<std::string, 3>>{{"1e-2", "unstructured", cr},

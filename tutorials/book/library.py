@@ -17,7 +17,7 @@ EXAMPLES = {
     "solve/contact.hpp": ("unit/contact_problem_test.cpp", "ContactProblem, StartingAtTheAnswerTakesOneStep"),
     "analysis/locking.hpp": ("unit/locking_diagnosis_test.cpp", "LockingDiagnosis, FindsThatAHalfIsHeld"),
     "analysis/certificate.hpp": ("unit/certificate_test.cpp", "Certificate, BoundsTheEnergyOfAScaledSolution"),
-    "analysis/lost_energy.hpp": ("unit/lost_energy_test.cpp", "LostEnergy, IsToldByALawWhereTheGapIsFinerThanTheMesh"),
+    "analysis/lost_energy.hpp": ("unit/lost_energy_test.cpp", "LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),
     "adapt/solve_to.hpp": ("unit/adapt_test.cpp", "SolveTo, TakesTheVentcelLayerForTheRigidLimit"),
 }
 

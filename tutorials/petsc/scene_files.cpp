@@ -133,7 +133,7 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
 std::optional<LayerReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
                                                const NestedLevel& level) {
   const Scene& scene = file.scene;
-  const bool may_lock = scene.layer_depth() > 0 && level.space.element().conforming() && !in_columns(coarse);
+  const bool may_lock = scene.layer_depth() > 0 && level.space.element().conforming() && !find_ties(coarse).in_columns;
   std::vector<double> values;
   for (int i = 0; may_lock && i < level.space.size(); ++i)
     values.insert(values.end(), {level.space.points()(i, 0), level.space.points()(i, 1), level.state.u(i)});

@@ -62,9 +62,9 @@ Conforming conforming_answer(const Scene& scene, const Element& element,
 /// error's square is at least twice what is lost, and lost over kept falls like h^2 for P1 and h^4 for P2.
 std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate, const Accuracy& accuracy) {
   const auto report = report_layer(scene, answer.space, answer.problem, answer.solution);
-  if (!report || !report->lost || report->warning.empty()) return "";
+  if (!report || report->warning.empty()) return "";
   const double enough = std::pow(accuracy.relative * (certificate.norm + certificate.displacement), 2) / 2;
-  const double now = *report->lost / (1 - *report->lost), then = enough / report->motion;  // lost over kept
+  const double now = report->found / (1 - report->found), then = enough / report->motion;  // lost over kept
   const double times = std::pow(now / then, 1.0 / accuracy.element->degree());             // the unknowns, as h^-2
   return answer.space.free_count() * times > accuracy.most_unknowns ? report->warning : "";
 }
@@ -193,7 +193,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   double seconds = 0;
   const Scene scene = with_layer_to_solve(asked);
   const bool conforming = accuracy.element->conforming();
-  const Growth growth = accuracy.growth.value_or(conforming && !in_columns(first) ? Growth::bisect : growth_of(scene));
+  const Growth growth =
+      accuracy.growth.value_or(conforming && !find_ties(first).in_columns ? Growth::bisect : growth_of(scene));
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   if (growth == Growth::extrude && stiff == nullptr)
     throw Error("accuracy: there is no scaled layer to extrude; accepted: growth by bisection");

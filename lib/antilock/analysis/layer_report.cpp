@@ -3,38 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "antilock/analysis/detail/ties.hpp"
 #include "antilock/analysis/lost_energy.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/form/forms.hpp"
 
 namespace antilock {
-namespace {
-
-/// The law of bending: one wave over the length of Sigma moves the layer and the body, at the price `soft`, and the
-/// interpolant of that wave has slopes in y, which cost x times that. The share that is lost is then x / (1 + x).
-double by_bending(const Scene& scene, const Space& space) {
-  const bool thin = std::holds_alternative<ThinLayer>(scene.layer());
-  const TriangleMesh& mesh = space.mesh();
-  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
-  double length = 0, body = 0;  // the body's stiffness over Sigma, times its length
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::sigma) continue;
-    const int side = mesh.region[mesh.edge_triangles(e, 0)] == Region::body ? 0 : 1;
-    const Eigen::Vector2d x = point_in(mesh, mesh.edge_triangles(e, side), Eigen::Vector3d::Constant(1.0 / 3));
-    length += mesh.edge_length(e);
-    body += mesh.edge_length(e) * (scene.body().stiffness ? scene.body().stiffness(x(0), x(1)) : 1);
-  }
-  const double epsilon = *scene.epsilon(), c = 2 * std::numbers::pi / length;
-  const Eigen::VectorXd wave = (c * space.points().col(0)).array().sin();
-  const double soft = (c * c * length + c * body / (stiff != nullptr ? stiff->s : 1)) / 2,
-               slopes = wave.dot(gradient_form(space, {0, 0}, {0, 1}) * wave);
-  return slopes / (slopes + soft * (thin ? epsilon : epsilon * epsilon));
-}
-
-}  // namespace
 
 std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, const VariationalInequality& problem,
                                         const Solution& solution) {
@@ -47,39 +21,37 @@ std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, 
         element.name() + " does not lock: half a motion without strain per layer triangle, on any mesh (Theorem 7)",
         {},
         ""};
-  if (in_columns(mesh))
+  const Ties ties = find_ties(mesh);
+  if (ties.in_columns)
     return LayerReport{element.name() + " does not lock here: the columns of the layer are free of each other", {}, ""};
   LayerReport report;
-  const int groups = tied_groups(mesh);
   report.diagnosis = fmt::format(
       "below {} edges of Sigma the layer's triangles are tied into {} group{} by edges that are not vertical; without "
       "strain {} is one polynomial of degree {} in x on each",
-      std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), groups, groups == 1 ? "" : "s",
+      std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), ties.groups, ties.groups == 1 ? "" : "s",
       element.name(), element.degree());
-  const auto& active = solution.active;
-  const bool pressed = !active.empty() && std::find(active.begin(), active.end(), false) == active.end();
+  LostEnergy energy;
   try {
-    const LostEnergy energy = lost_energy(scene, space, problem, solution);
-    report.lost = energy.share(), report.motion = energy.motion;
+    energy = lost_energy(scene, space, problem, solution);
   } catch (const Error& error) {  // the answer stands, whatever becomes of what is told about it
-    report.diagnosis += std::string("; nothing is proved of what it costs (") + error.what() + ")";
-    if (pressed) return report;  // nothing would move
+    report.diagnosis += std::string("; nothing is known of what it costs (") + error.what() + ")";
+    return report;
   }
-  const double share = report.lost ? *report.lost : by_bending(scene, space);
-  const double least = report.lost
-                           ? LostEnergy::telling
-                           : 2 * LostEnergy::telling;  // the law is an upper bound: it names who has lost a tenth
-  if (share < least) {
-    report.diagnosis +=
-        fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy", *scene.epsilon(), 100 * least);
+  const double found = energy.share(energy.found), proved = energy.share(energy.proved);
+  const bool locks = found >= LostEnergy::telling, by_proof = !locks || proved >= LostEnergy::telling;
+  if (by_proof) report.lost = proved;
+  report.found = found, report.motion = energy.motion;
+  if (!locks) {
+    report.diagnosis += fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy", *scene.epsilon(),
+                                    100 * LostEnergy::telling);
     return report;
   }
   report.diagnosis += fmt::format("; at epsilon = {:g} it locks", *scene.epsilon());
   report.warning = fmt::format(
       "{} locks in this layer: it loses {} {:.0f} % of the energy that the layer's motion releases ({}); "
       "remedy: element = \"CR\", or a layer in columns (kind = \"layered\")",
-      element.name(), report.lost ? "at least" : "about", std::min(std::floor(100 * share), 99.0),
-      report.lost ? "proved" : "by the law of bending");
+      element.name(), by_proof ? "at least" : "about", std::min(std::floor(100 * (by_proof ? proved : found)), 99.0),
+      by_proof ? "proved" : "by a second solve, with columns");
   return report;
 }
 

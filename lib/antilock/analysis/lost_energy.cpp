@@ -1,312 +1,391 @@
 // How much energy a layer that does not follow has lost, with a proof, and without a second solve of the same size.
 //
 // For every v of K, J(u) <= J(v): J(u_h) - J(v) is a lower bound of the energy J(u_h) - J(u) that is lost. v is made so:
-// - in the body v = u_h + w, w from a small space W: continuous, piecewise bilinear between rows of hats whose widths
-//   and heights grow with the distance from Sigma (w is nearly harmonic), interpolated at the vertices of the body;
-// - in the layer v has columns of its own, one under each edge of Sigma, in rows of equal height k. On such columns
-//   P1 is a set of differences: with D the sum of |v(i+1, j) - v(i, j)|^2 / (x(i+1) - x(i)) on row j,
-//       int (d_x v)^2 = sum_j k_j D_j, k_j = k (k / 2 for the first and the last row),
-//   and d_y v on the two triangles beside a vertical segment is its difference / k: one row of B per segment.
-// (22) is the same problem after y -> y / epsilon, (23). J is smallest over these v: a variational inequality with few
-// unknowns. For P2 the mesh is cut once more, so that W and the columns reach as short waves as u_h; on the halves of an
-// edge of Sigma u_h is affine but for a bubble 4 s (1 - s) beta, which v keeps, constant in y: 16/3 beta^2 / length of
-// energy, and orthogonal to the differences.
+// - in the body v = u_h + w, w from a small space W, part of V_h: functions that are piecewise bilinear between rows of
+//   hats whose widths and heights grow with the distance from Sigma (w is nearly harmonic), interpolated in V_h. On Sigma
+//   a hat is the basis function of an unknown of u_h: v reaches as short waves as u_h, whatever its degree;
+// - in the layer v has columns of its own, one under each edge of Sigma, in rows of equal height: in x polynomials as
+//   those of u_h on Sigma, in y affine on each row. (d_x v)^2 is convex in y, so that on a row
+//
+//       int (d_x v)^2 <= height / 2 (its values at the upper and at the lower end),
+//
+//   and the sum over the rows takes the values at the rows' ends alone. d_y v is a difference / height, squared at Gauss
+//   points that are exact.
+// A layer with so few columns per epsilon that it is stiff across is constant in y: no row, no B. (22) is the same
+// problem after y -> y / epsilon, (23). J is smallest over these v: a variational inequality with few unknowns.
+//
+// Its bounds hold at the unknowns on Sigma, from the gap as u_h has it at its own points. What v lacks between them, seen
+// at 33 points per edge, is added as a function that is affine on each edge of Sigma and constant in y: v', of K.
 #include "antilock/analysis/lost_energy.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 
-#include "antilock/analysis/detail/companion.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/errors.hpp"
-#include "antilock/mesh/refine.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {
 namespace {
 
-/// Sigma: its vertices from left to right, the place of each vertex of the mesh among them (-1: none), and its edges as
-/// two places.
+using Indices = std::vector<int>;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Sigma: the unknowns of u_h from left to right, the place of each unknown among them (-1: none), and its edges as places.
 struct Line {
-  std::vector<int> vertex, place;
-  std::vector<double> x;
-  std::vector<std::array<int, 2>> edge;
+  Indices unknown, place;
+  Eigen::VectorXd x;
+  std::vector<Indices> edge;
   double length = 0;
 };
 
-Line sigma_line(const TriangleMesh& mesh) {
+Line sigma_line(const Space& space) {
+  const TriangleMesh& mesh = space.mesh();
+  const Eigen::MatrixX3d nodes = space.element().nodes();
+  const auto by_x = [&](int a, int b) { return space.points()(a, 0) < space.points()(b, 0); };
   Line line;
-  std::vector<int>& place = line.place;
-  place.assign(mesh.vertex_count(), -1);
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::sigma) continue;
-    line.edge.push_back({mesh.edges(e, 0), mesh.edges(e, 1)});
-    for (const int v : line.edge.back())
-      if (std::exchange(place[v], 0) < 0) line.vertex.push_back(v);
-  }
-  const auto x = [&](int v) { return mesh.vertices(v, 0); };
-  std::sort(line.vertex.begin(), line.vertex.end(), [&](int a, int b) { return x(a) < x(b); });
-  for (std::size_t i = 0; i < line.vertex.size(); ++i) {
-    place[line.vertex[i]] = static_cast<int>(i);
-    line.x.push_back(x(line.vertex[i]));
-  }
-  for (auto& [left, right] : line.edge) {
-    std::tie(left, right) = std::minmax({place[left], place[right]});
-    line.length += line.x[right] - line.x[left];
+  line.place.assign(space.size(), -1);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3 && mesh.region[t] == Region::body; ++i) {
+      if (mesh.edge_tag[mesh.triangle_edges(t, i)] != EdgeTag::sigma) continue;
+      Indices& edge = line.edge.emplace_back();
+      for (Eigen::Index r = 0; r < nodes.rows(); ++r)
+        if (nodes(r, i) == 0) edge.push_back(space.unknowns()(t, r));
+      std::sort(edge.begin(), edge.end(), by_x);
+      for (const int u : edge)
+        if (std::exchange(line.place[u], 0) < 0) line.unknown.push_back(u);
+    }
+  std::sort(line.unknown.begin(), line.unknown.end(), by_x);
+  line.x = space.points().col(0)(line.unknown);
+  for (std::size_t i = 0; i < line.unknown.size(); ++i) line.place[line.unknown[i]] = static_cast<int>(i);
+  for (Indices& edge : line.edge) {
+    for (int& u : edge) u = line.place[u];
+    line.length += line.x[edge.back()] - line.x[edge.front()];
   }
   return line;
 }
 
-/// A vertex of the layer alone.
-bool below(const TriangleMesh& mesh, const Line& sigma, int v) {
-  return sigma.place[v] < 0 && mesh.vertices(v, 1) <= 0;
+/// The n basis functions on an edge, 0 to 1, at some points: a row per point.
+struct Trace {
+  Eigen::MatrixXd value, slope;
+};
+
+Trace trace_at(const Element& element, const Eigen::VectorXd& points) {
+  const Eigen::MatrixX3d nodes = element.nodes();
+  std::map<double, int> on_edge;
+  for (Eigen::Index r = 0; r < nodes.rows(); ++r)
+    if (nodes(r, 0) == 0) on_edge[nodes(r, 2)] = static_cast<int>(r);
+  Trace trace{Eigen::MatrixXd(points.size(), on_edge.size()), Eigen::MatrixXd(points.size(), on_edge.size())};
+  for (Eigen::Index q = 0; q < points.size(); ++q) {
+    const Eigen::Vector3d lambda(0, 1 - points(q), points(q));
+    const Eigen::VectorXd basis = element.basis(lambda);
+    const Eigen::MatrixX3d derivative = element.derivative(lambda);
+    Eigen::Index i = 0;
+    for (const auto& [s, r] : on_edge) {
+      trace.value(q, i) = basis(r);
+      trace.slope(q, i++) = derivative(r, 2) - derivative(r, 1);
+    }
+  }
+  return trace;
 }
 
-/// W: the values of its hats at the vertices of the body, a column per hat; none for a hat that is not 0 where v is held.
-/// The first row of hats is Sigma, one per vertex; above, the heights are halved towards Sigma, and a hat is about as wide
-/// as it is high.
-SparseMatrix hats(const TriangleMesh& mesh, const Line& sigma, const std::vector<char>& held) {
+/// W: the values of its hats at the unknowns in the body, a column per hat, and which of them are not 0 where v is held.
+/// The first row of hats is Sigma, one per unknown; above, the heights are halved towards Sigma, and a hat is about as
+/// wide as it is high.
+struct Hats {
+  RowMatrix w;
+  std::vector<char> held;
+};
+
+Hats hats(const Points& at, const Line& sigma, const std::vector<char>& in_body, const std::vector<char>& held) {
   struct Row {
     Eigen::VectorXd x;
     int first;
   };
-  const double left = mesh.vertices.col(0).minCoeff(), right = mesh.vertices.col(0).maxCoeff();
+  const double left = at.col(0).minCoeff(), right = at.col(0).maxCoeff();
   std::map<double, Row> rows;  // by height
-  rows[0].x = Eigen::Map<const Eigen::VectorXd>(sigma.x.data(), static_cast<Eigen::Index>(sigma.x.size()));
-  for (double y = mesh.vertices.col(1).maxCoeff(); y > sigma.length / static_cast<double>(sigma.edge.size()); y /= 2)
+  rows[0].x = sigma.x;
+  for (double y = at.col(1).maxCoeff(); y > sigma.length / static_cast<double>(sigma.x.size() - 1); y /= 2)
     rows[y].x =
         Eigen::VectorXd::LinSpaced(1 + std::max(1, static_cast<int>(std::ceil((right - left) / y))), left, right);
   int count = 0;
   for (auto& [y, row] : rows) row.first = std::exchange(count, count + static_cast<int>(row.x.size()));
-  std::vector<Eigen::Triplet<double>> values;
-  std::vector<char> left_out(count, 0);
+  Indices begin{0}, column;
+  std::vector<double> value;
+  std::vector<char> on_held(count, 0);
   const auto add = [&](int v, const Row& row, double weight) {
-    const double x = mesh.vertices(v, 0), *const first = row.x.data(), *const last = first + row.x.size();
+    const double x = at(v, 0), *const first = row.x.data(), *const last = first + row.x.size();
     if (weight == 0 || x < *first || x > last[-1]) return;
     const double* const next = std::clamp(std::upper_bound(first, last, x), first + 1, last - 1);
     const double s = (x - next[-1]) / (next[0] - next[-1]);
-    for (const auto& [hat, value] :
+    for (const auto& [hat, here] :
          {std::pair(next - first - 1, weight * (1 - s)), std::pair(next - first, weight * s)}) {
-      const int column = row.first + static_cast<int>(hat);
-      values.emplace_back(v, column, value);
-      if (held[v] && value > 1e-12) left_out[column] = 1;
+      if (here == 0) continue;
+      column.push_back(row.first + static_cast<int>(hat)), value.push_back(here);
+      if (held[v] && here > 1e-12) on_held[column.back()] = 1;
     }
   };
-  for (int v = 0; v < mesh.vertex_count(); ++v) {
-    if (below(mesh, sigma, v)) continue;
-    const double y = std::max(mesh.vertices(v, 1), 0.0);
-    const auto above = rows.lower_bound(y);
-    if (y == 0) add(v, above->second, 1);
-    if (y == 0 || above == rows.end()) continue;
-    const auto& [low, under] = *std::prev(above);
-    add(v, under, (above->first - y) / (above->first - low));
-    add(v, above->second, (y - low) / (above->first - low));
+  for (int v = 0; v < at.rows(); ++v) {
+    const double y = sigma.place[v] < 0 ? std::max(at(v, 1), 0.0) : 0;
+    if (const auto above = rows.lower_bound(y); in_body[v] && y == 0) {
+      add(v, above->second, 1);
+    } else if (in_body[v] && above != rows.end()) {
+      const auto& [low, under] = *std::prev(above);
+      add(v, under, (above->first - y) / (above->first - low));
+      add(v, above->second, (y - low) / (above->first - low));
+    }
+    begin.push_back(static_cast<int>(column.size()));
   }
-  std::erase_if(values, [&](const auto& value) { return value.value() == 0 || left_out[value.col()]; });
-  SparseMatrix w(mesh.vertex_count(), count);
-  w.setFromTriplets(values.begin(), values.end());
-  return w;
+  return {Eigen::Map<const RowMatrix>(at.rows(), count, begin.back(), begin.data(), column.data(), value.data()),
+          on_held};
 }
 
-double own_stiffness(const Scene& scene) {
-  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
-  return stiff != nullptr ? stiff->s : 1;
-}
-
-/// The form of the layer on its triangles that have a vertex on Sigma.
-SparseMatrix layer_at(const Line& sigma, const TriangleMesh& mesh, const Scene& scene) {
-  const auto* thin = std::get_if<ThinLayer>(&scene.layer());
-  Eigen::Vector2d root(std::sqrt(own_stiffness(scene)), 0);
-  if (thin != nullptr) root.setConstant(std::sqrt(1 / thin->epsilon));
+/// Entries of the layer's part of A1 in the rows of Sigma.
+std::vector<Eigen::Triplet<double>> layer_at(const Line& sigma, const Space& space, const Eigen::Vector2d& stiffness) {
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = strain_rule(space.element());
   std::vector<Eigen::Triplet<double>> values;
+  std::vector<Eigen::MatrixX3d> derivative;
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+    derivative.push_back(space.element().derivative(rule.points.row(q)));
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::RowVector3i v = mesh.triangles.row(t);
-    if (mesh.region[t] == Region::body || std::max({sigma.place[v(0)], sigma.place[v(1)], sigma.place[v(2)]}) < 0)
+    const auto corner = mesh.triangles.row(t);
+    if (mesh.region[t] == Region::body ||
+        std::max({sigma.place[corner(0)], sigma.place[corner(1)], sigma.place[corner(2)]}) < 0)
       continue;
-    const Eigen::Matrix<double, 3, 2> half =
-        std::sqrt(mesh.area(t)) * barycentric_gradients(mesh, t) * root.asDiagonal();
-    const Eigen::Matrix3d form = half * half.transpose();
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) values.emplace_back(v(i), v(j), form(i, j));
+    const auto unknown = space.unknowns().row(t);
+    const Eigen::Matrix<double, 3, 2> root =
+        barycentric_gradients(mesh, t) * (mesh.area(t) * stiffness).cwiseSqrt().asDiagonal();
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+      const Eigen::MatrixX2d half = std::sqrt(rule.weights(q)) * derivative[q] * root;
+      for (Eigen::Index i = 0; i < half.rows(); ++i)
+        for (Eigen::Index j = 0; j < half.rows() && sigma.place[unknown(i)] >= 0; ++j)
+          values.emplace_back(unknown(i), unknown(j), half.row(i).dot(half.row(j)));
+    }
   }
-  SparseMatrix layer(mesh.vertex_count(), mesh.vertex_count());
-  layer.setFromTriplets(values.begin(), values.end());
-  return layer;
+  return values;
 }
 
-/// a+(u_h, phi) for u_h of P2 and the P1 functions phi of the mesh cut once more. A quadratic's gradient is affine: its
-/// mean over each of the four triangles is its value at the centroid.
-Eigen::VectorXd work_of_quadratics(const Space& space, const TriangleMesh& cut, const Eigen::VectorXd& u) {
-  std::array<Eigen::MatrixX3d, 4> derivative;
-  for (int k = 0; k < 4; ++k) {
-    Eigen::Vector3d at = Eigen::Vector3d::Constant(k < 3 ? 1.0 / 6 : 1.0 / 3);
-    if (k < 3) at(k) = 2.0 / 3;
-    derivative[k] = space.element().derivative(at);
+/// y at x on the chain of straight pieces from point to point, `at` ascending; level beyond its ends.
+double on_chain(const Eigen::VectorXd& at, const Eigen::VectorXd& y, double x) {
+  const double *const first = at.data(), *const last = first + at.size(),
+                      *const next = std::lower_bound(first, last, x);
+  if (next == last) return y(at.size() - 1);
+  if (next == first || *next == x) return y(next - first);
+  const double s = (x - next[-1]) / (next[0] - next[-1]);
+  return (1 - s) * y(next - first - 1) + s * y(next - first);
+}
+
+/// How far v must be lifted at the points of Sigma, affine on each edge, to lie above `obstacle` at the points of `trace`;
+/// infinity where what would have to move is held.
+Eigen::VectorXd lift(const Line& sigma, const Trace& trace, const Eigen::VectorXd& v, const Profile& obstacle,
+                     const std::vector<char>& held_at) {
+  Eigen::VectorXd most = Eigen::VectorXd::Zero(v.size());
+  const auto end = trace.value.rows() - 1;
+  const double round_off = 1e-10 * v.cwiseAbs().maxCoeff();  // what the solvers leave of u
+  for (const Indices& edge : sigma.edge) {
+    const Eigen::VectorXd on_edge = trace.value * v(edge);
+    const double x = sigma.x[edge.front()], dx = sigma.x[edge.back()] - x;
+    for (Eigen::Index q = 0; q <= end; ++q) {
+      const double s = static_cast<double>(q) / static_cast<double>(end), lack = obstacle(x + s * dx) - on_edge(q);
+      if (lack <= round_off) continue;
+      const bool left = !held_at[edge.front()], right = !held_at[edge.back()];
+      const double room = (left ? 1 - s : 0) + (right ? s : 0);
+      for (const auto& [place, free] : {std::pair(edge.front(), left), std::pair(edge.back(), right)})
+        if (free || room == 0) most(place) = std::max(most(place), room > 0 ? lack / room : infinity);
+    }
   }
-  Eigen::VectorXd work = Eigen::VectorXd::Zero(cut.vertex_count());
-  for (int t = 0; t < cut.triangle_count(); ++t) {
-    if (cut.region[t] != Region::body) continue;
-    const Eigen::VectorXd of_t = u(space.unknowns().row(t / 4));
-    const Eigen::Vector2d gradient =
-        barycentric_gradients(space.mesh(), t / 4).transpose() * (derivative[t % 4].transpose() * of_t);
-    work(cut.triangles.row(t)) += cut.area(t) * (barycentric_gradients(cut, t) * gradient);
-  }
-  return work;
+  Eigen::VectorXd all = most;
+  for (const Indices& edge : sigma.edge)
+    for (const int i : edge) {
+      const double s = (sigma.x[i] - sigma.x[edge.front()]) / (sigma.x[edge.back()] - sigma.x[edge.front()]);
+      if (s > 0 && s < 1) all(i) = (1 - s) * most(edge.front()) + s * most(edge.back());
+    }
+  return all;
 }
 
 }  // namespace
 
-std::optional<double> LostEnergy::share() const {
+double LostEnergy::share(double energy) const {
   constexpr double negligible = 1e-8;  // the square of what the solvers leave of u, 1e-10 by default, with room
-  if (!(motion > negligible * scale)) return 0;
-  if (lost < -telling * motion || (lost < telling * motion && lost + doubt > telling * motion)) return {};
-  return std::clamp(lost / motion, 0.0, 1.0);
+  return motion > negligible * scale ? std::clamp(energy / motion, 0.0, 1.0) : 0;
 }
 
 LostEnergy lost_energy(const Scene& scene, const Space& space, const VariationalInequality& problem,
                        const Solution& solution) {
+  const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const auto epsilon = scene.epsilon();
-  if (!epsilon || !(scene.layer_depth() > 0) || !element.conforming() || element.degree() > 2)
-    throw Error("lost energy: accepted: P1 or P2 on a mesh with a layer");
+  if (!epsilon || !(scene.layer_depth() > 0) || !element.conforming() || mesh.curved())
+    throw Error("lost energy: accepted: P1 to P6 on a mesh with a layer below y = 0");
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
-  if ((stiff != nullptr && stiff->load) || (element.degree() == 2 && !scene.beyond_the_paper().empty()))
-    throw Error("lost energy: accepted: a layer without a load, with P2 the scenes of the paper; this has " +
-                scene.beyond_the_paper());
-  const double s = own_stiffness(scene);
-  const int corners = space.mesh().vertex_count();
-  std::optional<TriangleMesh> cut;
-  std::optional<Space> linear;
-  if (element.degree() == 2) linear.emplace(cut.emplace(refined(space.mesh())), p1());
-  const Space& fine = linear ? *linear : space;  // its vertices are the unknowns of u_h, in their order
-  const TriangleMesh& mesh = fine.mesh();
-  const Line sigma = sigma_line(mesh);
+  const double s = stiff != nullptr ? stiff->s : 1;
+  const Line sigma = sigma_line(space);
   const auto points = static_cast<int>(sigma.x.size());
-  const Eigen::VectorXd at_sigma = solution.u(sigma.vertex);
-  const auto base = [&](int i) { return at_sigma(i); };
-  std::vector<char> held(mesh.vertex_count(), 0);
-  for (std::size_t k = 0; k < problem.fixed.size(); ++k) {
-    held[problem.fixed[k]] = 1;
-    if (below(mesh, sigma, problem.fixed[k]) && problem.fixed_values(static_cast<Eigen::Index>(k)) != 0)
-      throw Error("lost energy: accepted: a layer whose sides are held at 0 or free");
+  const Eigen::VectorXd base = solution.u(sigma.unknown);
+  std::vector<char> in_body(space.size(), 0), held(space.size(), 0), held_at(points, 0);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (Eigen::Index r = 0; r < space.unknowns().cols() && mesh.region[t] == Region::body; ++r)
+      in_body[space.unknowns()(t, r)] = 1;
+  for (std::size_t k = 0; k < problem.fixed.size(); ++k) held[problem.fixed[k]] = 1;
+  for (int i = 0; i < points; ++i) held_at[i] = held[sigma.unknown[i]];
+  // the layer held straight: 0, or affine between the given values of the outer ends of Sigma
+  Eigen::VectorXd straight = Eigen::VectorXd::Zero(points);
+  {
+    const double left = held_at.front() ? base(0) : 0, right = held_at.back() ? base(points - 1) : 0;
+    straight = left + (right - left) * (sigma.x.array() - sigma.x(0)) / (sigma.x(points - 1) - sigma.x(0));
   }
+  for (std::size_t k = 0; k < problem.fixed.size(); ++k)
+    if (const int u = problem.fixed[k]; !in_body[u]) {
+      const double given = problem.fixed_values(static_cast<Eigen::Index>(k));
+      if (std::abs(given - on_chain(sigma.x, base, space.points()(u, 0))) > 1e-9 * base.cwiseAbs().maxCoeff())
+        throw Error("lost energy: accepted: a layer whose sides have the value of Sigma's end above them");
+    }
 
   // the unknowns: W, and rows 1 to `rows` of columns below Sigma; all are differences to u_h, on Sigma and constant in y
-  constexpr int most_rows = 8;  // k = 1/8: what a wave over the depth loses by it, (pi / 8)^2 / 12, is 1.3 %
-  const auto layer = std::count(space.mesh().region.begin(), space.mesh().region.end(), Region::layer);
-  const auto edges = std::count(space.mesh().edge_tag.begin(), space.mesh().edge_tag.end(), EdgeTag::sigma);
-  // as many as make square cells in the layer of thickness epsilon, but no more than the mesh has: a coarse layer is no
-  // locked one
-  const int rows = std::clamp(static_cast<int>(std::ceil(*epsilon * double(edges) / sigma.length - 1e-9)), 1,
-                              std::clamp(static_cast<int>(layer / (2 * edges)), 1, most_rows));
-  const double height = 1.0 / rows;
-  SparseMatrix w = hats(mesh, sigma, held);
-  const auto hat_count = static_cast<int>(w.cols()), size = hat_count + rows * points;
-  w.conservativeResize(w.rows(), size);
-  const auto unknown = [&](int i, int row) { return row == 0 ? i : hat_count + (row - 1) * points + i; };
+  constexpr int most_rows = 8;  // a wave over the depth loses (pi / 8)^2 / 12 = 1.3 % by the height 1/8
+  const auto degree = static_cast<int>(sigma.edge.front().size()) - 1, edges = static_cast<int>(sigma.edge.size());
+  const auto in_layer = static_cast<int>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
+  // a wave c that is constant in y loses (c epsilon)^2 / 3 of its motion: waves of six points and longer, c <= n, less than
+  // what is told where (epsilon n)^2 <= 3 telling. Else as many rows as make square cells in the layer of thickness
+  // epsilon, but no more than the mesh has: a coarse layer is no locked one
+  const double n = degree * edges / sigma.length, thickness = *epsilon * n;
+  const int rows = thickness * thickness <= 3 * LostEnergy::telling
+                       ? 0
+                       : std::clamp(static_cast<int>(std::ceil(thickness - 1e-9)), 1,
+                                    std::clamp(degree * in_layer / (2 * edges), 1, most_rows));
+  const double height = 1.0 / std::max(rows, 1);
+  const int size = (rows + 1) * points;
+  const auto unknown = [&](int i, int row) { return row * points + i; };
 
-  // J(u_h) in the layer, and what u_h leaves of the forces on the body. For P1 the body's form is a1 less what the layer's
-  // triangles have at Sigma; its rows below are not read
-  SparseMatrix body_of_u = linear ? gradient_form(space, {1, 1}, {0, 0}) : problem.a1;
-  if (!linear) body_of_u -= layer_at(sigma, mesh, scene);
-  Eigen::VectorXd work = body_of_u * solution.u;
-  for (int v = 0; v < mesh.vertex_count(); ++v)
-    if (below(mesh, sigma, v)) work(v) = 0;
-  const double layer_energy = energy(problem, solution) - solution.u.dot(work / 2 - problem.load);
-  const SparseMatrix body = linear ? gradient_form(fine, {1, 1}, {0, 0}) : std::move(body_of_u);
-  VariationalInequality strip;
-  strip.load =
-      w.transpose() * (linear ? load_vector(fine, scene.body().load) - work_of_quadratics(space, mesh, solution.u)
-                              : problem.load - work);
+  // J(u_h) in the layer, and what u_h leaves of the forces on the body: its form is A1 less what the layer has at Sigma
+  const auto layer =
+      layer_at(sigma, space, stiff != nullptr ? Eigen::Vector2d(s, 0) : Eigen::Vector2d::Constant(1 / *epsilon));
+  const bool pulled = stiff != nullptr && stiff->load;
+  Eigen::VectorXd load = problem.load, work = problem.a1 * solution.u;
+  if (pulled) load -= load_vector(space, stiff->load, Region::layer);
+  for (const auto& value : layer) work(value.row()) -= value.value() * solution.u(value.col());
+  for (int u = 0; u < space.size(); ++u)
+    if (!in_body[u]) work(u) = load(u) = 0;
+  double left_in_layer = energy(problem, solution) - solution.u.dot(work / 2 - load);
 
-  std::vector<Eigen::Triplet<double>> a1, b;
+  // the body: its form and forces on W, of which the hats above Sigma are eliminated
+  const auto [w, on_held] = hats(space.points(), sigma, in_body, held);
+  const auto above = static_cast<int>(w.cols()) - points;
+  Eigen::MatrixXd body =
+      Eigen::MatrixXd::Zero(points + above, points + above);  // W' A1 W, of whose two halves one is summed
+  for (int u = 0; u < space.size(); ++u)
+    for (SparseMatrix::InnerIterator a(problem.a1, u); in_body[u] && a && a.row() <= u; ++a)
+      for (RowMatrix::InnerIterator left(w, u); left; ++left)
+        for (RowMatrix::InnerIterator right(w, a.row()); right; ++right)
+          body(left.col(), right.col()) += (a.row() < u ? 1 : 0.5) * a.value() * left.value() * right.value();
+  body += Eigen::MatrixXd(body.transpose());
+  for (const auto& value : layer)
+    if (const int j = sigma.place[value.col()]; j >= 0) body(sigma.place[value.row()], j) -= value.value();
+  Eigen::VectorXd force = w.transpose() * (load - work);
   // hats may reach no vertex, or be dependent at the few that they reach: a little energy more makes w unique, and v no
   // better than it is
-  for (int i = 0; i < hat_count; ++i) a1.emplace_back(i, i, 1e-10);
-  std::vector<Chord> chords;
-  Eigen::VectorXd width = Eigen::VectorXd::Zero(points);
-  double base_energy = 0;  // of the layer that is constant in y, with the values of u_h on Sigma
-  for (const auto& [i, j] : sigma.edge) {
-    const double dx = sigma.x[j] - sigma.x[i], jump = base(j) - base(i);
-    double bubble = 0;
-    if (const int middle = std::max(sigma.vertex[i], sigma.vertex[j]) - corners; middle >= 0) {
-      const auto ends = space.mesh().edges.row(middle);
-      bubble = (solution.u(corners + middle) - (solution.u(ends(0)) + solution.u(ends(1))) / 2) / 4;
-    }
-    width(i) += dx / 2, width(j) += dx / 2;
-    base_energy += s * (jump * jump + 16.0 / 3 * bubble * bubble) / dx / 2;
+  body.diagonal().array() += 1e-10 * body.diagonal().maxCoeff();
+  for (int i = 0; i < points + above; ++i)
+    if (on_held[i]) body.row(i).setZero(), body.col(i).setZero(), body(i, i) = 1, force(i) = 0;
+  const Cholesky upper(body.bottomRightCorner(above, above));
+  const Eigen::MatrixXd follows = upper.solve(Eigen::MatrixXd(body.bottomLeftCorner(above, points)));
+  const Eigen::MatrixXd sunk = body.topLeftCorner(points, points) - body.topRightCorner(points, above) * follows;
+  left_in_layer += force.tail(above).dot(upper.solve(Eigen::VectorXd(force.tail(above)))) / 2;
+
+  VariationalInequality strip;
+  strip.load = Eigen::VectorXd::Zero(size);
+  strip.load.head(points) = force.head(points) - follows.transpose() * force.tail(above);
+  std::vector<Eigen::Triplet<double>> a1, b;
+  std::vector<double> m;
+  for (int i = 0; i < points; ++i)
+    for (int j = 0; j < points; ++j) a1.emplace_back(i, j, (sunk(i, j) + sunk(j, i)) / 2);
+  const auto [at, weights] = gauss_rule(degree + 1);
+  const Trace trace = trace_at(element, at);
+  const Eigen::MatrixXd form = trace.slope.transpose() * weights.asDiagonal() * trace.slope;
+  for (const Indices& edge : sigma.edge) {
+    const double dx = sigma.x[edge.back()] - sigma.x[edge.front()];
+    const Eigen::VectorXd on_edge = base(edge), pull = s / dx * form * on_edge;
+    left_in_layer -= pull.dot(on_edge) / 2;
     for (int row = 0; row <= rows; ++row) {
-      const double weight = s * (row == 0 || row == rows ? 0.5 : 1.0) * height / dx;
-      const int p = unknown(i, row), q = unknown(j, row);
-      a1.insert(a1.end(), {{p, p, weight}, {q, q, weight}, {p, q, -weight}, {q, p, -weight}});
-      strip.load(p) += weight * jump, strip.load(q) -= weight * jump;
+      const double share = rows == 0 ? 1 : row == 0 || row == rows ? height / 2 : height;
+      for (int i = 0; i <= degree; ++i) {
+        strip.load(unknown(edge[i], row)) -= share * pull(i);
+        for (int j = 0; j <= degree; ++j)
+          a1.emplace_back(unknown(edge[i], row), unknown(edge[j], row), share * s / dx * form(i, j));
+      }
+      for (Eigen::Index q = 0; q < at.size() && row < rows; ++q) {
+        for (int i = 0; i <= degree; ++i) {
+          b.emplace_back(static_cast<int>(m.size()), unknown(edge[i], row), rows * trace.value(q, i));
+          b.emplace_back(static_cast<int>(m.size()), unknown(edge[i], row + 1), -rows * trace.value(q, i));
+        }
+        m.push_back(s * height * dx * weights(q));
+      }
+      for (Eigen::Index q = 0; q < at.size() && pulled && row <= std::max(rows - 1, 0); ++q)
+        for (Eigen::Index p = 0; p < at.size(); ++p) {
+          const double f = dx * height * weights(q) * weights(p) *
+                           stiff->load(sigma.x[edge.front()] + at(q) * dx, -(row + at(p)) * height);
+          for (int i = 0; i <= degree; ++i) {
+            strip.load(unknown(edge[i], row)) += (rows == 0 ? 1 : 1 - at(p)) * f * trace.value(q, i);
+            if (rows > 0) strip.load(unknown(edge[i], row + 1)) += at(p) * f * trace.value(q, i);
+            left_in_layer += f * trace.value(q, i) * on_edge(i);
+          }
+        }
     }
-    const auto place = [&](int end) { return held[sigma.vertex[end]] ? -1 : end; };
-    chords.push_back({{place(i), place(j)}, {sigma.x[i], sigma.x[j]}, {base(i), base(j)}, bubble});
   }
-  strip.m = (s * height * width).replicate(rows, 1);
-  for (int row = 0; row < rows; ++row)
-    for (int i = 0; i < points; ++i) {
-      b.emplace_back(row * points + i, unknown(i, row), rows);
-      b.emplace_back(row * points + i, unknown(i, row + 1), -rows);
-    }
-  SparseMatrix differences(size, size);
-  differences.setFromTriplets(a1.begin(), a1.end());
-  strip.a1 = SparseMatrix(w.transpose() * SparseMatrix(body * w)) + differences;
-  strip.b.resize(strip.m.size(), size);
+  strip.a1.resize(size, size);
+  strip.a1.setFromTriplets(a1.begin(), a1.end());
+  strip.b.resize(static_cast<Eigen::Index>(m.size()), size);
   strip.b.setFromTriplets(b.begin(), b.end());
+  strip.m = Eigen::Map<Eigen::VectorXd>(m.data(), strip.b.rows());
   strip.compliance = *epsilon * *epsilon;
   for (int row = 0; row <= rows; ++row)
-    for (int i = 0; i < points; ++i)  // held by the layer's side, or its hat was left out
-      if (held[sigma.vertex[i]] || (row == 0 && w.col(i).nonZeros() == 0)) strip.fixed.push_back(unknown(i, row));
+    for (int i = 0; i < points; ++i) {
+      const bool fixed = held_at[i] || (row == 0 && on_held[i]);
+      if (fixed) strip.fixed.push_back(unknown(i, row));
+      if (!fixed && row == rows && !problem.contact.empty()) strip.contact.push_back(unknown(i, rows));
+    }
   strip.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strip.fixed.size()));
-  std::vector<int> free;  // points with bounds
-  Eigen::VectorXd raised = Eigen::VectorXd::Zero(0);
-  strip.lower = raised;
-  if (const auto& contact = scene.contact()) {
-    // v of K between the points, too; `raised`: how far its bounds lie above the obstacle
-    const auto bounds = [&](const Profile& gap, double sign) {
-      std::vector<Chord> seen = chords;
-      for (Chord& chord : seen) chord.near = {sign * chord.near[0], sign * chord.near[1]}, chord.bubble *= sign;
-      UnilateralContact side = *contact;
-      side.gap = gap;
-      return admissible_bounds(side, seen, points);
-    };
-    const Eigen::VectorXd lower = bounds(contact->gap, 1),
-                          upper = contact->ceiling ? bounds(contact->ceiling, -1) : lower;
-    for (int i = 0; i < points; ++i)
-      if (!held[sigma.vertex[i]]) strip.contact.push_back(unknown(i, rows)), free.push_back(i);
-    strip.lower = (lower - at_sigma)(free);
-    raised = lower(free);
-    for (std::size_t k = 0; k < free.size(); ++k) raised(Eigen::Index(k)) += contact->gap(sigma.x[free[k]]);
-    if (contact->ceiling) strip.upper = (-upper - at_sigma)(free);
+  Eigen::VectorXd bottom_x = space.points().col(0)(problem.contact);
+  strip.lower.resize(static_cast<Eigen::Index>(strip.contact.size()));
+  if (problem.upper.size() > 0) strip.upper = strip.lower;
+  for (Eigen::Index k = 0; k < strip.lower.size(); ++k) {
+    const int i = strip.contact[k] - unknown(0, rows);
+    strip.lower(k) = on_chain(bottom_x, problem.lower, sigma.x(i)) - base(i);
+    if (strip.upper.size() > 0) strip.upper(k) = on_chain(bottom_x, problem.upper, sigma.x(i)) - base(i);
   }
 
-  LostEnergy found;
-  found.unknowns = strip.free_count();
-  found.scale = std::abs(energy(problem, solution));
-  if (found.unknowns == 0) return found;
+  LostEnergy lost;
+  lost.unknowns = strip.free_count();
+  if (lost.unknowns == 0) return lost;
   const Solution moved = active_set(strip);
-  // v_0: the layer at 0, the body as the few hats above Sigma make it best
-  Eigen::VectorXd still = Eigen::VectorXd::Zero(size);
-  for (int i = 0; i < points; ++i)
-    for (int row = 0; row <= rows; ++row) still(unknown(i, row)) = -base(i);
-  if (const int above = hat_count - points; above > 0) {
-    const Eigen::VectorXd residual = strip.load - strip.a1 * still;
-    still.segment(points, above) = Cholesky(Eigen::MatrixXd(strip.a1.block(points, points, above, above)))
-                                       .solve(residual.segment(points, above).eval());
-  }
+  Eigen::VectorXd still(size);  // v_0
+  for (int row = 0; row <= rows; ++row) still.segment(unknown(0, row), points) = straight - base;
   const double j = energy(strip, moved), j_still = still.dot(strip.a1 * still) / 2 - strip.load.dot(still);
   const Eigen::VectorXd way = moved.u - still;
-  found.doubt = moved.lambda.cwiseMax(0).dot(raised);
-  found.lost = layer_energy - base_energy - j;
-  found.motion =
+  lost.found = lost.proved = left_in_layer - j;
+  lost.scale = std::abs(energy(problem, solution) - lost.found);
+  lost.motion =
       std::max(j_still - j, way.dot(strip.a1 * way) / 2 + strip.compliance * moved.p.cwiseAbs2().dot(strip.m) / 2);
-  return found;
+  if (!scene.contact()) return lost;
+
+  const Trace fine = trace_at(element, Eigen::VectorXd::LinSpaced(33, 0, 1));
+  const Eigen::VectorXd v = base + moved.u.segment(unknown(0, rows), points);
+  const auto& [gap, ends, ceiling] = *scene.contact();
+  const Profile floor = [&](double x) { return -gap(x); }, roof = [&](double x) { return -ceiling(x); };
+  Eigen::VectorXd up = lift(sigma, fine, v, floor, held_at);
+  if (ceiling && up.allFinite()) {
+    up -= lift(sigma, fine, -v - up, roof, held_at);
+    if (!lift(sigma, fine, v + up, floor, held_at).isZero(0)) up(0) = infinity;  // no room for v between the two
+  }
+  const Eigen::VectorXd lifted = up.replicate(rows + 1, 1);
+  const bool can = up.allFinite() && lifted(strip.fixed).isZero(0);
+  lost.proved -= can ? lifted.dot(strip.a1 * (moved.u + lifted / 2) - strip.load) : infinity;
+  return lost;
 }
 
 }  // namespace antilock

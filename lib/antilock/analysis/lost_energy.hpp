@@ -9,40 +9,40 @@
 
 namespace antilock {
 
-/// What an answer has lost because its layer does not follow. J(v) = a(v, v)/2 - L(v); v is a function of K that is
-/// free to move in the layer.
+/// What an answer has lost because its layer does not follow. J(v) = a(v, v)/2 - L(v); v is a function whose layer is free
+/// to move, above the obstacle at the points on Sigma, as u_h is at its own points on Gamma_C.
 struct LostEnergy {
   static constexpr double telling = 0.05;  ///< v is within a few per cent of the best: whoever has lost 10 % is told so
-  double lost = 0;    ///< J(u_h) - J(v), a lower bound of J(u_h) - J(u): negative where v is the worse of the two
+  double found = 0;                        ///< J(u_h) - J(v), negative where v is the worse of the two
+  double proved = 0;  ///< J(u_h) - J(v'), a lower bound of J(u_h) - J(u): v' is v, lifted into K; -infinity where it
+                      ///< cannot be lifted
   double motion = 0;  ///< what the motion of the layer is worth: the larger of J(v_0) - J(v) and |v - v_0|_a^2 / 2, v_0
-                      ///< the function whose layer is held at 0
-  double doubt = 0;   ///< what J(v) owes to bounds that keep v above the obstacle between its points, at most
+                      ///< the function whose layer is held straight
+  double scale = 0;   ///< |J(v)|
   int unknowns = 0;   ///< of the problem solved for v
 
-  double scale = 0;  ///< |J(u_h)|
-
-  /// The share that is lost, 0 to 1; 0 where the motion is worth less than 1e-8 of J(u_h). Empty where v tells nothing: it
-  /// has more energy than u_h by a twentieth of the motion, or its doubt decides whether a twentieth is lost.
-  std::optional<double> share() const;
+  /// The share of the motion that `energy` is, 0 to 1; 0 where the motion is worth less than 1e-8 of J(v).
+  double share(double energy) const;
 };
 
-/// For P1 or P2 on a mesh with a layer, of (23) or (22); derivation in lost_energy.cpp. Costs a small part of the solve.
-/// P1 takes every scene but a load on the layer, P2 those of the paper. Throws Error for others, for another element or
-/// without a layer's mesh, and what active_set throws.
+/// For a conforming element of any degree on a mesh with a layer, of (23) or (22); derivation in lost_energy.cpp. Costs a
+/// small part of the solve. Throws Error for another element, without a layer's mesh, for a layer along the normals of a
+/// curve and for one whose sides are given other values than Sigma's ends, and what active_set throws.
 LostEnergy lost_energy(const Scene& scene, const Space& space, const VariationalInequality& problem,
                        const Solution& solution);
 
 /// What an answer to a scene with a layer says of its own locking.
 struct LayerReport {
   std::string diagnosis;       ///< one line: whether the method follows the layer as epsilon -> 0, and why
-  std::optional<double> lost;  ///< LostEnergy::share(), where the method can lock
-  std::string
-      warning;  ///< empty, or one sentence with the word "locks", the share, how it is known (proved; by a law where
-                ///< `lost` is empty) and the remedies
-  double motion = 0;  ///< LostEnergy::motion, what `lost` is a share of
+  std::optional<double> lost;  ///< the share of LostEnergy::proved, where the method can lock; empty where it locks and
+                               ///< that is not proved
+  std::string warning;  ///< empty, or one sentence with the word "locks", the share, how it is known (proved, or by
+                        ///< a second solve with columns where `lost` is empty) and the remedies
+  double found = 0;     ///< the share of LostEnergy::found
+  double motion = 0;    ///< LostEnergy::motion, of which both are shares
 };
-/// Empty for a scene without a layer. The number is made where lost_energy is, and on layers in columns for none: what can
-/// be told from the mesh costs nothing. Elsewhere the law of bending speaks, and nothing is proved.
+/// Empty for a scene without a layer. On layers in columns and for elements that do not conform no number is made: what
+/// can be told from the mesh costs nothing.
 std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, const VariationalInequality& problem,
                                         const Solution& solution);
 

@@ -3,11 +3,12 @@
 
 namespace antilock {
 
-/// How many groups the layer's triangles are in: two that share an edge which is not vertical are tied together, and so
-/// are those that they are tied to. On a group a conforming function without slope in y is one polynomial in x.
-int tied_groups(const TriangleMesh& mesh);
-
-/// Each group is a column, between two neighbours on Sigma: a group per edge of Sigma, side by side.
-bool in_columns(const TriangleMesh& mesh);
+/// What the layer's triangles are to each other: two that share an edge which is not vertical are tied together, and so are
+/// those that they are tied to. On a group of them a conforming function without slope in y is one polynomial in x.
+struct Ties {
+  int groups = 0;
+  bool in_columns = false;  ///< each group is between two neighbours on Sigma: one per edge of Sigma, side by side
+};
+Ties find_ties(const TriangleMesh& mesh);
 
 }  // namespace antilock
