@@ -146,6 +146,7 @@ TEST(Accuracy, OfACurveReturnsToTheGeometryBesideTheMesh) {
     const std::string of = summary["certificate"]["proved_of"], warning = summary["warning"];
     EXPECT_EQ(of.find("on the curves of arch.geo") != std::string::npos, !curve.empty()) << of;
     EXPECT_EQ(warning, "") << "four edges look like no curve";
+    EXPECT_EQ(summary["scene"]["method"]["tolerance"], 1e-2 * 0.05);
     return std::pair<double, double>(summary["certificate"]["energy_lower"], summary["certificate"]["energy_upper"]);
   };
   const std::string circle = "Circle(3) = {3, 5, 4};\n";

@@ -123,6 +123,21 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
   }
 }
 
+// Where the layer is not in columns the companion has columns of its own: its values at the mesh's vertices are theirs.
+TEST(SolveTo, TheCompanionHasValuesInALayerOfAnyTriangles) {
+  const CertifiedSolution found =
+      solve_to(scene_of(paper_load, 1e-2), unstructured_mesh(8), {0.1, Quantity::displacement, 2e6, Growth::bisect});
+  const TruthTable truth{Truth(paper_sine_load(), 1e-2)};
+  const TriangleMesh& mesh = *found.answer.mesh;
+  double off = 0, most = 0;
+  for (int i = 0; i < mesh.vertex_count(); ++i)
+    if (const double exact = truth.value(mesh.vertices(i, 0), mesh.vertices(i, 1)); mesh.vertices(i, 1) < 0) {
+      off = std::max(off, std::abs(found.companion.u(i) - exact));
+      most = std::max(most, std::abs(exact));
+    }
+  EXPECT_LE(off, 0.1 * most);  // what is asked of the energy norm
+}
+
 TEST(SolveTo, IsCheapWhereTheSolutionIsLocal) {
   const double epsilon = 1e-6;
   const auto unknowns = [&](const Scene& scene, double asked, std::optional<Growth> growth, bool layer) {

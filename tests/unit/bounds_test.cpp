@@ -575,7 +575,7 @@ TEST(Combinations, MayShareUnknownsAndDependOnEachOther) {
   right(springs(many, load));
 }
 
-TEST(Combinations, TheUnitOfARowDoesNotMatter) {
+TEST(Combinations, TheUnitsOfARowAndOfForcesDoNotMatter) {
   Eigen::MatrixXd rows(2, 4);
   rows << 1, -0.5, 0, 0, 0, 0.3, 1, 1;
   VariationalInequality problem = springs(rows, Eigen::Vector4d(-1, 2, -3, 0.5));
@@ -583,14 +583,15 @@ TEST(Combinations, TheUnitOfARowDoesNotMatter) {
   problem.upper = Eigen::Vector2d(0.1, infinity);
   const Solution one = active_set(problem);
   EXPECT_EQ(std::count(one.active.begin(), one.active.end(), true), 2);
-  for (const double unit : {0x1p-60, 0x1p60}) {
+  for (const auto& [unit, force] : {std::pair{0x1p-60, 1.0}, {0x1p60, 1.0}, {1.0, 0x1p60}}) {
     VariationalInequality other = problem;
     other.combinations *= unit;
     other.lower *= unit;
     other.upper *= unit;
+    other.a1 *= force, other.load *= force;
     const Solution s = active_set(other);
     EXPECT_EQ(s.u, one.u);  // powers of two: bit by bit
-    EXPECT_EQ(s.lambda, one.lambda / unit);
+    EXPECT_EQ(s.lambda, one.lambda * (force / unit));
     EXPECT_EQ(s.kkt.min_gap, one.kkt.min_gap);
     EXPECT_EQ(s.kkt.complementarity, one.kkt.complementarity);
     EXPECT_EQ(s.kkt.min_pressure, one.kkt.min_pressure);

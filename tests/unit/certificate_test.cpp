@@ -200,6 +200,15 @@ TEST(Certificate, BoundsTheEnergyOfAScaledSolution) {
       }
       EXPECT_GE(found.energy_upper, energy) << epsilon << factor;
     }
+  // p against the strain of u: a bound that did not count |r2| would be -0.02
+  Answered run(structured_mesh(8), test::stiff_scene(1));
+  for (int i = 0; i < run.space.size(); ++i)
+    if (const Eigen::RowVector2d at = run.space.points().row(i); at(1) < 0)
+      run.solution.u(i) = 10 * std::sin(std::numbers::pi * at(0)) * at(1);
+  run.solution.u(run.problem.fixed).setZero();
+  run.solution.p = -0.5 * (run.problem.b * run.solution.u);
+  EXPECT_LE(energy_lower_bound(run.scene, run.space, run.problem, run.solution),
+            Truth(paper_sine_load(), 1, true, 14).energy());
 }
 
 // Next to a clamped end the one free vertex alone keeps v above the obstacle: not below it, and no higher than needed.

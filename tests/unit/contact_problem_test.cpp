@@ -113,6 +113,17 @@ TEST(Stairs, ValuesRiseAndForcesFallFromPieceToPiece) {
   }
   EXPECT_EQ(v, infinity);
   EXPECT_EQ(lambda, -3);
+  // what a bound bears so far is left out of the forces that are given and found, and is in the whole force
+  Stairs later = stairs;
+  later.force = Eigen::VectorXd{{0.5}};
+  for (const Piece piece : all) {
+    const Stairs::Interval before = stairs.found(0, piece), now = later.found(0, piece);
+    const double moved = is_held(piece) ? 0.5 : 0, given = stairs.given(0, piece);
+    EXPECT_EQ(now.low, before.low - moved);
+    EXPECT_EQ(now.high, before.high - moved);
+    EXPECT_EQ(later.given(0, piece), given - (0.5 - moved));
+    EXPECT_EQ(later.whole_force(0, piece, 0.25), is_held(piece) ? 0.75 : given);
+  }
 }
 
 TEST(Stairs, AnEquationHasThreePiecesAndNothingBetween) {

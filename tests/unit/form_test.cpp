@@ -198,6 +198,18 @@ TEST(Forms, LoadIntegratesPolynomialsExactly) {
   }
 }
 
+// P1 has three Gauss points on an edge, which are exact to degree 5.
+TEST(Forms, EdgeLoadsAndSpringsIntegratePolynomialsExactly) {
+  const TriangleMesh mesh = structured_mesh(2);
+  const Space space(mesh, p1());
+  const auto to = [](int k) { return [k](double x, double) { return std::pow(x, k); }; };
+  const Eigen::VectorXd x = space.points().col(0);
+  EXPECT_NEAR(edge_load(space, EdgeTag::contact, to(4)).dot(x), 1.0 / 6, 1e-14);
+  EXPECT_NEAR(x.dot(edge_mass(space, EdgeTag::contact, to(3)) * x), 1.0 / 6, 1e-14);
+  const auto below = [](double x, double) { return 0.5 - x; };
+  expect_refused([&] { edge_mass(space, EdgeTag::contact, below); }, "spring: its stiffness is negative");
+}
+
 TEST(Forms, LoadDoesNotReachTheLayer) {
   const TriangleMesh mesh = structured_mesh(4);
   const Space space(mesh, p1());

@@ -92,6 +92,14 @@ TEST(LockingDiagnosis, IsRightForBeamAndPlate) {
   };
   expect_right("beam, full", beam(ShearIntegration::full), beam(ShearIntegration::reduced), 32, true, nearly_none);
   expect_right("beam, reduced", beam(ShearIntegration::reduced), beam(ShearIntegration::reduced), 32, false, all);
+  // prescribed values do not matter; without bounds all unknowns of the stiff part are counted, and those that B ties
+  // are no sign of locking
+  VariationalInequality coarse = beam(ShearIntegration::reduced)(16), fine = beam(ShearIntegration::reduced)(32);
+  const double softening = diagnose_locking(coarse, fine).softening;
+  for (VariationalInequality* problem : {&coarse, &fine}) problem->fixed_values.setOnes();
+  EXPECT_EQ(diagnose_locking(coarse, fine).softening, softening);
+  for (VariationalInequality* problem : {&coarse, &fine}) problem->contact.clear(), problem->lower.resize(0);
+  EXPECT_FALSE(diagnose_locking(coarse, fine).locks());
   const auto plate = [](const Element& deflection, const Element& rotation, ShearRule shear) -> Problem {
     return [=, &deflection, &rotation](int cells) {
       TriangleMesh mesh = unstructured_mesh(cells, {0});

@@ -248,6 +248,11 @@ TEST(EnergyBracket, HoldsWithAGapWithFixedValuesAndAfterAnEarlyStop) {
   EXPECT_LE(coarse.lower, reference.upper);
   EXPECT_LE(reference.lower, coarse.upper);
   EXPECT_LT(coarse.width(), 0.3 * std::abs(coarse.upper));  // h = 1/6
+  // an obstacle that rises between two vertices
+  const Scene needle({paper_load}, StiffLayer{1e-2}, UnilateralContact{[](double x) {
+                       return 0.02 - 0.5 * std::exp(-std::pow((x - 0.75) / 0.02, 2));
+                     }});
+  EXPECT_LE(energy_bracket(needle, fine).lower, energy_bracket(needle, mesh).upper);
 
   const auto lower_bound = [&](const TriangleMesh& on, double value, double noise) {
     const Space space(on, crouzeix_raviart());

@@ -225,6 +225,13 @@ TEST(Uzawa, TheDualityGapOfOneSpringIsTheEnergyBetween) {
     options.enough = {energy, 1};
     EXPECT_EQ(uzawa(one_spring(), options).counters.contact == 0, energy > 16) << energy;
   }
+  // a bound that bears no more than 3 takes up 3 * 4 on the way to -5: J(-5) = -25 + 12
+  VariationalInequality soft = one_spring();
+  soft.force_bound = Eigen::VectorXd{{3}};
+  for (const double energy : {11.9, 12.1}) {
+    options.enough = {energy, 1};
+    EXPECT_EQ(uzawa(soft, options).counters.contact == 0, energy > 12) << energy;
+  }
 }
 
 TEST(Uzawa, AnEquationAloneTakesNoStep) {

@@ -1,6 +1,7 @@
 // The supremum of the error over a ball of loads: the exact side in closed form, the quadratic form of the error, its
 // largest eigenvalue.
 #include "antilock/analysis/worst_load.hpp"
+#include "antilock/analysis/load_ascent.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
@@ -50,12 +51,6 @@ TEST(LoadModes, AreOrthonormal) {
 // The load 2 sin(k pi x) cos(pi y / 2), its cosine as a polynomial (1e-8), measured point by point against the sine
 // series: for a polynomial V_h exact but for the quadrature of the error (degree 12 or so) and the table (1e-6).
 TEST(ErrorForm, IsTheMeasuredErrorOfEveryElement) {
-  std::vector<double> cosine(13, 0.0);
-  double term = 2;
-  for (int i = 0; i <= 12; i += 2) {
-    cosine[i] = term;
-    term *= -pi * pi / 4 / ((i + 1) * (i + 2));
-  }
   const TriangleMesh mesh = unstructured_mesh(6);
   for (const Element* element : {&p1(), &p2(), &p3(), &crouzeix_raviart()}) {
     const Space space(mesh, *element);
@@ -65,7 +60,7 @@ TEST(ErrorForm, IsTheMeasuredErrorOfEveryElement) {
         form.set_epsilon(epsilon);
         Eigen::VectorXd f = Eigen::VectorXd::Zero(form.modes().size());
         for (int j = 0; j < f.size(); ++j) f(j) = form.modes().k()(j) == k && form.modes().m()(j) == 1;
-        const SineLoad load{{{k, cosine}}};
+        const SineLoad load = load_of_modes(Eigen::VectorXd::Unit(k, k - 1));
         const TruthTable table(Truth(load, epsilon, false, 12), 1 << 11);
         const Solution solution = active_set(assemble(Scene(Body{load}, StiffLayer{epsilon}), space));
         const double measured = measure_errors(space, solution, epsilon, reference(table)).energy;
@@ -135,6 +130,12 @@ TEST(WorstLoad, LimitsByDegreeAndWidths) {
     EXPECT_GT(loss_of_degree(p), 1.05 * loss_of_wave(p)) << p;
     EXPECT_LT(loss_of_degree(p), loss_of_degree(p - 1)) << p;
   }
+  // |e_1| / |e_1|_a of e_1 = psi(y) sin(pi x), psi = sinh(pi (1 - y)) / sinh(pi) in the body and 1 in the layer
+  const auto [points, weights] = gauss_rule(20);
+  const Eigen::ArrayXd at = pi * (1 - points.array()), psi = at.sinh() / std::sinh(pi),
+                       slope = pi * at.cosh() / std::sinh(pi), w = weights.array();
+  const double square = (w * psi.square()).sum(), energy = (w * slope.square()).sum() + pi * pi * (square + 1);
+  EXPECT_NEAR(loss_of_wave(1), std::sqrt(square / energy), 1e-14);
   // k^2 + m^2 in order: 2, 5, 5, 8, 10, 10, 13
   EXPECT_NEAR(width_of_ball(0), 1 / (pi * std::sqrt(2)), 1e-15);
   EXPECT_NEAR(width_of_ball(2), 1 / (pi * std::sqrt(5)), 1e-15);
@@ -164,7 +165,7 @@ TEST(ErrorForm, MoreWavesAddNoMoreThanIsProved) {
   const TriangleMesh mesh = structured_mesh(6);
   const Space space(mesh, p1());
   ErrorForm few(space, LoadModes(6)), many(space, LoadModes(18));
-  for (const double epsilon : {1.0, 0.0}) {
+  for (const double epsilon : {0.0, 1.0}) {
     few.set_epsilon(epsilon);
     many.set_epsilon(epsilon);
     const double low = few.worst().error, high = many.worst().error;
@@ -182,6 +183,13 @@ TEST(ErrorForm, RefusesWhatItCannotServe) {
   expect_refused([&] { form.set_epsilon(std::nan("")); }, "epsilon");
   expect_refused([&] { form.apply(Eigen::VectorXd::Ones(1)); }, "coefficients");
   expect_refused([&] { ErrorForm(no_layer, LoadModes(2)); }, "layer");
+  expect_refused([&] { ErrorForm(space, LoadModes(7)); }, "accepted: up to 6");  // 3 per cell side
+}
+
+TEST(LoadAscent, ClimbsAndKeepsTheBestOfItsStarts) {
+  const auto first = [](const Eigen::VectorXd& at) { return at(0); };
+  EXPECT_EQ(ascend(first, {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, 1)}, 0), 1);
+  EXPECT_GT(ascend(first, {Eigen::Vector2d(0, 1)}, 100), std::cos(0.02));  // within its last step
 }
 
 }  // namespace
