@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -99,7 +100,7 @@ std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh
     options.stage(fmt::format("level {} of {}: {} triangles", l, options.refinements,
                               sum(static_cast<long long>(piece.mesh.triangle_count()))));
     watch.lap();
-    auto finer = std::make_unique<NestedLevel>(scene, std::move(piece), element);
+    auto finer = std::make_unique<NestedLevel>(scene, std::exchange(piece, {}), element);
     if (level) {
       finer->start_from(*level);
       finer->start_from(level->contact_set());

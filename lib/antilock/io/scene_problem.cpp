@@ -141,7 +141,6 @@ NormalContact normal_contact(const Answer& answer) {
   NormalContact normal;
   normal.problem.contact.assign(problem.contact.begin(), problem.contact.begin() + all);
   normal.problem.lower = problem.lower.head(all);
-  if (problem.upper.size() == all) normal.problem.upper = problem.upper;  // a ceiling; friction's are behind
   normal.solution.u = solution.u;
   normal.solution.lambda = solution.lambda.head(all);
   normal.solution.active.assign(solution.active.begin(), solution.active.begin() + all);
