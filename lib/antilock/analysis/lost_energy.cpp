@@ -69,39 +69,26 @@ Line sigma_line(const Space& space) {
   return line;
 }
 
-/// The n basis functions on an edge, 0 to 1, at some points: a row per point.
+/// Lagrange's basis of the nodes on an edge, 0 to 1, at some points: a row per point.
 struct Trace {
   Eigen::MatrixXd value, slope;
 };
 
-Trace trace_at(const Element& element, const Eigen::VectorXd& points) {
-  const Eigen::MatrixX3d nodes = element.nodes();
-  std::map<double, int> on_edge;
-  for (Eigen::Index r = 0; r < nodes.rows(); ++r)
-    if (nodes(r, 0) == 0) on_edge[nodes(r, 2)] = static_cast<int>(r);
-  Trace trace{Eigen::MatrixXd(points.size(), on_edge.size()), Eigen::MatrixXd(points.size(), on_edge.size())};
-  for (Eigen::Index q = 0; q < points.size(); ++q) {
-    const Eigen::Vector3d lambda(0, 1 - points(q), points(q));
-    const Eigen::VectorXd basis = element.basis(lambda);
-    const Eigen::MatrixX3d derivative = element.derivative(lambda);
-    Eigen::Index i = 0;
-    for (const auto& [s, r] : on_edge) {
-      trace.value(q, i) = basis(r);
-      trace.slope(q, i++) = derivative(r, 2) - derivative(r, 1);
+Trace trace_at(const Eigen::VectorXd& nodes, const Eigen::VectorXd& points) {
+  Trace trace{Eigen::MatrixXd::Ones(points.size(), nodes.size()), Eigen::MatrixXd::Zero(points.size(), nodes.size())};
+  for (Eigen::Index i = 0; i < nodes.size(); ++i)
+    for (Eigen::Index j = 0; j < nodes.size(); ++j) {
+      if (i == j) continue;
+      const Eigen::ArrayXd factor = (points.array() - nodes(j)) / (nodes(i) - nodes(j));
+      trace.slope.col(i) = trace.slope.col(i).array() * factor + trace.value.col(i).array() / (nodes(i) - nodes(j));
+      trace.value.col(i).array() *= factor;
     }
-  }
   return trace;
 }
 
-/// W: the values of its hats at the unknowns in the body, a column per hat, and which of them are not 0 where v is held.
-/// The first row of hats is Sigma, one per unknown; above, the heights are halved towards Sigma, and a hat is about as
-/// wide as it is high.
-struct Hats {
-  RowMatrix w;
-  std::vector<char> held;
-};
-
-Hats hats(const Points& at, const Line& sigma, const std::vector<char>& in_body, const std::vector<char>& held) {
+/// W: the values of its hats at the unknowns in the body, a column per hat. The first row of hats is Sigma, one per
+/// unknown; above, the heights are halved towards Sigma, and a hat is about as wide as it is high.
+RowMatrix hats(const Points& at, const Line& sigma, const std::vector<char>& in_body) {
   struct Row {
     Eigen::VectorXd x;
     int first;
@@ -116,7 +103,6 @@ Hats hats(const Points& at, const Line& sigma, const std::vector<char>& in_body,
   for (auto& [y, row] : rows) row.first = std::exchange(count, count + static_cast<int>(row.x.size()));
   Indices begin{0}, column;
   std::vector<double> value;
-  std::vector<char> on_held(count, 0);
   const auto add = [&](int v, const Row& row, double weight) {
     const double x = at(v, 0), *const first = row.x.data(), *const last = first + row.x.size();
     if (weight == 0 || x < *first || x > last[-1]) return;
@@ -124,9 +110,7 @@ Hats hats(const Points& at, const Line& sigma, const std::vector<char>& in_body,
     const double s = (x - next[-1]) / (next[0] - next[-1]);
     for (const auto& [hat, here] :
          {std::pair(next - first - 1, weight * (1 - s)), std::pair(next - first, weight * s)}) {
-      if (here == 0) continue;
-      column.push_back(row.first + static_cast<int>(hat)), value.push_back(here);
-      if (held[v] && here > 1e-12) on_held[column.back()] = 1;
+      if (here != 0) column.push_back(row.first + static_cast<int>(hat)), value.push_back(here);
     }
   };
   for (int v = 0; v < at.rows(); ++v) {
@@ -140,8 +124,7 @@ Hats hats(const Points& at, const Line& sigma, const std::vector<char>& in_body,
     }
     begin.push_back(static_cast<int>(column.size()));
   }
-  return {Eigen::Map<const RowMatrix>(at.rows(), count, begin.back(), begin.data(), column.data(), value.data()),
-          on_held};
+  return Eigen::Map<const RowMatrix>(at.rows(), count, begin.back(), begin.data(), column.data(), value.data());
 }
 
 /// Entries of the layer's part of A1 in the rows of Sigma.
@@ -168,6 +151,43 @@ std::vector<Eigen::Triplet<double>> layer_at(const Line& sigma, const Space& spa
     }
   }
   return values;
+}
+
+/// The form of the body on W and a force, of which the hats above Sigma are eliminated, and what they gain by it.
+struct Sunk {
+  Eigen::MatrixXd form;
+  Eigen::VectorXd force;
+  double energy;
+  std::vector<char> held;  ///< hats that are not 0 where v is held: they are left out
+};
+
+Sunk sunk_to_sigma(const VariationalInequality& problem, const Line& sigma, const RowMatrix& w,
+                   const std::vector<Eigen::Triplet<double>>& layer, const Eigen::VectorXd& on_body) {
+  const Eigen::Index all = w.cols(), low = sigma.x.size(), above = all - low;
+  std::vector<char> held(all, 0);
+  for (const int u : problem.fixed)
+    for (RowMatrix::InnerIterator hat(w, u); hat; ++hat)
+      if (hat.value() > 1e-12) held[hat.col()] = 1;
+  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(all, all);  // W' A1 W, of whose two halves one is summed
+  for (int u = 0; u < problem.size(); ++u)
+    for (RowMatrix::InnerIterator left(w, u); left; ++left)
+      for (SparseMatrix::InnerIterator a(problem.a1, u); !held[left.col()] && a && a.row() <= u; ++a)
+        for (RowMatrix::InnerIterator right(w, a.row()); right; ++right)
+          form(right.col(), left.col()) += (a.row() < u ? 1 : 0.5) * a.value() * left.value() * right.value();
+  form += Eigen::MatrixXd(form.transpose());
+  for (const auto& value : layer)
+    if (const int j = sigma.place[value.col()]; j >= 0) form(sigma.place[value.row()], j) -= value.value();
+  Eigen::VectorXd force = w.transpose() * on_body;
+  // hats may reach no vertex, or be dependent at the few that they reach: a little energy more makes w unique, and v no
+  // better than it is
+  form.diagonal().array() += 1e-10 * form.diagonal().maxCoeff();
+  for (Eigen::Index i = 0; i < all; ++i)
+    if (held[i]) form.row(i).setZero(), form.col(i).setZero(), form(i, i) = 1, force(i) = 0;
+  const Cholesky upper(form.bottomRightCorner(above, above));
+  const Eigen::MatrixXd follows = upper.solve(Eigen::MatrixXd(form.bottomLeftCorner(above, low)));
+  return {form.topLeftCorner(low, low) - form.topRightCorner(low, above) * follows,
+          force.head(low) - follows.transpose() * force.tail(above),
+          upper.half_solve(Eigen::VectorXd(force.tail(above))).squaredNorm() / 2, held};
 }
 
 /// y at x on the chain of straight pieces from point to point, `at` ascending; level beyond its ends.
@@ -199,21 +219,17 @@ Eigen::VectorXd lift(const Line& sigma, const Trace& trace, const Eigen::VectorX
         if (free || room == 0) most(place) = std::max(most(place), room > 0 ? lack / room : infinity);
     }
   }
-  Eigen::VectorXd all = most;
   for (const Indices& edge : sigma.edge)
-    for (const int i : edge) {
-      const double s = (sigma.x[i] - sigma.x[edge.front()]) / (sigma.x[edge.back()] - sigma.x[edge.front()]);
-      if (s > 0 && s < 1) all(i) = (1 - s) * most(edge.front()) + s * most(edge.back());
+    for (std::size_t i = 1; i + 1 < edge.size(); ++i) {
+      const double s = static_cast<double>(i) / static_cast<double>(edge.size() - 1);
+      most(edge[i]) = (1 - s) * most(edge.front()) + s * most(edge.back());
     }
-  return all;
+  return most;
 }
 
 }  // namespace
 
-double LostEnergy::share(double energy) const {
-  constexpr double negligible = 1e-8;  // the square of what the solvers leave of u, 1e-10 by default, with room
-  return motion > negligible * scale ? std::clamp(energy / motion, 0.0, 1.0) : 0;
-}
+double LostEnergy::share(double energy) const { return motion > 0 ? std::clamp(energy / motion, 0.0, 1.0) : 0; }
 
 LostEnergy lost_energy(const Scene& scene, const Space& space, const VariationalInequality& problem,
                        const Solution& solution) {
@@ -227,40 +243,18 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   const Line sigma = sigma_line(space);
   const auto points = static_cast<int>(sigma.x.size());
   const Eigen::VectorXd base = solution.u(sigma.unknown);
-  std::vector<char> in_body(space.size(), 0), held(space.size(), 0), held_at(points, 0);
+  std::vector<char> in_body(space.size(), 0), held_at(points, 0);
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (Eigen::Index r = 0; r < space.unknowns().cols() && mesh.region[t] == Region::body; ++r)
       in_body[space.unknowns()(t, r)] = 1;
-  for (std::size_t k = 0; k < problem.fixed.size(); ++k) held[problem.fixed[k]] = 1;
-  for (int i = 0; i < points; ++i) held_at[i] = held[sigma.unknown[i]];
-  // the layer held straight: 0, or affine between the given values of the outer ends of Sigma
-  Eigen::VectorXd straight = Eigen::VectorXd::Zero(points);
-  {
-    const double left = held_at.front() ? base(0) : 0, right = held_at.back() ? base(points - 1) : 0;
-    straight = left + (right - left) * (sigma.x.array() - sigma.x(0)) / (sigma.x(points - 1) - sigma.x(0));
+  for (std::size_t k = 0; k < problem.fixed.size(); ++k) {
+    const int u = problem.fixed[k];
+    if (sigma.place[u] >= 0) held_at[sigma.place[u]] = 1;
+    const double more =
+        problem.fixed_values(static_cast<Eigen::Index>(k)) - on_chain(sigma.x, base, space.points()(u, 0));
+    if (!in_body[u] && std::abs(more) > 1e-9 * base.cwiseAbs().maxCoeff())
+      throw Error("lost energy: accepted: a layer whose sides have the value of Sigma's end above them");
   }
-  for (std::size_t k = 0; k < problem.fixed.size(); ++k)
-    if (const int u = problem.fixed[k]; !in_body[u]) {
-      const double given = problem.fixed_values(static_cast<Eigen::Index>(k));
-      if (std::abs(given - on_chain(sigma.x, base, space.points()(u, 0))) > 1e-9 * base.cwiseAbs().maxCoeff())
-        throw Error("lost energy: accepted: a layer whose sides have the value of Sigma's end above them");
-    }
-
-  // the unknowns: W, and rows 1 to `rows` of columns below Sigma; all are differences to u_h, on Sigma and constant in y
-  constexpr int most_rows = 8;  // a wave over the depth loses (pi / 8)^2 / 12 = 1.3 % by the height 1/8
-  const auto degree = static_cast<int>(sigma.edge.front().size()) - 1, edges = static_cast<int>(sigma.edge.size());
-  const auto in_layer = static_cast<int>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
-  // a wave c that is constant in y loses (c epsilon)^2 / 3 of its motion: waves of six points and longer, c <= n, less than
-  // what is told where (epsilon n)^2 <= 3 telling. Else as many rows as make square cells in the layer of thickness
-  // epsilon, but no more than the mesh has: a coarse layer is no locked one
-  const double n = degree * edges / sigma.length, thickness = *epsilon * n;
-  const int rows = thickness * thickness <= 3 * LostEnergy::telling
-                       ? 0
-                       : std::clamp(static_cast<int>(std::ceil(thickness - 1e-9)), 1,
-                                    std::clamp(degree * in_layer / (2 * edges), 1, most_rows));
-  const double height = 1.0 / std::max(rows, 1);
-  const int size = (rows + 1) * points;
-  const auto unknown = [&](int i, int row) { return row * points + i; };
 
   // J(u_h) in the layer, and what u_h leaves of the forces on the body: its form is A1 less what the layer has at Sigma
   const auto layer =
@@ -271,41 +265,39 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   for (const auto& value : layer) work(value.row()) -= value.value() * solution.u(value.col());
   for (int u = 0; u < space.size(); ++u)
     if (!in_body[u]) work(u) = load(u) = 0;
-  double left_in_layer = energy(problem, solution) - solution.u.dot(work / 2 - load);
+  const double at_hand = energy(problem, solution);
+  double left_in_layer = at_hand - solution.u.dot(work / 2 - load);
 
-  // the body: its form and forces on W, of which the hats above Sigma are eliminated
-  const auto [w, on_held] = hats(space.points(), sigma, in_body, held);
-  const auto above = static_cast<int>(w.cols()) - points;
-  Eigen::MatrixXd body =
-      Eigen::MatrixXd::Zero(points + above, points + above);  // W' A1 W, of whose two halves one is summed
-  for (int u = 0; u < space.size(); ++u)
-    for (SparseMatrix::InnerIterator a(problem.a1, u); in_body[u] && a && a.row() <= u; ++a)
-      for (RowMatrix::InnerIterator left(w, u); left; ++left)
-        for (RowMatrix::InnerIterator right(w, a.row()); right; ++right)
-          body(left.col(), right.col()) += (a.row() < u ? 1 : 0.5) * a.value() * left.value() * right.value();
-  body += Eigen::MatrixXd(body.transpose());
-  for (const auto& value : layer)
-    if (const int j = sigma.place[value.col()]; j >= 0) body(sigma.place[value.row()], j) -= value.value();
-  Eigen::VectorXd force = w.transpose() * (load - work);
-  // hats may reach no vertex, or be dependent at the few that they reach: a little energy more makes w unique, and v no
-  // better than it is
-  body.diagonal().array() += 1e-10 * body.diagonal().maxCoeff();
-  for (int i = 0; i < points + above; ++i)
-    if (on_held[i]) body.row(i).setZero(), body.col(i).setZero(), body(i, i) = 1, force(i) = 0;
-  const Cholesky upper(body.bottomRightCorner(above, above));
-  const Eigen::MatrixXd follows = upper.solve(Eigen::MatrixXd(body.bottomLeftCorner(above, points)));
-  const Eigen::MatrixXd sunk = body.topLeftCorner(points, points) - body.topRightCorner(points, above) * follows;
-  left_in_layer += force.tail(above).dot(upper.solve(Eigen::VectorXd(force.tail(above)))) / 2;
+  const Sunk body = sunk_to_sigma(problem, sigma, hats(space.points(), sigma, in_body), layer, load - work);
+  left_in_layer += body.energy;
+
+  // the unknowns: Sigma, and rows 1 to `rows` of columns below it; all are differences to u_h, on Sigma and constant in y
+  constexpr int most_rows = 8;  // a wave over the depth loses (pi / 8)^2 / 12 = 1.3 % by the height 1/8
+  const auto degree = static_cast<int>(sigma.edge.front().size()) - 1, edges = static_cast<int>(sigma.edge.size());
+  const auto in_layer = static_cast<int>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
+  // a layer that is constant in y is too stiff: a wave c loses (c epsilon)^2 / 3 of its motion, and the spring between body
+  // and obstacle, s / epsilon^2 per length, is rigid. No row where both are less than what is told, for waves of six points
+  // and longer, c <= n points per length. Else as many rows as make square cells in the layer of thickness epsilon, but no
+  // more than the mesh has: a coarse layer is no locked one
+  const double n = degree * edges / sigma.length, thickness = *epsilon * n;
+  const double give = std::max(thickness / 3, *epsilon / s * body.form.diagonal().maxCoeff()) * thickness;
+  const int rows = give <= LostEnergy::telling ? 0
+                                               : std::clamp(static_cast<int>(std::ceil(thickness - 1e-9)), 1,
+                                                            std::clamp(degree * in_layer / (2 * edges), 1, most_rows));
+  const double height = 1.0 / std::max(rows, 1);
+  const int size = (rows + 1) * points;
+  const auto unknown = [&](int i, int row) { return row * points + i; };
 
   VariationalInequality strip;
   strip.load = Eigen::VectorXd::Zero(size);
-  strip.load.head(points) = force.head(points) - follows.transpose() * force.tail(above);
+  strip.load.head(points) = body.force;
   std::vector<Eigen::Triplet<double>> a1, b;
   std::vector<double> m;
   for (int i = 0; i < points; ++i)
-    for (int j = 0; j < points; ++j) a1.emplace_back(i, j, (sunk(i, j) + sunk(j, i)) / 2);
+    for (int j = 0; j < points; ++j) a1.emplace_back(i, j, (body.form(i, j) + body.form(j, i)) / 2);
   const auto [at, weights] = gauss_rule(degree + 1);
-  const Trace trace = trace_at(element, at);
+  const Eigen::VectorXd nodes = Eigen::VectorXd::LinSpaced(degree + 1, 0, 1);
+  const Trace trace = trace_at(nodes, at);
   const Eigen::MatrixXd form = trace.slope.transpose() * weights.asDiagonal() * trace.slope;
   for (const Indices& edge : sigma.edge) {
     const double dx = sigma.x[edge.back()] - sigma.x[edge.front()];
@@ -345,35 +337,39 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   strip.compliance = *epsilon * *epsilon;
   for (int row = 0; row <= rows; ++row)
     for (int i = 0; i < points; ++i) {
-      const bool fixed = held_at[i] || (row == 0 && on_held[i]);
+      const bool fixed = held_at[i] || (row == 0 && body.held[i]);
       if (fixed) strip.fixed.push_back(unknown(i, row));
       if (!fixed && row == rows && !problem.contact.empty()) strip.contact.push_back(unknown(i, rows));
     }
   strip.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strip.fixed.size()));
-  Eigen::VectorXd bottom_x = space.points().col(0)(problem.contact);
-  strip.lower.resize(static_cast<Eigen::Index>(strip.contact.size()));
-  if (problem.upper.size() > 0) strip.upper = strip.lower;
-  for (Eigen::Index k = 0; k < strip.lower.size(); ++k) {
-    const int i = strip.contact[k] - unknown(0, rows);
-    strip.lower(k) = on_chain(bottom_x, problem.lower, sigma.x(i)) - base(i);
-    if (strip.upper.size() > 0) strip.upper(k) = on_chain(bottom_x, problem.upper, sigma.x(i)) - base(i);
-  }
+  const Eigen::VectorXd bottom = space.points().col(0)(problem.contact);
+  const auto seen = [&](const Eigen::VectorXd& bounds) {
+    Eigen::VectorXd here(static_cast<Eigen::Index>(bounds.size() > 0 ? strip.contact.size() : 0));
+    for (Eigen::Index k = 0; k < here.size(); ++k) {
+      const int i = strip.contact[k] - unknown(0, rows);
+      here(k) = on_chain(bottom, bounds, sigma.x(i)) - base(i);
+    }
+    return here;
+  };
+  strip.lower = seen(problem.lower), strip.upper = seen(problem.upper);
 
   LostEnergy lost;
-  lost.unknowns = strip.free_count();
-  if (lost.unknowns == 0) return lost;
+  if (strip.free_count() == 0) return lost;
   const Solution moved = active_set(strip);
-  Eigen::VectorXd still(size);  // v_0
-  for (int row = 0; row <= rows; ++row) still.segment(unknown(0, row), points) = straight - base;
+  // v_0: its layer is 0, or affine between given values of the outer ends of Sigma
+  const double left = held_at.front() ? base(0) : 0, right = held_at.back() ? base(points - 1) : 0;
+  const Eigen::ArrayXd s_of_x = (sigma.x.array() - sigma.x(0)) / (sigma.x(points - 1) - sigma.x(0));
+  const Eigen::VectorXd still = (left + (right - left) * s_of_x - base.array()).matrix().replicate(rows + 1, 1);
   const double j = energy(strip, moved), j_still = still.dot(strip.a1 * still) / 2 - strip.load.dot(still);
   const Eigen::VectorXd way = moved.u - still;
   lost.found = lost.proved = left_in_layer - j;
-  lost.scale = std::abs(energy(problem, solution) - lost.found);
   lost.motion =
       std::max(j_still - j, way.dot(strip.a1 * way) / 2 + strip.compliance * moved.p.cwiseAbs2().dot(strip.m) / 2);
+  // the square of what the solvers leave of u, 1e-10 by default, with room
+  if (lost.motion < 1e-8 * std::abs(at_hand - lost.found)) lost.motion = 0;
   if (!scene.contact()) return lost;
 
-  const Trace fine = trace_at(element, Eigen::VectorXd::LinSpaced(33, 0, 1));
+  const Trace fine = trace_at(nodes, Eigen::VectorXd::LinSpaced(33, 0, 1));
   const Eigen::VectorXd v = base + moved.u.segment(unknown(0, rows), points);
   const auto& [gap, ends, ceiling] = *scene.contact();
   const Profile floor = [&](double x) { return -gap(x); }, roof = [&](double x) { return -ceiling(x); };

@@ -109,16 +109,26 @@ bool same_layer(const TriangleMesh& mesh, const TriangleMesh& columns) {
 
 }  // namespace
 
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const std::vector<Chord>& chords, int count) {
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& near) {
   constexpr int samples = 32;
-  Eigen::VectorXd lower = Eigen::VectorXd::Constant(count, -std::numeric_limits<double>::infinity());
-  for (const Chord& chord : chords) {
+  const TriangleMesh& mesh = space.mesh();
+  std::vector<int> bound_of(mesh.vertex_count(), -1);  // -1: v is prescribed there
+  for (std::size_t i = 0; i < space.contact().size(); ++i) bound_of[space.contact()[i]] = static_cast<int>(i);
+  Eigen::VectorXd lower = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(space.contact().size()),
+                                                    -std::numeric_limits<double>::infinity());
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    std::array<double, 2> x, at;  // of its two ends: v there, or a value near it
+    std::array<int, 2> place;
+    for (int end = 0; end < 2; ++end) {
+      const int v = mesh.edges(e, end);
+      x[end] = mesh.vertices(v, 0), at[end] = near ? near(x[end], mesh.vertices(v, 1)) : 0, place[end] = bound_of[v];
+    }
     std::array<double, samples + 1> obstacle;
     for (int k = 0; k <= samples; ++k) {
-      const double s = static_cast<double>(k) / samples;
-      const double x = (1 - s) * chord.x[0] + s * chord.x[1], gap = contact.gap(x);
-      if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
-      obstacle[k] = -gap - 4 * s * (1 - s) * chord.bubble;
+      const double s = static_cast<double>(k) / samples, here = (1 - s) * x[0] + s * x[1], gap = contact.gap(here);
+      if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", here));
+      obstacle[k] = -gap;
     }
     double raise = 0, most = obstacle[0];
     std::array<double, 2> beside{obstacle[0], obstacle[samples]};  // where the other end cannot help
@@ -126,35 +136,21 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const std::v
       const double s = static_cast<double>(k) / samples;
       raise = std::max(raise, obstacle[k] - (1 - s) * obstacle[0] - s * obstacle[samples]);
       most = std::max(most, obstacle[k]);
-      if (k < samples) beside[0] = std::max(beside[0], (obstacle[k] - s * chord.near[1]) / (1 - s));
-      if (k > 0) beside[1] = std::max(beside[1], (obstacle[k] - (1 - s) * chord.near[0]) / s);
+      if (k < samples) beside[0] = std::max(beside[0], (obstacle[k] - s * at[1]) / (1 - s));
+      if (k > 0) beside[1] = std::max(beside[1], (obstacle[k] - (1 - s) * at[0]) / s);
     }
     const std::array<double, 2> smooth{obstacle[0] + raise, obstacle[samples] + raise}, level{most, most};
     const auto lifts = [&](const std::array<double, 2>& bound) {  // how far v is lifted, and the bounds themselves
-      const double left = std::max(bound[0] - chord.near[0], 0.0), right = std::max(bound[1] - chord.near[1], 0.0);
+      const double left = std::max(bound[0] - at[0], 0.0), right = std::max(bound[1] - at[1], 0.0);
       return std::pair(left * left + right * right, bound[0] + bound[1]);
     };
-    const bool alone = chord.place[0] < 0 || chord.place[1] < 0;
+    const bool alone = place[0] < 0 || place[1] < 0;
     const std::array<double, 2>& bound = alone ? beside : lifts(level) < lifts(smooth) ? level : smooth;
     for (int end = 0; end < 2; ++end)
-      if (double* const here = chord.place[end] < 0 ? nullptr : &lower(chord.place[end]); here != nullptr)
+      if (double* const here = place[end] < 0 ? nullptr : &lower(place[end]); here != nullptr)
         *here = std::max(*here, bound[end]);
   }
   return lower;
-}
-
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& near) {
-  const TriangleMesh& mesh = space.mesh();
-  const auto at = [&](int v) { return near ? near(mesh.vertices(v, 0), mesh.vertices(v, 1)) : 0; };
-  std::vector<int> place(mesh.vertex_count(), -1);
-  for (std::size_t i = 0; i < space.contact().size(); ++i) place[space.contact()[i]] = static_cast<int>(i);
-  std::vector<Chord> chords;
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-    const int from = mesh.edges(e, 0), to = mesh.edges(e, 1);
-    chords.push_back({{place[from], place[to]}, {mesh.vertices(from, 0), mesh.vertices(to, 0)}, {at(from), at(to)}});
-  }
-  return admissible_bounds(contact, chords, static_cast<int>(space.contact().size()));
 }
 
 Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -24,16 +23,6 @@ struct Companion {
 /// right where the gap is smooth; or the largest -gap at both ends, which is right where it has a step or a kink. The gap
 /// is sampled at 33 points per edge. `near`: v at the held ends, and near it elsewhere (empty: 0).
 Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& near = {});
-
-/// A piece of Gamma_C on which v is affine, but for a bubble.
-struct Chord {
-  std::array<int, 2> place;    ///< of its two ends among the bounds; -1: v is prescribed there
-  std::array<double, 2> x;     ///< of its two ends
-  std::array<double, 2> near;  ///< a value near v at the ends; v itself at one whose place is -1
-  double bubble = 0;           ///< v has 4 s (1 - s) times it in addition, s from 0 to 1 along the chord
-};
-/// The same for `count` values of v on chords.
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const std::vector<Chord>& chords, int count);
 
 /// The strip: v is the average of u_CR, weighted by the stiffness, at the body's vertices off Sigma, and on Sigma and in the layer the function of
 /// least energy in K, by active set. The scaled layer has columns for it under the vertices of Sigma (mesh/layered.hpp),
