@@ -11,7 +11,8 @@
 namespace antilock {
 namespace {
 
-/// A bound that is off its piece by more than round-off.
+/// A bound that is off its piece: a force by more than round-off, a value by anything. (A value off by round-off costs a
+/// step of the descent, which stays finite. Forces that are 0 but for round-off would be let go of in ever other sets.)
 struct Move {
   int bound;
   Piece to;          ///< the piece beyond that end
@@ -37,7 +38,8 @@ std::vector<Move> moves(const Stairs& stairs, const Pieces& pieces, const Equili
     if (is_held(pieces[i]) != held) continue;
     const double value = held ? now.lambda(i) : now.v(place[i]);
     const auto [low, high] = stairs.found(i, pieces[i]);
-    const bool under = value<low - now.round_off(i), over = value> high + now.round_off(i);
+    const double noise = held ? now.round_off(i) : 0;
+    const bool under = value<low - noise, over = value> high + noise;
     if (under || over)  // too little force: v must rise
       moves.push_back({i, stairs.next(i, pieces[i], held == under), under ? low : high});
   }

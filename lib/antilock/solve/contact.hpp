@@ -9,10 +9,9 @@ namespace antilock {
 
 /// The equilibrium K v = q + lambda in which one of value and force is given per bound.
 struct Equilibrium {
-  Eigen::VectorXd v;       ///< n, all unknowns of the system
-  Eigen::VectorXd lambda;  ///< C
-  /// C: what round-off makes of the one that was found: of a force tuned::round_off of its terms, e; of a value K^-1 e.
-  Eigen::VectorXd round_off;
+  Eigen::VectorXd v;          ///< n, all unknowns of the system
+  Eigen::VectorXd lambda;     ///< C
+  Eigen::VectorXd round_off;  ///< C: of a force at that bound, tuned::round_off of the terms of its row
 };
 
 /// The linear system of a contact problem, K symmetric positive definite (n x n), C of its unknowns bounded: all others

@@ -49,33 +49,12 @@ class CondensedUzawa {
  public:
   CondensedUzawa(const PenaltyFactor& factor, const UzawaOptions& options) : factor_(factor), options_(options) {}
 
-  /// Equations (lower = upper) are solved for their forces: a step would move those freely, at a rate of its own.
   ContactAnswer operator()(const ContactQuestion& asked) {
     const auto& given = dynamic_cast<const DenseContact&>(asked.system);
     const Stairs stairs{asked.stairs.lower, asked.stairs.upper, asked.stairs.bears};
     Eigen::VectorXd all = given.q();  // the steps are taken on whole forces
     if (asked.stairs.force.size() > 0) all -= asked.stairs.force;
-    const DenseContact system(given.s(), all);
-    std::vector<int> equations, open;
-    for (int i = 0; i < stairs.count(); ++i)
-      (stairs.is_equation(i) && std::isinf(stairs.most(i)) ? equations : open).push_back(i);
-    if (equations.empty()) return stepped(system, stairs, asked.before, asked.u_scale);
-    ContactAnswer answer{stairs.lower, Eigen::VectorXd::Zero(stairs.count()), Pieces(stairs.count(), Piece::at_lower)};
-    if (!open.empty()) {
-      const Eigen::MatrixXd s = system.s()(open, open);
-      const Eigen::VectorXd q = system.q()(open) - system.s()(open, equations) * stairs.lower(equations);
-      ContactAnswer of_open;
-      if (asked.before.lambda.size() > 0) of_open.lambda = asked.before.lambda(open);
-      of_open = stepped(DenseContact(s, q), stairs.of(open), of_open, asked.u_scale);
-      answer.v(open) = of_open.v;
-      answer.lambda(open) = of_open.lambda;
-      answer.steps = of_open.steps;
-      for (std::size_t i = 0; i < open.size(); ++i) answer.pieces[open[i]] = of_open.pieces[i];
-    }
-    const Eigen::VectorXd force = system.s() * answer.v - system.q();
-    for (int i = 0; i < stairs.count(); ++i)
-      if (is_held(answer.pieces[i])) answer.lambda(i) = force(i);
-    return answer;
+    return stepped(DenseContact(given.s(), all), stairs, asked.before, asked.u_scale);
   }
 
   std::vector<double> history;
@@ -153,7 +132,7 @@ class CondensedUzawa {
     // small for most.
     const Eigen::VectorXd one = Eigen::VectorXd::Ones(count), each = compliance_.diagonal().cwiseInverse();
     const Step common = best_step(s, one), own = best_step(s, each);
-    rho_ = 4 * own.condition < common.condition ? Eigen::VectorXd(own.length * each) : common.length * one;
+    rho_ = own.condition < common.condition ? Eigen::VectorXd(own.length * each) : common.length * one;
   }
 
   /// The step rho weight_i that contracts fastest, 2 / (largest + smallest eigenvalue of W C), and their ratio.

@@ -22,7 +22,7 @@ struct UzawaOptions {
   double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock; reached: NotConverged
   std::optional<double>
       step;  ///< rho; empty: 2 / (largest + smallest eigenvalue of the compliance C), by Lanczos iteration, or
-             ///< the same of C scaled to a unit diagonal, over C_ii, where that is four times better conditioned
+             ///< the same of C scaled to a unit diagonal, over C_ii, where that is better conditioned
   std::optional<double> penalty;  ///< delta where compliance is smaller; empty: choose_penalty
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
@@ -33,7 +33,7 @@ struct UzawaOptions {
 /// The paper's algorithm: projected gradient on the contact pressure,
 ///     A u = L + lambda,   lambda <- max(0, lambda - rho (u - lower))   on Gamma_C,
 /// and + min(0, lambda - rho (u - upper)) where there is an upper bound, cut to |lambda| <= force_bound; the linear solve
-/// by Cholesky. Equations (lower = upper) are solved for their lambda. Condensed on Gamma_C (the compliance is dense there
+/// by Cholesky. Condensed on Gamma_C (the compliance is dense there
 /// and small) a step costs a product with a C x C matrix; the stiff part is treated by iterated penalty, as in
 /// active_set. history holds one entry per step. Throws NotConverged, with how far it came, instead of ever returning an
 /// unconverged answer. Bounds of other shapes as in active_set.

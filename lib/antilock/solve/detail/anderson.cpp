@@ -26,13 +26,15 @@ void Anderson::mix(Twice& reached, Twice& companion) const {
   const auto others = static_cast<Eigen::Index>(past_.size()) - 1;
   if (others < 1) return;
   const Eigen::VectorXd& g = past_[0].g;
-  // min | g_0 - sum gamma_i (g_0 - g_i) |: a handful of columns, by a QR that drops dependent ones
+  // min | g_0 - sum gamma_i (g_0 - g_i) |: a handful of columns, by a QR that drops dependent ones. The entries of the
+  // normal matrix are sums of products: a pivot below their round-off tells nothing
   Eigen::MatrixXd difference(g.size(), others);
   for (Eigen::Index i = 0; i < others; ++i) difference.col(i) = g - past_[i + 1].g;
   const Eigen::VectorXd scale = difference.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
   for (Eigen::Index i = 0; i < others; ++i) difference.col(i) /= scale(i);
   const Eigen::MatrixXd normal = difference.transpose() * difference;
-  const Eigen::VectorXd gamma = least_squares(normal, difference.transpose() * g, 1e-10).cwiseQuotient(scale);
+  const Eigen::VectorXd gamma =
+      least_squares(normal, difference.transpose() * g, tuned::round_off).cwiseQuotient(scale);
   for (Eigen::Index i = 0; i < others; ++i) {
     reached += -gamma(i) * (past_[0].reached - past_[i + 1].reached);
     companion += -gamma(i) * (past_[0].companion - past_[i + 1].companion);

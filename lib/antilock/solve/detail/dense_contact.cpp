@@ -1,7 +1,6 @@
 #include "antilock/solve/detail/dense_contact.hpp"
 
 #include <numeric>
-#include <optional>
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
@@ -30,28 +29,22 @@ DenseContact::DenseContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q)
 Equilibrium DenseContact::solve(const std::vector<char>& held, const Eigen::VectorXd& given) {
   std::vector<int> free, fixed;
   for (int i = 0; i < static_cast<int>(held.size()); ++i) (held[i] != 0 ? fixed : free).push_back(i);
-  Equilibrium now{given, given, Eigen::VectorXd::Zero(given.size())};
-  std::optional<Cholesky> factor;
+  Equilibrium now{given, given, {}};
   if (!free.empty()) {
     Eigen::VectorXd rhs = q_(free) + given(free);
     if (!fixed.empty()) rhs.noalias() -= s_(free, fixed) * given(fixed);
-    factor = factor_of(s_(free, free));
-    const Eigen::VectorXd v = factor->solve(rhs);
+    const Eigen::VectorXd v = factor_of(s_(free, free)).solve(rhs);
     now.v(free) = v;
   }
   if (!fixed.empty()) now.lambda(fixed) = s_(fixed, Eigen::all) * now.v - q_(fixed);
   // each force by the terms of its own row: one stiff unknown must not hide the pull on a soft one
   now.round_off = tuned::round_off * (s_.cwiseAbs() * now.v.cwiseAbs() + q_.cwiseAbs());
-  if (factor) {
-    const Eigen::VectorXd moved = factor->solve(Eigen::VectorXd(now.round_off(free))).cwiseAbs();
-    now.round_off(free) = moved;
-  }
   return now;
 }
 
 Pieces DenseContact::nested_start(const Stairs& stairs, int max_steps) {
   const int fine = stairs.count(), coarse = fine / 2;
-  if (fine <= 8) return Pieces(fine, Piece::between);
+  if (fine <= 1) return Pieces(fine, Piece::between);
   const auto kept = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
   const Cholesky factor = factor_of(s_(others, others));
   const Eigen::MatrixXd half = factor.half_solve(Eigen::MatrixXd(s_(others, kept)));

@@ -12,7 +12,7 @@ class DenseContact final : public ContactSystem {
   Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override;
   double square(const Eigen::VectorXd& d) const override { return d.dot(s_ * d); }
   /// Makes the steps independent of h: the same problem, bounded at every second unknown only (the others are free and
-  /// eliminated), solved the same way down to eight, gives the pieces by interpolation. Elimination keeps every order of S
+  /// eliminated), solved the same way down to one, gives the pieces by interpolation. Elimination keeps every order of S
   /// right; interpolated functions (P' S P) would be far too stiff for a beam, whose bending energy does not take their
   /// corners.
   Pieces nested_start(const Stairs& stairs, int max_steps) override;

@@ -47,7 +47,9 @@ class IteratedPenalty {
       s_.history.push_back(largest > 0 ? moved / largest : 0);
       s_.counters.corrections = correction;
       s_.error = now.error;
-      if (now.error <= options_.tolerance && now.open <= 1) return finished();
+      // what is left of a load that a bound can hardly bear is seen by the second residual, and not by the first
+      const bool settled = correction > 0 || moved == 0 || problem_.force_bound.size() == 0;
+      if (settled && now.error <= options_.tolerance && now.open <= 1) return finished(step.left_of_r2);
       const bool slow = correction % tuned::corrections_per_penalty == tuned::corrections_per_penalty - 1;
       if (slow) require_an_admissible_u(problem_, u_.high, s_);
       if (correction >= options_.max_corrections || !std::isfinite(moved))
@@ -163,7 +165,7 @@ class IteratedPenalty {
     s_.seconds.contact += watch.seconds();
   }
 
-  Solution finished() {
+  Solution finished(const Eigen::VectorXd& left_of_r2) {
     s_.counters.unknowns = problem_.free_count();
     s_.counters.factorisations = factor_.factorisations();
     s_.counters.solves = s_.counters.corrections + 1;
@@ -174,6 +176,7 @@ class IteratedPenalty {
     s_.u = std::move(u_.high);
     s_.p = std::move(p_.high);
     s_.lambda = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(problem_.bound_count());
+    s_.warning = doubt(problem_, factor_, s_, left_of_r2);
     return std::move(s_);
   }
 
@@ -201,7 +204,6 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
                           const CorrectionOptions& options, const std::string& name) {
   const Tied tied(problem);
   Solution answer = IteratedPenalty(*tied, factor, contact, options, name).solve();
-  answer.warning = doubt(*tied, factor, answer);
   answer.u.conservativeResize(problem.size());
   answer.p.conservativeResize(problem.b.rows());
   answer.lambda = tied.forces(std::move(answer.lambda));

@@ -15,7 +15,7 @@ class SparseContact final : public ContactSystem {
   Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override;
   double square(const Eigen::VectorXd& d) const override { return d.dot(k_.times(d)); }
   /// A start that needs no mesh. K is coarsened by smoothed aggregation (Vanek, Mandel, Brezina 1996), the same problem
-  /// solved there, in the same way down to eight bounds, and a bound starts on the piece of all coarse ones that its
+  /// solved there, in the same way down to one bound, and a bound starts on the piece of all coarse ones that its
   /// unknown depends on, where they agree. Rather too small a set than too large: a hole in it is filled in a
   /// step or two, what is too much is given up one row of cells at a time. Aggregation supposes that constants cost no
   /// energy; where they do (beams, plates: their rotations) every second bound alone is kept, and K stays whole: right for

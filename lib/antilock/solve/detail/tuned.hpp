@@ -19,12 +19,7 @@ constexpr double round_off = 64 * eps;
 /// closed, and two rows are one.
 constexpr double equal = 8 * eps;
 
-/// Rows of B that are nearer to dependent than this, but not equal, are warned of. Where a row is closed, a mode of the
-/// singular value s of B is open by `equal` / s of u: by half of what is refused at this s. (Measured: rows (1, 1) and
-/// (1, 1 + d) under the load (1, 1), for which u = 0, are right to d = 1e-8, s = 5e-9, and leave u = d / 4 from 1e-9 on.)
-constexpr double apart = 2 * equal / TrustLevels{}.refused;
-
-/// Rows of B that are looked at so: a dense factor of so many takes milliseconds.
+/// Rows of B whose distance from dependent is looked at: a dense factor of so many takes milliseconds.
 constexpr int few_rows = 200;
 
 /// Corrections in all, where the caller asks for no other number: six penalties, and the smallest is reached after four.
