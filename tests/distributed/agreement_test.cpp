@@ -86,7 +86,7 @@ TEST_P(Agreement, WithTheSerialLibrary) {
                    fmt::format("{} {} {:g}", layered ? "layered" : "structured", name, epsilon));
 }
 
-TEST(Bodies, OverALayerInColumnsAgreeToo) {  // under a bridge a rank may hold no part of the layer
+TEST(AgreementOnABridge, WithTheSerialLibrary) {  // under a bridge a rank may hold no part of the layer
   for (const double epsilon : {1e-2, 1e-6})
     for (const char* name : {"P1", "CR"})
       for (const bool feet : {false, true})

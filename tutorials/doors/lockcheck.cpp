@@ -42,7 +42,7 @@ Eigen::MatrixXd by_unknown(const std::filesystem::path& path, std::vector<std::s
   std::vector<Eigen::Index> order(static_cast<std::size_t>(rows.rows()));
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) { return rows(i, 0) < rows(j, 0); });
-  const Eigen::MatrixXd sorted = rows(order, Eigen::all);
+  Eigen::MatrixXd sorted = rows(order, Eigen::all);
   for (Eigen::Index i = 0; i < sorted.rows(); ++i) unknown(path, sorted(i, 0), size);
   return sorted;
 }

@@ -41,6 +41,7 @@ std::vector<double> epsilons(const std::string& text) {
     throw Error("antilock sweep: --epsilon: \"" + text + "\"; accepted: FROM:TO:COUNT, both above 0, 2 to 1000 values");
   std::vector<double> list;
   const int count = static_cast<int>(range[2]);
+  list.reserve(count);
   for (int i = 0; i < count; ++i) list.push_back(range[0] * std::pow(range[1] / range[0], double(i) / (count - 1)));
   return list;
 }
@@ -85,6 +86,7 @@ int sweep(int argc, char** argv) {
     throw Error(file.name + ": layer.model: epsilon does not vary in this scene; accepted: a scaled layer");
   std::vector<Scene> scenes;  // an epsilon out of range is refused here
   const std::vector<double> list = epsilons(epsilon_text);
+  scenes.reserve(list.size());
   for (const double e : list) scenes.emplace_back(file.scene.body(), StiffLayer{e}, file.scene.contact());
   const std::vector<double> at = at_text.empty() ? std::vector<double>{} : numbers("--at", at_text, ',');
   if (at.size() % 2 != 0)

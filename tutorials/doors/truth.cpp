@@ -30,7 +30,7 @@ struct Row {
 };
 
 /// What is known beside the values at the points: numbers with their accuracies, and how they were found.
-struct Known {
+struct Known {  // NOLINT(bugprone-exception-escape): JSON is moved without a throw
   std::vector<Row> rows;
   json summary;
 };
