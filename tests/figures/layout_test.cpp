@@ -26,48 +26,30 @@ TEST(Layout, AGoodPageHasNoFault) {
                    9);  // the script: 3/4 of 48 pixels, shown at a quarter of the page's width
 }
 
-TEST(Layout, SmallTypeIsSeen) {
-  Page page = good_page();
-  page.text({960, 300}, "small", {35});
-  EXPECT_NE(fault(page).find("type of 8.8 pixels in \"small\""), std::string::npos) << fault(page);
-}
-
-TEST(Layout, SmallTypeInAScriptIsSeen) {
-  Page page = good_page();
-  page.text({960, 300}, "$10^{−6}$", {47});
-  EXPECT_NE(fault(page).find("8.8 pixels"), std::string::npos) << fault(page);
-}
-
-TEST(Layout, TextsThatOverlapAreSeen) {
-  Page page = good_page();
-  page.text({960, 520}, "over it", {48, {0.5}});
-  EXPECT_NE(fault(page).find("overlap"), std::string::npos) << fault(page);
-}
-
-TEST(Layout, TurnedTextsThatOverlapAreSeen) {
-  Page page = good_page();
-  page.text({960, 500}, "across it, from below", {48, {0.5}, 90});
-  EXPECT_NE(fault(page).find("overlap"), std::string::npos) << fault(page);
-}
-
-TEST(Layout, ATurnedTextBesideAnotherIsNoFault) {
-  Page page = good_page();
-  page.text({200, 500}, "a vertical axis", {48, {0.5}, 90});
-  EXPECT_EQ(fault(page), "none");
-}
-
-TEST(Layout, ATextOffThePageIsSeenAtEachEdge) {
-  for (const Point at : {Point{-20, 300}, {1880, 300}, {300, -20}, {300, 990}}) {
+TEST(Layout, EveryFaultIsSeen) {
+  struct Added {
+    Point at;
+    std::string text;
+    TextStyle look;
+    std::string fault;
+  };
+  for (const Added& added :
+       {Added{{960, 300}, "small", {35}, "type of 8.8 pixels in \"small\""},
+        Added{{960, 300}, "$10^{−6}$", {47}, "8.8 pixels"}, Added{{960, 520}, "over it", {48, {0.5}}, "overlap"},
+        Added{{960, 500}, "across it, from below", {48, {0.5}, 90}, "overlap"},
+        Added{{200, 500}, "a vertical axis", {48, {0.5}, 90}, "none"},
+        Added{{-20, 300}, "edge", {48}, "\"edge\" leaves the page"},
+        Added{{1880, 300}, "edge", {48}, "\"edge\" leaves the page"},
+        Added{{300, -20}, "edge", {48}, "\"edge\" leaves the page"},
+        Added{{300, 990}, "edge", {48}, "\"edge\" leaves the page"},
+        Added{{960, 300},
+              "Crouzeix–Raviart, unstructured mesh",
+              {52, {0.5}, 0, palette::ink, 500},
+              "its place holds 500"}}) {
     Page page = good_page();
-    page.text(at, "edge", {48});
-    EXPECT_NE(fault(page).find("\"edge\" leaves the page"), std::string::npos) << at.x << ", " << at.y << fault(page);
+    page.text(added.at, added.text, added.look);
+    EXPECT_NE(fault(page).find(added.fault), std::string::npos) << added.text << ": " << fault(page);
   }
-}
-
-TEST(Layout, ATitleWiderThanItsPanelIsSeen) {
-  Page page = good_page();
-  page.text({960, 300}, "Crouzeix–Raviart, unstructured mesh", {52, {0.5}, 0, palette::ink, 500});
-  EXPECT_NE(fault(page).find("its place holds 500"), std::string::npos) << fault(page);
 }
 
 /// Relative luminance, as in the contrast ratio of WCAG 2.

@@ -15,6 +15,7 @@
 #include "model_check.hpp"
 #include "numbers.hpp"
 #include "runner.hpp"
+#include "support/platen.hpp"
 #include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -37,9 +38,6 @@ struct Setting {
 std::ostream& operator<<(std::ostream& out, const Setting& s) { return out << s.name(); }
 const Setting settings[] = {{"P1", true}, {"P1", false}, {"CR", true}, {"CR", false}};
 
-Scene contact_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
-Scene free_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}); }
-
 double largest(const SparseMatrix& a) {
   return Eigen::Map<const Eigen::VectorXd>(a.valuePtr(), a.nonZeros()).cwiseAbs().maxCoeff();
 }
@@ -49,9 +47,8 @@ class FreeFemForms : public ::testing::TestWithParam<Setting> {};
 // Relative to the largest entry: entries are sums of a few products, each with a round-off or two (1e-16), and the
 // coordinates carry all digits; 1e-12 leaves room for nothing but that.
 TEST_P(FreeFemForms, MatricesAndLoadAgreeEntryByEntry) {
-  const TriangleMesh mesh = GetParam().mesh(16);
-  const Space space(mesh, element(GetParam().element));
-  const VariationalInequality ours = assemble(contact_scene(1), space);
+  const SpaceOn space(GetParam().mesh(16), element(GetParam().element));
+  const VariationalInequality ours = stiff_problem(space, 1);
   const SparseMatrix a0 = ours.b.transpose() * ours.m.asDiagonal() * ours.b;
   const TemporaryFolder folder;
   const freefem::Discretisation theirs = freefem::assemble(space, folder.path());
@@ -70,9 +67,8 @@ class Solutions : public ::testing::TestWithParam<std::tuple<Setting, double>> {
 // Both sides stop their corrections at a relative change of 1e-10 or less.
 TEST_P(Solutions, WithoutContactAgree) {
   const auto [setting, epsilon] = GetParam();
-  const TriangleMesh mesh = setting.mesh(16);
-  const Space space(mesh, element(setting.element));
-  const VariationalInequality problem = assemble(free_scene(epsilon), space);
+  const SpaceOn space(setting.mesh(16), element(setting.element));
+  const VariationalInequality problem = assemble(Scene({paper_load}, StiffLayer{epsilon}), space);
   const Solution ours = active_set(problem);
   const TemporaryFolder folder;
   const auto theirs = freefem::solve(setting.script(), space, epsilon, folder.path(), {"-contact", "off"});
@@ -85,9 +81,8 @@ TEST_P(Solutions, WithoutContactAgree) {
 // the solution, hence its smaller bound.
 TEST_P(Solutions, WithContactAgreeInValuesContactSetAndEnergy) {
   const auto [setting, epsilon] = GetParam();
-  const TriangleMesh mesh = setting.mesh(16);
-  const Space space(mesh, element(setting.element));
-  const VariationalInequality problem = assemble(contact_scene(epsilon), space);
+  const SpaceOn space(setting.mesh(16), element(setting.element));
+  const VariationalInequality problem = stiff_problem(space, epsilon);
   const Solution ours = active_set(problem);
   const TemporaryFolder folder;
   const auto theirs = freefem::solve(setting.script(), space, epsilon, folder.path());
@@ -122,9 +117,8 @@ struct Against {
   double residual;
 };
 Against against_ours(const Setting& setting, double epsilon, const std::string& stiff) {
-  const TriangleMesh mesh = setting.mesh(16);
-  const Space space(mesh, element(setting.element));
-  const VariationalInequality problem = assemble(contact_scene(epsilon), space);
+  const SpaceOn space(setting.mesh(16), element(setting.element));
+  const VariationalInequality problem = stiff_problem(space, epsilon);
   const TemporaryFolder folder;
   const auto theirs = freefem::solve(setting.script(), space, epsilon, folder.path(), {"-stiff", stiff});
   return {freefem::compare(space, problem, active_set(problem), theirs), theirs.residual};
@@ -204,9 +198,8 @@ TEST(PlainSum, IsRefusedAtEpsilon0) {
 // Both roads on the other side: the saddle point as it stands, and corrections of a penalised problem.
 TEST(Roads, MixedAndPenaltyAgreeWithTheLibrary) {
   for (const Setting& setting : settings) {
-    const TriangleMesh mesh = setting.mesh(16);
-    const Space space(mesh, element(setting.element));
-    const VariationalInequality problem = assemble(contact_scene(1e-4), space);
+    const SpaceOn space(setting.mesh(16), element(setting.element));
+    const VariationalInequality problem = stiff_problem(space, 1e-4);
     const Solution ours = active_set(problem);
     for (const char* road : {"mixed", "penalty"}) {
       const TemporaryFolder folder;
@@ -219,9 +212,8 @@ TEST(Roads, MixedAndPenaltyAgreeWithTheLibrary) {
 
 // Condensed on Gamma_C, on the other side: its own stop is a step in the gap of 1e-11.
 TEST(FreeFemUzawa, CondensedFindsTheActiveSetsSolution) {
-  const TriangleMesh mesh = structured_mesh(16);
-  const Space space(mesh, p1());
-  const VariationalInequality problem = assemble(contact_scene(1e-6), space);
+  const SpaceOn space(structured_mesh(16), p1());
+  const VariationalInequality problem = stiff_problem(space, 1e-6);
   const TemporaryFolder folder;
   const auto theirs = freefem::solve("04_reference_solution", space, 1e-6, folder.path(), {"-solver", "condensed"});
   const auto comparison = freefem::compare(space, problem, active_set(problem), theirs);
@@ -233,13 +225,12 @@ TEST(FreeFemUzawa, CondensedFindsTheActiveSetsSolution) {
 // The paper's algorithm with the paper's linear solver (CG preconditioned by ILUT here, by the diagonal there), the same
 // rho: the same iterates. A step in the gap is relative to the largest |u|, which CG knows to about 1e-10 of itself.
 TEST(FreeFemUzawa, ThePapersOwnTakesTheSameSteps) {
-  const TriangleMesh mesh = structured_mesh(16);
-  const Space space(mesh, p1());
+  const SpaceOn space(structured_mesh(16), p1());
   for (const auto& [epsilon, rho] : {std::pair{1.0, 0.37}, std::pair{0.1, 1.4}}) {
     UzawaOptions options;
     options.step = rho;
     options.tolerance = 1e-8;  // well above that noise
-    const Solution ours = tutorial::uzawa_cg_ilut(assemble(contact_scene(epsilon), space), options);
+    const Solution ours = tutorial::uzawa_cg_ilut(stiff_problem(space, epsilon), options);
     ASSERT_GE(ours.history.size(), 30u);
     const TemporaryFolder folder;
     const auto steps = static_cast<Eigen::Index>(ours.history.size());
@@ -303,6 +294,13 @@ TEST_P(Plates, AgreeInDeflectionForceAndEnergyForThreeElements) {
 }
 INSTANTIATE_TEST_SUITE_P(FreeFem, Plates, ::testing::Values(1e-2, 1e-8));
 
+// Both sides stop at corrections of 1e-10 of u; 1e-8 as for the scalar problem.
+void expect_same(const freefem::ElasticAnswer& theirs, const Solution& ours) {
+  EXPECT_LE(relative_difference(theirs.u, ours.u), 1e-8);
+  ASSERT_EQ(theirs.force.size(), ours.lambda.size());
+  EXPECT_LE(relative_difference(theirs.force, ours.lambda), 1e-7);
+}
+
 class Elasticity : public ::testing::TestWithParam<double> {};
 
 TEST_P(Elasticity, AgreesOnTheSameMeshForEveryElementAndWithTaylorHood) {
@@ -319,17 +317,10 @@ TEST_P(Elasticity, AgreesOnTheSameMeshForEveryElementAndWithTaylorHood) {
                          Row{"KS", p1(), crouzeix_raviart(), 0, 1}}) {
     SCOPED_TRACE(row.name);
     const Space x(mesh, row.x), y(mesh, row.y);
-    PlaneStrain scene;
-    scene.epsilon = GetParam();
-    scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
-    scene.jump_weight = row.jumps;
-    const VariationalInequality problem = assemble(scene, {x, y});
+    const VariationalInequality problem = assemble(platen(GetParam(), row.jumps), {x, y});
     const Solution ours = active_set(problem);
     const freefem::ElasticAnswer theirs = freefem::elastic_answer(folder.path(), row.name, {x, y});
-    // both sides stop at corrections of 1e-10 of u; 1e-8 as for the scalar problem
-    EXPECT_LE((ours.u - theirs.u).cwiseAbs().maxCoeff(), 1e-8 * ours.u.cwiseAbs().maxCoeff());
-    ASSERT_EQ(theirs.force.size(), ours.lambda.size());
-    EXPECT_LE((ours.lambda - theirs.force).cwiseAbs().maxCoeff(), 1e-7 * ours.lambda.maxCoeff());
+    expect_same(theirs, ours);
     EXPECT_NEAR(theirs.energy / energy(problem, ours), 1, 1e-8);
     EXPECT_LE(theirs.residual, 1e-10);
     const double percent = 100 * std::abs(ours.lambda.sum() / truth - 1);
@@ -347,17 +338,12 @@ TEST_P(Elasticity, AgreesWithFrictionInTheZonesAndTheForces) {
   for (const std::string name : {"P1", "P1nc", "KS"}) {
     SCOPED_TRACE(name);
     const Space x(mesh, name == "P1nc" ? crouzeix_raviart() : p1()), y(mesh, name == "P1" ? p1() : crouzeix_raviart());
-    PlaneStrain scene;
-    scene.epsilon = GetParam();
-    scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
+    PlaneStrain scene = platen(GetParam(), name == "P1nc" ? 1 : 0);
     scene.friction = [](double at) { return std::max(0.0, 0.2 - 5 * (at - 0.5) * (at - 0.5)); };
-    scene.jump_weight = name == "P1nc" ? 1 : 0;
     const VariationalInequality problem = assemble(scene, {x, y});
     const Solution ours = active_set(problem);
     const freefem::ElasticAnswer theirs = freefem::friction_answer(folder.path(), name, {x, y});
-    EXPECT_LE((ours.u - theirs.u).cwiseAbs().maxCoeff(), 1e-8 * ours.u.cwiseAbs().maxCoeff());
-    ASSERT_EQ(theirs.force.size(), ours.lambda.size());
-    EXPECT_LE((ours.lambda - theirs.force).cwiseAbs().maxCoeff(), 1e-7 * ours.lambda.maxCoeff());
+    expect_same(theirs, ours);
     EXPECT_NEAR(theirs.energy / energy(problem, ours), 1, 1e-8);  // with the work of the friction on both sides
     EXPECT_LE(theirs.residual, 1e-10);
   }
@@ -377,14 +363,11 @@ TEST(FreeFemCoating, AgreesInDisplacementAndForce) {
       const Space x(mesh, *in_x), y(mesh, *in_y);
       Coating scene;
       scene.thickness = t;
-      scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
+      scene.gap = parabola;
       ActiveSetOptions options;
       options.penalty = penalty(scene, {x, y});
       const Solution ours = active_set(assemble(scene, {x, y}), options);
-      const freefem::ElasticAnswer theirs = freefem::elastic_answer(folder.path(), name, {x, y});
-      EXPECT_LE((ours.u - theirs.u).cwiseAbs().maxCoeff(), 1e-8 * ours.u.cwiseAbs().maxCoeff());
-      ASSERT_EQ(theirs.force.size(), ours.lambda.size());
-      EXPECT_LE((ours.lambda - theirs.force).cwiseAbs().maxCoeff(), 1e-7 * ours.lambda.maxCoeff());
+      expect_same(freefem::elastic_answer(folder.path(), name, {x, y}), ours);
     }
   }
 }
@@ -467,34 +450,28 @@ TEST(FreeFemScripts, AreReadWithNoOtherFileThanTheOneInclude) {
   EXPECT_GE(scripts, 25);
 }
 
-// Body alone, obstacle, Ventcel, layer, layer and obstacle, thin layer and obstacle: the same discrete problems, made
-// by each side.
-TEST(FreeFemScripts, EveryEffectHasTheSameEnergy) {
-  const TemporaryFolder folder;
-  expect_same(freefem::effects(16, 1e-2, folder.path()), 1e-10);
-}
-
-TEST(FreeFemScripts, TheEnergyBracketAndTheCertificateAreTheSame) {
-  const TemporaryFolder folder;
-  expect_same(freefem::certificate(8, folder.path()), 1e-10);
-}
-
-// ||u_h^epsilon - u_h^0||_h of Proposition 1. Each side knows u to 1e-10 of its largest value, and so both terms.
-TEST(FreeFemScripts, TheLimitsAreTheSame) {
-  const TemporaryFolder folder;
-  expect_same(freefem::limits(8, folder.path()), 1e-9);
-}
-
-// P1 and P2, in FreeFEM summed into one matrix: at epsilon = 1e-2 that costs four digits of sixteen, hence 1e-9.
-TEST(FreeFemScripts, DegreesOneAndTwoAreTheSame) {
-  const TemporaryFolder folder;
-  for (const freefem::Numbers& numbers : freefem::degrees(8, folder.path())) expect_same(numbers, 1e-9);
-}
-
-// P1 and P2 on layers, the meshes made by both sides: as for the degrees above.
-TEST(FreeFemScripts, LayersTowardTheEndOfContactAreTheSame) {
-  const TemporaryFolder folder;
-  for (const freefem::Numbers& numbers : freefem::graded_layers(6, folder.path())) expect_same(numbers, 1e-9);
+TEST(FreeFemScripts, WriteTheNumbersOfTheLibrary) {
+  const auto same = [](const auto& numbers, double bound) {  // a folder for each script
+    const TemporaryFolder folder;
+    expect_same(numbers(folder.path()), bound);
+  };
+  using Path = const std::filesystem::path&;
+  // body alone, obstacle, Ventcel, layer, layer and obstacle, thin layer and obstacle
+  same([](Path folder) { return freefem::effects(16, 1e-2, folder); }, 1e-10);
+  same([](Path folder) { return freefem::certificate(8, folder); }, 1e-10);
+  // ||u_h^epsilon - u_h^0||_h of Proposition 1: each side knows u to 1e-10 of its largest value, and so both terms
+  same([](Path folder) { return freefem::limits(8, folder); }, 1e-9);
+  // P1 and P2, in FreeFEM summed into one matrix: at epsilon = 1e-2 that costs four digits of sixteen, hence 1e-9
+  for (const int degree : {0, 1}) {
+    same([&](Path folder) { return freefem::degrees(8, folder)[degree]; }, 1e-9);
+    same([&](Path folder) { return freefem::graded_layers(6, folder)[degree]; }, 1e-9);
+  }
+  // the library's corrections stop at 1e-10 and contract by far more than that per step
+  for (const double epsilon : {1e-2, 1e-6}) same([&](Path at) { return freefem::by_hand(8, epsilon, at); }, 1e-10);
+  same([](Path folder) { return freefem::estimates(8, folder); }, 1e-9);
+  same([](Path folder) { return freefem::contact_sets(folder); }, 1e-9);
+  // two ways to integrate the glue (Gauss points here, P1dc there), one bilinear form
+  same([](Path folder) { return freefem::glued_strings(16, folder); }, 1e-8);
 }
 
 // The string is P1 in one dimension, exact at its nodes; no layer, no correction: round-off alone.
@@ -509,33 +486,11 @@ TEST(FreeFemScripts, TheStringIsTheSameAndRight) {
   EXPECT_LE(summary.column("difference")(0), 1e-10);  // Uzawa against the active set
 }
 
-TEST(FreeFemScripts, P1ByHandIsTheLibrarysAnswer) {
-  const TemporaryFolder folder;
-  // the library's corrections stop at 1e-10 and contract by far more than that per step
-  for (const double epsilon : {1e-2, 1e-6}) expect_same(freefem::by_hand(8, epsilon, folder.path()), 1e-10);
-}
-
 TEST(FreeFemScripts, KernelsByTiesAndByRankAreTheSame) {
   const TemporaryFolder folder;
   const freefem::Numbers numbers = freefem::kernels(8, folder.path());
   expect_same(numbers, 0);
   EXPECT_EQ(numbers.all.size(), 14u);  // five with ranks, two by ties alone, on either mesh
-}
-
-TEST(FreeFemScripts, WhatIsKeptOfTheLayersDisplacementIsTheSame) {
-  const TemporaryFolder folder;
-  expect_same(freefem::estimates(8, folder.path()), 1e-9);
-}
-
-TEST(FreeFemScripts, DistancesToTheContactSetsAreTheSame) {
-  const TemporaryFolder folder;
-  expect_same(freefem::contact_sets(folder.path()), 1e-9);
-}
-
-// Two ways to integrate the glue (Gauss points here, P1dc there), one bilinear form.
-TEST(FreeFemScripts, TheGluedStringsAreTheSame) {
-  const TemporaryFolder folder;
-  expect_same(freefem::glued_strings(16, folder.path()), 1e-8);
 }
 
 // FreeFEM's adaptivity, guided by a locked solution, leaves the layer alone; by one that is not, it refines it; and P1 is
@@ -602,7 +557,7 @@ TEST(FreeFemScripts, TheWorstErrorOverEpsilonIsTheSame) {
   for (int i = 0; i < 2; ++i) {
     expect_same(errors[i], 1e-10);
     const Space space(mesh, *elements[i]);
-    SceneSweep sweep(contact_scene(1), space);
+    SceneSweep sweep(stiff_scene(1), space);
     double worst = 0;
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0}) {
       sweep.set_epsilon(epsilon);
@@ -631,8 +586,7 @@ TEST(FreeFemScripts, TheWorstLoadIsTheSame) {
   const TemporaryFolder folder;
   expect_same(freefem::worst_loads(4, folder.path()), 1e-9);
   const freefem::ScriptTable table = freefem::read_table(folder / "worst.csv", 1);
-  const TriangleMesh mesh = structured_mesh(4);
-  const Space space(mesh, p1());
+  const SpaceOn space(structured_mesh(4), p1());
   ErrorForm form(space, LoadModes(12));
   form.set_epsilon(0);
   EXPECT_NEAR(table.column("worst")(3) / form.worst().error, 1, 0.05);
@@ -665,12 +619,7 @@ class Environment {
 };
 
 std::string message_of(const std::string& script, const std::vector<std::string>& options) {
-  try {
-    freefem::run(script, options);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return refusal([&] { freefem::run(script, options); });
 }
 
 TEST(FreeFemRunner, SaysInOneLineThatFreeFemIsMissingTooOldOrBroken) {
@@ -681,16 +630,17 @@ TEST(FreeFemRunner, SaysInOneLineThatFreeFemIsMissingTooOldOrBroken) {
               "freefem/run: no-such-program is not installed; FreeFEM 4.9 or later is needed (Debian: apt install "
               "freefem++)");
   }
-  std::ofstream(folder / "old") << "#!/bin/sh\necho '-- FreeFem++ v3.61 (date)'\n";
-  std::filesystem::permissions(folder / "old", std::filesystem::perms::owner_all);
+  const auto program = [&](const char* name, const std::string& version) {
+    std::ofstream(folder / name) << "#!/bin/sh\necho '-- FreeFem++ v" + version + " (date)'\n";
+    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+    return (folder / name).string();
+  };
   {
-    const Environment old("FREEFEM", (folder / "old").string());
+    const Environment old("FREEFEM", program("old", "3.61"));
     EXPECT_EQ(message_of("01_domain", {}), "freefem/run: FreeFEM 3.61 is too old; 4.9 or later is needed");
   }
   EXPECT_NO_THROW(freefem::check());
-  std::ofstream(folder / "broken") << "#!/bin/sh\necho '-- FreeFem++ v4.11 (date)'\n";  // starts, and solves nothing
-  std::filesystem::permissions(folder / "broken", std::filesystem::perms::owner_all);
-  const Environment broken("FREEFEM", (folder / "broken").string());
+  const Environment broken("FREEFEM", program("broken", "4.11"));  // starts, and solves nothing
   EXPECT_EQ(
       message_of("--check", {}),
       "freefem/run: " + (folder / "broken").string() +
@@ -698,24 +648,20 @@ TEST(FreeFemRunner, SaysInOneLineThatFreeFemIsMissingTooOldOrBroken) {
 }
 
 TEST(FreeFemRunner, RefusesBadInputInOneLine) {
-  EXPECT_EQ(message_of("05_p1_structured", {"-mesh", "/no/such.msh"}),
-            "05_p1_structured: mesh /no/such.msh cannot be read");
-  EXPECT_EQ(message_of("05_p1_structured", {"-epsilon", "2"}),
-            "05_p1_structured: option -epsilon 2; accepted: a number from 0 to 1");
-  EXPECT_EQ(message_of("05_p1_structured", {"-epsilon", "small"}),
-            "05_p1_structured: option -epsilon small; accepted: a number from 0 to 1");
-  EXPECT_EQ(message_of("05_p1_structured", {"-epsilonn", "1"}),
-            "05_p1_structured: option -epsilonn means nothing to this script; accepted: -epsilon -cells -mesh -out "
-            "-stiff -contact -plot");
-  EXPECT_EQ(message_of("05_p1_structured", {"-epsilon"}), "05_p1_structured: option -epsilon needs a value");
-  EXPECT_EQ(message_of("08_crouzeix_raviart", {"-stiff", "soft"}),
-            "08_crouzeix_raviart: option -stiff soft; accepted: mixed penalty sum");
-  {
-    const Environment nowhere("DISPLAY", "");
-    EXPECT_EQ(message_of("05_p1_structured", {"-plot", "window"}),
-              "freefem/run: -plot window: there is no display (DISPLAY is empty); accepted without one: -plot eps");
-  }
+  const auto refuses = [](const std::string& script, const std::vector<std::string>& options,
+                          const std::string& words) { EXPECT_EQ(message_of(script, options), script + ": " + words); };
+  const std::string p1 = "05_p1_structured", number = "; accepted: a number from 0 to 1";
+  refuses(p1, {"-mesh", "/no/such.msh"}, "mesh /no/such.msh cannot be read");
+  refuses(p1, {"-epsilon", "2"}, "option -epsilon 2" + number);
+  refuses(p1, {"-epsilon", "small"}, "option -epsilon small" + number);
+  refuses(p1, {"-epsilonn", "1"},
+          "option -epsilonn means nothing to this script; accepted: -epsilon -cells -mesh -out -stiff -contact -plot");
+  refuses(p1, {"-epsilon"}, "option -epsilon needs a value");
+  refuses("08_crouzeix_raviart", {"-stiff", "soft"}, "option -stiff soft; accepted: mixed penalty sum");
   EXPECT_NE(message_of("99_nothing", {}).find("no script 99_nothing"), std::string::npos);
+  const Environment nowhere("DISPLAY", "");
+  EXPECT_EQ(message_of(p1, {"-plot", "window"}),
+            "freefem/run: -plot window: there is no display (DISPLAY is empty); accepted without one: -plot eps");
 }
 
 TEST(Match, GoesByPlaceAndRefusesWhatIsNotOneToOne) {

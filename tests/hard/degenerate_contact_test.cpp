@@ -8,7 +8,6 @@
 #include "support/scenes.hpp"
 
 namespace antilock::hard::degenerate_contact_test {
-namespace {
 
 using std::numbers::pi;
 
@@ -19,10 +18,6 @@ int zones(const std::vector<bool>& active) {
   int runs = 0;
   for (std::size_t i = 0; i < active.size(); ++i) runs += active[i] && (i == 0 || !active[i - 1]);
   return runs;
-}
-
-double largest_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-  return (a - b).lpNorm<Eigen::Infinity>();
 }
 
 /// Element and epsilon: every property below holds for each pair on a structured mesh.
@@ -65,7 +60,7 @@ TEST_P(Degenerate, NothingInContactIsTheProblemWithoutContact) {
   EXPECT_EQ(count(s.active), 0);
   EXPECT_EQ(s.lambda.lpNorm<Eigen::Infinity>(), 0);
   const Solution free = active_set(problem(space_, up, std::nullopt));
-  EXPECT_LT(largest_difference(s.u, free.u), 2e-10 * free.u.lpNorm<Eigen::Infinity>());  // twice the tolerance
+  EXPECT_LT(test::relative_difference(s.u, free.u), 2e-10);  // twice the tolerance
 }
 
 TEST_P(Degenerate, ContactUpToOneCornerOnly) {
@@ -85,8 +80,7 @@ TEST_P(Degenerate, ContactAtOneUnknownOfMany) {
 }
 
 TEST_P(Degenerate, AProblemWithOneContactUnknown) {
-  const TriangleMesh mesh = structured_mesh(chosen().name() == "P1" ? 2 : 1);
-  const Space space(mesh, chosen());
+  const test::SpaceOn space(structured_mesh(chosen().name() == "P1" ? 2 : 1), chosen());
   ASSERT_EQ(space.contact().size(), 1u);
   for (const double sign : {-1.0, 1.0}) {
     const Solution s = proved(problem(space, [&](double, double) { return sign; }));
@@ -105,7 +99,7 @@ TEST_P(Degenerate, GrazingContactHasTheFreeSolutionAndNoForce) {
       grazing.lower(i) = x > 0.3 && x < 0.8 ? u + nudge : u - 1;
     }
     const Solution s = proved(grazing);
-    EXPECT_LT(largest_difference(s.u, free.u), 1e-9 * free.u.lpNorm<Eigen::Infinity>()) << nudge;
+    EXPECT_LT(test::relative_difference(s.u, free.u), 1e-9) << nudge;
     EXPECT_LT(s.lambda.lpNorm<Eigen::Infinity>(), 1e-8 * grazing.load.lpNorm<Eigen::Infinity>()) << nudge;
   }
 }
@@ -121,8 +115,7 @@ TEST_P(Degenerate, SeveralZonesAreThoseOfTheTruth) {
 }
 
 TEST_P(Degenerate, ARapidLoadHasOneZoneAWave) {
-  const TriangleMesh mesh = structured_mesh(128);
-  const Space space(mesh, chosen());
+  const test::SpaceOn space(structured_mesh(128), chosen());
   const Solution s = active_set(problem(space, [](double x, double) { return 100 * std::sin(32 * pi * x); }));
   EXPECT_TRUE(s.warning.empty());
   EXPECT_LE(s.counters.contact, 40);
@@ -146,7 +139,7 @@ TEST_P(Degenerate, NoLoadMovesNothingAndNeedsNoCorrection) {
 TEST_P(Degenerate, TheAnswerScalesWithTheLoadBitForBit) {
   for (const double gap : {0.0, 0.01}) {
     const VariationalInequality one = problem(space_, paper_load, [&](double) { return gap; });
-    const Solution unit = active_set(one);
+    const Solution unit = proved(one);
     for (const int exponent : {-300, -40, -1, 1, 40, 300}) {
       VariationalInequality scaled = one;
       const double factor = std::ldexp(1.0, exponent);
@@ -159,15 +152,6 @@ TEST_P(Degenerate, TheAnswerScalesWithTheLoadBitForBit) {
       EXPECT_EQ(s.active, unit.active);
       EXPECT_EQ(s.counters.corrections, unit.counters.corrections);
     }
-  }
-}
-
-TEST_P(Degenerate, LoadsOf1em12And1e12) {
-  const Solution unit = active_set(problem(space_, paper_load));
-  for (const double factor : {1e-12, 1e12}) {
-    const Solution s = proved(problem(space_, [&](double x, double y) { return factor * paper_load(x, y); }));
-    EXPECT_LT(largest_difference(s.u / factor, unit.u), 1e-12 * unit.u.lpNorm<Eigen::Infinity>());
-    EXPECT_EQ(s.active, unit.active);
   }
 }
 
@@ -199,12 +183,8 @@ TEST_P(Degenerate, TheWorstStartsEndInTheSameAnswer) {
     options.start = test::held_at_lower(start);
     const Solution s = proved(paper, options);
     EXPECT_EQ(s.active, best.active);
-    EXPECT_LT(largest_difference(s.u, best.u), 1e-9 * best.u.lpNorm<Eigen::Infinity>());
+    EXPECT_LT(test::relative_difference(s.u, best.u), 1e-9);
   }
-  ActiveSetOptions impatient;
-  impatient.start = test::held_at_lower(opposite);
-  impatient.max_steps = 1;
-  EXPECT_THROW(active_set(paper, impatient), NotConverged) << "a cap that is reached is a failure, not an answer";
 }
 
 std::string case_name(const testing::TestParamInfo<Degenerate::ParamType>& info) {
@@ -283,15 +263,11 @@ TEST(Cycling, TheCapIsAFailure) {
   const Eigen::MatrixXd s = Eigen::MatrixXd::Identity(4, 4);
   const Eigen::VectorXd q = Eigen::Vector4d(1, -1, 1, -1), lower = Eigen::Vector4d::Zero();
   DenseContact system(s, q);
-  try {
-    solve_contact(system, {lower}, Pieces(4, Piece::between), 1);
-    FAIL() << "one step is not enough";
-  } catch (const NotConverged& failure) {
-    EXPECT_EQ(failure.steps, 1);
-    EXPECT_DOUBLE_EQ(failure.reached, 0.5);
-  }
+  const auto failure =
+      test::thrown<NotConverged>([&] { solve_contact(system, {lower}, Pieces(4, Piece::between), 1); });
+  EXPECT_EQ(failure.steps, 1);
+  EXPECT_DOUBLE_EQ(failure.reached, 0.5);
   EXPECT_EQ(solve_contact(system, {lower}, Pieces(4, Piece::between), 2).steps, 2);
 }
 
-}  // namespace
 }  // namespace antilock::hard::degenerate_contact_test

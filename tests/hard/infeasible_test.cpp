@@ -2,12 +2,11 @@
 // them: foretold by the hypotheses' check, refused by the solver, never answered.
 #include "antilock/analysis/hypotheses.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/models/plane_strain.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
+#include "support/platen.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::infeasible_test {
-namespace {
+namespace antilock::test::infeasible_test {
 
 VariationalInequality beam(ShearIntegration shear) {
   Beam b;
@@ -30,10 +29,7 @@ VariationalInequality turned_beam() {
 
 VariationalInequality block(const TriangleMesh& mesh, const Element& element) {
   const Space x(mesh, element), y(mesh, element);
-  PlaneStrain scene;
-  scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
-  scene.jump_weight = element.name() == "CR" ? 1 : 0;
-  return assemble(scene, {x, y});
+  return assemble(test::platen(1e-8, element.conforming() ? 0 : 1), {x, y});
 }
 VariationalInequality platen(const Element& element) {
   return block(with_free_sides(structured_mesh(6, Domain{0})), element);
@@ -119,8 +115,7 @@ TEST(Hypotheses, HoldWhereTheTheorySaysSo) {
   const TriangleMesh mesh = unstructured_mesh(6);
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
     const Space space(mesh, *element);
-    const Hypotheses h = check_hypotheses(
-        assemble(Scene(Body{paper_load}, StiffLayer{1e-6}, UnilateralContact{}), space), gradients(space));
+    const Hypotheses h = check_hypotheses(test::stiff_problem(space, 1e-6), gradients(space));
     EXPECT_NEAR(h.coercivity, 1, 1e-9) << element->name();  // a1 + a0 is the gradient form itself
     int body = 0;                                           // unknowns that a0 does not see: the kernel's, always
     for (int i = 0; i < space.size(); ++i) body += space.points()(i, 1) > 0;
@@ -136,14 +131,11 @@ TEST(Hypotheses, HoldWhereTheTheorySaysSo) {
 
 TEST(Hypotheses, APieceThatIsHeldByNothingIsNotCoercive) {
   // Crouzeix-Raviart with the symmetric gradient and no jumps: triangles that turn
-  const TriangleMesh mesh = with_free_sides(structured_mesh(4, Domain{0}));
-  const Space x(mesh, crouzeix_raviart()), y(mesh, crouzeix_raviart());
-  PlaneStrain scene;
+  const SpaceOn x(with_free_sides(structured_mesh(4, Domain{0})), crouzeix_raviart()), y(mesh, crouzeix_raviart());
   SparseMatrix norm(x.size() + y.size(), x.size() + y.size());
   norm.setIdentity();
   for (const double weight : {0.0, 1.0}) {
-    scene.jump_weight = weight;
-    const Hypotheses h = check_hypotheses(assemble(scene, {x, y}), norm);
+    const Hypotheses h = check_hypotheses(assemble(test::platen(1e-8, weight), {x, y}), norm);
     EXPECT_EQ(h.coercive(), weight > 0);
     EXPECT_EQ(std::isnan(h.distance), weight == 0);
   }
@@ -167,5 +159,4 @@ TEST(Hypotheses, TheEnergyOfALockedProblemTendsToThatOfDoingNothing) {
   EXPECT_TRUE(std::isnan(none.front().energy));
 }
 
-}  // namespace
-}  // namespace antilock::infeasible_test
+}  // namespace antilock::test::infeasible_test

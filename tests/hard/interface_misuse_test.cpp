@@ -18,9 +18,9 @@
 #include "antilock/study/table.hpp"
 #include "hard/adversary.hpp"
 #include "support/scenes.hpp"
+#include "support/small_problem.hpp"
 
 namespace antilock::hard::interface_misuse_test {
-namespace {
 
 using namespace test;
 
@@ -28,16 +28,8 @@ double down(double, double) { return -10; }
 
 /// A chain of n unknowns, all of them pulled by 1 and held at 0 by a friction of g.
 VariationalInequality rubbing_chain(int n, double g) {
-  VariationalInequality problem;
-  Eigen::MatrixXd a1 = 2 * Eigen::MatrixXd::Identity(n, n);
-  a1.diagonal(1).setConstant(-1);
-  a1.diagonal(-1).setConstant(-1);
-  problem.a1 = a1.sparseView();
-  problem.a1.makeCompressed();
-  problem.b.resize(0, n);
-  problem.load = Eigen::VectorXd::Ones(n);
-  for (int i = 0; i < n; ++i) problem.contact.push_back(i);
-  problem.lower = problem.upper = Eigen::VectorXd::Zero(n);
+  VariationalInequality problem = small_problem(chain(n), Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n));
+  problem.upper = problem.lower;
   problem.force_bound = Eigen::VectorXd::Constant(n, g);
   return problem;
 }
@@ -84,9 +76,7 @@ TEST(InterfaceMisuse, AFrictionWithoutLimitSticksInEveryElement) {
   for (const char* name : {"P1", "P2", "CR"})
     for (const double g : {1e300, infinity}) {
       const Space space(mesh, element(name));
-      PlaneStrain scene;
-      scene.epsilon = 0.1;
-      scene.friction = [g](double) { return g; };
+      const PlaneStrain scene{Press{.friction = [g](double) { return g; }}, 0.1};
       const VariationalInequality problem = assemble(scene, {space, space});
       const Eigen::VectorXd u = active_set(problem).u;
       for (const int i : problem.contact)
@@ -105,8 +95,7 @@ TEST(InterfaceMisuse, TheSpacesOfOneBodyHaveOneMesh) {
 }
 
 TEST(InterfaceMisuse, APlateHasALoadAndAnObstacleSomewhere) {
-  const TriangleMesh disc = disc_mesh(3);
-  const Space space(disc, p1());
+  const SpaceOn space(disc_mesh(3), p1());
   const PlateSpace on{space, {space, space}, ShearRule::edges};
   Plate plate;
   plate.gap = [](double, double) { return -infinity; };
@@ -162,8 +151,7 @@ TEST(InterfaceMisuse, AveragesOverBoxesThatCanBeCounted) {
 }
 
 TEST(InterfaceMisuse, ErrorsAndEnergiesAreOfTheirOwnSpace) {
-  const TriangleMesh mesh = structured_mesh(4);
-  const Space affine(mesh, p1()), broken(mesh, crouzeix_raviart());
+  const SpaceOn affine(structured_mesh(4), p1()), broken(mesh, crouzeix_raviart());
   const VariationalInequality problem = assemble(Scene(Body{down}, StiffLayer{0.1}), affine);
   const Solution u = active_set(problem);
   antilock::Reference none{[](double x, double) { return x == 0.5 ? nan : 0; },
@@ -209,8 +197,7 @@ TEST(InterfaceMisuse, TablesPassOverNothing) {
 }
 
 TEST(InterfaceMisuse, ARefusedGapLeavesTheSweepAsItWas) {
-  const TriangleMesh mesh = structured_mesh(4);
-  const Space space(mesh, p1());
+  const SpaceOn space(structured_mesh(4), p1());
   UnilateralContact apart;
   apart.held = {0.25};  // of a body that is clamped elsewhere
   SceneSweep sweep(Scene(Body{down}, StiffLayer{0.1}, apart), space);
@@ -228,5 +215,4 @@ TEST(InterfaceMisuse, AnErrorIsAccurateEnoughForASaneShare) {
   }
 }
 
-}  // namespace
 }  // namespace antilock::hard::interface_misuse_test

@@ -1,10 +1,12 @@
 // Nasty meshes: needles, slivers, strong grading, thin layers, any numbering and orientation. An answer that quadruple
 // precision proves right, or a refusal of one line.
+#include "antilock/mesh/layered.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::hard::nasty_mesh_test {
-namespace {
+
+using namespace test;
 
 std::vector<TaggedEdge> boundary(const TriangleMesh& mesh) {
   std::vector<TaggedEdge> tagged;
@@ -62,17 +64,13 @@ double worst_aspect(const TriangleMesh& mesh) {
   return worst;
 }
 
-VariationalInequality paper_problem(const Space& space, double epsilon) {
-  return assemble(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
-}
-
 /// Solves at every epsilon and has quadruple precision prove the answers.
 void prove(const std::string& what, const TriangleMesh& mesh, const Element& element,
            const std::vector<double>& epsilons) {
   const Space space(mesh, element);
   for (const double epsilon : epsilons) {
     SCOPED_TRACE(what + ", " + element.name() + ", epsilon = " + std::to_string(epsilon));
-    const VariationalInequality problem = paper_problem(space, epsilon);
+    const VariationalInequality problem = stiff_problem(space, epsilon);
     const Solution solution = active_set(problem);
     const QuadSolution exact = settle(problem, solution.active, quad_reference);
     ASSERT_LT(exact.residual, 1e-18);
@@ -131,112 +129,61 @@ TEST_P(Nasty, VerticesMovedUntilTrianglesAlmostTurnOver) {
   }
 }
 
-// Far beyond what a mesh should be (aspect 1e9 and more) double precision may give up, but not in silence: right to
-// 1e-6, the level above which the library refuses, or refused.
+/// Whether the problem of a mesh and a scene has an answer, which must be right to 1e-6, the level above which the library
+/// refuses; a refusal has one line.
+bool survives(const std::function<TriangleMesh()>& make, const Element& element, const Scene& scene) {
+  try {
+    const TriangleMesh mesh = make();
+    const VariationalInequality problem = assemble(scene, Space(mesh, element));
+    const Solution solution = active_set(problem);
+    const QuadSolution exact = settle(problem, solution.active, quad_reference);
+    if (!(exact.residual < 1e-18)) return false;  // what u is worth quadruple precision cannot tell either
+    EXPECT_LT(distance(solution.u, exact.u), 1e-6)
+        << "layer " << scene.layer().index() << ", aspect " << worst_aspect(mesh);
+    return true;
+  } catch (const Error& refusal) {
+    EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos) << "one line";
+    return false;
+  }
+}
+
+// Far beyond what a mesh should be (aspect 1e9 and more) double precision may give up, but not in silence.
 TEST_P(Nasty, FlatTrianglesAreSurvivedOrRefused) {
   int survived = 0, without_layer = 0;
-  for (const double reach : {0.999, 0.9999, 0.99999}) {
-    for (const bool structured : {true, false}) {
-      for (const double epsilon : {1.0, 1e-4, 0.0}) {
-        try {
-          const TriangleMesh mesh = jittered(structured ? structured_mesh(8) : unstructured_mesh(8), reach, 5);
-          const Space space(mesh, chosen());
-          const VariationalInequality problem = paper_problem(space, epsilon);
-          const Solution solution = active_set(problem);
-          const QuadSolution exact = settle(problem, solution.active, quad_reference);
-          EXPECT_LT(distance(solution.u, exact.u), 1e-6) << reach << " at epsilon = " << epsilon;
-          ++survived;
-        } catch (const Error& refusal) {
-          EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos) << "one line";
-        }
+  const auto flat = [](bool structured, Domain domain, double reach) {
+    return [=] { return jittered(structured ? structured_mesh(8, domain) : unstructured_mesh(8, domain), reach, 5); };
+  };
+  for (const bool structured : {true, false}) {
+    for (const double reach : {0.999, 0.9999, 0.99999})
+      for (const double epsilon : {1.0, 1e-4, 0.0})
+        survived += survives(flat(structured, {}, reach), chosen(), stiff_scene(epsilon));
+    // without a stiff form as with one: there a plain solve would be taken for the answer. The cells of the unstructured
+    // mesh are as small as its layer is thin: 1e-3 would be 26,000 unknowns
+    const double thin = structured ? 1e-3 : 1e-2;
+    for (const double reach : {0.99, 0.9999})
+      for (const Layer& layer : {Layer{NoLayer{}}, Layer{VentcelLayer{}}, Layer{ThinLayer{thin}}}) {
+        const Domain domain{std::holds_alternative<ThinLayer>(layer) ? thin : 0};
+        without_layer +=
+            survives(flat(structured, domain, reach), chosen(), Scene({paper_load}, layer, UnilateralContact{}));
       }
-    }
   }
   EXPECT_GE(survived, 5) << "an aspect of 1e9 is survived";
-  // without a stiff form as with one: there a plain solve would be taken for the answer
-  for (const double reach : {0.99, 0.9999})
-    for (const bool structured : {true, false})
-      // the cells of the unstructured mesh are as small as its layer is thin: 1e-3 would be 26,000 unknowns
-      for (const Layer& layer : {Layer{NoLayer{}}, Layer{VentcelLayer{}}, Layer{ThinLayer{structured ? 1e-3 : 1e-2}}}) {
-        const auto* const thin = std::get_if<ThinLayer>(&layer);
-        const Domain domain{thin != nullptr ? thin->epsilon : 0};
-        try {
-          const TriangleMesh mesh =
-              jittered(structured ? structured_mesh(8, domain) : unstructured_mesh(8, domain), reach, 5);
-          const Space space(mesh, chosen());
-          const VariationalInequality problem = assemble(Scene({paper_load}, layer, UnilateralContact{}), space);
-          const Solution solution = active_set(problem);
-          const QuadSolution exact = settle(problem, solution.active, quad_reference);
-          EXPECT_LT(distance(solution.u, exact.u), 1e-6)
-              << "layer " << layer.index() << ", aspect " << worst_aspect(mesh);
-          ++without_layer;
-        } catch (const Error& refusal) {
-          EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos) << "one line";
-        }
-      }
   EXPECT_GE(without_layer, 6) << "the less flat are survived";
 }
 
 // A structured mesh moved by t h has no kernel, only functions whose d/dy is nearly zero: the modes that the
-// corrections serve last. Nothing tells them from a kernel but the compliance equation. Right to 1e-6, the level above
-// which the library refuses, or not converged, and said so.
+// corrections serve last. Nothing tells them from a kernel but the compliance equation.
 TEST(NearlyAKernel, IsNotTakenForOneInSilence) {
   int survived = 0;
   for (const int n : {8, 16})
-    for (const double t : {1e-4, 1e-6, 1e-7, 1e-9}) {
-      const TriangleMesh mesh = jittered_mesh(n, t);
-      const Space space(mesh, p1());
-      for (const double epsilon : {1e-6, 1e-7, 1e-10, 0.0}) {
-        const VariationalInequality problem = paper_problem(space, epsilon);
-        try {
-          const Solution solution = active_set(problem);
-          const QuadSolution exact = settle(problem, solution.active, quad_reference);
-          if (!(exact.residual < 1e-18)) continue;  // what it is worth quadruple precision cannot tell either
-          EXPECT_LT(distance(solution.u, exact.u), 1e-6) << "n = " << n << ", t = " << t << ", epsilon = " << epsilon;
-          ++survived;
-        } catch (const NotConverged& refusal) {
-          EXPECT_EQ(std::string(refusal.what()).find('\n'), std::string::npos) << "one line";
-        }
-      }
-    }
+    for (const double t : {1e-4, 1e-6, 1e-7, 1e-9})
+      for (const double epsilon : {1e-6, 1e-7, 1e-10, 0.0})
+        survived += survives([=] { return jittered_mesh(n, t); }, p1(), stiff_scene(epsilon));
   EXPECT_GE(survived, 8) << "of 32: not all are refused";
 }
 
 TEST_P(Nasty, ALayerOneTriangleThickWithoutAnInnerVertex) {
-  const TriangleMesh fine = structured_mesh(16);
-  // the layer's rows pushed together: take the body's triangles and one row of the layer, stretched to depth 1
-  std::map<int, int> number;
-  std::vector<int> kept;
-  for (int t = 0; t < fine.triangle_count(); ++t) {
-    double lowest = 1;
-    for (int i = 0; i < 3; ++i) lowest = std::min(lowest, fine.vertices(fine.triangles(t, i), 1));
-    if (lowest > -1.5 / 16) kept.push_back(t);
-  }
-  Triples triangles(static_cast<Eigen::Index>(kept.size()), 3);
-  std::vector<Region> region;
-  std::vector<Eigen::RowVector2d> places;
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    region.push_back(fine.region[kept[k]]);
-    for (int i = 0; i < 3; ++i) {
-      const int v = fine.triangles(kept[k], i);
-      if (number.emplace(v, static_cast<int>(places.size())).second) {
-        places.push_back(fine.vertices.row(v));
-        if (places.back()(1) < 0) places.back()(1) = -1;
-      }
-      triangles(static_cast<Eigen::Index>(k), i) = number[v];
-    }
-  }
-  Points vertices(static_cast<Eigen::Index>(places.size()), 2);
-  for (std::size_t v = 0; v < places.size(); ++v) vertices.row(static_cast<Eigen::Index>(v)) = places[v];
-  std::vector<TaggedEdge> tagged;
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const int a = triangles(t, i), b = triangles(t, (i + 1) % 3);
-      const bool side = vertices(a, 0) == vertices(b, 0) && (vertices(a, 0) == 0 || vertices(a, 0) == 1);
-      if (side || (vertices(a, 1) == 1 && vertices(b, 1) == 1)) tagged.push_back({a, b, EdgeTag::clamped});
-      if (vertices(a, 1) == -1 && vertices(b, 1) == -1) tagged.push_back({a, b, EdgeTag::contact});
-    }
-  prove("one triangle thick", make_triangle_mesh(vertices, triangles, region, tagged, "thick"), chosen(), all);
+  prove("one triangle thick", extruded(structured_mesh(16, {0}), 0), chosen(), all);
 }
 
 TEST_P(Nasty, TheCoarsestMeshes) {
@@ -247,7 +194,7 @@ TEST_P(Nasty, TheCoarsestMeshes) {
     // below, u itself tends to 0 on the meshes that hold no function of the kernel: right on the scale of the forces
     for (const double epsilon : {1e-4, 1e-8, 0.0}) {
       const Space space(mesh, chosen());
-      const VariationalInequality problem = paper_problem(space, epsilon);
+      const VariationalInequality problem = stiff_problem(space, epsilon);
       const Solution solution = active_set(problem);
       const QuadSolution exact = settle(problem, solution.active, quad_reference);
       const double scale = problem.load.cwiseAbs().cwiseQuotient(Eigen::VectorXd(problem.a1.diagonal())).maxCoeff();
@@ -263,7 +210,7 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
   std::map<std::pair<double, double>, double> at;
   std::mt19937 random(7);
   for (const double epsilon : {1.0, 1e-3, 0.0}) {
-    const Solution straight = active_set(paper_problem(space, epsilon));
+    const Solution straight = active_set(stiff_problem(space, epsilon));
     const double scale = straight.u.lpNorm<Eigen::Infinity>();
     at.clear();
     for (int i = 0; i < space.size(); ++i) at[{space.points()(i, 0), space.points()(i, 1)}] = straight.u(i);
@@ -285,9 +232,8 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
       }
       std::vector<TaggedEdge> tagged = boundary(mesh);
       for (TaggedEdge& e : tagged) e = {vertex[e.to], vertex[e.from], e.tag};
-      const TriangleMesh shuffled = make_triangle_mesh(vertices, triangles, region, tagged, "shuffled");
-      const Space other(shuffled, chosen());
-      VariationalInequality problem = paper_problem(other, epsilon);
+      const SpaceOn other(make_triangle_mesh(vertices, triangles, region, tagged, "shuffled"), chosen());
+      VariationalInequality problem = stiff_problem(other, epsilon);
       std::shuffle(problem.contact.begin(), problem.contact.end(), random);  // out of order they only cost steps
       const Solution s = active_set(problem);
       ASSERT_EQ(other.size(), space.size());
@@ -304,5 +250,4 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
 
 INSTANTIATE_TEST_SUITE_P(Element, Nasty, testing::Values("P1", "CR"), [](const auto& info) { return info.param; });
 
-}  // namespace
 }  // namespace antilock::hard::nasty_mesh_test

@@ -1,9 +1,10 @@
 #include "hard/quad_reference.hpp"
 
 #include <Eigen/Sparse>
-#include <algorithm>
 #include <tuple>
 #include <utility>
+
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock::hard {
 namespace {
@@ -43,7 +44,7 @@ std::pair<QuadVector, QuadVector> quad_residual(const VariationalInequality& pro
 QuadSolution refine(const VariationalInequality& problem, const std::vector<bool>& active, const QuadSolution& start,
                     double delta, const std::vector<int>& unknown,
                     const std::function<QuadVector(const QuadVector&)>& inverse, double tolerance, int most) {
-  const VariationalInequality linear = held(problem, active);
+  const VariationalInequality linear = held_in_contact(problem, active);
   QuadSolution s;
   s.active = active;
   s.u = start.u.size() > 0 ? start.u : QuadVector(QuadVector::Zero(problem.size()));
@@ -95,27 +96,9 @@ Quad largest(const QuadVector& v) {
   return most;
 }
 
-VariationalInequality held(VariationalInequality problem, const std::vector<bool>& active) {
-  std::vector<std::pair<int, double>> fixed;
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    fixed.emplace_back(problem.fixed[i], problem.fixed_values(static_cast<Eigen::Index>(i)));
-  for (std::size_t i = 0; i < problem.contact.size(); ++i)
-    if (active[i]) fixed.emplace_back(problem.contact[i], problem.lower(static_cast<Eigen::Index>(i)));
-  std::sort(fixed.begin(), fixed.end());
-  problem.fixed.clear();
-  problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()));
-  for (std::size_t i = 0; i < fixed.size(); ++i) {
-    problem.fixed.push_back(fixed[i].first);
-    problem.fixed_values(static_cast<Eigen::Index>(i)) = fixed[i].second;
-  }
-  problem.contact.clear();
-  problem.lower.resize(0);
-  return problem;
-}
-
 QuadSolution RefinedReference::operator()(const VariationalInequality& problem, const std::vector<bool>& active,
                                           const QuadSolution& start) {
-  const VariationalInequality linear = held(problem, active);
+  const VariationalInequality linear = held_in_contact(problem, active);
   const double delta = std::max(1e-8, problem.compliance);
   if (factor_ && factor_->delta() == delta && active_ == active)
     factor_->check_fits(linear);
@@ -134,7 +117,7 @@ QuadSolution RefinedReference::operator()(const VariationalInequality& problem, 
 QuadSolution quad_reference(const VariationalInequality& problem, const std::vector<bool>& active,
                             const QuadSolution& start) {
   const double delta = std::max(problem.compliance, 1e-14);
-  const VariationalInequality linear = held(problem, active);
+  const VariationalInequality linear = held_in_contact(problem, active);
   const FreeNumbering numbering(linear);
   const int size = static_cast<int>(numbering.unknown.size());
   std::vector<Eigen::Triplet<Quad>> entries;

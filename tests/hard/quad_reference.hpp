@@ -37,9 +37,6 @@ struct QuadSolution {
   int sets = 1;  ///< contact sets tried, see settle
 };
 
-/// The problem with its contact unknowns held at their bounds where `active`, free elsewhere: linear.
-VariationalInequality held(VariationalInequality problem, const std::vector<bool>& active);
-
 /// Solves the equations of one contact set, from the u and p of another answer or, where it is empty, from 0. The start
 /// must belong to the same set: where the rows of B are dependent on the unknowns that are free, a p from elsewhere keeps
 /// for long what no row of B makes.

@@ -5,33 +5,11 @@
 #include "antilock/solve/uzawa.hpp"
 #include "hard/adversary.hpp"
 #include "support/scenes.hpp"
+#include "support/small_problem.hpp"
 
 namespace antilock::hard::random_against_rationals_test {
-namespace {
 
 using namespace test;
-
-/// A1 (full), its load, B with M = 1, and bounds of some unknowns.
-VariationalInequality problem_of(const Eigen::MatrixXd& a1, const Eigen::VectorXd& load, const Eigen::MatrixXd& b,
-                                 const std::vector<int>& contact, const Eigen::VectorXd& lower, double compliance) {
-  VariationalInequality problem;
-  problem.a1 = a1.sparseView();
-  problem.b = b.sparseView();
-  problem.a1.makeCompressed();
-  problem.b.makeCompressed();
-  problem.m = Eigen::VectorXd::Ones(b.rows());
-  problem.load = load;
-  problem.contact = contact;
-  problem.lower = lower;
-  problem.compliance = compliance;
-  return problem;
-}
-
-Eigen::Matrix3d chain() {
-  Eigen::Matrix3d a1;
-  a1 << 2, -1, 0, -1, 2, -1, 0, -1, 2;
-  return a1;
-}
 
 /// Problems number `from` to `to` of a list by a solver, and how many of them may be refused though they have an answer, or
 /// warned of though it is right: ten times the share measured over 5000 problems by the active set. Uzawa gives up on more,
@@ -116,23 +94,27 @@ TEST(NothingInSilence, AGreatLoadOnAnUnknownInContactHidesNothing) {
   Eigen::Matrix2d a1;
   a1 << 14, 4, 4, 6;
   for (const double load : {1e8, 1e11, 1e14, 1e18, 1e25}) {
-    const VariationalInequality problem =
-        problem_of(a1, Eigen::Vector2d(-load, -7), Eigen::MatrixXd(0, 2), {0, 1}, Eigen::Vector2d(-0.5, -0.1), 1);
+    const VariationalInequality problem = small_problem(a1, Eigen::Vector2d(-load, -7), Eigen::Vector2d(-0.5, -0.1));
     for (const Solution& s : {active_set(problem), uzawa(problem)})
-      EXPECT_LT((s.u - Eigen::Vector2d(-0.5, -0.1)).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
+      EXPECT_LT((s.u - problem.lower).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
+    VariationalInequality above = mirrored(problem);
+    above.lower(0) = -1;
+    for (const Solution& s : {active_set(above), uzawa(above)})
+      EXPECT_LT((s.u - above.upper).lpNorm<Eigen::Infinity>(), 1e-9) << s.solver << load;
   }
 }
 
 TEST(NothingInSilence, WhatNoUCanMeetIsRefusedUnderAnyLoad) {
   // B says u_0 = 0, its bound says 0.05
-  Eigen::MatrixXd b(1, 3);
-  b << 1, 0, 0;
   for (const double load : {1.0, 1e6, 1e12, 1e14, 1e18, 1e24})
     for (const double sign : {1.0, -1.0})
       for (const int at : {0, 1, 2}) {
         const Eigen::Vector3d force = sign * load * Eigen::Vector3d::Unit(at) + Eigen::Vector3d::Constant(0.1);
-        const VariationalInequality problem = problem_of(chain(), force, b, {0, 2}, Eigen::Vector2d(0.05, -1), 0);
+        VariationalInequality problem =
+            small_problem(chain(3), force, Eigen::Vector2d(0.05, -1), Eigen::RowVector3d(1, 0, 0), 0);
+        problem.contact[1] = 2;
         EXPECT_THROW(active_set(problem), NotConverged) << sign * load << " at " << at;
+        EXPECT_THROW(active_set(mirrored(problem)), NotConverged) << sign * load << " at " << at;
       }
 }
 
@@ -141,7 +123,7 @@ TEST(NothingInSilence, RowsThatAreNearlyDependentAreWarnedOf) {
   for (const double apart : {1e-3, 1e-6, 1e-8, 1e-9, 1e-11, 1e-12, 1e-13, 4e-14, 4e-15, 1e-15, 2e-16, 0.0}) {
     Eigen::MatrixXd b(2, 3);
     b << 1, -1, 0, 1, -1 + apart, 0;
-    const Solution s = active_set(problem_of(chain(), Eigen::Vector3d(1, 2, 3), b, {}, Eigen::VectorXd(), 0));
+    const Solution s = active_set(small_problem(chain(3), Eigen::Vector3d(1, 2, 3), {}, b, 0));
     const bool held_apart = (s.u - Eigen::Vector3d(0, 0, 1.5)).lpNorm<Eigen::Infinity>() < 1e-6;
     const bool equal = (s.u - Eigen::Vector3d::Constant(3)).lpNorm<Eigen::Infinity>() < 1e-6;
     const bool warned = s.warning.find("nearly dependent") != std::string::npos;
@@ -161,17 +143,21 @@ TEST(NothingInSilence, RowsThatAreNearlyDependentAreLookedForAmongTwoHundred) {
     Eigen::MatrixXd b = Eigen::MatrixXd::Identity(rows, rows);
     b.row(1) = b.row(0);
     b(1, 1) = 1e-12;
-    const double open = left_open(
-        problem_of(Eigen::MatrixXd::Identity(rows, rows), Eigen::VectorXd::Zero(rows), b, {}, Eigen::VectorXd(), 0),
-        1e-15 * Eigen::VectorXd::Unit(rows, 1));
+    const double open =
+        left_open(small_problem(Eigen::MatrixXd::Identity(rows, rows), Eigen::VectorXd::Zero(rows), {}, b, 0),
+                  1e-15 * Eigen::VectorXd::Unit(rows, 1));
     EXPECT_NEAR(open, rows <= 200 ? 1e-3 : 0, 1e-6) << rows;  // the rows are 1e-12 apart: known to eps / 1e-12
   }
 }
 
+VariationalInequality pulled_chain() {
+  return small_problem(chain(3), Eigen::Vector3d(1, -2, 3), Eigen::Vector2d(-0.1, -0.1), Eigen::RowVector3d(1, -1, 0.5),
+                       0.5);
+}
+
 TEST(NothingInSilence, UnitsAreTheCallersOwn) {
   // M times s at compliance s, and A1 and the load times s at compliance 1 / s, are the same problem
-  const VariationalInequality one = problem_of(chain(), Eigen::Vector3d(1, -2, 3), Eigen::RowVector3d(1, -1, 0.5), {1},
-                                               Eigen::VectorXd::Constant(1, -0.1), 0.5);
+  const VariationalInequality one = pulled_chain();
   const Eigen::VectorXd u = active_set(one).u;
   for (const double s : {1e-9, 1e-3, 1e3, 1e9}) {
     VariationalInequality other = one;
@@ -188,8 +174,7 @@ TEST(NothingInSilence, UnitsAreTheCallersOwn) {
 
 // Every overload refuses what the headers say, with a factor made before as well.
 TEST(NothingInSilence, AFactorMadeBeforeSkipsNoCheck) {
-  const VariationalInequality good = problem_of(chain(), Eigen::Vector3d(1, -2, 3), Eigen::RowVector3d(1, -1, 0.5),
-                                                {0, 1}, Eigen::Vector2d(-0.1, -0.1), 0.5);
+  const VariationalInequality good = pulled_chain();
   const auto refused = [&](const std::function<void(VariationalInequality&)>& spoil, const std::string& words) {
     PenaltyFactor factor(good);
     VariationalInequality bad = good;
@@ -219,8 +204,7 @@ TEST(NothingInSilence, AFactorMadeBeforeSkipsNoCheck) {
 }
 
 TEST(NothingInSilence, TheReportPassesOverNothing) {
-  const VariationalInequality problem = problem_of(chain(), Eigen::Vector3d(1, -2, 3), Eigen::RowVector3d(1, -1, 0.5),
-                                                   {0, 1}, Eigen::Vector2d(-0.1, -0.1), 0.5);
+  const VariationalInequality problem = pulled_chain();
   const Solution right = active_set(problem);
   VariationalInequality unknown = problem;
   unknown.lower(0) = nan;
@@ -238,5 +222,4 @@ TEST(NothingInSilence, TheReportPassesOverNothing) {
   }
 }
 
-}  // namespace
 }  // namespace antilock::hard::random_against_rationals_test

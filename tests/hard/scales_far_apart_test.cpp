@@ -3,29 +3,11 @@
 #include "antilock/solve/uzawa.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/scenes.hpp"
+#include "support/small_problem.hpp"
 
 namespace antilock::hard::scales_far_apart_test {
-namespace {
 
-/// A1 (full), its load, and the first unknowns kept above `lower`; no stiff form yet.
-VariationalInequality body(const Eigen::MatrixXd& a1, const Eigen::VectorXd& load, const Eigen::VectorXd& lower) {
-  VariationalInequality v;
-  v.a1 = a1.sparseView();
-  v.a1.makeCompressed();
-  v.b.resize(0, a1.cols());
-  v.load = load;
-  for (int i = 0; i < lower.size(); ++i) v.contact.push_back(i);
-  v.lower = lower;
-  return v;
-}
-
-/// Adds B with M = 1.
-void stiffen(VariationalInequality& v, const Eigen::MatrixXd& b, double compliance) {
-  v.b = b.sparseView();
-  v.b.makeCompressed();
-  v.m = Eigen::VectorXd::Ones(b.rows());
-  v.compliance = compliance;
-}
+using namespace test;
 
 std::vector<std::vector<bool>> every_start(std::size_t n) {
   std::vector<std::vector<bool>> starts;
@@ -39,8 +21,8 @@ std::vector<std::vector<bool>> every_start(std::size_t n) {
 // CHOLMOD's constrained ordering once wrote past its end here; the sanitizers watch.
 TEST(ScalesFarApart, OneUnknownAndItIsInContact) {
   for (const double load : {-1.0, 1.0}) {
-    const Solution s = active_set(
-        body(Eigen::MatrixXd::Constant(1, 1, 2), Eigen::VectorXd::Constant(1, load), Eigen::VectorXd::Zero(1)));
+    const Solution s = active_set(small_problem(Eigen::MatrixXd::Constant(1, 1, 2), Eigen::VectorXd::Constant(1, load),
+                                                Eigen::VectorXd::Zero(1)));
     EXPECT_NEAR(s.u(0), load < 0 ? 0 : 0.5, 1e-15);
     EXPECT_NEAR(s.lambda(0), load < 0 ? 1 : 0, 1e-15);
   }
@@ -53,10 +35,10 @@ TEST(ScalesFarApart, AStiffUnknownHidesNoPullOnASoftOne) {
     for (const double off : {1e-2, 1e-4, 1e-6})
       for (const auto& start : every_start(2)) {
         ActiveSetOptions options;
-        options.start = test::held_at_lower(start);
-        const Solution s = active_set(
-            body(Eigen::Vector2d(k, 1).asDiagonal(), Eigen::Vector2d(1e-4 * k, -1 + off), Eigen::Vector2d(-1, -1)),
-            options);
+        options.start = held_at_lower(start);
+        const Solution s = active_set(small_problem(Eigen::Vector2d(k, 1).asDiagonal(),
+                                                    Eigen::Vector2d(1e-4 * k, -1 + off), Eigen::Vector2d(-1, -1)),
+                                      options);
         EXPECT_NEAR(s.u(0), 1e-4, 1e-16) << k;
         EXPECT_NEAR(s.u(1), -1 + off, 1e-15) << k;
       }
@@ -68,7 +50,7 @@ TEST(ScalesFarApart, AGreatContactForceHidesNoSmallOne) {
     for (const double off : {1e-2, 1e-4}) {
       Eigen::Matrix2d a1;
       a1 << k, -1, -1, 2;
-      const Solution s = active_set(body(a1, Eigen::Vector2d(-2 * k, -2 + 2 * off), Eigen::Vector2d(0, -1)));
+      const Solution s = active_set(small_problem(a1, Eigen::Vector2d(-2 * k, -2 + 2 * off), Eigen::Vector2d(0, -1)));
       EXPECT_EQ(s.u(0), 0);
       EXPECT_NEAR(s.u(1), -1 + off, 1e-14) << k;
     }
@@ -84,8 +66,8 @@ TEST(ScalesFarApart, AContactForceFarAboveTheLoadStaysWhereItIs) {
   b << 0.93, 0, 0, 0.1, -0.35, 0;
   const double u_1 = 0.1 / 0.35 * 0.83;
   for (const double compliance : {1e-10, 1e-12, 1e-14, 1e-16, 1e-18, 1e-20}) {
-    VariationalInequality v = body(a1, Eigen::Vector3d(0.55, 0, 0.31), Eigen::VectorXd::Constant(1, 0.83));
-    stiffen(v, b, compliance);
+    VariationalInequality v =
+        small_problem(a1, Eigen::Vector3d(0.55, 0, 0.31), Eigen::VectorXd::Constant(1, 0.83), b, compliance);
     v.m(0) = 0.47;
     ActiveSetOptions options;
     options.penalty = 3.5e-5;
@@ -102,7 +84,7 @@ TEST(ScalesFarApart, AContactForceFarAboveTheLoadStaysWhereItIs) {
 // The report of a wrong u in a place of small forces, beside a force of 1e12.
 TEST(ScalesFarApart, TheReportSeesSmallForcesBesideGreatOnes) {
   const VariationalInequality v =
-      body(Eigen::Vector3d(1e12, 1, 1).asDiagonal(), Eigen::Vector3d(-1e12, -2, 1), Eigen::Vector2d(0, -1));
+      small_problem(Eigen::Vector3d(1e12, 1, 1).asDiagonal(), Eigen::Vector3d(-1e12, -2, 1), Eigen::Vector2d(0, -1));
   const Solution right = active_set(v);
   Solution wrong = right;
   wrong.u(2) *= 1 + 1e-4;
@@ -124,8 +106,8 @@ TEST(ScalesFarApart, WhatDoesNotMoveHasSettled) {
   a1 << 2, -1, -1, -1, 2, 0, -1, 0, 1;  // u_0 held up by the obstacle, u_1 hangs on it, u_2 is pushed down
   for (const bool in_contact : {true, false}) {
     if (!in_contact) a1 = Eigen::Matrix3d::Identity();
-    VariationalInequality v = body(a1, Eigen::Vector3d::Zero(), Eigen::VectorXd::Zero(in_contact ? 1 : 0));
-    stiffen(v, Eigen::RowVector3d(1, -1, 0), 1e-2);
+    VariationalInequality v = small_problem(a1, Eigen::Vector3d::Zero(), Eigen::VectorXd::Zero(in_contact ? 1 : 0),
+                                            Eigen::RowVector3d(1, -1, 0), 1e-2);
     v.fixed = {2};
     v.fixed_values = Eigen::VectorXd::Constant(1, -1);
     for (const Solution& s : {active_set(v), uzawa(v)}) {
@@ -138,7 +120,7 @@ TEST(ScalesFarApart, WhatDoesNotMoveHasSettled) {
 }
 
 /// A chain of 40 springs that a soft one holds, under a load that moves it by about 1.
-VariationalInequality hardly_held_chain(double held) {
+VariationalInequality hardly_held_chain(double held, const Eigen::MatrixXd& b = {}, double compliance = 1) {
   constexpr int n = 40;
   Eigen::MatrixXd a1 = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd load(n);
@@ -148,17 +130,15 @@ VariationalInequality hardly_held_chain(double held) {
     if (i > 0) a1(i, i - 1) = a1(i - 1, i) = -below;
     load(i) = held * std::cos(i);
   }
-  return body(a1, load, Eigen::VectorXd());
+  return small_problem(a1, load, {}, b, compliance);
 }
 
 /// The same with two rows of B that its softness has nothing to do with.
 VariationalInequality hardly_held_stiff_chain(double held, double compliance) {
-  VariationalInequality v = hardly_held_chain(held);
-  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(2, v.size());
-  b(0, v.size() - 1) = b(1, 5) = 1;
-  b(0, v.size() - 2) = b(1, 7) = -1;
-  stiffen(v, b, compliance);
-  return v;
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(2, 40);
+  b(0, 39) = b(1, 5) = 1;
+  b(0, 38) = b(1, 7) = -1;
+  return hardly_held_chain(held, b, compliance);
 }
 
 // Without B too the first solve is not taken on trust: a double keeps 1e-16 / held of it. The corrections' residual adds 40
@@ -189,8 +169,8 @@ TEST(ScalesFarApart, MoreDigitsNeedNoOtherFactor) {
     for (const double penalty : {1e-2, 3e-3})
       for (const double compliance : {0.0, 1e-5}) {
         ActiveSetOptions options;
-        options.penalty = penalty;
         options.corrections.tolerance = 1e-14;
+        options.penalty = penalty;
         const Solution s = active_set(hardly_held_stiff_chain(held, compliance), options);
         EXPECT_EQ(s.counters.factorisations, 1) << held << " " << penalty << " " << compliance;
       }
@@ -204,11 +184,11 @@ TEST(ScalesFarApart, AGreatUHidesNoBoundThatIsReachedLate) {
   a1 << 1, -0.5, 0, -0.5, 1, 0, 0, 0, 1;
   for (const double great : {1e12, 1e13})
     for (const double penalty : {1.0, 0.1}) {
-      VariationalInequality v = body(a1, Eigen::Vector3d(0, 1, great), Eigen::VectorXd::Constant(1, 0.005));
-      stiffen(v, Eigen::RowVector3d(0, 1, 0), 0);
       ActiveSetOptions options;
       options.penalty = penalty;
-      const Solution s = active_set(v, options);
+      const Solution s = active_set(small_problem(a1, Eigen::Vector3d(0, 1, great), Eigen::VectorXd::Constant(1, 0.005),
+                                                  Eigen::RowVector3d(0, 1, 0), 0),
+                                    options);
       EXPECT_EQ(s.u(0), 0.005) << great << " " << penalty;
       EXPECT_NEAR(s.lambda(0), 0.005, 1e-12) << great << " " << penalty;
     }
@@ -226,8 +206,7 @@ TEST(ScalesFarApart, AGreatUHidesNoRowThatIsNotClosed) {
       b(i, 2 * i) = 1;
       b(i, 2 * i + 1) = -1;
     }
-    VariationalInequality v = body(a1, load, Eigen::VectorXd());
-    stiffen(v, b, 0);
+    VariationalInequality v = small_problem(a1, load, {}, b, 0);
     v.fixed = {n - 1};
     v.fixed_values = Eigen::VectorXd::Constant(1, great);
     ActiveSetOptions options;
@@ -248,12 +227,11 @@ TEST(ScalesFarApart, ALockedUStopsAtItsRoundOff) {
           a1(i, i - 1) = a1(i - 1, i) = beside;
           b(i, i - 1) = -1;
         }
-        VariationalInequality v =
-            body(a1, Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return std::cos(i); }), Eigen::VectorXd());
-        stiffen(v, b, 0);
         ActiveSetOptions options;
         options.penalty = penalty;
-        const Solution s = active_set(v, options);
+        const Solution s = active_set(
+            small_problem(a1, Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return std::cos(i); }), {}, b, 0),
+            options);
         EXPECT_LE(s.u.lpNorm<Eigen::Infinity>(), 1e-14 * s.moderate) << n << " " << penalty << " " << beside;
         EXPECT_EQ(s.warning, "") << n << " " << penalty << " " << beside;
         if (penalty == 1e-4) {
@@ -264,11 +242,10 @@ TEST(ScalesFarApart, ALockedUStopsAtItsRoundOff) {
 
 TEST(ScalesFarApart, AFactorOfAnotherProblemIsRefused) {
   const TriangleMesh mesh = structured_mesh(4), finer = structured_mesh(5);
-  PenaltyFactor factor(test::stiff_problem(Space(finer, p1()), 0.1));
-  const VariationalInequality problem = test::stiff_problem(Space(mesh, p1()), 0.1);
-  test::expect_refused([&] { active_set(problem, factor); }, "the factor is of");
-  test::expect_refused([&] { uzawa(problem, factor); }, "the factor is of");
+  PenaltyFactor factor(stiff_problem(Space(finer, p1()), 0.1));
+  const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 0.1);
+  expect_refused([&] { active_set(problem, factor); }, "the factor is of");
+  expect_refused([&] { uzawa(problem, factor); }, "the factor is of");
 }
 
-}  // namespace
 }  // namespace antilock::hard::scales_far_apart_test

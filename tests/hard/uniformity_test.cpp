@@ -6,12 +6,12 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/exact/truth_table.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::hard::uniformity_test {
-namespace {
 
 constexpr std::array every_epsilon{1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-16, 1e-20, 0.0};
 constexpr std::array few_epsilons{1e-6, 0.0};  // 1/h = 256, where a solve takes long
@@ -25,10 +25,6 @@ struct Case {
 std::string name(const testing::TestParamInfo<Case>& info) {
   return std::string(info.param.element) + (info.param.structured ? "Structured" : "Unstructured") +
          std::to_string(info.param.cells);
-}
-
-VariationalInequality paper_problem(const Space& space, double epsilon) {
-  return assemble(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
 }
 
 class Uniformity : public testing::TestWithParam<Case> {
@@ -56,7 +52,7 @@ TEST_P(Uniformity, AlgebraicErrorBelow1e9AtEveryEpsilon) {
   QuadSolution exact;  // each one is the neighbour of the next
   for (const double epsilon : epsilons()) {
     SCOPED_TRACE(epsilon);
-    const VariationalInequality problem = paper_problem(space_, epsilon);
+    const VariationalInequality problem = test::stiff_problem(space_, epsilon);
     const Solution solution = active_set(problem);
     exact = settle(problem, solution.active, std::ref(reference), exact);
     ASSERT_LT(exact.residual, 1e-20);
@@ -85,7 +81,7 @@ TEST_P(SmallUniformity, AgreesWithAFactorisationInQuadruplePrecision) {
   QuadSolution exact;
   for (const double epsilon : every_epsilon) {
     SCOPED_TRACE(epsilon);
-    const VariationalInequality problem = paper_problem(space_, epsilon);
+    const VariationalInequality problem = test::stiff_problem(space_, epsilon);
     const Solution solution = active_set(problem);
     exact = settle(problem, solution.active, quad_reference, exact);
     ASSERT_LT(exact.residual, 1e-24);
@@ -102,7 +98,7 @@ INSTANTIATE_TEST_SUITE_P(Paper, SmallUniformity,
 /// u with the contact set held, from the saddle-point form [A1 B'M; MB -compliance M] by UMFPACK: another formulation,
 /// another library, no penalty and no correction.
 Eigen::VectorXd saddle_point(const VariationalInequality& problem, const std::vector<bool>& active) {
-  const VariationalInequality linear = held(problem, active);
+  const VariationalInequality linear = held_in_contact(problem, active);
   const FreeNumbering numbering(linear);
   const int size = static_cast<int>(numbering.unknown.size()), rows = static_cast<int>(problem.b.rows());
   std::vector<Eigen::Triplet<double>> entries;
@@ -133,10 +129,9 @@ Eigen::VectorXd saddle_point(const VariationalInequality& problem, const std::ve
 // The rows of B are independent for Crouzeix-Raviart alone, so the saddle point is regular at epsilon = 0 there.
 TEST(Formulations, SaddlePointByUmfpackAgreesForCrouzeixRaviart) {
   for (const bool structured : {true, false}) {
-    const TriangleMesh mesh = structured ? structured_mesh(64) : unstructured_mesh(64);
-    const Space space(mesh, crouzeix_raviart());
+    const test::SpaceOn space(structured ? structured_mesh(64) : unstructured_mesh(64), crouzeix_raviart());
     for (const double epsilon : {1.0, 1e-3, 1e-8, 1e-16, 0.0}) {
-      const VariationalInequality problem = paper_problem(space, epsilon);
+      const VariationalInequality problem = test::stiff_problem(space, epsilon);
       const Solution solution = active_set(problem);
       const Eigen::VectorXd other = saddle_point(problem, solution.active);
       EXPECT_LT((solution.u - other).lpNorm<Eigen::Infinity>() / other.lpNorm<Eigen::Infinity>(), 1e-9)
@@ -170,9 +165,9 @@ TEST(Formulations, EpsilonZeroIsTheProblemOnTheKernelOfA0) {
     SCOPED_TRACE(std::string(c.element) + (c.structured ? " structured" : " unstructured"));
     const TriangleMesh mesh = c.structured ? structured_mesh(c.cells) : unstructured_mesh(c.cells);
     const Space space(mesh, element(c.element));
-    const VariationalInequality problem = paper_problem(space, 0);
+    const VariationalInequality problem = test::stiff_problem(space, 0);
     const Solution solution = active_set(problem);
-    const VariationalInequality linear = held(problem, solution.active);
+    const VariationalInequality linear = held_in_contact(problem, solution.active);
     const FreeNumbering numbering(linear);
     const Eigen::MatrixXd z = kernel_basis(linear, numbering);
     const Eigen::MatrixXd a1 = Eigen::MatrixXd(problem.a1)(numbering.unknown, numbering.unknown);
@@ -202,7 +197,7 @@ TEST(UniformError, IsFlatInEpsilonWhereNothingLocks) {
     const TruthTable truth{Truth(paper_sine_load(), epsilon)};
     for (Row& row : rows) {
       const Space space(*row.mesh, element(row.element));
-      const Solution solution = active_set(paper_problem(space, epsilon));
+      const Solution solution = active_set(test::stiff_problem(space, epsilon));
       double error = 0;
       for (int i = 0; i < space.size(); ++i)
         error = std::max(error, std::abs(solution.u(i) - truth.value(space.points()(i, 0), space.points()(i, 1))));
@@ -213,5 +208,4 @@ TEST(UniformError, IsFlatInEpsilonWhereNothingLocks) {
   }
 }
 
-}  // namespace
 }  // namespace antilock::hard::uniformity_test

@@ -2,15 +2,14 @@
 #include "antilock/analysis/hypotheses.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::wrong_answers_are_refused_test {
-namespace {
+namespace antilock::test::wrong_answers_are_refused_test {
 
 class WrongAnswers : public testing::TestWithParam<double> {
  protected:
   WrongAnswers()
       : mesh_(structured_mesh(16)),
         space_(mesh_, crouzeix_raviart()),
-        problem_(assemble(Scene({paper_load}, StiffLayer{GetParam()}, UnilateralContact{}), space_)),
+        problem_(assemble(test::stiff_scene(GetParam()), space_)),
         solution_(active_set(problem_)) {}
   int first(bool active) const {
     for (std::size_t i = 0; i < solution_.active.size(); ++i)
@@ -79,23 +78,17 @@ TEST_P(WrongAnswers, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
   same.warning.clear();
   certify(problem_, same, {1e-3, 1e-2});
   EXPECT_TRUE(same.warning.empty());
-  try {
-    slightly.u *= 1.1;
-    certify(problem_, slightly);
-    FAIL() << "not refused";
-  } catch (const NotConverged& refusal) {
-    EXPECT_NE(std::string(refusal.what()).find("active set: answer refused"), std::string::npos) << refusal.what();
-    EXPECT_NEAR(refusal.reached, worst_violation(kkt_report(problem_, slightly)), 1e-15);
-    EXPECT_GT(refusal.reached, 1e-6);
-  }
+  slightly.u *= 1.1;
+  const auto refusal = thrown<NotConverged>([&] { certify(problem_, slightly); });
+  EXPECT_NE(std::string(refusal.what()).find("active set: answer refused"), std::string::npos) << refusal.what();
+  EXPECT_NEAR(refusal.reached, worst_violation(kkt_report(problem_, slightly)), 1e-15);
+  EXPECT_GT(refusal.reached, 1e-6);
 }
 
 // The terms of A1 u are h^-2 times larger than the forces they balance: an error must not hide behind them.
 TEST_P(WrongAnswers, AWrongAnswerIsRefusedOnAFineMeshToo) {
-  const TriangleMesh mesh = structured_mesh(128);
-  const Space space(mesh, p1());
-  const VariationalInequality problem =
-      assemble(Scene({paper_load}, StiffLayer{GetParam()}, UnilateralContact{}), space);
+  const SpaceOn space(structured_mesh(128), p1());
+  const VariationalInequality problem = assemble(test::stiff_scene(GetParam()), space);
   Solution wrong = active_set(problem);
   EXPECT_TRUE(wrong.warning.empty());
   wrong.u *= 1 + 1e-5;
@@ -198,5 +191,4 @@ TEST(Impossible, AFarBoundDoesNotHideABrokenCompliance) {
   }
 }
 
-}  // namespace
-}  // namespace antilock::wrong_answers_are_refused_test
+}  // namespace antilock::test::wrong_answers_are_refused_test

@@ -5,27 +5,20 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::agreement_test {
-namespace {
+namespace antilock::test::agreement_test {
 
 struct Answer {
-  Eigen::MatrixX3d table;  ///< x, gap, pressure; with contact
+  Eigen::MatrixX3d table;  ///< x, gap, pressure
   Eigen::VectorXd u;
-  Points points;
   std::vector<bool> active;
   double energy, from;
 };
 
-Answer answer(const Layer& layer, const TriangleMesh& mesh, const Element& element, bool contact = true) {
-  const Scene scene({paper_load}, layer, contact ? std::optional(UnilateralContact{}) : std::nullopt);
+Answer answer(const Layer& layer, const TriangleMesh& mesh, const Element& element) {
   const Space space(mesh, element);
-  const VariationalInequality problem = assemble(scene, space);
+  const VariationalInequality problem = assemble(Scene({paper_load}, layer, UnilateralContact{}), space);
   const Solution s = active_set(problem);
-  return {contact ? contact_table(space, problem, s) : Eigen::MatrixX3d(0, 3),
-          s.u,
-          space.points(),
-          s.active,
-          energy(problem, s),
+  return {contact_table(space, problem, s), s.u, s.active, energy(problem, s),
           contact_zone(space, problem, s).from.value_or(2)};
 }
 
@@ -113,31 +106,6 @@ TEST_P(Models, VentcelConvergesWithOrderTwo) {
   EXPECT_LE(energy_error.back(), 1e-3);
 }
 
-TEST_P(Models, VentcelWithoutContactConvergesWithOrderTwo) {
-  const Truth truth(paper_sine_load(), 0, false, 12);
-  std::vector<double> h, error;
-  for (const int cells : {8, 16, 32, 64}) {
-    const Answer a = answer(VentcelLayer{}, mesh_of(regular(), cells, 0), element(), false);
-    double worst = 0;
-    for (Eigen::Index i = 0; i < a.u.size(); ++i)
-      worst = std::max(worst, std::abs(a.u(i) - truth.value(a.points(i, 0), a.points(i, 1))));
-    h.push_back(1.0 / cells);
-    error.push_back(worst);
-  }
-  EXPECT_NEAR(slope(h, error), 2, 0.3);
-  EXPECT_LE(error.back(), 6e-4);
-}
-
-TEST(RigidLimit, IsVentcelOnAStructuredMesh) {
-  // (24) on columns of cells: the layer's only freedom is one value per column, whose stiffness is that of the line Sigma
-  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
-    const Answer ventcel = answer(VentcelLayer{}, structured_mesh(32, {0}), *element);
-    const Answer limit = answer(StiffLayer{0}, structured_mesh(32), *element);
-    EXPECT_NEAR(ventcel.energy, limit.energy, 1e-9) << element->name();
-    EXPECT_LE((ventcel.table.col(1) - limit.table.col(1)).cwiseAbs().maxCoeff(), 1e-9) << element->name();
-  }
-}
-
 TEST(RigidLimit, OfCrouzeixRaviartAgreesWithVentcelOnAnyMesh) {
   // without columns the two differ by their discretisation errors: energies 1.1 h^2 each
   constexpr int cells = 32;
@@ -189,17 +157,4 @@ TEST(BodyAlone, OnAnObstacleConvergesToItsReference) {
     }
 }
 
-TEST(BodyAlone, LiesBetweenTheEnergiesOfP1AndCrouzeixRaviart) {
-  double before = 1;
-  for (const int cells : {8, 16, 32}) {
-    const TriangleMesh mesh = structured_mesh(cells, {0});
-    const double above = answer(NoLayer{}, mesh, p1()).energy,
-                 below = answer(NoLayer{}, mesh, crouzeix_raviart()).energy;
-    EXPECT_GT(above, below);
-    EXPECT_LT(above - below, 0.3 * before);  // it closes like h^2
-    before = above - below;
-  }
-}
-
-}  // namespace
-}  // namespace antilock::agreement_test
+}  // namespace antilock::test::agreement_test

@@ -3,7 +3,6 @@
 #include "support/scenes.hpp"
 
 namespace antilock::test::bad_scenes_test {
-namespace {
 
 struct BadScene {
   std::string name;  ///< of the test
@@ -333,5 +332,4 @@ TEST(BadCommandLine, ResultsThatCannotBeWritten) {
   expect_one_line(run_scene(in_shell(folder / "scene.toml") + " --out ''", folder), "");
 }
 
-}  // namespace
 }  // namespace antilock::test::bad_scenes_test

@@ -16,6 +16,14 @@ std::string scene(double epsilon, const std::string& f = "10*sin(2*pi*x)") {
                      f, epsilon);
 }
 
+/// An answer of the library's, as another program would hand it in: its rows in another order, twelve digits.
+void hand_in(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u) {
+  std::ofstream out(path);
+  out << "x,y,u\n";
+  for (Eigen::Index i = space.size(); i-- > 0;)
+    out << fmt::format("{:.12g},{:.12g},{:.12g}\n", space.points()(i, 0), space.points()(i, 1), u(i));
+}
+
 class Door : public testing::Test {
  protected:
   std::string file(const std::string& name, const std::string& text) {
@@ -23,6 +31,12 @@ class Door : public testing::Test {
     return in_shell((folder / name).string());
   }
   Outcome ask(const std::string& arguments) { return run_antilock(arguments, log); }
+  Outcome judge(const std::string& asked, const Space& space, const Eigen::VectorXd& u, const std::string& options) {
+    write_msh(folder / "mesh.msh", space.mesh());
+    hand_in(folder / "u.csv", space, u);
+    return ask("judge " + file("scene.toml", asked) + " " + in_shell(folder / "mesh.msh") + " " +
+               in_shell(folder / "u.csv") + options);
+  }
   TemporaryFolder folder, log;
 };
 
@@ -73,14 +87,6 @@ TEST_F(Door, TruthOfAnyOtherLoadIsCertified) {
   EXPECT_LT(summary["energy"][0], summary["energy"][1]);
 }
 
-/// An answer of the library's, as another program would hand it in: its rows in another order, twelve digits.
-void hand_in(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u) {
-  std::ofstream out(path);
-  out << "x,y,u\n";
-  for (Eigen::Index i = space.size(); i-- > 0;)
-    out << fmt::format("{:.12g},{:.12g},{:.12g}\n", space.points()(i, 0), space.points()(i, 1), u(i));
-}
-
 TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {
   const double epsilon = 1e-3;
   const TruthTable truth(Truth(paper_sine_load(), epsilon));
@@ -88,13 +94,11 @@ TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {
                                              {&p1(), jittered_mesh(16, 0.2), true},
                                              {&crouzeix_raviart(), jittered_mesh(16, 0.2), false}}) {
     const Space space(mesh, *element);
-    const Solution answer = active_set(assemble(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space));
-    write_msh(folder / "mesh.msh", mesh);
-    hand_in(folder / "u.csv", space, answer.u);
-    const std::string question = "judge " + file("scene.toml", scene(epsilon)) + " " + in_shell(folder / "mesh.msh") +
-                                 " " + in_shell(folder / "u.csv") + " --accuracy 0.03 --json " +
-                                 in_shell(folder / "judged.json");
-    const Outcome told = ask(question);
+    const Solution answer = active_set(stiff_problem(space, epsilon));
+    const auto judged_by = [&](const Eigen::VectorXd& u) {
+      return judge(scene(epsilon), space, u, " --accuracy 0.03 --json " + in_shell(folder / "judged.json"));
+    };
+    const Outcome told = judged_by(answer.u);
     ASSERT_EQ(told.status, 0) << told.err;
     const auto judged = nlohmann::json::parse(contents(folder / "judged.json"));
     const double energy = measure_errors(space, answer, epsilon, reference(truth)).energy;
@@ -105,8 +109,7 @@ TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {
     EXPECT_LE(judged["bound"], (element->conforming() ? 1.05 : 1.6) * energy);
     EXPECT_EQ(told.out.find("P1 locks in this layer") != std::string::npos, locks) << told.out;
     if (!element->conforming()) {  // the bound is of the answer handed in, not of the library's own
-      hand_in(folder / "u.csv", space, answer.u / 2);
-      ASSERT_EQ(ask(question).status, 0);
+      ASSERT_EQ(judged_by(answer.u / 2).status, 0);
       const auto half = nlohmann::json::parse(contents(folder / "judged.json"));
       EXPECT_GE(half["bound"], half["errors"]["energy"]);
     }
@@ -118,42 +121,31 @@ TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {
 }
 
 TEST_F(Door, JudgeLiftsAnAnswerOutOfTheObstacleAndSaysSo) {
-  const TriangleMesh mesh = structured_mesh(8);
-  const Space space(mesh, p1());
-  Eigen::VectorXd u = active_set(assemble(Scene({paper_load}, StiffLayer{0.1}, UnilateralContact{}), space)).u;
+  const test::SpaceOn space(structured_mesh(8), p1());
+  Eigen::VectorXd u = active_set(stiff_problem(space, 0.1)).u;
   for (const int i : space.contact()) u(i) -= 1e-3;
-  write_msh(folder / "mesh.msh", mesh);
-  hand_in(folder / "u.csv", space, u);
-  const Outcome told = ask("judge " + file("scene.toml", scene(0.1)) + " " + in_shell(folder / "mesh.msh") + " " +
-                           in_shell(folder / "u.csv") + " --accuracy 0.2");
+  const Outcome told = judge(scene(0.1), space, u, " --accuracy 0.2");
   ASSERT_EQ(told.status, 0) << told.err;
   EXPECT_NE(told.out.find("for the way into K"), std::string::npos) << told.out;
   EXPECT_EQ(told.out.find("this answer is not it"), std::string::npos) << told.out;
   // half of the right answer is off by half of |u|_a = 0.94, more than 1.3 h |f| on cells of 1/32
-  const TriangleMesh fine = structured_mesh(32);
-  const Space fine_space(fine, p1());
-  write_msh(folder / "mesh.msh", fine);
-  hand_in(folder / "u.csv", fine_space,
-          active_set(assemble(Scene({paper_load}, StiffLayer{0.1}, UnilateralContact{}), fine_space)).u / 2);
-  const Outcome half = ask("judge " + file("scene.toml", scene(0.1)) + " " + in_shell(folder / "mesh.msh") + " " +
-                           in_shell(folder / "u.csv") + " --accuracy 0.2");
+  const test::SpaceOn fine_space(structured_mesh(32), p1());
+  const Outcome half =
+      judge(scene(0.1), fine_space, active_set(stiff_problem(fine_space, 0.1)).u / 2, " --accuracy 0.2");
   EXPECT_NE(half.out.find("this answer is not it"), std::string::npos) << half.out;
 }
 
 TEST_F(Door, JudgeFindsAFaultWhereItWasPut) {
   const TriangleMesh mesh = jittered_mesh(16, 0.2);
   const Space space(mesh, p1());
-  write_msh(folder / "mesh.msh", mesh);
   const std::string out = " --json " + in_shell(folder / "judged.json") + " --where " + in_shell(folder / "where.csv");
   for (const std::string load : {"10*sin(2*pi*x)", "10*sin(2*pi*x)+0.1*x"})  // of the first an exact solution is known
     for (const Eigen::RowVector2d& fault : {Eigen::RowVector2d(0.3, 0.6), Eigen::RowVector2d(0.6, -0.5)}) {
-      Eigen::VectorXd u = active_set(assemble(Scene({paper_load}, StiffLayer{0.1}, UnilateralContact{}), space)).u;
+      Eigen::VectorXd u = active_set(stiff_problem(space, 0.1)).u;
       Eigen::Index at = 0;
       (space.points().rowwise() - fault).rowwise().norm().minCoeff(&at);
       u(at) += 0.3;
-      hand_in(folder / "u.csv", space, u);
-      const Outcome told = ask("judge " + file("scene.toml", scene(0.1, load)) + " " + in_shell(folder / "mesh.msh") +
-                               " " + in_shell(folder / "u.csv") + " --accuracy 0.1" + out);
+      const Outcome told = judge(scene(0.1, load), space, u, " --accuracy 0.1" + out);
       ASSERT_EQ(told.status, 0) << told.err;
       const auto judged = nlohmann::json::parse(contents(folder / "judged.json"));
       const auto& where = judged["where"];
@@ -207,7 +199,7 @@ TEST_F(Door, SweepIsTheSceneAskedAgainAndAgain) {
   ASSERT_EQ(table.rows.rows(), 6);
   const TriangleMesh mesh = structured_mesh(16);
   const Space space(mesh, p1());
-  const Solution answer = active_set(assemble(Scene({paper_load}, StiffLayer{1e-4}, UnilateralContact{}), space));
+  const Solution answer = active_set(stiff_problem(space, 1e-4));
   int at = -1;
   for (int i = 0; i < space.size(); ++i)
     if (space.points()(i, 0) == 0.25 && space.points()(i, 1) == -1) at = i;
@@ -231,7 +223,7 @@ void export_matrix(const std::filesystem::path& path, const SparseMatrix& matrix
 TEST_F(Door, LockcheckDiagnosesAndSolvesMatrices) {
   const auto hand_over = [&](const std::string& name, const TriangleMesh& mesh) {
     const Space space(mesh, p1());
-    const VariationalInequality problem = assemble(Scene({paper_load}, StiffLayer{1}, UnilateralContact{}), space);
+    const VariationalInequality problem = stiff_problem(space, 1);
     export_matrix(folder / (name + "a1"), problem.a1);
     export_matrix(folder / (name + "b"), SparseMatrix(problem.b));
     export_matrix(folder / (name + "m"), SparseMatrix(Eigen::MatrixXd(problem.m).sparseView()));
@@ -267,13 +259,10 @@ TEST_F(Door, LockcheckDiagnosesAndSolvesMatrices) {
 
 TEST_F(Door, JudgeKnowsWhatItsSeriesAndItsDiagnosisAreOf) {
   TriangleMesh mesh = unstructured_mesh(8);
-  const Scene asked({paper_load}, StiffLayer{1e-4}, UnilateralContact{});
   const auto told = [&](double times) {
     const Space space(mesh, p1());
-    write_msh(folder / "mesh.msh", mesh);
-    hand_in(folder / "u.csv", space, times * active_set(assemble(asked, space)).u);
-    const Outcome outcome = ask("judge " + file("scene.toml", scene(1e-4)) + " " + in_shell(folder / "mesh.msh") + " " +
-                                in_shell(folder / "u.csv") + " --accuracy 0.3");
+    const Outcome outcome =
+        judge(scene(1e-4), space, times * active_set(stiff_problem(space, 1e-4)).u, " --accuracy 0.3");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return outcome.out;
   };

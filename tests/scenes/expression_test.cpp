@@ -5,8 +5,7 @@
 #include "antilock/io/expression.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::expression_test {
-namespace {
+namespace antilock::test::expression_test {
 
 double at(const std::string& text, double x, double y) { return Expression(text, {"x", "y"})(x, y); }
 
@@ -118,5 +117,4 @@ TEST(Expression, TakesAsManyValuesAsItHasNames) {
   EXPECT_THROW(sum(std::span(values).first(1)), Error);
 }
 
-}  // namespace
-}  // namespace antilock::expression_test
+}  // namespace antilock::test::expression_test

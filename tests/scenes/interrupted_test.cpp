@@ -3,7 +3,6 @@
 #include "support/scenes.hpp"
 
 namespace antilock::test::interrupted_test {
-namespace {
 
 TEST(InterruptedRun, LeavesAWholeAnswerOrNothing) {
   const TemporaryFolder input, log;
@@ -31,5 +30,4 @@ TEST(InterruptedRun, LeavesAWholeAnswerOrNothing) {
   EXPECT_GT(nothing, 0);
 }
 
-}  // namespace
 }  // namespace antilock::test::interrupted_test

@@ -13,7 +13,6 @@
 #include "support/scenes.hpp"
 
 namespace antilock::test::results_test {
-namespace {
 
 using Keys = std::set<std::string>;
 
@@ -186,7 +185,6 @@ INSTANTIATE_TEST_SUITE_P(All, EveryCombination,
 TEST(Results, NameTheWholeQuestion) {
   const SceneRun run("title = \"a title\"\n" +
                      scene(layer("1e-3") + "[contact]\ngap = \"0.01*x\"\n", structured(8), cr + "tolerance = 1e-9\n"));
-  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
   const auto asked = run.summary()["scene"];
   EXPECT_EQ(asked["title"], "a title");
   EXPECT_EQ(asked["load"], "10*sin(2*pi*x)");
@@ -269,7 +267,6 @@ TEST(Warnings, ALoadThatTheQuadratureMissesIsFound) {
        {"1e6*exp(-1e8*(x - 0.4567)^2)", "abs(x - 0.4567) < 1e-4 ? 1e4 : 0",
         "1e4*exp(-1e5*((x - 0.31)^2 + (y - 0.47)^2))", "1 + (abs(y - 0.4567) < 1e-4 ? 1e4 : 0)"}) {
     const SceneRun run(scene(layer("1e-3") + contact, structured(8), cr, f));
-    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
     EXPECT_NE(run.summary()["warning"].get<std::string>().find("load.f"), std::string::npos) << f;
     EXPECT_NE(run.outcome.out.find("warning: load.f"), std::string::npos) << f;
   }
@@ -289,7 +286,6 @@ TEST(Warnings, ALoadWithoutForceOrMomentIsFoundBetweenThePoints) {
       disc(1, 0.6705427, 0.9223774) + " + " + disc(-2, 0.4164415, 0.6715546) + " + " + disc(1, 0.1623403, 0.4207318);
   for (const auto& [f, cells] : {std::pair(discs, 4), std::pair(std::string("100*sin(64*pi*x)"), 8)}) {
     const SceneRun run(scene(layer("1e-3"), structured(cells), "", f));
-    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
     EXPECT_NE(run.summary()["warning"].get<std::string>().find("between its points"), std::string::npos) << f;
   }
 }
@@ -301,7 +297,6 @@ TEST(Warnings, ALayerThatLocksIsNamedWithWhatIsLost) {
   };
   for (const std::string solver : {"active-set", "uzawa"}) {
     const SceneRun run = asked("1e-2", "unstructured", "solver = \"" + solver + "\"\ntolerance = 1e-6");
-    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
     const auto s = run.summary();
     EXPECT_NE(s["warning"].get<std::string>().find("P1 locks in this layer: it loses at least 31 %"),
               std::string::npos);
@@ -321,7 +316,6 @@ TEST(Warnings, ALayerThatLocksIsNamedWithWhatIsLost) {
 TEST(Warnings, AnObstacleBetweenTheContactUnknownsIsFound) {
   for (const std::string& mesh : {structured(8), unstructured(8)}) {
     const SceneRun run(scene(layer("1e-3") + "[contact]\ngap = \"0.01 - exp(-1e8*(x - 0.4567)^2)\"\n", mesh, cr));
-    ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
     EXPECT_NE(run.summary()["warning"].get<std::string>().find("contact.gap"), std::string::npos);
   }
   for (const std::string element : {"P1", "CR", "P2"}) {
@@ -329,20 +323,6 @@ TEST(Warnings, AnObstacleBetweenTheContactUnknownsIsFound) {
                              "element = \"" + element + "\"\n", "1"));
     EXPECT_EQ(run.summary()["warning"], "") << element;
   }
-}
-
-TEST(Results, OfP2AreMoreAccurateThanThoseOfP1) {
-  // the body alone, its bottom side free: -Laplace u = f = cos(pi y/2) sin(pi x)
-  const auto energy = [](const std::string& element, int cells) {
-    return SceneRun(scene("", structured(cells), "element = \"" + element + "\"\n", "cos(pi*y/2)*sin(pi*x)"))
-        .summary()["energy"]
-        .get<double>();
-  };
-  // u = f / (pi^2 + pi^2/4) meets every boundary condition; the energy is -(f, u)/2, and (f, f) = 1/4
-  const double exact = -0.5 * 0.25 / (1.25 * std::numbers::pi * std::numbers::pi);
-  EXPECT_NEAR(energy("P1", 8), exact, 0.03 * std::abs(exact));
-  EXPECT_NEAR(energy("P2", 8), exact, 1e-4 * std::abs(exact));
-  EXPECT_GT(std::abs(energy("P1", 8) - exact), 50 * std::abs(energy("P2", 8) - exact));
 }
 
 TEST(Results, TheContactForceBalancesTheExactOne) {
@@ -360,21 +340,8 @@ TEST(Results, TheContactForceBalancesTheExactOne) {
   EXPECT_NEAR(run.summary()["energy"].get<double>(), -0.44157558, 3e-4);  // 1.8e-4 off at 1/h = 64, falling like h^2
 }
 
-TEST(Results, UzawaAndActiveSetGiveTheSameAnswer) {
-  const SceneRun first(scene(layer("0.1") + contact, structured(16))),
-      second(scene(layer("0.1") + contact, structured(16), "solver = \"uzawa\"\n"));
-  ASSERT_EQ(second.outcome.status, 0) << second.outcome.err;
-  EXPECT_EQ(second.summary()["solver"], "uzawa");
-  EXPECT_GT(second.summary()["iterations"]["contact"].get<int>(),
-            10 * first.summary()["iterations"]["contact"].get<int>());
-  // both are asked for 1e-10 of the largest displacement
-  EXPECT_NEAR(second.summary()["energy"].get<double>(), first.summary()["energy"].get<double>(), 1e-9);
-  EXPECT_EQ(second.summary()["contact"]["active"], first.summary()["contact"]["active"]);
-}
-
 TEST(Results, AnObstacleThatPressesInIsObeyed) {
   const SceneRun run(scene(layer("0.05") + "[contact]\ngap = \"-0.05*sin(pi*x)\"\n", structured(32), "", "0"));
-  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
   EXPECT_NEAR(run.summary()["u_max"].get<double>(), 0.05, 1e-3);
 }
 
@@ -384,19 +351,13 @@ TEST(Results, AnObstacleFarAwayInOnePlaceHidesNoContactInAnother) {
     for (const std::string far : {"1", "1e6", "1e14", "1e90"}) {
       const SceneRun run(scene(layer("0.1") + "[contact]\ngap = \"x < 0.75 ? " + far + " : 0\"\n", structured(16),
                                "solver = \"" + solver + "\"\n"));
-      ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
       EXPECT_EQ(run.summary()["contact"]["from"].get<double>(), 0.75) << solver << " " << far;
+      EXPECT_EQ(run.summary()["solver"], solver);
+      EXPECT_EQ(run.summary()["iterations"]["contact"].get<int>() > 10, solver == "uzawa");
       const double energy = run.summary()["energy"].get<double>();
       if (near_energy == 0) near_energy = energy;
       EXPECT_NEAR(energy, near_energy, 1e-9) << solver << " " << far;  // solved to 1e-10
     }
-}
-
-TEST(Results, AZeroLoadHasAZeroAnswer) {
-  const SceneRun run(scene(layer("1e-3") + contact, unstructured(8), cr, "0"));
-  ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
-  EXPECT_EQ(run.summary()["u_max"].get<double>(), 0.0);
-  expect_interface(run.results);
 }
 
 TEST(Results, AreThoseThatAreAskedForAndThoseOfAnEarlierRunGo) {
@@ -461,27 +422,25 @@ TEST(Results, TheMeshOfARunServesAsAMeshFile) {
   const SceneRun first(scene(layer("1e-3") + contact, unstructured(8), cr));
   const SceneRun second(
       scene(layer("1e-3") + contact, "kind = \"file\"\nfile = \"" + (first.results / "mesh.msh").string() + "\"", cr));
-  ASSERT_EQ(second.outcome.status, 0) << second.outcome.err;
   // the same mesh, numbered the same way; gmsh's columns, off by 4e-13 at most, are made vertical where a file is read
   EXPECT_NEAR(second.summary()["energy"].get<double>(), first.summary()["energy"].get<double>(), 1e-11);
 }
 
 TEST(Unreachable, ToleranceIsSaidInOneLineAndNothingIsWritten) {
-  for (const std::string& effects :
-       {std::string(), layer("1e-6"), layer("0") + contact, layer("0", "ventcel") + contact}) {
-    const SceneRun run(scene(effects, structured(8), "tolerance = 1e-30\n"));
+  using Question = std::pair<std::string, std::string>;
+  const std::string far = "tolerance = 1e-30\n";
+  for (const auto& [effects, method] : {Question{"", far},
+                                        {layer("1e-6"), far},
+                                        {layer("0") + contact, far},
+                                        {layer("0", "ventcel") + contact, far},
+                                        {layer("1e-3") + contact, "solver = \"uzawa\"\ntolerance = 1e-16\n"}}) {
+    const SceneRun run(scene(effects, structured(8), method));
     EXPECT_EQ(run.outcome.status, 3);
     const std::string& line = run.outcome.err;
     EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
     EXPECT_TRUE(line.starts_with(run.scene_path + ": solve: ")) << line;
     EXPECT_TRUE(std::filesystem::is_empty(run.output.path()));
   }
-}
-
-TEST(Unreachable, ToleranceForUzawa) {
-  const SceneRun run(scene(layer("1e-3") + contact, structured(8), "solver = \"uzawa\"\ntolerance = 1e-16\n"));
-  EXPECT_EQ(run.outcome.status, 3);
-  EXPECT_TRUE(std::filesystem::is_empty(run.output.path()));
 }
 
 TEST(Unreachable, TimeLimitEndsTheSolveAndSaysHowFarItCame) {
@@ -503,5 +462,4 @@ TEST(Help, TellsANewcomerEverySectionAndFile) {
     EXPECT_NE(outcome.out.find(word), outcome.out.npos) << word;
 }
 
-}  // namespace
 }  // namespace antilock::test::results_test

@@ -33,7 +33,10 @@ SceneRun::SceneRun(const std::string& scene, const std::string& file) {
   outcome = run_scene(in_shell(scene_path) + " --out " + in_shell(results.string()), log_);
 }
 
-nlohmann::json SceneRun::summary() const { return nlohmann::json::parse(contents(results / "summary.json")); }
+nlohmann::json SceneRun::summary() const {
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  return nlohmann::json::parse(contents(results / "summary.json"));
+}
 
 Csv read_csv(const std::filesystem::path& path) {
   std::istringstream text(contents(path));

@@ -26,7 +26,7 @@ Outcome run_antilock(const std::string& arguments, const TemporaryFolder& log);
 class SceneRun {
  public:
   explicit SceneRun(const std::string& scene, const std::string& file = "scene.toml");
-  nlohmann::json summary() const;  ///< of summary.json; who reads it includes nlohmann/json.hpp
+  nlohmann::json summary() const;  ///< of a run that ended well; who reads it includes nlohmann/json.hpp
 
   TemporaryFolder input, output;
   std::string scene_path;

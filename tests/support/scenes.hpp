@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
@@ -15,6 +16,7 @@
 #include <optional>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -43,6 +45,26 @@ inline std::vector<NamedMesh> two_square_meshes(int cells) {
           {"unstructured", unstructured_mesh(cells)}};
 }
 
+struct KeptMesh {
+  TriangleMesh kept;
+};
+/// A space with a mesh of its own, and what to call it in a message. Not copied: a Space points to its mesh.
+struct SpaceOn : private KeptMesh, public Space {
+  SpaceOn(TriangleMesh mesh, const Element& element, const std::string& mesh_name = "")
+      : KeptMesh{std::move(mesh)}, Space(kept, element), name(mesh_name + " " + element.name()) {}
+  SpaceOn(const SpaceOn&) = delete;
+  SpaceOn& operator=(const SpaceOn&) = delete;
+  const std::string name;
+};
+
+/// Each element on each of the two_square_meshes.
+inline std::deque<SpaceOn> two_square_spaces(int cells, const std::vector<const Element*>& elements) {
+  std::deque<SpaceOn> spaces;
+  for (const auto& [name, mesh] : two_square_meshes(cells))
+    for (const Element* element : elements) spaces.emplace_back(mesh, *element, name);
+  return spaces;
+}
+
 /// (23) under the load of the figures, with contact.
 inline Scene stiff_scene(double epsilon, UnilateralContact contact = {}) {
   return Scene({paper_load}, StiffLayer{epsilon}, std::move(contact));
@@ -51,17 +73,35 @@ inline VariationalInequality stiff_problem(const Space& space, double epsilon, U
   return assemble(stiff_scene(epsilon, std::move(contact)), space);
 }
 
-/// `act` must throw Error itself (or a kind of it) in one line that contains `words`.
-template <class Act>
-void expect_refused(Act&& act, const std::string& words) {
+/// What `act` throws, of the kind that is asked for.
+template <class Failure, class Act>
+Failure thrown(Act&& act) {
   try {
     act();
-    ADD_FAILURE() << "nothing was refused; expected: " << words;
-  } catch (const Error& error) {
-    const std::string message = error.what();
-    EXPECT_NE(message.find(words), message.npos) << message;
-    EXPECT_EQ(message.find('\n'), message.npos) << message;
+  } catch (const Failure& failure) {
+    return failure;
   }
+  throw std::logic_error("nothing was thrown");
+}
+
+/// The message of the Error (or a kind of it) that `act` throws; empty where it throws none.
+template <class Act>
+std::string refusal(Act&& act) {
+  try {
+    act();
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+/// `act` must throw Error in one line that contains `words`.
+template <class Act>
+void expect_refused(Act&& act, const std::string& words) {
+  const std::string message = refusal(act);
+  EXPECT_NE(message, "") << "nothing was refused; expected: " << words;
+  EXPECT_NE(message.find(words), message.npos) << message;
+  EXPECT_EQ(message.find('\n'), message.npos) << message;
 }
 
 /// Largest difference, relative to the largest entry of `truth`.

@@ -4,15 +4,10 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::beam_test {
-namespace {
+namespace antilock::test::beam_test {
 
 Beam beam(int cells, double epsilon, ShearIntegration shear) {
-  Beam b;
-  b.cells = cells;
-  b.epsilon = epsilon;
-  b.shear = shear;
-  return b;
+  return {.cells = cells, .epsilon = epsilon, .shear = shear};
 }
 
 double nodal_error(const Beam& b) {
@@ -167,21 +162,10 @@ TEST(Beam, OneFormAloneIsSingularAndTheirSumIsNot) {
 }
 
 TEST(Beam, RefusesValuesOutOfRange) {
-  const auto refused = [](auto&& change) {
-    Beam b;
-    change(b);
-    EXPECT_THROW(assemble(b), Error);
-  };
-  refused([](Beam& b) { b.cells = 1; });
-  refused([](Beam& b) { b.epsilon = -1e-9; });
-  refused([](Beam& b) { b.epsilon = 1.1; });
-  refused([](Beam& b) { b.epsilon = std::numeric_limits<double>::quiet_NaN(); });
-  refused([](Beam& b) { b.gap = 0; });
-  refused([](Beam& b) { b.load = std::numeric_limits<double>::infinity(); });
-  Beam weak;
-  weak.load = 1;  // does not reach the obstacle
-  EXPECT_THROW(BeamTruth{weak}, Error);
+  for (const Beam& bad : {Beam{.cells = 1}, Beam{.epsilon = -1e-9}, Beam{.epsilon = 1.1}, Beam{.epsilon = test::nan},
+                          Beam{.gap = 0}, Beam{.load = test::infinity}})
+    EXPECT_THROW(assemble(bad), Error);
+  EXPECT_THROW(BeamTruth{Beam{.load = 1}}, Error);  // does not reach the obstacle
 }
 
-}  // namespace
-}  // namespace antilock::beam_test
+}  // namespace antilock::test::beam_test

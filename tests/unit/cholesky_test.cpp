@@ -7,16 +7,7 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::cholesky_test {
-namespace {
-
-VariationalInequality paper_problem(const Space& space, double epsilon) {
-  return assemble(Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
-}
-
-double away(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
-  return (one - other).lpNorm<Eigen::Infinity>() / other.lpNorm<Eigen::Infinity>();
-}
+namespace antilock::test::cholesky_test {
 
 /// The upper triangle of two tridiagonal matrices (2 on the diagonal, -1 beside it; `size` rows each) that share nothing.
 /// Where it `floats`, the second has 1 at both ends of its diagonal: it is held at neither, and singular.
@@ -35,9 +26,8 @@ class CholeskyOf : public testing::TestWithParam<CholeskyMaker> {};
 INSTANTIATE_TEST_SUITE_P(BothFactors, CholeskyOf, testing::Values(default_cholesky, eigen_cholesky));
 
 TEST_P(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
-  const TriangleMesh mesh = unstructured_mesh(8);
-  const Space space(mesh, crouzeix_raviart());
-  const VariationalInequality problem = paper_problem(space, 0.1);
+  const SpaceOn space(unstructured_mesh(8), crouzeix_raviart());
+  const VariationalInequality problem = stiff_problem(space, 0.1);
   const FreeNumbering free(problem);
   SparseMatrix k = penalised_matrix(problem, free, 1e-3);
   const Eigen::MatrixXd full = Eigen::MatrixXd(k).selfadjointView<Eigen::Upper>();
@@ -49,7 +39,7 @@ TEST_P(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
     const auto factor = GetParam()();
     factor->analyse(k, last);
     ASSERT_FALSE(factor->factorise(k));
-    EXPECT_LT(away(factor->backward(factor->forward(r)), x), round_off) << last;
+    EXPECT_LT(relative_difference(factor->backward(factor->forward(r)), x), round_off) << last;
     // L L' of the last rows is their Schur complement
     const Eigen::MatrixXd l = factor->trailing_block(size - last),
                           inside = full.topLeftCorner(size - last, size - last),
@@ -102,11 +92,11 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOverTheUniformityTable) {
       const Discretisation discrete = method.on(cells);
       for (const double epsilon : every_epsilon) {
         SCOPED_TRACE(fmt::format("{}, 1/h = {}, epsilon = {}", method.name(), cells, epsilon));
-        const VariationalInequality problem = paper_problem(discrete.space(), epsilon);
+        const VariationalInequality problem = stiff_problem(discrete.space(), epsilon);
         PenaltyFactor cholmod(problem, {}, ContactRoad::automatic, default_cholesky);
         PenaltyFactor eigen(problem, {}, ContactRoad::automatic, eigen_cholesky);
         const Solution one = active_set(problem, cholmod), other = active_set(problem, eigen);
-        const double apart = away(other.u, one.u);
+        const double apart = relative_difference(other.u, one.u);
         EXPECT_LT(apart, 1e-12);
         EXPECT_LT(std::abs(eigen.smallest_pivot() / cholmod.smallest_pivot() - 1), 0.9)
             << "pivots of the same K, in another order";
@@ -123,14 +113,14 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOnTheSparseRoad) {
   for (const Method& method : methods()) {
     const Discretisation discrete = method.on(16);
     for (const double epsilon : {1.0, 1e-4, 0.0}) {
-      const VariationalInequality problem = paper_problem(discrete.space(), epsilon);
+      const VariationalInequality problem = stiff_problem(discrete.space(), epsilon);
       PenaltyFactor cholmod(problem, {}, ContactRoad::sparse, default_cholesky);
       PenaltyFactor eigen(problem, {}, ContactRoad::sparse, eigen_cholesky);
       EXPECT_NE(eigen.held(), nullptr);
-      EXPECT_LT(away(active_set(problem, eigen).u, active_set(problem, cholmod).u), 1e-12) << method.name();
+      EXPECT_LT(relative_difference(active_set(problem, eigen).u, active_set(problem, cholmod).u), 1e-12)
+          << method.name();
     }
   }
 }
 
-}  // namespace
-}  // namespace antilock::cholesky_test
+}  // namespace antilock::test::cholesky_test

@@ -6,10 +6,7 @@
 #include "support/manufactured.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::convergence_test {
-namespace {
-
-using namespace test;
+namespace antilock::test::convergence_test {
 
 /// The order in H1, and what the errors on 1/h = 64 must stay below, relative to b + c, the size of the second derivatives
 /// of the exact solution: 10 to 20 % above what was measured over the cases below.
@@ -20,18 +17,20 @@ struct Caps {
 Caps caps(const Element& element) {
   if (&element == &p1()) return {2.6e-4, 1.1e-4, 1.9e-2};
   if (&element == &p2()) return {1.2e-6, 2.7e-7, 1.5e-4, 2};
-  return {5.0e-4, 6.5e-5, 1.7e-2};
+  if (&element == &crouzeix_raviart()) return {5.0e-4, 6.5e-5, 1.7e-2};
+  return {infinity, infinity, infinity, &element == &p3() ? 3 : 4};
 }
 
 /// Solves without contact on 1/h = 8 ... 64: slopes within 0.1 of (k + 1, k + 1, k, k) over the last three meshes, and
-/// the last error below its cap.
+/// the last error below its cap. Degrees 3 and 4 on 1/h = 4, 8, 16 within 0.2: finer meshes come near the floor of the
+/// solver, 1e-10.
 void check_convergence(const Layer& layer, const Manufactured& exact, const Element& element, bool structured) {
-  const bool body_only = !std::holds_alternative<StiffLayer>(layer);
   std::vector<double> h, max, l2, h1, energy;
-  for (const int cells : {8, 16, 32, 64}) {
-    const Domain domain{body_only ? 0.0 : 1.0};
-    const TriangleMesh mesh = structured ? structured_mesh(cells, domain) : unstructured_mesh(cells, domain);
-    const Space space(mesh, element);
+  const Caps cap = caps(element);
+  const int k = cap.order;
+  for (const int cells : k > 2 ? std::vector{4, 8, 16} : std::vector{8, 16, 32, 64}) {
+    const Domain domain{std::holds_alternative<StiffLayer>(layer) ? 1.0 : 0.0};
+    const SpaceOn space(structured ? structured_mesh(cells, domain) : unstructured_mesh(cells, domain), element);
     const Solution s = active_set(assemble(Scene({exact.load()}, layer), space));
     const Errors e = measure_errors(space, s, exact.epsilon, exact.reference());
     h.push_back(1.0 / cells);
@@ -41,16 +40,15 @@ void check_convergence(const Layer& layer, const Manufactured& exact, const Elem
     energy.push_back(e.energy);
   }
   const auto last_three = [&](const std::vector<double>& e) {
-    return slope({h.begin() + 1, h.end()}, {e.begin() + 1, e.end()});
+    return slope({h.end() - 3, h.end()}, {e.end() - 3, e.end()});
   };
-  const Caps cap = caps(element);
-  const int k = cap.order;
   const std::string where = element.name() + (structured ? " structured" : " unstructured");
+  const double within = k > 2 ? 0.2 : 0.1;
   // the maximum feels single triangles of an unstructured mesh: there its slope is looser
-  EXPECT_NEAR(last_three(max), k + 1, structured ? 0.1 : 0.35) << where << " maximum";
-  EXPECT_NEAR(last_three(l2), k + 1, 0.1) << where << " L2";
-  EXPECT_NEAR(last_three(h1), k, 0.1) << where << " H1";
-  EXPECT_NEAR(last_three(energy), k, 0.1) << where << " energy";
+  EXPECT_NEAR(last_three(max), k + 1, structured ? within : 0.35) << where << " maximum";
+  EXPECT_NEAR(last_three(l2), k + 1, within) << where << " L2";
+  EXPECT_NEAR(last_three(h1), k, within) << where << " H1";
+  EXPECT_NEAR(last_three(energy), k, within) << where << " energy";
   const double size = exact.b + exact.c;
   EXPECT_LT(max.back(), cap.max * size) << where << " maximum";
   EXPECT_LT(l2.back(), cap.l2 * size) << where << " L2";
@@ -58,67 +56,31 @@ void check_convergence(const Layer& layer, const Manufactured& exact, const Elem
   EXPECT_LT(energy.back(), cap.gradient * size) << where << " energy";
 }
 
-TEST(Convergence, LaplaceOnTheBodyAlone) {
-  for (const bool structured : {true, false}) {
-    check_convergence(NoLayer{}, Manufactured::no_layer(), p1(), structured);
-    check_convergence(NoLayer{}, Manufactured::no_layer(), crouzeix_raviart(), structured);
-    check_convergence(NoLayer{}, Manufactured::no_layer(), p2(), structured);
-  }
+TEST(Convergence, HasTheOrderOfTheDegreeWhereTheLayerIsNotStiff) {
+  for (const auto& [layer, exact] : {std::pair<Layer, Manufactured>{NoLayer{}, Manufactured::no_layer()},
+                                     {StiffLayer{1}, Manufactured::stiff_layer(1)},
+                                     {VentcelLayer{}, Manufactured::ventcel()}})
+    for (const Element* element : {&p1(), &crouzeix_raviart(), &p2()})
+      for (const bool structured : {true, false})
+        if (element != &p2() || !std::holds_alternative<VentcelLayer>(layer))
+          check_convergence(layer, exact, *element, structured);
 }
 
-TEST(Convergence, LayerAsStiffAsTheBody) {
-  for (const bool structured : {true, false}) {
-    check_convergence(StiffLayer{1}, Manufactured::stiff_layer(1), p1(), structured);
-    check_convergence(StiffLayer{1}, Manufactured::stiff_layer(1), crouzeix_raviart(), structured);
-    check_convergence(StiffLayer{1}, Manufactured::stiff_layer(1), p2(), structured);
-  }
-}
-
-TEST(Convergence, HasTheOrderOfTheDegree) {
-  for (const double epsilon : {1.0, 1e-2})
-    for (const Element* element : {&p3(), &p4()}) {
-      const Manufactured exact = Manufactured::stiff_layer(epsilon);
-      std::vector<double> h, l2, h1, energy;
-      for (const int cells : {4, 8, 16}) {
-        const TriangleMesh mesh = structured_mesh(cells);
-        const Space space(mesh, *element);
-        const Solution s = active_set(assemble(Scene({exact.load()}, StiffLayer{epsilon}), space));
-        const Errors e = measure_errors(space, s, epsilon, exact.reference());
-        h.push_back(1.0 / cells);
-        l2.push_back(e.l2);
-        h1.push_back(e.h1);
-        energy.push_back(e.energy);
-      }
-      const int k = element->degree();
-      // 0.2: three coarse meshes; finer ones come near the floor of the solver, 1e-10
-      EXPECT_NEAR(slope(h, l2), k + 1, 0.2) << element->name() << epsilon;
-      EXPECT_NEAR(slope(h, h1), k, 0.2) << element->name() << epsilon;
-      EXPECT_NEAR(slope(h, energy), k, 0.2) << element->name() << epsilon;
-    }
-}
-
-TEST(Convergence, StiffLayerWhereNothingLocks) {
+TEST(Convergence, HasTheOrderOfTheDegreeAtEveryEpsilonWhereNothingLocks) {
   for (const double epsilon : {1e-2, 1e-6, 0.0}) {
-    check_convergence(StiffLayer{epsilon}, Manufactured::stiff_layer(epsilon), p1(), true);
-    check_convergence(StiffLayer{epsilon}, Manufactured::stiff_layer(epsilon), crouzeix_raviart(), true);
-    check_convergence(StiffLayer{epsilon}, Manufactured::stiff_layer(epsilon), crouzeix_raviart(), false);
+    const auto check = [&](const Element& element, bool structured) {
+      check_convergence(StiffLayer{epsilon}, Manufactured::stiff_layer(epsilon), element, structured);
+    };
+    check(p1(), true);
+    check(crouzeix_raviart(), true);
+    check(crouzeix_raviart(), false);
   }
-}
-
-TEST(Convergence, VentcelsLayer) {
-  for (const bool structured : {true, false}) {
-    check_convergence(VentcelLayer{}, Manufactured::ventcel(), p1(), structured);
-    check_convergence(VentcelLayer{}, Manufactured::ventcel(), crouzeix_raviart(), structured);
-  }
+  for (const double epsilon : {1.0, 1e-2})
+    for (const Element* element : {&p3(), &p4()})
+      check_convergence(StiffLayer{epsilon}, Manufactured::stiff_layer(epsilon), *element, true);
 }
 
 using Meshes = std::vector<TriangleMesh>;
-Meshes structured_meshes(Diagonal diagonal) {
-  Meshes meshes;
-  for (const int cells : {16, 32, 64, 128}) meshes.push_back(structured_mesh(cells, {}, diagonal));
-  return meshes;
-}
-
 /// Max-norm errors at the unknowns on 1/h = 16, 32, ..., and where the contact starts on the finest.
 struct Study {
   std::vector<double> h, errors;
@@ -149,7 +111,8 @@ Truth truth(double epsilon) { return Truth(paper_sine_load(), epsilon, true, 14)
 TEST(AccuracyTable, StructuredMeshes) {
   // errors measured by a first program that shares no line with this library, two or three digits (1 %); diagonal / as
   // in Figure 3
-  const Meshes meshes = structured_meshes(Diagonal::right);
+  Meshes meshes;
+  for (const int cells : {16, 32, 64, 128}) meshes.push_back(structured_mesh(cells));
   struct Row {
     double epsilon;
     const Element* element;
@@ -191,31 +154,18 @@ TEST(AccuracyTable, UnstructuredMeshes) {
   EXPECT_NEAR(locking.errors[2] / 3.25e-3, 1, 0.4);  // the mesh resolves epsilon = 1e-2 at last
 }
 
-TEST(AccuracyTable, TheLimitHasTheSameErrorsAsSmallEpsilon) {
-  Meshes meshes = structured_meshes(Diagonal::left);
-  meshes.pop_back();
-  const Study limit = study(meshes, crouzeix_raviart(), 0, truth(0));
-  const Study small = study(meshes, crouzeix_raviart(), 1e-8, truth(1e-8));
-  for (std::size_t i = 0; i < limit.errors.size(); ++i) EXPECT_NEAR(small.errors[i] / limit.errors[i], 1, 1e-3);
-}
-
 TEST(AccuracyTable, AnswersConvergeToTheSeriesWithoutContactToo) {
   // two independent roads to one solution: sines and elements
-  const Truth truth(paper_sine_load(), 0.1, false, 10);
+  const TruthTable truth(Truth(paper_sine_load(), 0.1, false, 10));
   std::vector<double> h, errors;
   for (const int cells : {16, 32, 64}) {
-    const TriangleMesh mesh = structured_mesh(cells);
-    const Space space(mesh, p1());
+    const SpaceOn space(structured_mesh(cells), p1());
     const Solution s = active_set(assemble(Scene({paper_load}, StiffLayer{0.1}), space));
-    const Reference reference{[&](double x, double y) { return truth.value(x, y); },
-                              [&](double x, double y) { return truth.gradient(x, y); },
-                              [&](double x, double y) { return truth.layer_stress(x, y); }};
     h.push_back(1.0 / cells);
-    errors.push_back(measure_errors(space, s, 0.1, reference).energy);
+    errors.push_back(measure_errors(space, s, 0.1, reference(truth)).energy);
   }
   EXPECT_NEAR(slope(h, errors), 1, 0.1);
   EXPECT_LT(errors.back(), 0.06);
 }
 
-}  // namespace
-}  // namespace antilock::convergence_test
+}  // namespace antilock::test::convergence_test

@@ -8,13 +8,13 @@
 #include "antilock/study/sweep.hpp"
 #include "support/brute_force.hpp"
 #include "support/membrane.hpp"
+#include "support/platen.hpp"
 #include "support/random_contact.hpp"
 #include "support/scenes.hpp"
+#include "support/small_problem.hpp"
 
-namespace antilock::friction_test {
-namespace {
+namespace antilock::test::friction_test {
 
-using namespace test;
 using tutorial::bar_on_a_floor;
 
 /// Up to six unknowns with a stiff row, contact, friction, plastic obstacles and combinations.
@@ -22,13 +22,10 @@ VariationalInequality random_friction(std::mt19937& engine) {
   std::normal_distribution<double> normal;
   const int n = 4 + static_cast<int>(engine() % 3), bounds = 2 + static_cast<int>(engine() % 3);
   const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, [&](auto, auto) { return normal(engine); });
-  VariationalInequality problem;
   Eigen::MatrixXd a1 = root * root.transpose();
   a1 = 0.5 * (a1 + a1.transpose().eval()) + 0.1 * Eigen::MatrixXd::Identity(n, n);
-  problem.a1 = a1.sparseView();
   const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(1, n, [&](auto, auto) { return normal(engine); });
-  problem.b = b.sparseView();
-  problem.m = Eigen::VectorXd::Ones(1);
+  VariationalInequality problem = small_problem(a1, Eigen::VectorXd::Zero(n), {}, b);
   problem.compliance = std::vector{0.0, 1e-20, 1e-3, 1.0}[engine() % 4];
   problem.load = Eigen::VectorXd::NullaryExpr(n, [&](auto) { return normal(engine); });
   const int rows = n >= bounds + 2 && engine() % 2 == 0 ? 1 : 0;
@@ -200,10 +197,8 @@ TEST(Friction, BothRoadsAgreeOnAMembraneThatRubs) {
 TEST(Friction, TheBlockIsUniformInLambdaWhereItDoesNotLock) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(16, Domain{0}));
   const Space x(mesh, p1()), y(mesh, crouzeix_raviart());
-  PlaneStrain scene;
-  scene.gap = [](double at) { return (at - 0.5) * (at - 0.5); };
+  PlaneStrain scene = platen(0, 1);
   scene.friction = [](double at) { return std::max(0.0, 0.2 - 5 * (at - 0.5) * (at - 0.5)); };
-  scene.epsilon = 0;
   const Solution limit = active_set(assemble(scene, {x, y}));
   for (const double epsilon : {1e-6, 1e-8, 1e-12, 1e-16, 1e-20}) {
     scene.epsilon = epsilon;
@@ -272,8 +267,7 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
   refused(-1, 4, "force_bound 0 is -1");
   refused(nan, 4, "force_bound 0 is nan");
   refused(1, 3, "force_bound has 3 entries; accepted none, or 4");
-  const TriangleMesh mesh = structured_mesh(2);
-  const Space space(mesh, p1());
+  const SpaceOn space(structured_mesh(2), p1());
   expect_refused([&] { contact_zone(space, good, active_set(good)); }, "friction is not known here");
   expect_refused([&] { require_lower_bounds(good, "certificate"); }, "certificate: friction is not known here");
   ActiveSetOptions options;
@@ -301,5 +295,4 @@ TEST(Friction, AnInfeasibleProblemIsRefusedWithFrictionToo) {
   EXPECT_NEAR(active_set(problem).lambda(0), 0.1, 1e-12);
 }
 
-}  // namespace
-}  // namespace antilock::friction_test
+}  // namespace antilock::test::friction_test

@@ -4,8 +4,7 @@
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::graded_test {
-namespace {
+namespace antilock::test::graded_test {
 
 TEST(GradedLines, KeepTheEndsAndThePointAndAscend) {
   for (const double at : {0.0, 0.3, 0.7, 1.0})
@@ -75,7 +74,7 @@ TEST(GradedMesh, LeavesNoDegreeLocked) {
   const TriangleMesh mesh = graded_mesh(0.5, 0.5, 2, 0.25, 0.1);  // 6 columns
   for (int degree = 1; degree <= 6; ++degree) {
     const Space space(mesh, lagrange(degree));
-    const VariationalInequality problem = assemble(Scene(Body{paper_load}, StiffLayer{0}, UnilateralContact{}), space);
+    const VariationalInequality problem = test::stiff_problem(space, 0);
     EXPECT_EQ(layer_kernel_dimension(problem), 6 * degree - 1) << degree;
   }
 }
@@ -98,5 +97,4 @@ TEST(GradedMesh, RefusesWhatHasNoMesh) {
   EXPECT_THROW(graded_mesh(0.5, 0.1, 1, 0.5, 2), Error);
 }
 
-}  // namespace
-}  // namespace antilock::graded_test
+}  // namespace antilock::test::graded_test

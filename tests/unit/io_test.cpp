@@ -17,20 +17,9 @@
 #include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace antilock::io_test {
-namespace {
+namespace antilock::test::io_test {
 
-using namespace test;
 namespace fs = std::filesystem;
-
-std::string refusal(const std::function<void()>& write) {
-  try {
-    write();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
-}
 
 std::vector<double> numbers(const std::string& text) {
   std::vector<double> found;
@@ -353,8 +342,7 @@ TEST(WriteSolutionCsv, HoldsOneRowAnUnknownAtItsPlace) {
 
 TEST(Writers, ASolutionOfTheWrongSizeOrNotFiniteIsNeverWritten) {
   const TemporaryFolder folder;
-  const TriangleMesh mesh = structured_mesh(2);
-  const Space space(mesh, p1());
+  const SpaceOn space(structured_mesh(2), p1());
   Eigen::VectorXd nan = Eigen::VectorXd::Zero(space.size());
   nan(1) = std::nan("");
   for (const Eigen::VectorXd& u : {nan, Eigen::VectorXd(Eigen::VectorXd::Zero(space.size() - 1))}) {
@@ -450,5 +438,4 @@ TEST(WriteDeformedVtu, MovesEveryTriangleWithItsUnknowns) {
   EXPECT_NE(refusal([&] { write_deformed_vtu(folder / "u.vtu", {x, y}, u, pressure.head(2)); }), "");
 }
 
-}  // namespace
-}  // namespace antilock::io_test
+}  // namespace antilock::test::io_test

@@ -1,11 +1,10 @@
 // The report that stands between a solver and its caller: relative, scale-free, and merciless.
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/residual.hpp"
 #include "support/scenes.hpp"
+#include "support/small_problem.hpp"
 
-namespace antilock::kkt_test {
-namespace {
-
-using namespace test;
+namespace antilock::test::kkt_test {
 
 /// A solved problem of Figure 5 on a small mesh, with contact on part of Gamma_C.
 struct Solved {
@@ -62,10 +61,8 @@ TEST(Kkt, ReportsEachConditionByItself) {
 // A string between two clamps, pulled by nothing else: what its middle is out of balance counts in units of the
 // reaction.
 TEST(Kkt, AResidualIsMeasuredByTheReactionWhereNoLoadActs) {
-  VariationalInequality problem;
-  problem.a1 = Eigen::MatrixXd(Eigen::Matrix3d{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}}).sparseView();
-  problem.b.resize(0, 3);
-  problem.load = Eigen::Vector3d::Zero();
+  VariationalInequality problem =
+      small_problem(Eigen::Matrix3d{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}}, Eigen::Vector3d::Zero());
   problem.fixed = {0, 2};
   problem.fixed_values = Eigen::Vector2d(1, 0);
   Solution s = active_set(problem);
@@ -75,14 +72,8 @@ TEST(Kkt, AResidualIsMeasuredByTheReactionWhereNoLoadActs) {
 
 // u_1 is locked under a load of 1e6, u_0 = 1: the scale of u is 1, however much B bears.
 TEST(Kkt, ALoadThatTheStiffFormBearsIsNoMeasureOfU) {
-  VariationalInequality problem;
-  problem.a1 = Eigen::MatrixXd(Eigen::Matrix2d::Identity()).sparseView();
-  problem.b = RowMatrix(Eigen::MatrixXd(Eigen::RowVector2d(0, 1)).sparseView());
-  problem.m = Eigen::VectorXd::Ones(1);
-  problem.compliance = 0;
-  problem.load = Eigen::Vector2d(1, 1e6);
-  problem.contact = {0};
-  problem.lower = Eigen::VectorXd::Zero(1);
+  VariationalInequality problem = small_problem(Eigen::Matrix2d::Identity(), Eigen::Vector2d(1, 1e6),
+                                                Eigen::VectorXd::Zero(1), Eigen::RowVector2d(0, 1), 0);
   Solution s;
   s.u = Eigen::Vector2d(1, 0);
   s.p = Eigen::VectorXd::Constant(1, 1e6);
@@ -101,22 +92,12 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
     const Solved s(epsilon);
     // hold the wrong unknowns by fixing them where the obstacle is: a linear problem whose equations all hold
     for (const bool one_more : {true, false}) {
-      VariationalInequality linear = s.problem;
       std::vector<bool> active = s.solution.active;
       if (one_more)
         active[loose(s.solution)] = true;
       else
         active[held(s.solution)] = false;
-      linear.contact.clear();
-      std::vector<double> values(linear.fixed.size(), 0.0), lower;
-      for (std::size_t i = 0; i < active.size(); ++i) {
-        if (!active[i]) continue;
-        linear.fixed.push_back(s.problem.contact[i]);
-        values.push_back(s.problem.lower(static_cast<Eigen::Index>(i)));
-      }
-      linear.lower.resize(0);
-      linear.fixed_values = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-      Solution wrong = active_set(linear);
+      Solution wrong = active_set(held_in_contact(s.problem, active));
       const SplitResidual r = exact_residual(s.problem, wrong.u, wrong.p, Eigen::VectorXd());
       wrong.lambda = Eigen::VectorXd::Zero(s.problem.lower.size());
       for (std::size_t i = 0; i < active.size(); ++i)
@@ -129,8 +110,7 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
 }
 
 TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
-  const TriangleMesh mesh = structured_mesh(6);
-  const Space space(mesh, p1());
+  const SpaceOn space(structured_mesh(6), p1());
   const VariationalInequality problem = assemble(Scene({paper_load}, StiffLayer{0.1}), space);
   const Solution right = active_set(problem);
   Solution wrong = right;
@@ -159,5 +139,4 @@ TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
   EXPECT_EQ(worst_violation(active_set(none).kkt), 0) << "0 of nothing is 0";
 }
 
-}  // namespace
-}  // namespace antilock::kkt_test
+}  // namespace antilock::test::kkt_test

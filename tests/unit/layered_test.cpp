@@ -9,10 +9,7 @@
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::layered_test {
-namespace {
-
-using namespace test;
+namespace antilock::test::layered_test {
 
 int count(const TriangleMesh& mesh, EdgeTag tag) {
   return static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), tag));
@@ -192,5 +189,4 @@ TEST(ExtrudedLayer, RefusesWhatItCannotStandUnder) {
   expect_refused([] { layered_mesh(0); }, "cells = 0");
 }
 
-}  // namespace
-}  // namespace antilock::layered_test
+}  // namespace antilock::test::layered_test

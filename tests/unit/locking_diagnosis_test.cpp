@@ -7,8 +7,7 @@
 #include "antilock/models/timoshenko_beam.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::locking_diagnosis_test {
-namespace {
+namespace antilock::test::locking_diagnosis_test {
 
 using Problem = std::function<VariationalInequality(int cells)>;
 
@@ -241,5 +240,4 @@ TEST(LockingDiagnosis, IsRightForTetrahedra) {
   expect_right("tetrahedra CR, moved", method(0.2, true), right, 8, false, {0.6, 1});
 }
 
-}  // namespace
-}  // namespace antilock::locking_diagnosis_test
+}  // namespace antilock::test::locking_diagnosis_test

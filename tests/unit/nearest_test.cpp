@@ -7,10 +7,7 @@
 #include "antilock/study/method.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::nearest_test {
-namespace {
-
-Scene scene() { return Scene(Body{paper_load}, StiffLayer{0}, UnilateralContact{}); }
+namespace antilock::test::nearest_test {
 
 // A function of K that P1 holds on a structured mesh with a line x = 1/2; not constant across the layer.
 const Reference tent{
@@ -28,7 +25,7 @@ TEST(Nearest, AFunctionOfTheSetIsItsOwnNearestElement) {
                        [](double, double) { return 0.0; }};
   // bilinear in the body: nearest in P2, exact for no triangle of P1
   const Discretisation on(structured_mesh(4), p2());
-  const auto problem = assemble(scene(), on.space());
+  const auto problem = test::stiff_problem(on.space(), 0);
   for (const Within within : {Within::k_h, Within::k_0h}) {
     const Nearest found = nearest(on.space(), problem, flat, within);
     EXPECT_LT(found.distance, 1e-7);
@@ -38,7 +35,7 @@ TEST(Nearest, AFunctionOfTheSetIsItsOwnNearestElement) {
 
 TEST(Nearest, TheKernelIsFartherAndHoldsItsCondition) {
   const Discretisation on(structured_mesh(8), p1());
-  const auto problem = assemble(scene(), on.space());
+  const auto problem = test::stiff_problem(on.space(), 0);
   const Nearest any = nearest(on.space(), problem, tent, Within::k_h),
                 kernel = nearest(on.space(), problem, tent, Within::k_0h);
   EXPECT_LT(any.distance, 0.5 * kernel.distance);  // what it cannot have: |d/dy v| in the layer
@@ -48,7 +45,7 @@ TEST(Nearest, TheKernelIsFartherAndHoldsItsCondition) {
 
 TEST(Nearest, TheFunctionalIsPartOfWhatIsMinimised) {
   const Discretisation on(structured_mesh(8), p1());
-  auto problem = assemble(scene(), on.space());
+  auto problem = test::stiff_problem(on.space(), 0);
   problem.contact.clear();  // then the derivative of |u - v|_h^2 + load . v vanishes at the smallest value
   problem.lower.resize(0);
   const Eigen::VectorXd load = load_vector(on.space(), paper_load);
@@ -61,7 +58,7 @@ TEST(Nearest, TheFunctionalIsPartOfWhatIsMinimised) {
 
 TEST(DualNorm, OfARieszRepresentativeIsItsNorm) {
   const Discretisation on(unstructured_mesh(6), crouzeix_raviart());
-  const auto problem = assemble(scene(), on.space());
+  const auto problem = test::stiff_problem(on.space(), 0);
   const SparseMatrix norm = h1_norm(on.space());
   Eigen::VectorXd w = (3 * on.space().points().col(0).array()).sin() * on.space().points().col(1).array();
   for (const int i : problem.fixed) w(i) = 0;
@@ -120,5 +117,4 @@ TEST(LayerNorm, AndWhatClampingCostsAreIntegralsOfTheLimit) {
   EXPECT_NEAR(clamped_distance(limit), std::sqrt(layer + body), 1e-4 * std::sqrt(layer));
 }
 
-}  // namespace
-}  // namespace antilock::nearest_test
+}  // namespace antilock::test::nearest_test

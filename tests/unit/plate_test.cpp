@@ -6,10 +6,7 @@
 #include "antilock/form/quadrature.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::plate_test {
-namespace {
-
-using namespace test;
+namespace antilock::test::plate_test {
 
 struct PlateElement {
   std::string name;
@@ -381,5 +378,4 @@ TEST(Plate, ValuesOutOfRangeAreRefused) {
   test::expect_refused([&] { assemble(Plate{}, edges.space); }, "accepted P1 and P1");
 }
 
-}  // namespace
-}  // namespace antilock::plate_test
+}  // namespace antilock::test::plate_test

@@ -2,31 +2,26 @@
 #include "antilock/form/forms.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "support/scenes.hpp"
+#include "support/small_problem.hpp"
 
-namespace antilock::problem_test {
-namespace {
-
-using namespace test;
+namespace antilock::test::problem_test {
 
 TEST(Assemble, ClassParameterIsTheSquareOfEpsilon) {
-  const TriangleMesh mesh = structured_mesh(4);
-  const Space space(mesh, p1());
+  const SpaceOn space(structured_mesh(4), p1());
   EXPECT_EQ(stiff_problem(space, 0.25).compliance, 0.0625);
   EXPECT_EQ(stiff_problem(space, 0).compliance, 0);
 }
 
 TEST(Assemble, StiffLayerIsEquation23) {
-  for (const auto& [name, mesh] : test::two_square_meshes(4))
-    for (const Element* element : {&p1(), &crouzeix_raviart()}) {
-      const Space space(mesh, *element);
-      const VariationalInequality problem = stiff_problem(space, 0.1);
-      // u = 2 x + 3 y: a1(u, u) = body 4 + 9, layer 4; a0(u, u) = layer 9
-      const Eigen::VectorXd u = 2 * space.points().col(0) + 3 * space.points().col(1);
-      const Eigen::VectorXd bu = problem.b * u;
-      EXPECT_NEAR(u.dot(problem.a1 * u), 17, 1e-11) << name;
-      EXPECT_NEAR(bu.dot(problem.m.cwiseProduct(bu)), 9, 1e-11) << name;
-      EXPECT_NO_THROW(check(problem));
-    }
+  for (const SpaceOn& space : two_square_spaces(4, {&p1(), &crouzeix_raviart()})) {
+    const VariationalInequality problem = stiff_problem(space, 0.1);
+    // u = 2 x + 3 y: a1(u, u) = body 4 + 9, layer 4; a0(u, u) = layer 9
+    const Eigen::VectorXd u = 2 * space.points().col(0) + 3 * space.points().col(1);
+    const Eigen::VectorXd bu = problem.b * u;
+    EXPECT_NEAR(u.dot(problem.a1 * u), 17, 1e-11) << space.name;
+    EXPECT_NEAR(bu.dot(problem.m.cwiseProduct(bu)), 9, 1e-11) << space.name;
+    EXPECT_NO_THROW(check(problem));
+  }
 }
 
 TEST(Assemble, ThinLayerIsEquation22) {
@@ -42,8 +37,7 @@ TEST(Assemble, ThinLayerIsEquation22) {
 }
 
 TEST(Assemble, VentcelIsTheBodyAndTheTermOnSigma) {
-  const TriangleMesh mesh = structured_mesh(4, {0});
-  const Space space(mesh, p1());
+  const SpaceOn space(structured_mesh(4, {0}), p1());
   const VariationalInequality with = assemble(Scene({paper_load}, VentcelLayer{}), space);
   const VariationalInequality without = assemble(Scene({paper_load}), space);
   EXPECT_LT((Eigen::MatrixXd(with.a1) - Eigen::MatrixXd(without.a1) - Eigen::MatrixXd(ventcel_form(space)))
@@ -85,8 +79,7 @@ TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
 }
 
 TEST(Assemble, ClampsTheSidesAndTheTopAtZero) {
-  const TriangleMesh mesh = unstructured_mesh(4);
-  const Space space(mesh, crouzeix_raviart());
+  const SpaceOn space(unstructured_mesh(4), crouzeix_raviart());
   const VariationalInequality problem = stiff_problem(space, 0.1);
   EXPECT_EQ(problem.fixed, space.clamped());
   EXPECT_EQ(problem.fixed_values, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(space.clamped().size())));
@@ -183,14 +176,8 @@ TEST(Check, RefusesWhatIsNoProblem) {
 
 TEST(Check, TakesAnA1OfZerosWhereBHoldsEverything) {
   // A1 alone may be singular: here it is empty, and B' M B = I
-  VariationalInequality problem;
-  problem.a1.resize(2, 2);
-  problem.b.resize(2, 2);
-  problem.b.setIdentity();
-  problem.m = Eigen::VectorXd::Ones(2);
-  problem.load = Eigen::VectorXd::Ones(2);
-  EXPECT_NO_THROW(check(problem));
+  EXPECT_NO_THROW(
+      check(small_problem(Eigen::Matrix2d::Zero(), Eigen::Vector2d::Ones(), {}, Eigen::Matrix2d::Identity())));
 }
 
-}  // namespace
-}  // namespace antilock::problem_test
+}  // namespace antilock::test::problem_test

@@ -2,10 +2,7 @@
 #include "antilock/scene/scene.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::scene_test {
-namespace {
-
-using namespace test;
+namespace antilock::test::scene_test {
 
 TEST(Scene, NamesTheEffectsPresent) {
   using Names = std::vector<std::string>;
@@ -60,5 +57,4 @@ TEST(Scene, RefusesAnObstacleAboveAClampedEnd) {
       Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return -std::sin(std::numbers::pi * x); }}));
 }
 
-}  // namespace
-}  // namespace antilock::scene_test
+}  // namespace antilock::test::scene_test

@@ -12,17 +12,7 @@
 #include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
 
-namespace antilock::study_test {
-namespace {
-
-std::string message(const std::function<void()>& failing) {
-  try {
-    failing();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing was thrown";
-}
+namespace antilock::test::study_test {
 
 /// error = 3 h^2 for P1 and 5 h for CR, two epsilons.
 Table power_laws() {
@@ -123,15 +113,15 @@ TEST(Table, PrintsAlignedColumns) {
 
 TEST(Table, RefusesAndSaysWhat) {
   Table table = power_laws();
-  EXPECT_EQ(message([&] { table.numbers("eror"); }),
+  EXPECT_EQ(test::refusal([&] { table.numbers("eror"); }),
             "table: no column 'eror'; accepted: element, epsilon, cells, h, error");
-  EXPECT_EQ(message([&] {
+  EXPECT_EQ(test::refusal([&] {
               table.add({"P1", 1.0});
             }),
             "table: a row of 2 entries; accepted: 5, one per column (element, epsilon, cells, h, error)");
   EXPECT_EQ(table.size(), 16);  // nothing was added
-  EXPECT_EQ(message([&] { table.numbers("element"); }), "table: 'P1' in column 'element'; accepted: a number");
-  EXPECT_EQ(message([&] { table.number("error"); }), "table: column 'error' of 16 rows; accepted: of one");
+  EXPECT_EQ(test::refusal([&] { table.numbers("element"); }), "table: 'P1' in column 'element'; accepted: a number");
+  EXPECT_EQ(test::refusal([&] { table.number("error"); }), "table: column 'error' of 16 rows; accepted: of one");
   EXPECT_THROW(table.where("mesh", "structured"), Error);
   EXPECT_THROW(table.where_number("element", [](double) { return true; }), Error);
   EXPECT_THROW(table.select({"mesh"}), Error);
@@ -221,12 +211,10 @@ TEST(SweepOfAnyProblem, Refuses) {
   EXPECT_THROW(sweep.set_load(Eigen::VectorXd::Ones(3)), Error);
   EXPECT_THROW(sweep.set_bounds(Eigen::VectorXd::Constant(7, std::nan(""))), Error);
   EXPECT_THROW(sweep.factor(), Error);
-  const TriangleMesh body = structured_mesh(4, {0});
-  const Space space(body, p1());
+  const SpaceOn space(structured_mesh(4, {0}), p1());
   SceneSweep linear(Scene({paper_load}), space);
   EXPECT_THROW(linear.set_compliance(0.5), Error);
   EXPECT_THROW(linear.set_bounds(Eigen::VectorXd()), Error);
 }
 
-}  // namespace
-}  // namespace antilock::study_test
+}  // namespace antilock::test::study_test

@@ -2,10 +2,7 @@
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::triangle_mesh_test {
-namespace {
-
-using namespace test;
+namespace antilock::test::triangle_mesh_test {
 
 /// What make_triangle_mesh is given; the default is two triangles on the unit square, contact below.
 struct Input {
@@ -131,5 +128,4 @@ TEST(TriangleMesh, RefusesAPieceThatNothingHolds) {
   input.refused("clamped, which is needed");
 }
 
-}  // namespace
-}  // namespace antilock::triangle_mesh_test
+}  // namespace antilock::test::triangle_mesh_test

@@ -8,12 +8,9 @@
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
-namespace antilock::worst_load_test {
-namespace {
+namespace antilock::test::worst_load_test {
 
 using std::numbers::pi;
-using namespace test;
-
 /// E column by column.
 Eigen::MatrixXd matrix_of(ErrorForm& form) {
   const int n = form.modes().size();
@@ -147,8 +144,7 @@ TEST(WorstLoad, LimitsByDegreeAndWidths) {
 TEST(ErrorForm, EveryDegreeLosesWhatItsKernelCannotHold) {
   for (const Element* element : {&p1(), &p2(), &p3(), &p4()})
     for (const int cells : {4, 8}) {
-      const TriangleMesh mesh = unstructured_mesh(cells);
-      const Space space(mesh, *element);
+      const SpaceOn space(unstructured_mesh(cells), *element);
       ErrorForm form(space, LoadModes(2 * cells));  // waves 1 to 4 are among them
       form.set_epsilon(0);
       const double rigid = form.worst().error;
@@ -162,8 +158,7 @@ TEST(ErrorForm, EveryDegreeLosesWhatItsKernelCannotHold) {
 
 // What is left out of the ball adds at most beyond()^2 to the square, and nothing is taken away.
 TEST(ErrorForm, MoreWavesAddNoMoreThanIsProved) {
-  const TriangleMesh mesh = structured_mesh(6);
-  const Space space(mesh, p1());
+  const SpaceOn space(structured_mesh(6), p1());
   ErrorForm few(space, LoadModes(6)), many(space, LoadModes(18));
   for (const double epsilon : {0.0, 1.0}) {
     few.set_epsilon(epsilon);
@@ -192,5 +187,4 @@ TEST(LoadAscent, ClimbsAndKeepsTheBestOfItsStarts) {
   EXPECT_GT(ascend(first, {Eigen::Vector2d(0, 1)}, 100), std::cos(0.02));  // within its last step
 }
 
-}  // namespace
-}  // namespace antilock::worst_load_test
+}  // namespace antilock::test::worst_load_test
