@@ -151,7 +151,8 @@ TEST(InterfaceMisuse, AveragesOverBoxesThatCanBeCounted) {
 }
 
 TEST(InterfaceMisuse, ErrorsAndEnergiesAreOfTheirOwnSpace) {
-  const SpaceOn affine(structured_mesh(4), p1()), broken(mesh, crouzeix_raviart());
+  const TriangleMesh mesh = structured_mesh(4);
+  const Space affine(mesh, p1()), broken(mesh, crouzeix_raviart());
   const VariationalInequality problem = assemble(Scene(Body{down}, StiffLayer{0.1}), affine);
   const Solution u = active_set(problem);
   antilock::Reference none{[](double x, double) { return x == 0.5 ? nan : 0; },
