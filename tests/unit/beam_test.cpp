@@ -74,8 +74,8 @@ TEST(Beam, FullIntegrationLocksAndReducedDoesNot) {
 
 TEST(Beam, IsSolvedInAFewStepsAndCorrectionsHoweverFine) {
   // In contact the condition number grows like h^-4 (7e10 on 512 cells). Every digit of the default tolerance is
-  // reached nevertheless, on 512 cells at epsilon = 0 with residuals in long double, which the solver turns to after 15
-  // corrections. From the nested start the contact steps do not grow with n (cold: 306 on 512 cells).
+  // reached nevertheless: residuals are exact. From the nested start the contact steps do not grow with n (cold: 306 on
+  // 512 cells).
   for (const double epsilon : {1e-4, 1e-8, 0.0})
     for (const int cells : {64, 256, 512}) {
       SCOPED_TRACE("epsilon " + std::to_string(epsilon) + ", cells " + std::to_string(cells));

@@ -17,10 +17,21 @@ struct ActiveSetOptions {
   std::optional<Pieces> start;                ///< C: pieces to start from; empty: the nested start
 };
 
-/// Primal-dual active set on the contact unknowns, everything else eliminated by one sparse Cholesky factor; the stiff
-/// part by iterated penalty. Without contact unknowns this is a linear solve. counters.contact are the steps on the
-/// finest level, the largest number over the corrections. Throws Error for a malformed problem, NotConverged instead of
-/// ever returning an unconverged answer. A bounded combination becomes an unknown of its own (tied.hpp).
+/// Two loops. The outer one corrects u and p by one sparse Cholesky factor, the inner one finds the contact set of each
+/// correction (contact.hpp):
+///
+///     repeat:  r1, r2 from u, p, lambda               residual.hpp, exact
+///              u += du, p += dp, lambda from the contact problem of r1, r2
+///              stop where accuracy(du, r2) is within the tolerance      judge.hpp
+///     then:    doubt and the KKT report               judge.hpp, kkt.hpp: a warning, or NotConverged
+///
+/// It stands in detail/iterated_penalty.cpp, IteratedPenalty::solve, and its mathematics in the header beside it. A loop
+/// that stops otherwise, after five corrections say, answers for accuracy().error and .open itself: the KKT report sees
+/// neither a slow mode nor that no u is admissible.
+///
+/// Without contact unknowns this is a linear solve. counters.contact are the steps on the finest level, the largest number
+/// over the corrections. Throws Error for a malformed problem, NotConverged instead of ever returning an unconverged
+/// answer. A bounded combination becomes an unknown of its own (tied.hpp).
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options = {});
 
 /// The same with a factor made before, for a sweep over loads, bounds or compliances of one pair (A1, B).

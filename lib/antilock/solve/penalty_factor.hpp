@@ -21,8 +21,8 @@ class Tied;
 ///
 /// Measured on a membrane (tests/benchmark/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F): dense
 /// over sparse seconds are 0.3 at k = 1 to 3, 0.4 at 4, 0.4 to 0.65 at 6, 0.94 to 1.07 at 8 and 2 to 3.4 at 12, for n =
-/// 32, 64 and 128 alike: C^3 stands against F^(3/2). Up to 600 bounds the dense road takes less than 0.1 s, and on a
-/// beam, to whose stiffness the sparse road's start does not fit, fewer steps.
+/// 32, 64 and 128 alike: C^3 stands against F^(3/2). Up to 600 bounds the dense road takes some tenths of a second, and
+/// makes the contact block that Uzawa and the certificate ask for. (A beam of 512 cells takes as many steps on either.)
 enum class ContactRoad { automatic, dense, sparse };
 
 /// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B. On the dense road with the
