@@ -21,6 +21,7 @@ FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2
   strain.b.resize(rows, space.size());
   strain.b.resizeNonZeros(rows * m);
   strain.b.outerIndexPtr()[0] = 0;
+  Eigen::VectorXd dy(m);
   std::vector<std::pair<int, double>> row(m);
   for (Eigen::Index r = 0; r < rows; ++r) {
     const int t = strain.cell[r];
@@ -28,7 +29,7 @@ FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2
     strain.m(r) = rule.weights(q) * mesh.area(t);
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     const Eigen::Vector3d slope = direction ? Eigen::Vector3d(lambda * direction(t)) : Eigen::Vector3d(lambda.col(1));
-    const Eigen::VectorXd dy = derivative[q] * slope;
+    dy.noalias() = derivative[q] * slope;
     for (Eigen::Index i = 0; i < m; ++i) row[i] = {space.unknowns()(t, i), dy(i)};
     std::sort(row.begin(), row.end());
     for (Eigen::Index i = 0; i < m; ++i) {

@@ -14,18 +14,24 @@ const Quadrature& load_rule(const Element& element) { return triangle_rule(std::
 Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = load_rule(space.element());
-  Eigen::MatrixXd basis(space.element().unknowns(), rule.weights.size());
-  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) basis.col(q) = space.element().basis(rule.points.row(q));
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());
+  const Eigen::Matrix3Xd points = rule.points.transpose();
+  Eigen::MatrixXd weighted(space.element().unknowns(), points.cols());  // the basis at the points, times their weights
+  for (Eigen::Index q = 0; q < points.cols(); ++q)
+    weighted.col(q) = rule.weights(q) * space.element().basis(points.col(q));
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size()), local(weighted.rows());
+  Eigen::Matrix<double, 2, 3> corners;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != region) continue;
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+    for (int i = 0; i < 3; ++i) corners.col(i) = mesh.vertices.row(mesh.triangles(t, i));
+    local.setZero();
+    for (Eigen::Index q = 0; q < points.cols(); ++q) {
+      const Eigen::Vector2d x = corners * points.col(q);
       const double value = f(x(0), x(1));
       if (!std::isfinite(value)) throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0), x(1)));
-      const double weighted = rule.weights(q) * mesh.area(t) * value;
-      for (Eigen::Index i = 0; i < basis.rows(); ++i) load(space.unknowns()(t, i)) += weighted * basis(i, q);
+      local += value * weighted.col(q);
     }
+    local *= mesh.area(t);
+    for (Eigen::Index i = 0; i < local.size(); ++i) load(space.unknowns()(t, i)) += local(i);
   }
   return load;
 }

@@ -98,7 +98,16 @@ class Reader {
     if (!took(sign)) fail(fmt::format("\"{}\" is missing", sign));
   }
   std::size_t put(Step step) {
-    steps_.push_back(step);
+    const std::size_t takes = step.kind == Step::two ? 2 : step.kind == Step::one ? 1 : 0;
+    const auto values = steps_.end() - static_cast<std::ptrdiff_t>(takes);
+    // of numbers, all behind the last place that is jumped to: its value now, not at every point
+    if (takes > 0 && steps_.size() >= jumped_to_ + takes &&
+        std::all_of(values, steps_.end(), [](const Step& s) { return s.kind == Step::number; })) {
+      values->value = takes == 2 ? step.of_two(values[0].value, values[1].value) : step.of_one(values->value);
+      steps_.erase(values + 1, steps_.end());
+    } else {
+      steps_.push_back(step);
+    }
     return steps_.size() - 1;
   }
 
@@ -109,9 +118,9 @@ class Reader {
       choice();
       expect(":");
       const std::size_t past = put({Step::jump});
-      steps_[unless].at = static_cast<int>(steps_.size());
+      steps_[unless].at = static_cast<int>(jumped_to_ = steps_.size());
       choice();
-      steps_[past].at = static_cast<int>(steps_.size());
+      steps_[past].at = static_cast<int>(jumped_to_ = steps_.size());
     }
   }
   /// A value, and all that binds to it at least as tightly as `least`.
@@ -193,7 +202,7 @@ class Reader {
   std::string_view text_;
   const std::vector<std::string>& names_;
   std::vector<Step> steps_;
-  std::size_t at_ = 0;
+  std::size_t at_ = 0, jumped_to_ = 0;
   int nested_ = 0;
 };
 

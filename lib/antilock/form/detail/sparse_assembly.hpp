@@ -2,49 +2,63 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <utility>
 #include <vector>
 
 #include "antilock/space/space.hpp"
 
 namespace antilock {
 
-/// Sums element matrices into a sparse matrix, in linear time: the mesh says which entries there are, and each element
-/// adds to them in place. `local(t)` returns the m x m matrix of triangle t.
+/// Where each column of a matrix of the space begins, and where the last one ends: its rows are the unknowns that share a
+/// triangle with it. They sit on the vertices, edges and triangles around the column's own, which the mesh counts.
+inline std::vector<int> column_starts(const Space& space) {
+  const TriangleMesh& mesh = space.mesh();
+  const int v = space.element().per_vertex(), e = space.element().per_edge(), t = space.element().per_triangle();
+  std::vector<int> at_vertex(mesh.vertex_count(), v), at_edge(mesh.edge_count(), 2 * v + e);
+  for (const int end : mesh.edges.reshaped<Eigen::RowMajor>()) at_vertex[end] += v + e;
+  for (const int corner : mesh.triangles.reshaped<Eigen::RowMajor>()) at_vertex[corner] += e + t;
+  for (const int edge : mesh.triangle_edges.reshaped<Eigen::RowMajor>()) at_edge[edge] += v + 2 * e + t;
+  std::vector<int> start{0};
+  start.reserve(space.size() + 1);
+  const auto add = [&](int columns, int rows) {
+    for (int k = 0; k < columns; ++k) start.push_back(start.back() + rows);
+  };
+  for (const int rows : at_vertex) add(v, rows);
+  for (const int rows : at_edge) add(e, rows);
+  add(t * mesh.triangle_count(), space.element().unknowns());
+  return start;
+}
+
+/// Sums element matrices into a sparse matrix, in linear time: the mesh says how many entries each column has, and each
+/// element puts its own in place. `local(t)` returns the m x m matrix of triangle t.
 template <class LocalMatrix>
 Eigen::SparseMatrix<double> sum_element_matrices(const Space& space, LocalMatrix&& local) {
   const auto& unknowns = space.unknowns();
-  const auto triangles = unknowns.rows(), m = unknowns.cols();
-  std::vector<int> start(space.size() + 1, 0), around(unknowns.size());  // the triangles around each unknown
-  for (const int j : unknowns.reshaped()) ++start[j + 1];
-  for (int j = 0; j < space.size(); ++j) start[j + 1] += start[j];
-  std::vector<int> end(start.begin(), start.end() - 1);
-  for (Eigen::Index t = 0; t < triangles; ++t)
-    for (Eigen::Index j = 0; j < m; ++j) around[end[unknowns(t, j)]++] = static_cast<int>(t);
-
-  // column j has a row per unknown that shares a triangle with unknown j
+  const std::vector<int> start = column_starts(space);
+  std::vector<int> end(start.begin(), start.end() - 1);  // behind the rows that a column has so far, in ascending order
   Eigen::SparseMatrix<double> sum(space.size(), space.size());
-  int* const outer = sum.outerIndexPtr();
-  std::vector<int> rows, last(space.size(), -1);  // the last column that a row was found in
-  rows.reserve(m * around.size());
-  outer[0] = 0;
-  for (int j = 0; j < space.size(); ++j) {
-    for (int k = start[j]; k < start[j + 1]; ++k)
-      for (Eigen::Index i = 0; i < m; ++i)
-        if (const int row = unknowns(around[k], i); std::exchange(last[row], j) != j) rows.push_back(row);
-    std::sort(rows.begin() + outer[j], rows.end());
-    outer[j + 1] = static_cast<int>(rows.size());
-  }
-  sum.resizeNonZeros(outer[space.size()]);
-  std::copy(rows.begin(), rows.end(), sum.innerIndexPtr());
-  sum.coeffs().setZero();
-
-  for (Eigen::Index t = 0; t < triangles; ++t) {
+  sum.resizeNonZeros(start.back());
+  std::copy(start.begin(), start.end(), sum.outerIndexPtr());
+  int* const row = sum.innerIndexPtr();
+  double* const value = sum.valuePtr();
+  for (Eigen::Index t = 0; t < unknowns.rows(); ++t) {
     const auto matrix = local(static_cast<int>(t));
-    for (Eigen::Index j = 0; j < m; ++j) {
-      const auto column = rows.begin() + outer[unknowns(t, j)];
-      for (Eigen::Index i = 0; i < m; ++i)
-        sum.valuePtr()[std::find(column, rows.end(), unknowns(t, i)) - rows.begin()] += matrix(i, j);
+    for (Eigen::Index j = 0; j < unknowns.cols(); ++j) {
+      const int first = start[unknowns(t, j)];
+      int& last = end[unknowns(t, j)];
+      for (Eigen::Index i = 0; i < unknowns.cols(); ++i) {
+        int k = last;
+        while (k > first && row[k - 1] > unknowns(t, i)) --k;
+        if (k > first && row[k - 1] == unknowns(t, i)) {
+          value[k - 1] += matrix(i, j);
+          continue;
+        }
+        for (int s = last++; s > k; --s) {
+          row[s] = row[s - 1];
+          value[s] = value[s - 1];
+        }
+        row[k] = unknowns(t, i);
+        value[k] = matrix(i, j);
+      }
     }
   }
   return sum;
