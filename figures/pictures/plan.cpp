@@ -23,8 +23,8 @@ Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style) 
     data = joined(data, range_of(*solutions.back()));
     all_x = joined(all_x, {box[0], box[1]}), all_y = joined(all_y, {box[2], box[3]});
   }
-  const Range in_x = style.x.value_or(all_x), in_y = style.y.value_or(all_y);
-  for (const Range& range : {style.range, in_x, in_y}) check(range);
+  const Range in_x = style.x.value_or(all_x), in_y = style.y.value_or(all_y), range = style.range.value_or(data);
+  for (const Range& each : {range, in_x, in_y}) check(each);
   const std::size_t count = surfaces.size(), columns = std::min<std::size_t>(count, 3),
                     rows = (count + columns - 1) / columns;
   const Axis x = Axis::linear(in_x.low, in_x.high, 2), y = Axis::linear(in_y.low, in_y.high, 3);

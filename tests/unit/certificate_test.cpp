@@ -408,6 +408,43 @@ TEST(Certificate, IntegratesALoadThatTheSolversRuleMisses) {
     }
 }
 
+// The affine parts of f and of G + 1 are 0 on every triangle and edge, so that u_h = v = x, and osc alone stands before the
+// error w = u - x. Per cell of size h, f is P3, Legendre's polynomial of degree 3, along x: w' = -h (P4 - P2) / 14, and
+// |w|_a^2 = h^2 / 630. Or G = cos(k y) - 1 at x = 0: w = cos(k y) sinh(k (1 - x)) / (k cosh k).
+TEST(Certificate, CountsALoadThatTheMeshDoesNotSee) {
+  constexpr int n = 4;
+  constexpr double h = 1.0 / n, pi = std::numbers::pi, k = 2 * pi * n;
+  using Kind = EdgeCondition::Kind;
+  const Field legendre = [](double x, double) {
+    const double s = n * x - std::floor(n * x);
+    return ((20 * s - 30) * s + 12) * s - 1;
+  };
+  for (const bool pulled : {false, true}) {
+    TriangleMesh mesh = structured_mesh(n, {0});
+    for (int e = 0; e < mesh.edge_count(); ++e)
+      if (mesh.edge_tag[e] == EdgeTag::clamped) {
+        const double x = mesh.vertices(mesh.edges.row(e), Eigen::all).col(0).mean();
+        mesh.edge_tag[e] = x == 0 ? natural_group(0) : x == 1 ? held_group(1) : EdgeTag::free;
+      }
+    const std::vector<EdgeCondition> edges{
+        {"left", Kind::traction, [=](double, double y) { return pulled ? std::cos(k * y) - 1 : -1; }},
+        {"right", Kind::displacement, [](double x, double) { return x; }}};
+    const Body body{pulled ? Field([](double, double) { return 0.0; }) : legendre};
+    const Answered run(std::move(mesh), Scene(body, NoLayer{}, {}, edges));
+    const Certificate found = run.certified();
+    // |P3|^2 = 1/7 on triangles with the longest edge h sqrt(2); C_E |G + 1|_E on n of them
+    const double osc = pulled ? std::sqrt(2 * (1 + 1 / pi) / pi * h) : std::sqrt(2.0 / 7) * h / pi,
+                 error = std::sqrt(pulled ? std::tanh(k) / (2 * k) : h * h / 630);
+    EXPECT_NEAR(found.mismatch, 0, 1e-13);                   // round-off of terms below 1
+    EXPECT_LE(found.imbalance, pulled ? error / 5 : 1e-13);  // the solver's rule on edges sees something of G
+    EXPECT_NEAR(found.oscillation, osc, 1e-12);
+    for (const double bound : {found.displacement, found.gradient, found.stress}) EXPECT_GE(bound, error);
+    const double energy = found.energy_upper - error * error / 2;  // J(u) = J(v) - |w|_a^2 / 2
+    for (const double lower : {found.energy_lower, energy_lower_bound(run.scene, run.space, run.problem, run.solution)})
+      EXPECT_LE(lower, energy);
+  }
+}
+
 TEST(Certificate, RefusesWhatItCannotProve) {
   Answered run(unstructured_mesh(4), test::stiff_scene(1e-2));
   const auto with = [&](const Scene& scene) { certify(scene, run.space, run.problem, run.solution); };
