@@ -31,7 +31,7 @@ namespace {
 const char* const help = R"help(A scene file is TOML; the text after # is a comment:
 
   title = "figure 8"            # optional
-  [load]                        # required: the body force on the unit square
+  [load]                        # required: the force per area on the body, -div(stiffness grad u) = f; u has one component, upwards
   f = "10*sin(2*pi*x)"          # in x and y: + - * / ^, sin cos exp sqrt abs, pi, comparisons, x < 0.5 ? 1 : 2
   [layer]                       # leave out: no layer
   epsilon = 1e-6                # 0 (the rigid limit) to 1
@@ -48,13 +48,14 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   stiffness = "1 + 9*(x > 0.5)" # on each triangle as at its centroid; or per group of surfaces of a mesh file, which are
                                 # parts of the body: stiffness = { left = 1, right = 10 }
   [[edge]]                      # one per group of curves of a mesh file beside clamped and contact
-  group = "top"                 # free = true, or one of: displacement = "0.05", traction = "x", spring = "2" (force -2 u)
+  group = "top"                 # free = true, or one of: displacement = "0.05", traction = "x" (force per length), spring = "2" (-2 u)
   free = true
   [at]                          # optional: u there, in the summary
   points = [[0.25, -1.0]]
   [model]                       # optional
-  kind = "plane strain"         # a block pressed down by push = 0.1 on the gap, its sides free, f upwards. Without a layer:
-                                # rubber, epsilon = 1/lambda, mu = 1. With one: a coating of that thickness and of the block's
+  kind = "plane strain"         # a block pressed down on the gap: its clamped edges (of the unit square: the top) sink by
+                                # push = 0.1, the rest is free, f is upwards. Without a layer: rubber, mu = 1, epsilon = 1/lambda
+                                # (default 0: incompressible). With one: a coating of that thickness and of the block's
                                 # material (young = 1, poisson = 0.3) divided by it. friction = "0.1": Tresca's bound
   [mesh]                        # required
   kind = "unstructured"         # "structured" (cells up to 2048), "unstructured" (up to 512), "layered" (up to 512: the
@@ -74,7 +75,7 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
 A mesh from a file has the physical groups body, layer (if the scene has one), clamped and contact. The body may be any
 shape on and above y = 0 with a bottom edge on that line; all of that edge is contact, or has the layer below it. A scaled
 layer that the file does not hold is grown below the contact edges, in columns. In a file with the body alone these edges may be
-curved, each x once: the layer grows along their normals, and gap(x) is asked at the x of the edge. accuracy refuses springs, a ceiling, a
+curved, each x once, and at any height: the layer grows along their normals, and gap(x) is asked at the x of the edge. accuracy refuses springs, a ceiling, a
 load on the layer, a stiffness that varies on a triangle and a displacement that is not affine on the edges of the mesh;
 "petsc" refuses all of [body], [[edge]], [at], ceiling and the layer's numbers. Where a file of the same name, .geo or
 .brep, lies beside the mesh file, accuracy and refinements put the new vertices of the body's boundary on its curves (gmsh
@@ -84,8 +85,8 @@ Written to the results folder: summary.json; solution.csv (x,y,u; in plane strai
 with friction a column of that name: the tangential force per length), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
-render surface DIR/solution.vtu --out picture.png (in plane strain: render deformed)
-In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file; seconds are wall seconds, which add up to total;
+build/figures/render surface DIR/solution.vtu --out picture.png (of a mesh from a file: render plan, in plane strain: render deformed)
+In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file, the layer of depth 1 included; seconds are wall seconds, which add up to total;
 blas is the library of dense linear algebra, its kernels and threads (where OpenBLAS does not know the CPU and falls
 back to old kernels, the program starts again with wider ones; ANTILOCK_KEEP_KERNELS=1 leaves them);
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
@@ -169,7 +170,11 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
   const std::string name = (asked.out / "solution").string();
   if (asked.files.vtu)
-    fmt::print("  a picture of it: render {1} {0}.vtu --out {0}.png\n", name, file.elastic ? "deformed" : "surface");
+    fmt::print("  a picture of it: {2} {1} {0}.vtu --out {0}.png\n", name,
+               file.elastic                                ? "deformed"
+               : file.mesh.kind == MeshRequest::Kind::file ? "plan"
+                                                           : "surface",
+               tutorial::beside("render", "figures"));
   if (found.history.empty())
     fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,
                summary.u_max, summary.contact_steps, summary.corrections, asked.out.string());

@@ -201,7 +201,8 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
       "  {} unknowns; {} corrections and {} iterations of conjugate gradients on the last level; results in {}\n",
       solved.unknowns.back(), solved.last.corrections, solved.last.linear_iterations, out.string());
   if (dist::ranks() == 1)
-    fmt::print("  a picture of it: render surface {0}_0.vtu --out {0}.png\n", (out / "solution").string());
+    fmt::print("  a picture of it: {1} surface {0}_0.vtu --out {0}.png\n", (out / "solution").string(),
+               tutorial::beside("render", "figures"));
 }
 
 int fail(const std::string& message, int status) {

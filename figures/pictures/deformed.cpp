@@ -4,6 +4,9 @@
 #include <vtkPointData.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
 
 #include "drawing/panel.hpp"
 #include "pictures/pictures.hpp"
@@ -13,15 +16,40 @@
 namespace antilock::figures {
 namespace {
 
-/// Where the points were before they moved.
-vtkBoundingBox at_rest(vtkPolyData& body) {
-  vtkBoundingBox box;
+/// Where a point was before it moved. Rounded: it is the same one in all its triangles, which may have moved apart.
+std::array<double, 2> at_rest(vtkPolyData& body, vtkIdType i) {
   vtkDataArray* moved = body.GetPointData()->GetArray("displacement");
-  for (vtkIdType i = 0; i < body.GetNumberOfPoints(); ++i) {
-    const double* p = body.GetPoint(i);
-    box.AddPoint(p[0] - moved->GetComponent(i, 0), p[1] - moved->GetComponent(i, 1), 0);
+  const auto rounded = [&](int k) {
+    return 1e-9 * std::round(1e9 * (body.GetPoint(i)[k] - moved->GetComponent(i, k)));
+  };
+  return {rounded(0), rounded(1)};
+}
+
+/// The closed lines around the body before it moved: the edges of one triangle alone, each going on where another ends.
+std::vector<std::vector<std::array<double, 2>>> outlines(vtkPolyData& body) {
+  std::set<std::array<std::array<double, 2>, 2>> border;
+  for (vtkIdType cell = 0; cell < body.GetNumberOfCells(); ++cell) {
+    vtkIdType size = 0;
+    const vtkIdType* corners = nullptr;
+    body.GetCellPoints(cell, size, corners);
+    for (int i = 0; i < 3; ++i) {
+      const auto from = at_rest(body, corners[i]), to = at_rest(body, corners[(i + 1) % 3]);
+      if (border.erase({to, from}) == 0) border.insert({from, to});
+    }
   }
-  return box;
+  std::vector<std::vector<std::array<double, 2>>> lines;
+  while (!border.empty()) {
+    auto& line = lines.emplace_back(1, (*border.begin())[0]);
+    for (auto next = border.begin(); next != border.end() && (*next)[0] == line.back();
+         next = border.lower_bound({line.back(), {-1e300, -1e300}})) {
+      const auto &to = (*next)[1], &at = line.back(), &before = line[line.size() < 2 ? 0 : line.size() - 2];
+      const double turn = (at[0] - before[0]) * (to[1] - at[1]) - (at[1] - before[1]) * (to[0] - at[0]);
+      if (line.size() < 2 || std::abs(turn) > 1e-9) line.push_back(at);  // straight on: one line
+      line.back() = to;
+      border.erase(next);
+    }
+  }
+  return lines;
 }
 
 /// From places in the body to places on the page.
@@ -75,7 +103,8 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
   for (const Surface& body : bodies) {
     read.push_back(read_deformed(body.solution));
     seen.AddBounds(read.back()->GetBounds());
-    seen.AddBox(at_rest(*read.back()));
+    for (const auto& line : outlines(*read.back()))
+      for (const auto& [x, y] : line) seen.AddPoint(x, y, 0);
   }
   std::vector<double> values;
   for (const auto& body : read)
@@ -100,9 +129,11 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
     const Frame at{unit.x0, unit.y0, unit.scale, {left, foot}};
     if (obstacle) draw_obstacle(page, at, *obstacle, bottom);
     draw_body(page, at, *read[i], range, 0.8);
-    const vtkBoundingBox rest = at_rest(*read[i]);
-    const Point low = at(rest.GetBound(0), rest.GetBound(2)), high = at(rest.GetBound(1), rest.GetBound(3));
-    page.line({low, {high.x, low.y}, high, {low.x, high.y}, low}, {4, palette::ink, {22, 14}});
+    for (const auto& line : outlines(*read[i])) {
+      std::vector<Point> points;
+      for (const auto& [x, y] : line) points.push_back(at(x, y));
+      page.line(points, {4, palette::ink, {22, 14}});
+    }
     page.text({left + 0.5 * body_width, page.height() - 70.0}, bodies[i].title,
               {name_size, {0.5}, 0, palette::ink, body_width});
   }

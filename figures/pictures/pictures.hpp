@@ -20,7 +20,8 @@ Page mesh_picture(const std::filesystem::path& mesh, const std::string& title);
 /// What the surface pictures have in common; equal settings give equal scales and cameras, so that
 /// pictures compare.
 struct SurfaceStyle {
-  std::optional<Range> range = {};  ///< empty: that of the paper, -0.25 to 0.25, or the data's where they leave it
+  std::optional<Range> range =
+      {};  ///< empty: that of the paper, -0.25 to 0.25, if the data fill half of it; else theirs
   std::optional<double> height_factor =
       {};                        ///< units of length drawn for one unit of u; empty: 2, of the data's range 1 in all
   std::optional<int> grid = {};  ///< draw lines x, y = k / grid instead of the mesh's edges (for fine meshes)
@@ -39,9 +40,8 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
 
 /// Solutions seen from above, three per row, in a window of the plane, on one scale of colours.
 struct PlanStyle {
-  Range range{-0.25, 0.25};
-  std::optional<Range> x = {}, y = {};  ///< empty: of the data
-  std::string name = "$u$";             ///< of the colours
+  std::optional<Range> range = {}, x = {}, y = {};  ///< empty: of the data
+  std::string name = "$u$";                         ///< of the colours
   std::vector<std::string> row_titles;
 };
 Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style);

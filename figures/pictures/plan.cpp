@@ -27,8 +27,10 @@ Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style) 
   for (const Range& each : {range, in_x, in_y}) check(each);
   const std::size_t count = surfaces.size(), columns = std::min<std::size_t>(count, 3),
                     rows = (count + columns - 1) / columns;
-  const Axis x = Axis::linear(in_x.low, in_x.high, 2), y = Axis::linear(in_y.low, in_y.high, 3);
-  const double bar_room = 230, gap = 90, row_head = style.row_titles.empty() ? 0 : 90, foot = foot_margin;
+  const Axis x = Axis::linear(in_x.low, in_x.high, columns == 1 ? 5 : 2), y = Axis::linear(in_y.low, in_y.high, 3);
+  const double numbers = widest_number(Page(1), Axis::linear(range.low, range.high));  // beside the bar
+  const double bar_room = std::max(230.0, 125 + numbers), gap = 90, row_head = style.row_titles.empty() ? 0 : 90,
+               foot = foot_margin;
   const double left = left_margin(Page(1), y);
   const double across = static_cast<double>(columns),
                width = (Page::width - left - bar_room - (across - 1) * gap) / across,
@@ -46,18 +48,19 @@ Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style) 
     const View view(window, window, box, 0, 90);
     auto renderer = vtkSmartPointer<vtkRenderer>::New();
     renderer->SetActiveCamera(view.camera());
-    add_surface(*renderer, flat, style.range, {}, view.towards_eye());
+    add_surface(*renderer, flat, range, {}, view.towards_eye());
     page.scene(renderer, box);
     const Panel panel{box, x, y};
-    if (in_y.low < 0 && in_y.high > 0) page.line({panel(in_x.low, 0), panel(in_x.high, 0)}, {6, palette::white});
+    if (in_y.low < 0 && in_y.high > 0 && parts_at_zero(*flat))
+      page.line({panel(in_x.low, 0), panel(in_x.high, 0)}, {6, palette::white});
     draw_frame(page, panel, {surfaces[i].title, row + 1 == rows ? "$x$" : "", column == 0 ? "$y$" : ""});
     if (column == 0 && row < style.row_titles.size())
       page.text({left + 0.5 * (across * width + (across - 1) * gap), box.top() + head_margin + 24},
                 style.row_titles[row], {name_size, {0.5}});
   }
   const double all = page.height() - foot - row_head - head_margin;
-  draw_colour_bar(page, {Page::width - bar_room + 40, foot + 0.2 * all, 56, 0.6 * all}, style.range, style.name,
-                  beyond(style.range, data));
+  draw_colour_bar(page, {Page::width - bar_room + 40, foot + 0.2 * all, 56, 0.6 * all}, range, style.name,
+                  beyond(range, data));
   return page;
 }
 

@@ -103,7 +103,7 @@ void add_walls(vtkRenderer& renderer, const Room& room) {
              {corner(0, 0, 1), corner(0, 1, 1)},
              {corner(0, 1, 1), corner(1, 1, 1)}},
             2, palette::ink);
-  if (low.y() < 0)
+  if (low.y() < 0 && room.parts)
     add_lines(renderer, {{{low.x(), 0, low.z()}, {high.x(), 0, low.z()}}}, 4, palette::green);  // Sigma, on the floor
 }
 
@@ -119,7 +119,7 @@ void label_room(Page& page, const View& view, const Room& room, const std::strin
   const Point top = view({low.x(), low.y(), high.z()});
   name_edge(page, top, top, {-45, 76}, height);  // above its numbers
 
-  if (room.detail == RoomDetail::least) return;
+  if (room.detail == RoomDetail::least || !room.parts) return;
   const double inset = high.x() - 0.1 * (high.x() - low.x());
   const Anchor centre{0.5, Anchor::Height::middle};
   const Colour pale_ink{0.4, 0.4, 0.4};

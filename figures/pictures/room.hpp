@@ -19,6 +19,7 @@ struct Room {
   Axis x, y, u;
   double factor;  // height drawn for one unit of u
   RoomDetail detail;
+  bool parts = true;  // body and layer meet at y = 0: Sigma and their names are drawn
 };
 
 /// The room of a domain (its x and y) and a range of u that is drawn `height` high.

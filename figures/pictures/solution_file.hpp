@@ -19,6 +19,8 @@ vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path);
 
 /// The smallest and the largest u of a solution.
 Range range_of(vtkPolyData& solution);
+/// Whether no triangle crosses y = 0, where body and layer meet. A layer along the normals of a curve does cross it.
+bool parts_at_zero(vtkPolyData& solution);
 /// The smallest range that holds both.
 Range joined(const Range& a, const Range& b);
 

@@ -63,7 +63,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
   }
   constexpr Range paper{-0.25, 0.25};
   const Beyond outside = beyond(paper, data);
-  const bool fits = !outside.below && !outside.above;
+  const bool fits = !outside.below && !outside.above && 2 * (data.high - data.low) >= paper.high - paper.low;
   const Range shared = style.range.value_or(fits ? paper : data);
   check(shared);
   const Beyond marks = beyond(shared, data);
@@ -78,7 +78,8 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
     const bool own = style.last_range && i + 1 == count;
     const Range range = own ? *style.last_range : shared;
     const Box cell = at.cell(i);
-    const Room room = make_room(domain_of(*solutions[i]), range, drawn_height, detail);
+    Room room = make_room(domain_of(*solutions[i]), range, drawn_height, detail);
+    room.parts = parts_at_zero(*solutions[i]);
     const double left = widest_number(page, room.u) + 65, below = 130;
     const Box inside{cell.x + left, cell.y + below, cell.width - left - 85, cell.height - below - 10};
     Eigen::AlignedBox3d fitted = make_room(all, range, drawn_height, detail).space;

@@ -56,7 +56,7 @@ void add_pictures(CLI::App& app, Request& request) {
   surface->add_option("--title", request.titles, "one title per solution");
   surface
       ->add_option("--range", request.range,
-                   "smallest and largest u of the scale (default: -0.25 0.25, or the data's where they leave it)")
+                   "smallest and largest u of the scale (default: -0.25 0.25 if the data fill half of it; else theirs)")
       ->expected(2);
   surface->add_option("--last-range", request.own_range, "draw the last surface on this scale of its own")->expected(2);
   surface->add_option("--last-name", request.own_name, "what that scale measures")->capture_default_str();
@@ -78,13 +78,14 @@ void add_pictures(CLI::App& app, Request& request) {
   auto* plan = add_picture(app, request, "plan", "solutions seen from above, three per row", "SOLUTION.vtu");
   plan->add_option("--title", request.titles, "one title per solution");
   plan->add_option("--row-title", request.plan.row_titles, "one title per row");
-  plan->add_option("--range", request.range, "smallest and largest u of the colours")->expected(2)->required();
+  plan->add_option("--range", request.range, "smallest and largest u of the colours (default: the data's)")
+      ->expected(2);
   plan->add_option("--name", request.plan.name, "what the colours are")->capture_default_str();
   plan->add_option("--window", request.window, "x from and to, y from and to (default: of the data)")->expected(4);
   plan->callback([&] {
     request.draw = [&] {
       const auto& w = request.window;
-      request.plan.range = {request.range[0], request.range[1]};
+      if (!request.range.empty()) request.plan.range = Range{request.range[0], request.range[1]};
       if (!w.empty()) request.plan.x = Range{w[0], w[1]}, request.plan.y = Range{w[2], w[3]};
       return plan_picture(titled(request), request.plan);
     };

@@ -247,6 +247,8 @@ TEST(Bodies, RefuseWhatTheirGroupsDoNotSay) {
                     right = edge("right", "free = true"), top = edge("top", "free = true");
   const std::vector<std::pair<std::string, std::string>> bad{
       {left + right, "group \"top\""},
+      {left + right + edge("tpo", "free = true"),
+       "group \"top\"; accepted: clamped, contact, left, right, sigma, tpo, and"},
       {left + right + top + edge("hole", "free = true"), "has no curve in the group \"hole\""},
       {left + right + top + top, "edge[3].group: \"top\" has its condition already"},
       {left + right + edge("clamped", "free = true"), "\"clamped\" has its condition already"},

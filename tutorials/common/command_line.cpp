@@ -46,6 +46,14 @@ void become(const std::string& program, char** argv) {
   execv((program.empty() ? self : self.parent_path() / program).c_str(), argv);
 }
 
+std::string beside(const std::string& program, const std::string& folder) {
+  std::error_code error;
+  const std::filesystem::path here = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  for (const auto& path : {here / program, here.parent_path() / folder / program})
+    if (!error && std::filesystem::exists(path, error)) return path.string();
+  return program;
+}
+
 CommandLine::CommandLine(const std::string& what, std::string name)
     : app_(std::make_unique<CLI::App>(what, name)), name_(std::move(name)) {}
 CommandLine::~CommandLine() = default;

@@ -110,7 +110,8 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, const M
   for (const auto& [group, value] : *table) {
     names.emplace_back(group.str());
     numbers.push_back(section.number(names.back(), "the stiffness of that group, above 0"));
-    if (!(numbers.back() > 0)) body.refuse("stiffness", "is not above 0 on a group; accepted: positive numbers");
+    if (!(numbers.back() > 0))
+      body.refuse("stiffness", "is not above 0 on the group " + names.back() + "; accepted: positive numbers");
   }
   struct Parts {
     TriangleMesh mesh;
@@ -366,7 +367,8 @@ void check_elastic(const Section& root, const Scene& scene, const MethodRequest&
   if (method.accuracy || method.solver != "active-set") refuse("accuracy or another solver", "solver = \"active-set\"");
   if (!scene.contact() || scene.contact()->ceiling)
     refuse("a scene without contact, or with a ceiling", "a section [contact]");
-  if (scene.body().stiffness) refuse("a stiffness of the body", "young and poisson in [model]");
+  if (scene.body().stiffness)
+    refuse("a stiffness of the body", "no [body]; with a [layer], young and poisson in [model]");
   const auto* layer = std::get_if<StiffLayer>(&scene.layer());
   if (layer != nullptr && layer->load) refuse("a load on the layer", "none");
   for (const EdgeCondition& edge : scene.edges())

@@ -125,8 +125,9 @@ void check_boundary(const TriangleMesh& mesh, const std::string& where) {
   for (int v = 0; v < mesh.vertex_count(); ++v) refuse_hanging(v, first);
   for (const int e : untagged)
     for (int end = 0; end < 2; ++end) refuse_hanging(mesh.edges(first, end), e);
-  throw Error(fmt::format("{}: the boundary edge from {} to {} is in no group; accepted: clamped or contact", where,
-                          mesh.place(mesh.edges(first, 0)), mesh.place(mesh.edges(first, 1))));
+  throw Error(fmt::format(
+      "{}: the boundary edge from {} to {} is in no group; accepted: clamped, contact, or one that an [[edge]] names",
+      where, mesh.place(mesh.edges(first, 0)), mesh.place(mesh.edges(first, 1))));
 }
 
 /// A piece that no clamped edge holds could move freely: the problem would be singular.

@@ -54,11 +54,14 @@ void read_names(MshLines& lines, MshFile& file, std::map<std::string, int> known
     if (dimension == 0) continue;  // points carry nothing here
     const std::string name(line.substr(open + 1, close - open - 1));
     const auto group = known.find(name);
-    if (group == known.end() || group->second != dimension)
-      lines.refuse(
-          fmt::format("unknown {} group {}; accepted: surfaces body, layer; curves sigma, clamped, contact, and "
-                      "those that a scene names in [[edge]] or in [body] stiffness",
-                      dimension_names[dimension], in_quotes(name)));
+    if (group == known.end() || group->second != dimension) {
+      std::string accepted;  // the scene's own names stand here, too: a misspelt one is seen
+      for (const auto& [each, of] : known)
+        if (of == dimension) accepted += each + ", ";
+      lines.refuse(fmt::format(
+          "unknown {} group {}; accepted: {}and others that a scene names in [[edge]] or in [body] stiffness",
+          dimension_names[dimension], in_quotes(name), accepted));
+    }
     for (const auto& [place, other] : file.names)
       if (other == name) lines.refuse(fmt::format("the group {} is named twice", in_quotes(name)));
     if (!file.names.emplace(Place{dimension, lines.integer(1)}, name).second)
