@@ -30,6 +30,7 @@ void expect_right(const std::string& name, const Problem& method, const Problem&
   EXPECT_EQ(found.locks(), locks) << name << ": " << found.text();
   EXPECT_EQ(found.text().find("locks") != std::string::npos, locks) << found.text();
   const double measured = flexibility(fine) / flexibility(right(cells));
+  fmt::print("| {} | {} | {:.3g} |\n", name, found.text(), measured);  // the table of what is told and what is kept
   EXPECT_GE(measured, kept.first) << name;
   EXPECT_LE(measured, kept.second) << name;
 }
@@ -151,6 +152,7 @@ TEST(LockingDiagnosis, IsRightForACoatingInPlaneStrain) {
                                                     coating(mesh(c.columns, cells), c.x, c.y, 0));
     EXPECT_EQ(found.locks(), c.locks) << c.name << ": " << found.text();
     const double off = force(c) / reference - 1;
+    fmt::print("| coating {} | {} | force {:+.1f} % |\n", c.name, found.text(), 100 * off);
     EXPECT_EQ(off > 0.1, c.locks) << c.name << ": the contact force is off by " << off;
   }
 }
