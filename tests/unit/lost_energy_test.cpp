@@ -79,7 +79,7 @@ TEST(LostEnergy, IsTheShareThatASecondSolveFinds) {
         const TriangleMesh mesh = mesh_family(family).mesh(cells);
         for (const Element* element : {&p1(), &p2()}) {
           const Lost found = lost_on(mesh, *element, test::stiff_scene(epsilon));
-          EXPECT_NEAR(found.share, std::clamp(found.by_solving, 0.0, 1.0), 0.01)
+          EXPECT_NEAR(found.share, std::clamp(found.by_solving, 0.0, 1.0), element == &p1() ? 0.004 : 0.01)
               << family << cells << element->name() << epsilon;
         }
       }

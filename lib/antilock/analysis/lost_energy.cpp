@@ -9,8 +9,9 @@
 //
 //       int (d_x v)^2 <= height / 2 (its values at the upper and at the lower end),
 //
-//   and the sum over the rows takes the values at the rows' ends alone. d_y v is a difference / height, squared at Gauss
-//   points that are exact.
+//   and the sum over the rows takes the values at the rows' ends alone. d_y v is a difference / height, squared at the
+//   nodes of Lobatto's rule up to degree 2, where those are the nodes of u_h: that is not less than the integral, and P1
+//   on columns. At Gauss points beyond.
 // A layer with so few columns per epsilon that it is stiff across is constant in y: no row, no B. (22) is the same
 // problem after y -> y / epsilon, (23). J is smallest over these v: a variational inequality with few unknowns.
 //
@@ -153,11 +154,11 @@ std::vector<Eigen::Triplet<double>> layer_at(const Line& sigma, const Space& spa
   return values;
 }
 
-/// The form of the body on W and a force, of which the hats above Sigma are eliminated, and what they gain by it.
+/// The form of the body on W and a force, of which the hats above Sigma are eliminated. What those gain alone is
+/// left out: u_h is at rest there, and v no better than it is.
 struct Sunk {
   Eigen::MatrixXd form;
   Eigen::VectorXd force;
-  double energy;
   std::vector<char> held;  ///< hats that are not 0 where v is held: they are left out
 };
 
@@ -186,8 +187,7 @@ Sunk sunk_to_sigma(const VariationalInequality& problem, const Line& sigma, cons
   const Cholesky upper(form.bottomRightCorner(above, above));
   const Eigen::MatrixXd follows = upper.solve(Eigen::MatrixXd(form.bottomLeftCorner(above, low)));
   return {form.topLeftCorner(low, low) - form.topRightCorner(low, above) * follows,
-          force.head(low) - follows.transpose() * force.tail(above),
-          upper.half_solve(Eigen::VectorXd(force.tail(above))).squaredNorm() / 2, held};
+          force.head(low) - follows.transpose() * force.tail(above), held};
 }
 
 /// y at x on the chain of straight pieces from point to point, `at` ascending; level beyond its ends.
@@ -269,7 +269,6 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   double left_in_layer = at_hand - solution.u.dot(work / 2 - load);
 
   const Sunk body = sunk_to_sigma(problem, sigma, hats(space.points(), sigma, in_body), layer, load - work);
-  left_in_layer += body.energy;
 
   // the unknowns: Sigma, and rows 1 to `rows` of columns below it; all are differences to u_h, on Sigma and constant in y
   constexpr int most_rows = 8;  // a wave over the depth loses (pi / 8)^2 / 12 = 1.3 % by the height 1/8
@@ -295,9 +294,12 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   std::vector<double> m;
   for (int i = 0; i < points; ++i)
     for (int j = 0; j < points; ++j) a1.emplace_back(i, j, (body.form(i, j) + body.form(j, i)) / 2);
-  const auto [at, weights] = gauss_rule(degree + 1);
   const Eigen::VectorXd nodes = Eigen::VectorXd::LinSpaced(degree + 1, 0, 1);
-  const Trace trace = trace_at(nodes, at);
+  auto [at, weights] = gauss_rule(degree + 1);
+  const auto [x_of_load, weights_of_load] = std::pair(at, weights);
+  if (degree == 1) at = nodes, weights << 0.5, 0.5;
+  if (degree == 2) at = nodes, weights << 1.0 / 6, 4.0 / 6, 1.0 / 6;
+  const Trace trace = trace_at(nodes, at), loaded = trace_at(nodes, x_of_load);
   const Eigen::MatrixXd form = trace.slope.transpose() * weights.asDiagonal() * trace.slope;
   for (const Indices& edge : sigma.edge) {
     const double dx = sigma.x[edge.back()] - sigma.x[edge.front()];
@@ -319,12 +321,12 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
       }
       for (Eigen::Index q = 0; q < at.size() && pulled && row <= std::max(rows - 1, 0); ++q)
         for (Eigen::Index p = 0; p < at.size(); ++p) {
-          const double f = dx * height * weights(q) * weights(p) *
-                           stiff->load(sigma.x[edge.front()] + at(q) * dx, -(row + at(p)) * height);
+          const double f = dx * height * weights_of_load(q) * weights_of_load(p) *
+                           stiff->load(sigma.x[edge.front()] + x_of_load(q) * dx, -(row + x_of_load(p)) * height);
           for (int i = 0; i <= degree; ++i) {
-            strip.load(unknown(edge[i], row)) += (rows == 0 ? 1 : 1 - at(p)) * f * trace.value(q, i);
-            if (rows > 0) strip.load(unknown(edge[i], row + 1)) += at(p) * f * trace.value(q, i);
-            left_in_layer += f * trace.value(q, i) * on_edge(i);
+            strip.load(unknown(edge[i], row)) += (rows == 0 ? 1 : 1 - x_of_load(p)) * f * loaded.value(q, i);
+            if (rows > 0) strip.load(unknown(edge[i], row + 1)) += x_of_load(p) * f * loaded.value(q, i);
+            left_in_layer += f * loaded.value(q, i) * on_edge(i);
           }
         }
     }
