@@ -24,8 +24,8 @@ TEST(OnlyWhatIsNeeded, AnAbsentEffectCostsNothing) {
       EXPECT_EQ(c.factorisations, 1);
       EXPECT_EQ(c.solves, 1);
       EXPECT_EQ(c.corrections, 0);
-      EXPECT_EQ(c.contact > 1, gap == 0) << "never touched: a look at the signs";
       EXPECT_GE(c.contact, 1);
+      EXPECT_LE(c.contact, gap == 0 ? 4 : 1) << "never touched: a look at the signs";  // 4: the nested start's
     }
     for (const double epsilon : {1e-6, 0.0}) {
       const Counters c = cost(Scene({paper_load}, StiffLayer{epsilon}), on_both);
