@@ -95,10 +95,7 @@ ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const s
       v = std::move(now.v);
       continue;
     }
-    if (v.size() == 0) {  // where the descent starts: the nearest point on the pieces
-      v = now.v;
-      for (const Move& m : wrong) v(system.bounded()[m.bound]) = m.end;
-    }
+    if (v.size() == 0) v = now.v;  // the descent starts with no way to go: all that are beyond go to their ends
     descend(system, wrong, now.v, v, pieces);
   }
 }
