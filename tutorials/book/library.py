@@ -14,7 +14,7 @@ EXAMPLES = {
     "space/space.hpp": ("unit/space_test.cpp", "Space, CrouzeixRaviartUnknownsAreEdgeMidpoints"),
     "problem/variational_inequality.hpp": ("unit/problem_test.cpp", "Check, TakesAnA1OfZerosWhereBHoldsEverything"),
     "solve/active_set.hpp": ("unit/solve_test.cpp", "ActiveSet, LimitProblemOnAStructuredMeshIsVentcels"),
-    "solve/contact.hpp": ("unit/contact_problem_test.cpp", "ContactProblem, StartingAtTheAnswerTakesOneStep"),
+    "solve/contact.hpp": ("unit/contact_problem_test.cpp", "ContactProblem, AWrongSideCostsAStepPerPiece"),
     "analysis/locking.hpp": ("unit/locking_diagnosis_test.cpp", "LockingDiagnosis, FindsThatAHalfIsHeld"),
     "analysis/certificate.hpp": ("unit/certificate_test.cpp", "Certificate, BoundsTheEnergyOfAScaledSolution"),
     "analysis/lost_energy.hpp": ("unit/lost_energy_test.cpp", "LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),

@@ -373,8 +373,9 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
 
   const Trace fine = trace_at(nodes, Eigen::VectorXd::LinSpaced(33, 0, 1));
   const Eigen::VectorXd v = base + moved.u.segment(unknown(0, rows), points);
-  const auto& [gap, ends, ceiling] = *scene.contact();
-  const Profile floor = [&](double x) { return -gap(x); }, roof = [&](double x) { return -ceiling(x); };
+  const auto& contact = *scene.contact();
+  const Profile& ceiling = contact.ceiling;
+  const Profile floor = [&](double x) { return -contact.gap(x); }, roof = [&](double x) { return -ceiling(x); };
   Eigen::VectorXd up = lift(sigma, fine, v, floor, held_at);
   if (ceiling && up.allFinite()) {
     up -= lift(sigma, fine, -v - up, roof, held_at);
