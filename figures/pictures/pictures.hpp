@@ -20,8 +20,7 @@ Page mesh_picture(const std::filesystem::path& mesh, const std::string& title);
 /// What the surface pictures have in common; equal settings give equal scales and cameras, so that
 /// pictures compare.
 struct SurfaceStyle {
-  std::optional<Range> range =
-      {};  ///< empty: that of the paper, -0.25 to 0.25, if the data fill half of it; else theirs
+  std::optional<Range> range = {};  ///< empty: that of the data
   std::optional<double> height_factor =
       {};                        ///< units of length drawn for one unit of u; empty: 2, of the data's range 1 in all
   std::optional<int> grid = {};  ///< draw lines x, y = k / grid instead of the mesh's edges (for fine meshes)

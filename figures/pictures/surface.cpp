@@ -61,10 +61,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
     const bool own = style.last_range && solutions.size() == count;
     if (!own) data = joined(data, range_of(*solutions.back()));
   }
-  constexpr Range paper{-0.25, 0.25};
-  const Beyond outside = beyond(paper, data);
-  const bool fits = !outside.below && !outside.above && 2 * (data.high - data.low) >= paper.high - paper.low;
-  const Range shared = style.range.value_or(fits ? paper : data);
+  const Range shared = style.range.value_or(data);
   check(shared);
   const Beyond marks = beyond(shared, data);
   const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
@@ -72,7 +69,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
   const RoomDetail detail = at.columns == 1 ? RoomDetail::full : at.columns == 2 ? RoomDetail::few : RoomDetail::least;
   Page page(at.height());
 
-  const double span = shared.high - shared.low, factor = style.range || fits ? 2 : 1 / span;
+  const double span = shared.high - shared.low, factor = style.range ? 2 : 1 / span;
   const double drawn_height = style.height_factor.value_or(factor) * span;
   for (std::size_t i = 0; i < count; ++i) {
     const bool own = style.last_range && i + 1 == count;

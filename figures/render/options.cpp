@@ -56,7 +56,7 @@ void add_pictures(CLI::App& app, Request& request) {
   surface->add_option("--title", request.titles, "one title per solution");
   surface
       ->add_option("--range", request.range,
-                   "smallest and largest u of the scale (default: -0.25 0.25 if the data fill half of it; else theirs)")
+                   "smallest and largest u of the scale (default: the data's; -0.25 0.25 in the paper's figures)")
       ->expected(2);
   surface->add_option("--last-range", request.own_range, "draw the last surface on this scale of its own")->expected(2);
   surface->add_option("--last-name", request.own_name, "what that scale measures")->capture_default_str();
