@@ -12,8 +12,8 @@
 //   and the sum over the rows takes the values at the rows' ends alone. d_y v is a difference / height, squared at the
 //   nodes of Lobatto's rule up to degree 2, where those are the nodes of u_h: that is not less than the integral, and P1
 //   on columns. At Gauss points beyond.
-// A layer with so few columns per epsilon that it is stiff across is constant in y: no row, no B. (22) is the same
-// problem after y -> y / epsilon, (23). J is smallest over these v: a variational inequality with few unknowns.
+// (22) is the same problem after y -> y / epsilon, (23). J is smallest over these v: a variational inequality with few
+// unknowns.
 //
 // Its bounds hold at the unknowns on Sigma, from the gap as u_h has it at its own points. What v lacks between them, seen
 // at 33 points per edge, is added as a function that is affine on each edge of Sigma and constant in y: v', of K.
@@ -36,7 +36,8 @@ namespace {
 using Indices = std::vector<int>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Sigma: the unknowns of u_h from left to right, the place of each unknown among them (-1: none), and its edges as places.
+/// Sigma: the unknowns of u_h from left to right, the place of each unknown among them (-1: none), and its edges as places,
+/// from left to right.
 struct Line {
   Indices unknown, place;
   Eigen::VectorXd x;
@@ -67,7 +68,22 @@ Line sigma_line(const Space& space) {
     for (int& u : edge) u = line.place[u];
     line.length += line.x[edge.back()] - line.x[edge.front()];
   }
+  std::sort(line.edge.begin(), line.edge.end());
   return line;
+}
+
+/// x among ascending points: the one on its left, but not the last, and the share of the way to the next, 0 to 1.
+std::pair<int, double> among(const Eigen::VectorXd& points, double x) {
+  const double *const first = points.data(), *const last = first + points.size() - 1;
+  const double* const next = std::upper_bound(first + 1, last, x);
+  return {static_cast<int>(next - first) - 1, std::clamp((x - next[-1]) / (next[0] - next[-1]), 0.0, 1.0)};
+}
+
+/// y at x on the chain of straight pieces from point to point, `at` ascending; level beyond its ends.
+double on_chain(const Eigen::VectorXd& at, const Eigen::VectorXd& y, double x) {
+  if (at.size() == 1) return y(0);
+  const auto [i, s] = among(at, x);
+  return s == 0 ? y(i) : s == 1 ? y(i + 1) : (1 - s) * y(i) + s * y(i + 1);
 }
 
 /// Lagrange's basis of the nodes on an edge, 0 to 1, at some points: a row per point.
@@ -97,7 +113,8 @@ RowMatrix hats(const Points& at, const Line& sigma, const std::vector<char>& in_
   const double left = at.col(0).minCoeff(), right = at.col(0).maxCoeff();
   std::map<double, Row> rows;  // by height
   rows[0].x = sigma.x;
-  for (double y = at.col(1).maxCoeff(); y > sigma.length / static_cast<double>(sigma.x.size() - 1); y /= 2)
+  const double top = at.col(1).maxCoeff(), edge = sigma.length / static_cast<double>(sigma.x.size() - 1);
+  for (double y = top; y == top || y > edge; y /= 2)
     rows[y].x =
         Eigen::VectorXd::LinSpaced(1 + std::max(1, static_cast<int>(std::ceil((right - left) / y))), left, right);
   int count = 0;
@@ -105,23 +122,22 @@ RowMatrix hats(const Points& at, const Line& sigma, const std::vector<char>& in_
   Indices begin{0}, column;
   std::vector<double> value;
   const auto add = [&](int v, const Row& row, double weight) {
-    const double x = at(v, 0), *const first = row.x.data(), *const last = first + row.x.size();
-    if (weight == 0 || x < *first || x > last[-1]) return;
-    const double* const next = std::clamp(std::upper_bound(first, last, x), first + 1, last - 1);
-    const double s = (x - next[-1]) / (next[0] - next[-1]);
-    for (const auto& [hat, here] :
-         {std::pair(next - first - 1, weight * (1 - s)), std::pair(next - first, weight * s)}) {
-      if (here != 0) column.push_back(row.first + static_cast<int>(hat)), value.push_back(here);
-    }
+    const double x = at(v, 0);
+    if (weight == 0 || x < row.x(0) || x > row.x(row.x.size() - 1)) return;
+    const auto [hat, s] = among(row.x, x);
+    for (const int side : {0, 1})
+      if (const double here = weight * (side == 0 ? 1 - s : s); here != 0)
+        column.push_back(row.first + hat + side), value.push_back(here);
   };
   for (int v = 0; v < at.rows(); ++v) {
     const double y = sigma.place[v] < 0 ? std::max(at(v, 1), 0.0) : 0;
-    if (const auto above = rows.lower_bound(y); in_body[v] && y == 0) {
-      add(v, above->second, 1);
-    } else if (in_body[v] && above != rows.end()) {
-      const auto& [low, under] = *std::prev(above);
-      add(v, under, (above->first - y) / (above->first - low));
-      add(v, above->second, (y - low) / (above->first - low));
+    if (in_body[v] && y == 0) {
+      add(v, rows.begin()->second, 1);
+    } else if (in_body[v]) {
+      const auto above = rows.lower_bound(y), under = std::prev(above);
+      const double s = (y - under->first) / (above->first - under->first);
+      add(v, under->second, 1 - s);
+      add(v, above->second, s);
     }
     begin.push_back(static_cast<int>(column.size()));
   }
@@ -188,16 +204,6 @@ Sunk sunk_to_sigma(const VariationalInequality& problem, const Line& sigma, cons
   const Eigen::MatrixXd follows = upper.solve(Eigen::MatrixXd(form.bottomLeftCorner(above, low)));
   return {form.topLeftCorner(low, low) - form.topRightCorner(low, above) * follows,
           force.head(low) - follows.transpose() * force.tail(above), held};
-}
-
-/// y at x on the chain of straight pieces from point to point, `at` ascending; level beyond its ends.
-double on_chain(const Eigen::VectorXd& at, const Eigen::VectorXd& y, double x) {
-  const double *const first = at.data(), *const last = first + at.size(),
-                      *const next = std::lower_bound(first, last, x);
-  if (next == last) return y(at.size() - 1);
-  if (next == first || *next == x) return y(next - first);
-  const double s = (x - next[-1]) / (next[0] - next[-1]);
-  return (1 - s) * y(next - first - 1) + s * y(next - first);
 }
 
 /// How far v must be lifted at the points of Sigma, affine on each edge, to lie above `obstacle` at the points of `trace`;
@@ -274,16 +280,11 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   constexpr int most_rows = 8;  // a wave over the depth loses (pi / 8)^2 / 12 = 1.3 % by the height 1/8
   const auto degree = static_cast<int>(sigma.edge.front().size()) - 1, edges = static_cast<int>(sigma.edge.size());
   const auto in_layer = static_cast<int>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
-  // a layer that is constant in y is too stiff: a wave c loses (c epsilon)^2 / 3 of its motion, and the spring between body
-  // and obstacle, s / epsilon^2 per length, is rigid. No row where both are less than what is told, for waves of six points
-  // and longer, c <= n points per length. Else as many rows as make square cells in the layer of thickness epsilon, but no
-  // more than the mesh has: a coarse layer is no locked one
-  const double n = degree * edges / sigma.length, thickness = *epsilon * n;
-  const double give = std::max(thickness / 3, *epsilon / s * body.form.diagonal().maxCoeff()) * thickness;
-  const int rows = give <= LostEnergy::telling ? 0
-                                               : std::clamp(static_cast<int>(std::ceil(thickness - 1e-9)), 1,
-                                                            std::clamp(degree * in_layer / (2 * edges), 1, most_rows));
-  const double height = 1.0 / std::max(rows, 1);
+  // as many rows as make square cells in the layer of thickness epsilon, but no more than the mesh has: a coarse layer is no
+  // locked one
+  const int rows = std::clamp(static_cast<int>(std::ceil(*epsilon * degree * edges / sigma.length - 1e-9)), 1,
+                              std::clamp(degree * in_layer / (2 * edges), 1, most_rows));
+  const double height = 1.0 / rows;
   const int size = (rows + 1) * points;
   const auto unknown = [&](int i, int row) { return row * points + i; };
 
@@ -296,40 +297,48 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
     for (int j = 0; j < points; ++j) a1.emplace_back(i, j, (body.form(i, j) + body.form(j, i)) / 2);
   const Eigen::VectorXd nodes = Eigen::VectorXd::LinSpaced(degree + 1, 0, 1);
   auto [at, weights] = gauss_rule(degree + 1);
-  const auto [x_of_load, weights_of_load] = std::pair(at, weights);
   if (degree == 1) at = nodes, weights << 0.5, 0.5;
   if (degree == 2) at = nodes, weights << 1.0 / 6, 4.0 / 6, 1.0 / 6;
-  const Trace trace = trace_at(nodes, at), loaded = trace_at(nodes, x_of_load);
+  const Trace trace = trace_at(nodes, at);
   const Eigen::MatrixXd form = trace.slope.transpose() * weights.asDiagonal() * trace.slope;
   for (const Indices& edge : sigma.edge) {
     const double dx = sigma.x[edge.back()] - sigma.x[edge.front()];
     const Eigen::VectorXd on_edge = base(edge), pull = s / dx * form * on_edge;
     left_in_layer -= pull.dot(on_edge) / 2;
-    for (int row = 0; row <= rows; ++row) {
-      const double share = rows == 0 ? 1 : row == 0 || row == rows ? height / 2 : height;
-      for (int i = 0; i <= degree; ++i) {
-        strip.load(unknown(edge[i], row)) -= share * pull(i);
-        for (int j = 0; j <= degree; ++j)
-          a1.emplace_back(unknown(edge[i], row), unknown(edge[j], row), share * s / dx * form(i, j));
-      }
-      for (Eigen::Index q = 0; q < at.size() && row < rows; ++q) {
+    for (int row = 0; row < rows; ++row) {
+      for (const int end : {row, row + 1})
+        for (int i = 0; i <= degree; ++i) {
+          strip.load(unknown(edge[i], end)) -= height / 2 * pull(i);
+          for (int j = 0; j <= degree; ++j)
+            a1.emplace_back(unknown(edge[i], end), unknown(edge[j], end), height / 2 * s / dx * form(i, j));
+        }
+      for (Eigen::Index q = 0; q < at.size(); ++q) {
         for (int i = 0; i <= degree; ++i) {
           b.emplace_back(static_cast<int>(m.size()), unknown(edge[i], row), rows * trace.value(q, i));
           b.emplace_back(static_cast<int>(m.size()), unknown(edge[i], row + 1), -rows * trace.value(q, i));
         }
         m.push_back(s * height * dx * weights(q));
       }
-      for (Eigen::Index q = 0; q < at.size() && pulled && row <= std::max(rows - 1, 0); ++q)
-        for (Eigen::Index p = 0; p < at.size(); ++p) {
-          const double f = dx * height * weights_of_load(q) * weights_of_load(p) *
-                           stiff->load(sigma.x[edge.front()] + x_of_load(q) * dx, -(row + x_of_load(p)) * height);
-          for (int i = 0; i <= degree; ++i) {
-            strip.load(unknown(edge[i], row)) += (rows == 0 ? 1 : 1 - x_of_load(p)) * f * loaded.value(q, i);
-            if (rows > 0) strip.load(unknown(edge[i], row + 1)) += x_of_load(p) * f * loaded.value(q, i);
-            left_in_layer += f * loaded.value(q, i) * on_edge(i);
-          }
-        }
     }
+  }
+  if (pulled) {  // at the points where u_h has it
+    const Quadrature& rule = load_rule(element);
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      for (Eigen::Index q = 0; q < rule.weights.size() && mesh.region[t] == Region::layer; ++q) {
+        const Eigen::RowVector2d x = rule.points.row(q) * mesh.vertices(mesh.triangles.row(t), Eigen::all);
+        const Indices& edge = *std::partition_point(sigma.edge.begin(), sigma.edge.end() - 1,
+                                                    [&](const Indices& e) { return sigma.x[e.back()] < x(0); });
+        const double on_edge = (x(0) - sigma.x[edge.front()]) / (sigma.x[edge.back()] - sigma.x[edge.front()]);
+        const int row = std::min(static_cast<int>(-x(1) * rows), rows - 1);
+        const double low = -x(1) * rows - row;
+        const Eigen::VectorXd f = mesh.area(t) * rule.weights(q) * stiff->load(x(0), x(1)) *
+                                  trace_at(nodes, Eigen::VectorXd::Constant(1, on_edge)).value.transpose();
+        left_in_layer += f.dot(base(edge));
+        for (int i = 0; i <= degree; ++i) {
+          strip.load(unknown(edge[i], row)) += (1 - low) * f(i);
+          strip.load(unknown(edge[i], row + 1)) += low * f(i);
+        }
+      }
   }
   strip.a1.resize(size, size);
   strip.a1.setFromTriplets(a1.begin(), a1.end());

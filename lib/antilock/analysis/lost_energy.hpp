@@ -10,12 +10,17 @@
 namespace antilock {
 
 /// What an answer has lost because its layer does not follow. J(v) = a(v, v)/2 - L(v); v is a function whose layer is free
-/// to move, above the obstacle at the points on Sigma, as u_h is at its own points on Gamma_C.
+/// to move, above the obstacle at the points on Sigma, as u_h is at its own points on Gamma_C. Load and stiffness are those
+/// that u_h has at its points: what both miss is in neither.
+/// It is not what a finer mesh would gain. A layer of few rows is coarse, which is not locking (measured: rows half as high
+/// are worth 18 to 30 % under the feet of a bridge at epsilon = 1, and nothing is told). And where the waves of a gap are few
+/// edges long, u_h meets it at other points than another mesh would (measured, 4.6 edges per wave: 9 % told, where P1 in
+/// columns with points of its own is 3 % better).
 struct LostEnergy {
   static constexpr double telling = 0.05;  ///< v is within a few per cent of the best: whoever has lost 10 % is told so
   double found = 0;                        ///< J(u_h) - J(v), negative where v is the worse of the two
-  double proved = 0;  ///< J(u_h) - J(v'), a lower bound of J(u_h) - J(u): v' is v, lifted into K; -infinity where it
-                      ///< cannot be lifted
+  double proved = 0;  ///< J(u_h) - J(v'), a lower bound of J(u_h) - J(u), up to round-off: v' is v, lifted into K as 33
+                      ///< points per edge show it; -infinity where it cannot be lifted
   double motion = 0;  ///< what the motion of the layer is worth: the larger of J(v_0) - J(v) and |v - v_0|_a^2 / 2, v_0
                       ///< the function whose layer is held straight; 0 where that is less than 1e-8 of J(v)
 
