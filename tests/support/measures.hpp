@@ -1,4 +1,5 @@
 #pragma once
+#include "antilock/form/forms.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 
 namespace antilock::test {
@@ -9,6 +10,12 @@ inline double area(const TriangleMesh& mesh, Region region) {
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == region) sum += mesh.area(t);
   return sum;
+}
+
+/// u' B' M B u.
+inline double value(const FactoredForm& form, const Eigen::VectorXd& u) {
+  const Eigen::VectorXd bu = form.b * u;
+  return bu.dot(form.m.cwiseProduct(bu));
 }
 
 /// The length of the edges with a tag.

@@ -1,15 +1,17 @@
-// The truth is checked from outside: against the differential equations, the conditions on Sigma and Gamma_C, closed
-// forms, refinement, and the values that an independent script gave.
 #include "antilock/exact/detail/contact_line.hpp"
 #include "antilock/exact/detail/load_response.hpp"
 #include "antilock/exact/detail/sine_transform.hpp"
 #include "antilock/exact/detail/symbols.hpp"
+#include "antilock/exact/plate_truth.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::exact_test {
+
+// ==== The truth is checked from outside: against the differential equations, the conditions on Sigma and Gamma_C, closed
+// forms, refinement, and the values that an independent script gave.
 
 constexpr double pi = std::numbers::pi;
 constexpr int moderate = 13;  // 2^13 points: enough where the test is about structure, not digits
@@ -27,7 +29,7 @@ double difference(const std::function<double(double)>& f, double t, double h) {
   return (f(t + h) - f(t - h)) / (2 * h);
 }
 
-// --- transforms and closed forms ---------------------------------------------------------------------------------
+// ---- Transforms and closed forms.
 
 TEST(SineTransform, SumsSinesAndCosinesAndInverts) {
   SineTransform transform(64);
@@ -109,7 +111,7 @@ TEST(ContactLine, SolvesTheObstacleProblemOfAString) {
   EXPECT_LT((line.displacement - line.displacement.reverse()).norm(), 1e-10);
 }
 
-// --- the linear problem ------------------------------------------------------------------------------------------
+// ---- The linear problem.
 
 TEST(TruthWithoutContact, IsTheClosedFormOfOneWave) {
   // u = f/a^2 (1 - cosh(a(y-1/2)) / cosh(a/2)) + w sinh(a(1-y)) / sinh(a) in the body, w cosh(kappa(1+y)) / cosh(kappa)
@@ -159,7 +161,7 @@ TEST(Truth, LargeWaveNumbersNeitherOverflowNorVanish) {
   }
 }
 
-// --- the equations -----------------------------------------------------------------------------------------------
+// ---- The equations.
 
 class TruthEquations : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(EveryEpsilon, TruthEquations, testing::ValuesIn(every_epsilon));
@@ -270,7 +272,7 @@ TEST(Truth, AtEpsilonZeroItIsTheVentcelSignoriniProblem) {
   EXPECT_GT(truth.pressure(0.8), 1);
 }
 
-// --- digits ------------------------------------------------------------------------------------------------------
+// ---- Digits.
 
 struct Known {
   double epsilon, contact_from, u_half, u_sigma, u_gamma_c, largest, energy;
@@ -395,7 +397,7 @@ TEST(TruthDistance, FallsLikeEpsilonToThreeHalves) {
   EXPECT_NEAR(std::log10(distance(3e-3) / distance(3e-4)), 1.5, 0.1);  // the part of order 2 dies out slowly
 }
 
-// --- hard and broken input ---------------------------------------------------------------------------------------
+// ---- Hard and broken input.
 
 TEST(Truth, EverythingInContactHoldsGammaCDown) {
   for (const double epsilon : every_epsilon) {
@@ -457,7 +459,7 @@ TEST(SineLoad, EvaluatesItsTerms) {
   EXPECT_NEAR(rich_load()(0.5, 0.5), -15 + (20 - 2.5 - 2.25), 1e-12);
 }
 
-// --- the table ---------------------------------------------------------------------------------------------------
+// ---- The table.
 
 class TruthTabulated : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(EveryEpsilon, TruthTabulated, testing::Values(1, 0.1, 1e-3, 1e-5, 1e-20, 0));
@@ -496,6 +498,27 @@ TEST_P(TruthTabulated, IsExactlyTheTruthOnItsEdges) {
         EXPECT_NEAR(table.layer_stress(x, y), truth.layer_stress(x, y), 1e-5);
       }
     }
+}
+
+// ==== The plate.
+
+TEST(PlateTruth, SolvesItsEquations) {
+  for (const double t : {1.0, 0.1, 1e-2, 1e-4, 1e-9, 0.0}) {
+    SCOPED_TRACE(t);
+    const PlateTruth truth(t);
+    const double c = truth.contact_radius();
+    EXPECT_NEAR(truth.deflection(1), 0, 1e-12);
+    EXPECT_NEAR(truth.deflection(c * (1 + 1e-12)), -1, 1e-9);
+    EXPECT_NEAR(truth.slope(c * (1 + 1e-12)), 0, 1e-8);
+    // slope is the derivative of the deflection
+    for (const double r : {0.95, 0.97, 0.99})
+      EXPECT_NEAR((truth.deflection(r + 1e-5) - truth.deflection(r - 1e-5)) / 2e-5, truth.slope(r), 1e-6);
+    EXPECT_GT(truth.contact_force(), 0);
+    EXPECT_LT(truth.contact_force(), 256 * std::numbers::pi);
+    EXPECT_NEAR(PlateTruth(t, 512, 2).contact_radius(), c, 1e-12);
+  }
+  EXPECT_NEAR(PlateTruth(1e-9).contact_radius(), PlateTruth(0).contact_radius(), 1e-7);
+  EXPECT_THROW(PlateTruth(0, 63), Error);  // w(0) = -63/64 without the obstacle
 }
 
 }  // namespace antilock::test::exact_test

@@ -1,89 +1,16 @@
-// Scenes become discrete inequalities; malformed ones are refused before any solver sees them.
-#include "antilock/form/forms.hpp"
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/analysis/nearest.hpp"
+#include "antilock/form/h1_norm.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/choose_penalty.hpp"
+#include "antilock/problem/projected.hpp"
+#include "support/platen.hpp"
 #include "support/scenes.hpp"
 #include "support/small_problem.hpp"
 
 namespace antilock::test::problem_test {
 
-TEST(Assemble, ClassParameterIsTheSquareOfEpsilon) {
-  const SpaceOn space(structured_mesh(4), p1());
-  EXPECT_EQ(stiff_problem(space, 0.25).compliance, 0.0625);
-  EXPECT_EQ(stiff_problem(space, 0).compliance, 0);
-}
-
-TEST(Assemble, StiffLayerIsEquation23) {
-  for (const SpaceOn& space : two_square_spaces(4, {&p1(), &crouzeix_raviart()})) {
-    const VariationalInequality problem = stiff_problem(space, 0.1);
-    // u = 2 x + 3 y: a1(u, u) = body 4 + 9, layer 4; a0(u, u) = layer 9
-    const Eigen::VectorXd u = 2 * space.points().col(0) + 3 * space.points().col(1);
-    const Eigen::VectorXd bu = problem.b * u;
-    EXPECT_NEAR(u.dot(problem.a1 * u), 17, 1e-11) << space.name;
-    EXPECT_NEAR(bu.dot(problem.m.cwiseProduct(bu)), 9, 1e-11) << space.name;
-    EXPECT_NO_THROW(check(problem));
-  }
-}
-
-TEST(Assemble, ThinLayerIsEquation22) {
-  constexpr double epsilon = 0.125;
-  for (const TriangleMesh& mesh : {structured_mesh(8, {epsilon}), unstructured_mesh(8, {epsilon})}) {
-    const Space space(mesh, p1());
-    const VariationalInequality problem = assemble(Scene({paper_load}, ThinLayer{epsilon}), space);
-    const Eigen::VectorXd u = 2 * space.points().col(0) + 3 * space.points().col(1);
-    EXPECT_NEAR(u.dot(problem.a1 * u), 13 + 13, 1e-10);  // layer: 1/epsilon times its area epsilon
-    EXPECT_EQ(problem.b.rows(), 0);
-    EXPECT_NO_THROW(check(problem));
-  }
-}
-
-TEST(Assemble, VentcelIsTheBodyAndTheTermOnSigma) {
-  const SpaceOn space(structured_mesh(4, {0}), p1());
-  const VariationalInequality with = assemble(Scene({paper_load}, VentcelLayer{}), space);
-  const VariationalInequality without = assemble(Scene({paper_load}), space);
-  EXPECT_LT((Eigen::MatrixXd(with.a1) - Eigen::MatrixXd(without.a1) - Eigen::MatrixXd(ventcel_form(space)))
-                .cwiseAbs()
-                .maxCoeff(),
-            1e-14);
-  const Eigen::VectorXd y = space.points().col(1);
-  EXPECT_NEAR(y.dot(without.a1 * y), 1, 1e-13);
-}
-
-TEST(Assemble, AnAbsentEffectLeavesNothingBehind) {
-  const TriangleMesh body = structured_mesh(4, {0}), both = structured_mesh(4);
-  const VariationalInequality none = assemble(Scene({paper_load}), Space(body, p1()));
-  EXPECT_EQ(none.b.rows(), 0);
-  EXPECT_EQ(none.m.size(), 0);
-  EXPECT_TRUE(none.contact.empty());
-  EXPECT_EQ(none.lower.size(), 0);
-  const VariationalInequality layer = assemble(Scene({paper_load}, StiffLayer{0.1}), Space(both, p1()));
-  EXPECT_EQ(layer.b.rows(), 2 * 16);
-  EXPECT_TRUE(layer.contact.empty());
-  const VariationalInequality contact =
-      assemble(Scene({paper_load}, NoLayer{}, UnilateralContact{}), Space(body, p1()));
-  EXPECT_EQ(contact.b.rows(), 0);
-  EXPECT_EQ(contact.contact.size(), 3U);
-}
-
-TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
-  const TriangleMesh mesh = unstructured_mesh(5);
-  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
-    const Space space(mesh, *element);
-    const auto problem = stiff_problem(space, 0.1, {[](double x) { return 0.5 * x; }});
-    ASSERT_EQ(problem.contact, space.contact());
-    for (Eigen::Index i = 0; i < problem.lower.size(); ++i)
-      EXPECT_EQ(problem.lower(i), -0.5 * space.points()(problem.contact[i], 0));
-  }
-  const Space space(mesh, p1());
-  expect_refused([&] { stiff_problem(space, 0.1, {[](double x) { return x > 0 && x < 1 ? nan : 0; }}); },
-                 "is not finite");
-}
-
-TEST(Assemble, ClampsTheSidesAndTheTopAtZero) {
-  const SpaceOn space(unstructured_mesh(4), crouzeix_raviart());
-  const VariationalInequality problem = stiff_problem(space, 0.1);
-  EXPECT_EQ(problem.fixed, space.clamped());
-  EXPECT_EQ(problem.fixed_values, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(space.clamped().size())));
-}
+// ==== Malformed problems are refused before any solver sees them.
 
 TEST(ChoosePenalty, IsInTheUnitsOfCompliance) {
   // A1 times s: the same problem at compliance / s. B times s, or M times s^2: at compliance s^2.
@@ -105,14 +32,6 @@ TEST(ChoosePenalty, IsInTheUnitsOfCompliance) {
   }
   for (const double penalty : {0.0, -1.0, std::nan(""), infinity})
     expect_refused([&] { moderate_delta(problem, penalty); }, "accepted: a positive number");
-}
-
-TEST(Assemble, RefusesASceneThatDoesNotFitItsMesh) {
-  const TriangleMesh body = structured_mesh(3, {0}), both = structured_mesh(3);
-  expect_refused([&] { assemble(Scene({paper_load}, StiffLayer{0.1}), Space(body, p1())); }, "no group layer");
-  expect_refused([&] { assemble(Scene({paper_load}, ThinLayer{0.1}), Space(body, p1())); }, "no group layer");
-  expect_refused([&] { assemble(Scene({paper_load}), Space(both, p1())); }, "no layer");
-  expect_refused([&] { assemble(Scene({paper_load}, VentcelLayer{}), Space(both, p1())); }, "no layer");
 }
 
 /// A good problem, spoilt in one place.
@@ -178,6 +97,112 @@ TEST(Check, TakesAnA1OfZerosWhereBHoldsEverything) {
   // A1 alone may be singular: here it is empty, and B' M B = I
   EXPECT_NO_THROW(
       check(small_problem(Eigen::Matrix2d::Zero(), Eigen::Vector2d::Ones(), {}, Eigen::Matrix2d::Identity())));
+}
+
+// ==== Projected forms.
+
+double slope(const std::vector<double>& values) { return std::log2(values.front() / values.back()); }
+
+TEST(Projected, WithSharesOfOneIsTheSameProblem) {
+  const SpaceOn space(unstructured_mesh(8), p1());
+  for (const double epsilon : {0.9, 0.1, 1e-6, 1e-20, 0.0})
+    for (const double kept : {0.0, 0.5, 0.9}) {
+      const VariationalInequality problem = stiff_problem(space, epsilon);
+      const Eigen::VectorXd u = active_set(problem).u;
+      Shares identity(problem.m.size(), problem.m.size());
+      identity.setIdentity();
+      const Eigen::VectorXd same = active_set(projected(problem, identity, kept)).u;
+      EXPECT_LT((same - u).lpNorm<Eigen::Infinity>(), 1e-9 * u.lpNorm<Eigen::Infinity>()) << epsilon << " " << kept;
+    }
+}
+
+TEST(Projected, IsAsCoerciveAsThePartThatIsKept) {
+  // (H1): a1 + kept a0 + (1 - kept) a0_h >= kept (a1 + a0). Nothing kept, a zigzag across the layer costs h^2.
+  std::vector<double> nothing, half;
+  for (const int n : {4, 8, 16}) {
+    const TriangleMesh mesh = structured_mesh(n);
+    const Space space(mesh, p1());
+    const Shares boxes = box_shares(mesh, layer_strain(space), 2.0 / n, 2.0 / n);
+    const VariationalInequality problem = stiff_problem(space, 1);
+    const SparseMatrix norm = h1_norm(space);
+    nothing.push_back(coercivity(projected(problem, boxes), norm));
+    half.push_back(coercivity(projected(problem, boxes, 0.5), norm));
+    EXPECT_GE(half.back(), 0.5 * coercivity(problem, norm)) << n;
+  }
+  EXPECT_NEAR(slope(nothing), 4, 0.6);  // two halvings of h
+  EXPECT_LT(slope(half), 0.2);
+}
+
+TEST(Projected, SurvivesEveryContactAtEveryEpsilon) {
+  const TriangleMesh mesh = unstructured_mesh(16);
+  const Space space(mesh, p1());
+  const Shares boxes = box_shares(mesh, layer_strain(space), 0.125, 0.125);
+  for (const double epsilon : {1.0, 1e-2, 1e-6, 1e-20, 0.0}) {
+    VariationalInequality problem = stiff_problem(space, epsilon);
+    const Eigen::VectorXd load = problem.load;
+    const auto solve = [&](double factor, bool one_sign) {
+      problem.load = factor * (one_sign ? Eigen::VectorXd(load.cwiseAbs()) : load);
+      return active_set(projected(problem, boxes, 0.5));
+    };
+    const auto touching = [](const Solution& s) { return std::count(s.active.begin(), s.active.end(), true); };
+    const Solution lifted = solve(1, true), pressed = solve(-1, true), part = solve(1, false), none = solve(0, false);
+    EXPECT_EQ(touching(lifted), 0) << epsilon;
+    EXPECT_EQ(touching(pressed), static_cast<long>(problem.contact.size())) << epsilon;
+    EXPECT_GT(touching(part), 0) << epsilon;
+    EXPECT_LT(touching(part), static_cast<long>(problem.contact.size())) << epsilon;
+    EXPECT_EQ(none.u.norm(), 0) << epsilon;  // gap 0 and force 0 everywhere
+    // a load 1e12 times as large: the same shape
+    EXPECT_LT((solve(1e12, false).u / 1e12 - part.u).norm(), 1e-9 * part.u.norm()) << epsilon;
+  }
+}
+
+TEST(Projected, ALockedUThatComesDownSlowlyIsFollowed) {
+  // Patches leave nothing in K_0h but 0 on the layer, and their rows of B are nearly dependent. A conforming kernel
+  // hides no slope; that of v is a force of size 1, so the norm is round-off.
+  for (const int cells : {16, 32}) {
+    const TriangleMesh mesh = unstructured_mesh(cells);
+    const Space space(mesh, p1());
+    const FactoredForm strain = layer_strain(space);
+    const auto patches = projected(stiff_problem(space, 1), vertex_shares(mesh, strain, strain_rule(p1())), 0.5);
+    const auto slope = load_vector(
+        space, [](double x, double y) { return std::sin(std::numbers::pi * x) * std::cos(std::numbers::pi * y); },
+        Region::layer);
+    EXPECT_LT(dual_norm(patches, h1_norm(space), slope, true), 1e-6) << cells;
+  }
+}
+
+TEST(Projected, RefusesWhatCannotBeKept) {
+  EXPECT_EQ(projected_compliance(0.25, 0), 0.25);
+  EXPECT_EQ(projected_compliance(1, 0.5), 1);
+  EXPECT_EQ(projected_compliance(0, 0.5), 0);
+  expect_refused([] { projected_compliance(0.5, 1); }, "kept = 1; accepted");
+  expect_refused([] { projected_compliance(0.5, -0.1); }, "kept = -0.1; accepted");
+  expect_refused([] { projected_compliance(2, 0.5); }, "compliance 2 with kept = 0.5");
+  expect_refused([] { projected_compliance(NAN, 0.5); }, "compliance nan");
+}
+
+// ==== Problems whose contact set is held.
+
+TEST(HeldInContact, HasTheSameSolution) {
+  const TriangleMesh mesh = block(8);
+  for (const Element* element : {&p1_bubble(), &crouzeix_raviart()})
+    for (const double epsilon : {1.0, 1e-6, 0.0}) {
+      const Space space(mesh, *element);
+      const VariationalInequality problem = rubber(space, element->conforming(), epsilon);
+      const Solution solution = active_set(problem);
+      const VariationalInequality held = held_in_contact(problem, solution.active);
+      EXPECT_TRUE(held.contact.empty());
+      EXPECT_TRUE(std::is_sorted(held.fixed.begin(), held.fixed.end()));
+      EXPECT_LT((active_set(held).u - solution.u).lpNorm<Eigen::Infinity>(), 1e-9) << element->name() << epsilon;
+    }
+}
+
+TEST(HeldInContact, RefusesWhatDoesNotFit) {
+  const SpaceOn space(block(4), p2());
+  VariationalInequality problem = rubber(space, true);
+  expect_refused([&] { held_in_contact(problem, {true}); }, "1 marks; accepted: 9");
+  problem.upper = Eigen::VectorXd::Constant(problem.lower.size(), 1);
+  expect_refused([&] { held_in_contact(problem, std::vector<bool>(9)); }, "held_in_contact: upper bounds");
 }
 
 }  // namespace antilock::test::problem_test

@@ -14,10 +14,10 @@ EXAMPLES = {
     "space/space.hpp": ("unit/space_test.cpp", "Space, CrouzeixRaviartUnknownsAreEdgeMidpoints"),
     "problem/variational_inequality.hpp": ("unit/problem_test.cpp", "Check, TakesAnA1OfZerosWhereBHoldsEverything"),
     "solve/active_set.hpp": ("unit/solve_test.cpp", "ActiveSet, LimitProblemOnAStructuredMeshIsVentcels"),
-    "solve/contact.hpp": ("unit/contact_problem_test.cpp", "ContactProblem, AWrongSideCostsAStepPerPiece"),
-    "analysis/locking.hpp": ("unit/locking_diagnosis_test.cpp", "LockingDiagnosis, FindsThatAHalfIsHeld"),
-    "analysis/certificate.hpp": ("unit/certificate_test.cpp", "Certificate, BoundsTheEnergyOfAScaledSolution"),
-    "analysis/lost_energy.hpp": ("unit/lost_energy_test.cpp", "LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),
+    "solve/contact.hpp": ("unit/solve_test.cpp", "ContactProblem, AWrongSideCostsAStepPerPiece"),
+    "analysis/locking.hpp": ("unit/analysis_test.cpp", "LockingDiagnosis, FindsThatAHalfIsHeld"),
+    "analysis/certificate.hpp": ("unit/analysis_test.cpp", "Certificate, BoundsTheEnergyOfAScaledSolution"),
+    "analysis/lost_energy.hpp": ("unit/analysis_test.cpp", "LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),
     "adapt/solve_to.hpp": ("unit/adapt_test.cpp", "SolveTo, TakesTheVentcelLayerForTheRigidLimit"),
 }
 
