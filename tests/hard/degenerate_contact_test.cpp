@@ -6,6 +6,7 @@
 #include "hard/quad_reference.hpp"
 #include "support/random_contact.hpp"
 #include "support/scenes.hpp"
+#include "support/small_problem.hpp"
 
 namespace antilock::hard::degenerate_contact_test {
 
@@ -224,8 +225,31 @@ bool plain_settles(const Eigen::MatrixXd& s, const Eigen::VectorXd& q) {
   return false;
 }
 
+/// Notes every v that solve_contact moves from.
+class Watched : public ContactSystem {
+ public:
+  explicit Watched(DenseContact& system) : ContactSystem(system.bounded()), system_(system) {}
+  Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override {
+    Equilibrium now = system_.solve(held, given);
+    w_ = now.v;
+    return now;
+  }
+  double square(const Eigen::VectorXd& way) const override {
+    if (w_.size() > 0) from.emplace_back(w_ - way);
+    w_.resize(0);  // asked again of the same w: how far to go
+    return system_.square(way);
+  }
+  Pieces nested_start(const Stairs& stairs, int max_steps) override { return system_.nested_start(stairs, max_steps); }
+  mutable std::vector<Eigen::VectorXd> from;
+
+ private:
+  DenseContact& system_;
+  mutable Eigen::VectorXd w_;
+};
+
 // Off Gamma_C of an elastic body nothing promises that the plain method ends: for a random symmetric positive definite
-// matrix it cycles now and then. The safeguarded one ends every time, with every condition met.
+// matrix it cycles now and then. The safeguarded one ends every time, with every condition met, and J = v' S v / 2 - q' v
+// never rises on its way once v stands above its bounds, whatever it was let go from.
 TEST(Cycling, RandomComplementarityProblemsAllEnd) {
   test::RandomContact contact;
   int cycles = 0, most = 0;
@@ -235,6 +259,7 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
     const Eigen::MatrixXd& s = contact.s;
     const Eigen::VectorXd &q = contact.q, &lower = contact.lower;
     DenseContact dense(s, q);
+    Watched watched(dense);
     HeldFactor k;
     ASSERT_FALSE(k.factorise(Eigen::MatrixXd(s.triangularView<Eigen::Upper>()).sparseView()));
     std::vector<int> bounded(n);
@@ -242,7 +267,7 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
     SparseContact sparse(k, q, bounded);
     cycles += !plain_settles(s, q);
     for (const bool start : {false, true})
-      for (ContactSystem* system : {static_cast<ContactSystem*>(&dense), static_cast<ContactSystem*>(&sparse)}) {
+      for (ContactSystem* system : {static_cast<ContactSystem*>(&watched), static_cast<ContactSystem*>(&sparse)}) {
         const ContactAnswer answer =
             solve_contact(*system, {lower}, Pieces(n, start ? Piece::at_lower : Piece::between), 500);
         most = std::max(most, answer.steps);
@@ -251,12 +276,32 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
         EXPECT_GE(answer.v.minCoeff(), -1e-6 * v_scale) << trial;
         EXPECT_GE((s * answer.v - q).minCoeff(), -1e-10 * f_scale) << trial;
         EXPECT_LE(answer.v.cwiseProduct(answer.lambda).lpNorm<Eigen::Infinity>(), 1e-10 * v_scale * f_scale) << trial;
+        double before = test::infinity;
+        for (const Eigen::VectorXd& v : std::exchange(watched.from, {})) {
+          const double j = v.dot(s * v) / 2 - q.dot(v), terms = v.cwiseAbs().dot(s.cwiseAbs() * v.cwiseAbs());
+          EXPECT_LE(j, before + 2e-15 * terms) << trial;  // measured: 1.2e-16
+          if (v.minCoeff() >= 0) before = j;
+        }
       }
   }
   EXPECT_GE(cycles, 3) << "the plain method must cycle somewhere, else this test tests nothing";
   RecordProperty("plain_cycles", cycles);
   RecordProperty("most_steps", most);
   EXPECT_LE(most, 200);
+}
+
+// A bound held by the neighbour's force lets go under a pull of 5e-11 of the forces there: that is no round-off, 1e-14.
+TEST(Cycling, APullFarBelowTheForcesLetsGo) {
+  const Eigen::MatrixXd s = test::chain(2);
+  for (const double off : {1e-6, 1e-10}) {
+    const Eigen::VectorXd q = Eigen::Vector2d(off - 1, -5), lower = Eigen::Vector2d(0, 1);
+    DenseContact dense(s, q);
+    HeldFactor k;
+    ASSERT_FALSE(k.factorise(Eigen::MatrixXd(s.triangularView<Eigen::Upper>()).sparseView()));
+    SparseContact sparse(k, q, {0, 1});
+    for (ContactSystem* system : {static_cast<ContactSystem*>(&dense), static_cast<ContactSystem*>(&sparse)})
+      EXPECT_NEAR(solve_contact(*system, {lower}, Pieces(2, Piece::at_lower), 10).v(0), off / 2, 1e-15);
+  }
 }
 
 TEST(Cycling, TheCapIsAFailure) {

@@ -113,9 +113,37 @@ TEST(NothingInSilence, WhatNoUCanMeetIsRefusedUnderAnyLoad) {
         VariationalInequality problem =
             small_problem(chain(3), force, Eigen::Vector2d(0.05, -1), Eigen::RowVector3d(1, 0, 0), 0);
         problem.contact[1] = 2;
-        EXPECT_THROW(active_set(problem), NotConverged) << sign * load << " at " << at;
-        EXPECT_THROW(active_set(mirrored(problem)), NotConverged) << sign * load << " at " << at;
+        // by the certificate: a refusal after all corrections begins otherwise
+        test::expect_refused([&] { active_set(problem); }, "active set: infeasible: after");
+        test::expect_refused([&] { active_set(mirrored(problem)); }, "active set: infeasible: after");
       }
+}
+
+// B says u_i = a_i w_i for springs of stiffness 1, the bounds u_i >= 1: w_i = 1 / a_i, reached in dozens of corrections.
+// On the way no u of its size is admissible, and that is no reason to refuse.
+TEST(NothingInSilence, AUThatMustBeGreatIsFound) {
+  constexpr int rows = 9;
+  Eigen::MatrixXd b = Eigen::MatrixXd::Identity(rows, 2 * rows);
+  Eigen::VectorXd w(rows);
+  for (int i = 0; i < rows; ++i) b(i, rows + i) = -1 / (w(i) = i < 8 ? std::pow(10, i / 8.0) : 1000);
+  ActiveSetOptions options;
+  options.penalty = 1;
+  const Solution s = active_set(small_problem(Eigen::MatrixXd::Identity(2 * rows, 2 * rows),
+                                              Eigen::VectorXd::Zero(2 * rows), Eigen::VectorXd::Ones(rows), b, 0),
+                                options);
+  EXPECT_GT(s.counters.corrections, 15);
+  EXPECT_LT((s.u.tail(rows) - w).lpNorm<Eigen::Infinity>(), 1e-10 * 1000);
+}
+
+// Corrections that shrink by `rate` each: u is off by the sum of those to come.
+TEST(NothingInSilence, TheErrorIsThatOfAllCorrectionsToCome) {
+  for (const double rate : {0.1, 0.5, 0.9}) {
+    double to_come = 0, correction = 1e-3;
+    for (int k = 0; k < 1000; ++k) to_come += correction *= rate;
+    const Accuracy now = accuracy(small_problem(chain(3), Eigen::Vector3d::Ones()), Twice(Eigen::Vector3d(2, 1, 0)),
+                                  Eigen::Vector3d(0, 1e-3, 0), {}, rate, 0, {});
+    EXPECT_NEAR(now.error / (to_come / 2), 1, 1e-13) << rate;
+  }
 }
 
 TEST(NothingInSilence, RowsThatAreNearlyDependentAreWarnedOf) {

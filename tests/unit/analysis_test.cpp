@@ -1014,6 +1014,19 @@ TEST(LostEnergy, IsAllWhereALockedLayerIsPressedIn) {
   EXPECT_EQ(lost_on(unstructured_mesh(8), p1(), test::stiff_scene(1e-6, pressed)).share, 1);
 }
 
+// Pressed in by g sin(pi x) below a body that does not give way: v_0 is not admissible, and the motion is |v - v_0|^2 / 2.
+// v = sinh(k y) / sinh(k) of that, k = pi epsilon: g^2 k coth(k) / (4 epsilon^2), nearly all of it in the stiff form.
+TEST(LostEnergy, ItsMotionIsTheEnergyOfALayerThatIsPressedIn) {
+  const Body rigid{[](double, double) { return 0.0; }, [](double, double) { return 1e6; }};
+  const UnilateralContact pressed{[](double x) { return -0.1 * std::sin(std::numbers::pi * x); }};
+  for (const double epsilon : {0.3, 0.1, 0.03}) {
+    const Scene scene(rigid, StiffLayer{epsilon}, pressed);
+    const double k = std::numbers::pi * epsilon, law = 0.01 * k / (4 * epsilon * epsilon * std::tanh(k));
+    // columns that are affine in y: 0.2 % at 1/h = 16
+    EXPECT_NEAR(lost_on(unstructured_mesh(16), p2(), scene).energy.motion / law, 1, 0.005) << epsilon;
+  }
+}
+
 TEST(LostEnergy, IsNoneWhereTheObstacleHoldsTheLayer) {
   // pressed down everywhere: the layer has nowhere to go, and a locked layer is the right one
   const Scene down({[](double x, double) { return -10 * std::sin(std::numbers::pi * x); }}, StiffLayer{1e-6},

@@ -59,11 +59,12 @@ void descend(const ContactSystem& system, std::vector<Move>& beyond, const Eigen
   const double first = beyond.front().reached, lowest = (1 - first) * (1 - first) * system.square(way);
   Eigen::VectorXd next;
   double part = 1;
-  for (std::size_t stopped = beyond.size();; stopped /= 2, part = beyond[stopped - 1].reached) {
+  for (std::size_t stopped = beyond.size();; part = beyond[stopped - 1].reached) {
     next = v + part * way;
     for (const Move& m : beyond)
       if (m.reached <= part) next(place[m.bound]) = m.end;
-    if (stopped == 1 || system.square(w - next) < lowest) break;
+    if (part == first || system.square(w - next) < lowest) break;
+    stopped = std::max<std::size_t>(stopped / 2, 1);
   }
   for (const Move& m : beyond)
     if (m.reached <= part) pieces[m.bound] = m.to;
