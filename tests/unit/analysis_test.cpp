@@ -1008,10 +1008,54 @@ TEST(LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh) {
   }
 }
 
-// The obstacle presses the layer in, and a locked layer cannot give way: J(u_h) is far above what the motion is worth.
+// Without a load v = 0, and a needle of the obstacle, which no unknown sees, lifts it: in a layer of stiffness S, beside
+// which the body's 1 does not count, the price is S / 2 times the square of the slope beside the lifted ends, closed form.
+TEST(LostEnergy, PaysForLiftingWhatTheUnknownsDoNotSee) {
+  constexpr double needle = 0.01, h = 1.0 / 8, stiffness = 1e6;
+  const auto proved = [&](const TriangleMesh& mesh, const Element& element, double floor, double ceiling, double at) {
+    const auto bound = [=](double height, double otherwise) -> Profile {
+      return [=](double x) { return std::abs(x - at) < 1e-3 ? height : otherwise; };
+    };
+    const UnilateralContact contact{bound(-floor, 1), {0, 1}, bound(ceiling, 1)};
+    return lost_on(mesh, element, Scene({[](double, double) { return 0.0; }}, StiffLayer{0.1, stiffness}, contact))
+        .energy.proved;
+  };
+  const TriangleMesh mesh = unstructured_mesh(8);
+  for (const Element* element : {&p1(), &p2(), &p3()})
+    for (const auto& [at, lifted] : {std::pair(3 * h + 14 * h / 32, needle), {28 * h / 32, needle * 32 / 28}}) {
+      const double price =
+          stiffness * lifted * lifted / h;  // two edges beside: those of the ends, or of the one free end
+      EXPECT_NEAR(proved(mesh, *element, needle, 1, at) / -price, 1, 1e-3) << element->name() << at;
+      EXPECT_NEAR(proved(mesh, *element, -1, -needle, at) / -price, 1, 1e-3) << element->name() << at;
+      EXPECT_EQ(proved(mesh, *element, needle, -needle, at), -test::infinity) << "no room between";
+    }
+  // clamped sides that lean over Sigma hold what is below them
+  TriangleMesh leaning = mesh;
+  for (int v = 0; v < leaning.vertex_count(); ++v)
+    if (const double y = leaning.vertices(v, 1); y > 0)
+      leaning.vertices(v, 0) += y * (0.5 - leaning.vertices(v, 0)) / 2;
+  EXPECT_EQ(proved(leaning, p1(), needle, 1, 1.5 * h), -test::infinity);
+  EXPECT_GT(proved(leaning, p1(), needle, 1, 4.5 * h), -2 * stiffness * needle * needle / h);
+}
+
+// The obstacle presses the layer in, and a locked layer cannot give way: J(u_h) is far above what the motion is worth. At
+// 0.2 even J(v) is above J(v_0), whose layer is straight.
 TEST(LostEnergy, IsAllWhereALockedLayerIsPressedIn) {
-  const UnilateralContact pressed{[](double x) { return -0.02 * std::sin(std::numbers::pi * x); }};
-  EXPECT_EQ(lost_on(unstructured_mesh(8), p1(), test::stiff_scene(1e-6, pressed)).share, 1);
+  for (const double depth : {0.02, 0.2}) {
+    const UnilateralContact pressed{[=](double x) { return -depth * std::sin(std::numbers::pi * x); }};
+    const Lost found = lost_on(unstructured_mesh(8), p1(), test::stiff_scene(1e-6, pressed));
+    EXPECT_EQ(found.share, 1) << depth;
+    EXPECT_EQ(found.report.lost, 1) << depth;
+  }
+}
+
+// A layer that bears on the obstacle at a distance: held straight it would do work on the contact forces as well.
+TEST(LostEnergy, IsAShareOfWhatTheContactForcesTakeToo) {
+  const UnilateralContact deep{[](double) { return 0.03; }};
+  for (const double epsilon : {0.05, 0.1}) {
+    const Lost found = lost_on(unstructured_mesh(16), p1(), test::stiff_scene(epsilon, deep));
+    EXPECT_NEAR(found.share, found.by_solving, 0.004) << epsilon;
+  }
 }
 
 // Pressed in by g sin(pi x) below a body that does not give way: v_0 is not admissible, and the motion is |v - v_0|^2 / 2.

@@ -9,9 +9,9 @@
 //
 //       int (d_x v)^2 <= height / 2 (its values at the upper and at the lower end),
 //
-//   and the sum over the rows takes the values at the rows' ends alone. d_y v is a difference / height, squared at the
-//   nodes of Lobatto's rule up to degree 2, where those are the nodes of u_h: that is not less than the integral, and P1
-//   on columns. At Gauss points beyond.
+//   and the sum over the rows takes the values at the rows' ends alone. d_y v is a difference / height. Its square is
+//   summed at the ends of the edges for P1, which is not less than the integral, and as P1 has it in columns, and at
+//   Gauss's points beyond.
 // (22) is the same problem after y -> y / epsilon, (23). J is smallest over these v: a variational inequality with few
 // unknowns.
 //
@@ -121,6 +121,7 @@ RowMatrix hats(const Points& at, const Line& sigma, const std::vector<char>& in_
   for (auto& [y, row] : rows) row.first = std::exchange(count, count + static_cast<int>(row.x.size()));
   Indices begin{0}, column;
   std::vector<double> value;
+  column.reserve(4 * at.rows()), value.reserve(4 * at.rows());
   const auto add = [&](int v, const Row& row, double weight) {
     const double x = at(v, 0);
     if (weight == 0 || x < row.x(0) || x > row.x(row.x.size() - 1)) return;
@@ -130,11 +131,11 @@ RowMatrix hats(const Points& at, const Line& sigma, const std::vector<char>& in_
         column.push_back(row.first + hat + side), value.push_back(here);
   };
   for (int v = 0; v < at.rows(); ++v) {
-    const double y = sigma.place[v] < 0 ? std::max(at(v, 1), 0.0) : 0;
-    if (in_body[v] && y == 0) {
-      add(v, rows.begin()->second, 1);
+    const double y = std::max(at(v, 1), 0.0);
+    if (in_body[v] && sigma.place[v] >= 0) {
+      column.push_back(sigma.place[v]), value.push_back(1);
     } else if (in_body[v]) {
-      const auto above = rows.lower_bound(y), under = std::prev(above);
+      const auto above = y > 0 ? rows.lower_bound(y) : std::next(rows.begin()), under = std::prev(above);
       const double s = (y - under->first) / (above->first - under->first);
       add(v, under->second, 1 - s);
       add(v, above->second, s);
@@ -292,16 +293,20 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   strip.load = Eigen::VectorXd::Zero(size);
   strip.load.head(points) = body.force;
   std::vector<Eigen::Triplet<double>> a1, b;
-  std::vector<double> m;
+  a1.reserve(static_cast<std::size_t>(points) * points + 2 * (degree + 1) * (degree + 1) * edges * rows);
   for (int i = 0; i < points; ++i)
     for (int j = 0; j < points; ++j) a1.emplace_back(i, j, (body.form(i, j) + body.form(j, i)) / 2);
   const Eigen::VectorXd nodes = Eigen::VectorXd::LinSpaced(degree + 1, 0, 1);
   auto [at, weights] = gauss_rule(degree + 1);
-  if (degree == 1) at = nodes, weights << 0.5, 0.5;
-  if (degree == 2) at = nodes, weights << 1.0 / 6, 4.0 / 6, 1.0 / 6;
+  const bool at_ends =
+      degree == 1;  // a row of B per end, of which two edges have a half each; else one per point and edge
+  if (at_ends) at = nodes, weights << 0.5, 0.5;
   const Trace trace = trace_at(nodes, at);
   const Eigen::MatrixXd form = trace.slope.transpose() * weights.asDiagonal() * trace.slope;
-  for (const Indices& edge : sigma.edge) {
+  const int b_rows = at_ends ? points : edges * (degree + 1);
+  strip.m = Eigen::VectorXd::Zero(rows * b_rows);
+  for (int e = 0; e < edges; ++e) {
+    const Indices& edge = sigma.edge[e];
     const double dx = sigma.x[edge.back()] - sigma.x[edge.front()];
     const Eigen::VectorXd on_edge = base(edge), pull = s / dx * form * on_edge;
     left_in_layer -= pull.dot(on_edge) / 2;
@@ -312,12 +317,13 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
           for (int j = 0; j <= degree; ++j)
             a1.emplace_back(unknown(edge[i], end), unknown(edge[j], end), height / 2 * s / dx * form(i, j));
         }
-      for (Eigen::Index q = 0; q < at.size(); ++q) {
-        for (int i = 0; i <= degree; ++i) {
-          b.emplace_back(static_cast<int>(m.size()), unknown(edge[i], row), rows * trace.value(q, i));
-          b.emplace_back(static_cast<int>(m.size()), unknown(edge[i], row + 1), -rows * trace.value(q, i));
+      for (int q = 0; q <= degree; ++q) {
+        const int at_row = row * b_rows + (at_ends ? edge[q] : e * (degree + 1) + q);
+        for (int i = 0; i <= degree && strip.m(at_row) == 0; ++i) {
+          b.emplace_back(at_row, unknown(edge[i], row), rows * trace.value(q, i));
+          b.emplace_back(at_row, unknown(edge[i], row + 1), -rows * trace.value(q, i));
         }
-        m.push_back(s * height * dx * weights(q));
+        strip.m(at_row) += s * height * dx * weights(q);
       }
     }
   }
@@ -342,9 +348,8 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   }
   strip.a1.resize(size, size);
   strip.a1.setFromTriplets(a1.begin(), a1.end());
-  strip.b.resize(static_cast<Eigen::Index>(m.size()), size);
+  strip.b.resize(strip.m.size(), size);
   strip.b.setFromTriplets(b.begin(), b.end());
-  strip.m = Eigen::Map<Eigen::VectorXd>(m.data(), strip.b.rows());
   strip.compliance = *epsilon * *epsilon;
   for (int row = 0; row <= rows; ++row)
     for (int i = 0; i < points; ++i) {
