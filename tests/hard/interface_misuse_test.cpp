@@ -71,21 +71,6 @@ TEST(InterfaceMisuse, TheWayToAnAnswerMayBeLong) {
   }
 }
 
-TEST(InterfaceMisuse, AFrictionWithoutLimitSticksInEveryElement) {
-  const TriangleMesh mesh = with_free_sides(structured_mesh(4, {0}));
-  for (const char* name : {"P1", "P2", "CR"})
-    for (const double g : {1e300, infinity}) {
-      const Space space(mesh, element(name));
-      const PlaneStrain scene{Press{.friction = [g](double) { return g; }}, 0.1};
-      const VariationalInequality problem = assemble(scene, {space, space});
-      const Eigen::VectorXd u = active_set(problem).u;
-      for (const int i : problem.contact)
-        if (i < space.size()) {
-          EXPECT_LT(std::abs(u(i)), 1e-14) << name;
-        }
-    }
-}
-
 TEST(InterfaceMisuse, TheSpacesOfOneBodyHaveOneMesh) {
   const TriangleMesh coarse = structured_mesh(2, {0}), fine = structured_mesh(4, {0});
   const Space a(coarse, p1()), b(fine, p1()), c(coarse, p2());

@@ -16,55 +16,30 @@ std::vector<Setting> settings() {
           {unstructured_mesh(16), &crouzeix_raviart()}};
 }
 
-// The sum A1 + epsilon^-2 A0 rounds A1 by eps / epsilon^2, and so the equations hold to a small multiple of that. Measured
-// with seven kernels of OpenBLAS: up to 4.6 eps / epsilon^2; the bound is 14 times that.
-TEST(Naive, IsRightWhereEpsilonIsModerate) {
-  for (const Setting& s : settings()) {
-    const Space space(s.mesh, *s.element);
-    for (const double epsilon : {1.0, 1e-1, 1e-2}) {
-      const double rounded = std::numeric_limits<double>::epsilon() / (epsilon * epsilon);
-      const VariationalInequality problem = test::stiff_problem(space, epsilon);
-      for (const SummedFactor kind : {SummedFactor::cholesky, SummedFactor::lu}) {
-        const NaiveAnswer answer = naive_summed_solve(problem, kind);
-        EXPECT_EQ(answer.end, NaiveEnd::settled);
-        EXPECT_LT(test::relative_difference(answer.solution.u, active_set(problem).u), 1e-9);  // rounded: 2e-12 at 1e-2
-        EXPECT_LT(worst_violation(answer.solution.kkt), 64 * rounded) << answer.solution.solver << " at " << epsilon;
-      }
-    }
-  }
-}
-
-TEST(Naive, FailsBelow1e8InEverySettingAndSaysSoOnlySometimes) {
-  int silent = 0;
-  for (const Setting& s : settings()) {
-    const Space space(s.mesh, *s.element);
-    for (const double epsilon : {1e-9, 1e-10, 1e-12, 1e-16}) {
-      const VariationalInequality problem = test::stiff_problem(space, epsilon);
-      const Eigen::VectorXd right = active_set(problem).u;
-      for (const SummedFactor kind : {SummedFactor::cholesky, SummedFactor::lu}) {
-        const NaiveAnswer answer = naive_summed_solve(problem, kind);
-        EXPECT_GT(test::relative_difference(answer.solution.u, right), 0.1)
-            << answer.solution.solver << " at " << epsilon;
-        silent += answer.end == NaiveEnd::settled;
-      }
-    }
-  }
-  EXPECT_GE(silent, 1) << "garbage that looks like success is the point of the exhibit";
-}
-
-// The layers of trust: an answer off by more than 1e-6 carries at least a warning, one off by more than 1e-3 is
-// refused.
-TEST(Naive, NoWrongAnswerGetsPastTheChecks) {
-  int wrong = 0;
+// The sum A1 + epsilon^-2 A0 rounds A1 by eps / epsilon^2, and so the equations hold to a small multiple of that: measured
+// with seven kernels of OpenBLAS up to 4.6 eps / epsilon^2; the bound is 14 times that. Below 1e-8 nothing is left. An
+// answer off by more than 1e-6 carries at least a warning, one off by more than 1e-3 is refused.
+TEST(Naive, IsRightWhereEpsilonIsModerateAndNoWrongAnswerGetsPastTheChecks) {
+  int wrong = 0, silent = 0;
   for (const Setting& s : settings()) {
     const Space space(s.mesh, *s.element);
     for (int exponent = 0; exponent <= 16; ++exponent) {
       const VariationalInequality problem = test::stiff_problem(space, std::pow(10.0, -exponent));
+      const double rounded = std::numeric_limits<double>::epsilon() / problem.compliance;
       const Eigen::VectorXd right = active_set(problem).u;
       for (const SummedFactor kind : {SummedFactor::cholesky, SummedFactor::lu}) {
         NaiveAnswer answer = naive_summed_solve(problem, kind);
         const double off = test::relative_difference(answer.solution.u, right);
         SCOPED_TRACE(answer.solution.solver + " at 1e-" + std::to_string(exponent) + ", off by " + std::to_string(off));
+        if (exponent <= 2) {
+          EXPECT_EQ(answer.end, NaiveEnd::settled);
+          EXPECT_LT(off, 1e-9);  // rounded: 2e-12 at 1e-2
+          EXPECT_LT(worst_violation(answer.solution.kkt), 64 * rounded);
+        }
+        if (exponent > 8) {
+          EXPECT_GT(off, 0.1);
+          silent += answer.end == NaiveEnd::settled;
+        }
         if (off > 1e-3) {
           ++wrong;
           EXPECT_THROW(certify(problem, answer.solution), NotConverged);
@@ -79,6 +54,7 @@ TEST(Naive, NoWrongAnswerGetsPastTheChecks) {
     }
   }
   EXPECT_GE(wrong, 30) << "the exhibit must contain wrong answers, else this test tests nothing";
+  EXPECT_GE(silent, 1) << "garbage that looks like success is the point of the exhibit";
 }
 
 TEST(Naive, HasNoSumAtEpsilonZeroAndStopsAtItsCap) {

@@ -258,43 +258,4 @@ TEST(SolveTo, QuotesNothingWhileTheBoundRises) {
     }
 }
 
-// The campaign of the certificate on meshes that were refined by its indicators.
-TEST(SolveTo, BoundsNeverLieOnTheirWay) {
-  std::mt19937 random(11);
-  const auto uniform = [&] { return random() / (std::mt19937::max() + 1.0); };
-  int cases = 0;
-  for (const double epsilon : {1.0, 0.3, 1e-1, 1e-2, 1e-4, 1e-8, 0.0})
-    for (int k = 0; k < 3; ++k) {
-      SineLoad load;
-      for (int modes = 1 + k; modes > 0; --modes)
-        load.modes.push_back({1 + static_cast<int>(4 * uniform()), {20 * uniform() - 10, 20 * uniform() - 10}});
-      const Scene scene = scene_of(load, epsilon);
-      const TruthTable truth(Truth(load, epsilon, true, 13));
-      GrowingMesh now;
-      const Growth growth = epsilon > 0.1 || k == 2 ? Growth::bisect : Growth::extrude;
-      now.body = longest_edge_first(unstructured_mesh(4, {growth == Growth::bisect ? 1.0 : 0.0}));
-      now.mesh = growth == Growth::bisect ? now.body : extruded(now.body, epsilon);
-      for (int level = 0; level < 4; ++level) {
-        const Space space(now.mesh, crouzeix_raviart());
-        const VariationalInequality problem = assemble(scene, space);
-        Solution solution = active_set(problem);
-        if (level == 2) {  // not the answer any more
-          std::vector<char> fixed(space.size(), 0);
-          for (const int i : problem.fixed) fixed[i] = 1;
-          for (int i = 0; i < space.size(); ++i) solution.u(i) += fixed[i] ? 0 : 1e-3 * (uniform() - 0.5);
-        }
-        const Companion v = strip_companion(scene, space, problem, solution);
-        const Certificate found = certify(scene, space, problem, solution, {.companion = &v});
-        const auto exact = exact_errors(now.mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
-        EXPECT_GE(found.gradient, exact.gradient) << epsilon << k << level;
-        EXPECT_GE(found.displacement, exact.displacement) << epsilon << k << level;
-        EXPECT_GE(found.stress, exact.stress) << epsilon << k << level;
-        EXPECT_GE(found.indicator.minCoeff(), 0);
-        ++cases;
-        now = grown(now, growth, epsilon, found.indicator);
-      }
-    }
-  EXPECT_EQ(cases, 84);
-}
-
 }  // namespace antilock::test::adapt_test

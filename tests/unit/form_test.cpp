@@ -118,14 +118,6 @@ TEST(Forms, RowsOfBBelongToTheLayerTrianglesAndMMeasuresThem) {
     }
 }
 
-TEST(Forms, BIsTheDerivativeInYOfAnAffineFunction) {
-  for (const SpaceOn& space : two_square_spaces(4, elements())) {
-    const Eigen::VectorXd u = 0.3 + 2 * space.points().col(0).array() - 5 * space.points().col(1).array();
-    const Eigen::VectorXd slopes = layer_strain(space).b * u;
-    EXPECT_LT((slopes.array() + 5).abs().maxCoeff(), 1e-12) << space.name;
-  }
-}
-
 TEST(Forms, EnergyOfAPolynomialOfTheElementsDegreeIsExact) {
   for (const SpaceOn& space : two_square_spaces(3, {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()})) {
     const int k = space.element().degree();

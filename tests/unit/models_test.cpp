@@ -16,12 +16,6 @@ namespace antilock::test::models_test {
 
 // ==== Scenes become discrete inequalities.
 
-TEST(Assemble, ClassParameterIsTheSquareOfEpsilon) {
-  const SpaceOn space(structured_mesh(4), p1());
-  EXPECT_EQ(stiff_problem(space, 0.25).compliance, 0.0625);
-  EXPECT_EQ(stiff_problem(space, 0).compliance, 0);
-}
-
 TEST(Assemble, StiffLayerIsEquation23) {
   for (const SpaceOn& space : two_square_spaces(4, {&p1(), &crouzeix_raviart()})) {
     const VariationalInequality problem = stiff_problem(space, 0.1);
@@ -32,30 +26,6 @@ TEST(Assemble, StiffLayerIsEquation23) {
     EXPECT_NEAR(bu.dot(problem.m.cwiseProduct(bu)), 9, 1e-11) << space.name;
     EXPECT_NO_THROW(check(problem));
   }
-}
-
-TEST(Assemble, ThinLayerIsEquation22) {
-  constexpr double epsilon = 0.125;
-  for (const TriangleMesh& mesh : {structured_mesh(8, {epsilon}), unstructured_mesh(8, {epsilon})}) {
-    const Space space(mesh, p1());
-    const VariationalInequality problem = assemble(Scene({paper_load}, ThinLayer{epsilon}), space);
-    const Eigen::VectorXd u = 2 * space.points().col(0) + 3 * space.points().col(1);
-    EXPECT_NEAR(u.dot(problem.a1 * u), 13 + 13, 1e-10);  // layer: 1/epsilon times its area epsilon
-    EXPECT_EQ(problem.b.rows(), 0);
-    EXPECT_NO_THROW(check(problem));
-  }
-}
-
-TEST(Assemble, VentcelIsTheBodyAndTheTermOnSigma) {
-  const SpaceOn space(structured_mesh(4, {0}), p1());
-  const VariationalInequality with = assemble(Scene({paper_load}, VentcelLayer{}), space);
-  const VariationalInequality without = assemble(Scene({paper_load}), space);
-  EXPECT_LT((Eigen::MatrixXd(with.a1) - Eigen::MatrixXd(without.a1) - Eigen::MatrixXd(ventcel_form(space)))
-                .cwiseAbs()
-                .maxCoeff(),
-            1e-14);
-  const Eigen::VectorXd y = space.points().col(1);
-  EXPECT_NEAR(y.dot(without.a1 * y), 1, 1e-13);
 }
 
 TEST(Assemble, AnAbsentEffectLeavesNothingBehind) {
@@ -220,20 +190,6 @@ TEST(PlaneStrain, IsCoerciveWithOneConstantOnEveryMesh) {
   }
 }
 
-TEST(PlaneStrain, AConfinedBlockIsRefusedWhereItCannotBePushed) {
-  // held all round and pushed by .1: div u = 0 cannot hold. No answer, at any element.
-  const TriangleMesh mesh = structured_mesh(8, Domain{0});
-  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
-    const Spaces spaces(mesh, *element, *element);
-    const auto pushed = [&](double epsilon) {
-      return active_set(assemble(PlaneStrain{Press{}, epsilon}, spaces.both())).lambda.sum();
-    };
-    EXPECT_THROW(pushed(0), NotConverged) << element->name();
-    // a little compressible it can be pushed, with the force of the bulk: about .1 lambda
-    EXPECT_GT(pushed(1e-8), 1e6) << element->name();
-  }
-}
-
 // A uniform strain in the block and another one in the coating, without stress along x in either, is an exact solution at
 // any thickness where the coating's mu' solves  mu' (lambda + mu') = t mu (lambda + mu), lambda' = lambda: the stresses in y
 // agree, s = -4 mu (lambda + mu) a / lambda = -4 mu' (lambda + mu') a / (lambda t), with a = u_x in both.
@@ -334,8 +290,10 @@ TEST(PlaneStrain, SticksToAFloorThatBearsAnything) {
       return active_set(assemble(scene, spaces.both())).u(spaces.x.contact()).cwiseAbs().maxCoeff();
     };
     EXPECT_GT(slip(), 1e-3) << element->name();
-    scene.friction = [](double) { return infinity; };
-    EXPECT_EQ(slip(), 0) << element->name();
+    for (const double most : {1e300, infinity}) {
+      scene.friction = [=](double) { return most; };
+      EXPECT_EQ(slip(), 0) << element->name() << most;
+    }
   }
 }
 

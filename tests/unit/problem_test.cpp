@@ -183,20 +183,6 @@ TEST(Projected, RefusesWhatCannotBeKept) {
 
 // ==== Problems whose contact set is held.
 
-TEST(HeldInContact, HasTheSameSolution) {
-  const TriangleMesh mesh = block(8);
-  for (const Element* element : {&p1_bubble(), &crouzeix_raviart()})
-    for (const double epsilon : {1.0, 1e-6, 0.0}) {
-      const Space space(mesh, *element);
-      const VariationalInequality problem = rubber(space, element->conforming(), epsilon);
-      const Solution solution = active_set(problem);
-      const VariationalInequality held = held_in_contact(problem, solution.active);
-      EXPECT_TRUE(held.contact.empty());
-      EXPECT_TRUE(std::is_sorted(held.fixed.begin(), held.fixed.end()));
-      EXPECT_LT((active_set(held).u - solution.u).lpNorm<Eigen::Infinity>(), 1e-9) << element->name() << epsilon;
-    }
-}
-
 TEST(HeldInContact, RefusesWhatDoesNotFit) {
   const SpaceOn space(block(4), p2());
   VariationalInequality problem = rubber(space, true);

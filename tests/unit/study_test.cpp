@@ -4,7 +4,6 @@
 #include <sstream>
 
 #include "antilock/form/forms.hpp"
-#include "antilock/models/plane_strain.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
@@ -175,19 +174,6 @@ TEST(SweepOfAnyProblem, GivesTheAnswersOfTheBeam) {
   }
   EXPECT_EQ(sweep.total().factorisations, factorisations);
   EXPECT_LT(factorisations, 5);
-}
-
-TEST(SweepOfAnyProblem, GivesTheAnswersOfRubber) {
-  const TriangleMesh mesh = with_free_sides(structured_mesh(6, {0}));
-  const Space x(mesh, p1()), y(mesh, crouzeix_raviart());
-  const VectorSpace space{x, y};
-  PlaneStrain rubber;
-  Sweep sweep(assemble(rubber, space));
-  for (const double epsilon : {1.0, 1e-4, 1e-8, 0.0}) {
-    rubber.epsilon = epsilon;
-    sweep.set_compliance(epsilon);
-    expect_same(sweep.solve(), active_set(assemble(rubber, space)), epsilon);
-  }
 }
 
 TEST(SweepOfAnyProblem, TakesAnotherLoadAndOtherBounds) {
