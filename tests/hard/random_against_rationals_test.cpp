@@ -165,6 +165,11 @@ TEST(NothingInSilence, RowsThatAreNearlyDependentAreWarnedOf) {
   }
 }
 
+// Two rows that differ where u is prescribed, by 4e-12 of it: what no step closes, 1e-12, is below 8 eps of u = 1,180.
+TEST(NothingInSilence, AContradictionBesideAGreatUIsSeen) {
+  EXPECT_THROW(active_set(random_corner(71741)), NotConverged);
+}
+
 // As far as judge.hpp says: up to 200 rows. u_0 = 0, and 1e-12 u_1 is open by 1e-15.
 TEST(NothingInSilence, RowsThatAreNearlyDependentAreLookedForAmongTwoHundred) {
   for (const int rows : {2, 200, 201}) {
@@ -173,7 +178,8 @@ TEST(NothingInSilence, RowsThatAreNearlyDependentAreLookedForAmongTwoHundred) {
     b(1, 1) = 1e-12;
     const double open =
         left_open(small_problem(Eigen::MatrixXd::Identity(rows, rows), Eigen::VectorXd::Zero(rows), {}, b, 0),
-                  1e-15 * Eigen::VectorXd::Unit(rows, 1));
+                  1e-15 * Eigen::VectorXd::Unit(rows, 1), {})
+            .moves;
     EXPECT_NEAR(open, rows <= 200 ? 1e-3 : 0, 1e-6) << rows;  // the rows are 1e-12 apart: known to eps / 1e-12
   }
 }

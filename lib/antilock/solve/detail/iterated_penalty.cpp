@@ -43,21 +43,18 @@ class IteratedPenalty {
       const Correction step = correct(exact_residual(problem_, u_, p_, contact_.lambda));
       const double largest = u_.high.lpNorm<Eigen::Infinity>(), moved = step.u.lpNorm<Eigen::Infinity>();
       if (correction == 0) s_.moderate = largest;
-      const Accuracy now = accuracy(problem_, u_, step.u, step.left_of_r2, rate(moved), s_.moderate, options_);
+      Accuracy now = accuracy(problem_, u_, step.u, step.left_of_r2, rate(moved), s_.moderate, options_);
+      // what is left of a load that a bound can hardly bear is seen by the second residual, and not by the first
+      if (correction == 0 && moved > 0 && problem_.force_bound.size() > 0) now.error = 1;
       s_.history.push_back(largest > 0 ? moved / largest : 0);
       s_.counters.corrections = correction;
       s_.error = now.error;
-      // what is left of a load that a bound can hardly bear is seen by the second residual, and not by the first
-      const bool settled = correction > 0 || moved == 0 || problem_.force_bound.size() == 0;
-      if (settled && now.error <= options_.tolerance && now.open <= 1) return finished(step.left_of_r2);
+      const bool right = now.error <= options_.tolerance && now.open <= 1;
+      if (right || correction >= options_.max_corrections || !std::isfinite(moved)) return finished(step, now);
       const bool slow = correction % tuned::corrections_per_penalty == tuned::corrections_per_penalty - 1;
-      if (slow) require_an_admissible_u(problem_, u_.high, s_);
-      if (correction >= options_.max_corrections || !std::isfinite(moved))
-        throw NotConverged(fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative "
-                                       "error of u is {:.1e}, accepted {:.0e}, and compliance p = B u holds to {:.1e} "
-                                       "of what is accepted",
-                                       s_.solver, correction, now.error, options_.tolerance, now.open),
-                           std::max(now.error, options_.tolerance * now.open), correction);
+      if (slow)
+        require_an_admissible_u(problem_, Eigen::VectorXd(problem_.m.cwiseProduct(problem_.b * u_.high)),
+                                std::max(s_.moderate, largest) / std::sqrt(tuned::eps), s_);
       report(options_.progress, {"corrections", correction + 1, now.error, options_.tolerance}, s_.solver);
       acceleration_.mix(p_, u_);
       if (slow) take_a_smaller_penalty();
@@ -165,7 +162,14 @@ class IteratedPenalty {
     s_.seconds.contact += watch.seconds();
   }
 
-  Solution finished(const Eigen::VectorXd& left_of_r2) {
+  /// The answer, as the judge lets it pass. It throws NotConverged where the last correction is not small enough.
+  Solution finished(const Correction& last, const Accuracy& now) {
+    if (!(now.error <= options_.tolerance && now.open <= 1))
+      throw NotConverged(fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative "
+                                     "error of u is {:.1e}, accepted {:.0e}, and compliance p = B u holds to {:.1e} "
+                                     "of what is accepted",
+                                     s_.solver, s_.counters.corrections, now.error, options_.tolerance, now.open),
+                         std::max(now.error, options_.tolerance * now.open), s_.counters.corrections);
     s_.counters.unknowns = problem_.free_count();
     s_.counters.factorisations = factor_.factorisations();
     s_.counters.solves = s_.counters.corrections + 1;
@@ -176,7 +180,7 @@ class IteratedPenalty {
     s_.u = std::move(u_.high);
     s_.p = std::move(p_.high);
     s_.lambda = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(problem_.bound_count());
-    s_.warning = doubt(problem_, factor_, s_, left_of_r2);
+    s_.warning = doubt(problem_, factor_, s_, last.left_of_r2);
     return std::move(s_);
   }
 
