@@ -182,17 +182,6 @@ TEST(InterfaceMisuse, TablesPassOverNothing) {
   std::filesystem::remove(path);
 }
 
-TEST(InterfaceMisuse, ARefusedGapLeavesTheSweepAsItWas) {
-  const SpaceOn space(structured_mesh(4), p1());
-  UnilateralContact apart;
-  apart.held = {0.25};  // of a body that is clamped elsewhere
-  SceneSweep sweep(Scene(Body{down}, StiffLayer{0.1}, apart), space);
-  expect_refused([&] { sweep.set_gap([](double x) { return x == 0.25 ? -1.0 : 1.0; }); }, "gap(0.25)");
-  expect_refused([&] { sweep.set_gap([](double x) { return x == 0.5 ? nan : 0.0; }); }, "not finite");
-  EXPECT_NO_THROW(sweep.set_load(down));
-  EXPECT_NO_THROW(sweep.solve());
-}
-
 TEST(InterfaceMisuse, AnErrorIsAccurateEnoughForASaneShare) {
   const EnergyBracket bracket{-1, -0.9};
   for (const double bad : {0.0, -1.0, nan, infinity}) {

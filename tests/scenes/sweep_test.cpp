@@ -99,7 +99,7 @@ TEST(Sweep, SharesOneFactorisationBelowThePenalty) {
   EXPECT_EQ(sweep.assembled(), mesh.triangle_count());
 }
 
-TEST(Sweep, LoadsAndGapsShareOneFactorisationAndTheForms) {
+TEST(Sweep, LoadsShareOneFactorisationAndTheForms) {
   const TriangleMesh mesh = structured_mesh(16);
   const Space space(mesh, crouzeix_raviart());
   const int body_triangles = mesh.triangle_count() / 2;
@@ -108,13 +108,11 @@ TEST(Sweep, LoadsAndGapsShareOneFactorisationAndTheForms) {
   sweep.solve();
   for (const double size : {0.5, 2.0, -1.0}) {
     const Field load = [size](double x, double y) { return size * paper_load(x, y); };
-    const Profile gap = [size](double x) { return 0.01 * size * size * x * (1 - x); };
     sweep.set_load(load);
-    sweep.set_gap(gap);
     const Solution swept = sweep.solve();
     EXPECT_EQ(swept.counters.factorisations, 0);
     EXPECT_EQ(sweep.assembled(), assembled += body_triangles);
-    const Scene alone({load}, StiffLayer{1e-3}, UnilateralContact{gap});
+    const Scene alone({load}, StiffLayer{1e-3}, UnilateralContact{});
     EXPECT_LE(test::relative_difference(swept.u, active_set(assemble(alone, space)).u), same) << size;
   }
 }
@@ -142,7 +140,6 @@ TEST(Sweep, RefusesWhatTheSceneDoesNotHave) {
   const Space space(body, p1()), space_with_layer(both, p1());
   SceneSweep ventcel(Scene({paper_load}, VentcelLayer{}), space);
   EXPECT_THROW(ventcel.set_epsilon(0.1), Error);
-  EXPECT_THROW(ventcel.set_gap([](double) { return 1.0; }), Error);
   EXPECT_THROW(ventcel.set_load(Field{}), Error);
   SceneSweep stiff(Scene({paper_load}, StiffLayer{0.1}), space_with_layer);
   EXPECT_THROW(stiff.set_epsilon(-1), Error);

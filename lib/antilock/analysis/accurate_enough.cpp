@@ -33,8 +33,4 @@ AccurateEnough accurate_enough(const EnergyBracket& bracket, double coarser, dou
   return {relative * relative * scale, relative};
 }
 
-CorrectionOptions corrections_until(const AccurateEnough& enough) {
-  return corrections_to(std::max(CorrectionOptions{}.tolerance, enough.relative));
-}
-
 }  // namespace antilock

@@ -20,8 +20,4 @@ EnergyBracket energy_bracket(const Scene& scene, const TriangleMesh& mesh);
 /// nothing, and nothing is enough: both numbers are 0.
 AccurateEnough accurate_enough(const EnergyBracket& bracket, double coarser = 1, double share = 0.05);
 
-/// The same rule for the corrections of active_set: one in place of two where nothing locks. Where the answer's report
-/// is then above the trusted level it says so in its warning.
-CorrectionOptions corrections_until(const AccurateEnough& enough);
-
 }  // namespace antilock

@@ -136,13 +136,6 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
   return errors;
 }
 
-std::vector<double> rates(const std::vector<double>& h, const std::vector<double>& errors) {
-  std::vector<double> orders;
-  for (std::size_t i = 1; i < h.size() && i < errors.size(); ++i)
-    orders.push_back(std::log(errors[i - 1] / errors[i]) / std::log(h[i - 1] / h[i]));
-  return orders;
-}
-
 double slope(const std::vector<double>& h, const std::vector<double>& errors) {
   if (h.size() != errors.size())
     throw Error(fmt::format("slope: {} errors for {} mesh widths; accepted: one per width", errors.size(), h.size()));

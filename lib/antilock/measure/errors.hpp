@@ -35,8 +35,6 @@ struct Errors {
 
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference);
 
-/// Observed orders log(e_i / e_{i+1}) / log(h_i / h_{i+1}); one fewer than the errors.
-std::vector<double> rates(const std::vector<double>& h, const std::vector<double>& errors);
 /// Least-squares slope of log(error) against log(h).
 double slope(const std::vector<double>& h, const std::vector<double>& errors);
 

@@ -28,11 +28,4 @@ void SceneSweep::set_load(const Field& f) {
   assembled_ += static_cast<int>(std::count(region.begin(), region.end(), Region::body));
 }
 
-void SceneSweep::set_gap(const Profile& gap) {
-  if (!scene_.contact()) throw Error("sweep: this scene has no contact; accepted: a scene with an obstacle");
-  const Scene next(scene_.body(), scene_.layer(), UnilateralContact{gap, scene_.contact()->held});  // checks the ends
-  problem_.lower = contact_bounds(*next.contact(), *space_);
-  scene_ = next;
-}
-
 }  // namespace antilock

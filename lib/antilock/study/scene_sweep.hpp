@@ -5,7 +5,7 @@
 
 namespace antilock {
 
-/// One scene on one mesh, asked again and again with another epsilon, load or gap: a Sweep in the
+/// One scene on one mesh, asked again and again with another epsilon or load: a Sweep in the
 /// scene's own words. The space, and its mesh, must outlive it.
 class SceneSweep : public Sweep {
  public:
@@ -16,8 +16,6 @@ class SceneSweep : public Sweep {
   /// epsilon or holds it in its mesh.
   void set_epsilon(double epsilon);
   void set_load(const Field& f);
-  /// Another obstacle; throws Error where the scene has none.
-  void set_gap(const Profile& gap);
 
   int assembled() const { return assembled_; }  ///< triangles walked over by assembly so far
 

@@ -13,8 +13,6 @@
 // With f affine on triangles, after a direct solve and without a gap, that is -1/2 |sigma|^2.
 #include "antilock/analysis/detail/energy_bracket.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <optional>
 
@@ -22,13 +20,6 @@
 #include "antilock/core/error.hpp"
 
 namespace antilock {
-
-double EnergyBracket::error_bound() const {
-  if (!(width() >= 0 && std::isfinite(width())))
-    throw Error(
-        fmt::format("energy bracket: its width {} is no width; accepted: a lower bound below an upper one", width()));
-  return std::sqrt(2 * width());
-}
 
 double energy_lower_bound(const Scene& scene, const Space& space, const VariationalInequality& problem,
                           const Solution& solution, PenaltyFactor* factor) {

@@ -13,9 +13,6 @@ struct EnergyBracket {
   double upper = 0;  ///< J of a function of K: energy() of a P1 solution, since K_h is part of K
 
   double width() const { return upper - lower; }
-  /// At least |u - u_h| in the energy norm of Remark 4, u_h the P1 solution: |u - v|_a^2 / 2 <= J(v) - J(u) on K.
-  /// Throws Error for a width that is negative or not finite: then one of the two is no bound.
-  double error_bound() const;
 };
 
 /// A lower bound of J(u) at every epsilon in [0, 1], proved (derivation in energy_bracket.cpp) up to round-off, for the
