@@ -25,7 +25,8 @@ struct ActiveSetOptions {
 ///              stop where accuracy(du, r2) is within the tolerance      judge.hpp
 ///     then:    doubt and the KKT report               judge.hpp, kkt.hpp: a warning, or NotConverged
 ///
-/// It stands in detail/iterated_penalty.cpp, IteratedPenalty::solve, and its mathematics in the header beside it. A loop
+/// To read in this order: problem/variational_inequality.hpp, stairs.hpp, contact.hpp, residual.hpp, this, judge.hpp; the
+/// constants with their reasons are in detail/tuned.hpp. The loop stands in detail/iterated_penalty.cpp, IteratedPenalty::solve, and its mathematics in the header beside it. A loop
 /// that stops otherwise, after five corrections say, changes the one condition there; `finished` judges its last
 /// correction all the same, and refuses what is not within the tolerance.
 ///
