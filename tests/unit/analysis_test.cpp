@@ -1014,8 +1014,8 @@ TEST(LostEnergy, PaysForLiftingWhatTheUnknownsDoNotSee) {
   const TriangleMesh mesh = unstructured_mesh(8);
   for (const Element* element : {&p1(), &p2(), &p3()})
     for (const auto& [at, lifted] : {std::pair(3 * h + 14 * h / 32, needle), {28 * h / 32, needle * 32 / 28}}) {
-      const double price =
-          stiffness * lifted * lifted / h;  // two edges beside: those of the ends, or of the one free end
+      // two edges beside: those of the ends, or of the one free end
+      const double price = stiffness * lifted * lifted / h;
       EXPECT_NEAR(proved(mesh, *element, needle, 1, at) / -price, 1, 1e-3) << element->name() << at;
       EXPECT_NEAR(proved(mesh, *element, -1, -needle, at) / -price, 1, 1e-3) << element->name() << at;
       EXPECT_EQ(proved(mesh, *element, needle, -needle, at), -test::infinity) << "no room between";
