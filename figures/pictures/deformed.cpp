@@ -111,7 +111,7 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
     for (vtkIdType cell = 0; cell < body->GetNumberOfCells(); ++cell)
       values.push_back(body->GetCellData()->GetScalars()->GetTuple1(cell));
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const Range range = style.range.value_or(*most > *least ? Range{*least, *most} : Range{*least, *least + 1});
+  const Range range = style.range.value_or(drawn({*least, *most}));
   check(range);
   std::optional<CsvTable> obstacle;
   if (!style.obstacle.empty()) obstacle.emplace(style.obstacle);

@@ -23,7 +23,7 @@ Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style) 
     data = joined(data, range_of(*solutions.back()));
     all_x = joined(all_x, {box[0], box[1]}), all_y = joined(all_y, {box[2], box[3]});
   }
-  const Range in_x = style.x.value_or(all_x), in_y = style.y.value_or(all_y), range = style.range.value_or(data);
+  const Range in_x = style.x.value_or(all_x), in_y = style.y.value_or(all_y), range = style.range.value_or(drawn(data));
   for (const Range& each : {range, in_x, in_y}) check(each);
   const std::size_t count = surfaces.size(), columns = std::min<std::size_t>(count, 3),
                     rows = (count + columns - 1) / columns;

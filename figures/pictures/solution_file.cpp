@@ -104,6 +104,8 @@ bool parts_at_zero(vtkPolyData& solution) {
 
 Range joined(const Range& a, const Range& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
 
+Range drawn(const Range& data) { return data.low == data.high ? Range{data.low, data.low + 1} : data; }
+
 vtkSmartPointer<vtkPolyData> read_deformed(const std::filesystem::path& path) {
   const auto grid = read_grid(path);
   vtkDataArray* pressure = array_of(path, grid->GetCellData(), "pressure", 1);

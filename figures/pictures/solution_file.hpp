@@ -23,5 +23,7 @@ Range range_of(vtkPolyData& solution);
 bool parts_at_zero(vtkPolyData& solution);
 /// The smallest range that holds both.
 Range joined(const Range& a, const Range& b);
+/// The range drawn for data: their own, or [low, low + 1] where all of them are equal (u = 0, say).
+Range drawn(const Range& data);
 
 }  // namespace antilock::figures

@@ -61,7 +61,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
     const bool own = style.last_range && solutions.size() == count;
     if (!own) data = joined(data, range_of(*solutions.back()));
   }
-  const Range shared = style.range.value_or(data);
+  const Range shared = style.range.value_or(drawn(data));
   check(shared);
   const Beyond marks = beyond(shared, data);
   const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
