@@ -89,8 +89,7 @@ void present(const std::filesystem::path& out, const Scene& scene, const Space& 
              const VariationalInequality& problem, const Solution& solution, const std::string& what,
              const Errors& errors) {
   print_solution(space, problem, solution);
-  if (const auto layer = report_layer(scene, space, problem, solution))
-    fmt::print("  layer: {}\n", layer->warning.empty() ? layer->diagnosis : layer->warning);
+  if (const auto layer = report_layer(scene, space, problem, solution)) fmt::print("  layer: {}\n", layer->sentence());
   print_errors(what, errors);
   write_results(out, space, problem, solution);
 }

@@ -317,9 +317,8 @@ int judge(int argc, char** argv) {
                    "its norm away\n",
                    size > 0 ? apart / size : apart);
   } else if (const auto layer = report_layer(file.scene, *space, problem, v)) {
-    const std::string& said = layer->warning.empty() ? layer->diagnosis : layer->warning;
-    found["diagnosis"] = said;
-    fmt::format_to(say, "  layer: {}\n", said);
+    found["diagnosis"] = layer->sentence();
+    fmt::format_to(say, "  layer: {}\n", layer->sentence());
   }
   if (!row.empty())
     fmt::format_to(say, "| {} | {} | {} | {:.3g} | {} |\n", row, element,

@@ -43,6 +43,9 @@ struct LayerReport {
                         ///< a second solve with columns where `lost` is empty) and the remedies
   double found = 0;     ///< the share of LostEnergy::found
   double motion = 0;    ///< LostEnergy::motion, of which both are shares
+
+  /// What a door says in one line: the warning, or the diagnosis where there is none.
+  const std::string& sentence() const { return warning.empty() ? diagnosis : warning; }
 };
 /// Empty for a scene without a layer. On layers in columns and for elements that do not conform no number is made: what
 /// can be told from the mesh costs nothing.
