@@ -2,12 +2,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
-#include <vector>
 
 namespace antilock::test {
 
@@ -45,19 +43,6 @@ inline std::string contents(const std::filesystem::path& path) {
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
-}
-
-/// The numbers of a text, which holds nothing else but white space.
-inline std::vector<double> numbers(const std::string& text) {
-  std::vector<double> found;
-  std::istringstream in(text);
-  for (std::string word; in >> word;) {
-    double number = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    EXPECT_TRUE(error == std::errc{} && end == word.data() + word.size()) << word;
-    found.push_back(number);
-  }
-  return found;
 }
 
 }  // namespace antilock::test

@@ -1,3 +1,4 @@
+#include <charconv>
 #include <cstdint>
 #include <cstring>
 
@@ -9,6 +10,20 @@
 namespace antilock::test::io_test {
 
 namespace fs = std::filesystem;
+
+/// The numbers of a file, which holds nothing else but white space; of a table below `header`, commas.
+std::vector<double> numbers(const fs::path& path, const std::string& header = "") {
+  std::string text = contents(path);
+  EXPECT_EQ(text.substr(0, header.size()), header);
+  if (!header.empty()) std::replace(text.begin(), text.end(), ',', ' ');
+  std::vector<double> found;
+  std::istringstream in(text.substr(header.size()));
+  for (std::string word; in >> word;) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), found.emplace_back());
+    EXPECT_TRUE(error == std::errc{} && end == word.data() + word.size()) << word;
+  }
+  return found;
+}
 
 /// Data of the VTU array of this name: raw bytes behind the XML, each array behind its length.
 std::vector<double> vtu_array(const std::string& text, const std::string& name) {
@@ -65,7 +80,7 @@ TEST(WriteFreefemMesh, HoldsTheCountsTheLabelsAndTheSameNumbering) {
   const TemporaryFolder folder;
   const TriangleMesh mesh = structured_mesh(4);
   write_freefem_mesh(folder / "mesh.freefem.msh", mesh);
-  const std::vector<double> n = numbers(contents(folder / "mesh.freefem.msh"));
+  const std::vector<double> n = numbers(folder / "mesh.freefem.msh");
   const int labelled = 4 + 4 + 4 + 16;  // sigma, contact, the top, the four sides
   ASSERT_EQ(n.size(), 3U + 3U * mesh.vertex_count() + 4U * mesh.triangle_count() + 3U * labelled);
   EXPECT_EQ(n[0], mesh.vertex_count());
@@ -100,10 +115,7 @@ TEST(WriteCsv, EveryDoubleReadsBackBitEqual) {
   for (int i = 0; i < rows; ++i) table(i, 0) *= std::pow(10.0, i % 600 - 300);
   table.row(0) << std::numeric_limits<double>::max(), std::numeric_limits<double>::denorm_min(), -0.0;
   write_csv(folder / "t.csv", {"a", "b", "c"}, table);
-  std::string text = contents(folder / "t.csv");
-  EXPECT_EQ(text.substr(0, 6), "a,b,c\n");
-  std::replace(text.begin(), text.end(), ',', ' ');
-  const std::vector<double> back = numbers(text.substr(6));
+  const std::vector<double> back = numbers(folder / "t.csv", "a,b,c\n");
   ASSERT_EQ(back.size(), 3U * rows);
   for (int i = 0; i < 3 * rows; ++i) {
     EXPECT_EQ(back[i], table(i / 3, i % 3));
@@ -131,10 +143,7 @@ TEST(WriteSolutionCsv, HoldsOneRowAnUnknownAtItsPlace) {
     const Space space(mesh, *element);
     const Eigen::VectorXd u = Eigen::VectorXd::Random(space.size());
     write_solution_csv(folder / "solution.csv", space, u);
-    std::string text = contents(folder / "solution.csv");
-    EXPECT_EQ(text.substr(0, 6), "x,y,u\n");
-    std::replace(text.begin(), text.end(), ',', ' ');
-    const std::vector<double> n = numbers(text.substr(6));
+    const std::vector<double> n = numbers(folder / "solution.csv", "x,y,u\n");
     ASSERT_EQ(n.size(), 3U * space.size());
     for (int i = 0; i < space.size(); ++i) {
       EXPECT_EQ(n[3 * i], space.points()(i, 0));

@@ -940,12 +940,7 @@ std::vector<Broken> broken_files() {
       {"a type that does not fit its block", with(b, "2 1 2 2\n", "1 8 2 2\n"), "dimension"},
       {"parameters missing", with(b, "1 1 0 0.5", "1 1 0"), "3 fields"},
       {"a partitioned mesh", with(b, "$Entities", "$PartitionedEntities\n$Entities"), "partition"},
-      {"a triangle on one node", with(a, "6 2 2 1 1 1 3 4", "6 2 2 1 1 1 4 4"), "degenerate"},
       {"the same triangle twice", with(a, "6 2 2 1 1 1 3 4", "6 2 2 1 1 1 2 3"), "test.msh"},
-      {"a node of no triangle", with(with(a, "$Nodes\n4", "$Nodes\n5"), "4 0 1 0\n", "4 0 1 0\n5 3 3 0\n"),
-       "no triangle"},
-      {"an edge that is none", with(a, "4 1 2 4 4 4 1", "4 1 2 4 4 4 2"), "tagged edge"},
-      {"a boundary edge left out", with(with(a, "s\n6", "s\n5"), "4 1 2 4 4 4 1\n", ""), "no group"},
   };
 }
 
