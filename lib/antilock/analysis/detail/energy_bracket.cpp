@@ -17,7 +17,6 @@
 #include <optional>
 
 #include "antilock/analysis/certificate.hpp"
-#include "antilock/core/error.hpp"
 
 namespace antilock {
 

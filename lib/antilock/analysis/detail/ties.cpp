@@ -21,8 +21,8 @@ Ties find_ties(const TriangleMesh& mesh) {
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const int a = mesh.edge_triangles(e, 0), b = mesh.edge_triangles(e, 1);
     if (mesh.edge_tag[e] == EdgeTag::sigma) ++edges, length += mesh.edge_length(e);
-    const bool vertical = std::abs(x(mesh.edges(e, 0)) - x(mesh.edges(e, 1))) <= 1e-12;  // of rounded coordinates
-    if (b >= 0 && mesh.region[a] == Region::layer && mesh.region[b] == Region::layer && !vertical)
+    if (b >= 0 && mesh.region[a] == Region::layer && mesh.region[b] == Region::layer &&
+        std::abs(x(mesh.edges(e, 0)) - x(mesh.edges(e, 1))) > 1e-12)  // not vertical, of rounded coordinates
       leader[find(a)] = find(b);
   }
   Ties ties;
