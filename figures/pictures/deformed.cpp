@@ -131,6 +131,7 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
     draw_body(page, at, *read[i], range, 0.8);
     for (const auto& line : outlines(*read[i])) {
       std::vector<Point> points;
+      points.reserve(line.size());
       for (const auto& [x, y] : line) points.push_back(at(x, y));
       page.line(points, {4, palette::ink, {22, 14}});
     }
