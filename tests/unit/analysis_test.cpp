@@ -945,7 +945,7 @@ TEST(LostEnergy, IsProvedOfP1BeyondThePapersScenes) {
   };
   const Body body{paper_load}, two{paper_load, [](double x, double) { return x > 0.5 ? 10 : 1; }};
   UnilateralContact low;
-  low.ceiling = [](double) { return 0.1; };
+  low.ceiling = [](double) { return 0.02; };
   for (const double epsilon : {0.02, 1e-4})
     for (const Scene& scene : {Scene(two, StiffLayer{epsilon}, UnilateralContact{}, on_top(Kind::free, 0)),
                                Scene(body, StiffLayer{epsilon, 7}, UnilateralContact{}, on_top(Kind::free, 0)),
@@ -1128,6 +1128,32 @@ TEST(LostEnergy, IsNotWhatACoarseLayerCosts) {
   EXPECT_GT(columns, 0.3);
   EXPECT_LT(found.share, 0.01);
   EXPECT_EQ(found.report.warning, "");
+}
+
+// Values that are affine in x on all that is held, and the obstacle raised by as much: u and v have them more, and J differs
+// by a constant.
+TEST(LostEnergy, IsTheSameBesideGivenValuesThatAreAffine) {
+  const SpaceOn space(unstructured_mesh(8), p1());
+  const auto lost = [&](double left, double right, double off_layer) {
+    const auto given = [=](double x) { return left + (right - left) * x; };
+    VariationalInequality problem = test::stiff_problem(space, 1e-2, {[](double) { return 0.01; }});
+    for (std::size_t k = 0; k < problem.contact.size(); ++k)
+      problem.lower(static_cast<Eigen::Index>(k)) += given(space.points()(problem.contact[k], 0));
+    for (std::size_t k = 0; k < problem.fixed.size(); ++k) {
+      const auto x = space.points().row(problem.fixed[k]);
+      problem.fixed_values(static_cast<Eigen::Index>(k)) = given(x(0)) + (x(1) < 0 ? off_layer : 0);
+    }
+    const Scene raised = test::stiff_scene(1e-2, {[=](double x) { return 0.01 - given(x); }});
+    return lost_energy(raised, space, problem, active_set(problem));
+  };
+  const LostEnergy plain = lost(0, 0, 0);
+  EXPECT_GT(plain.proved, 0);
+  for (const auto& [left, right] : {std::pair(-0.05, 0.0), {0.0, -0.05}, {-0.02, 0.01}}) {
+    const LostEnergy found = lost(left, right, 0);
+    for (const auto part : {&LostEnergy::found, &LostEnergy::proved, &LostEnergy::motion})
+      EXPECT_NEAR(found.*part, plain.*part, 1e-9) << left;
+  }
+  test::expect_refused([&] { lost(0, 0, 0.01); }, "whose sides have the value of Sigma's end");
 }
 
 TEST(LostEnergy, IsAskedOfConformingElementsWithALayerAlone) {
