@@ -162,6 +162,8 @@ TEST(Stairs, AnEquationHasThreePiecesAndNothingBetween) {
   EXPECT_EQ(stairs.next(0, Piece::at_lower, true), Piece::above);
   EXPECT_EQ(stairs.next(0, Piece::above, false), Piece::at_lower);
   EXPECT_EQ(stairs.next(0, Piece::at_lower, false), Piece::below);
+  expect_refused([&] { stairs.next(0, Piece::above, true); }, "none beyond");
+  expect_refused([&] { stairs.next(0, Piece::below, false); }, "none beyond");
   EXPECT_EQ(stairs.found(0, Piece::at_lower).low, -3);
   EXPECT_EQ(stairs.found(0, Piece::at_lower).high, 3);
 }

@@ -41,9 +41,9 @@ struct Solution {
   std::vector<bool> active;  ///< C: in contact, with either bound: is_held(pieces[i])
   double moderate = 0;       ///< largest |u| with the moderate penalty in place of the compliance: the size of u before
                              ///< it locks, where it is known (0: it is not)
-  double error =
-      0;  ///< forward error of u: the last correction, with the contraction that was measured, leaves no more
-          ///< in the maximum norm, relative to the largest |u|. It holds for the contact set found
+  /// Forward error of u in the maximum norm, relative to the largest |u|: what the last correction leaves with the
+  /// contraction that was measured. It holds for the contact set found.
+  double error = 0;
   Kkt kkt;
   Counters counters;
   SolveSeconds seconds;

@@ -44,7 +44,7 @@ struct Stairs {
   double whole_force(int i, Piece piece, double found) const;
   /// Where the other one of v and lambda - force must lie.
   Interval found(int i, Piece piece) const;
-  /// The next piece of stair i towards larger values, or towards smaller ones. Asked where there is one.
+  /// The next piece of stair i towards larger values, or towards smaller ones. Throws Error where there is none.
   Piece next(int i, Piece piece, bool up) const;
   /// The pieces that there are, nearest to those asked for; an equation holds unless it gives way. Throws Error where
   /// `asked` has not one entry per stair.

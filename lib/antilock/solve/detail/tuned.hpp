@@ -15,8 +15,10 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 /// keeps no digit of A1.
 constexpr double round_off = 64 * eps;
 
-/// What assembly and one product leave between two numbers that are equal: a handful of roundings. So near a row of B is
-/// closed, and two rows are one.
+/// What rounding leaves between two rows that are equal. An entry of B, a gradient on a triangle, is a difference of
+/// coordinates (1 rounding) times the reciprocal of an area (two products of differences and their difference: 4, and 1):
+/// 7 with the last product, each of eps / 2. Two such rows: 7 eps, and the rounding of u to doubles makes it 8. So near
+/// a row of B is closed, and two rows are one. Sums and products with u add nothing: they are exact (residual.hpp).
 constexpr double equal = 8 * eps;
 
 /// Rows of B whose distance from dependent is looked at, among ten times as many unknowns at most: a dense QR of 200 x
