@@ -147,11 +147,12 @@ Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
 // largest, $ρ < 2π² h$, is safe. The part with the smallest is the slowest: its factor is $1 - ρ h/4$, at best about
 // $1 - π² h²/2$. So halve $h$, and a digit takes four times as many steps. The *condition number* $κ$ = largest /
 // smallest eigenvalue, here $4/(π² h²)$, says it in one number: the factor is $1 - 2/κ$.
-Answer uzawa_by_hand(const String& s, double rho, double tolerance) {
+Answer uzawa_by_hand(const String& s, double rho, double tolerance, std::vector<VectorXd>* shapes = nullptr) {
   const Cholesky factor(s.a);
   Answer answer{s.b, 0 * s.b};
   for (double change = 1; change > tolerance; ++answer.solves) {
     answer.u = factor.solve(VectorXd(s.b + answer.lambda));
+    if (shapes) shapes->push_back(answer.u);
     const VectorXd next = (answer.lambda.array() - rho * (answer.u.array() - s.floor)).max(0).matrix();
     change = (next - answer.lambda).lpNorm<Eigen::Infinity>() / rho;
     answer.lambda = next;

@@ -59,6 +59,9 @@
 // triangles are in one group: one pair $(a, b)$, and $v = 0$ at $x = 0$ and at $x = 1$, so $a = b = 0$. Every function of
 // $G_h$ vanishes on the layer. In the limit the discrete layer cannot move at all, whatever the load. That is *locking*,
 // the left picture. (In the body the kernel asks nothing: every P1 function of the body that is 0 on $Σ$ is in $G_h$.)
+//
+// How little does it take? Move one vertex of the layer, first upwards, then to the side.
+// :live: move
 
 #include <numeric>
 

@@ -184,7 +184,10 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
 // :figure: ventcel_signorini
 //
 // (25) is the limit and not the layer: at $ε = 0.1$ (22) and (23) are 1e-4 apart, each on its mesh, and (25) is 4.5e-3
-// from both. Chapter 23 asks when this is good enough. What a mesh does to the limit is the subject of
+// from both. Chapter 23 asks when this is good enough.
+// :live: models
+//
+// What a mesh does to the limit is the subject of
 // [Propositions 1 to 3](11_propositions.cpp).
 //
 // ## Exercises

@@ -149,6 +149,7 @@ void judge(const Table& results, tutorial::Report& report) {
 // least. P1 keeps about twice that, because of contact. P2 and P3 keep up to 19 times as much of the little that is
 // left: among their functions there are better ones than the interpolant. Where the ridge is kept the $H^1$ error can
 // still be large: the gradient sees the wrong slope first.
+// :live: degree
 //
 // ## Exercises
 //

@@ -196,6 +196,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // the displacement has 0.6, the stress 0.4, the works of contact next to nothing. So the bound is about
 // $(1/0.6)^{1/2} = 1.29$ times the error of the displacement, whatever `ε` is.
 // :figure: effectivity
+// :live: bound
 //
 // (b) From step 8 on: then the algebraic error is below that of the mesh.
 // :figure: uzawa_plateau

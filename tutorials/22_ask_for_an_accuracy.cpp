@@ -140,6 +140,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // (a) 10 times fewer for the concentrated load (observed). For the smooth one 2, and those from the columns alone: where
 // the error is spread evenly, there is nothing to follow.
+// :live: accuracy
 //
 // :figure: asked_smooth
 //

@@ -142,6 +142,7 @@ void judge(const Table& checks, const Table& forces, int cells, tutorial::Report
 // the true one stays below 0.7.
 //
 // :figure: elasticity_force
+// :live: rubber
 //
 // ## Exercises
 //

@@ -14,9 +14,9 @@ from PIL import Image
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tutorials/book"))
 from library import EXAMPLES, Library  # noqa: E402
+from literate import STILLS  # noqa: E402
 from pages import EXTRA  # noqa: E402
 
-STILLS = ("hero", "string", "figure9", "roundoff")
 CHAPTERS = {
     "00_start": """// # A first chapter
 //
@@ -92,6 +92,9 @@ def small_repository(root):
         (root / folder).mkdir(parents=True)
     for stem, text in CHAPTERS.items():
         (root / f"tutorials/{stem}.cpp").write_text(text)
+    (root / "tutorials/book/wasm").mkdir()
+    (root / "tutorials/book/wasm/runs.csv").write_text("command,seconds,meshes\n00_start,0.1,\n07_middle,1.2,\n07_middle --cells 4,0.6,\n"
+                                                       "07_middle --exercise 1,40,\n")
     (root / "tutorials/answers").mkdir()
     (root / "tutorials/answers/07_middle.hpp").write_text(
         "#pragma once\n// The answers to the exercises.\nint answer();\n\n"
@@ -106,7 +109,9 @@ def small_repository(root):
     (root / "tutorials/book/index.md").write_text("# The index\n\nBegin with [a start](00_start.cpp).\n\n:live:\n\n:chapters:\n")
     for page in EXTRA:
         (root / f"tutorials/{page}.md").write_text(f"# The {page}\n\nNone.\n")
-    for still in STILLS:
+    (root / "tutorials/glossary.md").write_text("# Glossary\n\n| term | in one line | chapter |\n|---|---|---|\n| figure | what one *looks* at | 00 |\n"
+                                                "| words (of a page) | no such link | 00 |\n")
+    for still in STILLS.values():
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{still}.png")
     for picture in ("ties", "first"):
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{picture}.png")
@@ -160,8 +165,8 @@ class Pages(unittest.TestCase):
     def test_a_chapter_leads_to_the_next_whatever_numbers_are_free(self):
         stems = sorted(CHAPTERS)
         for before, after in zip(stems, stems[1:]):
-            self.assertIn(f'class="next-page" href="{after}.html"', self.page(before, "html", "book"))
-            self.assertIn(f'class="prev-page" href="{before}.html"', self.page(after, "html", "book"))
+            self.assertIn(f'class=next-page href={after}.html', self.page(before, "html", "book"))
+            self.assertIn(f'class=prev-page href={before}.html', self.page(after, "html", "book"))
             self.assertRegex(self.page(before), rf"Leads to: \[{after[:2]} [^]]*\]\({after}\.md\)\.")
 
     # ---- live figures
@@ -182,6 +187,7 @@ class Pages(unittest.TestCase):
         page = self.page("07_middle")
         self.assertEqual(re.findall(r'data-run="([^"]*)"', page), ["", "--exercise 1", "", "--cells 4"])  # the first one is the default run
         self.assertRegex(page, r'1\. A question\n   of two lines\. <span class="predict"><input [^>]*> <button [^>]*"--exercise 1"')
+        self.assertEqual(re.findall(r'class="takes">([^<]*)', page), ["about 2 s", "about 80 s", "about 2 s", "about a second"])
         self.assertNotIn("| `07_middle --exercise 1`", page)  # it stands in its place
         self.assertIn("does not run in a page", self.page("27_later"))
         self.assertNotIn("data-run", self.page("27_later"))
@@ -196,12 +202,19 @@ class Pages(unittest.TestCase):
         self.assertEqual(self.page("27_later").count("{figure}"), 4)
         self.assertEqual(self.page("27_later").count("two rows of it"), 2)  # there, and in all that it printed
 
+    # ---- references
+
+    def test_the_first_use_of_a_term_leads_to_its_line(self):
+        page = self.page("07_middle", "html", "book")
+        self.assertEqual(re.findall(r"<a class=term href=([^>]*)>([^<]*)</a>", page), [("glossary.html#term_figure", "figure")])
+        self.assertIn('"glossary.html#term_figure": "what one <em>looks</em> at"', (self.root / "build/book/_static/hints.js").read_text())
+
     # ---- answers
 
     def test_the_answers_on_paper_are_folded_under_their_chapter(self):
         self.assertIn("Answers on paper", self.page("07_middle"))
         self.assertRegex(self.page("07_middle", "html", "book"),
-                         r'(?s)<details class="answers"><summary>Answers on paper</summary>.*<strong>3\.</strong> By chapter <a [^>]*00_start')
+                         r'(?s)<details class=answers><summary>Answers on paper</summary>.*<strong>3\.</strong> By chapter <a [^>]*00_start')
         self.assertNotIn("The answers to the exercises", self.page("07_middle"))
         self.assertNotIn("Answers on paper", self.page("00_start"))
 
@@ -263,6 +276,8 @@ class Pages(unittest.TestCase):
                 self.refused(says, file, line, self.pages)
         with self.subTest("example"):
             self.refused("solve_to.hpp: its example, SolveTo", "tests/unit/adapt_test.cpp", "", self.pages, "TakesTheVentcelLayer")
+        with self.subTest("seconds"):
+            self.refused("07_middle --cells 8 has no row in wasm/runs.csv", "tutorials/07_middle.cpp", "07_middle --cells 8", self.pages, "07_middle --cells 4")
         with self.subTest("title"):
             self.refused("accepted: at most six", chapter, "// # A title of more than six words", self.pages, "// # A first chapter")
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The programs in their pages say what they say on this machine: the verdicts of every exercise, and of the chapters that
 take a moment. Run: programs_test.py PARTS PROGRAMS     build/book-parts, and the folder of the programs"""
+import os
 import re
 import subprocess
 import sys
@@ -12,6 +13,11 @@ HERE = Path(__file__).resolve().parent
 TUTORIALS = HERE.parents[1] / "tutorials"
 PARTS, PROGRAMS = (Path(word).resolve() for word in sys.argv[1:3])
 
+sys.path.insert(0, str(TUTORIALS / "book"))
+from runs import rows  # noqa: E402
+
+ROWS = {row["command"]: row for row in rows()}
+
 
 def commands():
     """Every `Run:` line of the chapters that run in their pages."""
@@ -21,9 +27,9 @@ def commands():
             yield from (found.split() for found in re.findall(r"^// Run: (.*?)(?:  .*)?$", text, re.M))
 
 
-def ran(command, out):
+def ran(command, out, **variables):
     """(exit status, what it printed, what it printed as errors)"""
-    done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=out)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=out, env={**os.environ, **variables})
     return done.returncode, done.stdout, done.stderr
 
 
@@ -35,9 +41,12 @@ def verdicts(text):
 
 class Programs(unittest.TestCase):
     def both(self, command):
-        """What the page and the machine say of one command."""
-        with tempfile.TemporaryDirectory() as out:
-            native = ran([PROGRAMS / command[0], *command[1:]], out)
+        """What the page and the machine say of one command. The meshes that it asks gmsh for are those that runs.csv names."""
+        with tempfile.TemporaryDirectory() as out, tempfile.TemporaryDirectory() as meshes:
+            native = ran([PROGRAMS / command[0], *command[1:]], out, ANTILOCK_MESHES=meshes)
+            row = ROWS.get(" ".join(command))
+            if row:
+                self.assertEqual(sorted(path.name for path in Path(meshes).iterdir()), row["meshes"].split(), "tutorials/book/wasm/measure notes them")
             page = ran(["node", HERE / "run_program.mjs", PARTS, *command], out)
         return native, page
 

@@ -2,3 +2,42 @@
 addEventListener("beforeprint", () => document.querySelectorAll("details").forEach((part) => { part.open = true; }));
 // What is wider than the page scrolls in itself, also by the keyboard.
 for (const part of document.querySelectorAll(".highlight pre, .table-wrapper")) part.tabIndex = 0;
+// An equation or a term that a link names shows itself beside it: for a pointer that hovers, and for the keyboard.
+(() => {
+  const folder = document.currentScript.src.replace(/[^/]*$/, ""), page = location.pathname.split("/").pop() || "index.html";
+  const hint = Object.assign(document.createElement("div"), { id: "hint", hidden: true });
+  hint.setAttribute("role", "tooltip");
+  let hints, over = null;
+  const known = () => (hints ??= new Promise((done) => {
+    const script = Object.assign(document.createElement("script"), { src: `${folder}hints.js`, onload: () => done(window.ANTILOCK_HINTS), onerror: () => done({}) });
+    document.head.append(script);
+  }));
+  function hide() {
+    over?.removeAttribute("aria-describedby");
+    over = null;
+    hint.hidden = true;
+  }
+  async function show(link) {
+    hide();
+    over = link;
+    const target = link.getAttribute("href"), own = target.startsWith("#") && document.getElementById(target.slice(1));
+    const text = own ? own.innerHTML : (await known())[target.startsWith("#") ? page + target : target];
+    if (!text || over !== link) return;
+    hint.innerHTML = text;
+    hint.querySelectorAll("[id]").forEach((part) => part.removeAttribute("id"));
+    document.querySelector("article").append(hint);
+    link.setAttribute("aria-describedby", "hint");
+    hint.hidden = false;
+    const at = link.getBoundingClientRect(), box = hint.getBoundingClientRect(), width = document.documentElement.clientWidth;
+    const below = at.bottom + box.height + 12 < innerHeight;
+    hint.style.left = `${Math.max(8, Math.min(at.left, width - box.width - 8)) + scrollX}px`;
+    hint.style.top = `${(below ? at.bottom + 6 : at.top - box.height - 6) + scrollY}px`;
+  }
+  for (const link of document.querySelectorAll('article a[href*="#eq-"], article a[href*="#term_"]')) {
+    link.addEventListener("pointerenter", (event) => event.pointerType === "mouse" && show(link));
+    link.addEventListener("pointerleave", hide);
+    link.addEventListener("focus", () => link.matches(":focus-visible") && show(link));
+    link.addEventListener("blur", hide);
+  }
+  addEventListener("keydown", (event) => event.key === "Escape" && hide());
+})();

@@ -11,7 +11,7 @@ from library import Library, NameLinks  # noqa: E402
 project = "Antilock"
 author = "the Antilock authors"
 html_title = "Antilock"
-extensions = ["myst_parser", "katex"]
+extensions = ["myst_parser", "katex", "search", "hints"]
 root_doc = "index"
 myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "attrs_image"]
 myst_heading_anchors = 3
@@ -21,7 +21,6 @@ html_static_path = ["style.css", "book.js", "../../build/book-parts/static"]
 html_css_files = ["katex.css", "style.css"]
 html_js_files = [("book.js", {"defer": "defer"})]
 html_copy_source = html_use_index = False
-html_show_search_summary = False  # a page opened from a folder cannot read other pages
 html_show_copyright = html_show_sphinx = False
 pygments_style = "xcode"  # of those with enough contrast
 pygments_dark_style = "github-dark"
@@ -49,7 +48,10 @@ def tighten(app, error):
             text = "".join(part if i % 2 else re.sub(r"\s*\n\s*", "\n", part) for i, part in enumerate(around))
             text = re.sub(r'<span class="(?:std std-ref|doc(?: std std-doc)?)">([^<]*)</span>', r"\1", text)
             text = re.sub(r' title="Permalink to this \w+"', "", text)
-            path.write_text(re.sub(r'<span class="(\w+)">', r"<span class=\1>", text))
+            text = text.replace('class="reference internal"', 'class="reference"')
+            parts = re.split(r"(<script.*?</script>)", text, flags=re.S)  # quotation marks that HTML does not need
+            unquoted = (re.sub(r"<[a-zA-Z][^<>]*>", lambda tag: re.sub(r'="([\w.#-]+)"(?!\s*/)', r"=\1", tag[0]), part) for part in parts[::2])
+            path.write_text("".join(part for pair in zip(unquoted, [*parts[1::2], ""]) for part in pair))
 
 
 RELEASE = dict(re.findall(r"^(version|license): (\S+)$", (HERE.parents[1] / "CITATION.cff").read_text(), re.M))
@@ -64,12 +66,14 @@ def setup(app):
 
     def page(app, name, template, context, doctree):
         body = context.get("body", "")
-        if 'class="live"' in body:
+        if re.search('data-kind="(?:locking|convergence|roundoff)"', body):  # the figures that hold the library themselves
             app.add_js_file("meshes_data.js", loading_method="defer")
             app.add_js_file("live_data.js", loading_method="defer")
-        if 'class="live"' in body or 'id="run"' in body:
+        if 'id="search-results"' in body:
+            app.add_js_file("search_data.js", loading_method="defer")
+        if 'class="live"' in body or 'id="run"' in body or 'id="search-results"' in body:
             app.add_js_file("live.js", loading_method="defer")
-        context["script_files"] = [script for script in context["script_files"] if not re.search(r"jquery|underscore|frameworks_compat", str(script))]
+        context["script_files"] = [script for script in context["script_files"] if not re.search(r"jquery|underscore|frameworks_compat|doctools|sphinx_highlight|documentation_options", str(script))]
         if not name.startswith("library"):
             body = links(body)
         # names, signs and blanks have the colour of the text: a third of the book's size were their marks

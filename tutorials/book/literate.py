@@ -92,12 +92,13 @@ def options(command):
     return command.partition(" ")[2]
 
 
-def button(command, says="run"):
-    """Runs a command in the page; the script, which can, enables it."""
-    return f'<button type="button" data-run="{html.escape(options(command))}" disabled>{says}</button>'
+def button(command, takes, says="run"):
+    """Runs a command in the page, with how long that takes; the script, which can, enables it."""
+    return (f'<button type="button" data-run="{html.escape(options(command))}" disabled>{says}</button>'
+            f' <span class="takes">{takes[command]}</span>')
 
 
-def with_exercises(lines, commands):
+def with_exercises(lines, commands, takes):
     """A field for the prediction, and a button, behind each exercise of the list that a command of `commands` answers:
     (lines, the commands that are left)."""
     out, left, number, at = [], dict((options(command), command) for command in commands), None, None
@@ -108,7 +109,7 @@ def with_exercises(lines, commands):
         command = left.pop(f"--exercise {number}", None) if at is not None else None
         if command:
             out[at] += (' <span class="predict"><input type="text" aria-label="Your prediction" placeholder="your prediction">'
-                        f' {button(command)}</span>')
+                        f' {button(command, takes)}</span>')
         at = None
 
     for line in lines:
@@ -229,7 +230,8 @@ class Page:
 
 
 # The live figures: the picture that stands in their place until the script has taken over, or where it cannot.
-STILLS = {"locking": "hero", "string": "string", "convergence": "figure9", "roundoff": "roundoff"}
+STILLS = {"locking": "hero", "string": "string", "convergence": "figure9", "roundoff": "roundoff", "move": "ties", "models": "three_models",
+          "degree": "degree", "bound": "effectivity", "accuracy": "asked_meshes", "rubber": "elasticity_force", "friction": "friction"}
 # What a figure may be told: what its inputs offer.
 SETTINGS = {"locking": {"mesh": "structured|unstructured|moved|layered", "cells": "8|16|24|32", "moved": r"0\.\d+",
                         "epsilon": r"0|-[1-8](?:\.\d+)?"}}

@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import zipfile
+from collections import defaultdict
 from pathlib import Path
 
 from PIL import Image
@@ -19,12 +20,17 @@ from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, 
                       with_exercises)
 from katex import TAG, anchor
 from library import Library
+from runs import expected
 
 ROOT = Path(__file__).resolve().parents[2]
 PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 17),
          ("What accuracy costs", 18, 24), ("The class", 25, 99)]
 EXTRA = ["howto_scene", "howto_matrices", "howto_python", "lab", "dataset", "uniform_rate", "errata", "glossary", "notation"]
-WIDTH, HEIGHT = 1000, 840  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
+WIDTH, HEIGHT = 900, 760  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
+
+
+def term_anchor(term):
+    return "term_" + re.sub(r"\W+", "-", term.lower())
 
 
 class Book:
@@ -35,6 +41,10 @@ class Book:
         self.table = list(csv.DictReader((ROOT / "figures/table.csv").open()))
         self.library = Library(ROOT / "lib")
         self.pages, self.equations = {}, {}  # by tag: the chapter that has the equation first
+        self.takes = defaultdict(lambda: "seconds", expected())
+        # a term with a qualification, as "gap (of an obstacle)", is a word that the course uses in other senses too
+        rows = re.findall(r"^\| ([^|]+?) \| [^|]+ \| [\d, ]+ \|$", (ROOT / "tutorials/glossary.md").read_text(), re.M)
+        self.terms = [term for row in rows for term in [re.sub(r" \([A-Z]+\)$", "", row)] if not re.search(r"[(,/]", term)]
 
     def complain(self, what):
         if not self.draft:
@@ -72,10 +82,11 @@ class Book:
             return self.picture(path.stem)
         return None
 
-    def linked(self, lines, where, spell=lambda text: text):
-        """Prose with its links turned to the pages of the book; `chapter 07` becomes a link. Code stays as it is; `spell`
-        is for the rest."""
-        out, fenced, own = [], False, set(TAG.findall("\n".join(lines)))
+    def linked(self, lines, where, spell=lambda text: text, terms=()):
+        """Prose with its links turned to the pages of the book; `chapter 07` becomes a link, and so do the first of each of
+        `terms`. Code stays as it is; `spell` is for the rest."""
+        out, fenced, own, met = [], False, set(TAG.findall("\n".join(lines))), set()
+        term_of = re.compile(rf"(?<![\w-])({'|'.join(sorted(map(re.escape, terms), key=len, reverse=True))})(?:e?s)?(?![\w-])", re.I)
         for line in lines:
             fenced ^= line.startswith("```")
             if fenced or line.startswith(("    ", "<", "```")):
@@ -106,8 +117,19 @@ class Book:
                 page = "" if found[1] in own else f"{self.equations[found[1]]}.html" if found[1] in self.equations else None
                 return found[0] if page is None else f'<a href="{page}#{anchor(found[1])}">({found[1]})</a>'
 
-            if not line.startswith(("#", ":")):  # a number of an equation leads to it; not within a link
-                text = "".join(part if i % 2 else re.sub(r"(?<![\w)])\((\d\d?)\)(?!\w)", equation, part)
+            def term(found):
+                if found[1].lower() in met:
+                    return found[0]
+                met.add(found[1].lower())
+                return f'<a class="term" href="glossary.html#{term_anchor(found[1])}">{found[0]}</a>'
+
+            def references(part):
+                if terms and not line.startswith("|"):
+                    part = term_of.sub(term, part)
+                return re.sub(r"(?<![\w)])\((\d\d?)\)(?!\w)", equation, part)
+
+            if not line.startswith(("#", ":")):  # not within a link
+                text = "".join(part if i % 2 else references(part)
                                for i, part in enumerate(re.split(r"(\[[^\]]*\]\([^)\s]*\))", text)))
             text = re.sub(r"(!?)\[([^\]]+)\]\(([^)\s]+)\)", replaced, spell(text))
             text = re.sub(r"\b([Cc]hapters?|[Tt]utorials?) (\d\d(?:(?:, | and | to )\d\d)*)\b(?![\]\w])", numbered, text)
@@ -229,7 +251,7 @@ class Book:
     def chapter(self, source):
         """The first picture that no line places stands on top. Where a page places pictures, it places all others of its own."""
         stem, page = source.stem, self.pages[source.stem]
-        body, names, output = self.placed(self.linked(page.body, source.parent), stem)
+        body, names, output = self.placed(self.linked(page.body, source.parent, terms=self.terms), stem)
         shots = [row for row in self.pictures_of(stem) if row["image"] not in names]
         if names:
             shots = [row for row in shots if row["tutorial"] == stem]  # one of two chapters may leave their picture to the other
@@ -237,9 +259,12 @@ class Book:
             self.complain(f"{stem}.cpp: no line places the picture {shots[1]['image']}; accepted: :figure: {shots[1]['image']}")
         out = [f"# {stem[:2]} {page.title}", "", *self.relations(stem)]
         commands, here = [command for command, _ in page.runs], self.runs_in_the_page(source)
+        missing = [command for command in commands if here and command not in self.takes]
+        if missing:
+            self.complain(f"{stem}.cpp: {missing[0]} has no row in wasm/runs.csv; tutorials/book/wasm/measure build/tutorials writes it")
         if here and commands:
             out += self.console(stem, commands[0])
-            body, commands = with_exercises(body, commands)
+            body, commands = with_exercises(body, commands, self.takes)
         elif commands:
             out += ["This program asks for PETSc and several processes: it does not run in a page.", ""]
         out += self.figure(shots[0], eager=True) if shots else []
@@ -249,7 +274,7 @@ class Book:
             out += folded("Answers on paper", self.linked(answers, source.parent), "answers")
         if commands:
             out += ["## Run it", "", *(["| | command | what it does |", "|---|---|---|"] if here else ["| command | what it does |", "|---|---|"])]
-            out += [(f"| {button(command)} " if here else "") + f"| `{command}` | {what} |" for command, what in page.runs if command in commands]
+            out += [(f"| {button(command, self.takes)} " if here else "") + f"| `{command}` | {what} |" for command, what in page.runs if command in commands]
             out.append("")
         for shot in shots[1:]:
             out += self.figure(shot)
@@ -270,12 +295,9 @@ class Book:
         return not re.search(r'#include "(antilock/distributed|petsc)/', source.read_text())
 
     def console(self, stem, command):
-        """The button on top, with the seconds to expect: twice those of the machine that wrote the log."""
-        spent = re.search(r" in ([\d.]+) s", " ".join((self.log(stem) or [])[-1:]))
-        seconds = 2 * float(spent[1]) if spent else 0
-        expect = f"about {seconds:.0f} s" if seconds >= 1.5 else "about a second" if spent else "seconds"
-        return ["", f'<div id="run" data-program="{stem}"><p class="run-line">{button(command, "Run this chapter here")} '
-                f'<span>{expect}; its own program, with nothing to install</span></p></div>', ""]
+        """The button on top, with the seconds to expect."""
+        return ["", f'<div id="run" data-program="{stem}"><p class="run-line">{button(command, self.takes, "Run this chapter here")}: '
+                f'its own program, with nothing to install</p></div>', ""]
 
     def playground(self):
         """run_scene in a page: every scene that does not ask for PETSc is a start."""
@@ -337,7 +359,9 @@ class Book:
             self.chapter(source)
         for name in EXTRA:
             lines = (ROOT / f"tutorials/{name}.md").read_text().splitlines()
-            if name == "glossary":  # its last column names chapters by number
+            if name == "glossary":  # its first column is linked to, its last one names chapters by number
+                lines = [re.sub(r"^\| ([^|]+?)(?= \([A-Z]+\) \|| \|)", lambda found: f'| <span id="{term_anchor(found[1])}"></span>{found[1]}'
+                                if found[1] in self.terms else found[0], line) for line in lines]
                 lines = [re.sub(r"\| ([\d, ]+) \|$", lambda found: "| " + re.sub(r"\d\d", lambda n: f"[{n[0]}]({self.first_of(n[0])}.md)" if self.first_of(n[0]) else n[0], found[1]) + " |", line) for line in lines]
             self.write(name, self.linked(lines, ROOT / "tutorials", signs))
         self.sources_to_keep()
@@ -346,7 +370,8 @@ class Book:
         self.gallery()
         self.library.write(self.write, self.sources)
         self.index()
-        known = {*self.names, *EXTRA, "playground", "theory", "gallery", "index", "library", *self.library.page_names()}
+        self.write("search", (ROOT / "tutorials/book/search.md").read_text().splitlines())
+        known = {*self.names, *EXTRA, "playground", "search", "theory", "gallery", "index", "library", *self.library.page_names()}
         for path in self.out.glob("*.md"):
             if path.stem not in known:
                 path.unlink()

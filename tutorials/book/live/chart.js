@@ -1,12 +1,14 @@
 // A small chart in SVG: axes, curves, markers. Its colours come from the style sheet.
 "use strict";
+antilock.part = (name, attributes, parent) => {
+  const part = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(attributes)) part.setAttribute(key, value);
+  parent?.append(part);
+  return part;
+};
+
 antilock.chart = (where, { x, y, title }) => {
-  const make = (name, attributes, parent) => {
-    const part = document.createElementNS("http://www.w3.org/2000/svg", name);
-    for (const [key, value] of Object.entries(attributes)) part.setAttribute(key, value);
-    parent?.append(part);
-    return part;
-  };
+  const make = antilock.part;
   const narrow = matchMedia("(max-width: 36em)").matches;  // its letters stay as large as those around it
   const width = narrow ? 360 : 560, height = narrow ? 280 : 300, left = 62, bottom = 44, right = 12, top = 12;
   const svg = make("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": title, class: "live-chart" });

@@ -10,9 +10,12 @@ antilock.figures.convergence = (box) => {
     axes: { title: "Largest error at the unknowns against epsilon",
       x: { log: true, range: [zero * 0.6, 1.6], ticks: [zero, 1e-6, 1e-4, 1e-2, 1], names: { [zero]: "0" }, name: "ε" },
       y: { log: true, range: [3e-5, 1e-1], ticks: [1e-4, 1e-3, 1e-2, 1e-1], name: "largest error" } },
-    ask: (library, epsilon, { mesh, cells }) => [0, 1].map((i) => {
-      library.discretise(i, mesh, Number(cells), 0);
-      return library.solve(i, epsilon).error;
-    }),
+    ask: async (epsilon, { mesh, cells }) => {
+      const library = await antilock.shared();
+      return [0, 1].map((i) => {
+        library.discretise(i, mesh, Number(cells), 0);
+        return library.solve(i, epsilon).error;
+      });
+    },
   });
 };

@@ -58,26 +58,36 @@ antilock.library = async () => {
   };
 };
 
+/// The one that figures of a page share; a new one where it could not be made.
+antilock.shared = () => (antilock.sharedLibrary ??= antilock.library().catch((error) => { antilock.sharedLibrary = null; throw error; }));
+
 // ---- What the figures share.
 
-/// epsilon of a range input: its value is log10 epsilon, its lowest position is exactly 0.
-antilock.epsilonOf = (range) => (Number(range.value) <= Number(range.min) ? 0 : 10 ** Number(range.value));
+/// epsilon of a range input: its value is log10 epsilon; its lowest position is exactly 0, where the figure has that.
+antilock.epsilonOf = (range, zero = true) => (zero && Number(range.value) <= Number(range.min) ? 0 : Number((10 ** Number(range.value)).toPrecision(12)));  // 1e-4, not 9.9999e-5
 antilock.epsilonSaid = (range, epsilon) => (epsilon === 0 ? "0, the limit" : epsilon === 1 ? "1" : `10^${range.value}`);
 antilock.epsilonShown = (range, epsilon) =>
   epsilon === 0 ? "0, the limit" : epsilon === 1 ? "1" : `10<sup>${range.value.replace("-", "−")}</sup>`;
 antilock.refusal = (error) => `No answer: ${error.message}. Choose something else; the page goes on.`;
 antilock.digits = (x, n = 2) => (x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e4 ? x.toExponential(n - 1) : String(Number(x.toPrecision(n + 1))));
 
-/// Calls `update` once per picture drawn, however often it is asked.
+/// Calls `update` once per picture drawn, however often it is asked, and never twice at once.
 antilock.soon = (update) => {
-  let waiting = false;
-  return () => {
-    if (waiting) return;
-    waiting = true;
-    requestAnimationFrame(async () => { waiting = false; await update(); });
+  let busy = false, again = false;
+  return async () => {
+    again = true;
+    if (busy) return;
+    for (busy = true; again;) {
+      again = false;
+      await new Promise(requestAnimationFrame);
+      await update();
+    }
+    busy = false;
   };
 };
 
+/// Lets the page draw, and answer a reader, between two pieces of work.
+antilock.breath = () => new Promise((go) => setTimeout(go));
 antilock.whenIdle = window.requestIdleCallback?.bind(window) ?? ((task) => setTimeout(task, 100));
 
 antilock.figures = {};

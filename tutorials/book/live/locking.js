@@ -85,6 +85,7 @@ antilock.figures.locking = async (box) => {
     try {
       library ??= await antilock.library();
       for (const i of [0, 1]) {
+        if (!solved[1]) await antilock.breath();  // while the page is being loaded
         library.discretise(i, mesh, cells, moved);
         solved[i] = library.solve(i, epsilon);
         solved[i].corners = library.surface(i);

@@ -1,10 +1,12 @@
 // A figure that the reader makes: every epsilon that is asked for leaves its two points.
 "use strict";
 /// `figure`: title and label; min, step and stride of log10 epsilon; zero: where epsilon = 0 is drawn, if the lowest
-/// position is 0; choices: name -> values; start: name -> the value chosen, if it is not the first; keys of both curves;
-/// refused: the value that stands for no answer, if there is one; others: the key of the points of other choices, if they stay; axes; ask(library, epsilon, chosen) -> the two values.
+/// position is 0; choices: name -> values; start: name -> the value chosen, if it is not the first; keys of the curves, five
+/// at most; refused: the value that stands for no answer, if there is one; others: the key of the points of other choices,
+/// if they stay; axes; ask(epsilon, chosen) -> the values; asleep: the first one is asked for when the reader comes near.
 antilock.pointwise = async (box, figure) => {
-  let library = await antilock.library();
+  if (!figure.asleep) await antilock.shared();  // without it the still stays
+  const classes = ["p1", "cr", "exact", "touching", "other"];
   const id = `live-${box.dataset.kind}`, still = document.createElement("div"), names = Object.keys(figure.choices);
   still.innerHTML = `
     <p class="live-title">${figure.title}</p>
@@ -16,7 +18,7 @@ antilock.pointwise = async (box, figure) => {
       <span class="live-choice"><button type="button">all ε</button> <button type="button">clear</button></span>
     </div>
     <div class="live-drawing"></div>
-    <p class="live-key-line"><span class="key p1">${figure.keys[0]}</span> <span class="key cr">${figure.keys[1]}</span>
+    <p class="live-key-line">${figure.keys.map((key, i) => `<span class="key ${classes[i]}">${key}</span>`).join(" ")}
       ${figure.refused ? '<span class="key touching">refused: no answer</span>' : ""}
       ${figure.others ? `<span class="key other">${figure.others}</span>` : ""}</p>
     <p class="live-said" role="status"></p>`;
@@ -31,27 +33,26 @@ antilock.pointwise = async (box, figure) => {
     const key = Object.values(chosen()).join(" ");
     if (figure.others) {
       const before = Object.keys(points).filter((other) => other !== key);
-      chart.curve("other", before.flatMap((other) => [...curve(other, 0), ...curve(other, 1)]), { joined: false, markers: true });
+      chart.curve("other", before.flatMap((other) => figure.keys.flatMap((_, i) => curve(other, i))), { joined: false, markers: true });
     }
-    ["p1", "cr"].forEach((name, i) => chart.curve(name, curve(key, i).filter(([, value]) => !refused(value)), { markers: true }));
+    figure.keys.forEach((_, i) => chart.curve(classes[i], curve(key, i).filter(([, value]) => !refused(value)), { markers: true }));
     if (figure.refused) chart.curve("touching", curve(key, 0).filter(([, value]) => refused(value)), { joined: false, markers: true });
     box.dataset.points = points[key]?.size ?? 0;
   }
   async function update() {
-    const epsilon = figure.zero ? antilock.epsilonOf(range) : 10 ** Number(range.value);
+    const epsilon = antilock.epsilonOf(range, Boolean(figure.zero));
     output.innerHTML = antilock.epsilonShown(range, epsilon);
     range.setAttribute("aria-valuetext", `epsilon is ${antilock.epsilonSaid(range, epsilon)}`);
     try {
-      library ??= await antilock.library();
-      const values = figure.ask(library, epsilon, chosen());
-      (points[Object.values(chosen()).join(" ")] ??= new Map()).set(epsilon, values);
+      const now = chosen(), values = await figure.ask(epsilon, now);
+      (points[Object.values(now).join(" ")] ??= new Map()).set(epsilon, values);
       draw();
       const text = values.map((value, i) => `${figure.keys[i]} ${refused(value) ? "refused" : antilock.digits(value)}`).join(", ");
-      said.textContent = `Error: ${text}; ${box.dataset.points} points.`;
+      said.textContent = `${text}; ${box.dataset.points === "1" ? "1 point" : `${box.dataset.points} points`}.`;
       chart.said(text);
-      Object.assign(box.dataset, { state: "ready", p1: values[0], cr: values[1] });
+      Object.assign(box.dataset, { state: "ready", p1: values[0], cr: values[1], epsilon, values: values.join(" ") });
     } catch (error) {
-      library = null;
+      antilock.sharedLibrary = null;
       said.textContent = antilock.refusal(error);
       box.dataset.state = "failed";
     }
@@ -69,5 +70,6 @@ antilock.pointwise = async (box, figure) => {
   clear.addEventListener("click", () => { points = {}; draw(); said.textContent = ""; });
   box.setAttribute("aria-label", `Live figure: ${figure.label}`);
   box.replaceChildren(...still.children);
-  await update();
+  if (figure.asleep) antilock.whenNear(box, soon);
+  else await update();
 };

@@ -6,8 +6,8 @@ antilock.figures.roundoff = (box) => antilock.pointwise(box, {
   axes: { title: "Largest error at the unknowns against epsilon, P1 on the structured mesh",
     x: { log: true, range: [4e-17, 2.5], ticks: [1e-16, 1e-12, 1e-8, 1e-4, 1], name: "ε" },
     y: { log: true, range: [1e-4, 1], ticks: [1e-4, 1e-3, 1e-2, 1e-1, 1], name: "largest error" } },
-  ask(library, epsilon, { cells }) {
-    const { split, summed } = library.roundOff(Number(cells), epsilon);
+  async ask(epsilon, { cells }) {
+    const { split, summed } = (await antilock.shared()).roundOff(Number(cells), epsilon);
     return [summed, split];
   },
 });

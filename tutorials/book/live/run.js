@@ -8,11 +8,12 @@ antilock.programs = (() => {
     part.onerror = () => failed(new Error(`${name} is missing beside the page`));
     document.head.append(part);
   });
-  let ready, worker;
+  let ready;
   return {
-    /// Runs a program: `args` with its name first, `put` files [path, text or bytes]. `on` is told { text, isError }, { started }.
-    /// Ends in { status, trouble, seconds, memory, results: [path, bytes] }; `trouble` is not empty where there is no status.
-    async run(args, put, on) {
+    /// Runs a program: `args` with its name first, `put` files [path, text or bytes]. `on` is told { text, isError }, { started };
+    /// `job.stop` ends it. Ends in { status, trouble, seconds, memory, results: [path, bytes] }; `trouble` is not empty where
+    /// there is no status.
+    async run(args, put, on, job = {}) {
       let packed;
       if (!ready) {
         await Promise.all([window.ANTILOCK_MESHES ?? script("meshes_data.js"), window.ANTILOCK_PROGRAMS ?? script("programs_data.js")]);
@@ -21,8 +22,8 @@ antilock.programs = (() => {
       const source = URL.createObjectURL(new Blob([await antilockSystem.unpacked(ANTILOCK_PROGRAMS.worker)], { type: "text/javascript" }));
       return new Promise((done) => {
         const end = (answer) => { own.terminate(); URL.revokeObjectURL(source); done(answer); };
-        const own = worker = new Worker(source);
-        own.stop = () => end({ status: null, trouble: "stopped", results: [] });
+        const own = new Worker(source);
+        job.stop = () => end({ status: null, trouble: "stopped", results: [] });
         own.onerror = (event) => end({ status: null, trouble: event.message, results: [] });
         own.onmessage = ({ data }) => {
           if (data.ready) ready = data.ready;
@@ -32,7 +33,6 @@ antilock.programs = (() => {
         own.postMessage({ packed, ready, args, put });
       });
     },
-    stop: () => worker?.stop(),
   };
 })();
 
@@ -71,12 +71,12 @@ antilock.tableChart = (where, name, text) => {
 /// The surface of u in a VTU file, which one turns with the mouse, a finger or the arrow keys.
 antilock.vtuSurface = (where, name, bytes) => {
   // the arrays are raw bytes behind the XML (lib/antilock/io/detail/vtu_grid.cpp), each behind its length in eight bytes
-  const mark = '<AppendedData encoding="raw">\n_', latin = new TextDecoder("latin1").decode(bytes), first = latin.indexOf(mark) + mark.length;
+  const mark = '<AppendedData encoding="raw">\n_', latin = new TextDecoder("latin1").decode(bytes.subarray(0, 1 << 16)), first = latin.indexOf(mark) + mark.length;
   const array = (named, Numbers) => {
     const offset = latin.match(new RegExp(`Name="${named}"[^>]*offset="(\\d+)"`))?.[1];
     if (offset === undefined) return undefined;
     const at = bytes.byteOffset + first + Number(offset), length = new DataView(bytes.buffer, at).getUint32(0, true);
-    return Array.from(new Numbers(bytes.buffer.slice(at + 8, at + 8 + length)));
+    return new Numbers(bytes.buffer.slice(at + 8, at + 8 + length));
   };
   const points = array("points", Float64Array), u = array("u", Float64Array), corners = array("connectivity", Int32Array);
   if (!points || !u || !corners || 3 * u.length !== points.length) return;
@@ -89,7 +89,8 @@ antilock.vtuSurface = (where, name, bytes) => {
   canvas.setAttribute("aria-label", `Surface of u, ${said}`);
   where.append(figure);
   const scale = 0.25 / largest;  // drawn as high as the figures of the book
-  const triangles = Float32Array.from(corners.flatMap((v) => [points[3 * v], points[3 * v + 1], scale * u[v]]));
+  const triangles = new Float32Array(3 * corners.length);
+  corners.forEach((v, i) => triangles.set([points[3 * v], points[3 * v + 1], scale * u[v]], 3 * i));
   const paint = antilock.surface(canvas, { at: [] }), draw = () => paint(triangles, [], 0.25, turn);
   antilock.turns(canvas, turn, draw);
   draw();
@@ -114,7 +115,7 @@ for (const box of document.querySelectorAll("#run")) {
   box.append(console_);
   const at = (name) => console_.querySelector(name), out = at("#run-output"), state = at("#run-state"), stop = at("#run-stop");
   const buttons = () => document.querySelectorAll("button[data-run], #run-again, #run-scene");
-  let line = "", turn = 0;
+  let line = "", turn = 0, job = {};
   const show = (name, text) => { state.dataset.state = name; state.textContent = text; };
 
   /// What the program prints, as it comes; VERDICT lines stand above it as well.
@@ -128,10 +129,11 @@ for (const box of document.querySelectorAll("#run")) {
   }
 
   /// Files to keep, tables as charts, u as a surface.
-  function keep(results) {
+  async function keep(results) {
     const files = at(".run-files"), pictures = at(".run-pictures"), text = (bytes) => new TextDecoder().decode(bytes);
     if (results.length) files.append("To keep: ");
     for (const [path, bytes] of results) {
+      await antilock.breath();
       const name = path.split("/").pop(), size = bytes.length < 1e4 ? (bytes.length / 1e3).toFixed(1) : (bytes.length / 1e3).toFixed(0);
       files.append(Object.assign(document.createElement("a"), { href: URL.createObjectURL(new Blob([bytes])), download: name, textContent: `${name} (${size} kB)` }), " ");
       if (name === "solution.vtu") antilock.vtuSurface(pictures, name, bytes);
@@ -179,7 +181,8 @@ for (const box of document.querySelectorAll("#run")) {
   }
 
   async function run(args, put) {
-    antilock.programs.stop();
+    job.stop?.();
+    job = {};
     const own = ++turn;
     for (const name of [".run-verdicts", "#run-output", "#run-warning"]) at(name).replaceChildren();
     console_.hidden = out.hidden = false;
@@ -194,7 +197,7 @@ for (const box of document.querySelectorAll("#run")) {
         if (own !== turn) return;
         if (said.started) show("running", "running");
         else print(said.text, said.isError);
-      });
+      }, job);
     } catch (error) { end = { status: null, trouble: error.message, results: [] }; }
     clearInterval(clock);
     if (own !== turn) return;
@@ -202,13 +205,14 @@ for (const box of document.querySelectorAll("#run")) {
     if (line) print("\n");
     const { status, trouble, seconds, memory, results } = end;
     for (const name of [".run-pictures", ".run-files"]) at(name).replaceChildren();
+    sum(results);
+    await keep(results);
+    if (own !== turn) return;
     if (trouble) show(trouble === "stopped" ? "stopped" : "failed", trouble === "stopped" ? "stopped" : `failed: ${trouble}`);
     else show(status === 0 ? "done" : "failed", `${status === 0 ? "done" : `ended with status ${status}`} in ${seconds.toFixed(1)} s, ${(memory / 2 ** 20).toFixed(0)} MiB`);
-    sum(results);
-    keep(results);
     if (status === 0 && seconds < 0.6) await offerSliders();
   }
-  stop.addEventListener("click", antilock.programs.stop);
+  stop.addEventListener("click", () => job.stop?.());
 
   for (const button of document.querySelectorAll("button[data-run]")) {
     button.disabled = false;

@@ -6,6 +6,23 @@ antilock.viridis = (t) => {  // a polynomial fit of matplotlib's map
   return [0, 1, 2].map((k) => Math.round(255 * Math.min(1, Math.max(0, c.reduceRight((sum, a) => sum * t + a[k], 0)))));
 };
 
+/// A mesh of the unit squares, from above: rows with the corners x0, y0, ... y2 and a number, which is the colour.
+antilock.triangles = (canvas, rows) => {
+  const paper = canvas.getContext("2d"), colours = rows.map((row) => row.colour), sorted = [...colours].sort((a, b) => a - b);
+  const low = sorted[Math.floor(0.05 * sorted.length)], high = sorted.at(-1);
+  const bottom = Math.min(...rows.map((row) => row.y0)), width = canvas.width;
+  canvas.height = Math.round(width * (1 - bottom));
+  paper.lineWidth = rows.length > 4000 ? 0.2 : 0.5;
+  rows.forEach((row, i) => {
+    paper.beginPath();
+    for (const k of [0, 1, 2]) paper.lineTo(row[`x${k}`] * width, (1 - row[`y${k}`]) * width);
+    paper.closePath();
+    paper.fillStyle = `rgb(${antilock.viridis(Math.max(0, Math.min(1, (colours[i] - low) / (high - low)))).join(",")})`;
+    paper.fill();
+    paper.stroke();
+  });
+};
+
 antilock.surface = (canvas, labels) => {
   // A point (x, y, u) in the picture; the same for the shader and for the labels.
   const vertexShader = `#version 300 es

@@ -243,19 +243,28 @@ class System {
   }
 }
 
-/// What wasm/pack wrote: gzip, seven bits per character; the five that no string may hold stand behind 0x80.
+/// What wasm/pack wrote: gzip, fifteen bits per character from U+3400 on; the first one counts the bytes too many.
 async function unpacked(text) {
-  const packed = new Uint8Array(Math.floor(7 * text.length / 8)), meant = [0, 10, 13, 34, 92];
-  for (let i = 0, at = 0, bits = 0, have = 0; i < text.length; ++i) {
-    const sign = text.charCodeAt(i);
-    bits = (bits << 7) | (sign < 0x80 ? sign : meant[sign - 0x80]);
-    have += 7;
-    if (have < 8) continue;
-    have -= 8;
-    packed[at++] = bits >> have;
+  const first = 0x3400, packed = new Uint8Array(15 * (text.length - 1) / 8);
+  for (let i = 1, at = 0, bits = 0, have = 0; i < text.length; ++i) {
+    bits = (bits << 15) | (text.charCodeAt(i) - first);
+    for (have += 15; have >= 8;) packed[at++] = bits >> (have -= 8);
     bits &= (1 << have) - 1;
   }
-  return new Uint8Array(await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer());
+  const zipped = new Blob([packed.subarray(0, packed.length - (text.charCodeAt(0) - first))]);
+  return new Uint8Array(await new Response(zipped.stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer());
+}
+
+/// A mesh as the library keeps it from what wasm/pack made of it: its coordinates byte by byte, its triangles as differences.
+function mesh(bytes) {
+  const view = new DataView(bytes.buffer), [vertices, triangles] = [0, 8].map((at) => view.getUint32(at, true)), begin = 24, end = begin + 16 * vertices;
+  const planes = bytes.slice(begin, end), step = 2 * vertices;
+  for (let i = 0; i < step; ++i) for (let k = 0; k < 8; ++k) bytes[begin + 8 * i + k] = planes[k * step + i];
+  for (let t = 0, first = 0; t < triangles; ++t) {
+    const at = end + 12 * t, way = (k) => view.getInt32(at + 4 * k, true), a = first += way(0), b = a + way(1), c = b + way(2);
+    [a, b, c].forEach((v, k) => view.setInt32(at + 4 * k, v, true));
+  }
+  return bytes;
 }
 
 /// Puts packed meshes where the library looks for those that were kept (ANTILOCK_MESHES): per mesh the lengths of its name
@@ -265,7 +274,7 @@ async function putMeshes(files, text) {
   for (let at = 0; at < bytes.length;) {
     const name = at + 8, begin = name + view.getUint32(at, true), end = begin + view.getUint32(at + 4, true);
     if (end > bytes.length) throw new Error("the page's meshes are damaged");
-    files.write(`${where}/${new TextDecoder().decode(bytes.subarray(name, begin))}`, bytes.slice(begin, end));
+    files.write(`${where}/${new TextDecoder().decode(bytes.subarray(name, begin))}`, mesh(bytes.slice(begin, end)));
     at = end;
   }
 }

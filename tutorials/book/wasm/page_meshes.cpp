@@ -1,5 +1,5 @@
 // gmsh's meshes for pages, which have no gmsh. Their names are those under which the library keeps them (mesh/unstructured.cpp):
-// it does so in the folder ANTILOCK_MESHES. Run: ANTILOCK_MESHES=FOLDER page_meshes < tutorials/book/wasm/meshes.txt
+// it does so in the folder ANTILOCK_MESHES. Run: tutorials/book/runs.py | ANTILOCK_MESHES=FOLDER page_meshes
 #include <fmt/format.h>
 
 #include <cmath>
@@ -12,7 +12,6 @@
 
 int main() try {
   for (std::string line; std::getline(std::cin, line);) {
-    if (line.empty() || line[0] == '#') continue;
     int mesher = 0;
     double depth = 0, h = 0;
     if (std::sscanf(line.c_str(), "unstructured%d_%la_%la", &mesher, &depth, &h) != 3) {

@@ -1,0 +1,34 @@
+// Behind 22_ask_for_an_accuracy.cpp: one accuracy, the levels on the way to it, the mesh in the end.
+double asked = 0.1;
+std::string load = "bump", quantity = "displacement";
+
+void ask_once(const tutorial::Options& options, tutorial::Report&) {
+  const Growth growth = options.epsilon > 0.1 ? Growth::bisect : Growth::extrude;
+  Table levels({"unknowns", "bound"}), triangles({"x0", "y0", "x1", "y1", "x2", "y2", "colour"});
+  const CertifiedSolution found = solve_to(
+      load_scene(load, options.epsilon), first_mesh(growth),
+      {asked, quantity == "stress" ? Quantity::stress : Quantity::displacement, 2e6, growth}, [&](const Level& level) {
+        levels.add({level.unknowns, level.relative});
+      });
+  levels.write(options.out / "levels.csv");
+  const TriangleMesh& mesh = *found.answer.mesh;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    std::vector<Entry> row;
+    for (const int v : mesh.triangles.row(t)) row.insert(row.end(), {mesh.vertices(v, 0), mesh.vertices(v, 1)});
+    row.emplace_back(std::log10(std::max(found.certificate.indicator(t) / mesh.area(t), 1e-12)));
+    triangles.add(row);
+  }
+  triangles.write(options.out / "triangles.csv");
+  fmt::print("Asked {:g} %, proved {:.2f} % with {} unknowns, on {} meshes.\n", 100 * asked, 100 * levels.last("bound"),
+             levels.last("unknowns"), levels.size());
+}
+
+int figure(int argc, char** argv) {
+  const auto add = [](tutorial::CommandLine& line) {
+    line.add("--asked", asked, "relative accuracy asked for", 0.02, 0.2);
+    line.add("--load", load, "paper or bump");
+    line.add("--of", quantity, "displacement or stress");
+  };
+  return tutorial::run(argc, argv, "figure_22_ask_for_an_accuracy", "one accuracy", {.epsilon = 1e-6, .add = add},
+                       ask_once);
+}
