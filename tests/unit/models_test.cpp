@@ -592,15 +592,19 @@ TEST(Plate, BendsExactlyWithConstantCurvature) {
         const On on(method, mesh);
         const VariationalInequality problem = assemble(bent(t), on.space);
         const Solution s = active_set(problem);
-        const double promised = 1e-10 * s.u.lpNorm<Eigen::Infinity>();  // CorrectionOptions::tolerance
+        // to what is claimed: the rate is one of p in the Euclidean norm, the error one of u in the maximum norm
+        EXPECT_LE(s.error, CorrectionOptions{}.tolerance);
+        const double claimed = std::max(s.error, std::numeric_limits<double>::epsilon());
+        const double off = 10 * claimed * s.u.lpNorm<Eigen::Infinity>();
         for (int i = 0; i < mesh.vertex_count(); ++i) {
           const double x = mesh.vertices(i, 0), y = mesh.vertices(i, 1);
-          ASSERT_NEAR(s.u(on.space.theta_x() + i), 2 * x + y, promised);
-          ASSERT_NEAR(s.u(on.space.theta_y() + i), x - y, promised);
+          ASSERT_NEAR(s.u(on.space.theta_x() + i), 2 * x + y, off);
+          ASSERT_NEAR(s.u(on.space.theta_y() + i), x - y, off);
           if (on.w.element().conforming()) {
-            ASSERT_NEAR(s.u(i), x * x + x * y - y * y / 2, promised);
+            ASSERT_NEAR(s.u(i), x * x + x * y - y * y / 2, off);
           }
         }
+        EXPECT_LE(s.counters.corrections, 3) << "what the dependent rows of the edges leave of p is round-off";
         // bending energy of the curvatures 2, -1 and twist 1: (1 - nu)(4 + 1 + 2) + nu (2 - 1)^2 per area
         double area = 0;
         for (int k = 0; k < mesh.triangle_count(); ++k) area += mesh.area(k);

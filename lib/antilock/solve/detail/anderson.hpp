@@ -7,10 +7,15 @@ namespace antilock {
 
 /// Anderson's acceleration of a fixed-point iteration x -> x + g(x): the combination of the last few iterates whose
 /// steps g cancel best (for a linear iteration: GMRES). D. G. Anderson, J. ACM 12 (1965).
+///
+/// What a mix does to the rate: nothing. Near the answer a plain step multiplies the error of x by T, and a mix changes the
+/// error and not T. So what a plain step after a mix leaves is bounded by the contraction of plain steps. A slow mode with a
+/// small share in all noted starts stays unseen. Where what is left of g is round-off, the weights of a mix are chance; it
+/// does no harm as long as the companions that it mixes are all near the answer.
 class Anderson {
  public:
   /// Iterates that are kept: as many slow modes less one are gone. Two to five were seen, in locked P1; each costs two
-  /// vectors of u and p. (All 15 with one penalty, on Duran and Liberman's plate at t = 0, left u 0.6 % above its tolerance.)
+  /// vectors of u and p.
   static constexpr std::size_t depth = 6;
 
   /// Notes a plain step: `reached` = x + g from some x, and `companion`, a vector that depends affinely on x.
@@ -26,6 +31,10 @@ class Anderson {
 
   /// Forgets the past: after a change of the iteration itself (another contact set), it would only mislead.
   void restart() { past_.clear(); }
+  /// Forgets the first start alone, if it is still noted.
+  void forget_the_oldest() {
+    if (!past_.empty()) past_.pop_back();
+  }
 
  private:
   struct Iterate {
