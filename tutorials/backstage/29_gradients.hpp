@@ -18,8 +18,8 @@ inline Eigen::MatrixXd gradient_loads(const Space& space, int waves, bool on_flu
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
       const Eigen::VectorXd phi = space.element().basis(rule.points.row(q));
       for (int j = 0; j < loads.cols(); ++j) {
-        const double a = (static_cast<double>(j / waves) + 1) * std::numbers::pi,
-                     b = (j % waves + 0.5) * std::numbers::pi;
+        const int across = j / waves, along = j % waves;
+        const double a = (across + 1) * std::numbers::pi, b = (along + 0.5) * std::numbers::pi;
         const Eigen::Vector2d f =
             mesh.area(t) * rule.weights(q) * 2 / std::hypot(a, b) *
             Eigen::Vector2d(a * std::cos(a * x(0)) * std::sin(b * x(1)), b * std::sin(a * x(0)) * std::cos(b * x(1)));
