@@ -31,7 +31,7 @@ class Anderson {
 
   /// Forgets the past: after a change of the iteration itself (another contact set), it would only mislead.
   void restart() { past_.clear(); }
-  /// Forgets the first start alone, if it is still noted.
+  /// Forgets the start noted first of those that are left; after a restart that is the only one.
   void forget_the_oldest() {
     if (!past_.empty()) past_.pop_back();
   }
