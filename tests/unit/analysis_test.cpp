@@ -1062,6 +1062,18 @@ TEST(LostEnergy, ItsMotionIsTheEnergyOfALayerThatIsPressedIn) {
   }
 }
 
+// A gap that bends the layer: what is lost and what is moved are s times the same, whatever the body.
+TEST(LostEnergy, IsTheSameShareHoweverStiffALayerIsThatItsGapBends) {
+  const UnilateralContact wavy{[](double x) { return -0.05 * std::sin(6 * std::numbers::pi * x); }};
+  const auto share = [&](double s) {
+    const Scene scene({[](double, double) { return 0.0; }}, StiffLayer{.epsilon = 0.1, .s = s}, wavy);
+    return lost_on(unstructured_mesh(16), p1(), scene).share;
+  };
+  const double stiff = share(1e5);
+  EXPECT_GT(stiff, 0.1);
+  for (const double s : {1e7, 1e9, 1e11}) EXPECT_NEAR(share(s), stiff, 1e-4) << s;  // the body is 1 / s of it
+}
+
 TEST(LostEnergy, IsNoneWhereTheObstacleHoldsTheLayer) {
   // pressed down everywhere: the layer has nowhere to go, and a locked layer is the right one
   const Scene down({[](double x, double) { return -10 * std::sin(std::numbers::pi * x); }}, StiffLayer{1e-6},

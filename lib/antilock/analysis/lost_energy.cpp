@@ -13,10 +13,7 @@
 //   summed at the ends of the edges for P1, which is not less than the integral, and as P1 has it in columns, and at
 //   Gauss's points beyond.
 // (22) is the same problem after y -> y / epsilon, (23). J is smallest over these v: a variational inequality with few
-// unknowns. As many rows are taken as make square cells in the layer of thickness epsilon. Then the form across the layer is
-// no stiffer than the others and is summed with them: no B. A layer so stiff that what it gives way by is less, beside the
-// body, than what counts as a motion is constant in y, without a row. In between the sum costs at most eight of the 16 digits
-// of the body's form.
+// unknowns.
 //
 // Its bounds hold at the unknowns on Sigma, from the gap as u_h has it at its own points. What v lacks between them, seen
 // at 33 points per edge, is added as a function that is affine on each edge of Sigma and constant in y: v', of K.
@@ -38,8 +35,6 @@ namespace {
 
 using Indices = std::vector<int>;
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// The least motion, as a share of J(v): the square of what the solvers leave of u, 1e-10 by default, with room.
-constexpr double counts = 1e-8;
 
 /// Sigma: the unknowns of u_h from left to right, the place of each unknown among them (-1: none), and its edges as places,
 /// from left to right.
@@ -58,9 +53,9 @@ Line sigma_line(const Space& space) {
   line.place.assign(space.size(), -1);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::sigma) continue;
-    const int t = mesh.edge_triangles(e, 0), i = mesh.triangle_edges(t, 0) == e   ? 0
-                                                 : mesh.triangle_edges(t, 1) == e ? 1
-                                                                                  : 2;
+    const int t = mesh.edge_triangles(e, 0);
+    int i = 0;  // the edge's place in t
+    while (mesh.triangle_edges(t, i) != e) ++i;
     Indices& edge = line.edge.emplace_back();
     for (Eigen::Index r = 0; r < nodes.rows(); ++r)
       if (nodes(r, i) == 0) edge.push_back(space.unknowns()(t, r));
@@ -275,54 +270,64 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
       layer_at(sigma, space, stiff != nullptr ? Eigen::Vector2d(s, 0) : Eigen::Vector2d::Constant(1 / *epsilon));
   const bool pulled = stiff != nullptr && stiff->load;
   Eigen::VectorXd load = problem.load, work = problem.a1 * solution.u;
-  const double at_hand =
-      solution.u.dot(work / 2 - load) + problem.compliance * solution.p.cwiseAbs2().dot(problem.m) / 2;
   if (pulled) load -= load_vector(space, stiff->load, Region::layer);
   for (const auto& value : layer) work(value.row()) -= value.value() * solution.u(value.col());
   for (int u = 0; u < space.size(); ++u)
     if (!in_body[u]) work(u) = load(u) = 0;
-  const double in_layer_at_hand = at_hand - solution.u.dot(work / 2 - load);
+  const double at_hand = energy(problem, solution);
+  double left_in_layer = at_hand - solution.u.dot(work / 2 - load);
 
   const Sunk body = sunk_to_sigma(problem, sigma, hats(space.points(), sigma, in_body), layer, load - work);
 
-  // the unknowns: Sigma, and rows 1 to `rows` of columns below it, no more than the mesh has: a coarse layer is no locked one
+  // the unknowns: Sigma, and rows 1 to `rows` of columns below it; all are differences to u_h, on Sigma and constant in y
   constexpr int most_rows = 8;  // a wave over the depth loses (pi / 8)^2 / 12 = 1.3 % by the height 1/8
   const auto degree = static_cast<int>(sigma.edge.front().size()) - 1, edges = static_cast<int>(sigma.edge.size());
   const auto in_layer = static_cast<int>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
-  const double per_length = degree * edges / sigma.length, across = s / (*epsilon * *epsilon);
-  const int rows = body.form.diagonal().maxCoeff() * per_length < counts * across
-                       ? 0
-                       : std::clamp(static_cast<int>(std::ceil(*epsilon * per_length - 1e-9)), 1,
-                                    std::clamp(degree * in_layer / (2 * edges), 1, most_rows));
+  // as many rows as make square cells in the layer of thickness epsilon, but no more than the mesh has: a coarse layer is no
+  // locked one
+  const int rows = std::clamp(static_cast<int>(std::ceil(*epsilon * degree * edges / sigma.length - 1e-9)), 1,
+                              std::clamp(degree * in_layer / (2 * edges), 1, most_rows));
+  const double height = 1.0 / rows;
   const int size = (rows + 1) * points;
   const auto unknown = [&](int i, int row) { return row * points + i; };
 
-  VariationalInequality strip;  // of v; the body's part of J is one of v - base, `at_zero` where v is 0
+  VariationalInequality strip;
   strip.load = Eigen::VectorXd::Zero(size);
-  strip.load.head(points) = body.force + body.form * base;
-  const double at_zero = base.dot(strip.load.head(points) + body.force) / 2;
-  std::vector<Eigen::Triplet<double>> a1;
-  a1.reserve(static_cast<std::size_t>(points) * points + 5 * (degree + 1) * (degree + 1) * edges * (rows + 1));
+  strip.load.head(points) = body.force;
+  std::vector<Eigen::Triplet<double>> a1, b;
+  a1.reserve(static_cast<std::size_t>(points) * points + 2 * (degree + 1) * (degree + 1) * edges * rows);
   for (int i = 0; i < points; ++i)
-    for (int j = 0; j < points; ++j) a1.emplace_back(i, j, body.form(i, j));
+    for (int j = 0; j < points; ++j) a1.emplace_back(i, j, (body.form(i, j) + body.form(j, i)) / 2);
   const Eigen::VectorXd nodes = Eigen::VectorXd::LinSpaced(degree + 1, 0, 1);
   auto [at, weights] = gauss_rule(degree + 1);
-  if (degree == 1) at = nodes, weights << 0.5, 0.5;
+  // a row of B per end of an edge, of which two edges have a half each; else one per point and edge
+  const bool at_ends = degree == 1;
+  if (at_ends) at = nodes, weights << 0.5, 0.5;
   const Trace trace = trace_at(nodes, at);
-  const Eigen::MatrixXd slopes = trace.slope.transpose() * weights.asDiagonal() * trace.slope,
-                        values = trace.value.transpose() * weights.asDiagonal() * trace.value;
-  for (const Indices& edge : sigma.edge) {
+  const Eigen::MatrixXd form = trace.slope.transpose() * weights.asDiagonal() * trace.slope;
+  const int b_rows = at_ends ? points : edges * (degree + 1);
+  strip.m = Eigen::VectorXd::Zero(rows * b_rows);
+  for (int e = 0; e < edges; ++e) {
+    const Indices& edge = sigma.edge[e];
     const double dx = sigma.x[edge.back()] - sigma.x[edge.front()];
-    for (int row = 0; row <= rows; ++row)
-      for (int i = 0; i <= degree; ++i)
-        for (int j = 0; j <= degree; ++j) {
-          const double depth = rows == 0 ? 1 : (row % rows == 0 ? 0.5 : 1.0) / rows;
-          a1.emplace_back(unknown(edge[i], row), unknown(edge[j], row), s * depth / dx * slopes(i, j));
-          const double stiff_part = row < rows ? across * rows * dx * values(i, j) : 0;
-          for (int k = 0; k < 4 && stiff_part != 0; ++k)
-            a1.emplace_back(unknown(edge[i], row + k / 2), unknown(edge[j], row + k % 2),
-                            k % 3 == 0 ? stiff_part : -stiff_part);
+    const Eigen::VectorXd on_edge = base(edge), pull = s / dx * form * on_edge;
+    left_in_layer -= pull.dot(on_edge) / 2;
+    for (int row = 0; row < rows; ++row) {
+      for (const int end : {row, row + 1})
+        for (int i = 0; i <= degree; ++i) {
+          strip.load(unknown(edge[i], end)) -= height / 2 * pull(i);
+          for (int j = 0; j <= degree; ++j)
+            a1.emplace_back(unknown(edge[i], end), unknown(edge[j], end), height / 2 * s / dx * form(i, j));
         }
+      for (int q = 0; q <= degree; ++q) {
+        const int at_row = row * b_rows + (at_ends ? edge[q] : e * (degree + 1) + q);
+        for (int i = 0; i <= degree && strip.m(at_row) == 0; ++i) {
+          b.emplace_back(at_row, unknown(edge[i], row), rows * trace.value(q, i));
+          b.emplace_back(at_row, unknown(edge[i], row + 1), -rows * trace.value(q, i));
+        }
+        strip.m(at_row) += s * height * dx * weights(q);
+      }
+    }
   }
   if (pulled) {  // at the points where u_h has it
     const Quadrature& rule = load_rule(element);
@@ -332,32 +337,37 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
         const Indices& edge = *std::partition_point(sigma.edge.begin(), sigma.edge.end() - 1,
                                                     [&](const Indices& e) { return sigma.x[e.back()] < x(0); });
         const double on_edge = (x(0) - sigma.x[edge.front()]) / (sigma.x[edge.back()] - sigma.x[edge.front()]);
-        const int row = std::clamp(static_cast<int>(-x(1) * rows), 0, std::max(rows - 1, 0));
-        const double low = -x(1) * rows - row, pull = mesh.area(t) * rule.weights(q) * stiff->load(x(0), x(1));
+        const int row = std::min(static_cast<int>(-x(1) * rows), rows - 1);
+        const double low = -x(1) * rows - row;
+        const double pull = mesh.area(t) * rule.weights(q) * stiff->load(x(0), x(1));
         for (int i = 0; i <= degree; ++i) {
           double f = pull;
           for (int j = 0; j <= degree; ++j) f *= i == j ? 1 : (degree * on_edge - j) / (i - j);  // Lagrange's basis
+          left_in_layer += f * base(edge[i]);
           strip.load(unknown(edge[i], row)) += (1 - low) * f;
-          strip.load(unknown(edge[i], std::min(row + 1, rows))) += low * f;
+          strip.load(unknown(edge[i], row + 1)) += low * f;
         }
       }
   }
   strip.a1.resize(size, size);
   strip.a1.setFromTriplets(a1.begin(), a1.end());
-  strip.b.resize(0, size);
+  strip.b.resize(strip.m.size(), size);
+  strip.b.setFromTriplets(b.begin(), b.end());
+  strip.compliance = *epsilon * *epsilon;
   for (int row = 0; row <= rows; ++row)
     for (int i = 0; i < points; ++i) {
       const bool fixed = held_at[i] || (row == 0 && body.held[i]);
       if (fixed) strip.fixed.push_back(unknown(i, row));
       if (!fixed && row == rows && !problem.contact.empty()) strip.contact.push_back(unknown(i, rows));
     }
-  const Eigen::VectorXd constant_in_y = base.replicate(rows + 1, 1);
-  strip.fixed_values = constant_in_y(strip.fixed);
+  strip.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strip.fixed.size()));
   const Eigen::VectorXd bottom = space.points().col(0)(problem.contact);
   const auto seen = [&](const Eigen::VectorXd& bounds) {
     Eigen::VectorXd here(static_cast<Eigen::Index>(bounds.size() > 0 ? strip.contact.size() : 0));
-    for (Eigen::Index k = 0; k < here.size(); ++k)
-      here(k) = on_chain(bottom, bounds, sigma.x(strip.contact[k] - unknown(0, rows)));
+    for (Eigen::Index k = 0; k < here.size(); ++k) {
+      const int i = strip.contact[k] - unknown(0, rows);
+      here(k) = on_chain(bottom, bounds, sigma.x(i)) - base(i);
+    }
     return here;
   };
   strip.lower = seen(problem.lower), strip.upper = seen(problem.upper);
@@ -368,16 +378,18 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   // v_0: its layer is 0, or affine between given values of the outer ends of Sigma
   const double left = held_at.front() ? base(0) : 0, right = held_at.back() ? base(points - 1) : 0;
   const Eigen::ArrayXd s_of_x = (sigma.x.array() - sigma.x(0)) / (sigma.x(points - 1) - sigma.x(0));
-  const Eigen::VectorXd still = (left + (right - left) * s_of_x).replicate(rows + 1, 1);
+  const Eigen::VectorXd still = (left + (right - left) * s_of_x - base.array()).matrix().replicate(rows + 1, 1);
   const double j = energy(strip, moved), j_still = still.dot(strip.a1 * still) / 2 - strip.load.dot(still);
   const Eigen::VectorXd way = moved.u - still;
-  lost.found = lost.proved = in_layer_at_hand - j - at_zero;
-  lost.motion = std::max(j_still - j, way.dot(strip.a1 * way) / 2);
-  if (lost.motion < counts * std::abs(at_hand - lost.found)) lost.motion = 0;
+  lost.found = lost.proved = left_in_layer - j;
+  lost.motion =
+      std::max(j_still - j, way.dot(strip.a1 * way) / 2 + strip.compliance * moved.p.cwiseAbs2().dot(strip.m) / 2);
+  // the square of what the solvers leave of u, 1e-10 by default, with room
+  if (lost.motion < 1e-8 * std::abs(at_hand - lost.found)) lost.motion = 0;
   if (!scene.contact()) return lost;
 
   const Trace fine = trace_at(nodes, Eigen::VectorXd::LinSpaced(33, 0, 1));
-  const Eigen::VectorXd v = moved.u.tail(points);
+  const Eigen::VectorXd v = base + moved.u.segment(unknown(0, rows), points);
   const auto& contact = *scene.contact();
   const Profile& ceiling = contact.ceiling;
   const Profile floor = [&](double x) { return -contact.gap(x); }, roof = [&](double x) { return -ceiling(x); };

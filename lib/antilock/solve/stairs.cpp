@@ -58,8 +58,8 @@ Stairs::Interval Stairs::found(int i, Piece piece) const {
 }
 
 Piece Stairs::next(int i, Piece piece, bool up) const {
-  const auto [low, high] =
-      found(i, piece);  // v rises and lambda falls: a piece without an end that way is the last one
+  // v rises and lambda falls: a piece without an end that way is the last one
+  const auto [low, high] = found(i, piece);
   if (!std::isfinite(is_held(piece) == up ? low : high))
     throw Error(fmt::format("contact: stair {} ends with piece {}; there is none beyond", i, static_cast<int>(piece)));
   if (is_equation(i)) return piece != Piece::at_lower ? Piece::at_lower : up ? Piece::above : Piece::below;
