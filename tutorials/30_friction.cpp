@@ -190,7 +190,6 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
 //
 // (b) Where they cancel. P1 on crossed triangles sticks on 0.16 at λ = 1, 0.41 at 5, 0.28 at 10, 0.22 in the limit.
 // :live: friction
-//
 // :output: Crouzeix-Raviart with jumps: T
 //
 // The three elements that do not lock have the forces of the reference at every λ, with one factor for all large λ and

@@ -87,6 +87,11 @@ def runs(prose):
     return rest, found
 
 
+def runs_in_the_page(source):
+    """Whether this text of a program asks for no PETSc: wasm/build leaves out the same."""
+    return not re.search(r'#include "(antilock/distributed|petsc)/', source)
+
+
 def options(command):
     """The options of a command; its first word is the program."""
     return command.partition(" ")[2]

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded, live_figure, signs,
+from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded, live_figure, runs_in_the_page, signs,
                       with_exercises)
 from katex import TAG, anchor
 from library import Library
@@ -258,7 +258,7 @@ class Book:
         if names and len(shots) > 1:
             self.complain(f"{stem}.cpp: no line places the picture {shots[1]['image']}; accepted: :figure: {shots[1]['image']}")
         out = [f"# {stem[:2]} {page.title}", "", *self.relations(stem)]
-        commands, here = [command for command, _ in page.runs], self.runs_in_the_page(source)
+        commands, here = [command for command, _ in page.runs], runs_in_the_page(source.read_text())
         missing = [command for command in commands if here and command not in self.takes]
         if missing:
             self.complain(f"{stem}.cpp: {missing[0]} has no row in wasm/runs.csv; tutorials/book/wasm/measure build/tutorials writes it")
@@ -288,11 +288,6 @@ class Book:
         out += ["To keep: {download}`all programs of the course, with their twins <sources.zip>`; this one is "
                 f"`tutorials/{source.name}`" + (f", its twin `freefem/{twin.name}`" if twin.exists() else "") + ".", ""]
         self.write(stem, out)
-
-    @staticmethod
-    def runs_in_the_page(source):
-        """Not what asks for PETSc: wasm/build leaves out the same."""
-        return not re.search(r'#include "(antilock/distributed|petsc)/', source.read_text())
 
     def console(self, stem, command):
         """The button on top, with the seconds to expect."""

@@ -10,7 +10,7 @@ antilock.answer = async (stem, options) => {
   if (status !== 0) throw new Error(said.true.trim().replace(/^figure_\w+: /, "") || trouble);
   const tables = {};
   for (const [path, bytes] of results) {
-    const [head, ...rows] = new TextDecoder().decode(bytes).trim().split("\n").map((row) => row.split(","));
+    const [head, ...rows] = antilock.csv(new TextDecoder().decode(bytes));
     tables[path.match(/([^/]*)\.csv$/)?.[1]] = rows.map((row) => Object.fromEntries(row.map((text, k) => [head[k], Number.isNaN(Number(text)) ? text : Number(text)])));
   }
   return { said: said.false.trim().split("\n").slice(1, -1).join(" "), tables };

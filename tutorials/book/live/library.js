@@ -69,6 +69,8 @@ antilock.epsilonSaid = (range, epsilon) => (epsilon === 0 ? "0, the limit" : eps
 antilock.epsilonShown = (range, epsilon) =>
   epsilon === 0 ? "0, the limit" : epsilon === 1 ? "1" : `10<sup>${range.value.replace("-", "−")}</sup>`;
 antilock.refusal = (error) => `No answer: ${error.message}. Choose something else; the page goes on.`;
+/// A CSV text as rows of texts; the first one is its head.
+antilock.csv = (text) => text.trim().split("\n").map((row) => row.split(","));
 antilock.digits = (x, n = 2) => (x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e4 ? x.toExponential(n - 1) : String(Number(x.toPrecision(n + 1))));
 
 /// Calls `update` once per picture drawn, however often it is asked, and never twice at once.

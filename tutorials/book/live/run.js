@@ -40,7 +40,7 @@ antilock.programs = (() => {
 
 /// The chart of a table: its first column of numbers against all others; nothing where this is no curve.
 antilock.tableChart = (where, name, text) => {
-  const [head, ...rows] = text.trim().split("\n").map((row) => row.split(","));
+  const [head, ...rows] = antilock.csv(text);
   const isNumber = head.map((_, k) => rows.every((row) => row[k] !== undefined && row[k] !== "" && Number.isFinite(Number(row[k]))));
   const varies = head.map((_, k) => k).filter((k) => isNumber[k] && new Set(rows.map((row) => row[k])).size > 1), [x] = varies;
   const size = (k) => Math.max(...rows.map((row) => Math.abs(Number(row[k])))), results = varies.filter((k) => k !== x && !["cells", "h", "unknowns", "seconds"].includes(head[k]));
