@@ -229,6 +229,8 @@ Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& e
       judgement.error = difference < std::numeric_limits<double>::min()
                             ? 0
                             : difference / std::max(exact.u.lpNorm<Eigen::Infinity>(), 1e-9 * s.moderate);
+      if (judgement.error > 0 && s.warning.empty())
+        judgement.over_claim = difference / (s.error * s.u.lpNorm<Eigen::Infinity>());
     }
     judgement.reason = s.warning;
     if (!s.warning.empty())

@@ -35,8 +35,9 @@ enum class Outcome {
 
 struct Judgement {
   Outcome outcome = Outcome::right;
-  double error = 0;    ///< of u relative to the largest entry of the exact u
-  std::string reason;  ///< the message of a refusal or a warning
+  double error = 0;       ///< of u relative to the largest entry of the exact u
+  double over_claim = 0;  ///< where answered without a warning: the error of u over the one that Solution::error claims
+  std::string reason;     ///< the message of a refusal or a warning
 };
 
 enum class By { active_set, uzawa };

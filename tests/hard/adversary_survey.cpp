@@ -54,6 +54,7 @@ int main(int argc, char** argv) {
     ++counts[fmt::format("{}: {}", truth, outcome)];
     if (judgement.outcome == Outcome::refused || judgement.outcome == Outcome::warned)
       ++reasons[fmt::format("{}: {:.70}", outcome, without_numbers(judgement.reason))];
+    if (judgement.over_claim > 10) ++counts[fmt::format("{}: over 10 times what it claims", truth)];
     if (judgement.outcome == Outcome::quietly_wrong)
       fmt::print("problem {}: {}, error {:.1e}\n", seed, truth, judgement.error);
   }

@@ -13,13 +13,15 @@ using namespace test;
 
 /// Problems number `from` to `to` of a list by a solver, and how many of them may be refused though they have an answer, or
 /// warned of though it is right: ten times the share measured over 5000 problems by the active set. Uzawa gives up on more,
-/// for want of more than 20,000 steps.
+/// for want of more than 20,000 steps. `over_claim`: how many times the error may be that of Solution::error, which is an
+/// estimate: 24 in the friction of seed 236. It knows nothing of what Uzawa's steps leave.
 struct Sample {
   std::string name;
   VariationalInequality (*problem)(unsigned seed);
   By solver;
   unsigned from, to;
   int refused, warned;
+  double over_claim = infinity;
 };
 
 class Adversary : public testing::TestWithParam<Sample> {};
@@ -32,6 +34,7 @@ TEST_P(Adversary, FindsNothingWrongInSilence) {
     const test::ExactAnswer exact = test::exact_answer(problem);
     const Judgement judgement = judge(problem, exact, sample.solver);
     EXPECT_NE(judgement.outcome, Outcome::quietly_wrong) << "seed " << seed << ", error " << judgement.error;
+    EXPECT_LE(judgement.over_claim, sample.over_claim) << "seed " << seed << ", error " << judgement.error;
     solvable += exact.what == test::Exactly::solved;
     refused += judgement.outcome == Outcome::refused;
     warned += judgement.outcome == Outcome::warned && judgement.error <= 1e-6;
@@ -42,10 +45,10 @@ TEST_P(Adversary, FindsNothingWrongInSilence) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Lists, Adversary,
-                         testing::Values(Sample{"lower", random_problem, By::active_set, 0, 400, 8, 4},
-                                         Sample{"shapes", random_bounds, By::active_set, 0, 250, 5, 4},
-                                         Sample{"friction", random_friction, By::active_set, 0, 250, 5, 4},
-                                         Sample{"corners", random_corner, By::active_set, 0, 400, 8, 8},
+                         testing::Values(Sample{"lower", random_problem, By::active_set, 0, 400, 8, 4, 10},
+                                         Sample{"shapes", random_bounds, By::active_set, 0, 250, 5, 4, 10},
+                                         Sample{"friction", random_friction, By::active_set, 0, 250, 5, 4, 30},
+                                         Sample{"corners", random_corner, By::active_set, 0, 400, 8, 8, 10},
                                          Sample{"lower_uzawa", random_problem, By::uzawa, 0, 600, 40, 20},
                                          Sample{"shapes_uzawa", random_bounds, By::uzawa, 0, 600, 60, 20},
                                          Sample{"friction_uzawa", random_friction, By::uzawa, 1000, 1060, 20, 10}),
@@ -141,7 +144,7 @@ TEST(NothingInSilence, TheErrorIsThatOfAllCorrectionsToCome) {
     double to_come = 0, correction = 1e-3;
     for (int k = 0; k < 1000; ++k) to_come += correction *= rate;
     const Accuracy now = accuracy(small_problem(chain(3), Eigen::Vector3d::Ones()), Twice(Eigen::Vector3d(2, 1, 0)),
-                                  Eigen::Vector3d(0, 1e-3, 0), {}, rate, 0, {});
+                                  rate * 1e-3, {}, rate, 0, {});
     EXPECT_NEAR(now.error / (to_come / 2), 1, 1e-13) << rate;
   }
 }

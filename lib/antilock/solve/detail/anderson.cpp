@@ -10,16 +10,16 @@ namespace antilock {
 void Anderson::note(const Twice& reached, const Eigen::VectorXd& g, const Twice& companion) {
   past_.push_front({reached, companion, g});
   if (past_.size() > depth) past_.pop_back();
-}
-
-double Anderson::contraction() const {
-  double most = past_.size() < 2 ? tuned::slowest : 1 - tuned::slowest;
+  double most = past_.size() < 2 ? tuned::slowest : 1 - tuned::slowest, gain = 0;
   for (std::size_t i = 1; i < past_.size(); ++i) {
-    const Eigen::VectorXd after = past_[0].reached - past_[i].reached;
-    const double apart = (after - past_[0].g + past_[i].g).norm();
-    if (apart > 0) most = std::max(most, after.norm() / apart);
+    const Eigen::VectorXd after = reached - past_[i].reached;
+    const double apart = (after - g + past_[i].g).norm();
+    if (!(apart > 0)) continue;
+    most = std::max(most, after.norm() / apart);
+    gain = std::max(gain, (companion - past_[i].companion).lpNorm<Eigen::Infinity>() / apart);
   }
-  return std::min(most, tuned::slowest);
+  contraction_ = std::min(most, tuned::slowest);
+  if (gain > 0) gain_ = gain;  // else the last one: another contact set hardly changes it
 }
 
 void Anderson::mix(Twice& reached, Twice& companion) const {

@@ -21,10 +21,15 @@ class Anderson {
   /// Notes a plain step: `reached` = x + g from some x, and `companion`, a vector that depends affinely on x.
   void note(const Twice& reached, const Eigen::VectorXd& g, const Twice& companion);
 
+  /// |g| of the last step times `gain`, the most that the companion moved, in the maximum norm, where a start moved by 1: what
+  /// the next step adds to the companion; 0 where no two starts are noted yet. (A step of the companion itself does not tell:
+  /// round-off that a mix leaves in a start is in g, and in the companion, but in no step between two companions.)
+  double next_companion_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
+
   /// By how much a plain step brings two starts closer, at worst over the last start and those before it; within
   /// tuned::slowest, and that where there is only one. It holds wherever the starts came from. (The ratio of two steps |g| does not: a
   /// mix makes g smaller, not the error by the same factor.)
-  double contraction() const;
+  double contraction() const { return contraction_; }
 
   /// Mixes the noted iterates: `reached` and, with the same weights, `companion` become the next start.
   void mix(Twice& reached, Twice& companion) const;
@@ -41,7 +46,8 @@ class Anderson {
     Twice reached, companion;
     Eigen::VectorXd g;
   };
-  std::deque<Iterate> past_;  ///< the last one first
+  std::deque<Iterate> past_;           ///< the last one first
+  double contraction_ = 0, gain_ = 0;  ///< both measured by `note`
 };
 
 }  // namespace antilock

@@ -43,12 +43,12 @@ class IteratedPenalty {
       const Correction step = correct(exact_residual(problem_, u_, p_, contact_.lambda));
       const double largest = u_.high.lpNorm<Eigen::Infinity>(), moved = step.u.lpNorm<Eigen::Infinity>();
       if (correction == 0) s_.moderate = largest;
-      Accuracy now = accuracy(problem_, u_, step.u, step.left_of_r2, rate(moved), s_.moderate, options_);
+      const double rho = rate(moved), next = std::max(rho * moved, acceleration_.next_companion_step());
+      Accuracy now = accuracy(problem_, u_, next, step.left_of_r2, rho, s_.moderate, options_);
       // what is left of a load that a bound can hardly bear is seen by the second residual, and not by the first
       if (correction == 0 && moved > 0 && problem_.force_bound.size() > 0) now.error = 1;
       s_.history.push_back(largest > 0 ? moved / largest : 0);
       s_.counters.corrections = correction;
-      s_.error = now.error;
       const bool right = now.error <= options_.tolerance && now.open <= 1;
       if (right || correction >= options_.max_corrections || !std::isfinite(moved)) return finished(step, now);
       const bool slow = correction % tuned::corrections_per_penalty == tuned::corrections_per_penalty - 1;
@@ -183,7 +183,9 @@ class IteratedPenalty {
     s_.u = std::move(u_.high);
     s_.p = std::move(p_.high);
     s_.lambda = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(problem_.bound_count());
-    s_.warning = doubt(problem_, factor_, s_, last.left_of_r2);
+    Doubt in_doubt = doubt(problem_, factor_, s_, last.left_of_r2);
+    s_.error = now.off + in_doubt.moves;  // absolute yet
+    s_.warning = std::move(in_doubt.warning);
     return std::move(s_);
   }
 
@@ -214,6 +216,7 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   answer.u.conservativeResize(problem.size());
   answer.p.conservativeResize(problem.b.rows());
   answer.lambda = tied.forces(std::move(answer.lambda));
+  if (answer.error > 0) answer.error = answer.error / answer.u.lpNorm<Eigen::Infinity>() + tuned::eps / 2;
   answer.kkt = kkt_report_unchecked(problem, answer);
   require_trusted(answer, TrustLevels{.refused = options.refused});
   return answer;
