@@ -22,7 +22,7 @@ struct ActiveSetOptions {
 ///
 ///     repeat:  r1, r2 from u, p, lambda               residual.hpp, exact
 ///              u += du, p += dp, lambda from the contact problem of r1, r2
-///              stop where accuracy(du, r2) is within the tolerance      judge.hpp
+///              stop where accuracy(next du, r2) is within the tolerance judge.hpp
 ///     then:    doubt and the KKT report               judge.hpp, kkt.hpp: a warning, or NotConverged
 ///
 /// To read in this order: problem/variational_inequality.hpp, stairs.hpp, contact.hpp, residual.hpp, this, judge.hpp; the
