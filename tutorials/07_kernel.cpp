@@ -8,7 +8,7 @@
 // Needs: [02](02_meshes.cpp) (kernel, ties), [03](03_by_hand.cpp) (B), [05](05_p1_structured.cpp) (Theorem 4),
 // [06](06_p1_unstructured.cpp) (locking).
 //
-// **The picture.** One function of the kernel, and what is left of `sin πx` in it, for three methods. *What is not in
+// **The picture.** One function of the kernel, and what is left of $\sin πx$ in it, for three methods. *What is not in
 // the kernel cannot survive ε → 0.*
 //
 // :figure: kernel
@@ -45,6 +45,11 @@
 //
 // CR, the element of Crouzeix and Raviart, is affine on each triangle and continuous at the midpoints of the edges
 // only: one unknown per edge ([08](08_crouzeix_raviart.cpp) draws it). $N_T$ is the number of triangles of the layer.
+//
+// What survives on $Γ_C$, when ε → 0, is a function of this kernel. Choose a method, and see how much of $\sin πx$ is
+// left by its orthogonal projection onto the kernel:
+//
+// :live: kernel
 
 #include "backstage/07_kernel.hpp"
 #include "antilock/analysis/kernel.hpp"

@@ -40,6 +40,8 @@
 // contact included: 1.8 times at $h = 1/32$, ε = 1e-4. This factor grows without bound as ε falls. It comes near 1 only
 // where $h^2 ≪ ε$: full integration needs cells that are small against the thickness.
 //
+// :live: beam
+//
 // ## Why reduced integration converges uniformly
 //
 // Reduced integration is not another $V_h$, as in the chapters before. It is another form,

@@ -495,6 +495,15 @@ class Run(Book):
                     self.assertEqual(found["output"].count("VERDICT "), native.count("VERDICT "))
                     self.assertTrue(found["keep"])
                     self.assertEqual(self.run_script(SIDEWAYS), [])
+                open_at("kernel", width)
+                says("kernel", "^The kernel on this layer has 7 dimensions.*does not lock")  # n - 1, as the chapter proves
+                says("kernel", "^The kernel on this layer has 0 dimensions.*locks completely", mesh="unstructured")
+                says("kernel", "^The kernel on this layer has 1 dimension\\..*it locks", element="P2")
+                says("kernel", "^The kernel on this layer has [0-9]{2,} dimensions.*does not lock", element="CR")
+                open_at("beam", width)
+                stiff, full, reduced = says("beam", "is 1.814 times too stiff", cells=32)  # as the chapter says
+                self.assertAlmostEqual(full / reduced, 15, delta=1)
+                says("beam", "is infinitely many times too stiff", epsilon=-8)
                     self.assertEqual(self.said(), [])
                     self.shot(f"{page}_run_{width}", width)
 

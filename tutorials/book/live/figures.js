@@ -3,7 +3,7 @@
 antilock.figures.string = (box) => antilock.asked(box, {
   title: "Step by step: the active set, and Uzawa beside it", stem: "00_string_on_an_obstacle",
   controls: { cells: { label: "cells", values: [8, 16, 32, 64], start: 32 } },
-  keys: { cr: "active set", touching: "guessed to touch", p1: "Uzawa", exact: "answer", other: "pressure of the floor / 25" },
+  keys: { cr: "active set", touching: "guessed to touch", wrong: "wrong sign", p1: "Uzawa", exact: "answer", other: "pressure of the floor / 25" },
   make(place) {
     place.innerHTML = `<p class="live-controls"><label for="live-string-step">step <output></output></label>
       <input id="live-string-step" type="range" min="0" max="1" step="1" value="0"> <button type="button">play</button></p>`;
@@ -18,8 +18,9 @@ antilock.figures.string = (box) => antilock.asked(box, {
       chart.curve("p1", along(now, "uzawa"));
       chart.curve("cr", along(now, "u"), { markers: now.length < 32 });
       chart.curve("touching", now.filter((row) => row.held).map((row) => [row.x, row.u]), { joined: false, markers: true });
-      const wrong = now.filter((row) => row.u < 0 || row.pressure < 0).length;
-      output.textContent = `${k} of ${steps.length - 1}: ${now.filter((row) => row.held).length} nodes held, ${wrong} wrong signs`;
+      const wrong = now.filter((row) => row.u < 0 || row.pressure < 0);
+      chart.curve("wrong", wrong.map((row) => [row.x, row.u]), { joined: false, markers: true });
+      output.textContent = `${k} of ${steps.length - 1}: ${now.filter((row) => row.held).length} nodes held, ${wrong.length} wrong signs`;
       chart.said(output.textContent);
     }
     range.addEventListener("input", show);
@@ -89,6 +90,38 @@ antilock.figures.move = (box) => antilock.asked(box, {
           move(v, ...step.map((k) => k / (8 * cells)));
         });
       });
+    };
+  },
+});
+
+antilock.figures.kernel = (box) => antilock.asked(box, {
+  title: "What the kernel leaves of a sine", stem: "07_kernel",
+  controls: { element: { label: "element", values: ["P1", "P2", "P3", "CR"], start: "P1" },
+    mesh: { label: "mesh", values: ["structured", "unstructured", "delaunay", "staggered", "jittered"], start: "structured" },
+    cells: { label: "1/h", values: [4, 8, 16], start: 8 } },
+  keys: { exact: "sin πx", cr: "its projection onto the kernel, on Γ<sub>C</sub>" },
+  make(place) {
+    const chart = antilock.chart(place, { title: "The projection of a sine onto the kernel",
+      x: { range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], name: "x" }, y: { range: [-0.1, 1.2], ticks: [0, 0.5, 1], name: "height" } });
+    chart.curve("exact", Array.from({ length: 65 }, (_, k) => [k / 64, Math.sin(Math.PI * k / 64)]));
+    return ({ said, tables: { points } }) => {
+      chart.curve("cr", points.map((row) => [row.x, row.left]), { markers: true });
+      chart.said(said);
+    };
+  },
+});
+
+antilock.figures.beam = (box) => antilock.asked(box, {
+  title: "A thinner beam, integrated in full and reduced", stem: "25_beam",
+  controls: { epsilon: { label: "ε", range: [-8, -1, 0.25], start: -4, power: true, zero: true }, cells: { label: "cells", values: [8, 16, 32, 64], start: 16 } },
+  keys: { p1: "full integration", cr: "reduced integration", exact: "exact", touching: "where the obstacle pushes, reduced integration" },
+  make(place) {
+    const chart = antilock.chart(place, { title: "Deflection of the beam over the obstacle",
+      x: { range: [0, 1], ticks: [0, 0.25, 0.5, 0.75, 1], name: "x" }, y: { range: [-1.1, 0.1], ticks: [-1, -0.5, 0], name: "w" } });
+    return ({ said, tables: { beam } }) => {
+      for (const [name, column] of [["exact", "exact"], ["p1", "full"], ["cr", "reduced"]]) chart.curve(name, beam.map((row) => [row.x, row[`w_${column}`]]));
+      chart.curve("touching", beam.filter((row) => row.force_reduced > 0).map((row) => [row.x, row.w_reduced]), { joined: false, markers: true });
+      chart.said(said);
     };
   },
 });

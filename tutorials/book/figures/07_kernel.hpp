@@ -1,0 +1,28 @@
+// Behind 07_kernel.cpp: what the kernel on the layer leaves of sin πx on Γ_C, for one method.
+std::string name = "P1", family = "structured";
+
+void project_sine(const tutorial::Options& options, tutorial::Report&) {
+  const Method method{&element(name), mesh_family(family)};
+  const Discretisation on = method.on(options.cells);
+  const Eigen::MatrixXd basis = kernel_basis(stiff_part(assemble(scene, on.space())));
+  const Eigen::VectorXd sine = (std::numbers::pi * on.space().points().col(0).array()).sin();
+  const Eigen::VectorXd left = basis * (basis.transpose() * sine);
+  Table points({"x", "left"});
+  const bool clamped = method.element->conforming();  // in the corners; CR has no unknown there
+  if (clamped) points.add({0.0, 0.0});
+  for (const int i : on.space().contact()) points.add({on.space().points()(i, 0), left(i)});
+  if (clamped) points.add({1.0, 0.0});
+  points.write(options.out / "points.csv");
+  fmt::print("The kernel on this layer has {}. The library: {}.\n",
+             basis.cols() == 1 ? "1 dimension" : fmt::format("{} dimensions", basis.cols()), diagnose(method).text());
+}
+
+int figure(int argc, char** argv) {
+  const auto add = [](tutorial::CommandLine& line) {
+    line.add("--element", name, "P1, P2, P3, P4 or CR");
+    line.add("--mesh", family, "a family of meshes");
+  };
+  return tutorial::run(argc, argv, "figure_07_kernel", "what the kernel leaves of a sine",
+                       {.takes_epsilon = false, .cells = 8, .least_cells = 4, .most_cells = 16, .add = add},
+                       project_sine);
+}
