@@ -14,7 +14,7 @@
 // of Figure 6. *The ridge on the layer is gone: the solution is flat zero there.* It does not oscillate, it does not
 // blow up, it looks perfectly reasonable, and it is wrong by 0.0457, the whole height of the ridge.
 //
-// **Predict.** (a) Refine: `h = 1/64` in place of `1/32`. How much smaller is the error at `ε = 10⁻⁶`? (b) The body
+// **Predict.** (a) Refine: $h = 1/64$ in place of $1/32$. How much smaller is the error at $ε = 10^{-6}$? (b) The body
 // does not know that its layer has locked. Which problem does it solve, then?
 //
 // ## Why it locks

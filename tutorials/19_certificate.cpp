@@ -9,10 +9,10 @@
 // [08](08_crouzeix_raviart.cpp) (Crouzeix-Raviart), [18](18_roundoff.cpp) (the layer stress `p` is an unknown).
 // :figure: certificate_width
 //
-// **The picture.** Each triangle shows its share of a proved bound of the error at `ε = 1e-6`. *Where P1 locks, its
+// **The picture.** Each triangle shows its share of a proved bound of the error at $ε = 10^{-6}$. *Where P1 locks, its
 // bound lies in the layer. The program that computed the colours has never seen $u$.*
 //
-// **Predict.** (a) The bound is computed at `ε = 1` and at `ε = 0`. Where is it closer to the error? (b) Uzawa is
+// **Predict.** (a) The bound is computed at $ε = 1$ and at $ε = 0$. Where is it closer to the error? (b) Uzawa is
 // stopped after 1, 2, 4, ... steps of several hundred. From which step on does the proved bound no longer fall?
 //
 // ## From above and from below
@@ -192,9 +192,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :output: what the width consists of
 //
-// (a) Nowhere: bound / error is 1.28 to 1.47 for CR at every `ε` that was tried. The identity says why: of the width
+// (a) Nowhere: bound / error is 1.28 to 1.47 for CR at every $ε$ that was tried. The identity says why: of the width
 // the displacement has 0.6, the stress 0.4, the works of contact next to nothing. So the bound is about
-// $(1/0.6)^{1/2} = 1.29$ times the error of the displacement, whatever `ε` is.
+// $(1/0.6)^{1/2} = 1.29$ times the error of the displacement, whatever $ε$ is.
 // :figure: effectivity
 // :live: bound
 //

@@ -7,11 +7,11 @@
 //
 // Needs: [19](19_certificate.cpp) (flux, certificate, strip), [02](02_meshes.cpp) (the layered mesh).
 //
-// **The picture** (`asked_meshes`). Three meshes for one concentrated load at `ε = 1e-6`, coloured by the bound per
+// **The picture** (`asked_meshes`). Three meshes for one concentrated load at $ε = 10^{-6}$, coloured by the bound per
 // area. *Where a mesh follows its certificate, the peak of the colour is gone: there the triangles are small.*
 //
 // **Predict.** (a) How many times fewer unknowns than a uniform mesh does an adapted one need for a concentrated
-// load, and for `f = 10 sin(2πx)`? (b) Where P1 locks, triangles are refined where its bound lies, in the layer. Does
+// load, and for $f = 10 \sin 2πx$? (b) Where P1 locks, triangles are refined where its bound lies, in the layer. Does
 // that cure it?
 //
 // ## The loop
@@ -37,7 +37,7 @@
 //
 // For small $C$ that is $½ m$ in place of $m$: half the bound on one mesh, a given bound for a quarter of the unknowns.
 //
-// **Columns.** In a thin layer, what happens at one $x$ happens in the whole thickness. For `ε ≤ 0.1` the body alone is
+// **Columns.** In a thin layer, what happens at one $x$ happens in the whole thickness. For $ε ≤ 0.1$ the body alone is
 // bisected, and the layer is *extruded* below it in columns. Cells as high as they are wide would cost more unknowns
 // and find nothing more.
 

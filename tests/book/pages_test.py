@@ -98,7 +98,7 @@ def small_repository(root):
     (root / "tutorials/answers").mkdir()
     (root / "tutorials/answers/07_middle.hpp").write_text(
         "#pragma once\n// The answers to the exercises.\nint answer();\n\n"
-        "// ## Answers on paper\n//\n// **3.** By chapter 00, $x = 1$.\n")
+        "// ## Answers on paper\n//\n// **2.** By chapter 00, $x = 1$.\n")
     (root / "freefem/00_start.edp").write_text("// ### Solve\nreal a = 1;\n")
     (root / "lib/antilock/core/error.hpp").write_text("#pragma once\nclass Error {};\n")
     for folder, file, text in (("lib/antilock/adapt", "solve_to.hpp", "#pragma once\nint solve_to();\n"),
@@ -214,9 +214,27 @@ class Pages(unittest.TestCase):
     def test_the_answers_on_paper_are_folded_under_their_chapter(self):
         self.assertIn("Answers on paper", self.page("07_middle"))
         self.assertRegex(self.page("07_middle", "html", "book"),
-                         r'(?s)<details class=answers><summary>Answers on paper</summary>.*<strong>3\.</strong> By chapter <a [^>]*00_start')
+                         r'(?s)<details class=answers><summary>Answers on paper</summary>.*<strong>2\.</strong> By chapter <a [^>]*00_start')
         self.assertNotIn("The answers to the exercises", self.page("07_middle"))
         self.assertNotIn("Answers on paper", self.page("00_start"))
+
+    # ---- links
+
+    def test_links_formulas_and_code_of_a_line_are_told_apart(self):
+        from links import linked
+        def one(line, **more):
+            return linked([line], lambda to: to.replace(".cpp", ".md") if to.endswith(".cpp") else None, lambda number: {"07": "07_kernel"}.get(number),
+                          {"23": "01_domain"}, self.fail, str.upper, **more)[0]
+        for line, says in (("see [a `b` c](07_kernel.cpp)", "SEE [A `b` C](07_kernel.md)"), ("[a](lab.py)", "`lab.py`"), ("![a](x.png)", "A"),
+                           ("Chapter 07 and chapters 07, 98", "Chapter [07](07_kernel.md) AND chapters [07](07_kernel.md), 98"),
+                           ("by (23), (99) and f(23)", 'BY <a href="01_domain.html#eq-23">(23)</a>, (99) AND F(23)'),
+                           ("`f(23)` $x (23)$ (23)", '`f(23)` $x (23)$ <a href="01_domain.html#eq-23">(23)</a>'),
+                           ("`[](int x)` and [](int x)", "`[](int x)` AND \\[\\](INT X)"), ("# of (23)", "# OF (23)"), ("    x (23)", "    x (23)"),
+                           ("$$ a (23) \\tag{23} $$ and (23)", '$$ a (23) \\tag{23} $$ AND <a href="#eq-23">(23)</a>')):
+            self.assertEqual(one(line), says)
+        self.assertEqual(one("A locks-b, Lock, locks and lock", terms=["lock"]),
+                         'A LOCKS-B, <a class="term" href="glossary.html#term_lock">Lock</a>, LOCKS AND LOCK')
+        self.assertEqual(one("| lock |", terms=["lock"]), "| LOCK |")
 
     # ---- the library
 
@@ -267,6 +285,7 @@ class Pages(unittest.TestCase):
                 ("mesh=round is no setting of locking; accepted: mesh=structured|", chapter, "// :live: mesh=round"),
                 ("cells=9 is no setting of string; accepted: none", "tutorials/27_later.cpp", "// :live: string cells=9"),
                 ("a page holds one figure of a kind", chapter, "// :live: string"),
+                ("tutorials: `ε ≥ 0`: a formula stands between dollars", chapter, "// For `ε ≥ 0`."),
                 (":figure: tree: no picture of figures/table.csv", chapter, "// :figure: tree"),
                 ("27_later.cpp: :figure: ties: it stands on the page already", "tutorials/27_later.cpp", "// :figure: ties"),
                 ("27_later.cpp: no line places the picture more", "figures/table.csv", "more,,27_later,,,Another"),
@@ -278,6 +297,8 @@ class Pages(unittest.TestCase):
             self.refused("solve_to.hpp: its example, SolveTo", "tests/unit/adapt_test.cpp", "", self.pages, "TakesTheVentcelLayer")
         with self.subTest("seconds"):
             self.refused("07_middle --cells 8 has no row in wasm/runs.csv", "tutorials/07_middle.cpp", "07_middle --cells 8", self.pages, "07_middle --cells 4")
+        with self.subTest("answer"):
+            self.refused("07_middle.cpp: exercise 2 has no answer", "tutorials/answers/07_middle.hpp", "**3.**", self.pages, "**2.**")
         with self.subTest("title"):
             self.refused("accepted: at most six", chapter, "// # A title of more than six words", self.pages, "// # A first chapter")
 

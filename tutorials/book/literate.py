@@ -133,6 +133,13 @@ def with_exercises(lines, commands, takes):
     return out, list(left.values())
 
 
+def without_answer(lines, commands, paper):
+    """The numbers of the exercises in the list that no command answers, and no `**3.**` of the answers on paper."""
+    listed = re.findall(r"(?m)^(\d+)\. ", "\n".join(lines).partition("## Exercises")[2])
+    answered = [command.rpartition("--exercise ")[2] for command in commands] + re.findall(r"\*\*(\d+)\.\*\*", "\n".join(paper))
+    return [number for number in listed if number not in answered]
+
+
 def needs(prose):
     """Takes the paragraph `Needs: [00](...) (cone), ...` out of the prose: (prose, the paragraph)."""
     start = next((i for i, line in enumerate(prose) if line.startswith("Needs: ")), None)

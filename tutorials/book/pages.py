@@ -17,9 +17,10 @@ from pathlib import Path
 from PIL import Image
 
 from literate import (PLACE, STILLS, BookError, Page, answers_on_paper, button, fence, folded, live_figure, runs_in_the_page, signs,
-                      with_exercises)
-from katex import TAG, anchor
+                      with_exercises, without_answer)
+from katex import TAG
 from library import Library
+from links import linked, term_anchor
 from runs import expected
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -27,10 +28,6 @@ PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The t
          ("What accuracy costs", 18, 24), ("The class", 25, 99)]
 EXTRA = ["howto_scene", "howto_matrices", "howto_python", "lab", "dataset", "uniform_rate", "errata", "glossary", "notation"]
 WIDTH, HEIGHT = 900, 760  # at most, in pixels; a page shows a picture 740 wide and 480 high at most (style.css)
-
-
-def term_anchor(term):
-    return "term_" + re.sub(r"\W+", "-", term.lower())
 
 
 class Book:
@@ -83,60 +80,11 @@ class Book:
         return None
 
     def linked(self, lines, where, spell=lambda text: text, terms=()):
-        """Prose with its links turned to the pages of the book; `chapter 07` becomes a link, and so do the first of each of
-        `terms`. Code stays as it is; `spell` is for the rest."""
-        out, fenced, own, met = [], False, set(TAG.findall("\n".join(lines))), set()
-        term_of = re.compile(rf"(?<![\w-])({'|'.join(sorted(map(re.escape, terms), key=len, reverse=True))})(?:e?s)?(?![\w-])", re.I)
-        for line in lines:
-            fenced ^= line.startswith("```")
-            if fenced or line.startswith(("    ", "<", "```")):
-                out.append(line)
-                continue
-            parts = re.split(r"(`[^`]*`|\$\$[^$]*\$\$|\$[^$]*\$)", line)
-            joined = "\0".join(parts[1::2])
-            text = "\1".join(parts[0::2])
-
-            def replaced(found):
-                to = self.link(found[3], where)
-                if to is None and found[1]:  # a picture that the book has not: its sentence
-                    return found[2]
-                return found[0] if to == found[3] else f"{found[1]}[{found[2]}]({to})" if to else f"`{found[3].lstrip('./')}`"
-
-            def numbered(found):
-                if found[1].lower() not in ("chapter", "chapters", "tutorial", "tutorials"):
-                    return found[0]
-                def one(number):
-                    name = self.first_of(number[0])
-                    if name is None:
-                        self.complain(f"{where.relative_to(ROOT)}: chapter {number[0]} does not exist")
-                        return number[0]
-                    return f"[{number[0]}]({name}.md)"
-                return found[1] + " " + re.sub(r"\b\d\d\b", one, found[2])
-
-            def equation(found):
-                page = "" if found[1] in own else f"{self.equations[found[1]]}.html" if found[1] in self.equations else None
-                return found[0] if page is None else f'<a href="{page}#{anchor(found[1])}">({found[1]})</a>'
-
-            def term(found):
-                if found[1].lower() in met:
-                    return found[0]
-                met.add(found[1].lower())
-                return f'<a class="term" href="glossary.html#{term_anchor(found[1])}">{found[0]}</a>'
-
-            def references(part):
-                if terms and not line.startswith("|"):
-                    part = term_of.sub(term, part)
-                return re.sub(r"(?<![\w)])\((\d\d?)\)(?!\w)", equation, part)
-
-            if not line.startswith(("#", ":")):  # not within a link
-                text = "".join(part if i % 2 else references(part)
-                               for i, part in enumerate(re.split(r"(\[[^\]]*\]\([^)\s]*\))", text)))
-            text = re.sub(r"(!?)\[([^\]]+)\]\(([^)\s]+)\)", replaced, spell(text))
-            text = re.sub(r"\b([Cc]hapters?|[Tt]utorials?) (\d\d(?:(?:, | and | to )\d\d)*)\b(?![\]\w])", numbered, text)
-            text = text.replace("[](", "\\[\\](")  # a lambda, not a link
-            code = iter(joined.split("\0"))
-            out.append("".join(next(code) if part == "\1" else part for part in re.split("(\1)", text)))
-        return out
+        def complain(what):
+            self.complain(f"{where.relative_to(ROOT)}: {what}")
+        return linked(lines, lambda target: self.link(target, where),
+                      lambda number: self.first_of(number) or complain(f"chapter {number} does not exist"), self.equations,
+                      complain, spell, terms)
 
     # ---- pictures
 
@@ -270,6 +218,8 @@ class Book:
         out += self.figure(shots[0], eager=True) if shots else []
         out += body
         answers = answers_on_paper(source.parent / f"answers/{stem}.hpp")
+        for number in without_answer(page.body, [command for command, _ in page.runs], answers):
+            self.complain(f"{stem}.cpp: exercise {number} has no answer: no line `Run: {stem} --exercise {number}`, no **{number}.** in answers/{stem}.hpp")
         if answers:
             out += folded("Answers on paper", self.linked(answers, source.parent), "answers")
         if commands:
@@ -329,6 +279,17 @@ class Book:
             out += picture
         self.write("gallery", out)
 
+    def glossary_line(self, line):
+        """A row of the glossary: its term is linked to, its last column names chapters by number."""
+        def chapter(found):
+            name = self.first_of(found[0])
+            return f"[{found[0]}]({name}.md)" if name else found[0]
+        def numbers(found):
+            return "| " + re.sub(r"\d\d", chapter, found[1]) + " |"
+        def place(found):
+            return f'| <span id="{term_anchor(found[1])}"></span>{found[1]}' if found[1] in self.terms else found[0]
+        return re.sub(r"\| ([\d, ]+) \|$", numbers, re.sub(r"^\| ([^|]+?)(?= \([A-Z]+\) \|| \|)", place, line))
+
     def index(self):
         text = "\n".join(self.linked((ROOT / "tutorials/book/index.md").read_text().splitlines(), ROOT / "tutorials"))
         trees = []
@@ -354,10 +315,8 @@ class Book:
             self.chapter(source)
         for name in EXTRA:
             lines = (ROOT / f"tutorials/{name}.md").read_text().splitlines()
-            if name == "glossary":  # its first column is linked to, its last one names chapters by number
-                lines = [re.sub(r"^\| ([^|]+?)(?= \([A-Z]+\) \|| \|)", lambda found: f'| <span id="{term_anchor(found[1])}"></span>{found[1]}'
-                                if found[1] in self.terms else found[0], line) for line in lines]
-                lines = [re.sub(r"\| ([\d, ]+) \|$", lambda found: "| " + re.sub(r"\d\d", lambda n: f"[{n[0]}]({self.first_of(n[0])}.md)" if self.first_of(n[0]) else n[0], found[1]) + " |", line) for line in lines]
+            if name == "glossary":
+                lines = list(map(self.glossary_line, lines))
             self.write(name, self.linked(lines, ROOT / "tutorials", signs))
         self.sources_to_keep()
         self.theory()
