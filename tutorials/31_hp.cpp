@@ -117,7 +117,8 @@ void judge_shifted(const Table& rows, const std::string& norm, double order, dou
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
   Table results(hp_columns);
-  for (const Exact& exact : tutorial::exact_solutions({1, 1e-2, 1e-6, 0, 1e-20})) {
+  for (const double epsilon : {1.0, 1e-2, 1e-6, 0.0, 1e-20}) {
+    const Exact exact(tutorial::paper_scene(epsilon));
     for (int p = 1; p <= 4 && exact.epsilon != 1e-20; ++p) {
       std::vector<Grading> uniform, graded;
       for (const int n : {6, 8, 11, 16, 23, 32})

@@ -93,8 +93,8 @@ def small_repository(root):
     for stem, text in CHAPTERS.items():
         (root / f"tutorials/{stem}.cpp").write_text(text)
     (root / "tutorials/book/wasm").mkdir()
-    (root / "tutorials/book/wasm/runs.csv").write_text("command,seconds,meshes\n00_start,0.1,\n07_middle,1.2,\n07_middle --cells 4,0.6,\n"
-                                                       "07_middle --exercise 1,40,\n")
+    (root / "tutorials/book/wasm/runs.csv").write_text("command,seconds,MiB,meshes\n00_start,0.1,,\n07_middle,1.2,70,\n07_middle --cells 4,0.6,,\n"
+                                                       "07_middle --exercise 1,40,,\n")
     (root / "tutorials/answers").mkdir()
     (root / "tutorials/answers/07_middle.hpp").write_text(
         "#pragma once\n// The answers to the exercises.\nint answer();\n\n"
@@ -187,7 +187,7 @@ class Pages(unittest.TestCase):
         page = self.page("07_middle")
         self.assertEqual(re.findall(r'data-run="([^"]*)"', page), ["", "--exercise 1", "", "--cells 4"])  # the first one is the default run
         self.assertRegex(page, r'1\. A question\n   of two lines\. <span class="predict"><input [^>]*> <button [^>]*"--exercise 1"')
-        self.assertEqual(re.findall(r'class="takes">([^<]*)', page), ["about 2 s", "about 80 s", "about 2 s", "about a second"])
+        self.assertEqual(re.findall(r'class="takes">([^<]*)', page), ["about 2 s, 70 MiB", "about 80 s", "about 2 s, 70 MiB", "about a second"])
         self.assertNotIn("| `07_middle --exercise 1`", page)  # it stands in its place
         self.assertIn("does not run in a page", self.page("27_later"))
         self.assertNotIn("data-run", self.page("27_later"))

@@ -64,6 +64,15 @@ class Programs(unittest.TestCase):
                 native, page = self.both([stem])
                 self.assertEqual((page[0], verdicts(page[1])), (native[0], verdicts(native[1])), page[2])
 
+    def test_no_chapter_takes_200_mib(self):
+        """What the pages say of it; that it is so is seen for the largest one that takes a moment."""
+        said = {command: int(row["MiB"]) for command, row in ROWS.items() if row["MiB"]}
+        self.assertEqual(sorted(said), [command[0] for command in commands() if len(command) == 1])
+        self.assertLess(max(said.values()), 200)
+        with tempfile.TemporaryDirectory() as out:
+            page = ran(["node", HERE / "run_program.mjs", PARTS, "04_reference_solution"], out)
+        self.assertAlmostEqual(int(page[2].split()[-2]), said["04_reference_solution"], delta=4)
+
     def test_refusals_are_the_same_line(self):
         for command in (["08_crouzeix_raviart", "--cells", "9999"], ["08_crouzeix_raviart", "--sells", "8"], ["03_by_hand", "--epsilon", "2"]):
             with self.subTest(command=command):

@@ -13,11 +13,12 @@ def rows():
 
 
 def expected():
-    """By command: how long it takes in a page, in words. A page takes about twice the processor seconds of the machine; what
-    took it over a minute was not waited for."""
+    """By command: how long it takes in a page, in words, and its memory, where that is known. A page takes about twice the
+    processor seconds of the machine; what took it over ten minutes was not waited for."""
     def words(seconds):
         return "a moment" if seconds < 0.5 else "about a second" if seconds < 1.5 else f"about {float(f'{seconds:.1g}' if seconds > 20 else f'{seconds:.0f}'):.0f} s"
-    return {row["command"]: words(2 * float(row["seconds"])) if row["seconds"] else "minutes" for row in rows()}
+    return {row["command"]: (words(2 * float(row["seconds"])) if row["seconds"] else "minutes") +
+            (f", {row['MiB']} MiB" if row["MiB"] else "") for row in rows()}
 
 
 def live_meshes():

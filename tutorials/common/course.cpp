@@ -29,7 +29,7 @@ Exact::Exact(Scene scene, int log2_points)
     : scene(std::move(scene)),
       epsilon(this->scene.epsilon().value_or(0)),
       truth(known_truth(this->scene, log2_points)),
-      table(truth) {}
+      table(truth, 1 << std::clamp(log2_points - 3, 10, 14)) {}
 
 Errors Exact::errors(const Space& space, const Solution& solution) const {
   return measure_errors(space, solution, epsilon, reference());
