@@ -38,16 +38,18 @@ antilock.figures.locking = async (box) => {
   const parts = Object.fromEntries([...still.querySelectorAll("[id]")].map((part) => [part.id.slice(5), part]));
   const at = (id) => parts[id], said = still.querySelector(".live-said"), warning = still.querySelector(".live-warning");
   const canvases = [...still.querySelectorAll("canvas")], rows = [...still.querySelectorAll("tbody tr")];
-  const paint = canvases.map((canvas) => {
+  const paint = [];
+  for (const canvas of canvases) {
+    await antilock.breath();
     const places = [() => [0, -1.14, 0], () => [1, -1.14, 0], () => [1.13, 1, 0], () => [-0.05, 0, 0], () => [0.5, -1.14, 0], (r) => [0, -1, r + 0.03]];
     const spans = [...canvas.parentNode.querySelectorAll("span")];
     spans[5].textContent = "u";
-    return antilock.surface(canvas, { at: spans.map((span, i) => [span, places[i]]),
-      lost: (lost) => { said.textContent = lost ? "The graphics card was lost; the numbers go on, and the pictures come back with it." : ""; } });
-  });
+    paint.push(antilock.surface(canvas, { at: spans.map((span, i) => [span, places[i]]),
+      lost: (lost) => { said.textContent = lost ? "The graphics card was lost; the numbers go on, and the pictures come back with it." : ""; } }));
+  }
   const solved = [null, null], turn = [-0.6, 0.6];
   let ridge = [];
-  const draw = () => solved.forEach((s, i) => s && paint[i](s.corners, ridge, range, turn));
+  const drawOne = (i) => solved[i] && paint[i](solved[i].corners, ridge, range, turn), draw = () => [0, 1].forEach(drawOne);
 
   const asked = () => ({ epsilon: antilock.epsilonOf(at("epsilon")), mesh: at("mesh").value, cells: Number(at("cells").value), moved: Number(at("moved").value) });
 
@@ -81,18 +83,22 @@ antilock.figures.locking = async (box) => {
     at("epsilon").setAttribute("aria-valuetext", `epsilon is ${antilock.epsilonSaid(at("epsilon"), epsilon)}`);
     at("moved-said").textContent = moved;
     at("moved-box").hidden = mesh !== "moved";
-    const began = performance.now();
+    const began = performance.now(), pause = solved[1] ? () => {} : antilock.breath;  // while the page is being loaded
     try {
       library ??= await antilock.library();
       for (const i of [0, 1]) {
-        if (!solved[1]) await antilock.breath();  // while the page is being loaded
+        await pause();
         library.discretise(i, mesh, cells, moved);
+        await pause();
         solved[i] = library.solve(i, epsilon);
         solved[i].corners = library.surface(i);
         solved[i].warning = library.warning(i);
       }
       ridge = library.ridge(epsilon, 65);
-      draw();
+      for (const i of [0, 1]) {
+        await pause();
+        drawOne(i);
+      }
       solved.forEach((s, i) => {
         at(`kept-${short[i]}`).textContent = Math.abs(s.kept) < 0.005 ? "0.00" : antilock.digits(s.kept);
         at(`kept-${short[i]}`).dataset.value = s.kept;

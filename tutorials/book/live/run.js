@@ -14,16 +14,19 @@ antilock.programs = (() => {
     /// `job.stop` ends it. Ends in { status, trouble, seconds, memory, results: [path, bytes] }; `trouble` is not empty where
     /// there is no status.
     async run(args, put, on, job = {}) {
-      let packed;
+      const stopped = { status: null, trouble: "stopped", results: [] };
+      let packed, early = false;
+      job.stop = () => { early = true; };
       if (!ready) {
         await Promise.all([window.ANTILOCK_MESHES ?? script("meshes_data.js"), window.ANTILOCK_PROGRAMS ?? script("programs_data.js")]);
         packed = { wasm: ANTILOCK_PROGRAMS.wasm, meshes: [ANTILOCK_MESHES.packed, ANTILOCK_PROGRAMS.meshes] };
       }
       const source = URL.createObjectURL(new Blob([await antilockSystem.unpacked(ANTILOCK_PROGRAMS.worker)], { type: "text/javascript" }));
+      if (early) return stopped;
       return new Promise((done) => {
         const end = (answer) => { own.terminate(); URL.revokeObjectURL(source); done(answer); };
         const own = new Worker(source);
-        job.stop = () => end({ status: null, trouble: "stopped", results: [] });
+        job.stop = () => end(stopped);
         own.onerror = (event) => end({ status: null, trouble: event.message, results: [] });
         own.onmessage = ({ data }) => {
           if (data.ready) ready = data.ready;
