@@ -42,8 +42,10 @@ std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, 
   if (by_proof) report.lost = proved;
   report.found = found, report.motion = energy.motion;
   if (!locks) {
-    report.diagnosis += fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy", *scene.epsilon(),
-                                    100 * LostEnergy::telling);
+    report.diagnosis += energy.motion > 0
+                            ? fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy",
+                                          *scene.epsilon(), 100 * LostEnergy::telling)
+                            : "; the layer moves no further than round-off here";
     return report;
   }
   report.diagnosis += fmt::format("; at epsilon = {:g} it locks", *scene.epsilon());

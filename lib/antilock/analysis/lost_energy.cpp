@@ -212,18 +212,17 @@ Sunk sunk_to_sigma(const VariationalInequality& problem, const Line& sigma, cons
 /// How far v must be lifted at the points of Sigma, affine on each edge, to lie above `obstacle` at the points of `trace`;
 /// infinity where what would have to move is held.
 Eigen::VectorXd lift(const Line& sigma, const Trace& trace, const Eigen::VectorXd& v, const Profile& obstacle,
-                     const std::vector<char>& held_at) {
+                     const std::vector<char>& held_at, double near) {
   Eigen::VectorXd most = Eigen::VectorXd::Zero(v.size());
   const auto end = trace.value.rows() - 1;
-  const double round_off = 1e-10 * v.cwiseAbs().maxCoeff();  // what the solvers leave of u
   for (const Indices& edge : sigma.edge) {
     const Eigen::VectorXd on_edge = trace.value * v(edge);
     const double x = sigma.x[edge.front()], dx = sigma.x[edge.back()] - x;
     for (Eigen::Index q = 0; q <= end; ++q) {
       const double s = static_cast<double>(q) / static_cast<double>(end), lack = obstacle(x + s * dx) - on_edge(q);
-      if (lack <= round_off) continue;
       const bool left = !held_at[edge.front()], right = !held_at[edge.back()];
       const double room = (left ? 1 - s : 0) + (right ? s : 0);
+      if (lack <= (room > 0 ? 0 : near)) continue;
       for (const auto& [place, free] : {std::pair(edge.front(), left), std::pair(edge.back(), right)})
         if (free || room == 0) most(place) = std::max(most(place), room > 0 ? lack / room : infinity);
     }
@@ -251,7 +250,7 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   const double s = stiff != nullptr ? stiff->s : 1;
   const Line sigma = sigma_line(space);
   const auto points = static_cast<int>(sigma.x.size());
-  const Eigen::VectorXd base = solution.u(sigma.unknown);
+  const Eigen::VectorXd on_sigma = solution.u(sigma.unknown);
   std::vector<char> in_body(space.size(), 0), held_at(points, 0);
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (Eigen::Index r = 0; r < space.unknowns().cols() && mesh.region[t] == Region::body; ++r)
@@ -260,24 +259,45 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
     const int u = problem.fixed[k];
     if (sigma.place[u] >= 0) held_at[sigma.place[u]] = 1;
     const double more =
-        problem.fixed_values(static_cast<Eigen::Index>(k)) - on_chain(sigma.x, base, space.points()(u, 0));
-    if (!in_body[u] && std::abs(more) > 1e-9 * base.cwiseAbs().maxCoeff())
+        problem.fixed_values(static_cast<Eigen::Index>(k)) - on_chain(sigma.x, on_sigma, space.points()(u, 0));
+    if (!in_body[u] && std::abs(more) > 1e-9 * on_sigma.cwiseAbs().maxCoeff())
       throw Error("lost energy: accepted: a layer whose sides have the value of Sigma's end above them");
   }
 
-  // J(u_h) in the layer, and what u_h leaves of the forces on the body: its form is A1 less what the layer has at Sigma
+  // v_0: straight in the layer, affine between given values of the outer ends of Sigma, level to an end that is free
+  const double left = held_at.front() ? on_sigma(0) : held_at.back() ? on_sigma(points - 1) : on_sigma.mean();
+  const double right = held_at.back() ? on_sigma(points - 1) : left;
+  const double slope = (right - left) / (sigma.x(points - 1) - sigma.x(0));
+  const Eigen::VectorXd still = left + slope * (space.points().col(0).array() - sigma.x(0));
+  const double ulp = std::numeric_limits<double>::epsilon() * solution.u.cwiseAbs().maxCoeff();
+  const Eigen::VectorXd w = solution.u - still, middle = still + w / 2, base = w(sigma.unknown);
+
+  // What u_h leaves of the forces on the body, whose form is A1 less what the layer has at Sigma; and what is left in the
+  // layer, J(v_0 + w) - J(v_0) = a(w, v_0 + w / 2) - L(w), with w = u_h - v_0. (Beside given values U the square of u_h itself
+  // has round-off of s U^2.) Its round-off: a row of A1 has sum 0, and leaves of values U some ulp of U times its entries.
   const auto layer =
       layer_at(sigma, space, stiff != nullptr ? Eigen::Vector2d(s, 0) : Eigen::Vector2d::Constant(1 / *epsilon));
   const bool pulled = stiff != nullptr && stiff->load;
-  Eigen::VectorXd load = problem.load, work = problem.a1 * solution.u;
-  if (pulled) load -= load_vector(space, stiff->load, Region::layer);
-  for (const auto& value : layer) work(value.row()) -= value.value() * solution.u(value.col());
+  Eigen::VectorXd force = problem.load;
+  double left_in_layer = problem.compliance * solution.p.cwiseAbs2().dot(problem.m) / 2, round_off = 0;
+  if (pulled) {
+    const Eigen::VectorXd on_layer = load_vector(space, stiff->load, Region::layer);
+    force -= on_layer, left_in_layer -= on_layer.dot(w);
+  }
   for (int u = 0; u < space.size(); ++u)
-    if (!in_body[u]) work(u) = load(u) = 0;
-  const double at_hand = energy(problem, solution);
-  double left_in_layer = at_hand - solution.u.dot(work / 2 - load);
+    if (in_body[u]) {
+      force(u) -= problem.a1.col(u).dot(solution.u);
+    } else {
+      force(u) = 0;
+      left_in_layer += w(u) * problem.a1.col(u).dot(middle);
+      round_off += 2 * ulp * std::abs(w(u)) * problem.a1.coeff(u, u);
+    }
+  for (const auto& value : layer) {
+    force(value.row()) += value.value() * solution.u(value.col());
+    left_in_layer += w(value.row()) * value.value() * middle(value.col());
+  }
 
-  const Sunk body = sunk_to_sigma(problem, sigma, hats(space.points(), sigma, in_body), layer, load - work);
+  const Sunk body = sunk_to_sigma(problem, sigma, hats(space.points(), sigma, in_body), layer, force);
 
   // the unknowns: Sigma, and rows 1 to `rows` of columns below it; all are differences to u_h, on Sigma and constant in y
   constexpr int most_rows = 8;  // a wave over the depth loses (pi / 8)^2 / 12 = 1.3 % by the height 1/8
@@ -310,8 +330,8 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   for (int e = 0; e < edges; ++e) {
     const Indices& edge = sigma.edge[e];
     const double dx = sigma.x[edge.back()] - sigma.x[edge.front()];
-    const Eigen::VectorXd on_edge = base(edge), pull = s / dx * form * on_edge;
-    left_in_layer -= pull.dot(on_edge) / 2;
+    const Eigen::VectorXd pull = s / dx * form * on_sigma(edge);
+    left_in_layer -= base(edge).dot(pull - s / dx / 2 * form * base(edge));
     for (int row = 0; row < rows; ++row) {
       for (const int end : {row, row + 1})
         for (int i = 0; i <= degree; ++i) {
@@ -366,7 +386,7 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
     Eigen::VectorXd here(static_cast<Eigen::Index>(bounds.size() > 0 ? strip.contact.size() : 0));
     for (Eigen::Index k = 0; k < here.size(); ++k) {
       const int i = strip.contact[k] - unknown(0, rows);
-      here(k) = on_chain(bottom, bounds, sigma.x(i)) - base(i);
+      here(k) = on_chain(bottom, bounds - still(problem.contact), sigma.x(i)) - base(i);
     }
     return here;
   };
@@ -375,28 +395,27 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   LostEnergy lost;
   if (strip.free_count() == 0) return lost;
   const Solution moved = active_set(strip);
-  // v_0: its layer is 0, or affine between given values of the outer ends of Sigma
-  const double left = held_at.front() ? base(0) : 0, right = held_at.back() ? base(points - 1) : 0;
-  const Eigen::ArrayXd s_of_x = (sigma.x.array() - sigma.x(0)) / (sigma.x(points - 1) - sigma.x(0));
-  const Eigen::VectorXd still = (left + (right - left) * s_of_x - base.array()).matrix().replicate(rows + 1, 1);
-  const double j = energy(strip, moved), j_still = still.dot(strip.a1 * still) / 2 - strip.load.dot(still);
-  const Eigen::VectorXd way = moved.u - still;
+  const Eigen::VectorXd back = (-base).replicate(rows + 1, 1);  // from u_h to v_0
+  const double j = energy(strip, moved), j_still = back.dot(strip.a1 * back) / 2 - strip.load.dot(back);
+  const Eigen::VectorXd way = moved.u - back;
   lost.found = lost.proved = left_in_layer - j;
   lost.motion =
       std::max(j_still - j, way.dot(strip.a1 * way) / 2 + strip.compliance * moved.p.cwiseAbs2().dot(strip.m) / 2);
-  // the square of what the solvers leave of u, 1e-10 by default, with room
-  if (lost.motion < 1e-8 * std::abs(at_hand - lost.found)) lost.motion = 0;
+  if (lost.motion < round_off) lost.motion = 0;
   if (!scene.contact()) return lost;
 
   const Trace fine = trace_at(nodes, Eigen::VectorXd::LinSpaced(33, 0, 1));
-  const Eigen::VectorXd v = base + moved.u.segment(unknown(0, rows), points);
+  const Eigen::VectorXd moves = moved.u.segment(unknown(0, rows), points), v = on_sigma + moves;
   const auto& contact = *scene.contact();
   const Profile& ceiling = contact.ceiling;
   const Profile floor = [&](double x) { return -contact.gap(x); }, roof = [&](double x) { return -ceiling(x); };
-  Eigen::VectorXd up = lift(sigma, fine, v, floor, held_at);
+  const double near =
+      1e-10 * (base + moves).cwiseAbs().maxCoeff() + 20 * ulp;  // what the solvers leave of v - v_0, with room
+  Eigen::VectorXd up = lift(sigma, fine, v, floor, held_at, near);
   if (ceiling && up.allFinite()) {
-    up -= lift(sigma, fine, -v - up, roof, held_at);
-    if (!lift(sigma, fine, v + up, floor, held_at).isZero(0)) up(0) = infinity;  // no room for v between the two
+    up -= lift(sigma, fine, -v - up, roof, held_at, near);
+    if (!(lift(sigma, fine, v + up, floor, held_at, near).maxCoeff() <= near))
+      up(0) = infinity;  // no room for v between the two
   }
   const Eigen::VectorXd lifted = up.replicate(rows + 1, 1);
   const bool can = up.allFinite() && lifted(strip.fixed).isZero(0);

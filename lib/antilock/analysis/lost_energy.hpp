@@ -22,7 +22,7 @@ struct LostEnergy {
   double proved = 0;  ///< J(u_h) - J(v'), a lower bound of J(u_h) - J(u), up to round-off: v' is v, lifted into K as 33
                       ///< points per edge show it; -infinity where it cannot be lifted
   double motion = 0;  ///< what the motion of the layer is worth: the larger of J(v_0) - J(v) and |v - v_0|_a^2 / 2, v_0
-                      ///< the function whose layer is held straight; 0 where that is less than 1e-8 of J(v)
+                      ///< the function whose layer is held straight; 0 where that is no more than round-off
 
   /// The share of the motion that `energy` is, 0 to 1; 0 where the motion is 0.
   double share(double energy) const;
