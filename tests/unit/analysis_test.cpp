@@ -1198,6 +1198,56 @@ TEST(LostEnergy, IsTheSameShareBesideLargeGivenValues) {
   EXPECT_EQ(lost(0, 40, 1e9, 1e9).motion, 0);
 }
 
+// A ceiling over a part of the bottom, and a mesh with one unknown in contact: u_h's bounds are read between its points.
+TEST(LostEnergy, ReadsBoundsThatAreInfiniteOrOne) {
+  UnilateralContact half;
+  half.ceiling = [](double x) { return x < 0.4 ? 0.01 : test::infinity; };
+  const Lost low = lost_on(unstructured_mesh(16), p1(), test::stiff_scene(1e-3, half));
+  EXPECT_NEAR(low.share, low.by_solving, 0.01);
+  const Field even = [](double, double) { return 10.0; };
+  const Lost one = lost_on(jittered_mesh(2, 0.2), p1(), Scene({even}, StiffLayer{1e-3}, UnilateralContact{}));
+  EXPECT_NEAR(one.share, one.by_solving, 0.02);
+}
+
+// Beside a free end v_0 has the value of the other end, and with two of them that of u_h, wherever the zero of u is.
+TEST(LostEnergy, KnowsNoZeroBesideFreeEnds) {
+  for (const auto& [left_free, right_free] : {std::pair(true, false), {false, true}, {true, true}}) {
+    TriangleMesh mesh = unstructured_mesh(16);
+    for (int e = 0; e < mesh.edge_count(); ++e)
+      if (mesh.edge_tag[e] == EdgeTag::clamped) {
+        const double x = (mesh.vertices(mesh.edges(e, 0), 0) + mesh.vertices(mesh.edges(e, 1), 0)) / 2;
+        mesh.edge_tag[e] = (left_free && x == 0) || (right_free && x == 1) ? natural_group(0) : held_group(1);
+      }
+    const Space space(mesh, p1());
+    const auto lost = [&](double u) {
+      const std::vector<EdgeCondition> edges{
+          {"free", EdgeCondition::Kind::free, {}},
+          {"held", EdgeCondition::Kind::displacement, [=](double, double) { return u; }}};
+      const UnilateralContact contact{[=](double) { return 0.01 - u; }, {}};
+      const Scene scene({paper_load}, StiffLayer{1e-3}, contact, edges);
+      VariationalInequality problem = assemble(scene, space);
+      const Solution solution = active_set(problem);
+      const LostEnergy found = lost_energy(scene, space, problem, solution);
+      if (left_free && right_free) return found;
+      const double best = energy(problem, solution) - found.found;
+      problem.b.resize(0, problem.size()), problem.m.resize(0);  // the layer held level at u
+      problem.contact.clear(), problem.lower.resize(0), problem.fixed.clear();
+      for (int i = 0; i < problem.size(); ++i)
+        if (space.points()(i, 1) < 1e-12 || std::binary_search(space.clamped().begin(), space.clamped().end(), i))
+          problem.fixed.push_back(i);
+      problem.fixed_values.setConstant(static_cast<Eigen::Index>(problem.fixed.size()), u);
+      EXPECT_NEAR((energy(problem, active_set(problem)) - best) / found.motion, 1, 0.01) << left_free << u;
+      return found;
+    };
+    const LostEnergy plain = lost(0), raised = lost(5);
+    EXPECT_GT(plain.share(plain.found), 0.1);
+    EXPECT_NEAR(raised.motion / plain.motion, 1, 1e-6);
+    EXPECT_NEAR(raised.found / plain.found, 1, 1e-6);
+    // with v_0 at 0 under an end that is free, the way from there to u = 5 would be worth 12
+    EXPECT_LT(raised.motion, 1);
+  }
+}
+
 TEST(LostEnergy, IsAskedOfConformingElementsWithALayerAlone) {
   const TriangleMesh mesh = unstructured_mesh(4), body = unstructured_mesh(4, {0});
   const auto refuse = [](const TriangleMesh& on, const Element& element, const Scene& scene) {
@@ -1208,6 +1258,12 @@ TEST(LostEnergy, IsAskedOfConformingElementsWithALayerAlone) {
   refuse(mesh, crouzeix_raviart(), test::stiff_scene(1));
   refuse(body, p1(), Scene({paper_load}));
   refuse(body, p1(), Scene({paper_load}, VentcelLayer{}));
+  TriangleMesh pulled = mesh;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == EdgeTag::clamped && mesh.vertices(mesh.edges(e, 0), 1) < 0)
+      pulled.edge_tag[e] = natural_group(0);
+  for (const auto kind : {EdgeCondition::Kind::traction, EdgeCondition::Kind::spring})
+    refuse(pulled, p1(), Scene({paper_load}, StiffLayer{1}, {}, {{"sides", kind, [](double, double) { return 1.0; }}}));
 }
 
 TEST(Ties, LeaveAGroupPerColumnWhereThereAreColumns) {

@@ -188,7 +188,7 @@ Sunk sunk_to_sigma(const VariationalInequality& problem, const Line& sigma, cons
       if (hat.value() > 1e-12) held[hat.col()] = 1;
   Eigen::MatrixXd form = Eigen::MatrixXd::Zero(all, all);  // W' A1 W, of whose two halves one is summed
   for (int u = 0; u < problem.size(); ++u)
-    for (SparseMatrix::InnerIterator a(problem.a1, u); a && a.row() <= u; ++a)
+    for (SparseMatrix::InnerIterator a(problem.a1, u); w.row(u).nonZeros() > 0 && a && a.row() <= u; ++a)
       for (RowMatrix::InnerIterator left(w, u); left; ++left) {
         const double here = (a.row() < u ? 1 : 0.5) * a.value() * left.value();
         for (RowMatrix::InnerIterator right(w, a.row()); right; ++right)
@@ -264,6 +264,12 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
       throw Error("lost energy: accepted: a layer whose sides have the value of Sigma's end above them");
   }
 
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (const EdgeTag tag = mesh.edge_tag[e]; group_of(tag) >= 0 && !is_held(tag) &&
+                                              mesh.region[mesh.edge_triangles(e, 0)] == Region::layer &&
+                                              scene.edges()[group_of(tag)].kind != EdgeCondition::Kind::free)
+      throw Error("lost energy: accepted: no traction and no spring on the layer");
+
   // v_0: straight in the layer, affine between given values of the outer ends of Sigma, level to an end that is free
   const double left = held_at.front() ? on_sigma(0) : held_at.back() ? on_sigma(points - 1) : on_sigma.mean();
   const double right = held_at.back() ? on_sigma(points - 1) : left;
@@ -277,19 +283,14 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   // has round-off of s U^2.) Its round-off: a row of A1 has sum 0, and leaves of values U some ulp of U times its entries.
   const auto layer =
       layer_at(sigma, space, stiff != nullptr ? Eigen::Vector2d(s, 0) : Eigen::Vector2d::Constant(1 / *epsilon));
-  const bool pulled = stiff != nullptr && stiff->load;
   Eigen::VectorXd force = problem.load;
   double left_in_layer = problem.compliance * solution.p.cwiseAbs2().dot(problem.m) / 2, round_off = 0;
-  if (pulled) {
-    const Eigen::VectorXd on_layer = load_vector(space, stiff->load, Region::layer);
-    force -= on_layer, left_in_layer -= on_layer.dot(w);
-  }
   for (int u = 0; u < space.size(); ++u)
     if (in_body[u]) {
       force(u) -= problem.a1.col(u).dot(solution.u);
     } else {
       force(u) = 0;
-      left_in_layer += w(u) * problem.a1.col(u).dot(middle);
+      left_in_layer += w(u) * (problem.a1.col(u).dot(middle) - problem.load(u));
       round_off += 2 * ulp * std::abs(w(u)) * problem.a1.coeff(u, u);
     }
   for (const auto& value : layer) {
@@ -349,13 +350,17 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
       }
     }
   }
-  if (pulled) {  // at the points where u_h has it
+  if (stiff != nullptr && stiff->load) {  // at the points where u_h has it
     const Quadrature& rule = load_rule(element);
+    std::vector<Eigen::VectorXd> basis;
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) basis.push_back(element.basis(rule.points.row(q)));
+    std::vector<const Indices*> below(points);  // the edge on the right of a point of Sigma
+    for (const Indices& edge : sigma.edge)
+      for (int i = 0; i < degree; ++i) below[edge[i]] = &edge;
     for (int t = 0; t < mesh.triangle_count(); ++t)
       for (Eigen::Index q = 0; q < rule.weights.size() && mesh.region[t] == Region::layer; ++q) {
         const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-        const Indices& edge = *std::partition_point(sigma.edge.begin(), sigma.edge.end() - 1,
-                                                    [&](const Indices& e) { return sigma.x[e.back()] < x(0); });
+        const Indices& edge = *below[among(sigma.x, x(0)).first];
         const double on_edge = (x(0) - sigma.x[edge.front()]) / (sigma.x[edge.back()] - sigma.x[edge.front()]);
         const int row = std::min(static_cast<int>(-x(1) * rows), rows - 1);
         const double low = -x(1) * rows - row;
@@ -367,6 +372,11 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
           strip.load(unknown(edge[i], row)) += (1 - low) * f;
           strip.load(unknown(edge[i], row + 1)) += low * f;
         }
+        for (Eigen::Index r = 0; r < basis[q].size(); ++r)  // what u_h has on Sigma is in the body's force
+          if (const int place = sigma.place[space.unknowns()(t, r)]; place >= 0) {
+            left_in_layer -= pull * basis[q](r) * base(place);
+            if (!body.held[place]) strip.load(place) -= pull * basis[q](r);
+          }
       }
   }
   strip.a1.resize(size, size);

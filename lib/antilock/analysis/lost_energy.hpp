@@ -30,7 +30,7 @@ struct LostEnergy {
 
 /// For a conforming element of any degree on a mesh with a layer, of (23) or (22); derivation in lost_energy.cpp. Costs a
 /// small part of the solve. Throws Error for another element, without a layer's mesh, for a layer along the normals of a
-/// curve and for one whose sides are given other values than Sigma's ends, and what active_set throws.
+/// curve and for one whose sides are given other values than Sigma's ends, a traction or a spring, and what active_set throws.
 LostEnergy lost_energy(const Scene& scene, const Space& space, const VariationalInequality& problem,
                        const Solution& solution);
 
