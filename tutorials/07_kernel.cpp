@@ -14,7 +14,7 @@
 // :figure: kernel
 //
 // **Predict.** (a) P2, quadratic functions, on the unstructured mesh: is its kernel 0 on the layer, too? (b) Move
-// every vertex of the structured mesh by a millionth of `h`: does P1 lock?
+// every vertex of the structured mesh by a millionth of $h$: does P1 lock?
 //
 // ## What decides
 //
@@ -47,7 +47,7 @@
 // only: one unknown per edge ([08](08_crouzeix_raviart.cpp) draws it). $N_T$ is the number of triangles of the layer.
 //
 // What survives on $Γ_C$, when ε → 0, is a function of this kernel. Choose a method, and see how much of $\sin πx$ is
-// left by its orthogonal projection onto the kernel:
+// left when its values at the unknowns of the layer are projected onto the kernel:
 //
 // :live: kernel
 

@@ -77,8 +77,8 @@ Table solve_all(const Method& method, const TriangleMesh& mesh, int cells, const
 // ### Solve
 void study(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("truth for five epsilons");
-  const std::vector<tutorial::Exact> truth =
-      tutorial::exact_solutions({1, 1e-1, 1e-2, 1e-4, 1e-6}, 15);  // with 2^17 points no digit printed below is another
+  const std::vector<tutorial::Exact> truth = tutorial::exact_solutions(
+      {1, 1e-1, 1e-2, 1e-4, 1e-6}, 15);  // 2^15 points: with 2^17 every digit printed is the same
   Table results(columns);
   for (int n = 8; n <= options.cells; n *= 2)
     for (const MeshFamily& family : {structured(), unstructured()}) {

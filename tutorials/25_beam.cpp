@@ -38,7 +38,7 @@
 //
 // Full integration is therefore reduced integration with a bending stiffness that is $1 + h^2/(12 ε)$ times too large,
 // contact included: 1.8 times at $h = 1/32$, ε = 1e-4. This factor grows without bound as ε falls. It comes near 1 only
-// where $h^2 ≪ ε$: full integration needs cells that are small against the thickness.
+// where $h^2 ≪ ε$: full integration needs cells that are small against the thickness. Choose ε and the cells:
 //
 // :live: beam
 //

@@ -507,7 +507,7 @@ class LiveFigure(Book):
                 open_at("beam", width)
                 stiff, full, reduced = says("beam", "is 1.814 times too stiff", cells=32)  # as the chapter says
                 self.assertAlmostEqual(full / reduced, 15, delta=1)
-                says("beam", "is infinitely many times too stiff", epsilon=-8)
+                says("beam", "is infinitely too stiff", epsilon=-8)
                 open_at("friction", width)
                 self.assertAlmostEqual(says("friction", "It sticks on 0.2")[0], 0.22, delta=0.011)
                 self.assertEqual(says("friction", "It sticks on 0.00", rough=0)[0], 0)

@@ -1198,6 +1198,27 @@ TEST(LostEnergy, IsTheSameShareBesideLargeGivenValues) {
   EXPECT_EQ(lost(0, 40, 1e9, 1e9).motion, 0);
 }
 
+// Nothing pulls, and nothing touches: what u leaves of its forces is round-off, of a soft layer and of a stiff one.
+TEST(LostEnergy, HasNoMotionWhereAllIsAtRest) {
+  TriangleMesh mesh = unstructured_mesh(8);
+  for (EdgeTag& tag : mesh.edge_tag)
+    if (tag == EdgeTag::clamped) tag = held_group(0);
+  for (const Element* element : {&p1(), &p2()})
+    for (const double tilt : {0.0, 0.3})
+      for (const double epsilon : {1e-1, 1e-3, 1e-5, tilt == 0 ? 0.0 : 1e-8})  // at 0 locked P1 has no u that is tilted
+        for (const double s : {1e-5, 1e-3, 1e-2, 1.0, 1e6})
+          for (const double u : {0.3, 1.7, epsilon > 0 ? 1e4 : 17}) {  // beside 1e4 rounded rows of B contradict it
+            const Space space(mesh, *element);
+            const auto given = [=](double x, double) { return u + tilt * x; };
+            const Scene scene({[](double, double) { return 0.0; }}, StiffLayer{epsilon, s},
+                              UnilateralContact{[](double) { return 1000.0; }, {}},
+                              {{"sides", EdgeCondition::Kind::displacement, given}});
+            const VariationalInequality problem = assemble(scene, space);
+            EXPECT_EQ(lost_energy(scene, space, problem, active_set(problem)).motion, 0)
+                << element->name() << tilt << ' ' << epsilon << ' ' << s << ' ' << u;
+          }
+}
+
 // A ceiling over a part of the bottom, and a mesh with one unknown in contact: u_h's bounds are read between its points.
 TEST(LostEnergy, ReadsBoundsThatAreInfiniteOrOne) {
   UnilateralContact half;

@@ -278,7 +278,7 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   const double ulp = std::numeric_limits<double>::epsilon() * solution.u.cwiseAbs().maxCoeff();
   const Eigen::VectorXd w = solution.u - still, middle = still + w / 2, base = w(sigma.unknown);
 
-  // What u_h leaves of the forces on the body, whose form is A1 less what the layer has at Sigma; and what is left in the
+  // force: what u_h leaves of the forces on the body, whose form is A1 less the layer's part at Sigma. left_in_layer: in the
   // layer, J(v_0 + w) - J(v_0) = a(w, v_0 + w / 2) - L(w), with w = u_h - v_0. (Beside given values U the square of u_h itself
   // has round-off of s U^2.) Its round-off: a row of A1 has sum 0, and leaves of values U some ulp of U times its entries.
   const auto layer =
@@ -411,7 +411,9 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   lost.found = lost.proved = left_in_layer - j;
   lost.motion =
       std::max(j_still - j, way.dot(strip.a1 * way) / 2 + strip.compliance * moved.p.cwiseAbs2().dot(strip.m) / 2);
-  if (lost.motion < round_off) lost.motion = 0;
+  // the forces on Sigma, of body and layer: what is left of stiffness times U, in whose rounding `near` has as much room
+  round_off += 20 * ulp * way.head(points).cwiseAbs().dot(Eigen::VectorXd(strip.a1.diagonal().head(points)));
+  if (lost.motion < round_off / LostEnergy::telling) lost.motion = 0;  // else round-off could be the share that is told
   if (!scene.contact()) return lost;
 
   const Trace fine = trace_at(nodes, Eigen::VectorXd::LinSpaced(33, 0, 1));

@@ -19,7 +19,8 @@ void Anderson::note(const Twice& reached, const Eigen::VectorXd& g, const Twice&
     gain = std::max(gain, (companion - past_[i].companion).lpNorm<Eigen::Infinity>() / apart);
   }
   contraction_ = std::min(most, tuned::slowest);
-  if (gain > 0) gain_ = gain;  // else the last one: another contact set hardly changes it
+  // else the last one: another contact set hardly changes it, a smaller penalty makes it smaller
+  if (gain > 0) gain_ = gain;
 }
 
 void Anderson::mix(Twice& reached, Twice& companion) const {

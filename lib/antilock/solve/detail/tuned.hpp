@@ -22,7 +22,7 @@ constexpr double round_off = 64 * eps;
 constexpr double equal = 8 * eps;
 
 /// Rows of B whose distance from dependent is looked at, among ten times as many unknowns at most: a dense QR of 200 x
-/// 2,000 is some 2 200^2 2,000 products, tens of milliseconds.
+/// 2,200 (with a spring per row) is some 2 200^2 2,200 products, tens of milliseconds.
 constexpr int few_rows = 200;
 
 /// Corrections in all, where the caller asks for no other number: 15 with each of six penalties and some
