@@ -196,7 +196,6 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 
 // ## What came out
 // :output:
-//
 // :figure: string_steps
 //
 // (a) Nine of $2^{31}$. Each guess corrects the one before, and from the second one on they only shrink. (b) Four times

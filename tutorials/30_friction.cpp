@@ -181,7 +181,6 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 // ## What came out
-//
 // :output: T, by lambda
 //
 // (a) At λ = 1 to the *left*: the left half slips inwards, to the right, and $T$ is $-0.016$. In the limit to the right: it

@@ -187,7 +187,6 @@ void judge(const Table& results, const Exact& exact, tutorial::Report& report) {
 }
 
 // ## What came out
-//
 // (a) 3/2. The position of $c$ in its cell decides over a factor of ten, so the worst position of nine is taken first:
 // :output: P4, equal cells, epsilon = 0, h1
 //
