@@ -53,7 +53,7 @@ class IteratedPenalty {
       if (right || correction >= options_.max_corrections || !std::isfinite(moved)) return finished(step, now);
       const bool slow = correction % tuned::corrections_per_penalty == tuned::corrections_per_penalty - 1;
       if (slow)
-        require_an_admissible_u(problem_, Eigen::VectorXd(problem_.m.cwiseProduct(problem_.b * u_.high)),
+        require_an_admissible_u(problem_, Eigen::VectorXd(problem_.m.cwiseProduct(problem_.b * u_.high)), u_.high,
                                 std::max(s_.moderate, largest) / std::sqrt(tuned::eps), s_);
       report(options_.progress, {"corrections", correction + 1, now.error, options_.tolerance}, s_.solver);
       // the u of the first correction is off by the factor's round-off, no image of p: a mix would bring that back, again
