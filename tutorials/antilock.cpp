@@ -57,7 +57,7 @@ int fail(const std::string& message, int status) {
 int main(int argc, char** argv) {
   try {
     for (const Door& door : doors())
-      for (int k = 0; k < std::min(argc, 2); ++k)  // 0: it started again, as choose_kernels does
+      for (int k = 0; k < std::min(argc, 2); ++k)  // 0: it started again, as choose_machine does
         if (!std::strcmp(argv[k], door.name)) return door.open(argc - k, argv + k);
     if (argc < 2) return help(stderr, 2);
     if (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h")) return help(stdout, 0);

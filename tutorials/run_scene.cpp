@@ -88,7 +88,8 @@ solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, an
 build/figures/render surface DIR/solution.vtu --out picture.png (of a mesh from a file: render plan, in plane strain: render deformed)
 In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file, the layer of depth 1 included; seconds are wall seconds, which add up to total;
 blas is the library of dense linear algebra, its kernels and threads (where OpenBLAS does not know the CPU and falls
-back to old kernels, the program starts again with wider ones; ANTILOCK_KEEP_KERNELS=1 leaves them);
+back to old kernels, the program starts again with wider ones, and with memory in large pages where Linux gives them to
+who asks; ANTILOCK_KEEP_KERNELS=1 leaves both);
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
 motion that is lost at least (proved; null where it locks and that is not), kept is 1 - lost_energy;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
