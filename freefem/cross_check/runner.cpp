@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 
 #include "antilock/core/error.hpp"
@@ -45,7 +46,11 @@ void run(const std::string& script, const std::vector<std::string>& options) {
   std::string words;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) words += c == '\n' ? ' ' : static_cast<char>(c);
   const int status = pclose(pipe);
-  if (status == 0) return;
+  if (status == 0) {  // FreeFEM is there and new enough: freefem/run does not start it once more to ask
+    const char* program = std::getenv("FREEFEM");
+    ::setenv("FREEFEM_CHECKED", program == nullptr ? "FreeFem++" : program, 1);
+    return;
+  }
   words.erase(words.find_last_not_of(' ') + 1);
   if (words.empty()) words = fmt::format("freefem/run {} ended with status {}", script, WEXITSTATUS(status));
   throw Error(words);
