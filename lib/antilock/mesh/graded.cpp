@@ -55,49 +55,36 @@ std::vector<double> graded_lines(double from, double at, double to, double width
 TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>& y, Diagonal diagonal) {
   check_lines(x, "x");
   check_lines(y, "y");
-  const auto sigma = std::find(y.begin(), y.end() - 1, 0.0);
-  if (sigma == y.end() - 1)
+  if (std::find(y.begin(), y.end() - 1, 0.0) == y.end() - 1)
     throw Error(
         fmt::format("tensor mesh: y from {} to {}; accepted: a line y = 0 below the last", y.front(), y.back()));
   const int columns = static_cast<int>(x.size()) - 1, rows = static_cast<int>(y.size()) - 1;
-  const int layer_rows = static_cast<int>(sigma - y.begin());
-  TriangleMesh mesh;
-  mesh.vertices.resize(static_cast<Eigen::Index>(rows + 1) * (columns + 1), 2);
-  for (int j = 0; j <= rows; ++j)
-    for (int i = 0; i <= columns; ++i) mesh.vertices.row(j * (columns + 1) + i) << x[i], y[j];
+  const int corners = (rows + 1) * (columns + 1), cells = rows * columns;
   const bool crossed = diagonal == Diagonal::crossed;
-  const int corners = mesh.vertex_count();
-  if (crossed) mesh.vertices.conservativeResize(corners + static_cast<Eigen::Index>(rows) * columns, 2);
-  mesh.triangles.resize(static_cast<Eigen::Index>(crossed ? 4 : 2) * rows * columns, 3);
-  mesh.region.resize(mesh.triangles.rows());
+  Points vertices(corners + (crossed ? cells : 0), 2);
+  for (int j = 0; j <= rows; ++j)
+    for (int i = 0; i <= columns; ++i) vertices.row(j * (columns + 1) + i) << x[i], y[j];
+  Triples triangles((crossed ? 4 : 2) * cells, 3);
   int t = 0;
   for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
       const int low = j * (columns + 1) + i, up = low + columns + 1;  // lower left and upper left corner
-      const Region region = j < layer_rows ? Region::layer : Region::body;
-      std::fill_n(mesh.region.begin() + t, crossed ? 4 : 2, region);
       if (crossed) {
         const int centre = corners + j * columns + i;
-        mesh.vertices.row(centre) = 0.5 * (mesh.vertices.row(low) + mesh.vertices.row(up + 1));
-        mesh.triangles.row(t++) << low, low + 1, centre;
-        mesh.triangles.row(t++) << low + 1, up + 1, centre;
-        mesh.triangles.row(t++) << up + 1, up, centre;
-        mesh.triangles.row(t++) << up, low, centre;
+        vertices.row(centre) = 0.5 * (vertices.row(low) + vertices.row(up + 1));
+        triangles.row(t++) << low, low + 1, centre;
+        triangles.row(t++) << low + 1, up + 1, centre;
+        triangles.row(t++) << up + 1, up, centre;
+        triangles.row(t++) << up, low, centre;
       } else if (diagonal == Diagonal::right) {
-        mesh.triangles.row(t++) << low, low + 1, up + 1;
-        mesh.triangles.row(t++) << low, up + 1, up;
+        triangles.row(t++) << low, low + 1, up + 1;
+        triangles.row(t++) << low, up + 1, up;
       } else {
-        mesh.triangles.row(t++) << low, low + 1, up;
-        mesh.triangles.row(t++) << low + 1, up + 1, up;
+        triangles.row(t++) << low, low + 1, up;
+        triangles.row(t++) << low + 1, up + 1, up;
       }
     }
-  number_edges(mesh, "tensor mesh");
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_triangles(e, 1) >= 0) continue;
-    const bool bottom = mesh.edges(e, 0) <= columns && mesh.edges(e, 1) <= columns;
-    mesh.edge_tag[e] = bottom ? EdgeTag::contact : EdgeTag::clamped;
-  }
-  return mesh;
+  return placed_mesh(std::move(vertices), std::move(triangles));
 }
 
 TriangleMesh graded_mesh(double end, double width, int layers, double ratio, double epsilon) {

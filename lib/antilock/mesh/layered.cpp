@@ -39,10 +39,9 @@ std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh, bool along
     for (const int v : ends)
       if (!along_normals && std::abs(mesh.vertices(v, 1)) > on_line)
         throw Error("extruded layer: Sigma has a vertex at " + mesh.place(v) + "; accepted: Sigma on the line y = 0");
-    const int t = mesh.edge_triangles(e, 0);
-    const Eigen::RowVector2d along = mesh.vertices.row(ends[1]) - mesh.vertices.row(ends[0]),
-                             up = mesh.vertices(mesh.triangles.row(t), Eigen::all).colwise().mean() -
-                                  mesh.vertices.row(ends[0]);
+    const auto corners = mesh.triangles.row(mesh.edge_triangles(e, 0));
+    const Eigen::RowVector2d from = mesh.vertices.row(ends[0]), along = mesh.vertices.row(ends[1]) - from,
+                             up = mesh.vertices(corners, Eigen::all).colwise().mean() - from;
     if (along_normals && along(0) * up(1) <= along(1) * up(0))
       throw Error("extruded layer: the body is not above its contact edge at " + mesh.place(ends[0]) +
                   "; accepted: edges with the body above them");
@@ -154,12 +153,10 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
   }
   region.resize(triangles.size(), Region::layer);
 
-  Points points(static_cast<Eigen::Index>(vertices.size()), 2);
-  for (std::size_t i = 0; i < vertices.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = vertices[i];
-  Triples corners(static_cast<Eigen::Index>(triangles.size()), 3);
-  for (std::size_t t = 0; t < triangles.size(); ++t) corners.row(static_cast<Eigen::Index>(t)) = triangles[t];
   TriangleMesh mesh =
-      make_triangle_mesh(std::move(points), std::move(corners), std::move(region), tagged, "extruded layer");
+      make_triangle_mesh(Eigen::Map<Points>(vertices[0].data(), static_cast<Eigen::Index>(vertices.size()), 2),
+                         Eigen::Map<Triples>(triangles[0].data(), static_cast<Eigen::Index>(triangles.size()), 3),
+                         region, tagged, "extruded layer");
   mesh.geometry = body.geometry;
   mesh.bend = std::move(bend);
   return mesh;

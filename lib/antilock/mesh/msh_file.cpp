@@ -3,8 +3,6 @@
 // sections is free.
 #include "antilock/mesh/msh_file.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -25,18 +23,17 @@ const std::string& group_name(const MshLines& lines, const MshFile& file, const 
   if (file.version_4) {
     const auto entity = file.entities.find({element.dimension(), element.group});
     if (entity == file.entities.end())
-      lines.refuse_at(element.line, fmt::format("element {} is on {} {}, which $Entities does not list", element.tag,
-                                                dimension, element.group));
+      lines.refuse_at(element.line, "element {} is on {} {}, which $Entities does not list", element.tag, dimension,
+                      element.group);
     group = entity->second < 0 ? -entity->second : entity->second;  // a negative group turns the entity round
   }
   if (group == 0)
-    lines.refuse_at(element.line, fmt::format("element {} is in no physical group; accepted: body, layer, sigma, "
-                                              "clamped, contact",
-                                              element.tag));
+    lines.refuse_at(element.line, "element {} is in no physical group; accepted: body, layer, sigma, clamped, contact",
+                    element.tag);
   const auto name = file.names.find({element.dimension(), group});
   if (name == file.names.end())
-    lines.refuse_at(element.line, fmt::format("element {} is in {} group {}, which $PhysicalNames does not name",
-                                              element.tag, dimension, group));
+    lines.refuse_at(element.line, "element {} is in {} group {}, which $PhysicalNames does not name", element.tag,
+                    dimension, group);
   return name->second;
 }
 
@@ -45,9 +42,9 @@ std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const 
   std::unordered_map<std::int64_t, int> index;
   index.reserve(nodes.size());
   for (const FileNode& node : nodes) {
-    if (node.tag < 1) lines.refuse_file(fmt::format("node tag {}; accepted: 1 or more", node.tag));
+    if (node.tag < 1) lines.refuse_file("node tag {}; accepted: 1 or more", node.tag);
     if (!index.emplace(node.tag, static_cast<int>(index.size())).second)
-      lines.refuse_file(fmt::format("node tag {} is used twice", node.tag));
+      lines.refuse_file("node tag {} is used twice", node.tag);
   }
   return index;
 }
@@ -62,14 +59,13 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
   std::set<std::string_view> found;
   std::unordered_set<std::int64_t> tags;
   for (const FileElement& element : file.elements) {
-    if (!tags.insert(element.tag).second)
-      lines.refuse_at(element.line, fmt::format("element number {} is used twice", element.tag));
+    if (!tags.insert(element.tag).second) lines.refuse_at(element.line, "element number {} is used twice", element.tag);
     std::array<int, 3> vertices{};
     for (int i = 0; i < element.size; ++i) {
       const auto node = index.find(element.nodes[i]);
       if (node == index.end())
-        lines.refuse_at(element.line, fmt::format("element {} has node {}, which $Nodes does not list", element.tag,
-                                                  element.nodes[i]));
+        lines.refuse_at(element.line, "element {} has node {}, which $Nodes does not list", element.tag,
+                        element.nodes[i]);
       vertices[i] = node->second;
     }
     if (element.dimension() == 0) continue;
@@ -89,20 +85,17 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
   for (const std::string name : {"body", "clamped", "contact"})
     if (!found.contains(name) && !(name == "body" && !more.bodies.empty()) &&
         !(name == "clamped" && !more.curves.empty()))
-      lines.refuse_file(
-          fmt::format("has nothing in the physical group {}; needed: body, clamped, contact", in_quotes(name)));
+      lines.refuse_file("has nothing in the physical group {}; needed: body, clamped, contact", in_quotes(name));
   for (const auto& [name, tag] : more.curves)
-    if (!found.contains(name)) lines.refuse_file(fmt::format("has no curve in the group {}", in_quotes(name)));
+    if (!found.contains(name)) lines.refuse_file("has no curve in the group {}", in_quotes(name));
   for (const std::string& name : more.bodies)
-    if (!found.contains(name)) lines.refuse_file(fmt::format("has no surface in the group {}", in_quotes(name)));
+    if (!found.contains(name)) lines.refuse_file("has no surface in the group {}", in_quotes(name));
   for (const auto& [place, name] : file.names)
-    if (!found.contains(name))
-      lines.refuse_file(fmt::format("names the physical group {}, but it is empty", in_quotes(name)));
+    if (!found.contains(name)) lines.refuse_file("names the physical group {}, but it is empty", in_quotes(name));
 
   Points points(file.nodes.size(), 2);
   for (std::size_t i = 0; i < file.nodes.size(); ++i) points.row(i) << file.nodes[i].x, file.nodes[i].y;
-  Triples triangles(corners.size(), 3);
-  for (std::size_t t = 0; t < corners.size(); ++t) triangles.row(t) << corners[t][0], corners[t][1], corners[t][2];
+  Triples triangles = Eigen::Map<Triples>(corners[0].data(), static_cast<Eigen::Index>(corners.size()), 3);
   return make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), edges, lines.name());
 }
 

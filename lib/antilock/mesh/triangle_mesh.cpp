@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "antilock/core/error.hpp"
@@ -12,6 +13,11 @@
 namespace antilock {
 namespace {
 
+template <class... Values>
+[[noreturn]] void refuse(const std::string& where, fmt::format_string<const Values&...> why, const Values&... values) {
+  throw Error(fmt::format("{}: {}", where, fmt::format(why, values...)));
+}
+
 std::string triangle_at(const TriangleMesh& mesh, int t) {
   const auto& v = mesh.triangles;
   return fmt::format("triangle {} {} {}", mesh.place(v(t, 0)), mesh.place(v(t, 1)), mesh.place(v(t, 2)));
@@ -19,20 +25,17 @@ std::string triangle_at(const TriangleMesh& mesh, int t) {
 
 void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
   const int n = mesh.vertex_count();
-  if (mesh.triangle_count() == 0) throw Error(where + ": no triangles; accepted: a mesh of the body");
-  if (static_cast<int>(mesh.region.size()) != mesh.triangle_count())
-    throw Error(where + ": one region a triangle is needed");
-  if (!mesh.vertices.allFinite()) throw Error(where + ": a vertex coordinate is not finite");
+  if (mesh.triangle_count() == 0) refuse(where, "no triangles; accepted: a mesh of the body");
+  if (static_cast<int>(mesh.region.size()) != mesh.triangle_count()) refuse(where, "one region a triangle is needed");
+  if (!mesh.vertices.allFinite()) refuse(where, "a vertex coordinate is not finite");
   const auto valid = [n](int v) { return v >= 0 && v < n; };
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i)
       if (!valid(mesh.triangles(t, i)))
-        throw Error(
-            fmt::format("{}: triangle {} has vertex {}; accepted 0 to {}", where, t, mesh.triangles(t, i), n - 1));
+        refuse(where, "triangle {} has vertex {}; accepted 0 to {}", t, mesh.triangles(t, i), n - 1);
   for (const TaggedEdge& e : tagged_edges)
     if (!valid(e.from) || !valid(e.to))
-      throw Error(
-          fmt::format("{}: a tagged edge has vertices {} and {}; accepted 0 to {}", where, e.from, e.to, n - 1));
+      refuse(where, "a tagged edge has vertices {} and {}; accepted 0 to {}", e.from, e.to, n - 1);
 }
 
 void check_vertices(const TriangleMesh& mesh, const std::string& where) {
@@ -41,8 +44,8 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
     for (int i = 0; i < 3; ++i) used[mesh.triangles(t, i)] = 1;
   const auto unused = std::find(used.begin(), used.end(), 0);
   if (unused != used.end())
-    throw Error(fmt::format("{}: the vertex at {} is dangling: it belongs to no triangle", where,
-                            mesh.place(static_cast<int>(unused - used.begin()))));
+    refuse(where, "the vertex at {} is dangling: it belongs to no triangle",
+           mesh.place(static_cast<int>(unused - used.begin())));
   // Duplicates are neighbours once sorted by x then y.
   std::vector<int> order(mesh.vertex_count());
   std::iota(order.begin(), order.end(), 0);
@@ -51,8 +54,7 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
             [&](int a, int b) { return p(a, 0) != p(b, 0) ? p(a, 0) < p(b, 0) : p(a, 1) < p(b, 1); });
   for (std::size_t i = 1; i < order.size(); ++i)
     if (p.row(order[i]) == p.row(order[i - 1]))
-      throw Error(fmt::format("{}: two vertices share the place {}: a crack; accepted: one vertex a place", where,
-                              mesh.place(order[i])));
+      refuse(where, "two vertices share the place {}: a crack; accepted: one vertex a place", mesh.place(order[i]));
 }
 
 /// A surface that gmsh oriented downwards is turned round as a whole; a single inverted triangle is an error.
@@ -69,8 +71,7 @@ void orient(TriangleMesh& mesh, const std::string& where) {
     }
     if (clockwise == 0) continue;
     if (clockwise != members)
-      throw Error(fmt::format("{}: inverted {}; accepted: all triangles of a surface in one orientation", where,
-                              triangle_at(mesh, example)));
+      refuse(where, "inverted {}; accepted: all triangles of a surface in one orientation", triangle_at(mesh, example));
     for (int t = 0; t < mesh.triangle_count(); ++t)
       if (mesh.region[t] == region) std::swap(mesh.triangles(t, 1), mesh.triangles(t, 2));
   }
@@ -85,7 +86,29 @@ void check_triangles(const TriangleMesh& mesh, const std::string& where) {
     }
     // below 1e-14 the sign of the area is round-off
     if (!(std::abs(mesh.twice_area(t)) > 1e-14 * longest))
-      throw Error(fmt::format("{}: degenerate {}: its area is zero", where, triangle_at(mesh, t)));
+      refuse(where, "degenerate {}: its area is zero", triangle_at(mesh, t));
+  }
+}
+
+/// Tags sit on the boundary and on Sigma: only those edges need to be found.
+void tag_edges(TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
+  std::map<std::pair<int, int>, int> known;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_triangles(e, 1) < 0 || mesh.edge_tag[e] == EdgeTag::sigma)
+      known[{mesh.edges(e, 0), mesh.edges(e, 1)}] = e;
+  for (const TaggedEdge& tagged : tagged_edges) {
+    const auto found = known.find(std::minmax(tagged.from, tagged.to));
+    const bool on_sigma = found != known.end() && mesh.edge_triangles(found->second, 1) >= 0;
+    if (found == known.end() || on_sigma != (tagged.tag == EdgeTag::sigma))
+      refuse(where,
+             "the tagged edge from {} to {} is dangling or misplaced; accepted: clamped and contact on the "
+             "boundary, sigma between body and layer",
+             mesh.place(tagged.from), mesh.place(tagged.to));
+    EdgeTag& tag = mesh.edge_tag[found->second];
+    if (tag != EdgeTag::interior && tag != tagged.tag)
+      refuse(where, "the edge from {} to {} is in two groups; accepted: one of clamped, contact",
+             mesh.place(tagged.from), mesh.place(tagged.to));
+    tag = tagged.tag;
   }
 }
 
@@ -96,8 +119,7 @@ void check_overlap(const TriangleMesh& mesh, const std::string& where) {
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
       const char forward = mesh.triangles(t, (i + 1) % 3) == mesh.edges(e, 0) ? 1 : 2;
-      if (direction[e] == forward)
-        throw Error(fmt::format("{}: inverted or overlapping {}", where, triangle_at(mesh, t)));
+      if (direction[e] == forward) refuse(where, "inverted or overlapping {}", triangle_at(mesh, t));
       direction[e] = forward;
     }
 }
@@ -118,16 +140,16 @@ void check_boundary(const TriangleMesh& mesh, const std::string& where) {
   const int first = untagged.front();
   const auto refuse_hanging = [&](int v, int e) {
     if (hangs(mesh, v, e))
-      throw Error(fmt::format("{}: the vertex at {} hangs on the edge from {} to {}", where, mesh.place(v),
-                              mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1))));
+      refuse(where, "the vertex at {} hangs on the edge from {} to {}", mesh.place(v), mesh.place(mesh.edges(e, 0)),
+             mesh.place(mesh.edges(e, 1)));
   };
   // the likely reason: the first of them is the long side of a hanging vertex, or one of the short ones
   for (int v = 0; v < mesh.vertex_count(); ++v) refuse_hanging(v, first);
   for (const int e : untagged)
     for (int end = 0; end < 2; ++end) refuse_hanging(mesh.edges(first, end), e);
-  throw Error(fmt::format(
-      "{}: the boundary edge from {} to {} is in no group; accepted: clamped, contact, or one that an [[edge]] names",
-      where, mesh.place(mesh.edges(first, 0)), mesh.place(mesh.edges(first, 1))));
+  refuse(where,
+         "the boundary edge from {} to {} is in no group; accepted: clamped, contact, or one that an [[edge]] names",
+         mesh.place(mesh.edges(first, 0)), mesh.place(mesh.edges(first, 1)));
 }
 
 /// A piece that no clamped edge holds could move freely: the problem would be singular.
@@ -141,7 +163,7 @@ void check_held(const TriangleMesh& mesh, const std::string& where) {
   };
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (is_held(mesh.edge_tag[e]) || group_of(mesh.edge_tag[e]) >= 0) reach(mesh.edge_triangles(e, 0));
-  if (stack.empty()) throw Error(where + ": no edge is in the group clamped, which is needed");
+  if (stack.empty()) refuse(where, "no edge is in the group clamped, which is needed");
   while (!stack.empty()) {
     const int t = stack.back();
     stack.pop_back();
@@ -150,8 +172,8 @@ void check_held(const TriangleMesh& mesh, const std::string& where) {
   }
   const auto loose = std::find(reached.begin(), reached.end(), 0);
   if (loose != reached.end())
-    throw Error(fmt::format("{}: dangling {}: no clamped edge holds its piece of the mesh", where,
-                            triangle_at(mesh, static_cast<int>(loose - reached.begin()))));
+    refuse(where, "dangling {}: no clamped edge holds its piece of the mesh",
+           triangle_at(mesh, static_cast<int>(loose - reached.begin())));
 }
 
 }  // namespace
@@ -184,7 +206,7 @@ TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<
   check_triangles(mesh, where);
   orient(mesh, where);
   if (std::find(mesh.region.begin(), mesh.region.end(), Region::body) == mesh.region.end())
-    throw Error(where + ": no triangle is in the group body, which is needed");
+    refuse(where, "no triangle is in the group body, which is needed");
   number_edges(mesh, where);
   tag_edges(mesh, tagged_edges, where);
   check_overlap(mesh, where);

@@ -257,7 +257,7 @@ async function unpacked(text) {
 
 /// A mesh as the library keeps it from what wasm/pack made of it: its coordinates byte by byte, its triangles as differences.
 function mesh(bytes) {
-  const view = new DataView(bytes.buffer), [vertices, triangles] = [0, 8].map((at) => view.getUint32(at, true)), begin = 24, end = begin + 16 * vertices;
+  const view = new DataView(bytes.buffer), [vertices, triangles] = [0, 8].map((at) => view.getUint32(at, true)), begin = 16, end = begin + 16 * vertices;
   const planes = bytes.slice(begin, end), step = 2 * vertices;
   for (let i = 0; i < step; ++i) for (let k = 0; k < 8; ++k) bytes[begin + 8 * i + k] = planes[k * step + i];
   for (let t = 0, first = 0; t < triangles; ++t) {

@@ -3,21 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <unordered_map>
+#include <numeric>
 
 #include "antilock/core/error.hpp"
 
 namespace antilock {
+
 void number_edges(TriangleMesh& mesh, const std::string& where) {
   const int triangle_count = mesh.triangle_count();
-  // Half-edges in buckets by their smaller vertex: each bucket holds a handful, so that matching the halves is linear.
-  std::vector<int> start(mesh.vertex_count() + 1, 0);
   const auto ends = [&](int t, int i) {
     return std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
   };
+  // Half-edges in buckets by their smaller vertex: each bucket holds a handful, so that matching the halves is linear.
+  std::vector<int> start(mesh.vertex_count() + 1, 0);
   for (int t = 0; t < triangle_count; ++t)
-    for (int i = 0; i < 3; ++i) ++start[std::min(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3)) + 1];
-  for (int v = 0; v < mesh.vertex_count(); ++v) start[v + 1] += start[v];
+    for (int i = 0; i < 3; ++i) ++start[ends(t, i).first + 1];
+  std::partial_sum(start.begin(), start.end(), start.begin());
   struct Edge {
     int to, id;
   };
@@ -57,30 +58,19 @@ void number_edges(TriangleMesh& mesh, const std::string& where) {
   }
 }
 
-void tag_edges(TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
-  // Tags sit on the boundary and on Sigma: only those edges need to be found.
-  const auto key = [](int from, int to) {
-    const auto [low, high] = std::minmax(from, to);
-    return (static_cast<std::uint64_t>(low) << 32U) | static_cast<std::uint64_t>(high);
-  };
-  std::unordered_map<std::uint64_t, int> known;
+TriangleMesh placed_mesh(Points vertices, Triples triangles) {
+  TriangleMesh mesh;
+  mesh.vertices = std::move(vertices);
+  mesh.triangles = std::move(triangles);
+  const auto y = mesh.vertices.col(1);
+  for (const auto corners : mesh.triangles.rowwise())
+    mesh.region.push_back(y(corners).sum() > 0 ? Region::body : Region::layer);
+  number_edges(mesh, "mesh");
+  const double lowest = y.minCoeff();
   for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_triangles(e, 1) < 0 || mesh.edge_tag[e] == EdgeTag::sigma)
-      known[key(mesh.edges(e, 0), mesh.edges(e, 1))] = e;
-  for (const TaggedEdge& tagged : tagged_edges) {
-    const auto found = known.find(key(tagged.from, tagged.to));
-    const bool on_sigma = found != known.end() && mesh.edge_triangles(found->second, 1) >= 0;
-    if (found == known.end() || on_sigma != (tagged.tag == EdgeTag::sigma))
-      throw Error(fmt::format(
-          "{}: the tagged edge from {} to {} is dangling or misplaced; accepted: clamped and contact on the "
-          "boundary, sigma between body and layer",
-          where, mesh.place(tagged.from), mesh.place(tagged.to)));
-    EdgeTag& tag = mesh.edge_tag[found->second];
-    if (tag != EdgeTag::interior && tag != tagged.tag)
-      throw Error(fmt::format("{}: the edge from {} to {} is in two groups; accepted: one of clamped, contact", where,
-                              mesh.place(tagged.from), mesh.place(tagged.to)));
-    tag = tagged.tag;
-  }
+    if (mesh.edge_triangles(e, 1) < 0)
+      mesh.edge_tag[e] = (y(mesh.edges.row(e)).array() == lowest).all() ? EdgeTag::contact : EdgeTag::clamped;
+  return mesh;
 }
 
 }  // namespace antilock

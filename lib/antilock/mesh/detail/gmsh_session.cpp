@@ -85,14 +85,26 @@ int GmshSession::add_line(int from, int to) const {
   return call<decltype(gmshModelGeoAddLine)>("gmshModelGeoAddLine", from, to, -1);
 }
 
-int GmshSession::add_surface(std::array<int, 4> lines) const {
+void GmshSession::add_surface(std::array<int, 4> lines) const {
   int loop = call<decltype(gmshModelGeoAddCurveLoop)>("gmshModelGeoAddCurveLoop", lines.data(), lines.size(), -1, 0);
-  return call<decltype(gmshModelGeoAddPlaneSurface)>("gmshModelGeoAddPlaneSurface", &loop, 1, -1);
+  call<decltype(gmshModelGeoAddPlaneSurface)>("gmshModelGeoAddPlaneSurface", &loop, 1, -1);
 }
 
-void GmshSession::generate() const {
+GmshSession::Triangulation GmshSession::generate() const {
   call<decltype(gmshModelGeoSynchronize)>("gmshModelGeoSynchronize");
   call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
+  std::size_t *tags = nullptr, *triangles = nullptr, *nodes = nullptr;
+  double *coordinates = nullptr, *parameters = nullptr;
+  std::size_t tag_count = 0, coordinate_count = 0, parameter_count = 0, triangle_count = 0, node_count = 0;
+  call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", &tags, &tag_count, &coordinates, &coordinate_count,
+                                        &parameters, &parameter_count, /*dim: all*/ -1, -1, 0, 0);
+  if (parameters != nullptr) free_by_gmsh(parameters);
+  constexpr int of_three_nodes = 2;
+  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", of_three_nodes, &triangles,
+                                                 &triangle_count, &nodes, &node_count, /*tag: all*/ -1, /*task*/ 0,
+                                                 /*numTasks*/ 1);
+  free_by_gmsh(triangles);
+  return {taken(tags, tag_count), taken(coordinates, coordinate_count), taken(nodes, node_count)};
 }
 
 std::vector<int> GmshSession::read_curves(const std::string& path) const {
@@ -113,24 +125,6 @@ std::vector<double> GmshSession::nearest(int curve, std::vector<double> xyz) con
                                            &point_count, &parameters, &parameter_count);
   free_by_gmsh(parameters);
   return taken(points, point_count);
-}
-
-GmshSession::Nodes GmshSession::nodes() const {
-  std::size_t *tags = nullptr, tag_count = 0, coordinate_count = 0, parameter_count = 0;
-  double *coordinates = nullptr, *parameters = nullptr;
-  call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", &tags, &tag_count, &coordinates, &coordinate_count,
-                                        &parameters, &parameter_count, /*dim: all*/ -1, -1, 0, 0);
-  if (parameters != nullptr) free_by_gmsh(parameters);
-  return {taken(tags, tag_count), taken(coordinates, coordinate_count)};
-}
-
-std::vector<std::size_t> GmshSession::elements_of(int dimension, int entity) const {
-  const int two_nodes_or_three = dimension;  // gmsh's numbers of the line with two nodes and the triangle with three
-  std::size_t *tags = nullptr, tag_count = 0, *nodes = nullptr, node_count = 0;
-  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", two_nodes_or_three, &tags,
-                                                 &tag_count, &nodes, &node_count, entity, /*task*/ 0, /*numTasks*/ 1);
-  free_by_gmsh(tags);
-  return taken(nodes, node_count);
 }
 
 }  // namespace antilock

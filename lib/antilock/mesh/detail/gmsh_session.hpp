@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace antilock {
@@ -35,27 +36,25 @@ class GmshSession {
   }
 
   void set(const char* option, double value) const;
-  /// A point at (x, y) around which edges are `size` long (0: gmsh's default); its tag.
-  int add_point(double x, double y, double size = 0) const;
+  /// A point at (x, y) around which edges are `size` long; its tag.
+  int add_point(double x, double y, double size) const;
   /// A line between two points; its tag.
   int add_line(int from, int to) const;
-  /// A plane surface inside four lines that follow each other, -line for one that is run through backwards; its tag.
-  int add_surface(std::array<int, 4> lines) const;
-  /// Hands the geometry to the mesher and makes triangles.
-  void generate() const;
+  /// A plane surface inside four lines that follow each other, -line for one that is run through backwards.
+  void add_surface(std::array<int, 4> lines) const;
+  /// Makes triangles of the geometry, surface by surface: the tags of the nodes, their coordinates, three each, and the
+  /// nodes of the triangles, three each.
+  struct Triangulation {
+    std::vector<std::size_t> tags;
+    std::vector<double> xyz;
+    std::vector<std::size_t> triangles;
+  };
+  Triangulation generate() const;
 
   /// Reads a .geo or .brep file; the tags of its curves. Throws Error where gmsh cannot read it.
   std::vector<int> read_curves(const std::string& path) const;
   /// The points of a curve that are nearest to some points, three coordinates each.
   std::vector<double> nearest(int curve, std::vector<double> xyz) const;
-
-  struct Nodes {
-    std::vector<std::size_t> tags;
-    std::vector<double> xyz;  ///< three per node
-  };
-  Nodes nodes() const;
-  /// The nodes of the elements of one line (dimension 1: two per element) or surface (2: three per element).
-  std::vector<std::size_t> elements_of(int dimension, int entity) const;
 
  private:
   static void* symbol(const char* name);

@@ -1,19 +1,14 @@
 #pragma once
 #include <functional>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "antilock/mesh/triangle_mesh.hpp"
 
 namespace antilock {
 
-/// What a mesher hands over: the arguments of make_triangle_mesh.
-struct MeshArrays {
-  Points vertices;
-  Triples triangles;
-  std::vector<Region> region;
-  std::vector<TaggedEdge> tagged;
-};
+/// Vertices and triangles, all that a mesher hands over.
+using MeshArrays = std::pair<Points, Triples>;
 
 /// What `make` makes. Where the environment variable ANTILOCK_MESHES names a folder, the arrays are kept there under
 /// `name`, and whoever asks for that name again reads them, in this program or in another one. So a name must say

@@ -1,14 +1,10 @@
 #include "antilock/mesh/detail/msh_lines.hpp"
 
-#include <fmt/format.h>
-
 #include <charconv>
 #include <cmath>
 #include <istream>
 #include <iterator>
 #include <sstream>
-
-#include "antilock/core/error.hpp"
 
 namespace antilock {
 namespace {
@@ -56,55 +52,43 @@ bool MshLines::next() {
   return false;
 }
 
-void MshLines::next_record(std::string_view section) {
-  if (!next()) refuse_file(fmt::format("truncated: it ends within ${}", section));
-  if (fields_[0].front() == '$')
-    refuse(fmt::format("{} where ${} declares further entries", in_quotes(fields_[0]), section));
-}
-
 void MshLines::next_record(std::string_view section, std::size_t fields, std::string_view what) {
-  next_record(section);
-  if (fields_.size() != fields)
-    refuse(fmt::format("{} fields in ${}; accepted: {} ({})", fields_.size(), section, fields, what));
+  if (!next()) refuse_file("truncated: it ends within ${}", section);
+  if (fields_[0].front() == '$') refuse("{} where ${} declares further entries", in_quotes(fields_[0]), section);
+  if (fields > 0 && fields_.size() != fields)
+    refuse("{} fields in ${}; accepted: {} ({})", fields_.size(), section, fields, what);
 }
 
 void MshLines::end_section(std::string_view section) {
-  if (!next()) refuse_file(fmt::format("truncated: it ends within ${}", section));
+  if (!next()) refuse_file("truncated: it ends within ${}", section);
   if (fields_.size() != 1 || fields_[0] != fmt::format("$End{}", section))
-    refuse(fmt::format("{} where the entries that ${} declares are over; accepted: $End{}", in_quotes(line_), section,
-                       section));
+    refuse("{} where the entries that ${} declares are over; accepted: $End{}", in_quotes(line_), section, section);
 }
 
 void MshLines::skip_section(std::string_view section) {
   const std::string end = fmt::format("$End{}", section);
   while (next())
     if (fields_[0] == end) return;
-  refuse_file(fmt::format("truncated: no {} follows", in_quotes(end)));
+  refuse_file("truncated: no {} follows", in_quotes(end));
 }
 
 std::int64_t MshLines::integer(std::size_t field) const {
   std::int64_t number = 0;
-  if (!parse(fields_[field], number)) refuse(fmt::format("{} is no integer", in_quotes(fields_[field])));
+  if (!parse(fields_[field], number)) refuse("{} is no integer", in_quotes(fields_[field]));
   return number;
 }
 
 std::int64_t MshLines::count(std::size_t field) const {
   const std::int64_t number = integer(field);
-  if (number < 0) refuse(fmt::format("{} is no count; accepted: 0 or more", number));
+  if (number < 0) refuse("{} is no count; accepted: 0 or more", number);
   return number;
 }
 
 double MshLines::coordinate(std::size_t field) const {
   double number = 0;
   if (!parse(fields_[field], number) || !std::isfinite(number))
-    refuse(fmt::format("{} is no coordinate; accepted: a finite number", in_quotes(fields_[field])));
+    refuse("{} is no coordinate; accepted: a finite number", in_quotes(fields_[field]));
   return number;
 }
-
-void MshLines::refuse_at(int line_number, const std::string& why) const {
-  throw Error(fmt::format("{}: line {}: {}", name_, line_number, why));
-}
-
-void MshLines::refuse_file(const std::string& why) const { throw Error(fmt::format("{}: {}", name_, why)); }
 
 }  // namespace antilock

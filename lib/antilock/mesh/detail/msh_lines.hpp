@@ -1,9 +1,13 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "antilock/core/error.hpp"
 
 namespace antilock {
 
@@ -16,11 +20,9 @@ class MshLines {
 
   /// Moves to the next line that is not blank; false at the end of the file.
   bool next();
-  /// Moves to the next record of `section`; refuses the end of the file and a line that starts with $: fewer records
-  /// than declared.
-  void next_record(std::string_view section);
-  /// The same, and refuses another number of fields; `what` says what the fields are.
-  void next_record(std::string_view section, std::size_t fields, std::string_view what);
+  /// Moves to the next record of `section`; refuses the end of the file, a line that starts with $ (fewer records than
+  /// declared), and, unless it is 0, another number of fields; `what` says what the fields are.
+  void next_record(std::string_view section, std::size_t fields = 0, std::string_view what = "");
   /// Refuses anything but the end of `section`: more records than declared, or a truncated file.
   void end_section(std::string_view section);
   /// Passes over a section that the mesh does not need.
@@ -35,9 +37,19 @@ class MshLines {
   std::int64_t count(std::size_t field) const;    ///< refuses what is no integer >= 0
   double coordinate(std::size_t field) const;     ///< refuses what is no finite number
 
-  [[noreturn]] void refuse(const std::string& why) const { refuse_at(line_number_, why); }
-  [[noreturn]] void refuse_at(int line_number, const std::string& why) const;
-  [[noreturn]] void refuse_file(const std::string& why) const;
+  /// Throws Error about this line, another one or the file, `why` a format of the values.
+  template <class... Values>
+  [[noreturn]] void refuse(fmt::format_string<const Values&...> why, const Values&... values) const {
+    refuse_at(line_number_, why, values...);
+  }
+  template <class... Values>
+  [[noreturn]] void refuse_at(int line, fmt::format_string<const Values&...> why, const Values&... values) const {
+    throw Error(fmt::format("{}: line {}: {}", name_, line, fmt::format(why, values...)));
+  }
+  template <class... Values>
+  [[noreturn]] void refuse_file(fmt::format_string<const Values&...> why, const Values&... values) const {
+    throw Error(fmt::format("{}: {}", name_, fmt::format(why, values...)));
+  }
 
  private:
   std::string name_, text_;
