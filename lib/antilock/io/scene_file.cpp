@@ -41,36 +41,32 @@ toml::table parse(const std::string& text, const std::string& name) {
   }
 }
 
-/// An expression whose every failure names the file and the key.
-Expression expression(const Section& section, const std::string& key, const std::string& text,
-                      const std::vector<std::string>& variables) {
-  try {
-    return Expression(text, variables);
-  } catch (const Error& error) {
-    section.refuse(key, error.what());
-  }
-}
+const char* const in_x_and_y = "an expression in x and y in quotes, as \"10*sin(2*pi*x)\"";
+const char* const in_x = "an expression in x in quotes, as \"0.01\"";
 
-/// A field or a profile whose every value that is not finite names the file and the key.
+/// A field or a profile: a text that does not parse, or a value that is not finite, is refused with the file and the key.
 auto named(const Section& section, const std::string& key, const std::string& text,
            const std::vector<std::string>& variables) {
-  return [f = expression(section, key, text, variables), where = section.where(key)](auto... at) {
+  const auto naming = [where = section.where(key)](const auto& ask) {
     try {
-      return f(at...);
+      return ask();
     } catch (const Error& error) {
       throw Error(where + error.what());
     }
   };
+  return [=, f = naming([&] { return Expression(text, variables); })](auto... at) {
+    return naming([&] { return f(at...); });
+  };
 }
-Field field(const Section& section, const std::string& key, const std::string& text) {
-  return named(section, key, text, {"x", "y"});
+Field field(const Section& section, const std::string& key, const std::string& accepted = in_x_and_y) {
+  return named(section, key, section.text(key, accepted), {"x", "y"});
 }
-Profile profile(const Section& section, const std::string& key, const std::string& text) {
-  return named(section, key, text, {"x"});
+Profile profile(const Section& section, const std::string& key, const char* otherwise = nullptr) {
+  return named(section, key, section.text(key, in_x, otherwise), {"x"});
 }
 /// The same where negative values are refused, and 0 unless `zero_too`.
-Field field_above(const Section& section, const std::string& key, const std::string& text, bool zero_too) {
-  return [f = field(section, key, text), where = section.where(key), zero_too](double x, double y) {
+Field field_above(const Field& f, const std::string& where, bool zero_too) {
+  return [=](double x, double y) {
     const double value = f(x, y);
     if (value < 0 || (value == 0 && !zero_too))
       throw Error(fmt::format("{}is {:g} at ({:g}, {:g}); accepted: {} 0", where, value, x, y,
@@ -78,40 +74,49 @@ Field field_above(const Section& section, const std::string& key, const std::str
     return value;
   };
 }
-const char* const in_x_and_y = "an expression in x and y in quotes, as \"10*sin(2*pi*x)\"";
-const char* const in_x = "an expression in x in quotes, as \"0.01\"";
 
-/// Keeps the question of a section as JSON, for the summary.
-void keep(SceneWords& words, const std::string& name, const toml::node& node) {
-  std::ostringstream json;
-  json << toml::json_formatter{node};
-  words.more += fmt::format("{}\"{}\": {}", words.more.empty() ? "" : ", ", name, json.str());
+/// Asked on grids of the closed unit square that share few places, with every x and y of one or two decimals or of a
+/// denominator up to 6: there the poles of formulas written by hand are met.
+void sample_load(const Field& f) {
+  for (const int n : {100, 120, 128})
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) f(static_cast<double>(i) / n, static_cast<double>(j) / n);
+}
+void sample_gap(const Profile& gap) {
+  for (const int n : {1000, 3840, 4096})
+    for (int i = 0; i <= n; ++i) gap(static_cast<double>(i) / n);
 }
 
-Body read_body(const Section& load, const std::optional<Section>& body, SceneWords& words) {
+/// Keeps the question of a key as JSON, for the summary.
+void keep(SceneWords& words, const toml::table& table, const std::string& key, const std::string& of = "") {
+  if (!table.contains(key)) return;
+  std::ostringstream json;
+  json << toml::json_formatter{*table.get(key)};
+  words.more += fmt::format("{}\"{}{}\": {}", words.more.empty() ? "" : ", ", of, key, json.str());
+}
+
+Body read_body(const Section& root, SceneWords& words) {
+  const Section load = root.section("load"), body = root.section("body");
   load.only({"f"});
   words.load = load.text("f", in_x_and_y);
-  Body read{field(load, "f", words.load)};
-  if (!body) return read;
-  body->only({"stiffness"});
-  if (body->table()["stiffness"].is_table()) return read;  // by groups of the mesh file: read_groups
-  const std::string text = body->text("stiffness", std::string(in_x_and_y) + ", or a table per group");
-  read.stiffness = field_above(*body, "stiffness", text, false);
+  Body read{field(load, "f")};
+  body.only({"stiffness"});
+  if (root.has("body") && !body.table()["stiffness"].is_table())  // a table: read_groups
+    read.stiffness = field_above(field(body, "stiffness", std::string(in_x_and_y) + ", or a table per group"),
+                                 body.where("stiffness"), false);
   return read;
 }
 
 /// `stiffness = { left = 1, right = 10 }`: the surfaces of the file and their numbers, found by place.
-void read_groups(const Section& body, const std::filesystem::path& mesh, const MoreGroups& groups, Body& read,
-                 std::vector<std::string>& names) {
-  const toml::table* table = body.table()["stiffness"].as_table();
-  if (table == nullptr) return;
+void read_groups(const Section& body, const std::filesystem::path& mesh, MoreGroups& groups, Body& read) {
+  if (!body.table()["stiffness"].is_table()) return;
   std::vector<double> numbers;
-  const Section section = *body.section("stiffness");
-  for (const auto& [group, value] : *table) {
-    names.emplace_back(group.str());
-    numbers.push_back(section.number(names.back(), "the stiffness of that group, above 0"));
+  const Section section = body.section("stiffness");
+  for (const auto& [group, value] : section.table()) {
+    const std::string& name = groups.bodies.emplace_back(group.str());
+    numbers.push_back(section.number(name, "the stiffness of that group, above 0"));
     if (!(numbers.back() > 0))
-      body.refuse("stiffness", "is not above 0 on the group " + names.back() + "; accepted: positive numbers");
+      body.refuse("stiffness", "is not above 0 on the group " + name + "; accepted: positive numbers");
   }
   struct Parts {
     TriangleMesh mesh;
@@ -119,11 +124,9 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, const M
     std::optional<Space> space;
     std::optional<PointValues> places;
   };
-  MoreGroups all = groups;
-  all.bodies = names;
   read.stiffness = [=, parts = std::make_shared<Parts>(), where = body.where("stiffness")](double x, double y) {
     if (!parts->space) {  // asked for the first time
-      parts->mesh = read_msh(mesh.string(), all, &parts->part);
+      parts->mesh = read_msh(mesh.string(), groups, &parts->part);
       parts->space.emplace(parts->mesh, p1());
       parts->places.emplace(*parts->space);
     }
@@ -139,24 +142,22 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, const M
 
 UnilateralContact read_contact(const Section& section, SceneWords& words) {
   section.only({"gap", "ceiling"});
-  words.gap = section.has("gap") ? section.text("gap", in_x) : "0";
-  UnilateralContact contact{profile(section, "gap", words.gap)};
-  if (!section.has("ceiling")) return contact;
-  contact.ceiling = profile(section, "ceiling", section.text("ceiling", in_x));
-  keep(words, "ceiling", *section.table().get("ceiling"));
+  words.gap = section.text("gap", in_x, "0");
+  UnilateralContact contact{profile(section, "gap", "0")};
+  if (section.has("ceiling")) contact.ceiling = profile(section, "ceiling");
+  keep(words, section.table(), "ceiling");
   return contact;
 }
 
 Layer read_layer(const Section& section, SceneWords& words) {
   section.only({"epsilon", "model", "thickness", "stiffness", "load"});
-  const std::string model = section.has("model") ? section.one_of("model", {"scaled", "ventcel", "thin"}) : "scaled";
+  const std::string model = words.model = section.one_of("model", {"scaled", "ventcel", "thin"}, "scaled");
   const bool numbers = section.has("thickness") || section.has("stiffness");
-  for (const char* key : {"thickness", "stiffness", "load"})
-    if (section.has(key)) {
-      if (model != "scaled")
-        section.refuse(key, fmt::format("does not go with model = \"{}\"; accepted: with \"scaled\" only", model));
-      keep(words, std::string("layer ") + key, *section.table().get(key));
-    }
+  for (const char* key : {"thickness", "stiffness", "load"}) {
+    if (section.has(key) && model != "scaled")
+      section.refuse(key, fmt::format("does not go with model = \"{}\"; accepted: with \"scaled\" only", model));
+    keep(words, section.table(), key, "layer ");
+  }
   if (numbers && section.has("epsilon"))
     section.refuse("epsilon", "stands beside thickness or stiffness; accepted: epsilon, or the other two");
   const std::string key = numbers ? "thickness" : "epsilon";
@@ -168,7 +169,6 @@ Layer read_layer(const Section& section, SceneWords& words) {
   if (!(epsilon >= least && epsilon <= most))
     section.refuse(key, fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon, model,
                                     numbers ? "0 < thickness <= 1" : accepted));
-  words.model = model;
   words.thickness = numbers;
   if (model == "ventcel") return VentcelLayer{};
   if (model == "thin") return ThinLayer{epsilon};
@@ -178,7 +178,7 @@ Layer read_layer(const Section& section, SceneWords& words) {
     if (!(stiffness > 0)) section.refuse("stiffness", fmt::format("{}; accepted: above 0", stiffness));
     layer.s = stiffness * epsilon;
   }
-  if (section.has("load")) layer.load = field(section, "load", section.text("load", in_x_and_y));
+  if (section.has("load")) layer.load = field(section, "load");
   return layer;
 }
 
@@ -190,15 +190,18 @@ std::vector<EdgeCondition> read_edges(const std::vector<Section>& sections, More
     EdgeCondition edge{section.text("group", "the name of a group of curves of the mesh file")};
     if (edge.group == "clamped" || edge.group == "contact" || edge.group == "sigma" ||
         groups.curves.contains(edge.group))
-      section.refuse("group", "\"" + printable(edge.group) + "\" has its condition already; accepted: another group");
-    int conditions = section.has("free") && section.yes("free") ? 1 : 0;
+      section.refuse("group",
+                     fmt::format("\"{}\" has its condition already; accepted: another group", printable(edge.group)));
+    if (section.has("free") && section.table()["free"].value_exact<bool>() != true)
+      section.refuse("free", "is not true; accepted: true, or leave the key out");
+    int conditions = section.has("free") ? 1 : 0;
     for (const auto& [key, kind] :
          {std::pair{"displacement", Kind::displacement}, {"traction", Kind::traction}, {"spring", Kind::spring}})
       if (section.has(key)) {
         ++conditions;
         edge.kind = kind;
-        const std::string text = section.text(key, in_x_and_y);
-        edge.value = kind == Kind::spring ? field_above(section, key, text, true) : field(section, key, text);
+        edge.value = field(section, key);
+        if (kind == Kind::spring) edge.value = field_above(edge.value, section.where(key), true);
       }
     if (conditions != 1)
       section.refuse("group", fmt::format("\"{}\" has {} conditions; accepted: exactly one of free, displacement, "
@@ -235,61 +238,56 @@ std::optional<ElasticRequest> read_model(const Section& section, const Layer& la
     return std::nullopt;
   }
   const bool coated = !std::holds_alternative<NoLayer>(layer);
-  if (coated) {
-    if (!std::holds_alternative<StiffLayer>(layer))
-      section.refuse("kind", "\"plane strain\" goes with the scaled layer, or none; accepted: model = \"scaled\"");
+  if (coated && !std::holds_alternative<StiffLayer>(layer))
+    section.refuse("kind", "\"plane strain\" goes with the scaled layer, or none; accepted: model = \"scaled\"");
+  if (coated)
     section.only({"kind", "push", "friction", "young", "poisson"});
-  } else {
+  else
     section.only({"kind", "push", "friction", "epsilon"});
-  }
   ElasticRequest elastic;
   const auto number = [&](const char* key, double fallback, double least, double most) {
-    const std::string accepted = fmt::format("{:g} to {:g}", least, most);
-    const double value = section.has(key) ? section.number(key, accepted) : fallback;
-    if (!(value >= least && value <= most))
-      section.refuse(key, fmt::format("{} is out of range; accepted: {}", value, accepted));
-    return value;
+    return !section.has(key) ? fallback
+                             : section.number(key, fmt::format("{:g} to {:g}", least, most),
+                                              [=](double value) { return value >= least && value <= most; });
   };
   elastic.push = number("push", elastic.push, -1e6, 1e6);
   elastic.epsilon = number("epsilon", elastic.epsilon, 0, 1);
   const double young = number("young", 1, 1e-6, 1e6), nu = number("poisson", 0.3, 0, 0.49);
   elastic.material = {young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
-  if (section.has("friction")) elastic.friction = profile(section, "friction", section.text("friction", in_x));
+  if (section.has("friction")) elastic.friction = profile(section, "friction");
   return elastic;
 }
 
 constexpr int most_structured = 2048, most_unstructured = 512;
 
-/// Absent: 0. With `cells` per unit side, those of the refined mesh are at most as many as a structured mesh may have.
-int read_refinements(const Section& section, int cells) {
-  if (!section.has("refinements")) return 0;
-  const int refinements = section.count("refinements", 10);
-  if (cells << refinements > most_structured)
-    section.refuse("refinements", fmt::format("{} refinements of {} cells per unit side make {}; accepted: up to {}",
-                                              refinements, cells, cells << refinements, most_structured));
-  return refinements;
-}
-
 MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder, SceneWords& words) {
   using Kind = MeshRequest::Kind;
   section.only({"kind", "cells", "file", "refinements"});
   words.mesh = section.one_of("kind", {"structured", "unstructured", "layered", "file"});
-  if (words.mesh == "file") {
-    if (section.has("cells")) section.refuse("cells", "does not go with kind = \"file\"; accepted: file alone");
+  MeshRequest mesh;
+  mesh.kind = words.mesh == "structured"     ? Kind::structured
+              : words.mesh == "unstructured" ? Kind::unstructured
+              : words.mesh == "layered"      ? Kind::layered
+                                             : Kind::file;
+  const bool from_file = mesh.kind == Kind::file;
+  if (const char* other = from_file ? "cells" : "file"; section.has(other))
+    section.refuse(other, fmt::format("does not go with kind = \"{}\"; accepted: {}", words.mesh,
+                                      from_file ? "file alone" : "with kind = \"file\" only"));
+  if (from_file) {
     const std::string accepted = "the path of a MSH file, 2.2 or 4.1, relative to the scene file";
     words.file = section.text("file", accepted);
     if (words.file.empty() || words.file.find('\0') != words.file.npos)
       section.refuse("file", "is no path; accepted: " + accepted);
-    return {Kind::file, 0, folder / words.file, read_refinements(section, 0)};
+    mesh.file = folder / words.file;
+  } else {
+    mesh.cells = section.count("cells", mesh.kind == Kind::structured ? most_structured : most_unstructured);
   }
-  if (section.has("file"))
-    section.refuse("file",
-                   fmt::format("does not go with kind = \"{}\"; accepted: with kind = \"file\" only", words.mesh));
-  const Kind kind = words.mesh == "structured"     ? Kind::structured
-                    : words.mesh == "unstructured" ? Kind::unstructured
-                                                   : Kind::layered;
-  const int cells = section.count("cells", kind == Kind::structured ? most_structured : most_unstructured);
-  return {kind, cells, {}, read_refinements(section, cells)};
+  if (!section.has("refinements")) return mesh;
+  mesh.refinements = section.count("refinements", 10);
+  if (const int refined = mesh.cells << mesh.refinements; refined > most_structured)
+    section.refuse("refinements", fmt::format("{} refinements of {} cells per unit side make {}; accepted: up to {}",
+                                              mesh.refinements, mesh.cells, refined, most_structured));
+  return mesh;
 }
 
 /// An accuracy and what goes with it: the mesh is found, with the active set.
@@ -298,20 +296,13 @@ void read_accuracy(const Section& section, MethodRequest& method) {
     if (section.has(key) && !section.has("accuracy"))
       section.refuse(key, "goes with an accuracy only; accepted: a key accuracy beside it, or none of the two");
   if (!section.has("accuracy")) return;
-  const std::string accepted = "above 0 and below 1, as 1e-2";
-  method.accuracy = section.number("accuracy", accepted);
-  if (!(*method.accuracy > 0 && *method.accuracy < 1))
-    section.refuse("accuracy", fmt::format("{} is out of range; accepted: {}", *method.accuracy, accepted));
-  if (section.has("of") && section.one_of("of", {"displacement", "stress"}) == "stress") method.of = Quantity::stress;
-  if (section.has("most_unknowns")) {
-    const std::string whole = "a whole number of unknowns, 1 to 1e9";
-    method.most_unknowns = section.number("most_unknowns", whole);
-    if (!(method.most_unknowns >= 1 && method.most_unknowns <= 1e9))
-      section.refuse("most_unknowns", fmt::format("{} is out of range; accepted: {}", method.most_unknowns, whole));
-  }
+  method.accuracy = section.number("accuracy", "above 0 and below 1, as 1e-2", [](double a) { return a > 0 && a < 1; });
+  if (section.one_of("of", {"displacement", "stress"}, "displacement") == "stress") method.of = Quantity::stress;
+  if (section.has("most_unknowns"))
+    method.most_unknowns = section.number("most_unknowns", "a whole number of unknowns, 1 to 1e9",
+                                          [](double n) { return n >= 1 && n <= 1e9; });
   method.tolerance =
       std::min(MethodRequest::roughest_tolerance, 1e-2 * *method.accuracy);  // unless the scene says less
-  if (!section.has("element")) method.element = "CR";
   if (method.element != "CR" && method.of == Quantity::stress)
     section.refuse(
         "of", "\"stress\" is proved of CR alone; accepted with element = \"" + method.element + "\": \"displacement\"");
@@ -322,47 +313,44 @@ void read_accuracy(const Section& section, MethodRequest& method) {
 MethodRequest read_method(const Section& section) {
   section.only({"element", "solver", "tolerance", "accuracy", "of", "most_unknowns"});
   MethodRequest method;
-  if (section.has("element")) method.element = section.one_of("element", {"P1", "CR", "P2", "P3", "P4"});
-  if (section.has("solver")) method.solver = section.one_of("solver", {"active-set", "uzawa", "petsc"});
+  method.element = section.one_of("element", {"P1", "CR", "P2", "P3", "P4"}, section.has("accuracy") ? "CR" : "P1");
+  method.solver = section.one_of("solver", {"active-set", "uzawa", "petsc"}, "active-set");
   read_accuracy(section, method);
-  if (!section.has("tolerance")) return method;
-  const std::string accepted = fmt::format("0 < tolerance <= {:g}", MethodRequest::roughest_tolerance);
-  method.tolerance = section.number("tolerance", accepted);
-  if (!(method.tolerance > 0 && method.tolerance <= MethodRequest::roughest_tolerance))
-    section.refuse("tolerance", fmt::format("{} is out of range; accepted: {}", method.tolerance, accepted));
+  if (section.has("tolerance"))
+    method.tolerance =
+        section.number("tolerance", fmt::format("0 < tolerance <= {:g}", MethodRequest::roughest_tolerance),
+                       [](double t) { return t > 0 && t <= MethodRequest::roughest_tolerance; });
   return method;
 }
 
 /// What one section leaves out because of another.
 void check_together(const Section& root, const Scene& scene, const MeshRequest& mesh, const MethodRequest& method) {
+  const bool ventcel = std::holds_alternative<VentcelLayer>(scene.layer()), petsc = method.solver == "petsc";
   if (mesh.kind == MeshRequest::Kind::layered && !std::holds_alternative<StiffLayer>(scene.layer()))
-    root.section("mesh")->refuse("kind",
-                                 "\"layered\" is the mesh of the scaled layer, which this scene does not have; "
-                                 "accepted: a section [layer] with model = \"scaled\", or \"unstructured\"");
-  if (method.accuracy && std::holds_alternative<VentcelLayer>(scene.layer()))
-    root.section("method")->refuse(
-        "accuracy",
-        "does not go with model = \"ventcel\"; accepted: model = \"scaled\" with epsilon = 0, "
-        "which is the same problem");
-  const bool high = method.element != "P1" && method.element != "CR", petsc = method.solver == "petsc";
-  if (high && (petsc || std::holds_alternative<VentcelLayer>(scene.layer())))
-    root.section("method")->refuse("element",
-                                   fmt::format("\"{}\" does not go with {}; accepted: \"P1\", \"CR\"", method.element,
-                                               petsc ? "solver = \"petsc\"" : "model = \"ventcel\""));
+    root.refuse("mesh.kind",
+                "\"layered\" is the mesh of the scaled layer, which this scene does not have; "
+                "accepted: a section [layer] with model = \"scaled\", or \"unstructured\"");
+  if (method.accuracy && ventcel)
+    root.refuse("method.accuracy",
+                "does not go with model = \"ventcel\"; accepted: model = \"scaled\" with epsilon = 0, "
+                "which is the same problem");
+  if (method.element != "P1" && method.element != "CR" && (petsc || ventcel))
+    root.refuse("method.element", fmt::format("\"{}\" does not go with {}; accepted: \"P1\", \"CR\"", method.element,
+                                              petsc ? "solver = \"petsc\"" : "model = \"ventcel\""));
+  if (!petsc && !method.accuracy) return;
   const std::string beyond = !petsc           ? scene.beyond_the_certificate()
                              : root.has("at") ? "points"
                                               : scene.beyond_the_paper();
-  if (!beyond.empty() && (petsc || method.accuracy))
-    root.section("method")->refuse(
-        petsc ? "solver" : "accuracy",
-        fmt::format("does not go with {}; accepted: {}", beyond,
-                    petsc ? "\"active-set\", \"uzawa\"" : "a scene without it, or no accuracy"));
+  if (!beyond.empty())
+    root.refuse(petsc ? "method.solver" : "method.accuracy",
+                fmt::format("does not go with {}; accepted: {}", beyond,
+                            petsc ? "\"active-set\", \"uzawa\"" : "a scene without it, or no accuracy"));
 }
 
 /// What plane strain has no use for yet.
 void check_elastic(const Section& root, const Scene& scene, const MethodRequest& method) {
   const auto refuse = [&](const std::string& what, const std::string& accepted) {
-    root.section("model")->refuse("kind", "\"plane strain\" does not go with " + what + "; accepted: " + accepted);
+    root.refuse("model.kind", "\"plane strain\" does not go with " + what + "; accepted: " + accepted);
   };
   if (method.accuracy || method.solver != "active-set") refuse("accuracy or another solver", "solver = \"active-set\"");
   if (!scene.contact() || scene.contact()->ceiling)
@@ -395,42 +383,39 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   for (const std::string required : {"load", "mesh"})
     if (!root.has(required)) root.refuse(required, fmt::format("is missing; accepted: a section [{}]", required));
 
-  const std::string title = root.has("title") ? root.text("title", "any text in quotes") : "";
+  const std::string title = root.text("title", "any text in quotes", "");
   SceneWords words;
-  const MeshRequest mesh = read_mesh(*root.section("mesh"), path.parent_path(), words);
+  const MeshRequest mesh = read_mesh(root.section("mesh"), path.parent_path(), words);
   const bool unit_square = mesh.kind != MeshRequest::Kind::file;  // what a file holds is known when it is read
-  const auto body_section = root.section("body");
-  Body body = read_body(*root.section("load"), body_section, words);
+  Body body = read_body(root, words);
   if (unit_square) sample_load(body.load);
   MoreGroups groups;
   const std::vector<EdgeCondition> edges = read_edges(root.sections("edge"), groups);
-  if (body_section) read_groups(*body_section, mesh.file, groups, body, groups.bodies);
+  read_groups(root.section("body"), mesh.file, groups, body);
   if (unit_square && !(groups.curves.empty() && groups.bodies.empty()))
     root.refuse(groups.bodies.empty() ? "edge" : "body",
                 "names groups of a mesh file; accepted: with kind = \"file\" only");
-  for (const char* section : {"body", "edge", "at", "model"})
-    if (root.has(section)) keep(words, section, *table.get(section));
-  const auto layer_section = root.section("layer"), contact_section = root.section("contact");
-  const Layer layer = layer_section ? read_layer(*layer_section, words) : NoLayer{};
-  auto contact = contact_section ? std::optional(read_contact(*contact_section, words)) : std::nullopt;
-  if (contact && unit_square) sample_gap(contact->gap, 0, 1);
+  for (const char* section : {"body", "edge", "at", "model"}) keep(words, table, section);
+  const Layer layer = root.has("layer") ? read_layer(root.section("layer"), words) : NoLayer{};
+  std::optional<UnilateralContact> contact;
+  if (root.has("contact")) contact = read_contact(root.section("contact"), words);
+  if (contact && unit_square) sample_gap(contact->gap);
   if (contact && !unit_square) contact->held.clear();
-  const auto method_section = root.section("method");
-  const MethodRequest method = method_section ? read_method(*method_section) : MethodRequest{};
+  const MethodRequest method = read_method(root.section("method"));
   const Scene scene = [&] {
     try {
       return Scene(body, layer, contact, edges);
     } catch (const Error& error) {  // what is left for the scene to refuse: a gap that no clamped end can keep
-      throw Error(contact_section->where("gap") + error.what());
+      throw Error(root.where("contact.gap") + error.what());
     }
   }();
-  const auto model = root.section("model"), points = root.section("at");
-  const auto elastic = model ? read_model(*model, layer) : std::nullopt;
+  std::optional<ElasticRequest> elastic;
+  if (root.has("model")) elastic = read_model(root.section("model"), layer);
   check_together(root, scene, mesh, method);
   if (elastic) check_elastic(root, scene, method);
-  return {name,   title, scene,  mesh,
-          method, words, groups, points ? read_points(*points) : std::vector<Eigen::Vector2d>{},
-          elastic};
+  std::vector<Eigen::Vector2d> points;
+  if (root.has("at")) points = read_points(root.section("at"));
+  return {name, title, scene, mesh, method, words, groups, points, elastic};
 }
 
 }  // namespace antilock

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "antilock/core/dense.hpp"
@@ -18,9 +19,7 @@ constexpr double telling = 0.05;  // the share from which a difference is no mat
 /// as well as spots.
 Eigen::Vector3d spread_point(double k) {
   constexpr double plastic = 1.32471795724474602596;
-  double a = 0.5 + k * (1 / plastic), b = 0.5 + k * (1 / (plastic * plastic));
-  a -= std::floor(a);
-  b -= std::floor(b);
+  double a = std::fmod(0.5 + k * (1 / plastic), 1), b = std::fmod(0.5 + k * (1 / (plastic * plastic)), 1);
   if (a + b > 1) {
     a = 1 - a;
     b = 1 - b;
@@ -41,29 +40,32 @@ Eigen::MatrixXd quadratic_fit(const Quadrature& rule) {
   return pseudo_inverse(at_points);
 }
 
+std::vector<char> clamped_vertices(const TriangleMesh& mesh) {
+  std::vector<char> clamped(mesh.vertex_count(), 0);
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    for (const int v : mesh.edges.row(e))
+      if (mesh.edge_tag[e] == EdgeTag::clamped) clamped[v] = 1;
+  return clamped;
+}
+
 }  // namespace
 
 void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
   const Field& f = file.scene.body().load;
-  std::vector<char> clamped(mesh.vertex_count(), 0);
+  const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
   for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (!body(mesh.edge_triangles(e, 0)) && !body(mesh.edge_triangles(e, 1))) continue;
     const Eigen::RowVector2d from = mesh.vertices.row(mesh.edges(e, 0)), to = mesh.vertices.row(mesh.edges(e, 1));
-    if (mesh.edge_tag[e] == EdgeTag::clamped) clamped[mesh.edges(e, 0)] = clamped[mesh.edges(e, 1)] = 1;
-    const int first = mesh.edge_triangles(e, 0), second = mesh.edge_triangles(e, 1);
-    const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
-    if (!body(first) && !body(second)) continue;
-    for (const double s : {0.0, 0.5, 1.0}) {
-      const Eigen::RowVector2d x = (1 - s) * from + s * to;
-      f(x(0), x(1));
-    }
+    for (const double s : {0.0, 0.5, 1.0}) f((1 - s) * from(0) + s * to(0), (1 - s) * from(1) + s * to(1));
   }
   if (!file.scene.contact()) return;
   const Profile& gap = file.scene.contact()->gap;
+  const std::vector<char> clamped = clamped_vertices(mesh);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
     for (int i = 0; i <= 32; ++i) gap(a + (b - a) * i / 32);
-    for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)})
+    for (const int v : mesh.edges.row(e))
       if (const double x = mesh.vertices(v, 0);
           clamped[v] && gap(x) < -1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))))
         throw Error(
@@ -84,9 +86,8 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   const Eigen::MatrixXd fit = quadratic_fit(rule);
   Eigen::VectorXd at_rule(rule.weights.size()), quadratic(fit.rows());
   constexpr int points = 1 << 18;
-  Eigen::Vector3d sampled = Eigen::Vector3d::Zero(),
-                  size = sampled;  // integrals of f (1, x, y) and of |f| (1, |x|, |y|)
-  double k = 0, due = 0;           // each sample stands for the same area; a triangle may have many, or none
+  Eigen::Vector3d sampled = Eigen::Vector3d::Zero(), size = sampled;  // integrals of f (1, x, y), |f| (1, |x|, |y|)
+  double k = 0, due = 0;  // each sample stands for the same area; a triangle may have many, or none
   // integrals of |f less what the rule's points say of it| and of |f|, over as many of the sampled triangles as leave the
   // values of f at the rule's points no more than the samples
   double unseen = 0, fitted = 0, at_points = 0;
@@ -124,10 +125,7 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
       return fmt::format(
           "load.f: the quadrature of this mesh misses the load: the integral of {} is {:.3g} by the quadrature, {:.3g} "
           "by {:.0f} points (that of its absolute value {:.3g}): a finer mesh is needed where the load lives",
-          i == 0   ? "f"
-          : i == 1 ? "x f"
-                   : "y f",
-          seen(i), sampled(i), k, size(i));
+          std::array{"f", "x f", "y f"}[i], seen(i), sampled(i), k, size(i));
   // integrals may agree by chance: what lives between the points of the rule, triangle by triangle, is seen by none
   if (unseen > 0.25 * fitted)
     return fmt::format(
@@ -165,21 +163,16 @@ std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
   if (!file.scene.contact() || file.elastic) return "";
   const TriangleMesh& mesh = space.mesh();
+  const std::vector<char> clamped = clamped_vertices(mesh);
   std::vector<std::pair<double, double>> line;  // x and u_h at the contact unknowns and at the clamped ends of Gamma_C
   for (const int i : space.contact()) line.emplace_back(space.points()(i, 0), solution.u(i));
-  std::vector<char> clamped(mesh.vertex_count(), 0);
-  int edges = 0;
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    edges += mesh.edge_tag[e] == EdgeTag::contact ? 1 : 0;
-    if (mesh.edge_tag[e] == EdgeTag::clamped) clamped[mesh.edges(e, 0)] = clamped[mesh.edges(e, 1)] = 1;
-  }
   for (int e = 0; e < mesh.edge_count(); ++e)
-    for (int end = 0; end < 2; ++end)
-      if (const int v = mesh.edges(e, end); mesh.edge_tag[e] == EdgeTag::contact && clamped[v])
-        line.emplace_back(mesh.vertices(v, 0), 0);
+    for (const int v : mesh.edges.row(e))
+      if (mesh.edge_tag[e] == EdgeTag::contact && clamped[v]) line.emplace_back(mesh.vertices(v, 0), 0);
   std::sort(line.begin(), line.end());
 
   const double size = solution.u.lpNorm<Eigen::Infinity>();
+  const auto edges = static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::contact));
   const int places = std::max(32, 100'000 / std::max(edges, 1));
   double deepest = 0, where = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
@@ -201,8 +194,7 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
   if (deepest <= telling * size || deepest < 1e-12) return "";
   return fmt::format(
       "contact.gap: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep into it at x = "
-      "{:.6g} "
-      "(max |u| is {:.3g}): a finer mesh is needed there",
+      "{:.6g} (max |u| is {:.3g}): a finer mesh is needed there",
       deepest, where, size);
 }
 

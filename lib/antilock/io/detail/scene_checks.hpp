@@ -6,14 +6,8 @@
 
 namespace antilock {
 
-/// Evaluates f once on lattices of the closed unit square that hold the corners, the edges, and every x and y of one or
-/// two decimals or of a denominator up to 6: there the poles of formulas written by hand are found. f throws.
-void sample_load(const Field& f);
-/// The same for a gap on [from, to].
-void sample_gap(const Profile& gap, double from, double to);
-
-/// The same for the scene on a mesh from a file: the load at its vertices and edges, the gap along Gamma_C, which must
-/// keep away from where Gamma_C meets clamped edges. Throws Error, `FILE: KEY: ...`.
+/// Asks for the load at vertices and edges of a mesh from a file, and for the gap along Gamma_C: what has no value there
+/// throws, and so does a gap that presses in where Gamma_C meets clamped edges. Throws Error, `FILE: KEY: ...`.
 void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh);
 
 /// Empty, or a line about a load that the quadrature does not see as it is: its integrals of f, x f and y f over the

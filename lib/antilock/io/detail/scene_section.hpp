@@ -37,15 +37,18 @@ class Section {
                                  fmt::join(accepted, ", ")));
   }
   bool has(const std::string& key) const { return table_.contains(key); }
+  const toml::table& table() const { return table_; }
 
-  std::string text(const std::string& key, const std::string& accepted) const {
+  /// Here and in one_of: `otherwise`, where it is given and the key is absent.
+  std::string text(const std::string& key, const std::string& accepted, const char* otherwise = nullptr) const {
+    if (otherwise != nullptr && !has(key)) return otherwise;
     const auto value = table_[key].value_exact<std::string>();
     if (!value) refuse(key, what_stands_there(key) + "; accepted: " + accepted);
     return *value;
   }
-  std::string one_of(const std::string& key, Names accepted) const {
+  std::string one_of(const std::string& key, Names accepted, const char* otherwise = nullptr) const {
     const std::string list = fmt::format("\"{}\"", fmt::join(accepted, "\", \""));
-    std::string value = text(key, list);
+    std::string value = text(key, list, otherwise);
     if (std::find(accepted.begin(), accepted.end(), value) == accepted.end())
       refuse(key, fmt::format("\"{}\" is unknown; accepted: {}", printable(value), list));
     return value;
@@ -57,6 +60,13 @@ class Section {
     if (!std::isfinite(*value)) refuse(key, "is not finite; accepted: a number, " + accepted);
     return *value + 0.0;  // -0.0 becomes 0.0
   }
+  /// The same, of a number for which `holds` is true.
+  template <class Holds>
+  double number(const std::string& key, const std::string& accepted, const Holds& holds) const {
+    const double value = number(key, accepted);
+    if (!holds(value)) refuse(key, fmt::format("{} is out of range; accepted: {}", value, accepted));
+    return value;
+  }
   int count(const std::string& key, int most) const {
     const std::string accepted = fmt::format("; accepted: a whole number, 1 to {}", most);
     const auto value = table_[key].value_exact<std::int64_t>();
@@ -64,10 +74,14 @@ class Section {
     if (*value < 1 || *value > most) refuse(key, fmt::format("{} is out of range{}", *value, accepted));
     return static_cast<int>(*value);
   }
-  bool yes(const std::string& key) const {
-    const auto value = table_[key].value_exact<bool>();
-    if (!value || !*value) refuse(key, "is not true; accepted: true, or leave the key out");
-    return true;
+
+  /// [key]; empty where it is absent.
+  Section section(const std::string& key) const {
+    static const toml::table absent;
+    if (!has(key)) return {file_, key, absent};
+    const toml::table* table = table_[key].as_table();
+    if (table == nullptr) refuse(key, fmt::format("{}; accepted: a section [{}]", what_stands_there(key), key));
+    return {file_, key, *table};
   }
   /// [[key]]: its tables, named key[0], key[1], ...
   std::vector<Section> sections(const std::string& key) const {
@@ -79,13 +93,6 @@ class Section {
     for (const toml::node& node : *array)
       all.emplace_back(file_, fmt::format("{}[{}]", key, all.size()), *node.as_table());
     return all;
-  }
-  const toml::table& table() const { return table_; }
-  std::optional<Section> section(const std::string& key) const {
-    if (!has(key)) return std::nullopt;
-    const toml::table* table = table_[key].as_table();
-    if (table == nullptr) refuse(key, fmt::format("{}; accepted: a section [{}]", what_stands_there(key), key));
-    return Section(file_, key, *table);
   }
 
  private:
