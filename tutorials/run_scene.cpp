@@ -170,7 +170,7 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   report.finish();
   if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
   const std::string name = (asked.out / "solution").string();
-  if (asked.files.vtu)
+  if (asked.files.contains("vtu"))
     fmt::print("  a picture of it: {2} {1} {0}.vtu --out {0}.png\n", name,
                file.elastic                                ? "deformed"
                : file.mesh.kind == MeshRequest::Kind::file ? "plan"

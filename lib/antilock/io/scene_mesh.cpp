@@ -1,6 +1,7 @@
 // The mesh that a scene file asks for: made here, or read and held against the scene.
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,81 +22,68 @@ namespace {
 
 constexpr double slack = 1e-6;  // mesh generators place corners to 1e-12, formats with few digits to 1e-8
 
-struct Box {
-  double left = 1e300, right = -1e300, low = 1e300, high = -1e300, area = 0;
+/// The triangles of a region: their bounding box, and their area.
+struct Extent {
+  Eigen::AlignedBox2d box;
+  double area = 0;
 };
 
-Box box_of(const TriangleMesh& mesh, Region region) {
-  Box box;
+Extent extent_of(const TriangleMesh& mesh, Region region) {
+  Extent extent;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != region) continue;
-    box.area += mesh.area(t);
-    for (int i = 0; i < 3; ++i) {
-      const double x = mesh.vertices(mesh.triangles(t, i), 0), y = mesh.vertices(mesh.triangles(t, i), 1);
-      box.left = std::min(box.left, x);
-      box.right = std::max(box.right, x);
-      box.low = std::min(box.low, y);
-      box.high = std::max(box.high, y);
-    }
+    extent.area += mesh.area(t);
+    for (const int v : mesh.triangles.row(t)) extent.box.extend(mesh.vertices.row(v).transpose());
   }
-  return box;
+  return extent;
 }
 
-/// The edges on the line y = `height` that `chosen` takes: their length, and its part in the group `tag`.
+/// Edges on a line y = const.
 struct Side {
-  double length = 0, tagged = 0, left = 1e300, right = -1e300;
+  double length = 0, left = 1e300, right = -1e300;
 };
 
-template <class Chosen>
-Side side_of(const TriangleMesh& mesh, double height, EdgeTag tag, Chosen&& chosen) {
-  Side side;
-  const auto on_line = [&](int v) { return std::abs(mesh.vertices(v, 1) - height) <= slack; };
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (!on_line(mesh.edges(e, 0)) || !on_line(mesh.edges(e, 1)) || !chosen(e)) continue;
-    side.length += mesh.edge_length(e);
-    if (mesh.edge_tag[e] == tag) side.tagged += mesh.edge_length(e);
-    for (int end = 0; end < 2; ++end) {
-      side.left = std::min(side.left, mesh.vertices(mesh.edges(e, end), 0));
-      side.right = std::max(side.right, mesh.vertices(mesh.edges(e, end), 0));
-    }
-  }
-  return side;
-}
-
-/// The body's edges on the line y = 0, the part of them in the group `tag`: all of it, or the rest would be clamped,
-/// another problem.
+/// The body's edges on the line y = 0, all of which are in the group `tag`, or the rest would be clamped, another problem.
 Side check_bottom_edge(const TriangleMesh& mesh, EdgeTag tag) {
-  const Box body = box_of(mesh, Region::body);
-  if (body.low < -slack)
-    throw Error(
-        fmt::format("the group body reaches down to y = {:.6g}; accepted: a body on and above y = 0", body.low));
-  const Side bottom = side_of(mesh, 0, tag, [&](int e) {
-    const int other = mesh.edge_triangles(e, 1);
-    return mesh.region[mesh.edge_triangles(e, 0)] == Region::body || (other >= 0 && mesh.region[other] == Region::body);
-  });
+  const Eigen::AlignedBox2d box = extent_of(mesh, Region::body).box;
+  const Eigen::Vector2d low = box.min(), high = box.max();
+  if (low(1) < -slack)
+    throw Error(fmt::format("the group body reaches down to y = {:.6g}; accepted: a body on and above y = 0", low(1)));
+  const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
+  Side bottom;
+  double tagged = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const Eigen::Matrix2d ends = mesh.vertices(mesh.edges.row(e), Eigen::all);
+    if (ends.col(1).cwiseAbs().maxCoeff() > slack) continue;
+    if (!body(mesh.edge_triangles(e, 0)) && !body(mesh.edge_triangles(e, 1))) continue;
+    bottom.length += mesh.edge_length(e);
+    if (mesh.edge_tag[e] == tag) tagged += mesh.edge_length(e);
+    bottom.left = std::min(bottom.left, ends.col(0).minCoeff());
+    bottom.right = std::max(bottom.right, ends.col(0).maxCoeff());
+  }
   if (bottom.length == 0)
     throw Error(
         fmt::format("the group body has no edge on the line y = 0 (it spans ({:.6g}, {:.6g}) x ({:.6g}, {:.6g})); "
                     "accepted: a body above y = 0 with its bottom edge on that line",
-                    body.left, body.right, body.low, body.high));
-  if (std::abs(bottom.tagged - bottom.length) > slack)
+                    low(0), high(0), low(1), high(1)));
+  if (std::abs(tagged - bottom.length) > slack)
     throw Error(fmt::format("of the body's bottom edge on y = 0, {:.6g} long, {:.6g} are {}; accepted: all of it",
-                            bottom.length, bottom.tagged,
+                            bottom.length, tagged,
                             tag == EdgeTag::contact ? "in the group contact" : "above the layer"));
   return bottom;
 }
 
 /// The layer fills the strip of the given depth below Sigma: its area and its box say so.
 void check_layer(const TriangleMesh& mesh, const Side& sigma, double depth) {
-  const Box layer = box_of(mesh, Region::layer);
-  const double error = std::max({std::abs(layer.left - sigma.left), std::abs(layer.right - sigma.right),
-                                 std::abs(layer.low + depth), std::abs(layer.high)});
-  if (error <= slack && std::abs(layer.area - sigma.length * depth) <= slack * std::max(1.0, sigma.length)) return;
+  const auto [box, area] = extent_of(mesh, Region::layer);
+  const Eigen::Vector2d low = box.min(), high = box.max();
+  const double error = std::max((low - Eigen::Vector2d(sigma.left, -depth)).lpNorm<Eigen::Infinity>(),
+                                (high - Eigen::Vector2d(sigma.right, 0)).lpNorm<Eigen::Infinity>());
+  if (error <= slack && std::abs(area - sigma.length * depth) <= slack * std::max(1.0, sigma.length)) return;
   throw Error(fmt::format(
       "the group layer spans ({:.6g}, {:.6g}) x ({:.6g}, {:.6g}) with area {:.6g}; accepted for this scene: the strip "
       "below the body's bottom edge, ({:.6g}, {:.6g}) x ({:.6g}, 0), filled (area {:.6g})",
-      layer.left, layer.right, layer.low, layer.high, layer.area, sigma.left, sigma.right, -depth,
-      sigma.length * depth));
+      low(0), high(0), low(1), high(1), area, sigma.left, sigma.right, -depth, sigma.length * depth));
 }
 
 /// The contact edges lie on the lower side, all of it.
@@ -104,8 +92,8 @@ void check_contact_side(const TriangleMesh& mesh, double bottom, double wanted) 
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     length += mesh.edge_length(e);
-    for (int end = 0; end < 2; ++end)
-      if (const auto vertex = mesh.vertices.row(mesh.edges(e, end)); std::abs(vertex(1) - bottom) > slack)
+    for (const int v : mesh.edges.row(e))
+      if (const auto vertex = mesh.vertices.row(v); std::abs(vertex(1) - bottom) > slack)
         throw Error(fmt::format("the contact edge at ({:.6g}, {:.6g}) is not on the lower side; accepted: y = {:.6g}",
                                 vertex(0), vertex(1), bottom));
   }
@@ -148,10 +136,11 @@ void find_geometry(TriangleMesh& mesh, const std::filesystem::path& file) {
 bool is_curved(const SceneFile& file, const TriangleMesh& mesh) {
   double low = 1e300, high = -1e300;
   for (int e = 0; e < mesh.edge_count(); ++e)
-    for (int end = 0; end < 2 && mesh.edge_tag[e] == EdgeTag::contact; ++end) {
-      low = std::min(low, mesh.vertices(mesh.edges(e, end), 1));
-      high = std::max(high, mesh.vertices(mesh.edges(e, end), 1));
-    }
+    for (const int v : mesh.edges.row(e))
+      if (mesh.edge_tag[e] == EdgeTag::contact) {
+        low = std::min(low, mesh.vertices(v, 1));
+        high = std::max(high, mesh.vertices(v, 1));
+      }
   const bool curved = high - low > slack;
   const auto* layer = std::get_if<StiffLayer>(&file.scene.layer());
   const char* const what = file.elastic                    ? "plane strain"
@@ -199,32 +188,32 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
   return mesh;
 }
 
-TriangleMesh checked_mesh(const SceneFile& file) {
+TriangleMesh made_or_read(const SceneFile& file) {
   using Kind = MeshRequest::Kind;
   const Domain domain{file.scene.layer_depth()};
-  const int cells = file.mesh.cells;
-  const auto make = [&] {
-    switch (file.mesh.kind) {
-      case Kind::structured:
-        return structured_mesh(cells, domain);
-      case Kind::unstructured:
-        return unstructured_mesh(cells, domain);
-      case Kind::layered:
-        return layered_mesh(cells, file.scene.epsilon().value_or(1));
-      case Kind::file:
-        break;
-    }
-    return read_mesh_of(file);
-  };
+  switch (file.mesh.kind) {
+    case Kind::structured:
+      return structured_mesh(file.mesh.cells, domain);
+    case Kind::unstructured:
+      return unstructured_mesh(file.mesh.cells, domain);
+    case Kind::layered:
+      return layered_mesh(file.mesh.cells, file.scene.epsilon().value_or(1));
+    case Kind::file:
+      break;
+  }
+  return read_mesh_of(file);
+}
+
+TriangleMesh checked_mesh(const SceneFile& file) {
   try {
-    return make();
+    return made_or_read(file);
   } catch (const Error& error) {
     std::string what = printable(error.what(), 2000);
     if (what.find("accepted") == std::string::npos)
       what +=
           "; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), clamped and contact, its "
           "triangles proper and connected";
-    throw Error(file.name + (file.mesh.kind == Kind::file ? ": mesh.file: " : ": mesh.cells: ") + what);
+    throw Error(file.name + (file.mesh.kind == MeshRequest::Kind::file ? ": mesh.file: " : ": mesh.cells: ") + what);
   }
 }
 

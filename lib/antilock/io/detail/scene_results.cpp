@@ -30,9 +30,12 @@ double finite(const char* what, double value) {
   return value;
 }
 
+const char* asked_of(const MethodRequest& method) { return method.of == Quantity::stress ? "stress" : "displacement"; }
+
 /// The question in full: with it and the mesh file anyone can ask it again.
 Json question(const SceneFile& file) {
   const SceneWords& words = file.words;
+  const MethodRequest& method = file.method;
   Json layer, mesh = {{"kind", words.mesh}};
   if (!words.model.empty()) layer = {{"epsilon", or_null(file.scene.epsilon())}, {"model", words.model}};
   if (file.mesh.kind == MeshRequest::Kind::file)
@@ -40,26 +43,22 @@ Json question(const SceneFile& file) {
   else
     mesh["cells"] = file.mesh.cells;
   if (file.mesh.refinements > 0) mesh["refinements"] = file.mesh.refinements;
-  Json method = {
-      {"element", file.method.element}, {"solver", file.method.solver}, {"tolerance", file.method.tolerance}};
-  if (file.method.accuracy) {
-    method["accuracy"] = *file.method.accuracy;
-    method["of"] = file.method.of == Quantity::stress ? "stress" : "displacement";
-    method["most_unknowns"] = file.method.most_unknowns;
-  }
   Json asked = {{"title", file.title},
                 {"load", words.load},
                 {"layer", layer},
                 {"gap", file.scene.contact() ? Json(words.gap) : Json(nullptr)},
                 {"mesh", mesh},
-                {"method", method},
+                {"method", {{"element", method.element}, {"solver", method.solver}, {"tolerance", method.tolerance}}},
                 {"version", ANTILOCK_VERSION}};
+  if (method.accuracy)
+    asked["method"].update(
+        {{"accuracy", *method.accuracy}, {"of", asked_of(method)}, {"most_unknowns", method.most_unknowns}});
   if (!words.more.empty()) asked.update(Json::parse("{" + words.more + "}"));
   return asked;
 }
 
 /// What was asked, what is proved, and the way there.
-Json certificate(const SceneFile& file, const CertifiedSolution& certified) {
+Json certificate(const MethodRequest& method, const CertifiedSolution& certified) {
   const Certificate& proof = certified.certificate;
   Json levels = Json::array();
   const std::string& geometry = certified.answer.mesh->geometry;
@@ -67,10 +66,10 @@ Json certificate(const SceneFile& file, const CertifiedSolution& certified) {
       geometry.empty() ? "" : ", its corners on the curves of " + std::filesystem::path(geometry).filename().string();
   for (const Level& level : certified.history)
     levels.push_back({{"unknowns", level.unknowns}, {"bound", level.bound}, {"seconds", level.seconds}});
-  return {{"asked", *file.method.accuracy},
-          {"of", file.method.of == Quantity::stress ? "stress" : "displacement"},
-          {"relative", finite("the certified error", proof.relative(file.method.of))},
-          {"bound", finite("the certified error", proof.bound(file.method.of))},
+  return {{"asked", *method.accuracy},
+          {"of", asked_of(method)},
+          {"relative", finite("the certified error", proof.relative(method.of))},
+          {"bound", finite("the certified error", proof.bound(method.of))},
           {"energy_lower", proof.energy_lower},
           {"energy_upper", proof.energy_upper},
           {"proved_of", "the polygon of the last mesh" + corners + ", with load and gap as sampled"},
@@ -83,12 +82,8 @@ Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p)
   if (p.size() == 0 || triangles == 0) return {};
   const Eigen::Index rows = p.size() / triangles;
   Eigen::VectorXd stress = Eigen::VectorXd::Zero(mesh.triangle_count());
-  Eigen::Index row = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == Region::layer) {
-      stress(t) = p.segment(row, rows).mean();
-      row += rows;
-    }
+  for (Eigen::Index t = 0, row = 0; t < stress.size(); ++t)
+    if (mesh.region[t] == Region::layer) stress(t) = p.segment(rows * row++, rows).mean();
   return stress;
 }
 
@@ -198,7 +193,7 @@ void write_summary(const std::filesystem::path& path, const SceneFile& file, con
     for (Eigen::Index k = 2; k < row.size(); ++k) here[row.size() == 3 ? "u" : k == 2 ? "u_x" : "u_y"] = row(k);
     s["at"].push_back(here);
   }
-  if (certified != nullptr) s["certificate"] = certificate(file, *certified);
+  if (certified != nullptr) s["certificate"] = certificate(file.method, *certified);
   s["warning"] = summary.warning;
   s["scene"] = question(file);
   const auto& [mesh, assemble, factor, solve] = seconds;
@@ -218,18 +213,13 @@ void check_inputs_stay(const std::filesystem::path& folder, const std::filesyste
 }
 
 ResultFiles result_files(const std::string& words) {
-  ResultFiles asked{false, false, false};
+  ResultFiles asked;
   std::istringstream in(words);
   for (std::string word; std::getline(in, word, ',');) {
-    if (word == "csv")
-      asked.csv = true;
-    else if (word == "mesh")
-      asked.mesh = true;
-    else if (word == "vtu")
-      asked.vtu = true;
-    else if (word != "summary")
+    if (word != "summary" && word != "csv" && word != "mesh" && word != "vtu")
       throw Error(fmt::format("--files: {:?} is none of the files; accepted: summary, csv, mesh, vtu, with commas",
                               printable(word)));
+    asked.insert(word);
   }
   return asked;
 }
@@ -237,9 +227,9 @@ ResultFiles result_files(const std::string& words) {
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
                          const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked) {
   const Stopwatch watch;
-  const bool contact = file.scene.contact().has_value();
+  const bool contact = file.scene.contact().has_value(), csv = asked.contains("csv"), vtu = asked.contains("vtu");
   const auto write = [&](const std::filesystem::path& draft) {
-    if (asked.csv) write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
+    if (csv) write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
     VtuFields more;
     if (!file.elastic) more.p = layer_stress(*answer.mesh, answer.solution.p);
     if (contact) {
@@ -247,25 +237,25 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
       Eigen::MatrixX3d table = contact_table(answer.space, normal.problem, normal.solution);
       if (!file.scene.contact()->ceiling)                           // which presses downwards: a pressure below 0
         table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
-      if (asked.csv && file.elastic && file.elastic->friction)
+      if (csv && file.elastic && file.elastic->friction)
         write_csv(draft / "contact.csv", {"x", "gap", "pressure", "friction"}, with_friction(table, answer));
-      else if (asked.csv)
+      else if (csv)
         write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
       more.pressure = table.col(2);
     }
-    if (asked.mesh) write_msh(draft / "mesh.msh", *answer.mesh, file.scene.edges());
-    const std::filesystem::path vtu = draft / "solution.vtu";
-    if (asked.vtu && file.elastic)
-      write_deformed_vtu(vtu, {answer.space, answer.space}, answer.solution.u, pressure_of(file, answer));
-    else if (asked.vtu)
-      write_vtu(vtu, answer.space, answer.solution.u, more);
+    if (asked.contains("mesh")) write_msh(draft / "mesh.msh", *answer.mesh, file.scene.edges());
+    if (vtu && file.elastic)
+      write_deformed_vtu(draft / "solution.vtu", {answer.space, answer.space}, answer.solution.u,
+                         pressure_of(file, answer));
+    else if (vtu)
+      write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
     write_summary(draft / "summary.json", file, summary, answer.seconds, watch.seconds(), certified);
   };
   std::vector<std::string> stale = pieces_in(folder);
-  if (!asked.csv) stale.emplace_back("solution.csv");
-  if (!asked.csv || !contact) stale.emplace_back("contact.csv");
-  if (!asked.mesh) stale.emplace_back("mesh.msh");
-  if (!asked.vtu) stale.emplace_back("solution.vtu");
+  if (!csv) stale.emplace_back("solution.csv");
+  if (!csv || !contact) stale.emplace_back("contact.csv");
+  if (!asked.contains("mesh")) stale.emplace_back("mesh.msh");
+  if (!vtu) stale.emplace_back("solution.vtu");
   write_folder(folder, write, stale);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -45,11 +46,9 @@ SceneSummary summary_of(const SceneFile& file, const Answer& answer);
 void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
                    const RunSeconds& seconds, double files, const CertifiedSolution* certified = nullptr);
 
-/// Which files are asked for; summary.json is always written.
-struct ResultFiles {
-  bool csv = true, mesh = true, vtu = true;
-};
-/// From the words "summary", "csv", "mesh" and "vtu", with commas between them. Throws Error, the option first.
+/// Which files are asked for, of "csv", "mesh" and "vtu"; summary.json is always written.
+using ResultFiles = std::set<std::string>;
+/// From such words, or "summary", with commas between them. Throws Error, the option first.
 ResultFiles result_files(const std::string& words);
 
 /// The answer to a scene file, in `folder`: summary.json, solution.csv, contact.csv (with the effect only), mesh.msh
@@ -57,7 +56,6 @@ ResultFiles result_files(const std::string& words);
 /// and pressures that are negative by round-off are written as 0; the summary's `kkt` has them as they are. Throws Error
 /// where the folder cannot be written, NotConverged where a number is not finite.
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
-                         const SceneSummary& summary, const CertifiedSolution* certified = nullptr,
-                         const ResultFiles& asked = {});
+                         const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked);
 
 }  // namespace antilock
