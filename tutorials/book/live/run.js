@@ -73,7 +73,7 @@ antilock.tableChart = (where, name, text) => {
 
 /// The surface of u in a VTU file, which one turns with the mouse, a finger or the arrow keys.
 antilock.vtuSurface = (where, name, bytes) => {
-  // the arrays are raw bytes behind the XML (lib/antilock/io/detail/vtu_grid.cpp), each behind its length in eight bytes
+  // the arrays are raw bytes behind the XML (lib/antilock/io/vtu_writer.cpp), each behind its length in eight bytes
   const mark = '<AppendedData encoding="raw">\n_', latin = new TextDecoder("latin1").decode(bytes.subarray(0, 1 << 16)), first = latin.indexOf(mark) + mark.length;
   const array = (named, Numbers) => {
     const offset = latin.match(new RegExp(`Name="${named}"[^>]*offset="(\\d+)"`))?.[1];
