@@ -29,10 +29,9 @@ void write_solution_csv(const std::filesystem::path& path, const Space& space, c
   const Eigen::Index components = u.size() / space.size();
   Eigen::MatrixXd rows(space.size(), 2 + components);
   rows << space.points(), u.reshaped(space.size(), components);
-  write_csv(
-      path,
-      components == 1 ? std::vector<std::string>{"x", "y", "u"} : std::vector<std::string>{"x", "y", "u_x", "u_y"},
-      rows);
+  std::vector<std::string> header{"x", "y", "u"};
+  if (components == 2) header = {"x", "y", "u_x", "u_y"};
+  write_csv(path, header, rows);
 }
 
 }  // namespace antilock

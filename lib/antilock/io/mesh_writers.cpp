@@ -1,6 +1,5 @@
 // The mesh as MSH 2.2 (gmsh and this library's reader) and in FreeFEM's own format, with one numbering.
 #include <algorithm>
-#include <array>
 
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/detail/text.hpp"
@@ -28,28 +27,27 @@ std::vector<Labelled> labelled_edges(const TriangleMesh& mesh) {
   return labelled;
 }
 
+/// A physical group of curves (dimension 1) or surfaces (2).
 struct Group {
   int dimension, number;
-  const char* name;
+  std::string name;
 };
-constexpr std::array groups = {
-    Group{1, static_cast<int>(EdgeTag::sigma), "sigma"},     Group{1, static_cast<int>(EdgeTag::clamped), "clamped"},
-    Group{1, static_cast<int>(EdgeTag::contact), "contact"}, Group{1, static_cast<int>(EdgeTag::free), "free"},
-    Group{2, static_cast<int>(Region::body), "body"},        Group{2, static_cast<int>(Region::layer), "layer"}};
 
-/// The groups that the mesh has elements of.
-std::vector<Group> groups_present(const TriangleMesh& mesh, const std::vector<Labelled>& edges) {
-  std::vector<Group> present;
-  for (const Group& group : groups) {
-    const bool on_edges = std::any_of(edges.begin(), edges.end(), [&](const Labelled& edge) {
-      return group.dimension == 1 && edge.label == group.number;
-    });
-    const bool on_triangles = std::any_of(mesh.region.begin(), mesh.region.end(), [&](Region region) {
-      return group.dimension == 2 && static_cast<int>(region) == group.number;
-    });
-    if (on_edges || on_triangles) present.push_back(group);
-  }
-  return present;
+/// The groups that the mesh has elements of, those of `named` last.
+std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<EdgeCondition>& named) {
+  std::vector<Group> groups;
+  const auto add = [&](int dimension, const auto& all, auto tag, const std::string& name) {
+    if (std::find(all.begin(), all.end(), tag) != all.end()) groups.push_back({dimension, static_cast<int>(tag), name});
+  };
+  add(1, mesh.edge_tag, EdgeTag::sigma, "sigma");
+  add(1, mesh.edge_tag, EdgeTag::clamped, "clamped");
+  add(1, mesh.edge_tag, EdgeTag::contact, "contact");
+  add(1, mesh.edge_tag, EdgeTag::free, "free");
+  add(2, mesh.region, Region::body, "body");
+  add(2, mesh.region, Region::layer, "layer");
+  for (int k = 0; k < static_cast<int>(named.size()); ++k)
+    for (const EdgeTag tag : {natural_group(k), held_group(k)}) add(1, mesh.edge_tag, tag, named[k].group);
+  return groups;
 }
 
 }  // namespace
@@ -59,13 +57,9 @@ void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh, cons
   write_file(path, [&](std::ostream& out) {
     Text text(out);
     text.print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
-    auto names = groups_present(mesh, edges);
-    for (int k = 0; k < static_cast<int>(named.size()); ++k)
-      for (const EdgeTag tag : {natural_group(k), held_group(k)})
-        if (std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), tag) > 0)
-          names.push_back({1, static_cast<int>(tag), named[k].group.c_str()});
-    text.print("$PhysicalNames\n{}\n", names.size());
-    for (const Group& group : names) text.print("{} {} \"{}\"\n", group.dimension, group.number, group.name);
+    const std::vector<Group> groups = groups_of(mesh, named);
+    text.print("$PhysicalNames\n{}\n", groups.size());
+    for (const Group& group : groups) text.print("{} {} \"{}\"\n", group.dimension, group.number, group.name);
     text.print("$EndPhysicalNames\n$Nodes\n{}\n", mesh.vertex_count());
     for (int v = 0; v < mesh.vertex_count(); ++v)
       text.print(FMT_COMPILE("{} {} {} 0\n"), v + 1, mesh.vertices(v, 0), mesh.vertices(v, 1));

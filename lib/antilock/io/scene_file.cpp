@@ -44,7 +44,8 @@ toml::table parse(const std::string& text, const std::string& name) {
 const char* const in_x_and_y = "an expression in x and y in quotes, as \"10*sin(2*pi*x)\"";
 const char* const in_x = "an expression in x in quotes, as \"0.01\"";
 
-/// A field or a profile: a text that does not parse, or a value that is not finite, is refused with the file and the key.
+/// A field or a profile: a text that does not parse, or a value that is not finite, is refused with the file and the
+/// key.
 auto named(const Section& section, const std::string& key, const std::string& text,
            const std::vector<std::string>& variables) {
   const auto naming = [where = section.where(key)](const auto& ask) {

@@ -67,17 +67,18 @@ SceneFile read_scene_file(const std::filesystem::path& path);
 /// The same from a text in memory; `path` is its name in messages, and mesh files are looked for beside it.
 SceneFile read_scene(const std::string& text, const std::filesystem::path& path);
 
-/// The mesh of a scene file: made, or read and compared with the scene, then refined. From a file the body may be anything on or above
-/// y = 0 with a bottom edge on that line: with a layer all of it is Sigma, and the layer fills the strip below, contact
-/// at its bottom; without one all of it is contact. Throws Error as above, KEY mesh.cells, mesh.file or mesh.refinements,
-/// or load.f and contact.gap where these have no value on the body of a file.
+/// The mesh of a scene file: made, or read and compared with the scene, then refined. From a file the body may be
+/// anything on or above y = 0 with a bottom edge on that line: with a layer all of it is Sigma, and the layer fills the
+/// strip below, contact at its bottom; without one all of it is contact. Throws Error as above, KEY mesh.cells,
+/// mesh.file, mesh.refinements, or load.f and contact.gap where these have no value on the body of a file.
 TriangleMesh make_mesh(const SceneFile& file);
 
 /// Throws Error, `FILE: WHO: ...`, for a scene that goes beyond the paper's problem: plane strain, or what
 /// Scene::beyond_the_paper names.
 void require_paper_problem(const SceneFile& file, const std::string& who);
 
-/// The mesh width to report: 1/cells of the refined mesh, or the longest edge of a mesh from a file and of one refined to an accuracy.
+/// The mesh width to report: 1/cells of the refined mesh, or the longest edge of one from a file or refined to an
+/// accuracy.
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh);
 
 }  // namespace antilock

@@ -43,7 +43,8 @@ struct Side {
   double length = 0, left = 1e300, right = -1e300;
 };
 
-/// The body's edges on the line y = 0, all of which are in the group `tag`, or the rest would be clamped, another problem.
+/// The body's edges on the line y = 0, all of which are in the group `tag`, or the rest would be clamped, another
+/// problem.
 Side check_bottom_edge(const TriangleMesh& mesh, EdgeTag tag) {
   const Eigen::AlignedBox2d box = extent_of(mesh, Region::body).box;
   const Eigen::Vector2d low = box.min(), high = box.max();
@@ -102,8 +103,8 @@ void check_contact_side(const TriangleMesh& mesh, double bottom, double wanted) 
                             length, bottom, wanted));
 }
 
-/// Columns whose x a file has rounded are columns: from Sigma down, a layer edge that is off the vertical by no more than
-/// a file's digits is made vertical. At a tiny epsilon such an edge would tie its neighbours to each other.
+/// Columns whose x a file has rounded are columns: from Sigma down, a layer edge that is off the vertical by no more
+/// than a file's digits is made vertical. At a tiny epsilon such an edge would tie its neighbours to each other.
 void straighten_columns(TriangleMesh& mesh) {
   constexpr double digits = 1e-8;
   std::vector<std::array<int, 2>> edges;  // of the layer, the upper vertex first

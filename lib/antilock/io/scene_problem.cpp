@@ -95,6 +95,9 @@ CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow) {
       return solve();
     } catch (const NotConverged& failure) {
       throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      throw Error(!method.accuracy || what.starts_with(file.name) ? what : file.name + ": method.accuracy: " + what);
     }
   };
   const auto spent = [&](Answer& answer) {
@@ -103,18 +106,9 @@ CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow) {
   };
   if (method.accuracy) {
     begin(fmt::format("solve to a relative error of {:g}", *method.accuracy));
-    CertifiedSolution found = solved([&] {
-      try {
-        const Accuracy asked{*method.accuracy,        method.of, method.most_unknowns, {}, method.tolerance,
-                             &element(method.element)};
-        return solve_to(file.scene, *mesh, asked, follow.level);
-      } catch (const NotConverged&) {
-        throw;
-      } catch (const Error& error) {
-        const std::string what = error.what();
-        throw Error(what.rfind(file.name, 0) == 0 ? what : file.name + ": method.accuracy: " + what);
-      }
-    });
+    const Accuracy asked{*method.accuracy,        method.of, method.most_unknowns, {}, method.tolerance,
+                         &element(method.element)};
+    CertifiedSolution found = solved([&] { return solve_to(file.scene, *mesh, asked, follow.level); });
     found.answer.seconds = seconds;
     spent(found.answer);
     found.answer.warning = joined(found.answer.warning, polygon_warning(file, *mesh));
@@ -150,8 +144,8 @@ NormalContact normal_contact(const Answer& answer) {
 std::optional<LayerReport> layer_report_of(const SceneFile& file, const Answer& answer) {
   const auto coating = coating_of(file);
   const Element& element = answer.space.element();
-  // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10 (both meshes, 1/h = 8 and
-  // 32), 23 to 40 % at h^2 = epsilon, and it doubles at ten times that
+  // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10 (both meshes, 1/h =
+  // 8 and 32), 23 to 40 % at h^2 = epsilon, and it doubles at ten times that
   if (const double h = mesh_width(file, *answer.mesh);
       file.elastic && !coating && element.conforming() && element.degree() == 1 && h * h > 0.1 * file.elastic->epsilon)
     return LayerReport{fmt::format("P1 can hardly move without a change of volume: h^2 = {:.2g}, beside epsilon = "

@@ -1,5 +1,5 @@
-// VTU, the unstructured grid of VTK's XML formats: for ParaView and for the figures. The arrays are raw bytes behind the
-// XML (little-endian doubles and integers): a million triangles as text take ten times the seconds.
+// VTU, the unstructured grid of VTK's XML formats: for ParaView and for the figures. The arrays are raw bytes behind
+// the XML (little-endian doubles and integers): a million triangles as text take ten times the seconds.
 #include <fmt/format.h>
 
 #include <cstdint>

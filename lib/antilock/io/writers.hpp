@@ -11,7 +11,8 @@
 
 namespace antilock {
 
-/// MSH 2.2 ASCII with the physical groups of Figure 2 and, with their names, those of `edges`; free edges of no other group are in "free".
+/// MSH 2.2 ASCII with the physical groups of Figure 2 and, with their names, those of `edges`; free edges of no other
+/// group are in "free".
 void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh,
                const std::vector<EdgeCondition>& edges = {});
 /// FreeFEM's native .msh: nv nt nbe; x y label; i j k region; i j label. The same numbering, labels as in
@@ -27,9 +28,10 @@ struct VtuFields {
   Eigen::VectorXd p = {};         ///< T, the layer stress, one value per triangle (0 on the body)
   Eigen::VectorXd pressure = {};  ///< C, the contact pressure, a density, one value per contact unknown of the space
 };
-/// VTU (XML, its arrays as raw bytes) for ParaView and the figures: point data `u` and `pressure` (0 off Gamma_C), cell data `region`
-/// (1 body, 2 layer: their names are the field data `region_names`) and `p`. A vertex per triangle corner, so that
-/// Crouzeix-Raviart fields keep their jumps; P1 and P2 fields share their vertices, and P2 is shown there alone.
+/// VTU (XML, its arrays as raw bytes) for ParaView and the figures: point data `u` and `pressure` (0 off Gamma_C), cell
+/// data `region` (1 body, 2 layer: their names are the field data `region_names`) and `p`. A vertex per triangle
+/// corner, so that Crouzeix-Raviart fields keep their jumps; P1 and P2 fields share their vertices, and P2 is shown
+/// there alone.
 void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u,
                const VtuFields& more = {});
 /// VTU of a field that is affine on each triangle and jumps between them: T x 3 values at the corners, point data `u`.

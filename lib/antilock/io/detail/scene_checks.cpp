@@ -88,8 +88,8 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   constexpr int points = 1 << 18;
   Eigen::Vector3d sampled = Eigen::Vector3d::Zero(), size = sampled;  // integrals of f (1, x, y), |f| (1, |x|, |y|)
   double k = 0, due = 0;  // each sample stands for the same area; a triangle may have many, or none
-  // integrals of |f less what the rule's points say of it| and of |f|, over as many of the sampled triangles as leave the
-  // values of f at the rule's points no more than the samples
+  // integrals of |f less what the rule's points say of it| and of |f|, over as many of the sampled triangles as leave
+  // the values of f at the rule's points no more than the samples
   double unseen = 0, fitted = 0, at_points = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != Region::body) continue;

@@ -53,8 +53,8 @@ ResultFiles result_files(const std::string& words);
 
 /// The answer to a scene file, in `folder`: summary.json, solution.csv, contact.csv (with the effect only), mesh.msh
 /// (MSH 2.2), solution.vtu; all that are asked for or none, and those of an earlier run that are not asked for go. Gaps
-/// and pressures that are negative by round-off are written as 0; the summary's `kkt` has them as they are. Throws Error
-/// where the folder cannot be written, NotConverged where a number is not finite.
+/// and pressures that are negative by round-off are written as 0; the summary's `kkt` has them as they are. Throws
+/// Error where the folder cannot be written, NotConverged where a number is not finite.
 void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
                          const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked);
 
