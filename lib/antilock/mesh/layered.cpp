@@ -51,7 +51,7 @@ std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh, bool along
   return edges;
 }
 
-/// The curvature at the vertices of Sigma, where two of its edges meet; 0 elsewhere. Throws what extruded() says of normals.
+/// The curvature at the vertices of Sigma where two of its edges meet; 0 elsewhere. Throws what extruded() says.
 Eigen::VectorXd curvatures(const TriangleMesh& mesh, std::vector<std::array<int, 2>> edges, double thickness) {
   const auto x = [&](int v) { return mesh.vertices(v, 0); };
   std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return x(a[0]) < x(b[0]); });

@@ -1,6 +1,6 @@
-// Figure 3: squares cut by a diagonal. Lines at equal distances, so written out: gmsh's transfinite meshes give the same
-// triangles (a test holds the two together) but take seconds where this takes milliseconds. And the same mesh with its
-// vertices moved at random, as little as one likes, on the way to Figure 6.
+// Figure 3: squares cut by a diagonal. Lines at equal distances, so written out: gmsh's transfinite meshes give the
+// same triangles but take seconds where this takes milliseconds. And the same mesh with its vertices moved at random,
+// as little as one likes, on the way to Figure 6.
 #include <fmt/format.h>
 
 #include <algorithm>

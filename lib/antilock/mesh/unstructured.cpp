@@ -1,18 +1,30 @@
 // Figure 6: an arbitrary triangulation, compatible with the decomposition into body and layer; gmsh makes it.
+//
+// Where the environment variable ANTILOCK_MESHES names a folder, what gmsh made is kept there under a name that says
+// all that it depends on, and whoever asks for it again reads it, in this program or in another one. Meant for one run
+// of many programs: tests/run, whose 300 programs ask 1,100 times for 50 meshes, empties the folder before.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <unordered_map>
 
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/mesh/detail/edges.hpp"
 #include "antilock/mesh/detail/gmsh_session.hpp"
-#include "antilock/mesh/detail/kept_meshes.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/refine.hpp"
 
 namespace antilock {
 
 namespace {
+
+/// Vertices and triangles, all that gmsh hands over.
+using MeshArrays = std::pair<Points, Triples>;
 
 /// gmsh's mesh of Figure 2, with edges of about h in the body and h_layer along and below Sigma.
 MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
@@ -41,6 +53,39 @@ MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
     vertex[tags[i]] = static_cast<int>(i);
   }
   std::transform(nodes.begin(), nodes.end(), made.second.data(), [&](std::size_t tag) { return vertex.at(tag); });
+  return made;
+}
+
+/// What `make` makes, or what was kept under that name: the numbers of vertices and of triangles, then both arrays as
+/// they lie in memory. A file of another size than its numbers promise is made anew.
+template <class Make>
+MeshArrays kept_mesh(const std::string& name, Make&& make) {
+  const char* folder = std::getenv("ANTILOCK_MESHES");
+  if (folder == nullptr || *folder == '\0') return make();
+  const std::filesystem::path path = std::filesystem::path(folder) / name;
+  constexpr std::size_t vertex = 2 * sizeof(double), triangle = 3 * sizeof(int);
+  std::array<std::uint64_t, 2> counts{};
+  std::error_code error;
+  const std::uint64_t size = std::filesystem::file_size(path, error);
+  std::ifstream in(path, std::ios::binary);
+  const auto get = [&](auto* data, std::uint64_t bytes) -> bool {
+    return !!in.read(reinterpret_cast<char*>(data), static_cast<std::streamsize>(bytes));
+  };
+  if (!error && get(counts.data(), sizeof counts) && counts[0] <= size / vertex && counts[1] <= size / triangle &&
+      size == sizeof counts + counts[0] * vertex + counts[1] * triangle) {
+    MeshArrays kept{Points(counts[0], 2), Triples(counts[1], 3)};
+    if (get(kept.first.data(), counts[0] * vertex) && get(kept.second.data(), counts[1] * triangle)) return kept;
+  }
+  MeshArrays made = make();
+  counts = {static_cast<std::uint64_t>(made.first.rows()), static_cast<std::uint64_t>(made.second.rows())};
+  write_file(path, [&](std::ostream& out) {
+    const auto put = [&](const auto* data, std::uint64_t bytes) {
+      out.write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(bytes));
+    };
+    put(counts.data(), sizeof counts);
+    put(made.first.data(), counts[0] * vertex);
+    put(made.second.data(), counts[1] * triangle);
+  });
   return made;
 }
 
