@@ -1,4 +1,4 @@
-// P3 to P6: continuous, of degree k on each triangle; the unknowns are the values at the points of the lattice of
+// P2 to P6: continuous, of degree k on each triangle; the unknowns are the values at the points of the lattice of
 // order k: those with barycentric coordinates (a0, a1, a2) / k, whole numbers with a0 + a1 + a2 = k.
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 class Lagrange final : public Element {
  public:
-  Lagrange(int degree, const char* name) : name_(name), k_(degree), lattice_(unknowns(), 3) {
+  explicit Lagrange(int degree) : k_(degree), lattice_(unknowns(), 3) {
     Eigen::Index row = 0;
     const auto add = [&](const Eigen::RowVector3i& a) { lattice_.row(row++) = a; };
     for (int i = 0; i < 3; ++i) add(k_ * Eigen::RowVector3i::Unit(i));
@@ -20,7 +20,7 @@ class Lagrange final : public Element {
     for (int a = 1; a < k_ - 1; ++a)
       for (int b = 1; a + b < k_; ++b) add({a, b, k_ - a - b});
   }
-  std::string name() const override { return name_; }
+  std::string name() const override { return fmt::format("P{}", k_); }
   int degree() const override { return k_; }
   int per_vertex() const override { return 1; }
   int per_edge() const override { return k_ - 1; }
@@ -57,27 +57,20 @@ class Lagrange final : public Element {
     }
     return s;
   }
-  std::string name_;
   int k_;
   Eigen::MatrixX3i lattice_;
 };
 
 }  // namespace
 
-const Element& p3() {
-  static const Lagrange page(3, "P3");
-  return page;
-}
-const Element& p4() {
-  static const Lagrange page(4, "P4");
-  return page;
-}
-
 const Element& lagrange(int degree) {
-  static const Lagrange five(5, "P5"), six(6, "P6");
-  static const Element* const pages[] = {&p1(), &p2(), &p3(), &p4(), &five, &six};
+  static const Lagrange two(2), three(3), four(4), five(5), six(6);
+  static const Element* const pages[] = {&p1(), &two, &three, &four, &five, &six};
   if (degree < 1 || degree > 6) throw Error(fmt::format("element: degree {} is not accepted; 1 to 6", degree));
   return *pages[degree - 1];
 }
+const Element& p2() { return lagrange(2); }
+const Element& p3() { return lagrange(3); }
+const Element& p4() { return lagrange(4); }
 
 }  // namespace antilock
