@@ -1,9 +1,10 @@
-// Integrals over the edges of a group: what pulls there, and springs.
+// Integrals over the edges of a group: what pulls there, springs, and the Ventcel term.
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "antilock/core/error.hpp"
+#include "antilock/form/detail/sparse_assembly.hpp"
 #include "antilock/form/forms.hpp"
 
 namespace antilock {
@@ -42,16 +43,37 @@ Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g) {
 }
 
 Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Field& k) {
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   at_points(space, tag, k, [&](int t, double weighted, const Eigen::VectorXd& basis) {
     if (weighted < 0) throw Error("spring: its stiffness is negative; accepted: 0 or more");
     for (Eigen::Index i = 0; i < basis.size(); ++i)
       for (Eigen::Index j = 0; j < basis.size(); ++j)
         entries.emplace_back(space.unknowns()(t, i), space.unknowns()(t, j), weighted * basis(i) * basis(j));
   });
-  Eigen::SparseMatrix<double> mass(space.size(), space.size());
-  mass.setFromTriplets(entries.begin(), entries.end());
-  return mass;
+  return summed<SparseMatrix>(space.size(), space.size(), entries);
+}
+
+Eigen::SparseMatrix<double> ventcel_form(const Space& space) {
+  if (space.element().degree() != 1)
+    throw Error("Ventcel term: element " + space.element().name() + " is not accepted; P1 or CR");
+  double left = 1e300, right = -1e300;  // the ends of Sigma
+  const TriangleMesh& mesh = space.mesh();
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    for (int end = 0; end < 2; ++end)
+      if (mesh.edge_tag[e] == EdgeTag::contact) {
+        left = std::min(left, mesh.vertices(mesh.edges(e, end), 0));
+        right = std::max(right, mesh.vertices(mesh.edges(e, end), 0));
+      }
+  // x and unknown along Sigma; at the clamped ends u = 0, they have none
+  std::vector<std::pair<double, int>> line{{left, -1}};
+  for (const int i : space.contact()) line.emplace_back(space.points()(i, 0), i);
+  line.emplace_back(right, -1);
+  Triplets entries;
+  for (std::size_t k = 1; k < line.size(); ++k)
+    for (const int i : {line[k - 1].second, line[k].second})
+      for (const int j : {line[k - 1].second, line[k].second})
+        if (i >= 0 && j >= 0) entries.emplace_back(i, j, (i == j ? 1 : -1) / (line[k].first - line[k - 1].first));
+  return summed<SparseMatrix>(space.size(), space.size(), entries);
 }
 
 }  // namespace antilock

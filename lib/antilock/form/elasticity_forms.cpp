@@ -2,47 +2,10 @@
 
 #include <algorithm>
 
+#include "antilock/form/detail/strains.hpp"
+
 namespace antilock {
 namespace {
-
-using Triplets = std::vector<Eigen::Triplet<double>>;
-
-/// The derivatives (u_x, u_y, v_x, v_y) of the basis functions of both components on a triangle, at the points of a rule.
-class Gradients {
- public:
-  Gradients(const VectorSpace& space, const Quadrature& rule)
-      : space_(space), m_(space.x.element().unknowns()), n_(space.y.element().unknowns()) {
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      of_x_.push_back(space.x.element().derivative(rule.points.row(q)));
-      of_y_.push_back(space.y.element().derivative(rule.points.row(q)));
-    }
-  }
-  /// The unknowns behind the columns, in the whole vector.
-  Eigen::VectorXi unknowns(int t) const {
-    Eigen::VectorXi both(m_ + n_);
-    both << space_.x.unknowns().row(t).transpose(),
-        (space_.y.unknowns().row(t).transpose().array() + space_.x.size()).matrix();
-    return both;
-  }
-  /// 4 x (m + n)
-  Eigen::Matrix4Xd at(std::size_t q, const Eigen::Matrix<double, 3, 2>& barycentric) const {
-    Eigen::Matrix4Xd d = Eigen::Matrix4Xd::Zero(4, m_ + n_);
-    d.topLeftCorner(2, m_) = (of_x_[q] * barycentric).transpose();
-    d.bottomRightCorner(2, n_) = (of_y_[q] * barycentric).transpose();
-    return d;
-  }
-
- private:
-  const VectorSpace& space_;
-  int m_, n_;
-  std::vector<Eigen::MatrixX3d> of_x_, of_y_;  ///< by the barycentric coordinates, the same on every triangle
-};
-
-Eigen::SparseMatrix<double> sum(const VectorSpace& space, const Triplets& entries) {
-  Eigen::SparseMatrix<double> matrix(space.size(), space.size());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
 
 /// The step of the component across edge e at its first end (on the boundary: from the prescribed midpoint value), as
 /// coefficients of the unknowns. A CR function is affine along the edge and meets at the midpoint: at the other end it
@@ -82,8 +45,7 @@ Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::M
   const TriangleMesh& mesh = space.x.mesh();
   const Quadrature& rule = divergence_rule(space);
   const Gradients gradients(space, rule);
-  Triplets entries;
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
+  return sum_strains(space.size(), mesh.triangle_count(), [&](int t) {
     const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
     const Eigen::VectorXi unknown = gradients.unknowns(t);
     Eigen::MatrixXd local = Eigen::MatrixXd::Zero(unknown.size(), unknown.size());
@@ -91,10 +53,8 @@ Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::M
       const Eigen::Matrix4Xd d = gradients.at(q, barycentric);
       local += rule.weights(q) * mesh.area(t) * d.transpose() * (mesh.region[t] == Region::body ? body : layer) * d;
     }
-    for (Eigen::Index i = 0; i < unknown.size(); ++i)
-      for (Eigen::Index j = 0; j < unknown.size(); ++j) entries.emplace_back(unknown(i), unknown(j), local(i, j));
-  }
-  return sum(space, entries);
+    return std::pair(unknown, local);
+  });
 }
 
 FactoredForm strain_rows(const VectorSpace& space, const std::vector<StrainRow>& strains,
@@ -102,9 +62,7 @@ FactoredForm strain_rows(const VectorSpace& space, const std::vector<StrainRow>&
   const TriangleMesh& mesh = space.x.mesh();
   const Quadrature& rule = divergence_rule(space);
   const Gradients gradients(space, rule);
-  FactoredForm b;
-  Triplets entries;
-  std::vector<double> weights;
+  RowsOfB rows;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (region && mesh.region[t] != *region) continue;
     const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
@@ -113,17 +71,13 @@ FactoredForm strain_rows(const VectorSpace& space, const std::vector<StrainRow>&
       const Eigen::Matrix4Xd d = gradients.at(q, barycentric);
       for (const StrainRow& row : strains) {
         const Eigen::RowVectorXd strain = row.strain * d;
+        rows.add(t, row.weight * rule.weights(q) * mesh.area(t));
         for (Eigen::Index i = 0; i < unknown.size(); ++i)
-          if (strain(i) != 0) entries.emplace_back(static_cast<int>(weights.size()), unknown(i), strain(i));
-        weights.push_back(row.weight * rule.weights(q) * mesh.area(t));
-        b.cell.push_back(t);
+          if (strain(i) != 0) rows.put(unknown(i), strain(i));
       }
     }
   }
-  b.m = Eigen::Map<const Eigen::VectorXd>(weights.data(), static_cast<Eigen::Index>(weights.size()));
-  b.b.resize(b.m.size(), space.size());
-  b.b.setFromTriplets(entries.begin(), entries.end());
-  return b;
+  return rows.form(space.size());
 }
 
 FactoredForm divergence(const VectorSpace& space) { return strain_rows(space, {{{1, 0, 0, 1}}}); }
@@ -143,7 +97,7 @@ Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, b
         for (const auto& [j, b] : step) entries.emplace_back(i, j, 2 * weight * a * b / 3);
     }
   }
-  return sum(space, entries);
+  return summed<SparseMatrix>(space.size(), space.size(), entries);
 }
 
 }  // namespace antilock

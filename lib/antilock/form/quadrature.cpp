@@ -35,28 +35,18 @@ Quadrature conical_rule(int degree) {
   return rule;
 }
 
+/// J. Radon, Zur mechanischen Kubatur, 1948
+Quadrature radons_rule() {
+  const double s = std::sqrt(15.0), a = (6 - s) / 21, b = (6 + s) / 21;
+  Quadrature rule{Eigen::MatrixX3d(7, 3), Eigen::VectorXd(7)};
+  rule.points << Eigen::RowVector3d::Constant(1.0 / 3), Eigen::Matrix3d::Constant(a), Eigen::Matrix3d::Constant(b);
+  rule.points.diagonal(-1).setConstant(1 - 2 * a);
+  rule.points.diagonal(-4).setConstant(1 - 2 * b);
+  rule.weights << 9.0 / 40, Eigen::Vector3d::Constant((155 - s) / 1200), Eigen::Vector3d::Constant((155 + s) / 1200);
+  return rule;
+}
+
 }  // namespace
-
-const Quadrature& radon_rule() {
-  static const Quadrature rule = [] {
-    // J. Radon, Zur mechanischen Kubatur, 1948
-    const double s = std::sqrt(15.0), a = (6 - s) / 21, b = (6 + s) / 21;
-    Quadrature q;
-    q.points.resize(7, 3);
-    q.points << 1.0 / 3, 1.0 / 3, 1.0 / 3, 1 - 2 * a, a, a, a, 1 - 2 * a, a, a, a, 1 - 2 * a, 1 - 2 * b, b, b, b,
-        1 - 2 * b, b, b, b, 1 - 2 * b;
-    q.weights.resize(7);
-    q.weights << 9.0 / 40, Eigen::Vector3d::Constant((155 - s) / 1200), Eigen::Vector3d::Constant((155 + s) / 1200);
-    return q;
-  }();
-  return rule;
-}
-
-const Quadrature& midpoint_rule() {
-  static const Quadrature rule{0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity()),
-                               Eigen::Vector3d::Constant(1.0 / 3)};
-  return rule;
-}
 
 const Quadrature& triangle_rule(int degree) {
   constexpr int most = 12;
@@ -65,13 +55,15 @@ const Quadrature& triangle_rule(int degree) {
   static const std::array<Quadrature, most + 1> rules = [] {
     std::array<Quadrature, most + 1> r;
     r[0] = r[1] = {Eigen::RowVector3d::Constant(1.0 / 3), Eigen::VectorXd::Ones(1)};
-    r[2] = midpoint_rule();
-    r[3] = r[4] = r[5] = radon_rule();
+    r[2] = {0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity()), Eigen::Vector3d::Constant(1.0 / 3)};
+    r[3] = r[4] = r[5] = radons_rule();
     for (int d = 6; d <= most; ++d) r[d] = conical_rule(d);
     return r;
   }();
   return rules[degree];
 }
+const Quadrature& midpoint_rule() { return triangle_rule(2); }
+const Quadrature& radon_rule() { return triangle_rule(5); }
 
 Eigen::VectorXd means_on_edge(const Element& element, int i) {
   const auto [places, weights] = gauss_rule(element.degree() / 2 + 1);

@@ -40,10 +40,6 @@ void check_fit(const Scene& scene, const Space& space) {
                     lowest, wanted));
 }
 
-}  // namespace
-
-namespace {
-
 /// The displacement that a group is given; below Sigma that of Sigma's end.
 double given(const EdgeCondition& edge, Region region, const Eigen::RowVector2d& x) {
   return edge.value(x(0), region == Region::layer ? 0 : x(1));
@@ -99,52 +95,41 @@ Eigen::VectorXd prescribed_values(const Scene& scene, const TriangleMesh& mesh) 
   return values;
 }
 
-Eigen::VectorXd contact_bounds(const UnilateralContact& contact, const Space& space) {
-  Eigen::VectorXd lower(static_cast<Eigen::Index>(space.contact().size()));
-  for (Eigen::Index i = 0; i < lower.size(); ++i) {
-    const double x = space.points()(space.contact()[i], 0), gap = contact.gap(x);
-    if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
-    lower(i) = -gap;
-  }
-  return lower;
-}
-
 VariationalInequality assemble(const Scene& scene, const Space& space) {
   check_fit(scene, space);
+  static_assert(std::variant_size_v<Layer> == 4, "what a new layer adds to A1 and to B stands here");
+  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
+  const auto* thin = std::get_if<ThinLayer>(&scene.layer());
+  const bool curved = space.mesh().curved();
+  Stiffness layer{0, 0};
+  if (stiff != nullptr) layer.x = curved ? 0 : stiff->s;       // a_x^- of (23)
+  if (thin != nullptr) layer.x = layer.y = 1 / thin->epsilon;  // mu / epsilon of (22)
+  const auto& [load, stiffness] = scene.body();
   VariationalInequality problem;
   problem.b.resize(0, space.size());
-  const auto& [load, stiffness] = scene.body();
   problem.load = load_vector(space, load);
-
-  if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
-    const bool curved = space.mesh().curved();
-    problem.a1 = gradient_form(space, {1, 1}, {curved ? 0 : stiff->s, 0}, stiffness);  // a+ + a_x^- of (23)
-    FactoredForm strain = layer_strain(space);                                         // a_y^-, factored
+  gradient_form(space, {1, 1}, layer, stiffness).swap(problem.a1);  // an assignment would copy the matrix
+  if (std::holds_alternative<VentcelLayer>(scene.layer())) problem.a1 += ventcel_form(space);
+  if (stiff != nullptr) {
+    FactoredForm strain = layer_strain(space);  // a_y^-, factored
     problem.b.swap(strain.b);
     problem.m = stiff->s * strain.m;
     if (curved) follow_normals(problem, *stiff, space);
     if (stiff->load) problem.load += load_vector(space, stiff->load, Region::layer);
     problem.compliance = compliance(*stiff);
-  } else if (const auto* thin = std::get_if<ThinLayer>(&scene.layer())) {
-    problem.a1 =
-        gradient_form(space, {1, 1}, {1 / thin->epsilon, 1 / thin->epsilon}, stiffness);  // mu / epsilon of (22)
-  } else {
-    static_assert(std::variant_size_v<Layer> == 4, "what a new layer adds to A1 and to B stands here");
-    problem.a1 = gradient_form(space, {1, 1}, {0, 0}, stiffness);
-    if (std::holds_alternative<VentcelLayer>(scene.layer())) problem.a1 += ventcel_form(space);
   }
 
   problem.fixed = space.clamped();
   problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
   add_edges(problem, scene, space);
   if (scene.contact()) {
+    const auto& [gap, held, ceiling] = *scene.contact();
     problem.contact = space.contact();
-    problem.lower = contact_bounds(*scene.contact(), space);
-    if (const Profile& ceiling = scene.contact()->ceiling) {
-      problem.upper.resize(problem.lower.size());
-      for (Eigen::Index i = 0; i < problem.upper.size(); ++i)
-        problem.upper(i) = ceiling(space.points()(space.contact()[i], 0));
-    }
+    const Eigen::VectorXd x = space.points().col(0)(problem.contact);
+    problem.lower = -x.unaryExpr(gap);
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      if (!std::isfinite(problem.lower(i))) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
+    if (ceiling) problem.upper = x.unaryExpr(ceiling);
   }
   return problem;
 }

@@ -6,8 +6,8 @@
 namespace antilock {
 
 /// Fills the class's problem for a scene on its space: (23)/(24) for a stiff layer, (22) for a thin one, (25) for
-/// Ventcel, the Laplacian alone without a layer; bounds on Gamma_C with contact. Throws Error where mesh and scene do
-/// not fit.
+/// Ventcel, the Laplacian alone without a layer; bounds u >= -gap(x) on Gamma_C with contact. Throws Error where mesh
+/// and scene do not fit, and where the gap is not finite.
 VariationalInequality assemble(const Scene& scene, const Space& space);
 
 /// The class parameter of (1), which in (23) is the square of the paper's epsilon. The one place that says so.
@@ -15,7 +15,5 @@ double compliance(const StiffLayer& layer);
 /// V values: what is given at the ends of held edges, 0 elsewhere. On the side of a layer it is what is given above, on y =
 /// 0.
 Eigen::VectorXd prescribed_values(const Scene& scene, const TriangleMesh& mesh);
-/// C bounds u >= -gap(x), one a contact unknown of the space. Throws Error where the gap is not finite.
-Eigen::VectorXd contact_bounds(const UnilateralContact& contact, const Space& space);
 
 }  // namespace antilock

@@ -67,23 +67,18 @@ void add_press(VariationalInequality& problem, const Press& press, const VectorS
   problem.load = Eigen::VectorXd::Zero(space.size());
 
   std::map<int, double> fixed;
-  for (const int i : space.x.clamped()) {
+  for (int i = 0; press.sliding && i < space.x.size(); ++i)
+    if (space.x.points()(i, 0) == 0) fixed[i] = 0;
+  for (const int i : space.x.clamped())
     if (!press.sliding) fixed[i] = 0;
-  }
-  if (press.sliding)
-    for (int i = 0; i < space.x.size(); ++i)
-      if (space.x.points()(i, 0) == 0) fixed[i] = 0;
   for (const int i : space.y.clamped()) fixed[shift + i] = -press.push;
   problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()));
   for (const auto& [i, value] : fixed) {
     problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
     problem.fixed.push_back(i);
   }
-  problem.lower.resize(static_cast<Eigen::Index>(space.y.contact().size()));
-  for (const int i : space.y.contact()) {
-    problem.lower(static_cast<Eigen::Index>(problem.contact.size())) = -press.gap(space.y.points()(i, 0));
-    problem.contact.push_back(shift + i);
-  }
+  for (const int i : space.y.contact()) problem.contact.push_back(shift + i);
+  problem.lower = -space.y.points().col(0)(space.y.contact()).unaryExpr(press.gap);
   if (press.friction) add_friction(problem, press.friction, space.x);
 }
 
@@ -91,7 +86,7 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   if (!(scene.epsilon >= 0 && scene.epsilon <= 1))
     throw Error(fmt::format("plane strain: epsilon = 1/lambda = {}; accepted 0 to 1", scene.epsilon));
   VariationalInequality problem;
-  problem.a1 = strain_form(space);
+  strain_form(space).swap(problem.a1);
   FactoredForm div = divergence(space);
   if (scene.continuous_pressure) div = averaged(div, vertex_shares(space.x.mesh(), div, divergence_rule(space)));
   problem.b.swap(div.b);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "antilock/core/error.hpp"
+#include "antilock/form/detail/sparse_assembly.hpp"
 
 namespace antilock {
 namespace {
@@ -26,8 +27,8 @@ VariationalInequality assemble(const Beam& beam) {
   const auto theta = [](int node) { return 2 * node + 1; };
 
   VariationalInequality problem;
-  std::vector<Eigen::Triplet<double>> a1, b;
-  std::vector<double> m;
+  Triplets a1;
+  RowsOfB rows;
   problem.load = Eigen::VectorXd::Zero(2 * n + 2);
   const double s = 0.5 / std::sqrt(3.0);
   const std::vector<double> points =
@@ -38,21 +39,19 @@ VariationalInequality assemble(const Beam& beam) {
       for (const int k : {i, i + 1}) a1.emplace_back(theta(j), theta(k), (j == k ? 1 : -1) / h);
     // a row of B is w' - theta at a point of the cell
     for (const double x : points) {
-      const int row = static_cast<int>(m.size());
-      b.emplace_back(row, w(i), -1 / h);
-      b.emplace_back(row, w(i + 1), 1 / h);
-      b.emplace_back(row, theta(i), -(1 - x));
-      b.emplace_back(row, theta(i + 1), -x);
-      m.push_back(h / static_cast<double>(points.size()));
+      rows.add(i, h / static_cast<double>(points.size()));
+      rows.put(w(i), -1 / h);
+      rows.put(w(i + 1), 1 / h);
+      rows.put(theta(i), -(1 - x));
+      rows.put(theta(i + 1), -x);
     }
     problem.load(w(i)) -= 0.5 * h * beam.load;
     problem.load(w(i + 1)) -= 0.5 * h * beam.load;
   }
-  problem.a1.resize(2 * n + 2, 2 * n + 2);
-  problem.a1.setFromTriplets(a1.begin(), a1.end());
-  problem.m = Eigen::Map<const Eigen::VectorXd>(m.data(), static_cast<Eigen::Index>(m.size()));
-  problem.b.resize(problem.m.size(), 2 * n + 2);
-  problem.b.setFromTriplets(b.begin(), b.end());
+  problem.a1 = summed<SparseMatrix>(2 * n + 2, 2 * n + 2, a1);
+  FactoredForm strain = rows.form(2 * n + 2);
+  problem.b.swap(strain.b);
+  problem.m.swap(strain.m);
   problem.compliance = beam.epsilon;  // here the class parameter is epsilon itself
   problem.fixed = {w(0), theta(0), w(n), theta(n)};
   problem.fixed_values = Eigen::VectorXd::Zero(4);

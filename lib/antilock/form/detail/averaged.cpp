@@ -6,23 +6,10 @@
 #include <map>
 
 #include "antilock/core/error.hpp"
-#include "antilock/space/space.hpp"
+#include "antilock/form/detail/sparse_assembly.hpp"
 
 namespace antilock {
 namespace {
-
-/// Numbers the groups in the order of their keys, so that the means do not depend on the order of the rows.
-Shares one_group_per_row(const std::vector<std::pair<long, long>>& key) {
-  std::map<std::pair<long, long>, int> group;
-  for (const auto& k : key) group.emplace(k, 0);
-  int groups = 0;
-  for (auto& [k, number] : group) number = groups++;
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t r = 0; r < key.size(); ++r) entries.emplace_back(group[key[r]], static_cast<int>(r), 1.0);
-  Shares shares(groups, static_cast<Eigen::Index>(key.size()));
-  shares.setFromTriplets(entries.begin(), entries.end());
-  return shares;
-}
 
 void check_shares(const FactoredForm& form, const Shares& shares) {
   if (shares.cols() != form.b.rows())
@@ -81,7 +68,14 @@ Shares box_shares(const TriangleMesh& mesh, const FactoredForm& form, double wid
     const Eigen::Vector2d at = point_in(mesh, t, Eigen::Vector3d::Constant(1.0 / 3)) - from.transpose();
     box.emplace_back(static_cast<long>(at(0) / width), static_cast<long>(at(1) / height));
   }
-  return one_group_per_row(box);
+  // numbered in the order of their places, so that the means do not depend on the order of the rows
+  std::map<std::pair<long, long>, int> mean;
+  for (const auto& place : box) mean[place] = 0;
+  int means = 0;
+  for (auto& [place, number] : mean) number = means++;
+  Triplets entries;
+  for (std::size_t r = 0; r < box.size(); ++r) entries.emplace_back(mean[box[r]], static_cast<int>(r), 1.0);
+  return summed<Shares>(means, form.b.rows(), entries);
 }
 
 Shares vertex_shares(const TriangleMesh& mesh, const FactoredForm& form, const Quadrature& rule) {
@@ -99,14 +93,12 @@ Shares vertex_shares(const TriangleMesh& mesh, const FactoredForm& form, const Q
   int means = 0;
   for (int& number : mean)
     if (number == 0) number = means++;
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (std::size_t r = 0; r < form.cell.size(); ++r)
     for (int i = 0; i < 3; ++i)
       entries.emplace_back(mean[mesh.triangles(form.cell[r], i)], static_cast<int>(r),
                            rule.points(static_cast<Eigen::Index>(r % points), i));
-  Shares shares(means, form.b.rows());
-  shares.setFromTriplets(entries.begin(), entries.end());
-  return shares;
+  return summed<Shares>(means, form.b.rows(), entries);
 }
 
 }  // namespace antilock

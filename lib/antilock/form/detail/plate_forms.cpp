@@ -3,86 +3,36 @@
 #include <algorithm>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/form/detail/strains.hpp"
+#include "antilock/form/elasticity_forms.hpp"
 
 namespace antilock {
 namespace {
-
-using PlateEntries = std::vector<Eigen::Triplet<double>>;
-
-/// The basis of the rotation on a triangle at one point: its unknowns, their values (0 for the bubbles 6 lambda_j lambda_k
-/// of the edges, whose shear has rows of its own), and strains xx, yy, 2 xy.
-struct Rotations {
-  Eigen::VectorXi unknown;
-  Eigen::MatrixX2d value;
-  Eigen::MatrixX3d strain;
-};
 
 /// The unit tangent of an edge, from its smaller vertex to its larger.
 Eigen::RowVector2d tangent(const TriangleMesh& mesh, int e) {
   return (mesh.vertices.row(mesh.edges(e, 1)) - mesh.vertices.row(mesh.edges(e, 0))) / mesh.edge_length(e);
 }
 
-Rotations rotations(const PlateSpace& space, int t, const Eigen::Vector3d& lambda) {
-  const TriangleMesh& mesh = space.mesh();
-  const Element& element = space.rotation.x.element();
-  const Eigen::Matrix<double, 3, 2> to_xy = barycentric_gradients(mesh, t);
-  const Eigen::VectorXd phi = element.basis(lambda);
-  const Eigen::MatrixX2d gradient = element.derivative(lambda) * to_xy;
-  const Eigen::Index m = phi.size(), edges = space.shear == ShearRule::edges ? 3 : 0;
-  Rotations r{Eigen::VectorXi(2 * m + edges), Eigen::MatrixX2d::Zero(2 * m + edges, 2),
-              Eigen::MatrixX3d::Zero(2 * m + edges, 3)};
-  r.unknown.head(m) = space.rotation.x.unknowns().row(t).transpose().array() + space.theta_x();
-  r.unknown.segment(m, m) = space.rotation.y.unknowns().row(t).transpose().array() + space.theta_y();
-  r.value.col(0).head(m) = r.value.col(1).segment(m, m) = phi;
-  r.strain.col(0).head(m) = r.strain.col(2).segment(m, m) = gradient.col(0);
-  r.strain.col(1).segment(m, m) = r.strain.col(2).head(m) = gradient.col(1);
-  for (int i = 0; i < edges; ++i) {
-    const int e = mesh.triangle_edges(t, i), j = (i + 1) % 3, k = (i + 2) % 3;
-    const Eigen::RowVector2d along = tangent(mesh, e);
-    const Eigen::RowVector2d slope = 6 * (lambda(j) * to_xy.row(k) + lambda(k) * to_xy.row(j));
-    r.unknown(2 * m + i) = space.on_edges() + e;
-    r.strain.row(2 * m + i) << slope(0) * along(0), slope(1) * along(1), slope(0) * along(1) + slope(1) * along(0);
-  }
-  return r;
-}
-
-const Quadrature& bending_rule(const PlateSpace& space) {
-  return triangle_rule(2 *
-                       (std::max(space.rotation.x.element().degree(), space.shear == ShearRule::edges ? 2 : 1) - 1));
-}
-
-/// The rows of B and the entries of M while they are collected.
-struct ShearRows {
-  PlateEntries b;
-  std::vector<double> m;
-  std::vector<int> cell;
-
-  void add(int t, double weight) {
-    m.push_back(weight);
-    cell.push_back(t);
-  }
-  void put(int unknown, double value) { b.emplace_back(static_cast<int>(m.size()) - 1, unknown, value); }
-};
-
 /// Both components of grad w - theta, theta averaged with a rule.
-void add_strain(ShearRows& rows, const PlateSpace& space, int t, const Quadrature& rule, double weight) {
+void add_strain(RowsOfB& rows, const PlateSpace& space, int t, const Quadrature& rule, double weight) {
   const Eigen::MatrixX2d slope = space.deflection.element().derivative(Eigen::Vector3d::Constant(1.0 / 3)) *
                                  barycentric_gradients(space.mesh(), t);
-  for (int c = 0; c < 2; ++c) {
+  const Space& rotation = space.rotation.x;
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(rotation.element().unknowns());  // of the basis of the rotation
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+    mean += rule.weights(q) * rotation.element().basis(rule.points.row(q));
+  for (const int c : {0, 1}) {
     rows.add(t, weight);
     for (int i = 0; i < 3; ++i) rows.put(space.deflection.unknowns()(t, i), slope(i, c));
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Rotations r = rotations(space, t, rule.points.row(q));
-      for (Eigen::Index i = 0; i < r.unknown.size(); ++i)
-        if (r.value(i, c) != 0) rows.put(r.unknown(i), -rule.weights(q) * r.value(i, c));
-    }
+    for (Eigen::Index i = 0; i < mean.size(); ++i)
+      if (mean(i) != 0) rows.put((c == 0 ? space.theta_x() : space.theta_y()) + rotation.unknowns()(t, i), -mean(i));
   }
 }
 
 /// The Nedelec field of the edge integrals g_i of the strain: at the centroid sum g_i (grad lambda_k - grad lambda_j)/3,
 /// b = circulation / (2 area).
-void add_edge_field(ShearRows& rows, const PlateSpace& space, int t) {
+void add_edge_field(RowsOfB& rows, const PlateSpace& space, int t) {
   const TriangleMesh& mesh = space.mesh();
   const Eigen::Matrix<double, 3, 2> gradient = barycentric_gradients(mesh, t);
   const double area = mesh.area(t);
@@ -126,31 +76,39 @@ void check_elements(const PlateSpace& space) {
 SparseMatrix bending_form(const PlateSpace& space, double poisson) {
   check_elements(space);
   const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = bending_rule(space);
-  Eigen::Matrix3d stiffness;
-  stiffness << 1, poisson, 0, poisson, 1, 0, 0, 0, (1 - poisson) / 2;
-  PlateEntries entries;
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    Eigen::MatrixXd local;
-    Eigen::VectorXi unknown;
+  // the bubbles 6 lambda_j lambda_k of the edges are rotations, too
+  const int bubbles = space.shear == ShearRule::edges ? 3 : 0;
+  const int degree = std::max(space.rotation.x.element().degree(), bubbles > 0 ? 2 : 1);
+  const Quadrature& rule = triangle_rule(2 * (degree - 1));
+  const Gradients rotation(space.rotation, rule);
+  const Eigen::Matrix4d stiffness = Lame{poisson, (1 - poisson) / 2}.matrix();
+  return sum_strains(space.size(), mesh.triangle_count(), [&](int t) {
+    const Eigen::Matrix<double, 3, 2> to_xy = barycentric_gradients(mesh, t);
+    const Eigen::VectorXi own = rotation.unknowns(t);
+    const Eigen::Index all = own.size() + bubbles;
+    Eigen::VectorXi unknown(all);
+    unknown.head(own.size()) = own.array() + space.theta_x();
+    unknown.tail(bubbles) = mesh.triangle_edges.row(t).head(bubbles).transpose().array() + space.on_edges();
+    Eigen::MatrixXd local = Eigen::MatrixXd::Zero(all, all);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Rotations r = rotations(space, t, rule.points.row(q));
-      if (q == 0) local.setZero(r.unknown.size(), r.unknown.size());
-      local += rule.weights(q) * mesh.area(t) * r.strain * stiffness * r.strain.transpose();
-      unknown = r.unknown;
+      Eigen::Matrix4Xd d(4, all);
+      d.leftCols(own.size()) = rotation.at(q, to_xy);
+      for (int i = 0; i < bubbles; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        const Eigen::RowVector2d slope = 6 * (rule.points(q, j) * to_xy.row(k) + rule.points(q, k) * to_xy.row(j)),
+                                 along = tangent(mesh, mesh.triangle_edges(t, i));
+        d.col(own.size() + i) << along(0) * slope.transpose(), along(1) * slope.transpose();
+      }
+      local += rule.weights(q) * mesh.area(t) * d.transpose() * stiffness * d;
     }
-    for (Eigen::Index i = 0; i < unknown.size(); ++i)
-      for (Eigen::Index j = 0; j < unknown.size(); ++j) entries.emplace_back(unknown(i), unknown(j), local(i, j));
-  }
-  SparseMatrix matrix(space.size(), space.size());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+    return std::pair(unknown, local);
+  });
 }
 
 FactoredForm shear_form(const PlateSpace& space) {
   check_elements(space);
   const TriangleMesh& mesh = space.mesh();
-  ShearRows rows;
+  RowsOfB rows;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (space.shear == ShearRule::edges) add_edge_field(rows, space, t);
     if (space.shear == ShearRule::mean)
@@ -159,12 +117,7 @@ FactoredForm shear_form(const PlateSpace& space) {
       for (int q = 0; q < 3; ++q)
         add_strain(rows, space, t, {midpoint_rule().points.row(q), Eigen::VectorXd::Ones(1)}, mesh.area(t) / 3);
   }
-  FactoredForm form;
-  form.m = Eigen::Map<const Eigen::VectorXd>(rows.m.data(), static_cast<Eigen::Index>(rows.m.size()));
-  form.cell = std::move(rows.cell);
-  form.b.resize(form.m.size(), space.size());
-  form.b.setFromTriplets(rows.b.begin(), rows.b.end());
-  return form;
+  return rows.form(space.size());
 }
 
 }  // namespace antilock

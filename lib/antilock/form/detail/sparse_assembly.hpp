@@ -4,9 +4,41 @@
 #include <algorithm>
 #include <vector>
 
+#include "antilock/form/detail/factored_form.hpp"
 #include "antilock/space/space.hpp"
 
 namespace antilock {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// The matrix with the sums of the entries at each place.
+template <class Matrix>
+Matrix summed(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
+  Matrix matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// A factored form while it is collected row by row.
+class RowsOfB {
+ public:
+  /// A new row, of this cell and with this entry of M.
+  void add(int cell, double weight) {
+    cell_.push_back(cell);
+    m_.push_back(weight);
+  }
+  /// An entry of the newest row of B.
+  void put(int unknown, double value) { b_.emplace_back(static_cast<int>(m_.size()) - 1, unknown, value); }
+  FactoredForm form(int unknowns) const {
+    const auto rows = static_cast<Eigen::Index>(m_.size());
+    return {summed<RowMatrix>(rows, unknowns, b_), Eigen::Map<const Eigen::VectorXd>(m_.data(), rows), cell_};
+  }
+
+ private:
+  Triplets b_;
+  std::vector<double> m_;
+  std::vector<int> cell_;
+};
 
 /// Where each column of a matrix of the space begins, and where the last one ends: its rows are the unknowns that share a
 /// triangle with it. They sit on the vertices, edges and triangles around the column's own, which the mesh counts.

@@ -1,0 +1,51 @@
+#pragma once
+#include "antilock/form/detail/sparse_assembly.hpp"
+#include "antilock/form/quadrature.hpp"
+#include "antilock/space/detail/vector_space.hpp"
+
+namespace antilock {
+
+/// The derivatives (u_x, u_y, v_x, v_y) of the bases of both components on a triangle, at the points of a rule.
+class Gradients {
+ public:
+  Gradients(const VectorSpace& space, const Quadrature& rule)
+      : space_(space), m_(space.x.element().unknowns()), n_(space.y.element().unknowns()) {
+    for (const auto point : rule.points.rowwise()) {
+      of_x_.push_back(space.x.element().derivative(point));
+      of_y_.push_back(space.y.element().derivative(point));
+    }
+  }
+  /// The unknowns behind the columns, in the whole vector.
+  Eigen::VectorXi unknowns(int t) const {
+    Eigen::VectorXi both(m_ + n_);
+    both << space_.x.unknowns().row(t).transpose(),
+        (space_.y.unknowns().row(t).transpose().array() + space_.x.size()).matrix();
+    return both;
+  }
+  /// 4 x (m + n)
+  Eigen::Matrix4Xd at(Eigen::Index q, const Eigen::Matrix<double, 3, 2>& barycentric) const {
+    Eigen::Matrix4Xd d = Eigen::Matrix4Xd::Zero(4, m_ + n_);
+    d.topLeftCorner(2, m_) = (of_x_[q] * barycentric).transpose();
+    d.bottomRightCorner(2, n_) = (of_y_[q] * barycentric).transpose();
+    return d;
+  }
+
+ private:
+  const VectorSpace& space_;
+  int m_, n_;
+  std::vector<Eigen::MatrixX3d> of_x_, of_y_;  ///< by the barycentric coordinates, the same on every triangle
+};
+
+/// The sum of the element matrices that `local(t)` gives with the unknowns behind their rows and columns.
+template <class Local>
+SparseMatrix sum_strains(int size, int triangles, Local&& local) {
+  Triplets entries;
+  for (int t = 0; t < triangles; ++t) {
+    const auto [unknown, matrix] = local(t);
+    for (Eigen::Index i = 0; i < unknown.size(); ++i)
+      for (Eigen::Index j = 0; j < unknown.size(); ++j) entries.emplace_back(unknown(i), unknown(j), matrix(i, j));
+  }
+  return summed<SparseMatrix>(size, size, entries);
+}
+
+}  // namespace antilock

@@ -1,0 +1,116 @@
+// The forms of (23) and the norm: integrals of products of gradients.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "antilock/core/error.hpp"
+#include "antilock/form/detail/sparse_assembly.hpp"
+#include "antilock/form/forms.hpp"
+#include "antilock/form/h1_norm.hpp"
+
+namespace antilock {
+namespace {
+
+std::vector<Eigen::MatrixX3d> derivatives_at(const Element& element, const Quadrature& rule) {
+  std::vector<Eigen::MatrixX3d> derivatives;
+  for (const auto point : rule.points.rowwise()) derivatives.push_back(element.derivative(point));
+  return derivatives;
+}
+
+}  // namespace
+
+double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle) {
+  if (!of_body) return 1;
+  const Eigen::Vector2d x = point_in(mesh, triangle, Eigen::Vector3d::Constant(1.0 / 3));
+  const double factor = of_body(x(0), x(1));
+  if (!(factor > 0 && std::isfinite(factor)))
+    throw Error(fmt::format("stiffness({:.6g}, {:.6g}) = {}; accepted: a positive number", x(0), x(1), factor));
+  return factor;
+}
+
+const Quadrature& strain_rule(const Element& element) { return triangle_rule(2 * (element.degree() - 1)); }
+
+Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer,
+                                          const Field& of_body) {
+  const TriangleMesh& mesh = space.mesh();
+  const Element& element = space.element();
+  const Quadrature& rule = strain_rule(element);
+  const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
+  const auto stiffness_of = [&](int t) -> Stiffness {
+    if (mesh.region[t] == Region::layer) return layer;
+    const double factor = stiffness_on(of_body, mesh, t);
+    return {factor * body.x, factor * body.y};
+  };
+  const auto add = [](auto& matrix, double weight, const Stiffness& stiffness, const auto& gradient) {
+    matrix += weight * stiffness.x * gradient.col(0) * gradient.col(0).transpose() +
+              weight * stiffness.y * gradient.col(1) * gradient.col(1).transpose();
+  };
+  if (element.degree() == 1) {  // one point, matrices of a fixed size
+    const Eigen::Matrix3d derivative = derivatives[0];
+    return sum_element_matrices(space, [&](int t) {
+      const Eigen::Matrix<double, 3, 2> gradient = derivative * barycentric_gradients(mesh, t);
+      Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+      add(matrix, mesh.area(t), stiffness_of(t), gradient);
+      return matrix;
+    });
+  }
+  return sum_element_matrices(space, [&](int t) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(element.unknowns(), element.unknowns());
+    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+    const Stiffness stiffness = stiffness_of(t);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+      add(matrix, rule.weights(q) * mesh.area(t), stiffness, Eigen::MatrixX2d(derivatives[q] * lambda));
+    return matrix;
+  });
+}
+
+FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int)>& direction) {
+  const TriangleMesh& mesh = space.mesh();
+  const Element& element = space.element();
+  const Quadrature& rule = strain_rule(element);
+  const auto points = rule.weights.size(), m = static_cast<Eigen::Index>(element.unknowns());
+  const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
+
+  FactoredForm strain;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.region[t] == Region::layer) strain.cell.insert(strain.cell.end(), points, t);
+  const auto rows = static_cast<Eigen::Index>(strain.cell.size());
+  strain.m.resize(rows);
+  strain.b.resize(rows, space.size());
+  strain.b.resizeNonZeros(rows * m);
+  strain.b.outerIndexPtr()[0] = 0;
+  Eigen::VectorXd dy(m);
+  std::vector<std::pair<int, double>> row(m);
+  for (Eigen::Index r = 0; r < rows; ++r) {
+    const int t = strain.cell[r];
+    const Eigen::Index q = r % points;
+    strain.m(r) = rule.weights(q) * mesh.area(t);
+    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+    const Eigen::Vector3d slope = direction ? Eigen::Vector3d(lambda * direction(t)) : Eigen::Vector3d(lambda.col(1));
+    dy.noalias() = derivatives[q] * slope;
+    for (Eigen::Index i = 0; i < m; ++i) row[i] = {space.unknowns()(t, i), dy(i)};
+    std::sort(row.begin(), row.end());
+    for (Eigen::Index i = 0; i < m; ++i) {
+      strain.b.innerIndexPtr()[r * m + i] = row[i].first;
+      strain.b.valuePtr()[r * m + i] = row[i].second;
+    }
+    strain.b.outerIndexPtr()[r + 1] = static_cast<int>((r + 1) * m);
+  }
+  return strain;
+}
+
+Eigen::SparseMatrix<double> h1_norm(const Space& space) {
+  const Quadrature& rule = triangle_rule(2 * space.element().degree());
+  // int phi_i phi_j is the same on every triangle but for the area
+  const Eigen::Index m = space.element().unknowns();
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(m, m);
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+    const Eigen::VectorXd basis = space.element().basis(rule.points.row(q));
+    unit += rule.weights(q) * basis * basis.transpose();
+  }
+  const Eigen::SparseMatrix<double> mass =
+      sum_element_matrices(space, [&](int t) -> Eigen::MatrixXd { return space.mesh().area(t) * unit; });
+  return mass + gradient_form(space, {1, 1}, {1, 1});
+}
+
+}  // namespace antilock
