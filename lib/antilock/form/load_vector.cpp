@@ -5,7 +5,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/form/quadrature.hpp"
+#include "antilock/scene/detail/block_field.hpp"
 
 namespace antilock {
 
@@ -18,19 +18,18 @@ Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
   Eigen::MatrixXd weighted(space.element().unknowns(), points.cols());  // the basis at the points, times their weights
   for (Eigen::Index q = 0; q < points.cols(); ++q)
     weighted.col(q) = rule.weights(q) * space.element().basis(points.col(q));
-  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size()), local(weighted.rows());
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size()), values(points.cols()), local(weighted.rows());
   Eigen::Matrix<double, 2, 3> corners;
+  Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> x(2, points.cols());
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != region) continue;
     for (int i = 0; i < 3; ++i) corners.col(i) = mesh.vertices.row(mesh.triangles(t, i));
-    local.setZero();
-    for (Eigen::Index q = 0; q < points.cols(); ++q) {
-      const Eigen::Vector2d x = corners * points.col(q);
-      const double value = f(x(0), x(1));
-      if (!std::isfinite(value)) throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0), x(1)));
-      local += value * weighted.col(q);
-    }
-    local *= mesh.area(t);
+    x = corners.lazyProduct(points);
+    evaluate(f, x, values);
+    for (Eigen::Index q = 0; q < values.size(); ++q)
+      if (!std::isfinite(values(q)))
+        throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0, q), x(1, q)));
+    local.noalias() = mesh.area(t) * weighted.lazyProduct(values);
     for (Eigen::Index i = 0; i < local.size(); ++i) load(space.unknowns()(t, i)) += local(i);
   }
   return load;

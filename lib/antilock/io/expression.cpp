@@ -6,6 +6,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string_view>
 
@@ -41,29 +42,16 @@ constexpr std::array<Operator, 13> operators{{{"||", 1, [](double a, double b) {
                                               {"/", 5, [](double a, double b) { return a / b; }},
                                               {"^", power_binds, [](double a, double b) { return std::pow(a, b); }}}};
 
-constexpr std::array<std::pair<std::string_view, One>, 18> functions{
-    {{"sin", std::sin},
-     {"cos", std::cos},
-     {"tan", std::tan},
-     {"asin", std::asin},
-     {"acos", std::acos},
-     {"atan", std::atan},
-     {"sinh", std::sinh},
-     {"cosh", std::cosh},
-     {"tanh", std::tanh},
-     {"exp", std::exp},
-     {"ln", std::log},
-     {"log", std::log},
-     {"log2", std::log2},
-     {"log10", std::log10},
-     {"sqrt", std::sqrt},
-     {"abs", std::fabs},
-     {"sign", [](double a) { return double(a > 0) - double(a < 0); }},
-     {"rint", [](double a) { return std::floor(a + 0.5); }}}};
-constexpr std::array<std::pair<std::string_view, Two>, 3> functions_of_two{
-    {{"min", [](double a, double b) { return std::min(a, b); }},
-     {"max", [](double a, double b) { return std::max(a, b); }},
-     {"atan2", std::atan2}}};
+double sign_of(double a) { return double(a > 0) - double(a < 0); }
+double half_up(double a) { return std::floor(a + 0.5); }
+const std::map<std::string_view, One> functions{
+    {"sin", std::sin},   {"cos", std::cos},   {"tan", std::tan},   {"asin", std::asin},   {"acos", std::acos},
+    {"atan", std::atan}, {"sinh", std::sinh}, {"cosh", std::cosh}, {"tanh", std::tanh},   {"exp", std::exp},
+    {"ln", std::log},    {"log", std::log},   {"log2", std::log2}, {"log10", std::log10}, {"sqrt", std::sqrt},
+    {"abs", std::fabs},  {"sign", sign_of},   {"rint", half_up}};
+const std::map<std::string_view, Two> functions_of_two{{"min", [](double a, double b) { return std::min(a, b); }},
+                                                       {"max", [](double a, double b) { return std::max(a, b); }},
+                                                       {"atan2", std::atan2}};
 
 /// A formula is a list of steps on a stack of values.
 struct Step {
@@ -170,10 +158,9 @@ class Reader {
     }
   }
   void name(std::string_view name) {
-    const auto is = [&](const auto& pair) { return pair.first == name; };
     const auto variable = std::find(names_.begin(), names_.end(), name);
-    const auto* const function = std::find_if(functions.begin(), functions.end(), is);
-    const auto* const of_two = std::find_if(functions_of_two.begin(), functions_of_two.end(), is);
+    const auto function = functions.find(name);
+    const auto of_two = functions_of_two.find(name);
     if (variable == names_.end() && name != "pi" && function == functions.end() && of_two == functions_of_two.end())
       fail(fmt::format("\"{}\" is unknown", printable(std::string(name))));
     at_ += name.size();
@@ -206,33 +193,39 @@ class Reader {
   int nested_ = 0;
 };
 
-double run(const std::vector<Step>& steps, std::span<const double> values) {
-  std::array<double, 2 * most_nested + 1> stack;  // a left side and a first argument wait per level at most
-  double* top = stack.data();                     // behind the last value
+constexpr std::size_t most_at_once = 8;
+
+/// The values at `count` points, at most most_at_once, or at one where the steps jump; variable v is variables[v * stride + k]
+/// at point k.
+void run(const std::vector<Step>& steps, const double* variables, std::size_t stride, std::size_t count,
+         double* values) {
+  // a left side and a first argument wait per level at most
+  std::array<std::array<double, most_at_once>, 2 * most_nested + 1> stack;
+  auto* top = stack.data();  // behind the last value
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Step& step = steps[i];
     switch (step.kind) {
       case Step::number:
-        *top++ = step.value;
+        (top++)->fill(step.value);
         break;
       case Step::variable:
-        *top++ = values[static_cast<std::size_t>(step.at)];
+        std::copy_n(variables + static_cast<std::size_t>(step.at) * stride, count, (top++)->begin());
         break;
       case Step::one:
-        top[-1] = step.of_one(top[-1]);
+        for (std::size_t k = 0; k < count; ++k) top[-1][k] = step.of_one(top[-1][k]);
         break;
       case Step::two:
         --top;
-        top[-1] = step.of_two(top[-1], top[0]);
+        for (std::size_t k = 0; k < count; ++k) top[-1][k] = step.of_two(top[-1][k], top[0][k]);
         break;
       case Step::jump_unless:
-        if (*--top == 0) i = static_cast<std::size_t>(step.at) - 1;
+        if ((--top)->front() == 0) i = static_cast<std::size_t>(step.at) - 1;
         break;
       case Step::jump:
         i = static_cast<std::size_t>(step.at) - 1;
     }
   }
-  return stack[0];
+  std::copy_n(stack[0].begin(), count, values);
 }
 
 }  // namespace
@@ -248,6 +241,7 @@ struct Expression::Parser {
   std::string text;
   std::vector<std::string> names;
   std::vector<Step> steps;
+  std::size_t at_once;
 };
 
 Expression::Expression(const std::string& text, const std::vector<std::string>& variables) {
@@ -260,24 +254,37 @@ Expression::Expression(const std::string& text, const std::vector<std::string>& 
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) refuse("is empty");
   if (text.size() > longest_text) refuse(fmt::format("is longer than {} characters", longest_text));
   try {
-    parser_ = std::make_shared<const Parser>(Parser{text, variables, Reader(text, variables).read()});
+    std::vector<Step> steps = Reader(text, variables).read();
+    const bool jumps =
+        std::any_of(steps.begin(), steps.end(), [](const Step& s) { return s.kind >= Step::jump_unless; });
+    parser_ = std::make_shared<const Parser>(Parser{text, variables, std::move(steps), jumps ? 1 : most_at_once});
   } catch (const Error& error) {
     refuse(std::string("does not parse: ") + error.what());
   }
 }
 
-double Expression::operator()(std::span<const double> values) const {
-  if (values.size() != parser_->names.size())
+void Expression::operator()(std::span<const double> variables, std::span<double> values) const {
+  const auto& [text, names, steps, at_once] = *parser_;
+  const std::size_t points = values.size();
+  if (variables.size() != names.size() * points)
     throw Error(
-        fmt::format("\"{}\" takes {} values, not {}", printable(parser_->text), parser_->names.size(), values.size()));
-  const double value = run(parser_->steps, values);
-  if (!(std::abs(value) <= largest_value)) {
+        fmt::format("\"{}\" takes {} values, not {}", printable(text), names.size() * points, variables.size()));
+  for (std::size_t k = 0; k < points; k += at_once)
+    run(steps, variables.data() + k, points, std::min(at_once, points - k), values.data() + k);
+  for (std::size_t k = 0; k < points; ++k) {
+    if (std::abs(values[k]) <= largest_value) continue;
     std::string place;
-    for (std::size_t i = 0; i < values.size(); ++i)
-      place += fmt::format("{}{} = {:.6g}", i > 0 ? ", " : "", parser_->names[i], values[i]);
-    throw Error(fmt::format("\"{}\" is {} at {}; accepted: finite values, none beyond {:g}", printable(parser_->text),
-                            std::isfinite(value) ? fmt::format("{:g}", value) : "not finite", place, largest_value));
+    for (std::size_t i = 0; i < names.size(); ++i)
+      place += fmt::format("{}{} = {:.6g}", i > 0 ? ", " : "", names[i], variables[i * points + k]);
+    throw Error(fmt::format("\"{}\" is {} at {}; accepted: finite values, none beyond {:g}", printable(text),
+                            std::isfinite(values[k]) ? fmt::format("{:g}", values[k]) : "not finite", place,
+                            largest_value));
   }
+}
+
+double Expression::operator()(std::span<const double> variables) const {
+  double value = 0;
+  (*this)(variables, {&value, 1});
   return value;
 }
 

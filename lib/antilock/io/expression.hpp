@@ -16,8 +16,11 @@ class Expression {
   /// that does not parse, or that names anything unknown.
   Expression(const std::string& text, const std::vector<std::string>& variables);
 
-  /// The value at one number per variable. Throws Error, with the place, where it is not finite or beyond 1e100.
-  double operator()(std::span<const double> values) const;
+  /// The values at many points: `variables` has all numbers of the first variable, one per point, then those of the next.
+  /// Throws Error, with the place, where one is not finite or beyond 1e100.
+  void operator()(std::span<const double> variables, std::span<double> values) const;
+  /// The value at one number per variable.
+  double operator()(std::span<const double> variables) const;
   double operator()(double x) const { return (*this)(std::span(&x, 1)); }
   double operator()(double x, double y) const;
 

@@ -8,6 +8,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/scene/detail/block_field.hpp"
 
 namespace antilock {
 namespace {
@@ -98,11 +99,11 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
     due -= here;
     if (here == 0) continue;
     const bool fits = at_points <= k;
-    for (Eigen::Index q = 0; fits && q < at_rule.size(); ++q, ++at_points) {
-      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-      at_rule(q) = f(x(0), x(1));
+    if (fits) {
+      evaluate(f, (rule.points * mesh.vertices(mesh.triangles.row(t), Eigen::all)).transpose(), at_rule);
+      at_points += at_rule.size();
+      quadratic.noalias() = fit * at_rule;
     }
-    if (fits) quadratic.noalias() = fit * at_rule;
     for (int i = 0; i < here; ++i) {
       const Eigen::Vector3d lambda = spread_point(++k);
       const Eigen::Vector2d x = point_in(mesh, t, lambda);
