@@ -1,5 +1,6 @@
 // Nasty meshes: needles, slivers, strong grading, thin layers, any numbering and orientation. An answer that quadruple
 // precision proves right, or a refusal of one line.
+#include "antilock/mesh/graded.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/scenes.hpp"
@@ -15,15 +16,12 @@ std::vector<TaggedEdge> boundary(const TriangleMesh& mesh) {
   return tagged;
 }
 
-/// The structured mesh pulled over other grid lines: x = at_x(column), y = at_y(row), rows counted from -n to n.
+/// The tensor mesh of x = at_x(column), y = at_y(row), rows counted from -n to n.
 TriangleMesh on_lines(int n, const std::function<double(int)>& at_x, const std::function<double(int)>& at_y) {
-  const TriangleMesh mesh = structured_mesh(n);
-  Points vertices = mesh.vertices;
-  for (Eigen::Index v = 0; v < vertices.rows(); ++v) {
-    vertices(v, 0) = at_x(static_cast<int>(std::lround(vertices(v, 0) * n)));
-    vertices(v, 1) = at_y(static_cast<int>(std::lround(vertices(v, 1) * n)));
-  }
-  return make_triangle_mesh(vertices, mesh.triangles, mesh.region, boundary(mesh), "lines");
+  std::vector<double> x, y;
+  for (int i = 0; i <= n; ++i) x.push_back(at_x(i));
+  for (int j = -n; j <= n; ++j) y.push_back(at_y(j));
+  return tensor_mesh(x, y);
 }
 
 /// 0, 2^-(n-1), ..., 1/4, 1/2, 1: each cell twice as long as the one before; exact in binary.

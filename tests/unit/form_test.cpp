@@ -37,21 +37,17 @@ double worst_mean(const Quadrature& rule, int degree) {
   return worst;
 }
 
-TEST(Quadrature, RadonsRuleIsExactToDegreeFiveTheMidpointRuleToTwo) {
-  for (int degree = 0; degree <= 5; ++degree) EXPECT_LT(worst_mean(radon_rule(), degree), 1e-15) << degree;
-  for (int degree = 0; degree <= 2; ++degree) EXPECT_LT(worst_mean(midpoint_rule(), degree), 1e-15) << degree;
-  EXPECT_GT(worst_mean(radon_rule(), 6), 1e-5);
-  EXPECT_GT(worst_mean(midpoint_rule(), 3), 1e-3);
-}
-
 TEST(Quadrature, EveryTriangleRuleIsExactToItsDegree) {
   const double round_off = 64 * std::numeric_limits<double>::epsilon();  // weights that sum to 1; measured 6.5 eps
   for (int degree = 0; degree <= 12; ++degree) {
     const Quadrature& rule = triangle_rule(degree);
-    for (int lower = 0; lower <= degree; ++lower) EXPECT_LT(worst_mean(rule, lower), round_off) << degree;
+    for (int lower = 0; lower <= degree; ++lower)
+      EXPECT_LT(worst_mean(rule, lower), degree <= 5 ? 1e-15 : round_off) << degree;
     EXPECT_GT(rule.weights.minCoeff(), 0) << degree;  // M of the factored form must be positive
     EXPECT_GE(rule.points.minCoeff(), 0) << degree;
   }
+  EXPECT_GT(worst_mean(radon_rule(), 6), 1e-5);
+  EXPECT_GT(worst_mean(midpoint_rule(), 3), 1e-3);
   for (const int degree : {-1, 13}) expect_refused([&] { triangle_rule(degree); }, "0 to 12");
 }
 
@@ -87,20 +83,14 @@ Eigen::MatrixXd dense_form(const Space& space, Region region, double wx, double 
   return form;
 }
 
-TEST(Forms, GradientFormIsTheDenseLoop) {
-  for (const SpaceOn& space : two_square_spaces(3, elements())) {
-    const Eigen::MatrixXd form = gradient_form(space, {2, 3}, {5, 7});
-    const Eigen::MatrixXd loop = dense_form(space, Region::body, 2, 3) + dense_form(space, Region::layer, 5, 7);
-    EXPECT_LT((form - loop).cwiseAbs().maxCoeff(), 1e-12 * loop.cwiseAbs().maxCoeff()) << space.name;
-  }
-}
-
-TEST(Forms, FactoredA0IsTheDenseLoop) {
+TEST(Forms, AreTheDenseLoops) {
   for (const SpaceOn& space : two_square_spaces(3, elements())) {
     const FactoredForm strain = layer_strain(space);
-    const Eigen::MatrixXd a0 = test::gram(strain.b, strain.m);
-    const Eigen::MatrixXd loop = dense_form(space, Region::layer, 0, 1);
-    EXPECT_LT((a0 - loop).cwiseAbs().maxCoeff(), 1e-12 * loop.cwiseAbs().maxCoeff()) << space.name;
+    const Eigen::MatrixXd form = gradient_form(space, {2, 3}, {5, 7}), a0 = test::gram(strain.b, strain.m);
+    const Eigen::MatrixXd loop = dense_form(space, Region::body, 2, 3) + dense_form(space, Region::layer, 5, 7);
+    const Eigen::MatrixXd loop0 = dense_form(space, Region::layer, 0, 1);
+    EXPECT_LT((form - loop).cwiseAbs().maxCoeff(), 1e-12 * loop.cwiseAbs().maxCoeff()) << space.name;
+    EXPECT_LT((a0 - loop0).cwiseAbs().maxCoeff(), 1e-12 * loop0.cwiseAbs().maxCoeff()) << space.name;
   }
 }
 
@@ -249,10 +239,7 @@ TEST(Averaged, OfBoxesIsTheProjectionOntoConstantsPerBox) {
   Eigen::VectorXd sorted = means;
   std::sort(sorted.begin(), sorted.end());
   const double upper = std::pow(0.5, 3) / 0.5, lower = (1 - std::pow(0.5, 3)) / 0.5;  // (b^3 - a^3) / (b - a)
-  EXPECT_NEAR(sorted(0), upper, 1e-13);
-  EXPECT_NEAR(sorted(1), upper, 1e-13);
-  EXPECT_NEAR(sorted(2), lower, 1e-13);
-  EXPECT_NEAR(sorted(3), lower, 1e-13);
+  EXPECT_LT((sorted - Eigen::Vector4d(upper, upper, lower, lower)).cwiseAbs().maxCoeff(), 1e-13);
   // columns see the difference of two boundaries alone
   const FactoredForm column = averaged(strain, box_shares(mesh, strain, 0.25, 1));
   ASSERT_EQ(column.m.size(), 4);

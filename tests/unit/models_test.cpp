@@ -23,6 +23,8 @@ TEST(Assemble, StiffLayerIsEquation23) {
     const Eigen::VectorXd u = 2 * space.points().col(0) + 3 * space.points().col(1);
     EXPECT_NEAR(u.dot(problem.a1 * u), 17, 1e-11) << space.name;
     EXPECT_NEAR(value({problem.b, problem.m, {}}, u), 9, 1e-11) << space.name;
+    EXPECT_EQ(problem.fixed, space.clamped());
+    EXPECT_TRUE(problem.fixed_values.isZero(0));
     EXPECT_NO_THROW(check(problem));
   }
 }
@@ -55,13 +57,6 @@ TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
   const Space space(mesh, p1());
   expect_refused([&] { stiff_problem(space, 0.1, {[](double x) { return x > 0 && x < 1 ? nan : 0; }}); },
                  "is not finite");
-}
-
-TEST(Assemble, ClampsTheSidesAndTheTopAtZero) {
-  const SpaceOn space(unstructured_mesh(4), crouzeix_raviart());
-  const VariationalInequality problem = stiff_problem(space, 0.1);
-  EXPECT_EQ(problem.fixed, space.clamped());
-  EXPECT_EQ(problem.fixed_values, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(space.clamped().size())));
 }
 
 TEST(Assemble, RefusesASceneThatDoesNotFitItsMesh) {
@@ -142,11 +137,9 @@ TEST(PlaneStrain, PassesThePatchTest) {
 
 int zero_modes(const Spaces& spaces, double jump_weight) {
   const VariationalInequality problem = assemble(platen(0, jump_weight), spaces.both());
-  std::vector<char> fixed(problem.size(), 0);
-  for (const int i : problem.fixed) fixed[i] = 1;
   std::vector<int> unknowns;
   for (int i = 0; i < problem.size(); ++i)
-    if (!fixed[i]) unknowns.push_back(i);
+    if (!std::binary_search(problem.fixed.begin(), problem.fixed.end(), i)) unknowns.push_back(i);
   const Eigen::MatrixXd a1 = problem.a1.toDense()(unknowns, unknowns);
   const Eigen::VectorXd values = symmetric_eigenvalues(a1);
   return static_cast<int>((values.array() < 1e-10).count());  // the next is at 1e-2
@@ -174,14 +167,8 @@ TEST(PlaneStrain, IsCoerciveWithOneConstantOnEveryMesh) {
     for (const int cells : {4, 8, 12}) {
       const TriangleMesh mesh = block(cells);
       const Spaces spaces(mesh, pair.x, pair.y);
-      const SparseMatrix in_x = gradient_form(spaces.x, {1, 1}, {1, 1}), in_y = gradient_form(spaces.y, {1, 1}, {1, 1});
-      std::vector<Eigen::Triplet<double>> entries;
-      for (const auto& [form, first] : {std::pair{&in_x, 0}, std::pair{&in_y, spaces.x.size()}})
-        for (int j = 0; j < form->outerSize(); ++j)
-          for (SparseMatrix::InnerIterator at(*form, j); at; ++at)
-            entries.emplace_back(static_cast<int>(at.row()) + first, j + first, at.value());
-      SparseMatrix norm(spaces.both().size(), spaces.both().size());
-      norm.setFromTriplets(entries.begin(), entries.end());
+      const Eigen::Matrix4d one = Eigen::Matrix4d::Identity();
+      const SparseMatrix norm = strain_form(spaces.both(), one, one);
       constants.push_back(coercivity(assemble(platen(0, pair.jumps), spaces.both()), norm));
     }
     EXPECT_GT(constants.back(), 0.1) << pair.x.name() << pair.y.name();  // measured: 0.21, 0.17, 0.19
@@ -505,10 +492,9 @@ TEST(Beam, LockingIsTheKernelOfB) {
   }
 }
 
-TEST(Beam, ForcesBalanceAndConcentrateAtTheEndsOfContact) {
+TEST(Beam, ForcesConcentrateAtTheEndsOfContact) {
   const BeamTruth truth(beam(64, 0, ShearIntegration::reduced));
   const Solution solution = active_set(assemble(beam(64, 0, ShearIntegration::reduced)));
-  EXPECT_NEAR(solution.lambda.sum() / truth.contact_force(), 1, 1e-3);  // measured 5e-4
   // two point forces q c / 3 at the ends, spread over a few nodes there
   double at_end = 0;
   for (int i = 0; i < 63; ++i)
@@ -605,9 +591,7 @@ TEST(Plate, BendsExactlyWithConstantCurvature) {
         }
         EXPECT_LE(s.counters.corrections, 3) << "what the dependent rows of the edges leave of p is round-off";
         // bending energy of the curvatures 2, -1 and twist 1: (1 - nu)(4 + 1 + 2) + nu (2 - 1)^2 per area
-        double area = 0;
-        for (int k = 0; k < mesh.triangle_count(); ++k) area += mesh.area(k);
-        EXPECT_NEAR(s.u.dot(problem.a1 * s.u), (0.7 * 7 + 0.3) * area, 1e-10);
+        EXPECT_NEAR(s.u.dot(problem.a1 * s.u), (0.7 * 7 + 0.3) * area(mesh, Region::body), 1e-10);
       }
 }
 
