@@ -14,7 +14,7 @@
 #include <new>
 
 #include "antilock/adapt/solve_to.hpp"
-#include "antilock/core/detail/result_folder.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/detail/scene_problem.hpp"
 #include "antilock/io/detail/scene_results.hpp"

@@ -13,7 +13,7 @@
 
 #include <new>
 
-#include "antilock/core/detail/result_folder.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/io/detail/scene_checks.hpp"

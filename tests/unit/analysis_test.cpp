@@ -1,3 +1,5 @@
+#include <Eigen/LU>
+
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/analysis/certificate.hpp"
@@ -731,7 +733,7 @@ VariationalInequality tetrahedra(int n, double moved, bool nonconforming, double
           Eigen::Matrix4d affine;
           for (int s = 0; s < 4; ++s) affine.row(s) << 1, at[corner[s]].transpose();
           const Eigen::Matrix<double, 3, 4> lambda = pseudo_inverse(affine).bottomRows<3>();
-          const double volume = qr_pivots(affine).prod() / 6;  // |det| / 6
+          const double volume = std::abs(affine.determinant()) / 6;
           std::array<int, 4> unknown = corner;
           if (nonconforming)
             for (int s = 0; s < 4; ++s) {

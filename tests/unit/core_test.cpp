@@ -6,7 +6,6 @@
 
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/detail/draft.hpp"
-#include "antilock/core/detail/result_folder.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/io/writers.hpp"
 #include "support/scenes.hpp"

@@ -6,7 +6,7 @@
 #include <exception>
 #include <fstream>
 
-#include "antilock/core/detail/result_folder.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/distributed/detail/rows.hpp"
 #include "antilock/distributed/ranks.hpp"

@@ -10,7 +10,7 @@
 
 namespace antilock::distributed {
 
-/// write_folder of core/detail/result_folder.hpp for all ranks: rank 0 makes the draft, every rank runs `write` on it, and the
+/// write_folder of core/detail/atomic_file.hpp for all ranks: rank 0 makes the draft, every rank runs `write` on it, and the
 /// files take their places when all are done. `write` may communicate; what can fail on one rank it runs by `together`.
 /// Every rank must call it; throws on every rank alike.
 void write_folder_together(const std::filesystem::path& folder,

@@ -56,10 +56,6 @@ VectorXd least_squares(const MatrixXd& matrix, const VectorXd& right, double thr
   return solver.solve(MatrixXd(right));
 }
 
-VectorXd qr_pivots(const MatrixXd& matrix) {
-  return Eigen::ColPivHouseholderQR<MatrixXd>(matrix).matrixR().diagonal().cwiseAbs();
-}
-
 MatrixXd pseudo_inverse(const MatrixXd& matrix) {
   const Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(matrix);
   return solver.solve(MatrixXd(MatrixXd::Identity(matrix.rows(), matrix.rows())));

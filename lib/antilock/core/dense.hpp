@@ -40,8 +40,6 @@ Eigen::VectorXd generalised_eigenvalues(const Eigen::MatrixXd& a, const Eigen::M
 /// The shortest x that minimises |matrix x - right|, by the complete orthogonal decomposition: pivots below `threshold`
 /// times the largest one count as zero.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right, double threshold);
-/// The sizes of the pivots of the rank-revealing QR with column pivoting, largest first (min(m, n)).
-Eigen::VectorXd qr_pivots(const Eigen::MatrixXd& matrix);
 /// Moore and Penrose's inverse (n x m) of a matrix (m x n), by the same decomposition with Eigen's threshold.
 Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& matrix);
 

@@ -7,7 +7,6 @@
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 
 #include "antilock/core/error.hpp"
@@ -16,8 +15,6 @@ namespace antilock {
 namespace {
 
 constexpr int most_restarts = 1000;
-
-using Apply = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 
 /// What Spectra asks for products: those of the operator / unit.
 struct Operator {
@@ -70,15 +67,11 @@ double largest_eigenvalue(const SparseMatrix& upper) {
   const auto product = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return upper.selfadjointView<Eigen::Upper>() * x;
   };
-  return only_eigenpair(product, upper.rows(), "largest").value;
+  return largest_eigenvalue(product, upper.rows());
 }
 
 Eigenpair largest_eigenpair(const Apply& apply, Eigen::Index size, double tolerance, int basis) {
   return only_eigenpair(apply, size, "largest", tolerance, basis);
-}
-
-double largest_eigenvalue(const Apply& apply, Eigen::Index size, double tolerance, int basis) {
-  return largest_eigenpair(apply, size, tolerance, basis).value;
 }
 
 double smallest_eigenvalue(const SparseMatrix& upper) {

@@ -9,18 +9,20 @@ namespace antilock {
 /// iteration (Spectra) to a relative 1e-6. Throws NotConverged where it does not settle.
 double largest_eigenvalue(const SparseMatrix& upper);
 
-/// The same of an operator on R^size that is known by its products, to a relative `tolerance`; from below. One product
-/// per step of the iteration, at least min(size, `basis`) of them.
-double largest_eigenvalue(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
-                          double tolerance = 1e-6, int basis = 30);
-
-/// The same with its eigenvector, of norm 1.
+/// An operator by its products with vectors.
+using Apply = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
+/// An eigenvalue and its eigenvector, of norm 1.
 struct Eigenpair {
   double value;
   Eigen::VectorXd vector;
 };
-Eigenpair largest_eigenpair(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply, Eigen::Index size,
-                            double tolerance = 1e-6, int basis = 30);
+
+/// The same of an operator on R^size, to a relative `tolerance`; from below. One product per step of the iteration, at
+/// least min(size, `basis`) of them.
+Eigenpair largest_eigenpair(const Apply& apply, Eigen::Index size, double tolerance = 1e-6, int basis = 30);
+inline double largest_eigenvalue(const Apply& apply, Eigen::Index size, double tolerance = 1e-6, int basis = 30) {
+  return largest_eigenpair(apply, size, tolerance, basis).value;
+}
 
 /// The smallest one, by inverse iteration on a sparse Cholesky factor: trustworthy only where the matrix itself can be
 /// factored, that is for condition numbers well below 1e16. Throws Error where it has no factor, NotConverged.

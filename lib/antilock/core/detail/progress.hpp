@@ -1,4 +1,6 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <functional>
 #include <string>
 
@@ -23,6 +25,11 @@ struct Stopped : NotConverged {
 };
 
 /// Calls the hook, if there is one. Throws Stopped, with how far `who` came, where the hook says so.
-void report(const ProgressHook& hook, const Progress& progress, const std::string& who);
+inline void report(const ProgressHook& hook, const Progress& progress, const std::string& who) {
+  if (!hook || hook(progress)) return;
+  throw Stopped(fmt::format("{}: stopped as asked after {} steps of {}: relative error about {:.0e}, asked for {:.0e}",
+                            who, progress.step, progress.stage, progress.reached, progress.asked),
+                progress.reached, progress.step);
+}
 
 }  // namespace antilock

@@ -9,7 +9,6 @@
 
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/detail/blas.hpp"
-#include "antilock/core/detail/result_folder.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/detail/scene_problem.hpp"
 #include "antilock/io/expression.hpp"
