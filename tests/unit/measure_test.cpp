@@ -4,7 +4,7 @@
 #include "antilock/form/forms.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/contact_zone.hpp"
-#include "antilock/measure/detail/contact_trace.hpp"
+#include "antilock/measure/detail/contact_edges.hpp"
 #include "antilock/measure/residual.hpp"
 #include "support/dense.hpp"
 #include "support/manufactured.hpp"

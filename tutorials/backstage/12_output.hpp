@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "antilock/measure/detail/contact_trace.hpp"
+#include "antilock/measure/detail/contact_edges.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/method.hpp"

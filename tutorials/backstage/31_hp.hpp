@@ -6,7 +6,7 @@
 
 #include "antilock/exact/truth.hpp"
 #include "antilock/io/writers.hpp"
-#include "antilock/measure/detail/contact_trace.hpp"
+#include "antilock/measure/detail/contact_edges.hpp"
 #include "antilock/study/table.hpp"
 
 namespace antilock::tutorial {

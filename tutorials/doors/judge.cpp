@@ -12,8 +12,8 @@
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/measure/detail/local_errors.hpp"
 #include "antilock/measure/detail/point_values.hpp"
+#include "antilock/measure/errors.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -245,7 +245,8 @@ int judge(int argc, char** argv) {
   Eigen::VectorXd error;  // by triangle
   if (truth) {
     const TruthTable table(*truth);
-    const Errors e = measure_errors(*space, v, truth->epsilon(), reference(table), error);
+    const Errors e = measure_errors(*space, v, truth->epsilon(), reference(table));
+    error = e.by_triangle;
     found["errors"] = {
         {"max_at_unknowns", e.max_at_unknowns}, {"max", e.max}, {"l2", e.l2}, {"h1", e.h1}, {"energy", e.energy}};
     fmt::format_to(
@@ -271,7 +272,7 @@ int judge(int argc, char** argv) {
   fmt::format_to(say, "  proved: at most {:.4g} ({})\n", bound.value, bound.of);
   if (!truth) {
     const PointValues at(certified.answer.space);
-    measure_errors(*space, v, file.scene.epsilon().value_or(1), reference(certified.answer, at), error);
+    error = measure_errors(*space, v, file.scene.epsilon().value_or(1), reference(certified.answer, at)).by_triangle;
   }
   const Places places = places_of(*space, error);
   std::string list;

@@ -26,10 +26,8 @@ ContactZone contact_zone(const Space& space, const VariationalInequality& proble
 Eigen::VectorXd contact_lengths(const Space& space) {
   // int phi_i over the edge: shared by its unknowns as the element's basis says (midpoint: 1; ends: 1/2 each)
   Eigen::VectorXd length = Eigen::VectorXd::Zero(space.size());
-  for (const ContactEdge& edge : contact_edges(space.mesh())) {
-    const Eigen::VectorXd mean = means_on_edge(space.element(), edge.opposite);
-    for (Eigen::Index k = 0; k < mean.size(); ++k) length(space.unknowns()(edge.triangle, k)) += edge.length * mean(k);
-  }
+  for (const ContactEdge& edge : contact_edges(space.mesh()))
+    length(space.unknowns().row(edge.triangle)) += edge.length * means_on_edge(space.element(), edge.opposite);
   return length(space.contact());
 }
 

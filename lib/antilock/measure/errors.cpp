@@ -9,7 +9,6 @@
 #include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/measure/detail/local_errors.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {
@@ -66,18 +65,12 @@ TruthPoint Reference::known(const Eigen::Vector2d& x, bool in_layer) const {
 
 Reference reference(const TruthTable& table) {
   return {[&table](double x, double y) { return table.value(x, y); },
-          [&table](double x, double y) { return table.gradient(x, y); },
-          [&table](double x, double y) { return table.layer_stress(x, y); },
+          {},
+          {},
           [&table](double x, double y) { return table.at(x, y); }};
 }
 
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference) {
-  Eigen::VectorXd by_triangle;
-  return measure_errors(space, solution, epsilon, reference, by_triangle);
-}
-
-Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference,
-                      Eigen::VectorXd& by_triangle) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   check_solution(space, solution);
@@ -96,7 +89,7 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
     errors.max_at_unknowns = larger(
         errors.max_at_unknowns, std::abs(solution.u(i) - reference.value(space.points()(i, 0), space.points()(i, 1))));
   double l2 = 0, gradient2 = 0;
-  by_triangle.setZero(mesh.triangle_count());
+  errors.by_triangle.setZero(mesh.triangle_count());
   Eigen::Index row = 0;
   const Eigen::MatrixXd stress = layer_stress_values(element, rule.points);
   Eigen::VectorXd u(space.unknowns().cols());
@@ -108,7 +101,7 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
       errors.max = larger(errors.max, std::abs(u.dot(sample_basis[k]) - reference.value(x(0), x(1))));
     }
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    double& energy2 = by_triangle(t);
+    double& energy2 = errors.by_triangle(t);
     const bool in_layer = mesh.region[t] == Region::layer, stiff = in_layer && solution.p.size() > 0;
     for (Eigen::Index q = 0; q < points; ++q) {
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
@@ -131,8 +124,8 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
   }
   errors.l2 = std::sqrt(l2);
   errors.h1 = std::sqrt(l2 + gradient2);
-  errors.energy = std::sqrt(by_triangle.sum());
-  by_triangle = by_triangle.cwiseSqrt();
+  errors.energy = std::sqrt(errors.by_triangle.sum());
+  errors.by_triangle = errors.by_triangle.cwiseSqrt();
   return errors;
 }
 
@@ -150,8 +143,7 @@ double energy(const VariationalInequality& problem, const Solution& solution) {
   if (solution.u.size() != problem.size() || solution.p.size() != problem.b.rows())
     throw Error(fmt::format("energy: a solution of {} unknowns and {} rows of B; accepted: {} and {}, of this problem",
                             solution.u.size(), solution.p.size(), problem.size(), problem.b.rows()));
-  const double stiff =
-      problem.b.rows() > 0 ? problem.compliance * solution.p.dot(problem.m.cwiseProduct(solution.p)) : 0;
+  const double stiff = problem.compliance * solution.p.dot(problem.m.cwiseProduct(solution.p));
   return 0.5 * (solution.u.dot(problem.a1 * solution.u) + stiff) - problem.load.dot(solution.u) +
          friction_energy(problem, solution.u);
 }

@@ -29,8 +29,9 @@ struct Errors {
   double max_at_unknowns = 0;  ///< at the unknowns: vertices (P1) or edge midpoints (CR)
   double max = 0;  ///< L-infinity, sampled at 15 points of every triangle: the lattice of order 4, corners included
   double l2 = 0;
-  double h1 = 0;      ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
-  double energy = 0;  ///< |.|_a^epsilon of Remark 4; the stiff part through p, so it holds at epsilon = 0
+  double h1 = 0;                ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
+  double energy = 0;            ///< |.|_a^epsilon of Remark 4; the stiff part through p, so it holds at epsilon = 0
+  Eigen::VectorXd by_triangle;  ///< T: of each triangle in the energy norm; their squares add up to that of `energy`
 };
 
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference);

@@ -23,6 +23,19 @@ Quadrature refined(const Quadrature& rule) {
   return fine;
 }
 
+/// Adds int w phi_i + q . grad phi_i to each sum(i), where `known` holds w as the value and q as the gradient.
+void add_products(const Space& space, int t, const Quadrature& rule,
+                  const std::function<TruthPoint(const Eigen::Vector2d&)>& known, Eigen::VectorXd& sum) {
+  const TriangleMesh& mesh = space.mesh();
+  const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+    const TruthPoint here = known(point_in(mesh, t, rule.points.row(q)));
+    const Eigen::VectorXd product = space.element().basis(rule.points.row(q)) * here.value +
+                                    space.element().derivative(rule.points.row(q)) * (lambda * here.gradient);
+    sum(space.unknowns().row(t)) += rule.weights(q) * mesh.area(t) * product;
+  }
+}
+
 /// Whether one of the lines x = breaks[k] meets the triangle.
 bool across(const TriangleMesh& mesh, int t, const std::vector<double>& breaks) {
   double low = 1, high = 0;
@@ -42,36 +55,22 @@ Eigen::VectorXd exact_residual(const Space& space, const Eigen::VectorXd& load, 
   Eigen::VectorXd residual = -load;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const bool in_layer = mesh.region[t] == Region::layer;
-    const Quadrature& rule = in_layer && across(mesh, t, breaks) ? fine : load_rule(space.element());
-    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-      const TruthPoint known = exact.known(x, in_layer);
-      Eigen::Vector2d flux = known.gradient;
-      if (in_layer) flux(1) = known.layer_stress;
-      const Eigen::VectorXd work = space.element().derivative(rule.points.row(q)) * (lambda * flux);
-      for (Eigen::Index i = 0; i < work.size(); ++i)
-        residual(space.unknowns()(t, i)) += rule.weights(q) * mesh.area(t) * work(i);
-    }
+    const auto flux = [&](const Eigen::Vector2d& x) {
+      TruthPoint known = exact.known(x, in_layer);
+      known.value = 0;
+      if (in_layer) known.gradient(1) = known.layer_stress;
+      return known;
+    };
+    add_products(space, t, in_layer && across(mesh, t, breaks) ? fine : load_rule(space.element()), flux, residual);
   }
   return residual;
 }
 
 Eigen::VectorXd h1_products(const Space& space, const Reference& exact) {
-  const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = load_rule(space.element());
   Eigen::VectorXd products = Eigen::VectorXd::Zero(space.size());
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-      const TruthPoint known = exact.known(x, false);
-      const Eigen::VectorXd product = space.element().basis(rule.points.row(q)) * known.value +
-                                      space.element().derivative(rule.points.row(q)) * (lambda * known.gradient);
-      for (Eigen::Index i = 0; i < product.size(); ++i)
-        products(space.unknowns()(t, i)) += rule.weights(q) * mesh.area(t) * product(i);
-    }
-  }
+  const auto known = [&](const Eigen::Vector2d& x) { return exact.known(x, false); };
+  for (int t = 0; t < space.mesh().triangle_count(); ++t)
+    add_products(space, t, load_rule(space.element()), known, products);
   return products;
 }
 
@@ -83,8 +82,7 @@ Eigen::VectorXd contact_work(const Space& space, const Profile& g) {
     for (int k = 0; k < points; ++k) {
       const Eigen::Vector3d lambda = edge.lambda((k + 0.5) / points);
       const double weighted = edge.length / points * g(point_in(mesh, edge.triangle, lambda)(0));
-      const Eigen::VectorXd basis = space.element().basis(lambda);
-      for (Eigen::Index i = 0; i < basis.size(); ++i) work(space.unknowns()(edge.triangle, i)) += weighted * basis(i);
+      work(space.unknowns().row(edge.triangle)) += weighted * space.element().basis(lambda);
     }
   return work;
 }

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/space/space.hpp"
 
 namespace antilock {
 
@@ -15,5 +15,9 @@ struct ContactEdge {
 
 /// The edges with the tag `contact`, in the order of the mesh's edges.
 std::vector<ContactEdge> contact_edges(const TriangleMesh& mesh);
+
+/// v_h on Gamma_C between its unknowns, by x: x, v_h, and the length that the sample stands for, at 32 midpoints an edge.
+/// A nonconforming v_h has two values at a vertex; neither is sampled.
+Eigen::MatrixX3d contact_trace(const Space& space, const Eigen::VectorXd& v);
 
 }  // namespace antilock

@@ -40,19 +40,13 @@ std::optional<PointValues::Place> PointValues::locate(const Eigen::Vector2d& x, 
 }
 
 double PointValues::value(const Eigen::VectorXd& u, const Place& at) const {
-  const Eigen::VectorXd basis = space_->element().basis(at.lambda);
-  double sum = 0;
-  for (Eigen::Index i = 0; i < basis.size(); ++i) sum += basis(i) * u(space_->unknowns()(at.triangle, i));
-  return sum;
+  return space_->element().basis(at.lambda).dot(u(space_->unknowns().row(at.triangle)));
 }
 
 Eigen::Vector2d PointValues::gradient(const Eigen::VectorXd& u, const Place& at) const {
   const Eigen::MatrixX2d slopes =
       space_->element().derivative(at.lambda) * barycentric_gradients(space_->mesh(), at.triangle);
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (Eigen::Index i = 0; i < slopes.rows(); ++i)
-    sum += slopes.row(i).transpose() * u(space_->unknowns()(at.triangle, i));
-  return sum;
+  return slopes.transpose() * u(space_->unknowns().row(at.triangle));
 }
 
 }  // namespace antilock
