@@ -63,7 +63,6 @@ PlateTruth::PlateTruth(double thickness, double load, double gap)
     throw Error(fmt::format("plate: load {} does not press the plate on the obstacle at {} over a disc", load, -gap));
   while (high - low > 1e-15) {
     const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
     (depth(middle) > gap ? low : high) = middle;
   }
   c_ = 0.5 * (low + high);
@@ -71,13 +70,6 @@ PlateTruth::PlateTruth(double thickness, double load, double gap)
 }
 
 double PlateTruth::deflection(double r) const { return r > c_ ? fallen(r, free_) - fallen(1, free_) : -gap_; }
-
-double PlateTruth::slope(double r) const {
-  if (r <= c_) return 0;
-  const double theta =
-      -load_ * r * r * r / 16 - free_.a * (r / 2 * std::log(r) - r / 4) + free_.b * r / 2 + free_.c / r;
-  return theta + epsilon_ * (load_ * r / 2 + free_.a / r);
-}
 
 double PlateTruth::contact_force() const { return -2 * std::numbers::pi * free_.a; }
 

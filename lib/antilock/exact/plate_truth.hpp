@@ -10,7 +10,6 @@ class PlateTruth {
   PlateTruth(double thickness, double load = 256, double gap = 1);
   double contact_radius() const { return c_; }
   double deflection(double r) const;  ///< w(r) >= -gap, 0 at r = 1
-  double slope(double r) const;       ///< w'(r)
   double contact_force() const;       ///< load pi less what the rim carries
 
  private:

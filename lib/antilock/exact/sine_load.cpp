@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "antilock/exact/detail/load_response.hpp"
+#include "antilock/exact/detail/wave.hpp"
 
 namespace antilock {
 namespace {

@@ -5,17 +5,15 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 #include "antilock/core/error.hpp"
 #include "antilock/exact/detail/contact_line.hpp"
 #include "antilock/exact/detail/sine_transform.hpp"
-#include "antilock/exact/detail/symbols.hpp"
 #include "antilock/exact/detail/truth_data.hpp"
 
 // Both rectangles hold u = 0 on x = 0 and x = 1, so sines in x diagonalise everything but the contact condition:
-// mode by mode, body and layer are ordinary differential equations in y, solved in closed form (load_response.cpp,
-// symbols.cpp, sine_row.cpp). What is left is one complementarity problem on Gamma_C for c(x) = u(x, -1) and the
+// mode by mode, body and layer are ordinary differential equations in y, solved in closed form (wave.cpp,
+// sine_row.cpp). What is left is one complementarity problem on Gamma_C for c(x) = u(x, -1) and the
 // contact pressure lambda,
 //     c >= 0,   lambda = D c - q >= 0,   lambda c = 0,
 // collocated at x_j = j / N (contact_line.cpp). From c, everything else follows.
@@ -56,7 +54,7 @@ VectorXd free_displacement(const std::vector<LoadResponse>& load, double epsilon
   VectorXd c = VectorXd::Zero(load.empty() ? 2 : load.back().k() + 1);
   for (const LoadResponse& f : load) {
     const Symbols symbols(f.k(), epsilon);
-    c(f.k()) = symbols.load * f.pull() / symbols.stiffness;
+    c(f.k()) = symbols.trace * f.pull() / symbols.stiffness;
   }
   return c;
 }
@@ -69,38 +67,30 @@ VectorXd jump_filter(Eigen::Index size, int n) {
   return filter;
 }
 
-void solve_contact(Truth::Data& data, const std::vector<Symbols>& symbols, SineTransform& transform) {
-  const int n = transform.size();
+void solve_contact(Truth::Data& data) {
+  const int n = data.points();
   VectorXd stiffness = VectorXd::Ones(n + 1), load = VectorXd::Zero(n + 1);
-  for (int k = 1; k < n; ++k) stiffness(k) = symbols[k].stiffness;
-  for (const LoadResponse& f : data.load) load(f.k()) = symbols[f.k()].load * f.pull();
+  for (int k = 1; k < n; ++k) stiffness(k) = Symbols(k, data.epsilon).stiffness;
+  for (const LoadResponse& f : data.load) load(f.k()) = Symbols(f.k(), data.epsilon).trace * f.pull();
   ContactLine line = solve_contact_line(stiffness, load);
   data.on_gamma_c = data.displacement = std::move(line.displacement);
   data.stress_gamma_c = data.pressure = std::move(line.pressure);
-  transform.modes_from_points(data.on_gamma_c);
-  transform.modes_from_points(data.stress_gamma_c);
+  modes_from_points(data.on_gamma_c);
+  modes_from_points(data.stress_gamma_c);
   data.filter = jump_filter(n + 1, n);
   data.stress_gamma_c.array() *= -data.filter.array();
 }
 
 // From Gamma_C to Sigma: w = trace c + lift G'(0), stress = G'(0) - T w.
-void lift_to_sigma(Truth::Data& data, const std::vector<Symbols>& symbols) {
-  const Eigen::Index size = data.on_gamma_c.size();
+void lift_to_sigma(Truth::Data& data) {
+  const auto size = static_cast<int>(data.on_gamma_c.size());
   data.on_sigma = data.stress_sigma = VectorXd::Zero(size);
   for (const LoadResponse& f : data.load) data.stress_sigma(f.k()) = f.pull();
-  for (Eigen::Index k = 1; k < size; ++k) {
-    const Symbols& symbol = symbols[static_cast<std::size_t>(k)];
+  for (int k = 1; k < size; ++k) {
+    const Symbols symbol(k, data.epsilon);
     data.on_sigma(k) = symbol.trace * data.on_gamma_c(k) + symbol.lift * data.stress_sigma(k);
     data.stress_sigma(k) -= data.filter(k) * symbol.body * data.on_sigma(k);
   }
-}
-
-/// Of k = 0 to `last`; the first stands for no wave.
-std::vector<Symbols> symbols_to(Eigen::Index last, double epsilon) {
-  std::vector<Symbols> symbols;
-  symbols.reserve(static_cast<std::size_t>(last) + 1);
-  for (int k = 0; k <= last; ++k) symbols.emplace_back(std::max(k, 1), epsilon);
-  return symbols;
 }
 
 // sum_k v_k sin(k pi x) and sum_k a v_k cos(k pi x), by rotation; started anew every 256 steps to keep round-off down.
@@ -140,43 +130,34 @@ SineRow row_at(const Truth::Data& data, double y) { return y >= 0 ? body_row(dat
 
 double SineLoad::operator()(double x, double y) const {
   double sum = 0;
-  for (const SineMode& mode : modes) {
-    const auto horner = [y](double f, double c) { return f * y + c; };
-    const double f = std::accumulate(mode.profile.rbegin(), mode.profile.rend(), 0.0, horner);
-    sum += f * std::sin(mode.k * pi * x);
-  }
+  for (const SineMode& mode : modes) sum += evaluate(mode.profile, y) * std::sin(mode.k * pi * x);
   return sum;
 }
 
 SineLoad paper_sine_load() { return {{{2, {10.0}}}}; }
 
-Truth::Truth(const SineLoad& load, double epsilon, bool contact, int log2_points) : data_(std::make_unique<Data>()) {
+Truth::Truth(const SineLoad& load, double epsilon, bool contact, int log2_points) {
   if (!(epsilon >= 0 && epsilon <= 1))
     throw Error(fmt::format("truth: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
   if (log2_points < 6 || log2_points > 20)
     throw Error(fmt::format("truth: log2_points = {} is out of range; accepted 6 to 20", log2_points));
   const int n = 1 << log2_points;
-  data_->epsilon = epsilon;
-  data_->contact = contact;
-  data_->load = checked_load(load, n);
-  data_->on_gamma_c = free_displacement(data_->load, epsilon);
-  data_->stress_gamma_c = VectorXd::Zero(data_->on_gamma_c.size());
-  data_->filter = VectorXd::Ones(data_->on_gamma_c.size());
-  data_->pressure = VectorXd::Zero(n + 1);
-  data_->displacement = data_->on_gamma_c;
-  data_->displacement.conservativeResizeLike(VectorXd::Zero(n + 1));
-  SineTransform transform(n);
-  transform.points_from_modes(data_->displacement);
-  const double round_off = 1e-14 * data_->displacement.lpNorm<Eigen::Infinity>();
-  const bool touches = contact && data_->displacement.minCoeff() < -round_off;
-  const std::vector<Symbols> symbols = symbols_to(touches ? n : data_->on_gamma_c.size() - 1, epsilon);
-  if (touches) solve_contact(*data_, symbols, transform);
-  lift_to_sigma(*data_, symbols);
+  Data data;
+  data.epsilon = epsilon;
+  data.contact = contact;
+  data.load = checked_load(load, n);
+  data.on_gamma_c = free_displacement(data.load, epsilon);
+  data.stress_gamma_c = VectorXd::Zero(data.on_gamma_c.size());
+  data.filter = VectorXd::Ones(data.on_gamma_c.size());
+  data.pressure = VectorXd::Zero(n + 1);
+  data.displacement = data.on_gamma_c;
+  data.displacement.conservativeResizeLike(VectorXd::Zero(n + 1));
+  points_from_modes(data.displacement);
+  const double round_off = 1e-14 * data.displacement.lpNorm<Eigen::Infinity>();
+  if (contact && data.displacement.minCoeff() < -round_off) solve_contact(data);
+  lift_to_sigma(data);
+  data_ = std::make_shared<const Data>(std::move(data));
 }
-
-Truth::~Truth() = default;
-Truth::Truth(Truth&&) noexcept = default;
-Truth& Truth::operator=(Truth&&) noexcept = default;
 
 double Truth::epsilon() const { return data_->epsilon; }
 

@@ -27,9 +27,6 @@ class Truth {
  public:
   /// contact = false: Gamma_C free (a linear problem, closed form). N = 2^log2_points collocation points, 6 to 20.
   Truth(const SineLoad& load, double epsilon, bool contact = true, int log2_points = 17);
-  ~Truth();
-  Truth(Truth&&) noexcept;
-  Truth& operator=(Truth&&) noexcept;
 
   double epsilon() const;
   // At any point of the closed domain [0,1] x [-1,1], else Error; 8 digits for value. Each call sums the series: about
@@ -49,7 +46,7 @@ class Truth {
   const Data& data() const { return *data_; }
 
  private:
-  std::unique_ptr<Data> data_;
+  std::shared_ptr<const Data> data_;
 };
 
 }  // namespace antilock

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <map>
 #include <numbers>
 
 #include "antilock/core/error.hpp"
@@ -89,47 +89,35 @@ struct Sample {
   double t, h;
 };
 
-int largest_wave(const Truth::Data& truth) { return truth.load.empty() ? 1 : truth.load.back().k(); }
-
-int power_of_two_from(double x) {
-  int n = 64;
-  while (n < x) n *= 2;
-  return n;
+// A series on the points j / n: a wave k beyond n looks there like one below, k mod 2n folded at n.
+Eigen::VectorXd fold(const Eigen::VectorXd& modes, int n, double reflected) {
+  Eigen::VectorXd folded = Eigen::VectorXd::Zero(n + 1);
+  for (Eigen::Index from = 0; from < modes.size(); from += 2 * n) {
+    const Eigen::Index left = modes.size() - from, up = std::min<Eigen::Index>(left, n + 1),
+                       down = std::min<Eigen::Index>(left - up, n - 1);
+    folded.head(up) += modes.segment(from, up);
+    if (down > 0) folded.segment(n - down, down) += reflected * modes.segment(from + n + 1, down).reverse();
+  }
+  return folded;
 }
 
-// Values of the row's series at j / n: a wave k beyond n looks on the points like one below, k mod 2n folded at n.
-class RowSampler {
- public:
-  Row operator()(const SineRow& series, double y, int cells) {
-    SineTransform& transform = transforms_.try_emplace(cells, cells).first->second;
-    Eigen::VectorXd u = fold(series.u, cells, -1), p = fold(series.p, cells, -1), p_y = fold(series.p_y, cells, -1);
-    Eigen::VectorXd slopes = series.u;
-    for (Eigen::Index k = 0; k < slopes.size(); ++k) slopes(k) *= series.a(k);
-    Eigen::VectorXd u_x = fold(slopes, cells, 1);
-    transform.points_from_modes(u);
-    transform.points_from_modes(p);
-    transform.points_from_modes(p_y);
-    transform.cosine_points(u_x);
-    Row row{y, cells, std::vector<Node>(cells + 3)};
-    for (int j = 0; j <= cells; ++j) row.nodes[j + 1] = {u(j), u_x(j), p(j), p_y(j)};
-    row.nodes.front() = {-u(1), u_x(1), -p(1), -p_y(1)};
-    row.nodes.back() = {-u(cells - 1), u_x(cells - 1), -p(cells - 1), -p_y(cells - 1)};
-    return row;
-  }
-
- private:
-  static Eigen::VectorXd fold(const Eigen::VectorXd& modes, int n, double reflected) {
-    Eigen::VectorXd folded = Eigen::VectorXd::Zero(n + 1);
-    for (Eigen::Index from = 0; from < modes.size(); from += 2 * n) {
-      const Eigen::Index left = modes.size() - from, up = std::min<Eigen::Index>(left, n + 1),
-                         down = std::min<Eigen::Index>(left - up, n - 1);
-      folded.head(up) += modes.segment(from, up);
-      if (down > 0) folded.segment(n - down, down) += reflected * modes.segment(from + n + 1, down).reverse();
-    }
-    return folded;
-  }
-  std::map<int, SineTransform> transforms_;
-};
+Row sampled(const SineRow& series, double y, int cells) {
+  const auto sines = [&](const Eigen::VectorXd& modes) {
+    Eigen::VectorXd points = fold(modes, cells, -1);
+    points_from_modes(points);
+    return points;
+  };
+  const Eigen::VectorXd u = sines(series.u), p = sines(series.p), p_y = sines(series.p_y);
+  Eigen::VectorXd slopes = series.u;
+  for (Eigen::Index k = 0; k < slopes.size(); ++k) slopes(k) *= series.a(k);
+  Eigen::VectorXd u_x = fold(slopes, cells, 1);
+  cosine_points(u_x);
+  Row row{y, cells, std::vector<Node>(cells + 3)};
+  for (int j = 0; j <= cells; ++j) row.nodes[j + 1] = {u(j), u_x(j), p(j), p_y(j)};
+  row.nodes.front() = {-u(1), u_x(1), -p(1), -p_y(1)};
+  row.nodes.back() = {-u(cells - 1), u_x(cells - 1), -p(cells - 1), -p_y(cells - 1)};
+  return row;
+}
 
 // The y of rows from one end to the other, steps growing with the distance from Gamma_C; unit: physical length of y
 // = 1.
@@ -158,9 +146,7 @@ struct TruthTable::Grid {
     Hermite in_y() const { return {t, h}; }
     double value() const { return in_y()(below.u(), scale * below.p(), above.u(), scale * above.p()); }
     double p() const { return in_y()(below.p(), below.p_y(), above.p(), above.p_y()); }
-    Eigen::Vector2d gradient(double p) const {
-      return {in_y()(below.u_x(), scale * below.p_x(), above.u_x(), scale * above.p_x()), scale * p};
-    }
+    double u_x() const { return in_y()(below.u_x(), scale * below.p_x(), above.u_x(), scale * above.p_x()); }
   };
   Between between(double x, double y) const {
     const Eigen::Vector2d at = inside_domain(x, y);
@@ -174,36 +160,31 @@ struct TruthTable::Grid {
   }
 };
 
-TruthTable::TruthTable(const Truth& truth, int finest_cells) : grid_(std::make_unique<Grid>()) {
+TruthTable::TruthTable(const Truth& truth, int finest_cells) {
   const Truth::Data& data = truth.data();
-  const int waves = largest_wave(data);
+  const int waves = data.load.empty() ? 1 : data.load.back().k();  // the largest
   if (waves > most_waves)
     throw Error(
         fmt::format("truth table: load with wave number k = {}; accepted: up to {} (sum the series of Truth instead)",
                     waves, most_waves));
-  const double epsilon = grid_->epsilon = data.epsilon, longest = smooth_step / (waves * std::numbers::pi);
+  const double epsilon = data.epsilon, longest = smooth_step / (waves * std::numbers::pi);
   const double finest = 1.0 / finest_cells;  // between rows, next to Gamma_C
   const auto cells = [&](double distance) {
-    return power_of_two_from(std::max(64.0 * waves, std::min(16 / distance, double(finest_cells))));
+    const double wanted = std::max(64.0 * waves, std::min(16 / distance, double(finest_cells)));
+    return static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::ceil(wanted))));
   };
-  RowSampler sampler;
+  Grid grid{epsilon, {}, {}};
   const double unit = std::max(epsilon, finest);  // a thinner layer is one step
   for (const double y : graded_rows(-1, 0, -1, unit, finest, longest))
-    grid_->layer.push_back(sampler(layer_row(data, y), y, cells((1 + y) * epsilon)));
+    grid.layer.push_back(sampled(layer_row(data, y), y, cells((1 + y) * epsilon)));
   for (const double y : graded_rows(0, 1, -epsilon, 1, finest, longest))
-    grid_->body.push_back(sampler(body_row(data, y), y, cells(y + epsilon)));
+    grid.body.push_back(sampled(body_row(data, y), y, cells(y + epsilon)));
+  grid_ = std::make_shared<const Grid>(std::move(grid));
 }
-
-TruthTable::~TruthTable() = default;
-TruthTable::TruthTable(TruthTable&&) noexcept = default;
-TruthTable& TruthTable::operator=(TruthTable&&) noexcept = default;
 
 double TruthTable::value(double x, double y) const { return grid_->between(x, y).value(); }
 
-Eigen::Vector2d TruthTable::gradient(double x, double y) const {
-  const Grid::Between rows = grid_->between(x, y);
-  return rows.gradient(rows.p());
-}
+Eigen::Vector2d TruthTable::gradient(double x, double y) const { return at(x, y).gradient; }
 
 double TruthTable::layer_stress(double x, double y) const {
   if (inside_domain(x, y).y() > 0)
@@ -215,7 +196,7 @@ double TruthTable::layer_stress(double x, double y) const {
 TruthPoint TruthTable::at(double x, double y) const {
   const Grid::Between rows = grid_->between(x, y);
   const double p = rows.p();
-  return {rows.value(), rows.gradient(p), p};
+  return {rows.value(), {rows.u_x(), rows.scale * p}, p};
 }
 
 }  // namespace antilock

@@ -26,9 +26,6 @@ class TruthTable {
   /// `finest_cells`, a power of two, along Gamma_C and in rows next to it; fewer for a quick look, about a hundredth of
   /// the time with 2^10. Throws Error if the load has a wave number beyond 32.
   explicit TruthTable(const Truth& truth, int finest_cells = 1 << 14);
-  ~TruthTable();
-  TruthTable(TruthTable&&) noexcept;
-  TruthTable& operator=(TruthTable&&) noexcept;
 
   double value(double x, double y) const;
   Eigen::Vector2d gradient(double x, double y) const;  ///< on Sigma: the body's side
@@ -37,7 +34,7 @@ class TruthTable {
 
  private:
   struct Grid;
-  std::unique_ptr<Grid> grid_;
+  std::shared_ptr<const Grid> grid_;
 };
 
 }  // namespace antilock

@@ -48,7 +48,6 @@ BeamTruth::BeamTruth(const Beam& beam) : epsilon_(beam.epsilon), load_(beam.load
         fmt::format("beam: load {} does not press the beam on the obstacle at {} over an interval", load_, gap_));
   while (high - low > 1e-15) {  // sinks falls from gap > 0 as c grows
     const double middle = 0.5 * (low + high);
-    if (middle == low || middle == high) break;
     (sinks(middle) > 0 ? low : high) = middle;
   }
   c_ = 0.5 * (low + high);

@@ -6,19 +6,9 @@
 #include <numbers>
 
 #include "antilock/core/error.hpp"
-#include "antilock/exact/detail/load_response.hpp"
+#include "antilock/exact/detail/wave.hpp"
 
 namespace antilock {
-namespace {
-
-/// T = a coth a and R = a tanh(epsilon a) / epsilon, a = k pi: the forces on Sigma per unit displacement there.
-double body_stiffness(double a) { return a / std::tanh(a); }
-double layer_stiffness(double a, double epsilon) {
-  const double kappa = epsilon * a;
-  return a * a * (kappa > 0 ? std::tanh(kappa) / kappa : 1);
-}
-
-}  // namespace
 
 // In the body free on Sigma (u_y = 0 there) the load 2 sin(a x) cos(mu y) gives itself times g = 1 / (a^2 + mu^2): the
 // basis diagonalises that problem. Let P_k = sum_m g_km f_km be its u on Sigma. The layer pulls there with R w, the body
@@ -59,18 +49,16 @@ Eigen::VectorXd LoadModes::taken_away(double epsilon) const {
   if (!(epsilon >= 0 && epsilon <= 1)) throw Error(fmt::format("loads: epsilon = {}; accepted: 0 to 1", epsilon));
   Eigen::VectorXd share = Eigen::VectorXd::Zero(waves_ + 1);
   for (int k = 1; k <= waves_; ++k) {
-    const double r = layer_stiffness(k * std::numbers::pi, epsilon);
-    share(k) = r / (body_stiffness(k * std::numbers::pi) + r);
+    const Symbols symbols(k, epsilon);
+    share(k) = symbols.layer / (symbols.body + symbols.layer);
   }
   return share;
 }
 
 Eigen::VectorXd LoadModes::response(const Eigen::VectorXd& f, double epsilon) const {
-  const Eigen::VectorXd share = taken_away(epsilon), p = on_free_sigma(f);
-  Eigen::VectorXd s = response_.cwiseProduct(f);
-  for (int j = 0; j < size(); ++j)
-    s(j) -= 2 * body_stiffness(k_(j) * std::numbers::pi) * share(k_(j)) * p(k_(j)) * response_(j);
-  return s;
+  Eigen::VectorXd pulled = taken_away(epsilon).cwiseProduct(on_free_sigma(f));
+  for (int k = 1; k <= waves_; ++k) pulled(k) *= 2 * Symbols(k, epsilon).body;
+  return response_.cwiseProduct(f - pulled(k_));
 }
 
 Eigen::VectorXd LoadModes::sines(double x) const {

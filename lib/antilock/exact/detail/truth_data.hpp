@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "antilock/exact/detail/load_response.hpp"
+#include "antilock/exact/detail/wave.hpp"
 #include "antilock/exact/truth.hpp"
 
 namespace antilock {

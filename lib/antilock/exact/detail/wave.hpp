@@ -3,6 +3,8 @@
 
 namespace antilock {
 
+// One wave sin(k pi x), a = k pi: what is left in y, in closed form.
+
 /// What the body does under the load f_k(y) sin(k pi x), f_k a polynomial, while both y = 0 and y = 1 are held:
 /// u = G(y) sin(k pi x) with -G'' + a^2 G = f_k, G(0) = G(1) = 0, a = k pi. Closed form, safe for every k.
 class LoadResponse {
@@ -29,5 +31,20 @@ class LoadResponse {
 /// sinh(a(1-y)) / sinh(a) and -1/a times its derivative, 0 <= y <= 1, by decaying exponentials.
 double decay(double a, double y);
 double decay_slope(double a, double y);
+
+/// Body and layer as seen from Gamma_C in the mode sin(k pi x), a = k pi: the transmission-line formulas.
+/// Every member is finite for every 0 <= epsilon <= 1, 0 included. Derivation in wave.cpp.
+struct Symbols {
+  Symbols(int k, double epsilon);
+  double a;          ///< k pi
+  double body;       ///< T = a coth a: the pull of the body on Sigma is G'(0) - T w
+  double layer;      ///< R = a tanh(kappa) / epsilon: that of a layer that is free on Gamma_C is R w
+  double stiffness;  ///< D_k: lambda_k = D_k c_k - q_k
+  double trace;      ///< w_k = trace c_k + lift G'(0): u on Sigma from u on Gamma_C and the load; q_k = trace G'(0)
+  double lift;       ///< (see trace)
+};
+
+/// polynomial[0] + polynomial[1] y + ...
+double evaluate(const std::vector<double>& polynomial, double y);
 
 }  // namespace antilock

@@ -1,4 +1,4 @@
-#include "antilock/exact/detail/load_response.hpp"
+#include "antilock/exact/detail/wave.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -8,10 +8,6 @@ namespace antilock {
 namespace {
 
 using Polynomial = std::vector<double>;
-
-double evaluate(const Polynomial& p, double y) {
-  return std::accumulate(p.rbegin(), p.rend(), 0.0, [y](double sum, double c) { return sum * y + c; });
-}
 
 double evaluate_slope(const Polynomial& p, double y) {
   double sum = 0;
@@ -37,6 +33,10 @@ Polynomial particular_solution(const Polynomial& f, double a) {
 }
 
 }  // namespace
+
+double evaluate(const Polynomial& p, double y) {
+  return std::accumulate(p.rbegin(), p.rend(), 0.0, [y](double sum, double c) { return sum * y + c; });
+}
 
 double decay(double a, double y) { return std::exp(-a * y) * std::expm1(-2 * a * (1 - y)) / std::expm1(-2 * a); }
 
@@ -64,6 +64,25 @@ double LoadResponse::value(double y) const {
 double LoadResponse::slope(double y) const {
   return evaluate_slope(particular_, y) + a_ * evaluate(particular_, 0) * decay_slope(a_, y) -
          a_ * evaluate(particular_, 1) * decay_slope(a_, 1 - y);
+}
+
+// In the layer u_xx + epsilon^-2 u_yy = 0, so with kappa = epsilon a, z = a / epsilon, eta = 1 + y:
+//   u = c cosh(kappa eta) - (lambda / z) sinh(kappa eta),   stress p = epsilon^-2 u_y,   p = -lambda on Gamma_C
+// (the outward normal is -y, and the obstacle pushes up with lambda). On Sigma, eta = 1, the displacement w and the
+// stress must be the body's, p = G'(0) - T w. Two equations for w and lambda, given c:
+//   w = c cosh kappa - (lambda / z) sinh kappa,     z c sinh kappa - lambda cosh kappa = G'(0) - T w
+// hence, with mu = (T / z) tanh kappa = epsilon coth(a) tanh(kappa),
+//   lambda = (T + a^2 tanh(kappa)/kappa) / (1 + mu) c  -  G'(0) / (cosh kappa (1 + mu))
+//   w      = c / (cosh kappa (1 + mu))                 +  G'(0) (epsilon / a) tanh(kappa) / (1 + mu).
+// Written so, nothing divides by epsilon: at 0, lambda = (T + a^2) c - G'(0), the Ventcel symbol of (25), and w = c.
+Symbols::Symbols(int k, double epsilon) : a(k * std::numbers::pi), body(a / std::tanh(a)) {
+  const double kappa = epsilon * a;
+  const double tanh_kappa = std::tanh(kappa);
+  const double one_plus_mu = 1 + epsilon * tanh_kappa / std::tanh(a);
+  layer = a * a * (kappa > 0 ? tanh_kappa / kappa : 1);
+  stiffness = (body + layer) / one_plus_mu;
+  trace = 1 / (std::cosh(kappa) * one_plus_mu);
+  lift = epsilon / a * tanh_kappa / one_plus_mu;
 }
 
 }  // namespace antilock
