@@ -7,7 +7,6 @@
 #include <map>
 #include <tuple>
 
-#include "antilock/distributed/detail/kkt_report.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/mesh/generate.hpp"
@@ -20,7 +19,7 @@
 namespace antilock::distributed {
 namespace {
 
-constexpr int coarse_cells = 8, refinements = 3;  // 1/h = 64
+constexpr int coarse_cells = 8;
 
 std::tuple<long long, long long> key(double x, double y) {
   return {std::llround(x * (1LL << 30)), std::llround(y * (1LL << 30))};
@@ -36,7 +35,7 @@ class Agreement : public ::testing::TestWithParam<Case> {};
 
 /// The serial answer on `coarse`, refined, and that of all ranks: the same u and the same contact set.
 void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Element& page, int refinements,
-                      const std::string& name) {
+                      const std::string& name, bool direct = false) {
   TriangleMesh mesh = coarse;
   for (int i = 0; i < refinements; ++i) mesh = antilock::refined(mesh);
   const Space space(mesh, page);
@@ -50,6 +49,7 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
 
   NestedOptions options;
   options.refinements = refinements;
+  options.loop.direct = direct;
   NestedReport report;
   const auto level = solve_nested(scene, coarse, page, options, report);
 
@@ -72,7 +72,10 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
   EXPECT_GE(report.kkt.min_gap, -1e-9);
   EXPECT_GE(report.kkt.min_pressure, -1e-9);
   EXPECT_LE(report.last.corrections, 8);
-  EXPECT_LE(report.last.most_iterations, 15);
+  EXPECT_LE(report.last.most_iterations, direct ? 3 : 15);
+  if (!scene.contact()) {
+    EXPECT_EQ(report.last.sets, 0);
+  }
   if (rank() == 0)
     std::printf("%s: difference %.1e, residual %.1e, %d corrections, %d iterations (most %d), %d setups\n",
                 name.c_str(), worst, report.kkt.residual, report.last.corrections, report.last.linear_iterations,
@@ -82,7 +85,7 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
 TEST_P(Agreement, WithTheSerialLibrary) {
   const auto [layered, name, epsilon] = GetParam();
   expect_agreement(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}),
-                   layered ? layered_mesh(coarse_cells) : structured_mesh(coarse_cells), element(name), refinements,
+                   layered ? layered_mesh(coarse_cells) : structured_mesh(coarse_cells), element(name), 3,  // 1/h = 64
                    fmt::format("{} {} {:g}", layered ? "layered" : "structured", name, epsilon));
 }
 
@@ -93,6 +96,17 @@ TEST(AgreementOnABridge, WithTheSerialLibrary) {  // under a bridge a rank may h
         expect_agreement(Scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{}),
                          extruded(feet ? test::bridge(8) : test::l_shape(8), epsilon), element(name), 2,
                          fmt::format("{} {} {:g}", feet ? "bridge" : "L", name, epsilon));
+}
+
+TEST(AgreementOnEffectsAlone, WithTheSerialLibrary) {  // no layer, no contact, a thin layer
+  for (const Scene& scene : {Scene({paper_load}), Scene({paper_load}, NoLayer{}, UnilateralContact{}),
+                             Scene({paper_load}, ThinLayer{0.1}, UnilateralContact{})})
+    expect_agreement(scene, structured_mesh(coarse_cells, Domain{scene.layer_depth()}), p1(), 2, "effects alone");
+}
+
+TEST(AgreementOfMumps, WithTheSerialLibrary) {
+  expect_agreement(Scene({paper_load}, StiffLayer{1e-6}, UnilateralContact{}), unstructured_mesh(coarse_cells),
+                   crouzeix_raviart(), 2, "a layer without columns", true);
 }
 
 std::vector<Case> cases() {

@@ -8,8 +8,8 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/distributed/detail/kkt_report.hpp"
+#include "antilock/distributed/detail/piece.hpp"
 #include "antilock/distributed/detail/snesvi.hpp"
-#include "antilock/distributed/detail/strips.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/mesh/generate.hpp"
@@ -64,8 +64,7 @@ TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {
   int triangles = 0;
   std::set<std::array<double, 2>> places;
   for (int r = 0; r < 3; ++r) {
-    const MeshPart piece = refined(refined(piece_of(coarse, rank_of, r, 3)));
-    const TriangleMesh& mesh = piece.mesh;
+    const TriangleMesh mesh = refined_piece(refined_piece(piece_of(coarse, rank_of, r)));
     triangles += mesh.triangle_count();
     for (int v = 0; v < mesh.vertex_count(); ++v) places.insert({mesh.vertices(v, 0), mesh.vertices(v, 1)});
     for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -76,31 +75,22 @@ TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {
         ASSERT_EQ(mesh.edges(e, 1), std::max(a, b));
       }
     }
-    for (const Seam& seam : piece.seams) {
-      ASSERT_EQ(seam.edges.size(), 4U);
-      for (int s = 0; s < 4; ++s) {
-        EXPECT_EQ(std::min(seam.vertices[s], seam.vertices[s + 1]), mesh.edges(seam.edges[s], 0));
-        EXPECT_EQ(std::max(seam.vertices[s], seam.vertices[s + 1]), mesh.edges(seam.edges[s], 1));
-        EXPECT_EQ(mesh.edge_triangles(seam.edges[s], 1), -1);
-      }
-    }
   }
   EXPECT_EQ(triangles, fine.triangle_count());
   std::set<std::array<double, 2>> wanted;
   for (int v = 0; v < fine.vertex_count(); ++v) wanted.insert({fine.vertices(v, 0), fine.vertices(v, 1)});
-  EXPECT_EQ(places, wanted);  // to the last bit: both sides of a seam see the same vertex
+  EXPECT_EQ(places, wanted);  // to the last bit: both sides of a cut see the same vertex
 }
 
 TEST(Numbers, OneForEveryVertexAndEdgeOfTheWholeMesh) {
   const TriangleMesh coarse = layered_mesh(8), whole = antilock::refined(coarse);
-  const MeshPart piece = refined(piece_of(coarse, strips(coarse, ranks()), rank(), ranks()));
+  const TriangleMesh piece = refined_piece(piece_of(coarse, strips(coarse, ranks()), rank()));
   EXPECT_EQ(numbers(piece, true).total, whole.vertex_count());
   EXPECT_EQ(numbers(piece, false).total, whole.edge_count());
   const Numbers vertices = numbers(piece, true);
   std::vector<double> mine;  // number, x: a number means the same vertex on every rank
-  for (int v = 0; v < piece.mesh.vertex_count(); ++v)
-    mine.insert(mine.end(),
-                {static_cast<double>(vertices.number[v]), piece.mesh.vertices(v, 0), piece.mesh.vertices(v, 1)});
+  for (int v = 0; v < piece.vertex_count(); ++v)
+    mine.insert(mine.end(), {static_cast<double>(vertices.number[v]), piece.vertices(v, 0), piece.vertices(v, 1)});
   const std::vector<double> all = gathered(mine);
   std::vector<std::array<double, 2>> place(whole.vertex_count(), {-9, -9});
   for (std::size_t i = 0; i < all.size(); i += 3) {
@@ -192,35 +182,23 @@ TEST(Report, IsTheSerialOneOfTheSameNumbers) {
   EXPECT_THROW(certified(level->problem, level->state, 1e-10, warning), NotConverged);
 }
 
-TEST(Direct, SolvesALayerWithoutColumns) {
-  const TriangleMesh mesh = unstructured_mesh(32);
-  const Space space(mesh, crouzeix_raviart());
-  const Solution serial = active_set(assemble(scene(), space));
-  NestedOptions options;
-  options.loop.direct = true;
-  NestedReport report;
-  const auto level = solve_nested(scene(), mesh, crouzeix_raviart(), options, report);
-  EXPECT_NEAR(largest(level->state.u.maxCoeff()), serial.u.maxCoeff(), 1e-9 * serial.u.maxCoeff());
-  EXPECT_NEAR(-largest(-level->state.u.minCoeff()), serial.u.minCoeff(), 1e-9 * serial.u.maxCoeff());
-  EXPECT_EQ(level->contact_set().count(), std::count(serial.active.begin(), serial.active.end(), true));
-  EXPECT_LE(report.last.most_iterations, 3);
-}
-
 TEST(Snesvi, LosesTheSummedMatrixAndSolvesTheSplitForm) {
   const TriangleMesh mesh = structured_mesh(32);
   const Space whole(mesh, p1());
   for (const double epsilon : {1e-2, 1e-6, 0.0}) {
     const Scene question({paper_load}, StiffLayer{epsilon}, UnilateralContact{});
     const Solution serial = active_set(assemble(question, whole));
-    const MeshPart piece = piece_of(mesh, strips(mesh, ranks()), rank(), ranks());
-    const Space space(piece.mesh, p1());
+    const TriangleMesh piece = piece_of(mesh, strips(mesh, ranks()), rank());
+    const Space space(piece, p1());
     if (epsilon > 0) {
-      const SnesviEnd end = snesvi(Inequality(question, piece, space, Penalty::compliance));
+      const Inequality summed(question, space, Penalty::compliance);
+      State state = zero_state(summed);
+      const SnesviEnd end = snesvi(summed, state, false);
       EXPECT_EQ(end.converged, epsilon == 1e-2) << end.reason;
     }
-    const Inequality problem(question, piece, space, Penalty::rule);
+    const Inequality problem(question, space, Penalty::rule);
     State state = zero_state(problem);
-    const SnesviEnd end = snesvi_split(problem, state);
+    const SnesviEnd end = snesvi(problem, state, true);
     EXPECT_TRUE(end.converged) << end.reason;
     EXPECT_LE(end.corrections, 6);
     EXPECT_NEAR(largest(state.u.maxCoeff()), serial.u.maxCoeff(), 1e-9 * serial.u.maxCoeff());
@@ -238,24 +216,6 @@ TEST(ContactSets, BetweenTwoPointsInContactIsContact) {
   EXPECT_FALSE(set.at(0.35));
   EXPECT_FALSE(set.at(0.05));
   EXPECT_FALSE(ContactSet{}.at(0.5));
-}
-
-TEST(EffectsAlone, NoLayerNoContactAreSolvedToo) {
-  const std::array<Scene, 3> scenes = {Scene({paper_load}), Scene({paper_load}, NoLayer{}, UnilateralContact{}),
-                                       Scene({paper_load}, ThinLayer{0.1}, UnilateralContact{})};
-  for (const Scene& question : scenes) {
-    const TriangleMesh mesh = structured_mesh(32, Domain{question.layer_depth()});
-    const Space space(mesh, p1());
-    const VariationalInequality problem = assemble(question, space);
-    const Solution serial = active_set(problem);
-    NestedReport report;
-    const auto level = solve_nested(question, mesh, p1(), {}, report);
-    EXPECT_NEAR(largest(level->state.u.maxCoeff()), serial.u.maxCoeff(), 1e-9 * serial.u.maxCoeff());
-    EXPECT_NEAR(-largest(-level->state.u.minCoeff()), serial.u.minCoeff(), 1e-9 * serial.u.maxCoeff());
-    if (!question.contact()) {
-      EXPECT_EQ(report.last.sets, 0);
-    }
-  }
 }
 
 }  // namespace

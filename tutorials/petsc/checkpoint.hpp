@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <string>
 
-#include "antilock/distributed/detail/contact_set.hpp"
+#include "antilock/distributed/nested.hpp"
 
 namespace antilock::distributed {
 

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "antilock/core/error.hpp"
+#include "antilock/distributed/detail/piece.hpp"
 #include "antilock/distributed/detail/snesvi.hpp"
-#include "antilock/distributed/detail/strips.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -85,14 +85,13 @@ Table on_ranks(const std::string& what, const std::vector<int>& ranks, const std
 
 Ended by_snesvi(const Asked& asked) {
   const TriangleMesh mesh = structured_mesh(asked.cells);
-  const distributed::MeshPart piece =
-      distributed::piece_of(mesh, distributed::strips(mesh, asked.ranks), distributed::rank(), asked.ranks);
-  const Space space(piece.mesh, p1());
+  const TriangleMesh piece = distributed::piece_of(mesh, distributed::strips(mesh, asked.ranks), distributed::rank());
+  const Space space(piece, p1());
   const bool summed = asked.what == "SNESVI, summed";
-  const distributed::Inequality problem(paper_scene(asked.epsilon), piece, space,
+  const distributed::Inequality problem(paper_scene(asked.epsilon), space,
                                         summed ? distributed::Penalty::compliance : distributed::Penalty::rule);
   distributed::State state = distributed::zero_state(problem);
-  const distributed::SnesviEnd end = summed ? distributed::snesvi(problem) : distributed::snesvi_split(problem, state);
+  const distributed::SnesviEnd end = distributed::snesvi(problem, state, !summed);
   return {problem.rows().total(), end.corrections, end.linear, 0, 0, 0, end.largest, 0, end.reason};
 }
 

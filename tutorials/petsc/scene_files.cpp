@@ -31,7 +31,7 @@ double energy_of_all(const NestedLevel& level) {
 
 /// Per unknown of the piece: the length of Gamma_C that it stands for, summed over the ranks.
 Eigen::VectorXd contact_lengths_of_all(const NestedLevel& level) {
-  const TriangleMesh& mesh = level.piece.mesh;
+  const TriangleMesh& mesh = level.piece;
   const bool at_vertices = level.space.element().per_vertex() > 0;
   Eigen::VectorXd lengths = Eigen::VectorXd::Zero(level.space.size());
   for (int e = 0; e < mesh.edge_count(); ++e) {
@@ -78,7 +78,7 @@ Eigen::MatrixX3d contact_table_of_all(const NestedLevel& level, const Eigen::Vec
 
 /// Layer stress and pressure as a VTU file takes them: per triangle, and per contact unknown of the piece.
 VtuFields fields_of(const NestedLevel& level, const Eigen::VectorXd& pressure, bool contact) {
-  const TriangleMesh& mesh = level.piece.mesh;
+  const TriangleMesh& mesh = level.piece;
   VtuFields fields{Eigen::VectorXd::Zero(mesh.triangle_count()), {}};
   for (int t = 0, row = 0; t < mesh.triangle_count() && row < level.state.p.size(); ++t)
     if (mesh.region[t] == Region::layer) fields.p(t) = level.state.p(row++);  // one row of B per layer triangle
@@ -108,7 +108,7 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
   SceneSummary s;
   s.layer = layer;
   const bool from_file = file.mesh.kind == MeshRequest::Kind::file;
-  s.h = from_file ? largest(level.piece.mesh.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
+  s.h = from_file ? largest(level.piece.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
   s.unknowns = level.problem.rows().total();
   s.energy = energy_of_all(level);
   s.u_max = largest(level.state.u.maxCoeff());
@@ -177,7 +177,7 @@ void write_scene_files(const fs::path& folder, const SceneFile& file, const Nest
   const SceneSummary summary = summary_of_all(file, level, report, levels, layer, warning);
   const Stopwatch files;
   const auto write = [&](const fs::path& draft) {
-    if (csv) write_solution_csv_together(draft / "solution.csv", level.piece, level.space, level.state.u);
+    if (csv) write_solution_csv_together(draft / "solution.csv", level.space, level.state.u);
     write_msh_together(draft / "mesh.msh", level.piece);
     const Eigen::VectorXd pressure = pressures(level);
     const Eigen::MatrixX3d table = contact_table_of_all(level, pressure);

@@ -57,17 +57,15 @@ void write_in_turns(const fs::path& path, const std::string& head, const std::fu
     });
 }
 
-void write_solution_csv_together(const fs::path& path, const MeshPart& piece, const Space& space,
-                                 const Eigen::VectorXd& u) {
-  const Numbers all = numbers(piece, space.element().per_vertex() > 0);
+void write_solution_csv_together(const fs::path& path, const Space& space, const Eigen::VectorXd& u) {
+  const Numbers all = numbers(space.mesh(), space.element().per_vertex() > 0);
   write_in_turns(path, "x,y,u\n", [&](Text& text) {
     for (const int i : all.own) text.print("{},{},{}\n", space.points()(i, 0), space.points()(i, 1), u(i));
   });
 }
 
-void write_msh_together(const fs::path& path, const MeshPart& piece) {
-  const TriangleMesh& mesh = piece.mesh;
-  const Numbers nodes = numbers(piece, true), edges = numbers(piece, false);
+void write_msh_together(const fs::path& path, const TriangleMesh& mesh) {
+  const Numbers nodes = numbers(mesh, true), edges = numbers(mesh, false);
   std::vector<int> labelled;  // edges of this rank that carry a group
   for (const int e : edges.own)
     if (mesh.edge_tag[e] != EdgeTag::interior) labelled.push_back(e);

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "antilock/core/detail/text.hpp"
-#include "antilock/distributed/detail/piece.hpp"
 #include "antilock/space/space.hpp"
 
 namespace antilock::distributed {
@@ -22,10 +21,9 @@ void write_folder_together(const std::filesystem::path& folder,
 void write_in_turns(const std::filesystem::path& path, const std::string& head, const std::function<void(Text&)>& part);
 
 /// `x,y,u`, one row per unknown in the order of `numbers`: for P1 that of the nodes of write_msh_together.
-void write_solution_csv_together(const std::filesystem::path& path, const MeshPart& piece, const Space& space,
-                                 const Eigen::VectorXd& u);
+void write_solution_csv_together(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u);
 
 /// The whole mesh, MSH 2.2 with its physical groups.
-void write_msh_together(const std::filesystem::path& path, const MeshPart& piece);
+void write_msh_together(const std::filesystem::path& path, const TriangleMesh& piece);
 
 }  // namespace antilock::distributed

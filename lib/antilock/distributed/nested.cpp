@@ -4,12 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/detail/kkt_report.hpp"
-#include "antilock/distributed/detail/strips.hpp"
+#include "antilock/distributed/detail/piece.hpp"
 #include "antilock/distributed/ranks.hpp"
 
 namespace antilock::distributed {
@@ -25,36 +26,44 @@ void check_question(const Scene& scene, const Element& element) {
     throw Error("layer.model: \"ventcel\" is not accepted by petsc; accepted \"scaled\" and \"thin\"");
 }
 
-/// The corners of child i of a triangle in the barycentric coordinates of its father (piece.hpp's order).
+/// The corners of child i of a triangle in the barycentric coordinates of its father (piece.hpp's order): the midpoints
+/// of the edges, or corner i and the midpoints beside it.
 Eigen::Matrix3d corners_of_child(int i) {
-  const auto middle = [](int a, int b) {
-    return Eigen::RowVector3d(0.5 * (Eigen::RowVector3d::Unit(a) + Eigen::RowVector3d::Unit(b)));
-  };
-  Eigen::Matrix3d corners;
-  if (i == 3)
-    corners << middle(1, 2), middle(2, 0), middle(0, 1);
-  else
-    corners << Eigen::RowVector3d::Unit(i), middle(i, (i + 1) % 3), middle(i, (i + 2) % 3);
+  Eigen::Matrix3d corners = 0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity());
+  for (int k = 0; k < 3 && i < 3; ++k)
+    corners.row(k) = 0.5 * (Eigen::RowVector3d::Unit(i) + Eigen::RowVector3d::Unit((i + k) % 3));
   return corners;
 }
 
 }  // namespace
 
-NestedLevel::NestedLevel(const Scene& scene, MeshPart piece_in, const Element& element)
-    : piece(std::move(piece_in)),
-      space(piece.mesh, element),
-      problem(scene, piece, space),
-      state(zero_state(problem)) {}
+int ContactSet::count() const { return static_cast<int>(std::count(active.begin(), active.end(), 1)); }
+
+bool ContactSet::at(double where) const {
+  constexpr double slack = 1e-9;  // a point that both meshes have stands between itself and itself
+  const auto right = std::lower_bound(x.begin(), x.end(), where - slack);
+  const auto left = std::upper_bound(x.begin(), x.end(), where + slack);
+  const bool from_right = right != x.end() && active[right - x.begin()] != 0;
+  const bool from_left = left != x.begin() && active[left - x.begin() - 1] != 0;
+  if (right == x.end()) return from_left;
+  if (left == x.begin()) return from_right;
+  return from_left && from_right;
+}
+
+NestedLevel::NestedLevel(const Scene& scene, TriangleMesh piece_in, const Element& element)
+    : piece(std::move(piece_in)), space(piece, element), problem(scene, space), state(zero_state(problem)) {}
 
 ContactSet NestedLevel::contact_set() const {
-  std::vector<double> x;
-  std::vector<char> active;
-  for (int place = 0; place < problem.rows().owned(); ++place) {
-    if (std::isinf(problem.lower()(place))) continue;
-    x.push_back(space.points()(problem.rows().unknown(place), 0));
-    active.push_back(state.active[place]);
-  }
-  return gathered_set(x, active);
+  std::vector<double> mine;  // x, whether active
+  for (int place = 0; place < problem.rows().owned(); ++place)
+    if (std::isfinite(problem.lower()(place)))
+      mine.insert(mine.end(), {space.points()(problem.rows().unknown(place), 0), double(state.active[place])});
+  const std::vector<double> all = gathered(mine);
+  std::map<double, char> by_x;
+  for (std::size_t i = 0; i < all.size(); i += 2) by_x[all[i]] = all[i + 1] != 0 ? 1 : 0;
+  ContactSet set;
+  for (const auto& [x, active] : by_x) set.x.push_back(x), set.active.push_back(active);
+  return set;
 }
 
 void NestedLevel::start_from(const ContactSet& set) {
@@ -83,22 +92,21 @@ void NestedLevel::start_from(const NestedLevel& coarse) {
 std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
                                           const NestedOptions& options, NestedReport& report) {
   Stopwatch watch;
-  MeshPart piece;
+  TriangleMesh piece;
   together([&] {
     check_question(scene, element);
-    piece =
-        piece_of(coarse, options.share ? options.share(coarse, ranks()) : strips(coarse, ranks(), options.loop.direct),
-                 rank(), ranks());
+    piece = piece_of(
+        coarse, options.share ? options.share(coarse, ranks()) : strips(coarse, ranks(), options.loop.direct), rank());
   });
   watch.lap();
   const int first = std::max(0, std::min(options.first_level, options.refinements));
-  for (int l = 0; l < first; ++l) together([&] { piece = refined(piece); });
+  for (int l = 0; l < first; ++l) together([&] { piece = refined_piece(piece); });
   report.mesh += watch.lap();
   std::unique_ptr<NestedLevel> level;
   for (int l = first;; ++l) {
     const bool last = l >= options.refinements;
     options.stage(fmt::format("level {} of {}: {} triangles", l, options.refinements,
-                              sum(static_cast<long long>(piece.mesh.triangle_count()))));
+                              sum(static_cast<long long>(piece.triangle_count()))));
     watch.lap();
     auto finer = std::make_unique<NestedLevel>(scene, std::exchange(piece, {}), element);
     if (level) {
@@ -122,7 +130,7 @@ std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh
     if (last) break;
     options.checkpoint(l, level->contact_set());
     watch.lap();
-    together([&] { piece = refined(level->piece); });
+    together([&] { piece = refined_piece(level->piece); });
     report.mesh += watch.lap();
   }
   watch.lap();

@@ -2,16 +2,27 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "antilock/distributed/detail/contact_loop.hpp"
-#include "antilock/distributed/detail/contact_set.hpp"
 
 namespace antilock::distributed {
 
+/// Which points of Gamma_C are in contact, all ranks' points by x: what one level tells the next, and what a checkpoint
+/// holds. It does not depend on the number of ranks.
+struct ContactSet {
+  std::vector<double> x;     ///< ascending
+  std::vector<char> active;  ///< as many
+
+  int count() const;  ///< points in contact
+  /// Whether a point between these is taken to be in contact: where its two neighbours are.
+  bool at(double x) const;
+};
+
 /// One mesh of the hierarchy with everything that this rank has on it.
 struct NestedLevel {
-  NestedLevel(const Scene& scene, MeshPart piece, const Element& element);
-  MeshPart piece;
+  NestedLevel(const Scene& scene, TriangleMesh piece, const Element& element);
+  TriangleMesh piece;
   Space space;
   Inequality problem;
   State state;
@@ -23,7 +34,7 @@ struct NestedLevel {
 
 struct NestedOptions {
   int refinements = 0;  ///< of the coarse mesh
-  /// The rank of every triangle of the coarse mesh; empty: strips.hpp. For exhibits of what another share costs.
+  /// The rank of every triangle of the coarse mesh; empty: strips. For exhibits of what another share costs.
   std::function<std::vector<int>(const TriangleMesh&, int ranks)> share;
   LoopOptions loop;                 ///< of the last level
   int first_level = 0;              ///< where to begin to solve: a checkpoint holds the set of the level before

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
+#include <numeric>
 #include <utility>
 
 #include "antilock/core/error.hpp"
@@ -18,8 +19,9 @@ namespace {
 /// Conjugate gradients with BoomerAMG: 2 to 4 iterations for four digits in the energy norm, whatever delta, on layers
 /// in columns. One forward sweep of SOR down and one backward sweep up take half the time of symmetric sweeps on both
 /// ways, and as many iterations.
-constexpr std::array<std::array<const char*, 2>, 9> defaults = {
-    {{"-ksp_type", "cg"},
+constexpr std::array<std::array<const char*, 2>, 10> defaults = {
+    {{"-no_signal_handler", nullptr},
+     {"-ksp_type", "cg"},
      {"-ksp_norm_type", "natural"},
      {"-pc_type", "hypre"},
      {"-pc_hypre_type", "boomeramg"},
@@ -48,14 +50,9 @@ std::string said_by(int rank, std::string text) {
 }  // namespace
 
 Session::Session() {
-  ok(PetscOptionsSetValue(nullptr, "-no_signal_handler", nullptr));
-  ok(PetscInitializeNoArguments());
+  for (const auto& [name, value] : defaults) ok(PetscOptionsSetValue(nullptr, name, value));
+  ok(PetscInitializeNoArguments());  // reads PETSC_OPTIONS over them
   ok(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
-  for (const auto& [name, value] : defaults) {
-    PetscBool set = PETSC_FALSE;
-    ok(PetscOptionsHasName(nullptr, nullptr, name, &set));
-    if (set == PETSC_FALSE) ok(PetscOptionsSetValue(nullptr, name, value));
-  }
 }
 
 Session::~Session() { PetscFinalize(); }
@@ -114,12 +111,12 @@ double largest(double value) { return over_ranks(value, MPI_DOUBLE, MPI_MAX); }
 long long sum(long long value) { return over_ranks(value, MPI_LONG_LONG, MPI_SUM); }
 
 std::vector<double> gathered(const std::vector<double>& values) {
-  std::vector<int> counts(ranks()), starts(ranks() + 1, 0);
-  const int mine = static_cast<int>(values.size());
-  MPI_Allgather(&mine, 1, MPI_INT, counts.data(), 1, MPI_INT, PETSC_COMM_WORLD);
-  for (int r = 0; r < ranks(); ++r) starts[r + 1] = starts[r] + counts[r];
+  const std::vector<long long> sizes = each(static_cast<long long>(values.size()));
+  const std::vector<int> counts(sizes.begin(), sizes.end());
+  std::vector<int> starts(ranks() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
   std::vector<double> all(starts.back());
-  MPI_Allgatherv(values.data(), mine, MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
+  MPI_Allgatherv(values.data(), counts[rank()], MPI_DOUBLE, all.data(), counts.data(), starts.data(), MPI_DOUBLE,
                  PETSC_COMM_WORLD);
   return all;
 }

@@ -13,25 +13,14 @@
 namespace antilock::distributed {
 namespace {
 
+constexpr double inner = 1e-4;   // conjugate gradients: what they leave of a correction, in the energy norm
+constexpr int most_sets = 2000;  // contact sets tried
+
 double largest_entry(Vec v) {
   PetscReal value = 0;
   ok(VecNorm(v, NORM_INFINITY, &value));
   return value;
 }
-
-/// The values of a vector that this rank owns, for the length of a scope.
-class Entries {
- public:
-  explicit Entries(Vec v) : v_(v) { ok(VecGetArray(v_, &values_)); }
-  ~Entries() { VecRestoreArray(v_, &values_); }
-  Entries(const Entries&) = delete;
-  Entries& operator=(const Entries&) = delete;
-  PetscScalar& operator[](std::size_t i) { return values_[i]; }
-
- private:
-  Vec v_;
-  PetscScalar* values_ = nullptr;
-};
 
 /// K with the rows and columns of the contact set replaced by delta^-1 times the identity, and its multigrid.
 class HeldSystem {
@@ -64,7 +53,7 @@ class HeldSystem {
     if (reason < 0 && reason != KSP_DIVERGED_ITS) ok(VecSet(du, 0));
   }
   /// The iterations that it took. Throws NotConverged.
-  int solve(Vec rhs, Vec du, double inner, int most) {
+  int solve(Vec rhs, Vec du, int most) {
     ok(KSPSetTolerances(solver_, inner, 1e-300, PETSC_DEFAULT, most));
     ok(KSPSolve(solver_, rhs, du));
     KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
@@ -95,8 +84,7 @@ State zero_state(const Inequality& problem) {
 
 LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptions& options) {
   const Rows& rows = problem.rows();
-  const Eigen::VectorXd &m = problem.part().m, &lower = problem.lower();
-  const auto owned = static_cast<std::size_t>(rows.owned());
+  const Eigen::VectorXd& lower = problem.lower();
   const Vector u = rows.vector(), r1 = rows.vector(), rhs = rows.vector(), du = rows.vector(), jump = rows.vector();
   rows.owned_part(state.u, u);
   state.u = rows.local(u);
@@ -109,7 +97,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
   for (int step = 0, since_change = 0;; ++step, ++since_change) {
     const Eigen::VectorXd r1_part = problem.equilibrium(state.u, state.p), r2 = problem.compatibility(state.u, state.p);
     rows.summed(r1_part, r1);
-    rows.summed(r1_part + problem.part().b.transpose() * m.cwiseProduct(r2) / problem.delta(), rhs);
+    rows.summed(problem.right_side(r1_part, r2), rhs);
 
     // the contact set that (u, lambda = -r1) proposes: kept where it presses, entered where u is below the bound
     std::vector<PetscInt> held;
@@ -117,7 +105,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     long long changed = 0;
     {
       Entries value(u), residual(r1), right(rhs), gap(jump);
-      for (std::size_t i = 0; i < owned; ++i) {
+      for (int i = 0; i < rows.owned(); ++i) {
         const bool was = state.active[i] != 0;
         const bool is = std::isfinite(lower(i)) && (step == 0 ? was : was ? residual[i] < 0 : value[i] < lower(i));
         changed += is != was;
@@ -128,7 +116,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
         if (!is) continue;
         force = std::max(force, std::abs(residual[i]));
         right[i] = 0;
-        held.push_back(rows.first() + static_cast<PetscInt>(i));
+        held.push_back(rows.first() + i);
       }
     }
     changed = sum(changed);
@@ -142,8 +130,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     if (changed > 0) ++report.sets, since_change = 0;
     const bool settled = report.change <= options.tolerance && unbalanced <= options.residual;
     if (step > 0 && changed == 0 && settled) break;
-    if (!std::isfinite(scale + unbalanced) || since_change > options.most_corrections ||
-        report.sets > options.most_sets)
+    if (!std::isfinite(scale + unbalanced) || since_change > options.most_corrections || report.sets > most_sets)
       throw NotConverged(
           fmt::format("petsc: relative change {:.1e} and residual {:.1e} after {} corrections and {} contact "
                       "sets, asked for {:.1e} and {:.1e}",
@@ -162,17 +149,16 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     report.setups += due;
     report.seconds_setup += watch.lap();
     if (smooth) system.smooth(rhs, du, options.smoothings);
-    const int iterations = smooth ? 0 : system.solve(rhs, du, options.inner, options.most_iterations);
+    const int iterations = smooth ? 0 : system.solve(rhs, du, options.most_iterations);
     report.linear_iterations += iterations;
     report.most_iterations = std::max(report.most_iterations, iterations);
     ++report.corrections;
     ok(VecAXPY(du, 1, jump)), ok(VecAXPY(u, 1, du));
     const Eigen::VectorXd step_here = rows.local(du);
     state.u += step_here;
-    if (m.size() > 0) state.p += (problem.part().b * step_here - r2) / problem.delta();
+    state.p += problem.stress_step(step_here, r2);
     const double moved = largest_entry(du), size = largest_entry(u);
     report.change = size > 0 ? moved / size : 0;
-    report.history.push_back(report.change);
     report.seconds_solve += watch.lap();
   }
   report.processor = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;

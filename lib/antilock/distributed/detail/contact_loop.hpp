@@ -16,11 +16,9 @@ State zero_state(const Inequality& problem);
 struct LoopOptions {
   double tolerance = 1e-10;   ///< largest |du| / largest |u| of the last correction
   double residual = 1e-9;     ///< of the equations, relative to the largest force
-  double inner = 1e-4;        ///< conjugate gradients: what they leave of a correction, in the energy norm
   int smoothings = 0;         ///< in place of the first correction: steps that need no multigrid (contact_loop)
   int most_iterations = 500;  ///< of conjugate gradients, per correction
   int most_corrections = 60;  ///< since the contact set changed last
-  int most_sets = 2000;       ///< contact sets tried
   ProgressHook progress;      ///< told of each correction on every rank; `false` on any stops all
   bool direct = false;        ///< MUMPS factors the matrix in place of multigrid: for layers without columns
 };
@@ -35,7 +33,6 @@ struct LoopReport {
   double change = 0;          ///< of the last correction, relative
   double seconds_setup = 0, seconds_solve = 0;
   double processor = 0;  ///< seconds that this rank's processor worked on it: on a shared machine fewer than the wall's
-  std::vector<double> history;  ///< relative change per correction
 };
 
 /// Iterated penalty and primal-dual active set in one loop. Each correction

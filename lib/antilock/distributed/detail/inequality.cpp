@@ -28,9 +28,8 @@ long long layer_triangles(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Inequality::Inequality(const Scene& scene, const MeshPart& piece, const Space& space, Penalty penalty)
-    : rows_(piece, space) {
-  const bool here = layer_triangles(piece.mesh) > 0, somewhere = sum(layer_triangles(piece.mesh)) > 0;
+Inequality::Inequality(const Scene& scene, const Space& space, Penalty penalty) : rows_(space) {
+  const bool here = layer_triangles(space.mesh()) > 0, somewhere = sum(layer_triangles(space.mesh())) > 0;
   together(
       [&] {  // a strip without a part of the layer (between the two feet of a body) has the body's part of the forms
         part_ = assemble(here || !somewhere ? scene : Scene(scene.body(), NoLayer{}, scene.contact()), space);
@@ -43,16 +42,13 @@ Inequality::Inequality(const Scene& scene, const MeshPart& piece, const Space& s
           lower_(place) = -gap;
         }
       });
-  stiff_ = sum(static_cast<long long>(part_.m.size())) > 0;
-  if (stiff_) part_.compliance = largest(part_.m.size() > 0 ? part_.compliance : 0);
+  const bool stiff = sum(static_cast<long long>(part_.m.size())) > 0;  // whether any rank has a row of B
+  if (stiff) part_.compliance = largest(part_.m.size() > 0 ? part_.compliance : 0);
   const double rule =
       penalty_over_all(relative_stiffness(part_)) / (penalty == Penalty::loop ? tuned::next_penalty : 1);
-  if (stiff_) delta_ = penalty == Penalty::compliance ? part_.compliance : std::max(part_.compliance, rule);
+  if (stiff) delta_ = penalty == Penalty::compliance ? part_.compliance : std::max(part_.compliance, rule);
   // B' M B is the layer's y-derivatives: the same form with weight delta^-1 on the layer is A1 + delta^-1 B' M B
-  if (stiff_)
-    sum_k(gradient_form(space, {1, 1}, {1, 1 / delta_}));
-  else
-    sum_k(part_.a1);
+  sum_k(stiff ? gradient_form(space, {1, 1}, {1, 1 / delta_}) : part_.a1);
 }
 
 /// The matrix of all ranks from the parts: room for every entry is counted first, since a matrix that must grow takes
@@ -62,47 +58,50 @@ void Inequality::sum_k(const SparseMatrix& part) {
   for (Eigen::Index j = 0; j < part.cols(); ++j) entries(j) = static_cast<double>(part.col(j).nonZeros());
   const Vector counted = rows_.vector();
   rows_.summed(entries, counted);
+  entries = Entries(counted);
   std::vector<PetscInt> own(rows_.owned(), 0), other(rows_.owned(), 0);
-  const PetscScalar* all = nullptr;
-  ok(VecGetArrayRead(counted, &all));
   for (int place = 0; place < rows_.owned(); ++place) {
-    if (place < rows_.shared()) {  // how many of them coincide is not known: room for all
-      own[place] = std::min(static_cast<PetscInt>(all[place]), static_cast<PetscInt>(rows_.owned()));
-      other[place] = static_cast<PetscInt>(all[place]);
+    if (rows_.shared(rows_.unknown(place))) {  // how many of them coincide is not known: room for all
+      other[place] = static_cast<PetscInt>(entries(place));
+      own[place] = std::min<PetscInt>(other[place], rows_.owned());
       continue;
     }
     for (SparseMatrix::InnerIterator entry(part, rows_.unknown(place)); entry; ++entry) {
-      const int column = rows_.place(static_cast<int>(entry.row()));
-      if (column >= 0) ++(column < rows_.owned() ? own : other)[place];
+      const PetscInt column = rows_.row(static_cast<int>(entry.row()));
+      if (column >= 0) ++(rows_.owns(column) ? own : other)[place];
     }
   }
-  ok(VecRestoreArrayRead(counted, &all));
   ok(MatCreateAIJ(PETSC_COMM_WORLD, rows_.owned(), rows_.owned(), PETSC_DETERMINE, PETSC_DETERMINE, 0, own.data(), 0,
                   other.data(), &k_));
   std::vector<PetscInt> columns;
   std::vector<PetscScalar> values;
-  for (int place = 0; place < rows_.held(); ++place) {
+  for (int unknown = 0; unknown < part.cols(); ++unknown) {
     columns.clear(), values.clear();
-    for (SparseMatrix::InnerIterator entry(part, rows_.unknown(place)); entry; ++entry) {  // symmetric: column = row
-      const int column = rows_.place(static_cast<int>(entry.row()));
-      if (column < 0 || entry.value() == 0) continue;  // 0 across the long edge of a right angle: 7 entries become 5
-      columns.push_back(rows_.row(column));
+    for (SparseMatrix::InnerIterator entry(part, unknown); entry; ++entry) {  // symmetric: column = row
+      if (entry.value() == 0) continue;  // across the long edge of a right angle: 7 entries become 5
+      columns.push_back(rows_.row(static_cast<int>(entry.row())));
       values.push_back(entry.value());
     }
-    const PetscInt row = rows_.row(place);
+    const PetscInt row = rows_.row(unknown);  // PETSc passes over -1, here and among the columns
     ok(MatSetValues(k_, 1, &row, static_cast<PetscInt>(columns.size()), columns.data(), values.data(), ADD_VALUES));
   }
   ok(MatAssemblyBegin(k_, MAT_FINAL_ASSEMBLY)), ok(MatAssemblyEnd(k_, MAT_FINAL_ASSEMBLY));
 }
 
 Eigen::VectorXd Inequality::equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
-  Eigen::VectorXd r = part_.load - part_.a1 * u;
-  if (part_.m.size() > 0) r -= part_.b.transpose() * part_.m.cwiseProduct(p);
-  return r;
+  return part_.load - part_.a1 * u - part_.b.transpose() * part_.m.cwiseProduct(p);
 }
 
 Eigen::VectorXd Inequality::compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
   return part_.compliance * p - part_.b * u;
+}
+
+Eigen::VectorXd Inequality::right_side(const Eigen::VectorXd& r1, const Eigen::VectorXd& r2) const {
+  return r1 + part_.b.transpose() * part_.m.cwiseProduct(r2) / delta_;
+}
+
+Eigen::VectorXd Inequality::stress_step(const Eigen::VectorXd& du, const Eigen::VectorXd& r2) const {
+  return (part_.b * du - r2) / delta_;
 }
 
 }  // namespace antilock::distributed

@@ -17,21 +17,24 @@ enum class Penalty { loop, rule, compliance };
 /// library's forms. Whole forms are sums over the ranks; only K = A1 + delta^-1 B' M B is ever a matrix of all ranks.
 class Inequality {
  public:
-  /// Every rank must call it. Throws Error, on every rank, where scene and mesh do not fit or a load or a gap is not
+  /// `space`: on the piece of this rank. Every rank must call it. Throws Error, on every rank, where scene and mesh do not fit or a load or a gap is not
   /// finite.
-  Inequality(const Scene& scene, const MeshPart& piece, const Space& space, Penalty penalty = Penalty::loop);
+  Inequality(const Scene& scene, const Space& space, Penalty penalty = Penalty::loop);
 
   const VariationalInequality& part() const { return part_; }  ///< without fixed and contact unknowns
   const Rows& rows() const { return rows_; }
   const Matrix& k() const { return k_; }                   ///< N x N
   double delta() const { return delta_; }                  ///< the compliance at least
-  bool stiff() const { return stiff_; }                    ///< whether any rank has a row of B
   const Eigen::VectorXd& lower() const { return lower_; }  ///< per owned row: the bound, -infinity where there is none
 
   /// r1 = L - A1 u - B' M p, the part of this rank. u at the unknowns of the piece, p at its rows of B.
   Eigen::VectorXd equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const;
   /// r2 = compliance p - B u; never shared.
   Eigen::VectorXd compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const;
+  /// A correction of both: K du = r1 + delta^-1 B' M r2, the part of this rank,
+  Eigen::VectorXd right_side(const Eigen::VectorXd& r1, const Eigen::VectorXd& r2) const;
+  /// and dp = (B du - r2) / delta.
+  Eigen::VectorXd stress_step(const Eigen::VectorXd& du, const Eigen::VectorXd& r2) const;
 
  private:
   void sum_k(const SparseMatrix& part);
@@ -39,7 +42,6 @@ class Inequality {
   Rows rows_;
   Matrix k_;
   double delta_ = 1;
-  bool stiff_ = false;
   Eigen::VectorXd lower_;
 };
 

@@ -15,11 +15,7 @@ namespace {
 Eigen::VectorXd summed(const Rows& rows, const Eigen::VectorXd& part) {
   const Vector v = rows.vector();
   rows.summed(part, v);
-  const PetscScalar* values = nullptr;
-  ok(VecGetArrayRead(v, &values));
-  Eigen::VectorXd sums = Eigen::Map<const Eigen::VectorXd>(values, rows.owned());
-  ok(VecRestoreArrayRead(v, &values));
-  return sums;
+  return Entries(v);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 #include <petscksp.h>
 
+#include <Eigen/Core>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -43,5 +44,31 @@ class Handle {
 using Matrix = Handle<Mat, MatDestroy>;
 using Vector = Handle<Vec, VecDestroy>;
 using LinearSolver = Handle<KSP, KSPDestroy>;
+
+/// The values of a vector that this rank owns, for the length of a scope.
+class Entries : public Eigen::Map<Eigen::VectorXd> {
+ public:
+  explicit Entries(Vec v) : Map(array_of(v), size_of(v)), v_(v) {}
+  ~Entries() {
+    PetscScalar* values = data();
+    VecRestoreArray(v_, &values);
+  }
+  Entries(const Entries&) = delete;
+  Entries& operator=(const Entries&) = delete;
+  using Map::operator=;
+
+ private:
+  static PetscScalar* array_of(Vec v) {
+    PetscScalar* values = nullptr;
+    ok(VecGetArray(v, &values));
+    return values;
+  }
+  static PetscInt size_of(Vec v) {
+    PetscInt size = 0;
+    ok(VecGetLocalSize(v, &size));
+    return size;
+  }
+  Vec v_;
+};
 
 }  // namespace antilock::distributed

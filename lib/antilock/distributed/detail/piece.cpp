@@ -1,101 +1,132 @@
 #include "antilock/distributed/detail/piece.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <set>
+
+#include "antilock/core/error.hpp"
 
 namespace antilock::distributed {
 namespace {
 
+constexpr double slack = 1e-9;  // between abscissae that are meant to be the same
+
+/// The vertical lines of the layer, by x; without a layer, those of the contact edges; else those of all vertices.
+std::vector<double> column_lines(const TriangleMesh& mesh) {
+  std::vector<double> x;
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (mesh.edge_tag[e] == EdgeTag::contact)
+      for (int i = 0; i < 2; ++i) x.push_back(mesh.vertices(mesh.edges(e, i), 0));
+  if (x.empty()) x.assign(mesh.vertices.col(0).begin(), mesh.vertices.col(0).end());
+  std::sort(x.begin(), x.end());
+  x.erase(std::unique(x.begin(), x.end(), [](double a, double b) { return b - a < slack; }), x.end());
+  return x;
+}
+
+int column_at(const std::vector<double>& lines, double x) {
+  const auto after = std::upper_bound(lines.begin(), lines.end(), x) - lines.begin();
+  return static_cast<int>(std::clamp<std::ptrdiff_t>(after - 1, 0, static_cast<std::ptrdiff_t>(lines.size()) - 2));
+}
+
 /// New numbers, in the old order, for what is marked; -1 for the rest.
-std::vector<int> renumbered(const std::vector<char>& marked, int& count) {
-  std::vector<int> number(marked.size(), -1);
-  count = 0;
-  for (std::size_t i = 0; i < marked.size(); ++i)
-    if (marked[i] != 0) number[i] = count++;
+std::vector<int> renumbered(const std::vector<char>& marked) {
+  std::vector<int> number;
+  int count = 0;
+  for (const char mark : marked) number.push_back(mark != 0 ? count++ : -1);
   return number;
 }
 
-std::vector<char> vertices_with(const TriangleMesh& mesh, EdgeTag tag) {
-  std::vector<char> marked(mesh.vertex_count(), 0);
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] == tag) marked[mesh.edges(e, 0)] = marked[mesh.edges(e, 1)] = 1;
-  return marked;
+/// edge_triangles from triangle_edges.
+void look_back(TriangleMesh& mesh) {
+  mesh.edge_triangles = Pairs::Constant(mesh.edges.rows(), 2, -1);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const int e = mesh.triangle_edges(t, i);
+      mesh.edge_triangles(e, mesh.edge_triangles(e, 0) < 0 ? 0 : 1) = t;
+    }
 }
 
 }  // namespace
 
-MeshPart piece_of(const TriangleMesh& coarse, const std::vector<int>& owner_of, int rank, int ranks) {
+std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer) {
+  const std::vector<double> lines = column_lines(mesh);
+  const int columns = static_cast<int>(lines.size()) - 1;
+  if (columns < ranks)
+    throw Error(
+        fmt::format("{} ranks for {} columns of the layer; accepted: a column or more per rank (start fewer "
+                    "ranks, or ask for more cells)",
+                    ranks, columns));
+  std::vector<int> column(mesh.triangle_count()), filled(columns, 0);
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Vector3d x = mesh.vertices.col(0)(mesh.triangles.row(t));
+    column[t] = column_at(lines, x.mean());
+    ++filled[column[t]];
+    if (any_layer || mesh.region[t] != Region::layer) continue;
+    const double left = lines[column[t]], right = lines[column[t] + 1];
+    if (x.minCoeff() < left - slack || x.maxCoeff() > right + slack)
+      throw Error(
+          fmt::format("the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
+                      "of the contact edges: the layer is not made of columns, and multigrid fails on it; "
+                      "accepted: kind = \"layered\" or \"structured\", or --direct (MUMPS)",
+                      x.mean(), mesh.vertices.col(1)(mesh.triangles.row(t)).mean()));
+  }
+  // a strip ends at the column that brings the triangles up to its share, and leaves a column to each rank to come
+  std::vector<int> rank_of(columns);
+  long long before = 0;
+  for (int c = 0, rank = 0, own = 0; c < columns; ++c) {
+    const bool full = (before + filled[c] / 2) * ranks >= static_cast<long long>(rank + 1) * mesh.triangle_count();
+    const bool last_chance = columns - c == ranks - rank - 1;
+    if (own > 0 && rank + 1 < ranks && (full || last_chance)) ++rank, own = 0;
+    rank_of[c] = rank;
+    ++own;
+    before += filled[c];
+  }
+  for (int& c : column) c = rank_of[c];
+  return column;
+}
+
+TriangleMesh piece_of(const TriangleMesh& coarse, const std::vector<int>& rank_of, int rank) {
   std::vector<char> vertex_here(coarse.vertex_count(), 0), edge_here(coarse.edge_count(), 0);
-  std::vector<std::set<int>> holders(coarse.vertex_count());  // ranks at each vertex
   std::vector<int> triangles;
   for (int t = 0; t < coarse.triangle_count(); ++t) {
-    for (int i = 0; i < 3; ++i) holders[coarse.triangles(t, i)].insert(owner_of[t]);
-    if (owner_of[t] != rank) continue;
+    if (rank_of[t] != rank) continue;
     triangles.push_back(t);
     for (int i = 0; i < 3; ++i) vertex_here[coarse.triangles(t, i)] = edge_here[coarse.triangle_edges(t, i)] = 1;
   }
-  int vertex_count = 0, edge_count = 0;
-  const std::vector<int> vertex = renumbered(vertex_here, vertex_count), edge = renumbered(edge_here, edge_count);
+  const std::vector<int> vertex = renumbered(vertex_here), edge = renumbered(edge_here);
 
-  MeshPart piece;
-  TriangleMesh& mesh = piece.mesh;
-  mesh.vertices.resize(vertex_count, 2);
+  TriangleMesh piece;
+  piece.vertices.resize(std::count(vertex_here.begin(), vertex_here.end(), 1), 2);
   for (int v = 0; v < coarse.vertex_count(); ++v)
-    if (vertex[v] >= 0) mesh.vertices.row(vertex[v]) = coarse.vertices.row(v);
-  const auto count = static_cast<Eigen::Index>(triangles.size());
-  mesh.triangles.resize(count, 3), mesh.triangle_edges.resize(count, 3);
-  mesh.edges.resize(edge_count, 2), mesh.edge_triangles = Pairs::Constant(edge_count, 2, -1);
-  mesh.edge_tag.resize(edge_count);
-  for (int t = 0; t < count; ++t) {
-    mesh.region.push_back(coarse.region[triangles[t]]);
-    for (int i = 0; i < 3; ++i) {
-      const int e = edge[coarse.triangle_edges(triangles[t], i)];
-      mesh.triangles(t, i) = vertex[coarse.triangles(triangles[t], i)];
-      mesh.triangle_edges(t, i) = e;
-      mesh.edge_triangles(e, mesh.edge_triangles(e, 0) < 0 ? 0 : 1) = t;
-    }
-  }
-
-  const std::vector<char> clamped = vertices_with(coarse, EdgeTag::clamped),
-                          contact = vertices_with(coarse, EdgeTag::contact);
-  piece.corner_count.assign(ranks, 0), piece.corner_rows.assign(ranks, 0);
-  for (int v = 0; v < coarse.vertex_count(); ++v) {
-    if (vertex[v] >= 0 && clamped[v] != 0) piece.clamped.push_back(vertex[v]);
-    if (vertex[v] >= 0 && contact[v] != 0) piece.contact.push_back(vertex[v]);
-    if (holders[v].size() < 2) continue;
-    const int owner = *holders[v].begin(), index = piece.corner_count[owner]++;
-    const int row = clamped[v] != 0 ? -1 : piece.corner_rows[owner]++;
-    if (vertex[v] >= 0) piece.corners.push_back({vertex[v], owner, index, row});
-  }
-  std::vector<int> seams(ranks, 0);
+    if (vertex[v] >= 0) piece.vertices.row(vertex[v]) = coarse.vertices.row(v);
+  piece.edges.resize(std::count(edge_here.begin(), edge_here.end(), 1), 2);
   for (int e = 0; e < coarse.edge_count(); ++e) {
-    if (edge[e] >= 0) {
-      mesh.edges.row(edge[e]) << vertex[coarse.edges(e, 0)], vertex[coarse.edges(e, 1)];
-      mesh.edge_tag[edge[e]] = coarse.edge_tag[e];
-    }
-    if (coarse.edge_triangles(e, 1) < 0) continue;
-    const auto [low, high] = std::minmax(owner_of[coarse.edge_triangles(e, 0)], owner_of[coarse.edge_triangles(e, 1)]);
-    if (low == high) continue;
-    const int index = seams[low]++;
-    if (edge[e] >= 0)
-      piece.seams.push_back({low, index, {vertex[coarse.edges(e, 0)], vertex[coarse.edges(e, 1)]}, {edge[e]}});
+    if (edge[e] < 0) continue;
+    piece.edges.row(edge[e]) << vertex[coarse.edges(e, 0)], vertex[coarse.edges(e, 1)];
+    piece.edge_tag.push_back(coarse.edge_tag[e]);
   }
+  const auto count = static_cast<Eigen::Index>(triangles.size());
+  piece.triangles.resize(count, 3), piece.triangle_edges.resize(count, 3);
+  for (Eigen::Index t = 0; t < count; ++t) {
+    piece.region.push_back(coarse.region[triangles[t]]);
+    for (int i = 0; i < 3; ++i) {
+      piece.triangles(t, i) = vertex[coarse.triangles(triangles[t], i)];
+      piece.triangle_edges(t, i) = edge[coarse.triangle_edges(triangles[t], i)];
+    }
+  }
+  look_back(piece);
   return piece;
 }
 
-MeshPart refined(const MeshPart& piece) {
-  const TriangleMesh& mesh = piece.mesh;
+TriangleMesh refined_piece(const TriangleMesh& mesh) {
   const int corners = mesh.vertex_count(), edges = mesh.edge_count(), triangles = mesh.triangle_count();
   // the midpoint of edge e becomes vertex corners + e; its halves become edges 2 e (at edges(e, 0)) and 2 e + 1;
   // inside triangle t, the edge that cuts off corner i becomes edge 2 edges + 3 t + i
   const auto half = [&](int e, int vertex) { return mesh.edges(e, 0) == vertex ? 2 * e : 2 * e + 1; };
-  MeshPart fine{{},           piece.level + 1, piece.corners, {}, piece.corner_count, piece.corner_rows, piece.clamped,
-                piece.contact};
-  TriangleMesh& cut = fine.mesh;
+  TriangleMesh cut;
   cut.vertices.resize(corners + edges, 2), cut.vertices.topRows(corners) = mesh.vertices;
-  const int edge_count = 2 * edges + 3 * triangles;
-  cut.edges.resize(edge_count, 2), cut.edge_triangles = Pairs::Constant(edge_count, 2, -1);
-  cut.edge_tag.assign(edge_count, EdgeTag::interior);
+  cut.edges.resize(2 * edges + 3 * triangles, 2);
+  cut.edge_tag.assign(cut.edges.rows(), EdgeTag::interior);
   for (int e = 0; e < edges; ++e) {
     cut.vertices.row(corners + e) = 0.5 * (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1)));
     for (int i = 0; i < 2; ++i) {
@@ -118,21 +149,8 @@ MeshPart refined(const MeshPart& piece) {
     cut.triangle_edges.row(4 * t + 3) << inner, inner + 1, inner + 2;
     std::fill_n(cut.region.begin() + 4 * static_cast<std::ptrdiff_t>(t), 4, mesh.region[t]);
   }
-  for (int t = 0; t < cut.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i) {
-      const int e = cut.triangle_edges(t, i);
-      cut.edge_triangles(e, cut.edge_triangles(e, 0) < 0 ? 0 : 1) = t;
-    }
-  for (const Seam& seam : piece.seams) {
-    Seam finer{seam.owner, seam.index, {seam.vertices.front()}, {}};
-    for (std::size_t s = 0; s < seam.edges.size(); ++s) {
-      const int e = seam.edges[s], from = seam.vertices[s], to = seam.vertices[s + 1];
-      finer.vertices.insert(finer.vertices.end(), {corners + e, to});
-      finer.edges.insert(finer.edges.end(), {half(e, from), half(e, to)});
-    }
-    fine.seams.push_back(std::move(finer));
-  }
-  return fine;
+  look_back(cut);
+  return cut;
 }
 
 }  // namespace antilock::distributed

@@ -9,8 +9,6 @@
 namespace antilock::distributed {
 namespace {
 
-using NewtonSolver = Handle<SNES, SNESDestroy>;
-
 struct Linear {
   Mat k;
   Vec rhs;
@@ -24,98 +22,66 @@ PetscErrorCode residual(SNES, Vec u, Vec r, void* context) {  // r = K u - rhs
 
 PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*) { return 0; }  // K itself, which does not change
 
-double largest_on_contact(const Inequality& problem, Vec u) {
-  double most = 0;
-  const PetscScalar* values = nullptr;
-  ok(VecGetArrayRead(u, &values));
-  for (int i = 0; i < problem.rows().owned(); ++i)
-    if (!std::isinf(problem.lower()(i))) most = std::max(most, values[i]);
-  ok(VecRestoreArrayRead(u, &values));
-  return largest(most);
+/// v >= bound (per owned row), K v = rhs off the contact set, from v = 0. Counts in `end`. A solver of its own: PETSc
+/// keeps the sizes of the last contact set.
+Vector solved(const Inequality& problem, Vec rhs, const Eigen::VectorXd& bound, bool split, double load,
+              SnesviEnd& end) {
+  Vector v = problem.rows().vector();
+  const Vector r = problem.rows().vector(), low = problem.rows().vector(), high = problem.rows().vector();
+  Entries{low} = bound.cwiseMax(PETSC_NINFINITY);
+  ok(VecSet(high, PETSC_INFINITY));
+  Linear context{problem.k(), rhs};
+  Handle<SNES, SNESDestroy> solver;
+  ok(SNESCreate(PETSC_COMM_WORLD, &solver)), ok(SNESSetType(solver, SNESVINEWTONRSLS));
+  ok(SNESSetFunction(solver, r, residual, &context));
+  ok(SNESSetJacobian(solver, problem.k(), problem.k(), jacobian, nullptr));
+  ok(SNESVISetVariableBounds(solver, low, high));
+  if (split) {
+    SNESLineSearch search = nullptr;
+    ok(SNESGetLineSearch(solver, &search)), ok(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
+    ok(SNESSetTolerances(solver, 1e-12 * load, 1e-6, 0, PETSC_DEFAULT, PETSC_DEFAULT));
+  }
+  ok(SNESSetTolerances(solver, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 200, PETSC_DEFAULT));
+  ok(SNESSetFromOptions(solver)), ok(SNESSolve(solver, nullptr, v));
+  SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
+  PetscInt newton = 0, linear = 0;
+  ok(SNESGetConvergedReason(solver, &reason)), ok(SNESGetIterationNumber(solver, &newton));
+  ok(SNESGetLinearSolveIterations(solver, &linear));
+  end.reason = SNESConvergedReasons[reason], end.converged = reason > 0;
+  end.newton += static_cast<int>(newton), end.linear += static_cast<int>(linear);
+  return v;
 }
-
-/// SNESVI on v >= bound, K v = rhs off the contact set.
-class Newton {
- public:
-  explicit Newton(const Inequality& problem) {
-    // without room for ghosts: SNESVI takes its vectors apart
-    const auto make = [&](Vector& v) { ok(MatCreateVecs(problem.k(), &v, nullptr)); };
-    make(v_), make(r_), make(bound_), make(upper_), make(rhs_);
-    ok(VecSet(upper_, PETSC_INFINITY));
-    context_ = {problem.k(), rhs_};
-    ok(SNESCreate(PETSC_COMM_WORLD, &solver_)), ok(SNESSetType(solver_, SNESVINEWTONRSLS));
-    ok(SNESSetFunction(solver_, r_, residual, &context_));
-    ok(SNESSetJacobian(solver_, problem.k(), problem.k(), jacobian, nullptr));
-  }
-  SNES solver() const { return solver_; }
-
-  /// From v = 0. `bound` per owned row. Returns v; counts in `end`.
-  Vec solve(Vec rhs, const Eigen::VectorXd& bound, SnesviEnd& end) {
-    ok(VecCopy(rhs, rhs_)), ok(VecSet(v_, 0));
-    PetscScalar* values = nullptr;
-    ok(VecGetArray(bound_, &values));
-    for (Eigen::Index i = 0; i < bound.size(); ++i) values[i] = std::isinf(bound(i)) ? PETSC_NINFINITY : bound(i);
-    ok(VecRestoreArray(bound_, &values));
-    ok(SNESVISetVariableBounds(solver_, bound_, upper_)), ok(SNESSetFromOptions(solver_));
-    ok(SNESSolve(solver_, nullptr, v_));
-    SNESConvergedReason reason = SNES_CONVERGED_ITERATING;
-    PetscInt newton = 0, linear = 0;
-    ok(SNESGetConvergedReason(solver_, &reason)), ok(SNESGetIterationNumber(solver_, &newton));
-    ok(SNESGetLinearSolveIterations(solver_, &linear));
-    end.reason = SNESConvergedReasons[reason], end.converged = reason > 0;
-    end.newton += static_cast<int>(newton), end.linear += static_cast<int>(linear);
-    return v_;
-  }
-
- private:
-  Vector v_, r_, bound_, upper_, rhs_;
-  Linear context_{};
-  NewtonSolver solver_;
-};
 
 }  // namespace
 
-SnesviEnd snesvi(const Inequality& problem, int most_steps) {
-  Newton newton(problem);
-  ok(SNESSetTolerances(newton.solver(), PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, most_steps, PETSC_DEFAULT));
-  const Vector load = problem.rows().vector();
-  problem.rows().summed(problem.part().load, load);
-  SnesviEnd end{"", false};
-  end.largest = largest_on_contact(problem, newton.solve(load, problem.lower(), end));
-  return end;
-}
-
-SnesviEnd snesvi_split(const Inequality& problem, State& state, double tolerance) {
-  constexpr int most_corrections = 20;
+SnesviEnd snesvi(const Inequality& problem, State& state, bool split) {
+  const int most_corrections = split ? 20 : 1;
+  constexpr double tolerance = 1e-10;
   const Rows& rows = problem.rows();
-  const Eigen::VectorXd& m = problem.part().m;
-  const Vector u = rows.vector(), rhs = rows.vector(), du = rows.vector();
+  const Vector u = rows.vector(), rhs = rows.vector();
   rows.owned_part(state.u, u);
   PetscReal load = 0, moved = 0, size = 0;
   rows.summed(problem.part().load, rhs), ok(VecNorm(rhs, NORM_2, &load));
-  SnesviEnd end{"", false};
-  for (end.corrections = 0; end.corrections < most_corrections;) {
+  SnesviEnd end;
+  for (bool settled = false; !settled && end.converged && end.corrections < most_corrections; ++end.corrections) {
     const Eigen::VectorXd r2 = problem.compatibility(state.u, state.p);
-    const Eigen::VectorXd weighted = m.size() > 0 ? Eigen::VectorXd(m.cwiseProduct(r2) / problem.delta()) : r2;
-    rows.summed(problem.equilibrium(state.u, state.p) + problem.part().b.transpose() * weighted, rhs);
-    Eigen::VectorXd bound = problem.lower();
-    for (int place = 0; place < rows.owned(); ++place) bound(place) -= state.u(rows.unknown(place));
-    Newton newton(problem);  // anew: PETSc keeps the sizes of the last contact set
-    SNESLineSearch search = nullptr;
-    ok(SNESGetLineSearch(newton.solver(), &search)), ok(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
-    ok(SNESSetTolerances(newton.solver(), 1e-12 * load, 1e-6, 0, 200, PETSC_DEFAULT));
-    ok(VecCopy(newton.solve(rhs, bound, end), du));
-    ++end.corrections;
+    rows.summed(problem.right_side(problem.equilibrium(state.u, state.p), r2), rhs);
+    const Eigen::VectorXd bound = problem.lower() - Entries(u);
+    const Vector du = solved(problem, rhs, bound, split, load, end);
     ok(VecAXPY(u, 1, du)), ok(VecNorm(du, NORM_INFINITY, &moved)), ok(VecNorm(u, NORM_INFINITY, &size));
     const Eigen::VectorXd step = rows.local(du);
     state.u += step;
-    if (m.size() > 0) state.p += (problem.part().b * step - r2) / problem.delta();
-    if (!end.converged || moved <= tolerance * size) break;
+    state.p += problem.stress_step(step, r2);
+    settled = moved <= tolerance * size;
   }
-  for (int place = 0; place < rows.owned(); ++place)
-    state.active[place] = state.u(rows.unknown(place)) <= problem.lower()(place) + 1e-14 * size ? 1 : 0;
-  end.converged = end.converged && moved <= tolerance * size;
-  end.largest = largest_on_contact(problem, u);
+  if (split) end.converged = end.converged && moved <= tolerance * size;
+  double most = 0;
+  for (int place = 0; place < rows.owned(); ++place) {
+    const double value = state.u(rows.unknown(place)), bound = problem.lower()(place);
+    state.active[place] = value <= bound + 1e-14 * size ? 1 : 0;
+    if (std::isfinite(bound)) most = std::max(most, value);
+  }
+  end.largest = largest(most);
   return end;
 }
 
