@@ -15,15 +15,13 @@ std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, 
   const Element& element = space.element();
   const TriangleMesh& mesh = space.mesh();
   if (!scene.epsilon()) return std::nullopt;
-  if (!(scene.layer_depth() > 0)) return LayerReport{"no layer mesh: nothing here can lock", {}, ""};
+  if (!(scene.layer_depth() > 0)) return LayerReport{"no layer mesh: nothing here can lock"};
   if (!element.conforming())
-    return LayerReport{
-        element.name() + " does not lock: half a motion without strain per layer triangle, on any mesh (Theorem 7)",
-        {},
-        ""};
+    return LayerReport{element.name() +
+                       " does not lock: half a motion without strain per layer triangle, on any mesh (Theorem 7)"};
   const Ties ties = find_ties(mesh);
   if (ties.in_columns)
-    return LayerReport{element.name() + " does not lock here: the columns of the layer are free of each other", {}, ""};
+    return LayerReport{element.name() + " does not lock here: the columns of the layer are free of each other"};
   LayerReport report;
   report.diagnosis = fmt::format(
       "below {} edges of Sigma the layer's triangles are tied into {} group{} by edges that are not vertical; without "

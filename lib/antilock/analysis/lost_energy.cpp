@@ -23,6 +23,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <unsupported/Eigen/KroneckerProduct>
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
@@ -48,9 +49,8 @@ struct Line {
 Line sigma_line(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const Eigen::MatrixX3d nodes = space.element().nodes();
-  const auto by_x = [&](int a, int b) { return space.points()(a, 0) < space.points()(b, 0); };
+  const auto x = [&](int u) { return space.points()(u, 0); };
   Line line;
-  line.place.assign(space.size(), -1);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::sigma) continue;
     const int t = mesh.edge_triangles(e, 0);
@@ -59,18 +59,20 @@ Line sigma_line(const Space& space) {
     Indices& edge = line.edge.emplace_back();
     for (Eigen::Index r = 0; r < nodes.rows(); ++r)
       if (nodes(r, i) == 0) edge.push_back(space.unknowns()(t, r));
-    std::sort(edge.begin(), edge.end(), by_x);
-    for (const int u : edge)
-      if (std::exchange(line.place[u], 0) < 0) line.unknown.push_back(u);
+    std::sort(edge.begin(), edge.end(), [&](int a, int b) { return x(a) < x(b); });
+    line.length += x(edge.back()) - x(edge.front());
   }
-  std::sort(line.unknown.begin(), line.unknown.end(), by_x);
+  std::sort(line.edge.begin(), line.edge.end(), [&](const auto& a, const auto& b) { return x(a[0]) < x(b[0]); });
+  line.place.assign(space.size(), -1);
+  for (Indices& edge : line.edge)
+    for (int& u : edge) {
+      if (line.place[u] < 0) {
+        line.place[u] = static_cast<int>(line.unknown.size());
+        line.unknown.push_back(u);
+      }
+      u = line.place[u];
+    }
   line.x = space.points().col(0)(line.unknown);
-  for (std::size_t i = 0; i < line.unknown.size(); ++i) line.place[line.unknown[i]] = static_cast<int>(i);
-  for (Indices& edge : line.edge) {
-    for (int& u : edge) u = line.place[u];
-    line.length += line.x[edge.back()] - line.x[edge.front()];
-  }
-  std::sort(line.edge.begin(), line.edge.end());
   return line;
 }
 
@@ -88,20 +90,23 @@ double on_chain(const Eigen::VectorXd& at, const Eigen::VectorXd& y, double x) {
   return s == 0 ? y(i) : s == 1 ? y(i + 1) : (1 - s) * y(i) + s * y(i + 1);
 }
 
-/// Lagrange's basis of the nodes on an edge, 0 to 1, at some points: a row per point.
+/// The basis of u_h on an edge of Sigma, s from 0 to 1: a row per point, a column per unknown from left to right.
 struct Trace {
   Eigen::MatrixXd value, slope;
 };
 
-Trace trace_at(const Eigen::VectorXd& nodes, const Eigen::VectorXd& points) {
-  Trace trace{Eigen::MatrixXd::Ones(points.size(), nodes.size()), Eigen::MatrixXd::Zero(points.size(), nodes.size())};
-  for (Eigen::Index i = 0; i < nodes.size(); ++i)
-    for (Eigen::Index j = 0; j < nodes.size(); ++j) {
-      if (i == j) continue;
-      const Eigen::ArrayXd factor = (points.array() - nodes(j)) / (nodes(i) - nodes(j));
-      trace.slope.col(i) = trace.slope.col(i).array() * factor + trace.value.col(i).array() / (nodes(i) - nodes(j));
-      trace.value.col(i).array() *= factor;
-    }
+Trace trace_at(const Element& element, const Eigen::VectorXd& points) {
+  const Eigen::MatrixX3d nodes = element.nodes();
+  Indices on_edge;
+  for (Eigen::Index r = 0; r < nodes.rows(); ++r)
+    if (nodes(r, 0) == 0) on_edge.push_back(static_cast<int>(r));
+  std::sort(on_edge.begin(), on_edge.end(), [&](int a, int b) { return nodes(a, 2) < nodes(b, 2); });
+  Trace trace{Eigen::MatrixXd(points.size(), on_edge.size()), Eigen::MatrixXd(points.size(), on_edge.size())};
+  for (Eigen::Index q = 0; q < points.size(); ++q) {
+    const Eigen::Vector3d lambda(0, 1 - points(q), points(q));
+    trace.value.row(q) = element.basis(lambda)(on_edge);
+    trace.slope.row(q) = (element.derivative(lambda) * Eigen::Vector3d(0, -1, 1))(on_edge);
+  }
   return trace;
 }
 
@@ -121,54 +126,53 @@ RowMatrix hats(const Points& at, const Line& sigma, const std::vector<char>& in_
         Eigen::VectorXd::LinSpaced(1 + std::max(1, static_cast<int>(std::ceil((right - left) / y))), left, right);
   int count = 0;
   for (auto& [y, row] : rows) row.first = std::exchange(count, count + static_cast<int>(row.x.size()));
-  Indices begin{0}, column;
-  std::vector<double> value;
-  column.reserve(4 * at.rows()), value.reserve(4 * at.rows());
-  const auto add = [&](int v, const Row& row, double weight) {
-    const auto [hat, s] = among(row.x, at(v, 0));
-    for (const int side : {0, 1})
-      if (const double here = weight * (side == 0 ? 1 - s : s); here != 0)
-        column.push_back(row.first + hat + side), value.push_back(here);
-  };
+  RowMatrix w(at.rows(), count);
+  w.reserve(4 * at.rows());
   for (int v = 0; v < at.rows(); ++v) {
-    const double y = std::max(at(v, 1), 0.0);
-    if (in_body[v] && sigma.place[v] >= 0) {
-      column.push_back(sigma.place[v]), value.push_back(1);
-    } else if (in_body[v]) {
-      const auto above = y > 0 ? rows.lower_bound(y) : std::next(rows.begin()), under = std::prev(above);
-      const double s = (y - under->first) / (above->first - under->first);
-      add(v, under->second, 1 - s);
-      add(v, above->second, s);
+    w.startVec(v);
+    if (!in_body[v]) continue;
+    if (sigma.place[v] >= 0) {
+      w.insertBack(v, sigma.place[v]) = 1;
+      continue;
     }
-    begin.push_back(static_cast<int>(column.size()));
+    const double y = std::max(at(v, 1), 0.0);
+    const auto above = y > 0 ? rows.lower_bound(y) : std::next(rows.begin()), under = std::prev(above);
+    const double s = (y - under->first) / (above->first - under->first);
+    for (const auto& [row, share] : {std::pair(&under->second, 1 - s), {&above->second, s}}) {
+      const auto [hat, t] = among(row->x, at(v, 0));
+      w.insertBack(v, row->first + hat) = share * (1 - t);
+      w.insertBack(v, row->first + hat + 1) = share * t;
+    }
   }
-  return Eigen::Map<const RowMatrix>(at.rows(), count, begin.back(), begin.data(), column.data(), value.data());
+  w.finalize();
+  return w;
 }
 
-/// Entries of the layer's part of A1 in the rows of Sigma.
-std::vector<Eigen::Triplet<double>> layer_at(const Line& sigma, const Space& space, const Eigen::Vector2d& stiffness) {
+/// The layer's part of A1, N x N: of its triangles with a corner on Sigma, so that the rows of Sigma are whole.
+SparseMatrix layer_at(const Line& sigma, const Space& space, const Eigen::Vector2d& stiffness) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = strain_rule(space.element());
-  std::vector<Eigen::Triplet<double>> values;
   std::vector<Eigen::MatrixX3d> derivative;
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
     derivative.push_back(space.element().derivative(rule.points.row(q)));
+  std::vector<Eigen::Triplet<double>> entries;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const auto corner = mesh.triangles.row(t);
     if (mesh.region[t] == Region::body ||
         std::max({sigma.place[corner(0)], sigma.place[corner(1)], sigma.place[corner(2)]}) < 0)
       continue;
     const auto unknown = space.unknowns().row(t);
-    const Eigen::Matrix<double, 3, 2> root =
-        barycentric_gradients(mesh, t) * (mesh.area(t) * stiffness).cwiseSqrt().asDiagonal();
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::MatrixX2d half = std::sqrt(rule.weights(q)) * derivative[q] * root;
-      for (Eigen::Index i = 0; i < half.rows(); ++i)
-        for (Eigen::Index j = 0; j < half.rows() && sigma.place[unknown(i)] >= 0; ++j)
-          values.emplace_back(unknown(i), unknown(j), half.row(i).dot(half.row(j)));
+      const Eigen::MatrixX2d gradient = derivative[q] * barycentric_gradients(mesh, t);
+      const Eigen::MatrixXd local =
+          gradient * (rule.weights(q) * mesh.area(t) * stiffness).asDiagonal() * gradient.transpose();
+      for (Eigen::Index i = 0; i < local.rows(); ++i)
+        for (Eigen::Index j = 0; j < local.cols(); ++j) entries.emplace_back(unknown(i), unknown(j), local(i, j));
     }
   }
-  return values;
+  SparseMatrix layer(space.size(), space.size());
+  layer.setFromTriplets(entries.begin(), entries.end());
+  return layer;
 }
 
 /// The form of the body on W and a force, of which the hats above Sigma are eliminated. What those gain alone is
@@ -179,26 +183,19 @@ struct Sunk {
   std::vector<char> held;  ///< hats that are not 0 where v is held: they are left out
 };
 
-Sunk sunk_to_sigma(const VariationalInequality& problem, const Line& sigma, const RowMatrix& w,
-                   const std::vector<Eigen::Triplet<double>>& layer, const Eigen::VectorXd& on_body) {
-  const Eigen::Index all = w.cols(), low = sigma.x.size(), above = all - low;
+Sunk sunk_to_sigma(const SparseMatrix& body, const Eigen::VectorXd& on_body, const Indices& fixed, const RowMatrix& w,
+                   Eigen::Index low) {
+  const Eigen::Index all = w.cols(), above = all - low;
   std::vector<char> held(all, 0);
-  for (const int u : problem.fixed)
+  for (const int u : fixed)
     for (RowMatrix::InnerIterator hat(w, u); hat; ++hat)
       if (hat.value() > 1e-12) held[hat.col()] = 1;
-  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(all, all);  // W' A1 W, of whose two halves one is summed
-  for (int u = 0; u < problem.size(); ++u) {
-    if (w.row(u).nonZeros() == 0) continue;  // in the layer
-    for (SparseMatrix::InnerIterator a(problem.a1, u); a && a.row() <= u; ++a)
-      for (RowMatrix::InnerIterator left(w, u); left; ++left) {
-        const double here = (a.row() < u ? 1 : 0.5) * a.value() * left.value();
+  Eigen::MatrixXd form = Eigen::MatrixXd::Zero(all, all);
+  for (int u = 0; u < body.cols(); ++u)
+    for (SparseMatrix::InnerIterator a(body, u); a; ++a)
+      for (RowMatrix::InnerIterator left(w, u); left; ++left)
         for (RowMatrix::InnerIterator right(w, a.row()); right; ++right)
-          form(right.col(), left.col()) += here * right.value();
-      }
-  }
-  form += Eigen::MatrixXd(form.transpose());
-  for (const auto& value : layer)
-    if (const int j = sigma.place[value.col()]; j >= 0) form(sigma.place[value.row()], j) -= value.value();
+          form(right.col(), left.col()) += a.value() * left.value() * right.value();
   Eigen::VectorXd force = w.transpose() * on_body;
   // hats may reach no vertex, or be dependent at the few that they reach: a little energy more makes w unique, and v no
   // better than it is
@@ -208,7 +205,8 @@ Sunk sunk_to_sigma(const VariationalInequality& problem, const Line& sigma, cons
   const Cholesky upper(form.bottomRightCorner(above, above));
   const Eigen::MatrixXd half = upper.half_solve(Eigen::MatrixXd(form.bottomLeftCorner(above, low)));
   const Eigen::VectorXd pull = upper.half_solve(Eigen::VectorXd(force.tail(above)));
-  return {form.topLeftCorner(low, low) - half.transpose() * half, force.head(low) - half.transpose() * pull, held};
+  const Eigen::MatrixXd left = form.topLeftCorner(low, low) - half.transpose() * half;
+  return {(left + left.transpose()) / 2, force.head(low) - half.transpose() * pull, held};
 }
 
 /// How far v must be lifted at the points of Sigma, affine on each edge, to lie above `obstacle` at the points of `trace`;
@@ -280,27 +278,25 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   const double ulp = std::numeric_limits<double>::epsilon() * solution.u.cwiseAbs().maxCoeff();
   const Eigen::VectorXd w = solution.u - still, middle = still + w / 2, base = w(sigma.unknown);
 
-  // force: what u_h leaves of the forces on the body, whose form is A1 less the layer's part at Sigma. left_in_layer: in the
-  // layer, J(v_0 + w) - J(v_0) = a(w, v_0 + w / 2) - L(w), with w = u_h - v_0. (Beside given values U the square of u_h itself
-  // has round-off of s U^2.) Its round-off: a row of A1 has sum 0, and leaves of values U some ulp of U times its entries.
-  const auto layer =
+  // force: what u_h leaves of the forces on the body, whose form is A1 less the layer's part. left_in_layer: in the
+  // layer, J(v_0 + w) - J(v_0) = a(w, v_0 + w / 2) - L(w), with w = u_h - v_0. (Beside given values U the square of u_h
+  // itself has round-off of s U^2.) Its round-off: a row of A1 has sum 0, and leaves of values U some ulp of U times its
+  // entries.
+  const SparseMatrix layer =
       layer_at(sigma, space, stiff != nullptr ? Eigen::Vector2d(s, 0) : Eigen::Vector2d::Constant(1 / *epsilon));
-  Eigen::VectorXd force = problem.load;
-  double left_in_layer = problem.compliance * solution.p.cwiseAbs2().dot(problem.m) / 2, round_off = 0;
-  for (int u = 0; u < space.size(); ++u)
-    if (in_body[u]) {
-      force(u) -= problem.a1.col(u).dot(solution.u);
-    } else {
-      force(u) = 0;
-      left_in_layer += w(u) * (problem.a1.col(u).dot(middle) - problem.load(u));
-      round_off += 2 * ulp * std::abs(w(u)) * problem.a1.coeff(u, u);
-    }
-  for (const auto& value : layer) {
-    force(value.row()) += value.value() * solution.u(value.col());
-    left_in_layer += w(value.row()) * value.value() * middle(value.col());
+  const SparseMatrix on_body = problem.a1 - layer;
+  const bool pressed = stiff != nullptr && stiff->load;
+  const Eigen::VectorXd layer_load =
+      pressed ? load_vector(space, stiff->load, Region::layer) : Eigen::VectorXd(Eigen::VectorXd::Zero(space.size()));
+  Eigen::VectorXd force = problem.load - layer_load - on_body * solution.u;
+  double left_in_layer = problem.compliance * solution.p.cwiseAbs2().dot(problem.m) / 2 - w.dot(layer_load),
+         round_off = 0;
+  for (int u = 0; u < space.size(); ++u) {
+    left_in_layer += w(u) * (in_body[u] ? layer : problem.a1).col(u).dot(middle);
+    if (in_body[u]) continue;
+    force(u) = 0;
+    round_off += 2 * ulp * std::abs(w(u)) * problem.a1.coeff(u, u);
   }
-
-  const Sunk body = sunk_to_sigma(problem, sigma, hats(space.points(), sigma, in_body), layer, force);
 
   // the unknowns: Sigma, and rows 1 to `rows` of columns below it; all are differences to u_h, on Sigma and constant in y
   constexpr int most_rows = 8;  // a wave over the depth loses (pi / 8)^2 / 12 = 1.3 % by the height 1/8
@@ -310,52 +306,52 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   // locked one
   const int rows = std::clamp(static_cast<int>(std::ceil(*epsilon * degree * edges / sigma.length - 1e-9)), 1,
                               std::clamp(degree * in_layer / (2 * edges), 1, most_rows));
-  const double height = 1.0 / rows;
   const int size = (rows + 1) * points;
-  const auto unknown = [&](int i, int row) { return row * points + i; };
 
-  VariationalInequality strip;
-  strip.load = Eigen::VectorXd::Zero(size);
-  strip.load.head(points) = body.force;
-  std::vector<Eigen::Triplet<double>> a1, b;
-  a1.reserve(static_cast<std::size_t>(points) * points + 2 * (degree + 1) * (degree + 1) * edges * rows);
-  for (int i = 0; i < points; ++i)
-    for (int j = 0; j < points; ++j) a1.emplace_back(i, j, (body.form(i, j) + body.form(j, i)) / 2);
-  const Eigen::VectorXd nodes = Eigen::VectorXd::LinSpaced(degree + 1, 0, 1);
+  // Products of forms in x (a_x, the rows of B with their weights) and in y (the trapezoidal rule, differences). For P1
+  // the rows of B stand at the ends of the edges, else at Gauss's points.
   auto [at, weights] = gauss_rule(degree + 1);
-  // a row of B per end of an edge, of which two edges have a half each; else one per point and edge
-  const bool at_ends = degree == 1;
-  if (at_ends) at = nodes, weights << 0.5, 0.5;
-  const Trace trace = trace_at(nodes, at);
+  if (degree == 1) at << 0, 1;
+  const Trace trace = trace_at(element, at);
   const Eigen::MatrixXd form = trace.slope.transpose() * weights.asDiagonal() * trace.slope;
-  const int b_rows = at_ends ? points : edges * (degree + 1);
-  strip.m = Eigen::VectorXd::Zero(rows * b_rows);
+  std::vector<Eigen::Triplet<double>> of_form, of_value;
+  Eigen::VectorXd weight(edges * (degree + 1));
   for (int e = 0; e < edges; ++e) {
     const Indices& edge = sigma.edge[e];
     const double dx = sigma.x[edge.back()] - sigma.x[edge.front()];
-    const Eigen::VectorXd pull = s / dx * form * on_sigma(edge);
-    left_in_layer -= base(edge).dot(pull - s / dx / 2 * form * base(edge));
-    for (int row = 0; row < rows; ++row) {
-      for (const int end : {row, row + 1})
-        for (int i = 0; i <= degree; ++i) {
-          strip.load(unknown(edge[i], end)) -= height / 2 * pull(i);
-          for (int j = 0; j <= degree; ++j)
-            a1.emplace_back(unknown(edge[i], end), unknown(edge[j], end), height / 2 * s / dx * form(i, j));
-        }
-      for (int q = 0; q <= degree; ++q) {
-        const int at_row = row * b_rows + (at_ends ? edge[q] : e * (degree + 1) + q);
-        for (int i = 0; i <= degree && strip.m(at_row) == 0; ++i) {
-          b.emplace_back(at_row, unknown(edge[i], row), rows * trace.value(q, i));
-          b.emplace_back(at_row, unknown(edge[i], row + 1), -rows * trace.value(q, i));
-        }
-        strip.m(at_row) += s * height * dx * weights(q);
+    for (int i = 0; i <= degree; ++i) {
+      const int row = e * (degree + 1) + i;
+      weight(row) = s * dx * weights(i);
+      for (int j = 0; j <= degree; ++j) {
+        of_form.emplace_back(edge[i], edge[j], s / dx * form(i, j));
+        of_value.emplace_back(row, edge[j], trace.value(i, j));
       }
     }
   }
-  if (stiff != nullptr && stiff->load) {  // at the points where u_h has it
+  SparseMatrix a_x(points, points);
+  a_x.setFromTriplets(of_form.begin(), of_form.end());
+  RowMatrix value(weight.size(), points), difference(rows, rows + 1);
+  value.setFromTriplets(of_value.begin(), of_value.end());
+  Eigen::VectorXd depth = Eigen::VectorXd::Constant(rows + 1, 1.0 / rows);
+  depth(0) = depth(rows) = 0.5 / rows;
+  for (int row = 0; row < rows; ++row) difference.insert(row, row) = rows, difference.insert(row, row + 1) = -rows;
+
+  const Sunk body = sunk_to_sigma(on_body, force, problem.fixed, hats(space.points(), sigma, in_body), points);
+  VariationalInequality strip;
+  SparseMatrix on_sigma_form = body.form.sparseView();
+  on_sigma_form.conservativeResize(size, size);
+  strip.a1 = Eigen::kroneckerProduct(SparseMatrix(depth.asDiagonal()), a_x);
+  strip.a1 += on_sigma_form;
+  strip.b = Eigen::kroneckerProduct(difference, value);
+  strip.a1.makeCompressed();
+  strip.b.makeCompressed();
+  strip.m = weight.replicate(rows, 1) / rows;
+  strip.compliance = *epsilon * *epsilon;
+  strip.load = Eigen::kroneckerProduct(depth, a_x * -on_sigma);
+  strip.load.head(points) += body.force;
+  left_in_layer -= base.dot(a_x * (on_sigma - base / 2));
+  if (pressed) {  // at the points where u_h has it
     const Quadrature& rule = load_rule(element);
-    std::vector<Eigen::VectorXd> basis;
-    for (Eigen::Index q = 0; q < rule.weights.size(); ++q) basis.push_back(element.basis(rule.points.row(q)));
     std::vector<const Indices*> below(points);  // the edge on the right of a point of Sigma
     for (const Indices& edge : sigma.edge)
       for (int i = 0; i < degree; ++i) below[edge[i]] = &edge;
@@ -363,42 +359,29 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
       for (Eigen::Index q = 0; q < rule.weights.size() && mesh.region[t] == Region::layer; ++q) {
         const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
         const Indices& edge = *below[among(sigma.x, x(0)).first];
-        const double on_edge = (x(0) - sigma.x[edge.front()]) / (sigma.x[edge.back()] - sigma.x[edge.front()]);
+        const double left_end = sigma.x[edge.front()], on_edge = (x(0) - left_end) / (sigma.x[edge.back()] - left_end);
         const int row = std::min(static_cast<int>(-x(1) * rows), rows - 1);
         const double low = -x(1) * rows - row;
-        const double pull = mesh.area(t) * rule.weights(q) * stiff->load(x(0), x(1));
-        for (int i = 0; i <= degree; ++i) {
-          double f = pull;
-          for (int j = 0; j <= degree; ++j) f *= i == j ? 1 : (degree * on_edge - j) / (i - j);  // Lagrange's basis
-          left_in_layer += f * base(edge[i]);
-          strip.load(unknown(edge[i], row)) += (1 - low) * f;
-          strip.load(unknown(edge[i], row + 1)) += low * f;
-        }
-        for (Eigen::Index r = 0; r < basis[q].size(); ++r)  // what u_h has on Sigma is in the body's force
-          if (const int place = sigma.place[space.unknowns()(t, r)]; place >= 0) {
-            left_in_layer -= pull * basis[q](r) * base(place);
-            if (!body.held[place]) strip.load(place) -= pull * basis[q](r);
-          }
+        const Eigen::VectorXd pull = mesh.area(t) * rule.weights(q) * stiff->load(x(0), x(1)) *
+                                     trace_at(element, Eigen::VectorXd::Constant(1, on_edge)).value.row(0);
+        left_in_layer += pull.dot(base(edge));
+        strip.load.segment(row * points, points)(edge) += (1 - low) * pull;
+        strip.load.segment((row + 1) * points, points)(edge) += low * pull;
       }
   }
-  strip.a1.resize(size, size);
-  strip.a1.setFromTriplets(a1.begin(), a1.end());
-  strip.b.resize(strip.m.size(), size);
-  strip.b.setFromTriplets(b.begin(), b.end());
-  strip.compliance = *epsilon * *epsilon;
-  for (int row = 0; row <= rows; ++row)
-    for (int i = 0; i < points; ++i) {
-      const bool fixed = held_at[i] || (row == 0 && body.held[i]);
-      if (fixed) strip.fixed.push_back(unknown(i, row));
-      if (!fixed && row == rows && !problem.contact.empty()) strip.contact.push_back(unknown(i, rows));
-    }
+  for (int k = 0; k < size; ++k)
+    if (held_at[k % points] || (k < points && body.held[k]))
+      strip.fixed.push_back(k);
+    else if (k >= rows * points && !problem.contact.empty())
+      strip.contact.push_back(k);
   strip.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(strip.fixed.size()));
   const Eigen::VectorXd bottom = space.points().col(0)(problem.contact);
   const auto seen = [&](const Eigen::VectorXd& bounds) {
-    Eigen::VectorXd here(static_cast<Eigen::Index>(bounds.size() > 0 ? strip.contact.size() : 0)), above_still;
-    if (bounds.size() > 0) above_still = bounds - still(problem.contact);
+    if (bounds.size() == 0) return bounds;
+    const Eigen::VectorXd above_still = bounds - still(problem.contact);
+    Eigen::VectorXd here(static_cast<Eigen::Index>(strip.contact.size()));
     for (Eigen::Index k = 0; k < here.size(); ++k) {
-      const int i = strip.contact[k] - unknown(0, rows);
+      const int i = strip.contact[k] - rows * points;
       here(k) = on_chain(bottom, above_still, sigma.x(i)) - base(i);
     }
     return here;
@@ -420,8 +403,8 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   if (lost.motion < round_off / LostEnergy::telling) lost.motion = 0;  // else round-off could be the share that is told
   if (!scene.contact()) return lost;
 
-  const Trace fine = trace_at(nodes, Eigen::VectorXd::LinSpaced(33, 0, 1));
-  const Eigen::VectorXd moves = moved.u.segment(unknown(0, rows), points), v = on_sigma + moves;
+  const Trace fine = trace_at(element, Eigen::VectorXd::LinSpaced(33, 0, 1));
+  const Eigen::VectorXd moves = moved.u.tail(points), v = on_sigma + moves;
   const auto& contact = *scene.contact();
   const Profile& ceiling = contact.ceiling;
   const Profile floor = [&](double x) { return -contact.gap(x); }, roof = [&](double x) { return -ceiling(x); };

@@ -29,18 +29,14 @@ Ties find_ties(const TriangleMesh& mesh) {
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == Region::layer && leader[t] == t) ++ties.groups;
   if (ties.groups != edges) return ties;
-  struct Extent {
-    double from = std::numeric_limits<double>::infinity(), to = -from;
-  };
-  std::vector<Extent> groups(mesh.triangle_count());
+  Eigen::ArrayXd from = Eigen::ArrayXd::Constant(mesh.triangle_count(), std::numeric_limits<double>::infinity()),
+                 to = -from;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3 && mesh.region[t] == Region::layer; ++i) {
-      auto& [from, to] = groups[find(t)];
-      from = std::min(from, x(mesh.triangles(t, i))), to = std::max(to, x(mesh.triangles(t, i)));
+      from(find(t)) = std::min(from(find(t)), x(mesh.triangles(t, i)));
+      to(find(t)) = std::max(to(find(t)), x(mesh.triangles(t, i)));
     }
-  double widths = 0;
-  for (const auto& [from, to] : groups) widths += std::max(to - from, 0.0);
-  ties.in_columns = widths <= length * (1 + 1e-9);
+  ties.in_columns = (to - from).max(0).sum() <= length * (1 + 1e-9);
   return ties;
 }
 
