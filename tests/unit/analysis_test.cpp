@@ -4,7 +4,6 @@
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/analysis/certificate.hpp"
 #include "antilock/analysis/detail/certified_distance.hpp"
-#include "antilock/analysis/detail/energy_bracket.hpp"
 #include "antilock/analysis/detail/ties.hpp"
 #include "antilock/analysis/exact_errors.hpp"
 #include "antilock/analysis/inf_sup.hpp"

@@ -5,9 +5,9 @@
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 
+#include "antilock/analysis/kernel.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/solve/detail/penalised_matrix.hpp"
 
 namespace antilock {
 
@@ -18,17 +18,11 @@ Eigen::MatrixXd multiplier_gram(const VariationalInequality& problem, const Spar
                             problem.size()));
   if (merged < 1 || problem.b.rows() % merged != 0)
     throw Error(fmt::format("inf-sup: {} rows of B, {} a multiplier; accepted: a divisor", problem.b.rows(), merged));
-  const FreeNumbering numbering(problem);
-  const auto free = static_cast<Eigen::Index>(numbering.unknown.size());
-  SparseMatrix places(problem.size(), free);
-  for (Eigen::Index i = 0; i < free; ++i) places.insert(numbering.unknown[i], i) = 1;
-
-  // column q of B' M, the rows of a multiplier added up
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(free, problem.b.rows() / merged);
-  for (Eigen::Index r = 0; r < problem.b.rows(); ++r)
-    for (RowMatrix::InnerIterator entry(problem.b, r); entry; ++entry)
-      if (const int place = numbering.place[entry.col()]; place >= 0)
-        right(place, r / merged) += problem.m(r) * entry.value();
+  const SparseMatrix places = free_unknowns(problem);
+  const RowMatrix b = problem.b * places;
+  Eigen::MatrixXd right =
+      Eigen::MatrixXd::Zero(places.cols(), b.rows() / merged);  // B' M, the rows of a multiplier added up
+  for (Eigen::Index r = 0; r < b.rows(); ++r) right.col(r / merged) += problem.m(r) * b.row(r).transpose();
   const Eigen::CholmodSupernodalLLT<SparseMatrix> factor(SparseMatrix(places.transpose() * norm * places));
   if (factor.info() != Eigen::Success) throw Error("inf-sup: the norm is not positive definite");
   const Eigen::MatrixXd gram = right.transpose() * factor.solve(right).eval();

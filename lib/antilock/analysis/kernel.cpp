@@ -7,11 +7,10 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
-namespace {
 
-/// N x F: puts the free unknowns in their places.
 SparseMatrix free_unknowns(const VariationalInequality& problem) {
   std::vector<char> fixed(problem.size(), 0);
   for (const int i : problem.fixed) fixed[i] = 1;
@@ -20,6 +19,8 @@ SparseMatrix free_unknowns(const VariationalInequality& problem) {
     if (!fixed[i]) places.insert(i, column++) = 1;
   return places;
 }
+
+namespace {
 
 double threshold(const SparseMatrix& b) {
   double largest = 0;
@@ -65,12 +66,7 @@ VariationalInequality stiff_part(VariationalInequality problem) {
 int layer_kernel_dimension(const VariationalInequality& problem) { return kernel_dimension(stiff_part(problem)); }
 
 int trace_dimension(const VariationalInequality& stiff) {
-  VariationalInequality held = stiff;
-  held.fixed.insert(held.fixed.end(), stiff.contact.begin(), stiff.contact.end());
-  std::sort(held.fixed.begin(), held.fixed.end());
-  held.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(held.fixed.size()));
-  held.contact.clear();
-  held.lower.resize(0);
+  const VariationalInequality held = held_in_contact(stiff, std::vector<bool>(stiff.contact.size(), true));
   return kernel_dimension(stiff) - (held.free_count() > 0 ? kernel_dimension(held) : 0);
 }
 

@@ -6,6 +6,7 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/measure/detail/contact_edges.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {
@@ -36,9 +37,8 @@ NegativePart negative_part(const Space& space, VariationalInequality problem, co
   problem.a1 = norm;
   problem.b.resize(0, problem.size());
   problem.m.resize(0);
-  problem.contact.clear();
-  problem.lower.resize(0);
-  return {std::sqrt(largest), active_set(problem).u / std::sqrt(largest)};
+  const std::vector<bool> none(problem.contact.size());
+  return {std::sqrt(largest), active_set(held_in_contact(problem, none)).u / std::sqrt(largest)};
 }
 
 }  // namespace antilock

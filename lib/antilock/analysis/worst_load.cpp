@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "antilock/analysis/load_ascent.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
@@ -17,10 +18,9 @@
 namespace antilock {
 namespace {
 
-/// Row j: the basis load j of `modes` at a point.
-void basis_loads(const LoadModes& modes, double x, double y, Eigen::Ref<Eigen::VectorXd> values) {
-  const Eigen::VectorXd sine = modes.sines(x), cosine = modes.cosines(y);
-  for (int j = 0; j < modes.size(); ++j) values(j) = 2 * sine(modes.k()(j)) * cosine(modes.m()(j));
+/// The basis loads of `modes` at a point.
+Eigen::VectorXd basis_loads(const LoadModes& modes, const Eigen::Vector2d& x) {
+  return 2 * modes.sines(x(0))(modes.k()).cwiseProduct(modes.cosines(x(1))(modes.m()));
 }
 
 /// 2 |e_k|_a^2 of e_k = psi_k sin(k pi x) in the body, sin(k pi x) in the layer: a coth a of the body, a^2 of the layer.
@@ -40,14 +40,13 @@ double loss_of_wave(int k) {
 // in a, with |z|^2 = sum l_k^2 c_k^2, they are orthogonal to the vectors (energy_of_wave^(1/2) int v sin(k pi x))_k.
 double loss_of_degree(int p) {
   const int waves = 64, points = 1024;
+  const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(points + 1, 0, 1);
   Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(waves, p - 1), lost = Eigen::MatrixXd::Zero(waves, waves);
   for (int k = 1; k <= waves; ++k) {
     lost(k - 1, k - 1) = std::pow(loss_of_wave(k), 2);
     for (int j = 0; j < p - 1; ++j)
-      for (int i = 1; i < points; ++i) {
-        const double x = 1.0 * i / points, v = x * (1 - x) * std::pow(2 * x - 1, j);
-        kept(k - 1, j) += std::sqrt(energy_of_wave(k)) * v * std::sin(k * std::numbers::pi * x);
-      }
+      kept(k - 1, j) =
+          std::sqrt(energy_of_wave(k)) * (x * (1 - x) * (2 * x - 1).pow(j) * (k * std::numbers::pi * x).sin()).sum();
   }
   if (p > 1) {
     const Eigen::MatrixXd traces = kept.transpose(), gram = traces * kept;
@@ -103,20 +102,19 @@ void ErrorForm::integrate_loads() {
   for (Eigen::Index q = 0; q < points; ++q)
     weighted.row(q) = rule.weights(q) * element.basis(rule.points.row(q)).transpose();
   std::vector<int> place(space_.size(), -1);
-  for (const int i : space_.clamped()) place[i] = -2;
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; mesh.region[t] == Region::body && i < element.unknowns(); ++i)
-      if (int& p = place[space_.unknowns()(t, i)]; p == -1) {
-        p = static_cast<int>(active_.size());
-        active_.push_back(space_.unknowns()(t, i));
-      }
+    for (int i = 0; mesh.region[t] == Region::body && i < element.unknowns(); ++i) place[space_.unknowns()(t, i)] = 0;
+  for (const int i : space_.clamped()) place[i] = -1;
+  for (int i = 0; i < space_.size(); ++i)
+    if (place[i] == 0) {
+      place[i] = static_cast<int>(active_.size());
+      active_.push_back(i);
+    }
   loads_.setZero(modes_.size(), static_cast<Eigen::Index>(active_.size()));
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != Region::body) continue;
-    for (Eigen::Index q = 0; q < points; ++q) {
-      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-      basis_loads(modes_, x(0), x(1), values.col(q));
-    }
+    for (Eigen::Index q = 0; q < points; ++q)
+      values.col(q) = basis_loads(modes_, point_in(mesh, t, rule.points.row(q)));
     const Eigen::MatrixXd local = mesh.area(t) * values * weighted;
     for (int i = 0; i < element.unknowns(); ++i)
       if (const int p = place[space_.unknowns()(t, i)]; p >= 0) loads_.col(p) += local.col(i);
@@ -126,27 +124,18 @@ void ErrorForm::integrate_loads() {
 // The unknowns of CR are means over edges. Those of the layer are not needed: no load stands there.
 void ErrorForm::interpolate_solutions() {
   const auto [points, weights] = gauss_rule(10);
+  const TriangleMesh& mesh = space_.mesh();
   means_.setZero(modes_.size(), loads_.cols());
   decays_.setZero(modes_.waves() + 1, loads_.cols());
-  Eigen::VectorXd values(modes_.size());
-  const TriangleMesh& mesh = space_.mesh();
-  std::vector<int> place(space_.size(), -1);
-  for (std::size_t p = 0; p < active_.size(); ++p) place[active_[p]] = static_cast<int>(p);
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; mesh.region[t] == Region::body && i < 3; ++i) {
-      int& p = place[space_.unknowns()(t, i)];
-      if (p < 0) continue;
-      for (Eigen::Index q = 0; q < points.size(); ++q) {
-        Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-        lambda((i + 1) % 3) = points(q);
-        lambda((i + 2) % 3) = 1 - points(q);
-        const Eigen::Vector2d x = point_in(mesh, t, lambda);
-        basis_loads(modes_, x(0), x(1), values);
-        means_.col(p) += weights(q) * values;
-        decays_.col(p) += 2 * weights(q) * modes_.sines(x(0)).cwiseProduct(modes_.decays(x(1)));
-      }
-      p = -1;  // an edge once
+  for (Eigen::Index p = 0; p < loads_.cols(); ++p) {
+    const Eigen::Vector2d from = mesh.vertices.row(mesh.edges(active_[p], 0)),
+                          to = mesh.vertices.row(mesh.edges(active_[p], 1));
+    for (Eigen::Index q = 0; q < points.size(); ++q) {
+      const Eigen::Vector2d x = from + points(q) * (to - from);
+      means_.col(p) += weights(q) * basis_loads(modes_, x);
+      decays_.col(p) += 2 * weights(q) * modes_.sines(x(0)).cwiseProduct(modes_.decays(x(1)));
     }
+  }
 }
 
 Eigen::VectorXd ErrorForm::interpolant(const Eigen::VectorXd& f) const {
@@ -179,6 +168,46 @@ WorstLoad ErrorForm::worst(double tolerance) {
   const Eigenpair largest =
       largest_eigenpair([this](const Eigen::VectorXd& f) { return apply(f); }, modes_.size(), tolerance, 20);
   return {std::sqrt(std::max(0.0, largest.value)), largest.vector};
+}
+
+SineLoad load_of_modes(const Eigen::VectorXd& c) {
+  const double square = std::pow(std::numbers::pi / 2, 2);
+  SineLoad load;
+  for (int k = 1; k <= c.size(); ++k) {
+    std::vector<double> cosine(13, 0.0);
+    double term = 2 * c(k - 1);
+    for (int i = 0; i <= 12; i += 2) {
+      cosine[i] = term;
+      term *= -square / ((i + 1) * (i + 2));
+    }
+    load.modes.push_back({k, cosine});
+  }
+  return load;
+}
+
+double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
+              int steps) {
+  double best = 0;
+  for (const Eigen::VectorXd& start : starts) {
+    Eigen::VectorXd at = start.normalized();
+    double value = error(at), step = 0.3;
+    for (int i = 0; i < steps && step > 0.02; ++i) {
+      Eigen::VectorXd gradient(at.size());
+      for (Eigen::Index k = 0; k < at.size(); ++k)
+        gradient(k) = error((at + 1e-3 * Eigen::VectorXd::Unit(at.size(), k)).normalized()) - value;
+      const Eigen::VectorXd tried = (at + step * gradient.normalized()).normalized();
+      const double there = error(tried);
+      if (there > value) {
+        at = tried;
+        value = there;
+        step *= 2;
+      } else {
+        step *= 0.5;
+      }
+    }
+    best = std::max(best, value);
+  }
+  return best;
 }
 
 }  // namespace antilock
