@@ -3,7 +3,6 @@
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/analysis/certificate.hpp"
-#include "antilock/analysis/detail/certified_distance.hpp"
 #include "antilock/analysis/detail/ties.hpp"
 #include "antilock/analysis/exact_errors.hpp"
 #include "antilock/analysis/inf_sup.hpp"

@@ -45,8 +45,7 @@ inline Parts take_apart(const Exact& exact, const Space& space, const Variationa
   Parts sum;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const bool in_layer = mesh.region[t] == Region::layer;
-    LayerLaw law = discrete.law;
-    if (!in_layer) law.x = law.y = 1;
+    const FluxLaw& law = discrete.cell[t].law;
     Eigen::Vector2d mean(0, 0);
     double square = 0;
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {

@@ -8,11 +8,11 @@
 
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/adapt/detail/marking.hpp"
-#include "antilock/analysis/detail/certified_distance.hpp"
 #include "antilock/analysis/detail/ties.hpp"
 #include "antilock/analysis/lost_energy.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
+#include "antilock/mesh/detail/cut_out.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -32,30 +32,14 @@ Growth growth_of(const Scene& scene) {
   return stiff != nullptr && stiff->epsilon <= thin ? Growth::extrude : Growth::bisect;
 }
 
-/// A conforming answer and what is proved of it, on the mesh of a Crouzeix-Raviart solution.
-struct Conforming {
-  Answer answer;
-  Companion v;
-  Certificate certificate;
-};
-
-Conforming conforming_answer(const Scene& scene, const Element& element,
-                             const std::shared_ptr<const TriangleMesh>& mesh,
-                             const std::function<Certificate(const Companion&)>& certified) {
-  const auto solved = [&](const Element& of) {
-    Answer answer{mesh, Space(*mesh, of), {}, {}, {}, ""};
-    answer.problem = assemble(scene, answer.space);
-    if (scene.contact() && of.degree() == 1) answer.problem.lower = admissible_bounds(*scene.contact(), answer.space);
-    answer.solution = active_set(answer.problem);
-    return answer;
-  };
-  Answer linear = solved(p1());
-  Companion v = p1_companion(linear.solution);
-  Certificate certificate = certified(v);
-  if (element.degree() == 1) return {std::move(linear), std::move(v), std::move(certificate)};
-  Answer own = solved(element);
-  certificate.displacement = certified_distance(certificate, v, own.space, own.problem, own.solution);
-  return {std::move(own), std::move(v), std::move(certificate)};
+/// The answer of a conforming element; that of P1 in K between the vertices, too.
+Answer conforming_answer(const Scene& scene, const Element& element, const std::shared_ptr<const TriangleMesh>& mesh) {
+  Answer answer{mesh, Space(*mesh, element), {}, {}, {}, ""};
+  answer.problem = assemble(scene, answer.space);
+  if (scene.contact() && element.degree() == 1)
+    answer.problem.lower = admissible_bounds(*scene.contact(), answer.space);
+  answer.solution = active_set(answer.problem);
+  return answer;
 }
 
 /// Of an answer that locks: what is told of it, where the unknowns that would be needed are more than the limit. The
@@ -85,33 +69,7 @@ void check_request(const Accuracy& accuracy) {
 /// The body of a mesh as a mesh of its own: Sigma becomes contact.
 TriangleMesh body_of(const TriangleMesh& mesh) {
   if (std::find(mesh.region.begin(), mesh.region.end(), Region::layer) == mesh.region.end()) return mesh;
-  std::vector<int> number(mesh.vertex_count(), -1);
-  Points points(mesh.vertex_count(), 2);
-  Triples triangles(mesh.triangle_count(), 3);
-  int vertices = 0, count = 0;
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    if (mesh.region[t] != Region::body) continue;
-    for (int i = 0; i < 3; ++i) {
-      int& v = number[mesh.triangles(t, i)];
-      if (v < 0) points.row(v = vertices++) = mesh.vertices.row(mesh.triangles(t, i));
-      triangles(count, i) = v;
-    }
-    ++count;
-  }
-  points.conservativeResize(vertices, 2);
-  triangles.conservativeResize(count, 3);
-  std::vector<TaggedEdge> tagged;
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    const EdgeTag tag = mesh.edge_tag[e];
-    const bool of_body = mesh.region[mesh.edge_triangles(e, 0)] == Region::body || tag == EdgeTag::sigma;
-    if (!of_body || tag == EdgeTag::interior) continue;
-    tagged.push_back(
-        {number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag == EdgeTag::sigma ? EdgeTag::contact : tag});
-  }
-  TriangleMesh body = make_triangle_mesh(std::move(points), std::move(triangles),
-                                         std::vector<Region>(count, Region::body), tagged, "body");
-  body.geometry = mesh.geometry;
-  return body;
+  return cut_out(mesh, [&](int t) { return mesh.region[t] == Region::body; }).mesh;
 }
 
 /// A contact set from one mesh to the next, by x: on the piece of the nearest unknowns on both sides, where they agree.
@@ -237,20 +195,22 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       if (enough || tolerance <= CorrectionOptions{}.tolerance) break;
     }
     contact_set.keep(space, solution);
-    std::optional<Answer> answer;
+    Answer answer{mesh, space, std::move(problem), std::move(solution), {}, ""};
     if (conforming) {
-      Conforming own = conforming_answer(scene, *accuracy.element, mesh, [&](const Companion& companion) {
-        return certify(scene, space, problem, solution, {.factor = &factor, .companion = &companion});
-      });
-      answer = std::move(own.answer), v = std::move(own.v), certificate = std::move(own.certificate);
-    } else {
-      answer = Answer{mesh, space, std::move(problem), std::move(solution), {}, ""};
+      Answer own = conforming_answer(scene, p1(), mesh);
+      v = p1_companion(own.solution);
+      certificate = certify(scene, space, answer.problem, answer.solution, {.factor = &factor, .companion = &v});
+      if (accuracy.element->degree() > 1) {
+        own = conforming_answer(scene, *accuracy.element, mesh);
+        certificate.displacement = certified_distance(certificate, v, own.space, own.problem, own.solution);
+      }
+      answer = std::move(own);
     }
-    answer->warning = warning;
-    answer->solution.warning.clear();  // the certificate counts what the corrections left
+    answer.warning = warning;
+    answer.solution.warning.clear();  // the certificate counts what the corrections left
     seconds += watch.lap();
     const double relative = certificate.relative(accuracy.of);
-    history.push_back({answer->space.free_count(), certificate.bound(accuracy.of), relative, seconds});
+    history.push_back({answer.space.free_count(), certificate.bound(accuracy.of), relative, seconds});
     quote(history, accuracy.relative);
     if (progress) progress(history.back());
     if (relative <= accuracy.relative) {
@@ -261,10 +221,10 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       if (v.layer)
         for (int i = 0; i < mesh->vertex_count(); ++i)
           if (mesh->vertices(i, 1) < 0) companion.u(i) = v.layer->value(mesh->vertices.row(i).transpose());
-      return {std::move(*answer), std::move(companion), std::move(certificate), std::move(history)};
+      return {std::move(answer), std::move(companion), std::move(certificate), std::move(history)};
     }
     if (conforming)
-      if (const std::string why = locked(scene, *answer, certificate, accuracy); !why.empty())
+      if (const std::string why = locked(scene, answer, certificate, accuracy); !why.empty())
         refuse(accuracy, history, why, false);
     if (const double needed = history.back().quoted_unknowns; needed > accuracy.most_unknowns)
       refuse(accuracy, history, fmt::format("about {:.2g} are needed", needed));

@@ -82,79 +82,46 @@
 namespace antilock {
 namespace {
 
-/// v as the sums over triangles and edges need it.
-class Conforming {
- public:
-  Conforming(const Space& space, const EquilibratedFlux& sigma, const Companion& v)
-      : mesh_(space.mesh()), sigma_(sigma), law_(sigma.law), v_(v) {
-    const auto layer = std::count(mesh_.region.begin(), mesh_.region.end(), Region::layer);
-    if (v.at_vertices.size() != mesh_.vertex_count() || (law_.split && !v.layer && v.stress.size() != layer))
-      throw Error("certificate: the companion has another number of values than the mesh has vertices or layer cells");
-    if (!v.at_vertices.allFinite() || !v.stress.allFinite()) throw Error("certificate: the companion is not finite");
-  }
+void check_sizes(const TriangleMesh& mesh, const FluxLaw& law, const Companion& v) {
+  const auto layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
+  if (v.at_vertices.size() != mesh.vertex_count() || (law.split && !v.layer && v.stress.size() != layer))
+    throw Error("certificate: the companion has another number of values than the mesh has vertices or layer cells");
+  if (!v.at_vertices.allFinite() || !v.stress.allFinite()) throw Error("certificate: the companion is not finite");
+}
 
-  bool on_mesh(int t) const { return mesh_.region[t] == Region::body || !v_.layer; }
-  /// A grad v on a triangle that v shares; `row`: of the layer stress.
-  Eigen::Vector2d flux(int t, int row) const {
-    Eigen::Vector2d flux = Eigen::Vector2d::Zero();
-    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh_, t);
-    for (int i = 0; i < 3; ++i) flux += v_.at_vertices(mesh_.triangles(t, i)) * lambda.row(i).transpose();
-    if (mesh_.region[t] == Region::body) return sigma_.cell[t].stiffness * flux;
-    if (law_.split) flux(1) = v_.stress(row);
-    flux *= law_.stiffness;
-    return flux;
-  }
-  /// At a point of the layer, whatever mesh v has there.
-  Eigen::Vector2d flux_at(const Eigen::Vector2d& x) const { return law_.stiffness * v_.layer->flux(x); }
-  double mean(int e) const {
-    const int a = mesh_.edges(e, 0), b = mesh_.edges(e, 1);
-    const bool in_body = mesh_.region[mesh_.edge_triangles(e, 0)] == Region::body ||
-                         (mesh_.edge_triangles(e, 1) >= 0 && mesh_.region[mesh_.edge_triangles(e, 1)] == Region::body);
-    if (in_body || !v_.layer) return (v_.at_vertices(a) + v_.at_vertices(b)) / 2;
-    return v_.layer->mean(mesh_.vertices.row(a).transpose(), mesh_.vertices.row(b).transpose());
-  }
-  /// |v|_a^2 of a layer on columns.
-  double layer_norm2() const {
-    if (!v_.layer) return 0;
-    double sum = 0;
-    const TriangleMesh& mesh = v_.layer->mesh();
-    for (int t = v_.layer->first_triangle(); t < mesh.triangle_count(); ++t)
-      sum += mesh.area(t) * law_.squared(law_.stiffness * v_.layer->flux_of(t - v_.layer->first_triangle()));
-    return sum;
-  }
-
- private:
-  const TriangleMesh& mesh_;
-  const EquilibratedFlux& sigma_;
-  const LayerLaw& law_;
-  const Companion& v_;
-};
+/// The mean of v over an edge of the mesh.
+double mean_on(const TriangleMesh& mesh, int e, const Companion& v) {
+  const int a = mesh.edges(e, 0), b = mesh.edges(e, 1), t = mesh.edge_triangles(e, 0),
+            other = mesh.edge_triangles(e, 1);
+  if (v.layer && mesh.region[t] == Region::layer && (other < 0 || mesh.region[other] == Region::layer))
+    return v.layer->mean(mesh.vertices.row(a), mesh.vertices.row(b));
+  return (v.at_vertices(a) + v.at_vertices(b)) / 2;
+}
 
 /// v is what the scene prescribes at the ends of fixed edges, and that has the fixed values as its means.
 void check_prescribed(const Scene& scene, const Space& space, const VariationalInequality& problem,
                       const Companion& v) {
   const TriangleMesh& mesh = space.mesh();
   const Eigen::VectorXd prescribed = prescribed_values(scene, mesh);
+  const auto differs = [](double value, double asked) {
+    return !(std::abs(value - asked) <= 1e-11 * std::max(1.0, std::abs(asked)));
+  };
   for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
-    const int e = problem.fixed[i];
-    double mean = 0;
-    for (int end = 0; end < 2; ++end) {
-      const int vertex = mesh.edges(e, end);
-      const double asked = prescribed(vertex);
+    const auto ends = mesh.edges.row(problem.fixed[i]);
+    for (const int vertex : {ends(0), ends(1)}) {
       const double found = v.layer && mesh.vertices(vertex, 1) < 0
                                ? v.layer->value(mesh.vertices.row(vertex).transpose())
                                : v.at_vertices(vertex);
-      mean += asked / 2;
-      if (!(std::abs(found - asked) <= 1e-11 * std::max(1.0, std::abs(asked))))
+      if (differs(found, prescribed(vertex)))
         throw Error(fmt::format("certificate: the companion is {} at {}, where {} is prescribed", found,
-                                mesh.place(vertex), asked));
+                                mesh.place(vertex), prescribed(vertex)));
     }
-    const double value = problem.fixed_values(static_cast<Eigen::Index>(i));
-    if (!(std::abs(value - mean) <= 1e-11 * std::max(1.0, std::abs(mean))))
+    const double value = problem.fixed_values(static_cast<Eigen::Index>(i)), mean = prescribed(ends).mean();
+    if (differs(value, mean))
       throw Error(fmt::format(
           "certificate: {} is fixed between {} and {}, where the scene prescribes the mean {}; accepted: the "
           "scene's values",
-          value, mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1)), mean));
+          value, mesh.place(ends(0)), mesh.place(ends(1)), mean));
   }
 }
 
@@ -200,55 +167,53 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
   const EquilibratedFlux flux = equilibrated_flux(scene, space, problem, solution);
   Companion made;
   if (options.companion == nullptr) made = strip_companion(scene, space, problem, solution);
-  const Companion& companion = options.companion != nullptr ? *options.companion : made;
+  const Companion& v = options.companion != nullptr ? *options.companion : made;
   const TriangleMesh& mesh = space.mesh();
-  const Conforming v(space, flux, companion);
+  check_sizes(mesh, flux.law, v);
   const Quadrature& midpoints = midpoint_rule();
 
   Certificate certificate;
   certificate.oscillation = std::sqrt(flux.oscillation2);
   certificate.imbalance = unbalanced(problem, flux, options.factor);
   certificate.indicator = Eigen::VectorXd::Zero(mesh.triangle_count());
-  double norm2 = v.layer_norm2(), work = 0;  // |v|_a^2, (f, v) and the traction's
-  double mismatch2 = 0;                      // m^2 of the triangles that v shares
+  double norm2 = 0, work = flux.pull.dot(v.at_vertices);  // |v|_a^2, the work of f and of the traction on v
+  double mismatch2 = 0;                                   // m^2 of the triangles that v shares
+  if (v.layer)
+    for (int t = v.layer->first_triangle(), k = 0; t < v.layer->mesh().triangle_count(); ++t, ++k)
+      norm2 += v.layer->mesh().area(t) * flux.law.squared(flux.law.stiffness * v.layer->flux_of(k));
   int row = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const FluxCell& here = flux.cell[t];
     const double area = mesh.area(t);
+    const bool layer = mesh.region[t] == Region::layer;
     double mismatch = 0;
-    if (mesh.region[t] == Region::body) {
-      const Eigen::Vector2d gradient = v.flux(t, 0);
-      mismatch = area / here.stiffness * (gradient - here.s).squaredNorm() + here.tau2;  // tau has mean zero on T
-      norm2 += area / here.stiffness * gradient.squaredNorm();
-      for (int i = 0; i < 3; ++i)  // mean(f lambda_i) = (f_i + 3 f_T) / 12
-        work += area * (here.f(i) + 3 * here.mean) / 12 * companion.at_vertices(mesh.triangles(t, i));
-    } else if (v.on_mesh(t)) {
-      const Eigen::Vector2d gradient = v.flux(t, row);
-      norm2 += area * flux.law.squared(gradient);
-      mismatch = area * flux.law.squared(gradient - here.s);
+    if (!layer || !v.layer) {
+      const Eigen::Vector2d of_v = v.flux(mesh, t, row, here.law);
+      norm2 += area * here.law.squared(of_v);
+      mismatch = area * here.law.squared(of_v - here.s) + here.tau2;  // tau has mean zero on T
+      for (int i = 0; i < 3; ++i)                                     // mean(f lambda_i) = (f_i + 3 f_T) / 12
+        work += area * (here.f(i) + here.f.sum()) / 12 * v.at_vertices(mesh.triangles(t, i));
     } else {  // for the indicator alone
       for (Eigen::Index q = 0; q < midpoints.weights.size(); ++q) {
         const Eigen::Vector2d x =
             point_in(mesh, t, 0.98 * midpoints.points.row(q).transpose() + Eigen::Vector3d::Constant(0.02 / 3));
-        certificate.indicator(t) += area * midpoints.weights(q) * flux.law.squared(v.flux_at(x) - here.s) / 2;
+        certificate.indicator(t) +=
+            area * midpoints.weights(q) * here.law.squared(here.law.stiffness * v.layer->flux(x) - here.s) / 2;
       }
     }
-    if (mesh.region[t] == Region::layer) ++row;
+    row += layer ? 1 : 0;
     mismatch2 += mismatch;
     certificate.indicator(t) += mismatch / 2 + here.oscillation2;
   }
   certificate.norm = std::sqrt(norm2);
-  work += flux.pull.dot(companion.at_vertices);
-  check_prescribed(scene, space, problem, companion);
-  if (scene.contact() && companion.layer)
-    check_admissible(*scene.contact(), companion.layer->mesh(), companion.layer->v());
-  else if (scene.contact())
-    check_admissible(*scene.contact(), mesh, companion.at_vertices);
+  check_prescribed(scene, space, problem, v);
+  if (scene.contact())
+    check_admissible(*scene.contact(), v.layer ? v.layer->mesh() : mesh, v.layer ? v.layer->v() : v.at_vertices);
   for (std::size_t i = 0; i < problem.contact.size(); ++i) {
     const int e = problem.contact[i];
     const auto place = static_cast<Eigen::Index>(i);
     if (flux.lambda(place) == 0) continue;
-    const double contact_work = std::max(flux.lambda(place) * (v.mean(e) + flux.gap(place)), 0.0);
+    const double contact_work = std::max(flux.lambda(place) * (mean_on(mesh, e, v) + flux.gap(place)), 0.0);
     certificate.contact_work += contact_work;
     certificate.indicator(mesh.edge_triangles(e, 0)) += contact_work;
   }
@@ -256,7 +221,8 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
   double unbalanced_work = 0;
   const double round_off = 1e-13 * flux.residual.lpNorm<Eigen::Infinity>();
   for (Eigen::Index e = 0; e < flux.imbalance.size(); ++e)
-    if (std::abs(flux.imbalance(e)) > round_off) unbalanced_work += flux.imbalance(e) * v.mean(static_cast<int>(e));
+    if (std::abs(flux.imbalance(e)) > round_off)
+      unbalanced_work += flux.imbalance(e) * mean_on(mesh, static_cast<int>(e), v);
 
   certificate.energy_upper = norm2 / 2 - work;
   const double scale = norm2 + flux.norm2 + std::abs(work);
@@ -266,7 +232,7 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
         fmt::format("certificate: round-off has eaten the mismatch, {:.1e} of the energy; accepted: values at "
                     "the vertices that agree with the fixed ones, cells far from degenerate",
                     by_identity / scale));
-  if (companion.layer) {
+  if (v.layer) {
     mismatch2 = std::max(by_identity, mismatch2);
   } else if (std::abs(by_identity - mismatch2) > 1e-10 * scale) {
     throw Error(
@@ -289,6 +255,35 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
     if (mesh.region[t] == Region::layer) layer += certificate.indicator(t);
   certificate.layer_share = layer > 0 ? layer / certificate.indicator.sum() : 0;
   return certificate;
+}
+
+double certified_distance(const Certificate& certificate, const Companion& v, const Space& space,
+                          const VariationalInequality& problem, const Solution& w) {
+  const TriangleMesh& mesh = space.mesh();
+  if (v.layer)
+    throw Error(
+        "certificate: the companion has columns of its own; accepted: one on the mesh, as strip_companion with "
+        "on_mesh, "
+        "p1_companion or an extruded mesh make it");
+  const Eigen::Index per_triangle = v.stress.size() > 0 ? problem.b.rows() / v.stress.size() : 0;
+  if (v.at_vertices.size() != mesh.vertex_count() || w.u.size() != space.size() || problem.size() != space.size() ||
+      w.p.size() != problem.b.rows() || per_triangle * v.stress.size() != problem.b.rows())
+    throw Error(fmt::format(
+        "certificate: the companion has {} values and {} stresses, the solution {} and {}; accepted: both on one mesh",
+        v.at_vertices.size(), v.stress.size(), w.u.size(), w.p.size()));
+
+  const Eigen::MatrixX3d nodes = space.element().nodes();
+  Eigen::VectorXd u = w.u, p = w.p;  // w - v
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Vector3d corners = v.at_vertices(mesh.triangles.row(t));
+    for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
+      const int unknown = space.unknowns()(t, i);
+      u(unknown) = w.u(unknown) - nodes.row(i).dot(corners);
+    }
+  }
+  for (Eigen::Index row = 0; row < p.size(); ++row) p(row) -= v.stress(row / per_triangle);
+  const double stiff = problem.compliance * p.cwiseAbs2().dot(problem.m);
+  return certificate.displacement + std::sqrt(u.dot(problem.a1 * u) + stiff);
 }
 
 }  // namespace antilock

@@ -16,27 +16,19 @@ ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux,
   };
   int row = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const bool layer = mesh.region[t] == Region::layer;
-    Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
-    for (int i = 0; i < 3; ++i)
-      gradient += v.at_vertices(mesh.triangles(t, i)) * barycentric_gradients(mesh, t).row(i).transpose();
-    if (layer && !v.layer) gradient(1) = v.stress(row);
+    const bool layer = mesh.region[t] == Region::layer, columns = layer && v.layer;
+    const auto& [law, s, f, traction, oscillation2, tau2] = flux.cell[t];
+    const Eigen::Vector2d gradient = columns ? s : v.flux(mesh, t, row, law);
     row += layer ? 1 : 0;
     const Eigen::MatrixX2d tau = flux.tau(mesh, t, rule.points);
-    const LayerLaw body = [&] {
-      LayerLaw law = flux.law;
-      if (!layer) law.x = law.y = 1;
-      return law;
-    }();
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const double w = mesh.area(t) * rule.weights(q);
-      const Eigen::Vector2d u = exact(point_in(mesh, t, rule.points.row(q)), layer), s = flux.cell[t].s;
-      const Eigen::Vector2d sigma = layer ? s : Eigen::Vector2d(s + tau.row(q).transpose());
-      cr += w * body.squared(u - s);
-      balanced += w * body.squared(u - sigma);
-      if (layer && v.layer) continue;
-      conforming += w * body.squared(u - gradient);
-      middle += w * body.squared(u - (sigma + gradient) / 2);
+      const Eigen::Vector2d u = exact(point_in(mesh, t, rule.points.row(q)), layer), sigma = s + tau.row(q).transpose();
+      cr += w * law.squared(u - s);
+      balanced += w * law.squared(u - sigma);
+      if (columns) continue;
+      conforming += w * law.squared(u - gradient);
+      middle += w * law.squared(u - (sigma + gradient) / 2);
     }
   }
   if (v.layer) {

@@ -26,13 +26,14 @@ ColumnFunction::Place ColumnFunction::locate(const Eigen::Vector2d& x) const {
   if (column != columns_.begin()) --column;
   const double depth = -x(1) * rows_;
   const int row = std::clamp(static_cast<int>(depth), 0, rows_ - 1);
-  const double s = (x(0) - column->left) / (column->right - column->left), t = row + 1 - depth;
-  return {column->triangle + 2 * row + (t > s ? 1 : 0), s, t};  // the diagonal / : the first triangle lies below it
+  const double width = column->right - column->left, s = (x(0) - column->left) / width, t = row + 1 - depth;
+  return {column->triangle + 2 * row + (t > s ? 1 : 0), width, s,
+          t};  // the diagonal / : the first triangle lies below it
 }
 
 // corners: low left, low right, up right below the diagonal; low left, up right, up left above it
 double ColumnFunction::value(const Eigen::Vector2d& x) const {
-  const auto [triangle, s, t] = locate(x);
+  const auto [triangle, width, s, t] = locate(x);
   const auto corner = mesh_.triangles.row(triangle);
   if (t > s) return (1 - t) * v_(corner(0)) + s * v_(corner(1)) + (t - s) * v_(corner(2));
   return (1 - s) * v_(corner(0)) + (s - t) * v_(corner(1)) + t * v_(corner(2));
@@ -68,26 +69,13 @@ double ColumnFunction::mean(const Eigen::Vector2d& a, const Eigen::Vector2d& b) 
   std::sort(cuts.begin(), cuts.end());
   double sum = 0;
   for (std::size_t k = 1; k < cuts.size(); ++k) {
-    // inside one cell; the diagonal may cut the piece once more
-    const double from = cuts[k - 1], to = cuts[k], middle = 0.5 * (from + to);
-    const Eigen::Vector2d start = a + from * along, end = a + to * along;
+    // inside one cell, where v is affine on both sides of the diagonal s = t
+    const double from = cuts[k - 1], to = cuts[k], half = (to - from) / 2, middle = from + half;
     const Place place = locate(a + middle * along);
-    const int upper = (place.triangle - first_) / 2 * 2 + first_;
-    const auto low_left = mesh_.vertices.row(mesh_.triangles(upper, 0));
-    const auto up_right = mesh_.vertices.row(mesh_.triangles(upper, 2));
-    const auto above = [&](const Eigen::Vector2d& x) {
-      return (x(1) - low_left(1)) / (up_right(1) - low_left(1)) - (x(0) - low_left(0)) / (up_right(0) - low_left(0));
-    };
-    const double d0 = above(start), d1 = above(end);
-    const auto trapezoid = [&](double p, double q) {
-      return (q - p) * value(a + 0.5 * (p + q) * along);  // v is affine on it: its middle is its mean
-    };
-    if (d0 * d1 < 0) {
-      const double crossing = from + (to - from) * d0 / (d0 - d1);
-      sum += trapezoid(from, crossing) + trapezoid(crossing, to);
-    } else {
-      sum += trapezoid(from, to);
-    }
+    const double off = place.t - place.s, change = half * (along(1) * rows_ - along(0) / place.width);
+    const double crossing = std::abs(off) < std::abs(change) ? middle - off / change * half : to;
+    for (const auto& [p, q] : {std::pair(from, crossing), {crossing, to}})
+      sum += (q - p) * value(a + (p + q) / 2 * along);
   }
   return sum;
 }

@@ -32,7 +32,8 @@ class ColumnFunction {
   };
   struct Place {
     int triangle;
-    double s, t;  ///< in its cell, from the left and from below, 0 to 1
+    double width;  ///< of its column
+    double s, t;   ///< in its cell, from the left and from below, 0 to 1
   };
   Place locate(const Eigen::Vector2d& x) const;
 

@@ -9,6 +9,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/mesh/detail/cut_out.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -49,68 +50,24 @@ Eigen::VectorXd averages(const Scene& scene, const Space& space, const Solution&
   return sum;
 }
 
-/// The triangles of the mesh that a strip solve needs, as a mesh of their own, with the old numbers of its vertices.
-struct CutOut {
-  TriangleMesh mesh;
-  std::vector<int> old_vertex;
-};
-
-/// The body's triangles with a vertex on `line`, and the layer's where it is to be kept.
-CutOut cut_out(const TriangleMesh& mesh, const std::vector<char>& line, bool keep_layer) {
-  CutOut piece;
-  std::vector<int> kept, number(mesh.vertex_count(), -1), owners(mesh.edge_count(), 0);
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const auto v = mesh.triangles.row(t);
-    if (mesh.region[t] == Region::layer ? !keep_layer : !(line[v(0)] || line[v(1)] || line[v(2)])) continue;
-    kept.push_back(t);
-    for (int i = 0; i < 3; ++i) ++owners[mesh.triangle_edges(t, i)];
-  }
-  Triples triangles(static_cast<Eigen::Index>(kept.size()), 3);
-  std::vector<Region> region;
-  for (std::size_t k = 0; k < kept.size(); ++k) {
-    region.push_back(mesh.region[kept[k]]);
-    for (int i = 0; i < 3; ++i) {
-      const int v = mesh.triangles(kept[k], i);
-      if (number[v] < 0) {
-        number[v] = static_cast<int>(piece.old_vertex.size());
-        piece.old_vertex.push_back(v);
-      }
-      triangles(static_cast<Eigen::Index>(k), i) = number[v];
-    }
-  }
-  Points points(static_cast<Eigen::Index>(piece.old_vertex.size()), 2);
-  for (std::size_t i = 0; i < piece.old_vertex.size(); ++i)
-    points.row(static_cast<Eigen::Index>(i)) = mesh.vertices.row(piece.old_vertex[i]);
-  std::vector<TaggedEdge> tagged;
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (owners[e] == 0) continue;
-    EdgeTag tag = mesh.edge_tag[e];
-    if (owners[e] == 1 && tag == EdgeTag::interior) tag = EdgeTag::clamped;  // the cut
-    if (owners[e] == 1 && tag == EdgeTag::sigma) tag = EdgeTag::contact;     // the layer is left out
-    if (tag != EdgeTag::interior) tagged.push_back({number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag});
-  }
-  piece.mesh = make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), tagged, "certificate");
-  return piece;
-}
-
-/// Whether the layer of `mesh` has the same triangles as the columns, in the same order.
-bool same_layer(const TriangleMesh& mesh, const TriangleMesh& columns) {
-  const auto first = [](const TriangleMesh& m) {
-    return static_cast<int>(std::find(m.region.begin(), m.region.end(), Region::layer) - m.region.begin());
-  };
-  const int ours = first(mesh), theirs = first(columns), count = mesh.triangle_count() - ours;
-  if (count != columns.triangle_count() - theirs) return false;
-  for (int k = 0; k < count; ++k)
-    for (int i = 0; i < 3; ++i)
-      if (mesh.vertices.row(mesh.triangles(ours + k, i)) != columns.vertices.row(columns.triangles(theirs + k, i)))
-        return false;
-  return true;
+/// The corners of all triangles from the layer's first one on, three rows per triangle.
+Points layer_corners(const TriangleMesh& mesh) {
+  const auto before = std::find(mesh.region.begin(), mesh.region.end(), Region::layer) - mesh.region.begin();
+  return mesh.vertices(mesh.triangles.bottomRows(mesh.triangle_count() - before).reshaped<Eigen::RowMajor>(),
+                       Eigen::all);
 }
 
 }  // namespace
 
+Eigen::Vector2d Companion::flux(const TriangleMesh& mesh, int t, int row, const FluxLaw& law) const {
+  Eigen::Vector2d flux = barycentric_gradients(mesh, t).transpose() * at_vertices(mesh.triangles.row(t));
+  if (law.split) flux(1) = stress(row);
+  return law.stiffness * flux;
+}
+
 Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& near) {
   constexpr int samples = 32;
+  const Eigen::ArrayXd s = Eigen::ArrayXd::LinSpaced(samples + 1, 0, 1), rest = 1 - s;
   const TriangleMesh& mesh = space.mesh();
   std::vector<int> bound_of(mesh.vertex_count(), -1);  // -1: v is prescribed there
   for (std::size_t i = 0; i < space.contact().size(); ++i) bound_of[space.contact()[i]] = static_cast<int>(i);
@@ -118,37 +75,31 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
                                                     -std::numeric_limits<double>::infinity());
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-    std::array<double, 2> x, at;  // of its two ends: v there, or a value near it
+    Eigen::Array2d x, at;  // of its two ends: v there, or a value near it
     std::array<int, 2> place;
     for (int end = 0; end < 2; ++end) {
       const int v = mesh.edges(e, end);
       x[end] = mesh.vertices(v, 0), at[end] = near ? near(x[end], mesh.vertices(v, 1)) : 0, place[end] = bound_of[v];
     }
-    std::array<double, samples + 1> obstacle;
-    for (int k = 0; k <= samples; ++k) {
-      const double s = static_cast<double>(k) / samples, here = (1 - s) * x[0] + s * x[1], gap = contact.gap(here);
+    Eigen::ArrayXd obstacle = rest * x[0] + s * x[1];
+    for (double& here : obstacle) {
+      const double gap = contact.gap(here);
       if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", here));
-      obstacle[k] = -gap;
+      here = -gap;
     }
-    double raise = 0, most = obstacle[0];
-    std::array<double, 2> beside{obstacle[0], obstacle[samples]};  // where the other end cannot help
-    for (int k = 0; k <= samples; ++k) {
-      const double s = static_cast<double>(k) / samples;
-      raise = std::max(raise, obstacle[k] - (1 - s) * obstacle[0] - s * obstacle[samples]);
-      most = std::max(most, obstacle[k]);
-      if (k < samples) beside[0] = std::max(beside[0], (obstacle[k] - s * at[1]) / (1 - s));
-      if (k > 0) beside[1] = std::max(beside[1], (obstacle[k] - (1 - s) * at[0]) / s);
-    }
-    const std::array<double, 2> smooth{obstacle[0] + raise, obstacle[samples] + raise}, level{most, most};
-    const auto lifts = [&](const std::array<double, 2>& bound) {  // how far v is lifted, and the bounds themselves
-      const double left = std::max(bound[0] - at[0], 0.0), right = std::max(bound[1] - at[1], 0.0);
-      return std::pair(left * left + right * right, bound[0] + bound[1]);
+    const double first = obstacle[0], last = obstacle[samples];
+    const double raise = std::max(0.0, (obstacle - rest * first - s * last).maxCoeff());
+    const Eigen::Array2d smooth(first + raise, last + raise), level = Eigen::Array2d::Constant(obstacle.maxCoeff());
+    // where the other end cannot help
+    const Eigen::Array2d beside(((obstacle - s * at[1]) / rest).head(samples).maxCoeff(),
+                                ((obstacle - rest * at[0]) / s).tail(samples).maxCoeff());
+    const auto lifts = [&](const Eigen::Array2d& bound) {  // how far v is lifted, and the bounds themselves
+      return std::pair((bound - at).max(0).square().sum(), bound.sum());
     };
     const bool alone = place[0] < 0 || place[1] < 0;
-    const std::array<double, 2>& bound = alone ? beside : lifts(level) < lifts(smooth) ? level : smooth;
+    const Eigen::Array2d bound = alone ? beside : lifts(level) < lifts(smooth) ? level : smooth;
     for (int end = 0; end < 2; ++end)
-      if (double* const here = place[end] < 0 ? nullptr : &lower(place[end]); here != nullptr)
-        *here = std::max(*here, bound[end]);
+      if (place[end] >= 0) lower(place[end]) = std::max(lower(place[end]), bound[end]);
   }
   return lower;
 }
@@ -165,7 +116,11 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
   std::vector<char> on_line(mesh.vertex_count(), 0);
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_tag[e] == line_tag) on_line[mesh.edges(e, 0)] = on_line[mesh.edges(e, 1)] = 1;
-  CutOut piece = cut_out(mesh, on_line, stiff == nullptr);
+  // the body's triangles with a vertex on the line, and the layer's where it stays
+  const CutOut piece = cut_out(mesh, [&](int t) {
+    const auto v = mesh.triangles.row(t);
+    return mesh.region[t] == Region::layer ? stiff == nullptr : on_line[v(0)] || on_line[v(1)] || on_line[v(2)];
+  });
   const TriangleMesh& cut = piece.mesh;
   const TriangleMesh columns = stiff != nullptr ? extruded(cut, stiff->epsilon) : cut;
 
@@ -218,14 +173,12 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
     companion.stress = std::move(answer.p);
     return companion;
   }
-  if (same_layer(mesh, columns)) {
-    companion.stress = answer.p;
-    const int shift = mesh.triangle_count() - columns.triangle_count();
-    for (int t = 0; t < columns.triangle_count(); ++t) {
-      if (columns.region[t] != Region::layer) continue;
-      for (int i = 0; i < 3; ++i)
-        companion.at_vertices(mesh.triangles(t + shift, i)) = answer.u(columns.triangles(t, i));
-    }
+  const Points ours = layer_corners(mesh), theirs = layer_corners(columns);
+  if (ours.rows() == theirs.rows() && ours == theirs) {  // the mesh has these columns already
+    const auto in_layer = ours.rows() / 3;
+    companion.at_vertices(mesh.triangles.bottomRows(in_layer).reshaped<Eigen::RowMajor>()) =
+        answer.u(columns.triangles.bottomRows(in_layer).reshaped<Eigen::RowMajor>());
+    companion.stress = std::move(answer.p);
     return companion;
   }
   companion.layer.emplace(columns, std::move(answer.u), std::move(answer.p));

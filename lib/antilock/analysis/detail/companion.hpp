@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "antilock/analysis/detail/column_function.hpp"
+#include "antilock/analysis/detail/equilibrated_flux.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/solve/solution.hpp"
@@ -16,6 +17,9 @@ struct Companion {
   Eigen::VectorXd stress;               ///< epsilon^-2 d_y v per layer triangle (scaled layer, without `columns`)
   std::optional<ColumnFunction> layer;  ///< v in the layer where that has columns of its own
   int unknowns = 0;                     ///< solved for
+
+  /// A grad v on triangle t of the mesh, `row` of its layer's, under its law.
+  Eigen::Vector2d flux(const TriangleMesh& mesh, int t, int row, const FluxLaw& law) const;
 };
 
 /// Bounds for the contact unknowns of a P1 space under which v >= -gap on the whole of Gamma_C, not at the vertices

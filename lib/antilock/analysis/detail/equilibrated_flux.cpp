@@ -100,46 +100,41 @@ struct TractionOn {
   TractionOn(const TriangleMesh& mesh, int t, int i, const Field& g) {
     static const auto rule = gauss_rule(12);
     const auto& [points, weights] = rule;
+    const Eigen::RowVector2d from = mesh.vertices.row(mesh.triangles(t, (i + 1) % 3)),
+                             to = mesh.vertices.row(mesh.triangles(t, (i + 2) % 3));
     Eigen::VectorXd values(points.size());
     for (Eigen::Index q = 0; q < points.size(); ++q) {
-      Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-      lambda((i + 1) % 3) = 1 - points(q);
-      lambda((i + 2) % 3) = points(q);
-      const Eigen::Vector2d x = point_in(mesh, t, lambda);
+      const Eigen::RowVector2d x = (1 - points(q)) * from + points(q) * to;
       values(q) = g(x(0), x(1));
-      mean += weights(q) * values(q);
-      moment += weights(q) * values(q) * (points(q) - 0.5);
     }
-    const Eigen::ArrayXd off = values.array() - mean - 12 * moment * (points.array() - 0.5);
+    const Eigen::ArrayXd odd = points.array() - 0.5;
+    mean = weights.dot(values);
+    moment = weights.dot((values.array() * odd).matrix());
+    const Eigen::ArrayXd off = values.array() - mean - 12 * moment * odd;
     rest = std::sqrt(mesh.edge_length(mesh.triangle_edges(t, i)) * weights.dot(off.square().matrix()));
   }
 };
 
-/// f on a triangle by a rule: f_T, the mean of f x, f_1 and the mean of (f - f_1)^2.
+/// f on a triangle by a rule: the means of f lambda_i and of f^2, f_1 and the mean of (f - f_1)^2.
 struct LoadOn {
-  double mean = 0, square = 0, rest2 = 0;
-  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
-  Eigen::Vector3d f = Eigen::Vector3d::Zero(), mean_lambda = Eigen::Vector3d::Zero();
+  Eigen::Vector3d mean_lambda, f;
+  double square, rest2;
 
-  LoadOn(const TriangleMesh& mesh, int t, const Quadrature& rule, const Field& load, Eigen::VectorXd& values) {
-    values.resize(rule.weights.size());
-    Eigen::Matrix<double, 3, 2> corner;
-    for (int i = 0; i < 3; ++i) corner.row(i) = mesh.vertices.row(mesh.triangles(t, i));
+  LoadOn(const TriangleMesh& mesh, int t, const Quadrature& rule, const Field& load) {
+    Eigen::VectorXd values(rule.weights.size());
     for (Eigen::Index q = 0; q < values.size(); ++q) {
-      const Eigen::RowVector3d lambda = rule.points.row(q);
-      const Eigen::RowVector2d x = lambda * corner;
-      const double value = values(q) = load(x(0), x(1)), weighted = rule.weights(q) * value;
-      if (!std::isfinite(value)) throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0), x(1)));
-      mean += weighted;
-      square += weighted * value;
-      moment += weighted * x;
-      mean_lambda += weighted * lambda;
+      const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+      values(q) = load(x(0), x(1));
+      if (!std::isfinite(values(q))) throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0), x(1)));
     }
-    f = (12 * mean_lambda.array() - 3 * mean).matrix();
-    for (Eigen::Index q = 0; q < values.size(); ++q)
-      rest2 += rule.weights(q) * std::pow(values(q) - rule.points.row(q).dot(f), 2);
+    mean_lambda = rule.points.transpose() * rule.weights.cwiseProduct(values);
+    f = (12 * mean_lambda.array() - 3 * mean_lambda.sum()).matrix();
+    square = rule.weights.dot(values.cwiseAbs2());
+    rest2 = rule.weights.dot((values - rule.points * f).cwiseAbs2());
   }
-  double of_basis(int i) const { return mean - 2 * mean_lambda(i); }  ///< the mean of f phi_i, phi_i = 1 - 2 lambda_i
+  double of_basis(int i) const {
+    return mean_lambda.sum() - 2 * mean_lambda(i);
+  }  ///< of f phi_i, phi_i = 1 - 2 lambda_i
 };
 
 /// Where the affine part of f leaves out a tenth of it, the solver's rule may miss what is left.
@@ -180,29 +175,26 @@ void check_same_question(const VariationalInequality& problem, const Solution& s
 
 }  // namespace
 
-LayerLaw::LayerLaw(const Scene& scene) {
-  if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer())) {
-    split = true;
-    stiffness = stiff->s;
-    x = 1 / stiff->s;
-    y = compliance(*stiff) / stiff->s;
-  } else if (const auto* thin = std::get_if<ThinLayer>(&scene.layer())) {
-    stiffness = 1 / thin->epsilon;
-    x = y = thin->epsilon;
-  }
+FluxLaw layer_law(const Scene& scene) {
+  if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer()))
+    return {true, stiff->s, 1 / stiff->s, compliance(*stiff) / stiff->s};
+  if (const auto* thin = std::get_if<ThinLayer>(&scene.layer()))
+    return {false, 1 / thin->epsilon, thin->epsilon, thin->epsilon};
+  return {};
 }
 
-// sum_i f_i lambda_i (x - P_i) = f_1 x - sum_i f_i lambda_i P_i
+// sum_i f_i lambda_i (x - P_i) = f_1 x - sum_i f_i lambda_i P_i; the mean of f x is sum_i mean(f lambda_i) P_i
 Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& lambda) const {
   const FluxCell& here = cell[t];
-  Eigen::Matrix<double, 3, 2> corner;
-  for (int i = 0; i < 3; ++i) corner.row(i) = mesh.vertices.row(mesh.triangles(t, i));
+  const Eigen::Matrix<double, 3, 2> corner = mesh.vertices(mesh.triangles.row(t), Eigen::all);
   const Eigen::Matrix<double, 3, 2> weighted = here.f.asDiagonal() * corner;
-  const Eigen::RowVector2d constant = 0.5 * here.mean * corner.colwise().sum() - here.moment.transpose();
+  const double mean = here.f.mean();
+  const Eigen::RowVector2d constant =
+      0.5 * mean * corner.colwise().sum() - (weighted + 3 * mean * corner).colwise().sum() / 12;
   Eigen::MatrixX2d tau(lambda.rows(), 2);
   for (Eigen::Index q = 0; q < lambda.rows(); ++q) {
     const Eigen::RowVector3d l = lambda.row(q);
-    const double rotation = 0.5 * here.mean + l.dot(here.f) / 3;
+    const double rotation = 0.5 * mean + l.dot(here.f) / 3;
     tau.row(q) = constant - rotation * (l * corner) + l * weighted / 3;
   }
   if (here.traction.isZero(0)) return tau;
@@ -224,12 +216,12 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const
   static const Quadrature& fine_rule = triangle_rule(12);
   const TriangleMesh& mesh = space.mesh();
   const Quadrature &rule = load_rule(space.element()), &square_rule = radon_rule();  // tau^2 is of degree 4
-  EquilibratedFlux flux(scene);
+  EquilibratedFlux flux;
+  flux.law = layer_law(scene);
   flux.cell.resize(mesh.triangle_count());
   flux.pull = Eigen::VectorXd::Zero(mesh.vertex_count());
   Eigen::VectorXd assembled = Eigen::VectorXd::Zero(space.size());  // r with the load as the solver integrates it
   Eigen::VectorXd finer = Eigen::VectorXd::Zero(space.size());      // what a finer rule adds to the load
-  Eigen::VectorXd values;
   int layer_row = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     FluxCell& here = flux.cell[t];
@@ -237,23 +229,21 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const
     const auto unknown = space.unknowns().row(t);
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     const Eigen::Vector2d gradient = -2 * lambda.transpose() * Eigen::Vector3d(solution.u(unknown));
-    here.s = gradient;
     if (mesh.region[t] == Region::layer) {
-      here.s *= flux.law.stiffness;
-      if (flux.law.split) here.s(1) = flux.law.stiffness * solution.p(layer_row++);
-      flux.norm2 += area * flux.law.squared(here.s);
+      here.law = flux.law;
+      here.s = here.law.stiffness * gradient;
+      if (here.law.split) here.s(1) = here.law.stiffness * solution.p(layer_row++);
     } else {
-      const LoadOn usual(mesh, t, rule, scene.body().load, values);
+      const LoadOn usual(mesh, t, rule, scene.body().load);
       LoadOn load = usual;
       if (needs_finer_rule(usual)) {
-        load = LoadOn(mesh, t, fine_rule, scene.body().load, values);
+        load = LoadOn(mesh, t, fine_rule, scene.body().load);
         for (int i = 0; i < 3; ++i) finer(unknown(i)) += area * (load.of_basis(i) - usual.of_basis(i));
       }
-      here.mean = load.mean;
-      here.moment = load.moment;
       here.f = load.f;
-      here.stiffness = constant_stiffness(scene.body().stiffness, mesh, t);
-      here.s *= here.stiffness;
+      const double kappa = constant_stiffness(scene.body().stiffness, mesh, t);
+      here.law = {false, kappa, 1 / kappa, 1 / kappa};
+      here.s = kappa * gradient;
       const double h = longest_edge(mesh, t);
       double oscillation = h / std::numbers::pi * std::sqrt(area * load.rest2);
       for (int i = 0; i < 3; ++i) {
@@ -270,14 +260,14 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const
         finer(unknown(k)) -= 2 * length * edge.moment;
         oscillation += edge.rest * h * std::sqrt(length / area * (1 / std::numbers::pi + 1) / std::numbers::pi);
       }
-      here.oscillation2 = oscillation * oscillation / here.stiffness;
+      here.oscillation2 = oscillation * oscillation / kappa;
       flux.oscillation2 += here.oscillation2;
       for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= area * usual.of_basis(i);
       const Eigen::MatrixX2d tau = flux.tau(mesh, t, square_rule.points);
-      here.tau2 = area / here.stiffness * square_rule.weights.dot(tau.rowwise().squaredNorm());
+      here.tau2 = area / kappa * square_rule.weights.dot(tau.rowwise().squaredNorm());
       flux.tau2 += here.tau2;
-      flux.norm2 += area * here.s.squaredNorm() / here.stiffness + here.tau2;  // tau has mean zero on T
     }
+    flux.norm2 += area * here.law.squared(here.s) + here.tau2;  // tau has mean zero on T
     for (int i = 0; i < 3; ++i) assembled(unknown(i)) -= 2 * area * here.s.dot(lambda.row(i));  // grad phi_i
   }
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k) {

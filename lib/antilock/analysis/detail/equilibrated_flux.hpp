@@ -8,22 +8,19 @@
 
 namespace antilock {
 
-/// How the layer turns a gradient into a flux, and how a flux counts in the energy: |q|^2 = x q_x^2 + y q_y^2.
-struct LayerLaw {
-  explicit LayerLaw(const Scene& scene);
+/// How a gradient becomes a flux, and how a flux counts in the energy: |q|^2 = x q_x^2 + y q_y^2.
+struct FluxLaw {
   bool split = false;  ///< the scaled layer: the flux is s (d_x u, p), p its own unknown; else it is stiffness * grad u
-  double stiffness = 1;  ///< s for the scaled layer, 1 / epsilon for the thin one
-  double x = 1, y = 1;   ///< weights: 1/s and epsilon^2 / s for the scaled layer, epsilon and epsilon for the thin one
+  double stiffness = 1;  ///< kappa of the body, s of the scaled layer, 1 / epsilon of the thin one
+  double x = 1, y = 1;   ///< 1 / stiffness; y = epsilon^2 / s in the scaled layer
 
   double squared(const Eigen::Vector2d& flux) const { return x * flux(0) * flux(0) + y * flux(1) * flux(1); }
 };
 
 /// The flux of Crouzeix-Raviart on one triangle, sigma = s + tau; tau = 0 in the layer.
 struct FluxCell {
+  FluxLaw law;
   Eigen::Vector2d s = Eigen::Vector2d::Zero();         ///< A grad u_h; s (d_x u_h, p) in the scaled layer
-  double stiffness = 1;                                ///< kappa, of the body
-  double mean = 0;                                     ///< f_T, the mean of f
-  Eigen::Vector2d moment = Eigen::Vector2d::Zero();    ///< the mean of f x
   Eigen::Vector3d f = Eigen::Vector3d::Zero();         ///< f_1 at the vertices: f projected on the affine functions
   Eigen::Vector3d traction = Eigen::Vector3d::Zero();  ///< c_E of its edges
   double oscillation2 = 0;                             ///< osc_T^2
@@ -33,9 +30,7 @@ struct FluxCell {
 /// A flux in equilibrium with f_1, built from any u and p on the Crouzeix-Raviart space (derivation in
 /// certificate.hpp).
 struct EquilibratedFlux {
-  explicit EquilibratedFlux(const Scene& scene) : law(scene) {}
-
-  LayerLaw law;
+  FluxLaw law;                 ///< of the layer
   std::vector<FluxCell> cell;  ///< T
   Eigen::VectorXd residual;    ///< N, r = A1 u + B' M p - b, with the scene's own A1, B and load
   Eigen::VectorXd lambda;      ///< C, the positive part of r on Gamma_C: contact forces

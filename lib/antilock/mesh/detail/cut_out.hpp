@@ -1,0 +1,17 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "antilock/mesh/triangle_mesh.hpp"
+
+namespace antilock {
+
+/// Some triangles of a mesh as a mesh of their own, with the old numbers of its vertices. Where the mesh is cut it is
+/// clamped, and Sigma is contact.
+struct CutOut {
+  TriangleMesh mesh;
+  std::vector<int> old_vertex;
+};
+CutOut cut_out(const TriangleMesh& mesh, const std::function<bool(int triangle)>& kept);
+
+}  // namespace antilock
