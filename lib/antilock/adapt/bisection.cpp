@@ -61,10 +61,10 @@ TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangl
 
   follow_geometry(mesh, middle, vertices);
 
-  std::vector<std::array<int, 3>> pieces;
+  Triples corners(4 * mesh.triangle_count(), 3);
   std::vector<Region> region;
   const auto add = [&](int t, int a, int b, int c) {
-    pieces.push_back({a, b, c});
+    corners.row(static_cast<Eigen::Index>(region.size())) << a, b, c;
     region.push_back(mesh.region[t]);
   };
   for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -93,9 +93,7 @@ TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangl
       }
     }
   }
-  Triples corners(static_cast<Eigen::Index>(pieces.size()), 3);
-  for (std::size_t k = 0; k < pieces.size(); ++k)
-    corners.row(static_cast<Eigen::Index>(k)) << pieces[k][0], pieces[k][1], pieces[k][2];
+  corners.conservativeResize(static_cast<Eigen::Index>(region.size()), 3);
   TriangleMesh finer = make_triangle_mesh(std::move(vertices), std::move(corners), std::move(region), tagged,
                                           refinement_name(mesh, "bisected mesh"));
   finer.geometry = mesh.geometry;

@@ -68,38 +68,35 @@ std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangl
   std::vector<bool> fresh(mesh.triangle_count(), true);
   double total = 0;
   for (int round = 0;; ++round) {
-    std::vector<bool> missed(mesh.triangle_count(), false);
-    int count = 0;
-    double left = 0, where = -1;
-    std::vector<double> difference(mesh.triangle_count(), 0);
+    Eigen::ArrayXd difference = Eigen::ArrayXd::Zero(mesh.triangle_count());
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       if (mesh.region[t] != Region::body || !fresh[t]) continue;
+      const auto square = [&](const Eigen::Vector3d& lambda) {
+        const Eigen::Vector2d x = point_in(mesh, t, lambda);
+        return std::pow(load(x(0), x(1)), 2);
+      };
       double sampled = 0, seen = 0;
       for (int i = 0; i < per_side; ++i)
         for (int j = 0; i + j < per_side; ++j) {
           const double a = (i + 1.0 / 3) / per_side, b = (j + 1.0 / 3) / per_side;
-          const Eigen::Vector2d x = point_in(mesh, t, {a, b, 1 - a - b});
-          sampled += std::pow(load(x(0), x(1)), 2);
+          sampled += square({a, b, 1 - a - b});
         }
       sampled *= 2.0 / (per_side * (per_side + 1));
-      for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-        const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
-        seen += rule.weights(q) * std::pow(load(x(0), x(1)), 2);
-      }
+      for (Eigen::Index q = 0; q < rule.weights.size(); ++q) seen += rule.weights(q) * square(rule.points.row(q));
       if (round == 0) total += mesh.area(t) * std::max(sampled, seen);
-      difference[t] =
-          std::abs(sampled - seen) > 0.1 * std::max(sampled, seen) ? mesh.area(t) * std::abs(sampled - seen) : 0;
+      if (const double off = std::abs(sampled - seen); off > 0.1 * std::max(sampled, seen))
+        difference(t) = mesh.area(t) * off;
     }
-    for (int t = 0; t < mesh.triangle_count(); ++t)
-      if (difference[t] > negligible * total) {
-        missed[t] = true;
-        ++count;
-        left += difference[t];
-        where = t;
-      }
-    if (count == 0) return {};
+    std::vector<bool> missed;
+    double left = 0;
+    int where = -1;
+    for (int t = 0; t < mesh.triangle_count(); ++t) {
+      missed.push_back(difference(t) > negligible * total);
+      if (missed[t]) left += difference(t), where = t;
+    }
+    if (where < 0) return {};
     if (round == most_rounds || mesh.triangle_count() > most_triangles) {
-      const Eigen::Vector2d x = point_in(mesh, static_cast<int>(where), Eigen::Vector3d::Constant(1.0 / 3));
+      const Eigen::Vector2d x = point_in(mesh, where, Eigen::Vector3d::Constant(1.0 / 3));
       return fmt::format(
           "the load varies between the points of the quadrature near ({:.4g}, {:.4g}), by {:.1e} of its square: the "
           "certificate holds for the load as sampled",
