@@ -36,6 +36,39 @@
 
 namespace antilock::test::analysis_test {
 
+/// One question with its answer, and room for what a test does to it.
+struct Answered {
+  TriangleMesh mesh;
+  Scene scene;
+  Space space;
+  VariationalInequality problem;
+  Solution solution;
+
+  Answered(TriangleMesh made, Scene asked)
+      : mesh(std::move(made)),
+        scene(std::move(asked)),
+        space(mesh, crouzeix_raviart()),
+        problem(assemble(scene, space)),
+        solution(active_set(problem)) {}
+  Answered(const Answered&) = delete;
+  Answered& operator=(const Answered&) = delete;
+
+  EquilibratedFlux flux() const { return equilibrated_flux(scene, space, problem, solution); }
+  Companion strip() const { return strip_companion(scene, space, problem, solution); }
+  Certificate certified() const { return certify(scene, space, problem, solution); }
+};
+
+/// u and p pushed away from the answer: no equation holds any more.
+void disturb(Answered& run, double amount, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto noise = [&] { return amount * (2.0 * random() / std::mt19937::max() - 1); };
+  std::vector<char> fixed(run.space.size(), 0);
+  for (const int i : run.problem.fixed) fixed[i] = 1;
+  const double u = run.solution.u.lpNorm<Eigen::Infinity>(), p = run.solution.p.lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < run.space.size(); ++i) run.solution.u(i) += fixed[i] ? 0 : noise() * u;
+  for (double& value : run.solution.p) value += noise() * p;
+}
+
 // ==== The energy in a bracket, and what is accurate enough.
 
 // J(u_h) - J(u) >= |u_h - u|^2 / 2 in the energy norm of Remark 4: the width bounds the error without the truth.
@@ -56,17 +89,6 @@ TEST(EnergyBracket, HoldsTheExactEnergyAndBoundsTheErrorOfP1) {
       EXPECT_GT(error, 0.5 * bound) << name << epsilon;  // tutorial 17: 0.71 to 0.99 of it
     }
   }
-}
-
-TEST(EnergyBracket, HoldsItWhereTheLoadIsFarFromConstantOnTriangles) {
-  const SineLoad load{{{5, {4.0, -9.0}}, {1, {3.0}}}};  // half a wave on less than two triangles
-  const double exact = Truth(load, 1e-2, true, 14).energy();
-  for (const int cells : {2, 4, 8})
-    for (const auto& [name, mesh] : two_square_meshes(cells)) {
-      const EnergyBracket found = energy_bracket(Scene({load}, StiffLayer{1e-2}, UnilateralContact{}), mesh);
-      EXPECT_LE(found.lower, exact) << name << cells;
-      EXPECT_GE(found.upper, exact) << name << cells;
-    }
 }
 
 TEST(EnergyBracket, IsNeededTheEnergyOfCrouzeixRaviartAloneIsNoBound) {
@@ -100,46 +122,24 @@ TEST(EnergyBracket, HoldsWithAGapWithFixedValuesAndAfterAnEarlyStop) {
                      }});
   EXPECT_LE(energy_bracket(needle, fine).lower, energy_bracket(needle, mesh).upper);
 
-  const auto lower_bound = [&](const TriangleMesh& on, double value, double noise) {
-    const Space space(on, crouzeix_raviart());
-    VariationalInequality problem = assemble(scene, space);
-    problem.fixed_values.setConstant(value);
-    Solution solution = active_set(problem);
-    std::vector<char> fixed(space.size(), 0);
-    for (const int i : problem.fixed) fixed[i] = 1;
-    for (int i = 0; i < space.size(); ++i) solution.u(i) += fixed[i] ? 0 : noise * std::sin(7.0 * i);
-    for (Eigen::Index k = 0; k < solution.p.size(); ++k) solution.p(k) += noise * std::cos(5.0 * double(k));
-    return energy_lower_bound(scene, space, problem, solution);
+  const auto lower_bound = [&](double value, double noise) {
+    Answered run(mesh, scene);
+    run.problem.fixed_values.setConstant(value);
+    run.solution = active_set(run.problem);
+    disturb(run, noise, 7);
+    return energy_lower_bound(run.scene, run.space, run.problem, run.solution);
   };
   // fixed values of 1 lift u off the obstacle: J(1 + w) = J_0(w) - L(1), L(1) = 0 for this load
   const Scene free({paper_load}, StiffLayer{1e-2});
   const EnergyBracket lifted = energy_bracket(free, fine);
-  EXPECT_LE(lower_bound(mesh, 1, 0), lifted.upper);
-  EXPECT_NEAR(lower_bound(mesh, 1, 0), lifted.lower, 0.1 * std::abs(lifted.lower));
-  double before = lower_bound(mesh, 0, 0);
+  EXPECT_LE(lower_bound(1, 0), lifted.upper);
+  EXPECT_NEAR(lower_bound(1, 0), lifted.lower, 0.1 * std::abs(lifted.lower));
+  double before = lower_bound(0, 0);
   EXPECT_LE(before, reference.upper);
-  for (const double noise : {1e-3, 1e-2}) {
-    EXPECT_LT(lower_bound(mesh, 0, noise), before) << "less is known";
-    before = lower_bound(mesh, 0, noise);
+  for (const double noise : {0.02, 0.2}) {
+    EXPECT_LT(lower_bound(0, noise), before) << "less is known";
+    before = lower_bound(0, noise);
   }
-}
-
-TEST(EnergyBracket, RefusesWhatItCannotBound) {
-  const TriangleMesh mesh = structured_mesh(4), body = structured_mesh(4, {0});
-  const Space conforming(mesh, p1()), nonconforming(mesh, crouzeix_raviart()), on_body(body, crouzeix_raviart());
-  const auto bound = [](const Scene& scene, const Space& space, const Scene& assembled) {
-    const VariationalInequality problem = assemble(assembled, space);
-    return energy_lower_bound(scene, space, problem, active_set(problem));
-  };
-  const Scene stiff = test::stiff_scene(1);
-  test::expect_refused([&] { bound(stiff, conforming, stiff); }, "P1");
-  test::expect_refused(
-      [&] {
-        bound(Scene({[](double x, double) { return x; }}, StiffLayer{1}, UnilateralContact{}), nonconforming, stiff);
-      },
-      "its load above all");
-  const Scene ventcel({paper_load}, VentcelLayer{}, UnilateralContact{});
-  test::expect_refused([&] { bound(ventcel, on_body, ventcel); }, "Ventcel");
 }
 
 TEST(AccurateEnough, FollowsTheBracket) {
@@ -226,18 +226,23 @@ TEST(Locking, TheLockedSolutionIsDirichletsOnTheBody) {
 
 int kernel_dimension(const Space& space) { return layer_kernel_dimension(stiff_problem(space, 0)); }
 
+// Of degree p: cells * p - 1 functions of x on columns, and on tied triangles x (1 - x) times degree p - 2.
 TEST(Locking, IsTheDimensionOfTheKernelOfA0) {
-  for (const int cells : {8, 16}) {
-    for (const Diagonal diagonal : {Diagonal::right, Diagonal::left}) {
-      const TriangleMesh mesh = structured_mesh(cells, {}, diagonal);
-      EXPECT_EQ(kernel_dimension(Space(mesh, p1())), cells - 1);                    // one function per column
-      EXPECT_EQ(kernel_dimension(Space(mesh, crouzeix_raviart())), cells * cells);  // N_T / 2
-    }
-    const TriangleMesh mesh = unstructured_mesh(cells);
-    const auto layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
-    EXPECT_EQ(kernel_dimension(Space(mesh, p1())), 0);  // G_h = {0}: complete locking
-    EXPECT_EQ(kernel_dimension(Space(mesh, crouzeix_raviart())), layer / 2);
+  for (const int cells : {4, 8}) {  // finer, B nearly misses functions of high degree, and a rank means less
+    const TriangleMesh unstructured = unstructured_mesh(cells);
+    const auto layer = std::count(unstructured.region.begin(), unstructured.region.end(), Region::layer);
     EXPECT_EQ(layer % 2, 0);
+    EXPECT_EQ(kernel_dimension(Space(unstructured, crouzeix_raviart())), layer / 2);
+    for (const Diagonal diagonal : {Diagonal::right, Diagonal::left}) {
+      const TriangleMesh structured = structured_mesh(cells, {}, diagonal);
+      EXPECT_EQ(kernel_dimension(Space(structured, crouzeix_raviart())), cells * cells);  // N_T / 2
+      for (const Element* element : {&p1(), &p2(), &p3(), &p4()}) {
+        const int p = element->degree();
+        if (p > 2 && cells > 4) continue;
+        EXPECT_EQ(kernel_dimension(Space(structured, *element)), cells * p - 1);
+        EXPECT_EQ(kernel_dimension(Space(unstructured, *element)), p - 1);
+      }
+    }
   }
 }
 
@@ -269,16 +274,6 @@ TEST(DiagnosisOfThePapersProblem, RefusesWhatItCannotTell) {
   soft.b.resize(0, soft.size());
   soft.m.resize(0);
   test::expect_refused([&] { diagnose_locking(problem, soft); }, "B has no rows");
-}
-
-TEST(Locking, OfDegreePLeavesOnePolynomialMoreADegreeOnAnUnstructuredMesh) {
-  constexpr int cells = 4;  // finer, B nearly misses functions of high degree, and a rank means less
-  const TriangleMesh structured = structured_mesh(cells), unstructured = unstructured_mesh(cells);
-  for (const Element* element : {&p1(), &p2(), &p3(), &p4()}) {
-    const int p = element->degree();
-    EXPECT_EQ(kernel_dimension(Space(structured, *element)), cells * p - 1);
-    EXPECT_EQ(kernel_dimension(Space(unstructured, *element)), p - 1);  // x (1 - x) times degree p - 2
-  }
 }
 
 TEST(Locking, LeavesP2OneParabolaWhereTheLoadIsNotOddAboutTheMiddle) {
@@ -501,7 +496,6 @@ std::vector<bool> refined_marks(const Space& coarse, const std::vector<bool>& ac
 /// (23), P1 with means over boxes of side 2h, in the dual norm of the theory: that of P1 on the mesh refined twice,
 /// with the same contact held. A box holds the 16 parts of each of its triangles.
 double inf_sup_of_boxes(const TriangleMesh& mesh, int n, bool contact) {
-  const auto seminorm = [](const Space& space) { return gradient_form(space, {1, 1}, {1, 1}); };
   const TriangleMesh fine = refined(refined(mesh));
   const Space space(mesh, p1()), all(fine, p1());
   const VariationalInequality problem = stiff_problem(space, 0);
@@ -518,7 +512,7 @@ double inf_sup_of_boxes(const TriangleMesh& mesh, int n, bool contact) {
   const VariationalInequality here = held_in_contact(projected(problem, boxes), held),
                               there = held_in_contact(projected(stiff_problem(all, 0), of_all),
                                                       refined_marks(space, held, all));
-  return inf_sup(multiplier_gram(here, seminorm(space)), multiplier_gram(there, seminorm(all)));
+  return inf_sup(multiplier_gram(here, h1_seminorm(space)), multiplier_gram(there, h1_seminorm(all)));
 }
 
 TEST(InfSupUnderContact, OfBoxesStaysOnColumnsAndFallsOffThem) {
@@ -556,11 +550,10 @@ using Problem = std::function<VariationalInequality(int cells)>;
 double flexibility(VariationalInequality problem) {
   problem.load.setZero();
   for (const int i : problem.contact) problem.load(i) = 1.0 / static_cast<double>(problem.contact.size());
-  problem.contact.clear();
-  problem.lower.resize(0);
   problem.fixed_values.setZero();
   problem.compliance = 1e-8;
-  return active_set(problem).u.dot(problem.load);
+  const std::vector<bool> none(problem.contact.size());
+  return active_set(held_in_contact(problem, none)).u.dot(problem.load);
 }
 
 /// `kept` is measured: the flexibility at compliance 1e-8 over that of the method that is known to be right.
@@ -785,6 +778,17 @@ TEST(LockingDiagnosis, IsRightForTetrahedra) {
 
 // ==== What an answer says of its own locking, held against a second solve of the same size whose layer cannot lock.
 
+/// The energy of the same body whose layer is held at u, and nothing else asked of it.
+double energy_with_held_layer(const Space& space, VariationalInequality problem, double u) {
+  problem.b.resize(0, problem.size()), problem.m.resize(0);
+  problem.contact.clear(), problem.lower.resize(0), problem.upper.resize(0), problem.fixed.clear();
+  for (int i = 0; i < problem.size(); ++i)
+    if (space.points()(i, 1) < 1e-12 || std::binary_search(space.clamped().begin(), space.clamped().end(), i))
+      problem.fixed.push_back(i);
+  problem.fixed_values.setConstant(static_cast<Eigen::Index>(problem.fixed.size()), u);
+  return energy(problem, active_set(problem));
+}
+
 /// The share that is lost, by two more solves: on the same body with a layer in columns, and with the layer held.
 double share_by_solving(const Scene& scene, const Space& space, double energy_at_hand) {
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
@@ -792,17 +796,9 @@ double share_by_solving(const Scene& scene, const Space& space, double energy_at
                      scene.edges());
   const TriangleMesh columns = extruded(space.mesh(), *scene.epsilon());
   const Space free_space(columns, space.element());
-  VariationalInequality problem = assemble(scaled, free_space);
+  const VariationalInequality problem = assemble(scaled, free_space);
   const double best = energy(problem, active_set(problem));
-  problem.b.resize(0, problem.size()), problem.m.resize(0);
-  problem.contact.clear(), problem.lower.resize(0), problem.upper.resize(0), problem.fixed.clear();
-  for (int i = 0, k = 0; i < problem.size(); ++i) {
-    while (k < static_cast<int>(free_space.clamped().size()) && free_space.clamped()[k] < i) ++k;
-    const bool clamped = k < static_cast<int>(free_space.clamped().size()) && free_space.clamped()[k] == i;
-    if (clamped || free_space.points()(i, 1) < 1e-12) problem.fixed.push_back(i);
-  }
-  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
-  const double motion = energy(problem, active_set(problem)) - best;
+  const double motion = energy_with_held_layer(free_space, problem, 0) - best;
   return motion > 1e-12 * std::abs(best) ? (energy_at_hand - best) / motion : 0;  // round-off of two energies
 }
 
@@ -935,10 +931,8 @@ TEST(LostEnergy, SeesTheThinLayerOf22AsItSees23) {
 }
 
 TEST(LostEnergy, IsProvedOfP1BeyondThePapersScenes) {
-  TriangleMesh mesh = unstructured_mesh(16);
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.vertices(mesh.edges(e, 0), 1) == 1 && mesh.vertices(mesh.edges(e, 1), 1) == 1)
-      mesh.edge_tag[e] = natural_group(0);
+  const TriangleMesh mesh =
+      retagged(unstructured_mesh(16), [](double, double y) { return y == 1 ? natural_group(0) : EdgeTag::clamped; });
   using Kind = EdgeCondition::Kind;
   const auto on_top = [](Kind kind, double value) {
     return std::vector<EdgeCondition>{{"top", kind, [=](double x, double) { return value * (x + 0.2); }}};
@@ -1142,66 +1136,49 @@ TEST(LostEnergy, IsNotWhatACoarseLayerCosts) {
   EXPECT_EQ(found.report.warning, "");
 }
 
-// Values that are affine in x on all that is held, and the obstacle raised by as much: u and v have them more, and J differs
-// by a constant.
-TEST(LostEnergy, IsTheSameBesideGivenValuesThatAreAffine) {
-  const SpaceOn space(unstructured_mesh(8), p1());
-  const auto lost = [&](double left, double right, double off_layer) {
-    const auto given = [=](double x) { return left + (right - left) * x; };
-    VariationalInequality problem = test::stiff_problem(space, 1e-2, {[](double) { return 0.01; }});
-    for (std::size_t k = 0; k < problem.contact.size(); ++k)
-      problem.lower(static_cast<Eigen::Index>(k)) += given(space.points()(problem.contact[k], 0));
-    for (std::size_t k = 0; k < problem.fixed.size(); ++k) {
-      const auto x = space.points().row(problem.fixed[k]);
-      problem.fixed_values(static_cast<Eigen::Index>(k)) = given(x(0)) + (x(1) < 0 ? off_layer : 0);
-    }
-    const Scene raised = test::stiff_scene(1e-2, {[=](double x) { return 0.01 - given(x); }});
-    return lost_energy(raised, space, problem, active_set(problem));
-  };
-  const LostEnergy plain = lost(0, 0, 0);
-  EXPECT_GT(plain.proved, 0);
-  for (const auto& [left, right] : {std::pair(-0.05, 0.0), {0.0, -0.05}, {-0.02, 0.01}}) {
-    const LostEnergy found = lost(left, right, 0);
-    for (const auto part : {&LostEnergy::found, &LostEnergy::proved, &LostEnergy::motion})
-      EXPECT_NEAR(found.*part, plain.*part, 1e-9) << left;
-  }
-  test::expect_refused([&] { lost(0, 0, 0.01); }, "whose sides have the value of Sigma's end");
-}
-
 /// An unstructured mesh of 1/h = 8 whose clamped edges are a group that may be given values.
 TriangleMesh with_given_sides() {
-  TriangleMesh mesh = unstructured_mesh(8);
-  for (EdgeTag& tag : mesh.edge_tag)
-    if (tag == EdgeTag::clamped) tag = held_group(0);
-  return mesh;
+  return retagged(unstructured_mesh(8), [](double, double) { return held_group(0); });
 }
 
-// Beside given values U, flat or tilted, and an obstacle that is raised by as much, all is the same up to round-off: energies
-// of the values themselves leave round-off of s U^2, 1e-6 at U = 30, where the motion is worth 2e-8.
-TEST(LostEnergy, IsTheSameShareBesideLargeGivenValues) {
+// Beside given values that are affine in x on all that is held, and an obstacle that is raised by as much, all is the
+// same up to round-off: energies of the values U themselves leave round-off of s U^2, 1e-6 at U = 30, where the motion
+// is worth 2e-8.
+TEST(LostEnergy, IsTheSameBesideGivenValuesThatAreAffine) {
   const TriangleMesh mesh = with_given_sides();
   const Space space(mesh, p1());
-  const auto lost = [&](double gap, double load, double left, double right) {
+  const auto lost = [&](const StiffLayer& layer, const Profile& gap, const Field& load, double left, double right) {
     const auto given = [=](double x, double) { return left + (right - left) * x; };
-    const UnilateralContact contact{[=](double x) { return gap * std::sin(3 * std::numbers::pi * x) - given(x, 0); },
-                                    {}};
-    const Field f = [=](double x, double) { return load * std::sin(4 * std::numbers::pi * x); };
-    const Scene scene({f}, StiffLayer{0.1, 1e6}, contact, {{"sides", EdgeCondition::Kind::displacement, given}});
+    const UnilateralContact contact{[=](double x) { return gap(x) - given(x, 0); }, {}};
+    const Scene scene({load}, layer, contact, {{"sides", EdgeCondition::Kind::displacement, given}});
     const VariationalInequality problem = assemble(scene, space);
     return lost_energy(scene, space, problem, active_set(problem));
   };
-  for (const auto& [gap, load] : {std::pair(0.0, 40.0), {1e-6, 40}, {0.01, 0}}) {
-    const LostEnergy plain = lost(gap, load, 0, 0);
-    EXPECT_GT(plain.share(plain.found), 0.1) << gap << load;
-    for (const double u : {30.0, 300.0, 3e4})
-      for (const double other : {u, -u}) {
-        const LostEnergy found = lost(gap, load, u, other);
-        for (const auto part : {&LostEnergy::found, &LostEnergy::proved, &LostEnergy::motion})
-          EXPECT_NEAR(found.*part / plain.motion, plain.*part / plain.motion, 1e-3) << gap << load << u << other;
-      }
+  const auto wavy = [](double height) -> Profile {
+    return [=](double x) { return height * std::sin(3 * std::numbers::pi * x); };
+  };
+  const auto pull = [](double force) -> Field {
+    return [=](double x, double) { return force * std::sin(4 * std::numbers::pi * x); };
+  };
+  const StiffLayer soft{1e-2}, stiff{0.1, 1e6};
+  const std::vector<std::pair<double, double>> small{{-0.05, 0}, {0, -0.05}, {-0.02, 0.01}},
+      large{{30, 30}, {30, -30}, {300, 300}, {300, -300}, {3e4, 3e4}, {3e4, -3e4}};
+  for (const auto& [layer, gap, load, ends, off] :
+       {std::tuple(soft, Profile([](double) { return 0.01; }), Field(paper_load), small, 1e-7),
+        {stiff, wavy(0), pull(40), large, 1e-3},
+        {stiff, wavy(1e-6), pull(40), large, 1e-3},
+        {stiff, wavy(0.01), pull(0), large, 1e-3}}) {
+    const LostEnergy plain = lost(layer, gap, load, 0, 0);
+    EXPECT_GT(plain.share(plain.found), 0.1) << gap(0.5);
+    EXPECT_GT(plain.proved, 0) << gap(0.5);
+    for (const auto& [left, right] : ends) {
+      const LostEnergy found = lost(layer, gap, load, left, right);
+      for (const auto part : {&LostEnergy::found, &LostEnergy::proved, &LostEnergy::motion})
+        EXPECT_NEAR(found.*part / plain.motion, plain.*part / plain.motion, off) << gap(0.5) << left << right;
+    }
   }
   // the layer moves by 1e-7, and of 1e9 ten digits more are no digits: nothing is told, least of all as proved
-  EXPECT_EQ(lost(0, 40, 1e9, 1e9).motion, 0);
+  EXPECT_EQ(lost(stiff, wavy(0), pull(40), 1e9, 1e9).motion, 0);
 }
 
 // Nothing pulls, and nothing touches: what u leaves of its forces is round-off, of a soft layer and of a stiff one.
@@ -1237,12 +1214,9 @@ TEST(LostEnergy, ReadsBoundsThatAreInfiniteOrOne) {
 // Beside a free end v_0 has the value of the other end, and with two of them that of u_h, wherever the zero of u is.
 TEST(LostEnergy, KnowsNoZeroBesideFreeEnds) {
   for (const auto& [left_free, right_free] : {std::pair(true, false), {false, true}, {true, true}}) {
-    TriangleMesh mesh = unstructured_mesh(16);
-    for (int e = 0; e < mesh.edge_count(); ++e)
-      if (mesh.edge_tag[e] == EdgeTag::clamped) {
-        const double x = (mesh.vertices(mesh.edges(e, 0), 0) + mesh.vertices(mesh.edges(e, 1), 0)) / 2;
-        mesh.edge_tag[e] = (left_free && x == 0) || (right_free && x == 1) ? natural_group(0) : held_group(1);
-      }
+    const TriangleMesh mesh = retagged(unstructured_mesh(16), [&](double x, double) {
+      return (left_free && x == 0) || (right_free && x == 1) ? natural_group(0) : held_group(1);
+    });
     const Space space(mesh, p1());
     const auto lost = [&](double u) {
       const std::vector<EdgeCondition> edges{
@@ -1250,18 +1224,12 @@ TEST(LostEnergy, KnowsNoZeroBesideFreeEnds) {
           {"held", EdgeCondition::Kind::displacement, [=](double, double) { return u; }}};
       const UnilateralContact contact{[=](double) { return 0.01 - u; }, {}};
       const Scene scene({paper_load}, StiffLayer{1e-3}, contact, edges);
-      VariationalInequality problem = assemble(scene, space);
+      const VariationalInequality problem = assemble(scene, space);
       const Solution solution = active_set(problem);
       const LostEnergy found = lost_energy(scene, space, problem, solution);
       if (left_free && right_free) return found;
       const double best = energy(problem, solution) - found.found;
-      problem.b.resize(0, problem.size()), problem.m.resize(0);  // the layer held level at u
-      problem.contact.clear(), problem.lower.resize(0), problem.fixed.clear();
-      for (int i = 0; i < problem.size(); ++i)
-        if (space.points()(i, 1) < 1e-12 || std::binary_search(space.clamped().begin(), space.clamped().end(), i))
-          problem.fixed.push_back(i);
-      problem.fixed_values.setConstant(static_cast<Eigen::Index>(problem.fixed.size()), u);
-      EXPECT_NEAR((energy(problem, active_set(problem)) - best) / found.motion, 1, 0.01) << left_free << u;
+      EXPECT_NEAR((energy_with_held_layer(space, problem, u) - best) / found.motion, 1, 0.01) << left_free << u;
       return found;
     };
     const LostEnergy plain = lost(0), raised = lost(5);
@@ -1283,10 +1251,14 @@ TEST(LostEnergy, IsAskedOfConformingElementsWithALayerAlone) {
   refuse(mesh, crouzeix_raviart(), test::stiff_scene(1));
   refuse(body, p1(), Scene({paper_load}));
   refuse(body, p1(), Scene({paper_load}, VentcelLayer{}));
-  TriangleMesh pulled = mesh;
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.edge_tag[e] == EdgeTag::clamped && mesh.vertices(mesh.edges(e, 0), 1) < 0)
-      pulled.edge_tag[e] = natural_group(0);
+  const Space space(mesh, p1());
+  VariationalInequality problem = test::stiff_problem(space, 1e-2);
+  for (std::size_t k = 0; k < problem.fixed.size(); ++k)
+    if (space.points()(problem.fixed[k], 1) < 0) problem.fixed_values(static_cast<Eigen::Index>(k)) = 0.01;
+  test::expect_refused([&] { lost_energy(test::stiff_scene(1e-2), space, problem, active_set(problem)); },
+                       "whose sides have the value of Sigma's end");
+  const TriangleMesh pulled =
+      retagged(mesh, [](double, double y) { return y < 0 ? natural_group(0) : EdgeTag::clamped; });
   for (const auto kind : {EdgeCondition::Kind::traction, EdgeCondition::Kind::spring})
     refuse(pulled, p1(), Scene({paper_load}, StiffLayer{1}, {}, {{"sides", kind, [](double, double) { return 1.0; }}}));
 }
@@ -1591,39 +1563,6 @@ TEST(LoadAscent, ClimbsAndKeepsTheBestOfItsStarts) {
 
 // ==== The certificate: never below the true error, close to it at every epsilon, and true however the solve ended.
 
-/// One question with its answer, and room for what a test does to it.
-struct Answered {
-  TriangleMesh mesh;
-  Scene scene;
-  Space space;
-  VariationalInequality problem;
-  Solution solution;
-
-  Answered(TriangleMesh made, Scene asked)
-      : mesh(std::move(made)),
-        scene(std::move(asked)),
-        space(mesh, crouzeix_raviart()),
-        problem(assemble(scene, space)),
-        solution(active_set(problem)) {}
-  Answered(const Answered&) = delete;
-  Answered& operator=(const Answered&) = delete;
-
-  EquilibratedFlux flux() const { return equilibrated_flux(scene, space, problem, solution); }
-  Companion strip() const { return strip_companion(scene, space, problem, solution); }
-  Certificate certified() const { return certify(scene, space, problem, solution); }
-};
-
-/// u and p pushed away from the answer: no equation holds any more.
-void disturb(Answered& run, double amount, unsigned seed) {
-  std::mt19937 random(seed);
-  const auto noise = [&] { return amount * (2.0 * random() / std::mt19937::max() - 1); };
-  std::vector<char> fixed(run.space.size(), 0);
-  for (const int i : run.problem.fixed) fixed[i] = 1;
-  const double u = run.solution.u.lpNorm<Eigen::Infinity>(), p = run.solution.p.lpNorm<Eigen::Infinity>();
-  for (int i = 0; i < run.space.size(); ++i) run.solution.u(i) += fixed[i] ? 0 : noise() * u;
-  for (double& value : run.solution.p) value += noise() * p;
-}
-
 TEST(Certificate, IsCloseToTheErrorAndFlatInEpsilon) {
   const std::vector<double> epsilons{1, 1e-1, 1e-2, 1e-4, 1e-6, 1e-12, 0};
   std::map<double, Truth> truths;
@@ -1714,12 +1653,9 @@ TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
   const Body body{paper_load, [](double, double) { return 2.5; }};
   for (const double epsilon : {1.0, 1e-2})
     for (const double amount : {0.0, 0.05}) {
-      TriangleMesh mesh = layered_mesh(6, epsilon);
-      for (int e = 0; e < mesh.edge_count(); ++e)
-        if (mesh.edge_tag[e] == EdgeTag::clamped) {
-          const auto x = mesh.vertices(mesh.edges.row(e), Eigen::all).colwise().mean().eval();
-          mesh.edge_tag[e] = x(0) < 1 ? held_group(0) : x(1) > 0 ? natural_group(1) : EdgeTag::free;
-        }
+      TriangleMesh mesh = retagged(layered_mesh(6, epsilon), [](double x, double y) {
+        return x < 1 ? held_group(0) : y > 0 ? natural_group(1) : EdgeTag::free;
+      });
       Answered run(std::move(mesh), Scene(body, StiffLayer{epsilon, 3}, UnilateralContact{gap}, edges));
       disturb(run, amount, 7);
       const EquilibratedFlux flux = run.flux();
@@ -1981,7 +1917,9 @@ TEST(Certificate, IntegratesALoadThatTheSolversRuleMisses) {
       const Certificate found = run.certified();
       EXPECT_GT(found.imbalance, 1e-4) << "the rule does miss something";
       EXPECT_GE(found.gradient, exact_errors(run.mesh, run.flux(), run.strip(), TruthTable(truth)).gradient) << cells;
-      EXPECT_LE(found.energy_lower, truth.energy()) << cells;
+      for (const double lower :
+           {found.energy_lower, energy_lower_bound(run.scene, run.space, run.problem, run.solution)})
+        EXPECT_LE(lower, truth.energy()) << cells;
       EXPECT_GE(found.energy_upper, truth.energy()) << cells;
     }
 }
@@ -1998,12 +1936,9 @@ TEST(Certificate, CountsALoadThatTheMeshDoesNotSee) {
     return ((20 * s - 30) * s + 12) * s - 1;
   };
   for (const bool pulled : {false, true}) {
-    TriangleMesh mesh = structured_mesh(n, {0});
-    for (int e = 0; e < mesh.edge_count(); ++e)
-      if (mesh.edge_tag[e] == EdgeTag::clamped) {
-        const double x = mesh.vertices(mesh.edges.row(e), Eigen::all).col(0).mean();
-        mesh.edge_tag[e] = x == 0 ? natural_group(0) : x == 1 ? held_group(1) : EdgeTag::free;
-      }
+    TriangleMesh mesh = retagged(structured_mesh(n, {0}), [](double x, double) {
+      return x == 0 ? natural_group(0) : x == 1 ? held_group(1) : EdgeTag::free;
+    });
     const std::vector<EdgeCondition> edges{
         {"left", Kind::traction, [=](double, double y) { return pulled ? std::cos(k * y) - 1 : -1; }},
         {"right", Kind::displacement, [](double x, double) { return x; }}};
@@ -2038,10 +1973,9 @@ TEST(Certificate, RefusesWhatItCannotProve) {
   using Kind = EdgeCondition::Kind;
   const auto one = [](double, double) { return 1.0; };
   const auto on_top = [&](const EdgeCondition& edge, const Field& stiffness = {}) {
-    TriangleMesh mesh = structured_mesh(4, {0});
-    for (int e = 0; e < mesh.edge_count(); ++e)
-      if (mesh.vertices(mesh.edges.row(e), 1).minCoeff() == 1)
-        mesh.edge_tag[e] = edge.kind == Kind::displacement ? held_group(0) : natural_group(0);
+    const EdgeTag top = edge.kind == Kind::displacement ? held_group(0) : natural_group(0);
+    TriangleMesh mesh =
+        retagged(structured_mesh(4, {0}), [&](double, double y) { return y == 1 ? top : EdgeTag::clamped; });
     Answered(std::move(mesh), Scene(Body{paper_load, stiffness}, NoLayer{}, {}, {edge})).certified();
   };
   expect_refused([&] { on_top({"top", Kind::spring, one}); }, "no flux for a spring on the group top");
@@ -2110,12 +2044,9 @@ TEST(Certificate, IsNeverBelowTheErrorOfTwentyPulledBodies) {
     if (!jumps) u.k[1] = u.k[0], u.wave[1] = u.wave[0], u.bend[1] = u.bend[0];
     u.b1 = -between(0.2, 2);  // a > 0 and b' < 0: the obstacle presses everywhere
     const int cells = 2 * (2 + k / 3);
-    TriangleMesh mesh = jumps ? structured_mesh(cells, {0}) : unstructured_mesh(cells, {0});
-    for (int e = 0; e < mesh.edge_count(); ++e) {
-      if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
-      const auto x = mesh.vertices(mesh.edges.row(e), Eigen::all).colwise().mean().eval();
-      mesh.edge_tag[e] = x(0) == 0 ? held_group(0) : natural_group(x(0) == 1 ? 1 : 2);
-    }
+    TriangleMesh mesh =
+        retagged(jumps ? structured_mesh(cells, {0}) : unstructured_mesh(cells, {0}),
+                 [](double x, double) { return x == 0 ? held_group(0) : natural_group(x == 1 ? 1 : 2); });
     Answered run(std::move(mesh), u.scene());
     if (k % 5 == 4) disturb(run, 0.02, static_cast<unsigned>(k));
     const EquilibratedFlux flux = run.flux();
@@ -2163,9 +2094,8 @@ TEST(Certificate, IsNeverBelowTheErrorOfTwentyPulledBodies) {
 TEST(Certificate, ItsFluxIsInEquilibriumWithAnAffineTraction) {
   const Field load = [](double x, double y) { return 1 + 2 * x - y; },
               traction = [](double x, double) { return 3 * x - 1; };
-  TriangleMesh mesh = structured_mesh(4, {0});
-  for (int e = 0; e < mesh.edge_count(); ++e)
-    if (mesh.vertices(mesh.edges.row(e), 1).minCoeff() == 1) mesh.edge_tag[e] = natural_group(0);
+  TriangleMesh mesh =
+      retagged(structured_mesh(4, {0}), [](double, double y) { return y == 1 ? natural_group(0) : EdgeTag::clamped; });
   const Answered run(std::move(mesh), Scene(Body{load, [](double, double) { return 2.0; }}, NoLayer{}, {},
                                             {{"top", EdgeCondition::Kind::traction, traction}}));
   const EquilibratedFlux flux = run.flux();
