@@ -9,7 +9,7 @@
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
-#include "antilock/study/detail/cg_ilut.hpp"
+#include "antilock/study/detail/summed.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "cross_check.hpp"
 #include "model_check.hpp"

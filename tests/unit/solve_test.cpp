@@ -17,7 +17,6 @@
 #include "antilock/solve/detail/sparse_contact.hpp"
 #include "antilock/solve/residual.hpp"
 #include "antilock/solve/uzawa.hpp"
-#include "antilock/study/detail/cg_ilut.hpp"
 #include "antilock/study/detail/summed.hpp"
 #include "antilock/study/method.hpp"
 #include "antilock/study/sweep.hpp"

@@ -3,7 +3,6 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/solve/kkt.hpp"
-#include "antilock/study/detail/cg_ilut.hpp"
 #include "antilock/study/detail/summed.hpp"
 #include "common/course.hpp"
 

@@ -11,9 +11,10 @@ namespace antilock {
 /// A mesh and the space on it, kept together: the space looks at the mesh.
 class Discretisation {
  public:
-  Discretisation(TriangleMesh mesh, const Element& element);
+  Discretisation(TriangleMesh mesh, const Element& element)
+      : mesh_(std::make_shared<const TriangleMesh>(std::move(mesh))), space_(*mesh_, element) {}
   /// Another element on the same mesh.
-  Discretisation(const Discretisation& other, const Element& element);
+  Discretisation(const Discretisation& other, const Element& element) : mesh_(other.mesh_), space_(*mesh_, element) {}
   const TriangleMesh& mesh() const { return *mesh_; }
   const Space& space() const { return space_; }
 
@@ -27,7 +28,7 @@ struct Method {
   const Element* element;
   MeshFamily family;
 
-  std::string name() const;  ///< "P1 structured"
+  std::string name() const { return element->name() + " " + family.name; }  ///< "P1 structured"
   TriangleMesh mesh(int cells) const { return family.mesh(cells); }
   /// The space of this element on a mesh, which must outlive it.
   Space space(const TriangleMesh& mesh) const { return Space(mesh, *element); }
@@ -35,7 +36,12 @@ struct Method {
 };
 
 /// Every element on every family, elements first: the four methods of Figure 9 without arguments.
-std::vector<Method> methods(const std::vector<const Element*>& elements = {&p1(), &crouzeix_raviart()},
-                            const std::vector<MeshFamily>& families = {structured(), unstructured()});
+inline std::vector<Method> methods(const std::vector<const Element*>& elements = {&p1(), &crouzeix_raviart()},
+                                   const std::vector<MeshFamily>& families = {structured(), unstructured()}) {
+  std::vector<Method> all;
+  for (const Element* element : elements)
+    for (const MeshFamily& family : families) all.push_back({element, family});
+  return all;
+}
 
 }  // namespace antilock

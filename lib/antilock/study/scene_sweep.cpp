@@ -1,7 +1,5 @@
 #include "antilock/study/scene_sweep.hpp"
 
-#include <algorithm>
-
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -9,7 +7,7 @@
 namespace antilock {
 
 SceneSweep::SceneSweep(const Scene& scene, const Space& space)
-    : Sweep(assemble(scene, space)), space_(&space), scene_(scene), assembled_(space.mesh().triangle_count()) {}
+    : Sweep(assemble(scene, space)), space_(&space), scene_(scene) {}
 
 void SceneSweep::set_epsilon(double epsilon) {
   if (!std::holds_alternative<StiffLayer>(scene_.layer()))
@@ -24,8 +22,6 @@ void SceneSweep::set_epsilon(double epsilon) {
 void SceneSweep::set_load(const Field& f) {
   scene_ = Scene({f}, scene_.layer(), scene_.contact());  // checks that there is one
   problem_.load = load_vector(*space_, f);
-  const auto& region = space_->mesh().region;
-  assembled_ += static_cast<int>(std::count(region.begin(), region.end(), Region::body));
 }
 
 }  // namespace antilock

@@ -5,24 +5,20 @@
 
 namespace antilock {
 
-/// One scene on one mesh, asked again and again with another epsilon or load: a Sweep in the
-/// scene's own words. The space, and its mesh, must outlive it.
+/// One scene on one mesh, asked again and again with another epsilon or load: a Sweep in the scene's own words. The
+/// space, and its mesh, must outlive it.
 class SceneSweep : public Sweep {
  public:
   /// Assembles; throws Error as `assemble` does.
   SceneSweep(const Scene& scene, const Space& space);
 
-  /// Another thickness of a scaled layer, 0 to 1. Throws Error for another layer, which holds no
-  /// epsilon or holds it in its mesh.
+  /// Another thickness of a scaled layer, 0 to 1. Throws Error for another layer: it holds none, or in its mesh.
   void set_epsilon(double epsilon);
   void set_load(const Field& f);
-
-  int assembled() const { return assembled_; }  ///< triangles walked over by assembly so far
 
  private:
   const Space* space_;
   Scene scene_;
-  int assembled_;
 };
 
 }  // namespace antilock

@@ -7,22 +7,17 @@
 
 namespace antilock {
 
-/// One pair (A1, B) asked again and again with another compliance, load or bound. What does not
-/// change is done once:
-/// - the forms a1 and a0 hold no compliance: whoever filled the problem assembled them once for all
-///   questions;
-/// - all loads, all bounds and every compliance below the penalty delta of the factor share one
-///   factorisation;
+/// One pair (A1, B) asked again and again with another compliance, load or bound. What does not change is done once:
+/// - the forms a1 and a0 hold no compliance: whoever filled the problem assembled them once for all questions;
+/// - all loads, all bounds and every compliance below the penalty delta of the factor share one factorisation;
 /// - the contact set of one answer starts the search for the next.
-/// Any problem of the class can be swept: the layer, the beam, rubber, one's own. SceneSweep does
-/// it for a scene.
+/// Any problem of the class can be swept: the layer, the beam, rubber, one's own. SceneSweep does it for a scene.
 class Sweep {
  public:
   /// Throws Error as `check` does.
   explicit Sweep(VariationalInequality problem);
 
-  /// Another value of the class parameter, 0 to 1. Throws Error where nothing is stiff (B has no
-  /// rows).
+  /// Another value of the class parameter, 0 to 1. Throws Error where nothing is stiff (B has no rows).
   void set_compliance(double compliance);
   /// N entries, one per unknown.
   void set_load(Eigen::VectorXd load);

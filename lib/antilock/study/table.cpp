@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <functional>
 #include <set>
 
 #include "antilock/core/detail/atomic_file.hpp"
@@ -24,19 +24,10 @@ std::string in_csv(const std::string& word) {
   return text + '"';
 }
 
-/// The first x for which before(x, y) holds for all others; no number where one of them is none, which every comparison
-/// would pass over.
-template <class Before>
-double extreme(const std::vector<double>& all, Before&& before) {
-  for (const double x : all)
-    if (std::isnan(x)) return x;
-  return *std::min_element(all.begin(), all.end(), before);
-}
-
-std::vector<double> some(const Table& table, const std::string& column) {
-  std::vector<double> all = table.numbers(column);
+Eigen::ArrayXd some(const Table& table, const std::string& column) {
+  const std::vector<double> all = table.numbers(column);
   if (all.empty()) throw Error(fmt::format("table: column '{}' of no rows; accepted: of one or more", column));
-  return all;
+  return Eigen::Map<const Eigen::ArrayXd>(all.data(), static_cast<Eigen::Index>(all.size()));
 }
 
 }  // namespace
@@ -75,19 +66,18 @@ void Table::add(const Table& other) {
 }
 
 Table Table::where(const std::string& column, const Entry& value) const {
-  const std::size_t at = place(column);
+  const std::vector<Entry> all = entries(column);
   Table selected(columns_);
-  for (const auto& row : rows_)
-    if (row[at] == value) selected.rows_.push_back(row);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i] == value) selected.rows_.push_back(rows_[i]);
   return selected;
 }
 
 Table Table::where_number(const std::string& column, const std::function<bool(double)>& holds) const {
-  const std::size_t at = place(column);
-  numbers(column);  // refuses a word
+  const std::vector<double> all = numbers(column);
   Table selected(columns_);
-  for (const auto& row : rows_)
-    if (holds(row[at].number())) selected.rows_.push_back(row);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (holds(all[i])) selected.rows_.push_back(rows_[i]);
   return selected;
 }
 
@@ -132,10 +122,10 @@ double Table::number(const std::string& column) const {
   return numbers(column).front();
 }
 
-double Table::least(const std::string& column) const { return extreme(some(*this, column), std::less<>()); }
-double Table::most(const std::string& column) const { return extreme(some(*this, column), std::greater<>()); }
-double Table::first(const std::string& column) const { return some(*this, column).front(); }
-double Table::last(const std::string& column) const { return some(*this, column).back(); }
+double Table::least(const std::string& column) const { return some(*this, column).minCoeff<Eigen::PropagateNaN>(); }
+double Table::most(const std::string& column) const { return some(*this, column).maxCoeff<Eigen::PropagateNaN>(); }
+double Table::first(const std::string& column) const { return some(*this, column)(0); }
+double Table::last(const std::string& column) const { return some(*this, column).tail<1>()(0); }
 
 double Table::order(const std::string& y, const std::string& x) const {
   for (const std::string& column : {y, x})
@@ -184,15 +174,9 @@ Table Table::pivot(const std::string& rows, const std::string& across, const std
 
 Table Table::select(const std::vector<std::string>& columns) const {
   Table selected(columns);
-  std::vector<std::size_t> places;
-  places.reserve(columns.size());
-  for (const std::string& column : columns) places.push_back(place(column));
-  for (const auto& row : rows_) {
-    std::vector<Entry> kept;
-    kept.reserve(places.size());
-    for (const std::size_t at : places) kept.push_back(row[at]);
-    selected.rows_.push_back(std::move(kept));
-  }
+  selected.rows_.resize(rows_.size());
+  for (const std::string& column : columns)
+    for (std::size_t i = 0; const Entry& entry : entries(column)) selected.rows_[i++].push_back(entry);
   return selected;
 }
 
@@ -218,17 +202,12 @@ void Table::print(const std::string& title, int digits) const {
 void Table::write(const std::filesystem::path& path) const {
   write_file(path, [&](std::ostream& out) {
     Text text(out);
-    const auto line = [&](std::vector<std::string> words) {
-      for (std::string& word : words) word = in_csv(word);
-      text.print("{}\n", fmt::join(words, ","));
+    const auto line = [&](const std::vector<Entry>& row) {
+      for (std::size_t i = 0; i < row.size(); ++i) text.print("{}{}", i > 0 ? "," : "", in_csv(row[i].text()));
+      text.print("\n");
     };
-    line(columns_);
-    for (const auto& row : rows_) {
-      std::vector<std::string> words;
-      words.reserve(row.size());
-      for (const Entry& entry : row) words.push_back(entry.text());
-      line(words);
-    }
+    line({columns_.begin(), columns_.end()});
+    for (const auto& row : rows_) line(row);
   });
 }
 

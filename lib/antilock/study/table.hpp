@@ -18,8 +18,7 @@ class Entry {
 
   bool is_number() const { return std::holds_alternative<double>(value_); }
   double number() const { return std::get<double>(value_); }
-  /// A number as the shortest text that reads back as the same double (17 digits at most), or
-  /// rounded to `digits`.
+  /// A number as the shortest text that reads back as the same double, or rounded to `digits`.
   std::string text(int digits = 0) const;
   bool operator==(const Entry&) const = default;  ///< of numbers: the same double
 
@@ -27,9 +26,8 @@ class Entry {
   std::variant<double, std::string> value_;
 };
 
-/// The results of a study: named columns, one row per run. What is asked of it is asked by name,
-/// never by position. Every function throws Error for a column that the table does not have, with
-/// the names of those that it has.
+/// The results of a study: named columns, one row per run. What is asked of it is asked by name, never by position.
+/// Every function throws Error for a column that the table does not have, with the names of those that it has.
 class Table {
  public:
   /// Throws Error for a name that comes twice.
@@ -42,8 +40,7 @@ class Table {
   int size() const { return static_cast<int>(rows_.size()); }  ///< rows
   const std::vector<std::string>& columns() const { return columns_; }
 
-  /// The rows that hold `value` in this column, in their order; those whose number there satisfies
-  /// `holds`.
+  /// The rows that hold `value` in this column, in their order; those whose number there satisfies `holds`.
   Table where(const std::string& column, const Entry& value) const;
   Table where_number(const std::string& column, const std::function<bool(double)>& holds) const;
   /// Each row as a table of its own.
@@ -52,34 +49,31 @@ class Table {
   std::vector<Entry> entries(const std::string& column) const;
   std::vector<Entry> different(const std::string& column) const;
   std::vector<double> numbers(const std::string& column) const;
-  /// The entry, or the number, in the one row of a table; throws Error where there are more or
-  /// none.
+  /// The entry, or the number, in the one row of a table; throws Error where there are more or none.
   Entry entry(const std::string& column) const;
   double number(const std::string& column) const;
-  /// The smallest, the largest, the first and the last number of a column; smallest and largest are no
-  /// number where an entry is none. Throws Error for a table without rows.
+  /// The smallest, the largest (NaN where an entry is NaN), the first and the last number of a column. Throws Error for
+  /// a table without rows.
   double least(const std::string& column) const;
   double most(const std::string& column) const;
   double first(const std::string& column) const;
   double last(const std::string& column) const;
-  /// The order of convergence: least-squares slope of log(y) against log(x). Throws Error where
-  /// there are fewer than two different x, or a number is not positive.
+  /// The order of convergence: least-squares slope of log(y) against log(x). Throws Error where there are fewer than
+  /// two different x, or a number is not positive.
   double order(const std::string& y, const std::string& x) const;
   /// The same between each two rows that follow each other. Throws Error as `order` does, and for two rows of one x.
   std::vector<double> pairwise_orders(const std::string& y, const std::string& x) const;
-  /// One row per different entry of `rows`, one column per different entry of `across`, filled with
-  /// `value`: a table of an error against h and epsilon. Throws Error where a place is filled
-  /// twice; an empty place holds no text.
+  /// One row per different entry of `rows`, one column per different entry of `across`, filled with `value`: a table of
+  /// an error against h and epsilon. Throws Error where a place is filled twice; an empty place holds no text.
   Table pivot(const std::string& rows, const std::string& across, const std::string& value) const;
   /// These columns alone, in this order.
   Table select(const std::vector<std::string>& columns) const;
 
-  /// Aligned columns, words to the left, numbers to the right and rounded to `digits`; `print` puts
-  /// them on standard output between two empty lines.
+  /// Aligned columns, words to the left, numbers to the right and rounded to `digits`; `print` puts them on standard
+  /// output between two empty lines.
   std::string text(int digits = 4) const;
   void print(const std::string& title = "", int digits = 4) const;
-  /// CSV, whole or not at all: a header, then the rows; a word that holds a comma or a quotation
-  /// mark is quoted.
+  /// CSV, whole or not at all: a header, then the rows; a word that holds a comma or a quotation mark is quoted.
   void write(const std::filesystem::path& path) const;
 
  private:
