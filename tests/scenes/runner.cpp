@@ -38,6 +38,15 @@ nlohmann::json SceneRun::summary() const {
   return nlohmann::json::parse(contents(results / "summary.json"));
 }
 
+void expect_no_answer(const SceneRun& run, const std::string& says, int status) {
+  const std::string& err = run.outcome.err;
+  EXPECT_EQ(run.outcome.status, status) << says;
+  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+  EXPECT_TRUE(err.ends_with('\n')) << err;
+  EXPECT_NE(err.find(says), err.npos) << says << ": " << err;
+  EXPECT_TRUE(std::filesystem::is_empty(run.output.path())) << "something was written";
+}
+
 Csv read_csv(const std::filesystem::path& path) {
   std::istringstream text(contents(path));
   Csv csv;

@@ -37,6 +37,9 @@ class SceneRun {
   TemporaryFolder log_;
 };
 
+/// No answer: the status, one line on standard error that holds `says`, and nothing written.
+void expect_no_answer(const SceneRun& run, const std::string& says, int status = 2);
+
 struct Csv {
   std::string header;
   Eigen::MatrixXd rows;

@@ -25,6 +25,8 @@ std::vector<double> numbers(const fs::path& path, const std::string& header = ""
   return found;
 }
 
+using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
+
 /// Data of the VTU array of this name: raw bytes behind the XML, each array behind its length.
 std::vector<double> vtu_array(const std::string& text, const std::string& name) {
   const std::size_t at = text.find(" Name=\"" + name + "\""), tag = text.rfind('<', at);
@@ -86,24 +88,16 @@ TEST(WriteFreefemMesh, HoldsTheCountsTheLabelsAndTheSameNumbering) {
   EXPECT_EQ(n[0], mesh.vertex_count());
   EXPECT_EQ(n[1], mesh.triangle_count());
   EXPECT_EQ(n[2], labelled);
-  for (int v = 0; v < mesh.vertex_count(); ++v) EXPECT_EQ(n[3 + 3 * v + 1], mesh.vertices(v, 1));
-  const std::size_t triangles = 3 + 3 * mesh.vertex_count(), edges = triangles + 4 * mesh.triangle_count();
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    EXPECT_EQ(n[triangles + 4 * t + 2], mesh.triangles(t, 2) + 1);
-    EXPECT_EQ(n[triangles + 4 * t + 3], static_cast<int>(mesh.region[t]));
-  }
-  std::array<int, 6> labels{};
-  for (int e = 0; e < labelled; ++e) {
-    const int from = static_cast<int>(n[edges + 3 * e]) - 1, to = static_cast<int>(n[edges + 3 * e + 1]) - 1;
-    const int label = static_cast<int>(n[edges + 3 * e + 2]);
-    ++labels.at(label);
-    if (label == 5) {  // the domain lies on the left
-      EXPECT_LT(mesh.vertices(from, 0), mesh.vertices(to, 0));
-    }
-  }
-  EXPECT_EQ(labels[3], 4);
-  EXPECT_EQ(labels[4], 20);
-  EXPECT_EQ(labels[5], 4);
+  const Rows vertices(n.data() + 3, mesh.vertex_count(), 3);
+  const Rows triangles(vertices.data() + vertices.size(), mesh.triangle_count(), 4);
+  const Eigen::MatrixXi edges = Rows(triangles.data() + triangles.size(), labelled, 3).cast<int>();
+  EXPECT_EQ(vertices.leftCols(2), mesh.vertices);
+  EXPECT_EQ(triangles.leftCols(3).cast<int>(), (mesh.triangles.array() + 1).matrix());
+  for (int t = 0; t < mesh.triangle_count(); ++t) EXPECT_EQ(triangles(t, 3), static_cast<int>(mesh.region[t]));
+  for (const auto& [label, count] : {std::pair{3, 4}, {4, 20}, {5, 4}})
+    EXPECT_EQ((edges.col(2).array() == label).count(), count) << label;
+  for (const auto& edge : edges.rowwise())
+    if (edge(2) == 5) EXPECT_LT(mesh.vertices(edge(0) - 1, 0), mesh.vertices(edge(1) - 1, 0)) << "the domain is left";
 }
 
 // ==== Tables.
@@ -117,10 +111,8 @@ TEST(WriteCsv, EveryDoubleReadsBackBitEqual) {
   write_csv(folder / "t.csv", {"a", "b", "c"}, table);
   const std::vector<double> back = numbers(folder / "t.csv", "a,b,c\n");
   ASSERT_EQ(back.size(), 3U * rows);
-  for (int i = 0; i < 3 * rows; ++i) {
-    EXPECT_EQ(back[i], table(i / 3, i % 3));
-    EXPECT_EQ(std::signbit(back[i]), std::signbit(table(i / 3, i % 3)));
-  }
+  EXPECT_EQ(Rows(back.data(), rows, 3), table);
+  EXPECT_TRUE(std::signbit(back[2])) << "of -0.0";
 }
 
 TEST(WriteCsv, HeadersThatDoNotFitAreRefused) {
@@ -145,11 +137,9 @@ TEST(WriteSolutionCsv, HoldsOneRowAnUnknownAtItsPlace) {
     write_solution_csv(folder / "solution.csv", space, u);
     const std::vector<double> n = numbers(folder / "solution.csv", "x,y,u\n");
     ASSERT_EQ(n.size(), 3U * space.size());
-    for (int i = 0; i < space.size(); ++i) {
-      EXPECT_EQ(n[3 * i], space.points()(i, 0));
-      EXPECT_EQ(n[3 * i + 1], space.points()(i, 1));
-      EXPECT_EQ(n[3 * i + 2], u(i));
-    }
+    const Rows rows(n.data(), space.size(), 3);
+    EXPECT_EQ(rows.leftCols(2), space.points());
+    EXPECT_EQ(rows.col(2), u);
   }
 }
 
