@@ -59,8 +59,8 @@ int launched_ranks();
 /// Returns where there is none.
 void become(const std::string& program, char** argv);
 
-/// The path of a program that is installed beside this one, or built in that folder of the same build; its bare name where
-/// there is none.
+/// The path of a program that is installed beside this one, or built in that folder of the same build; its bare name
+/// where there is none.
 std::string beside(const std::string& program, const std::string& folder);
 
 }  // namespace antilock::tutorial

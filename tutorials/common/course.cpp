@@ -10,8 +10,6 @@
 #include "antilock/io/writers.hpp"
 
 namespace antilock::tutorial {
-Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
-
 namespace {
 
 Truth known_truth(const Scene& scene, int log2_points) {
@@ -23,7 +21,30 @@ Truth known_truth(const Scene& scene, int log2_points) {
   return std::move(*truth);
 }
 
+void print_solution(const Space& space, const VariationalInequality& problem, const Solution& solution) {
+  const Counters& c = solution.counters;
+  fmt::print("  {}: {} unknowns, {} contact steps, {} corrections, {} factorisation(s)\n", solution.solver, c.unknowns,
+             c.contact, c.corrections, c.factorisations);
+  const Kkt& k = solution.kkt;
+  fmt::print(
+      "  conditions (relative): smallest gap {:.1e}, smallest pressure {:.1e}, complementarity {:.1e}, residual "
+      "{:.1e}\n",
+      k.min_gap, k.min_pressure, k.complementarity, k.residual);
+  if (!solution.warning.empty()) fmt::print("  WARNING {}\n", solution.warning);
+  const ContactZone zone = contact_zone(space, problem, solution);
+  if (zone.from)
+    fmt::print("  contact at {} of {} points, x from {:.4f} to {:.4f}\n", zone.active, zone.points, *zone.from,
+               *zone.to);
+  else
+    fmt::print("  contact at 0 of {} points\n", zone.points);
+  const SolveSeconds& s = solution.seconds;
+  fmt::print("  energy J(u) = {:.8f}; seconds: analyse {:.3f}, factor {:.3f}, contact {:.3f}, solve {:.3f}\n",
+             energy(problem, solution), s.analyse, s.factor, s.contact, s.solve);
+}
+
 }  // namespace
+
+Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
 
 Exact::Exact(Scene scene, int log2_points)
     : scene(std::move(scene)),
@@ -55,27 +76,6 @@ void write_results(const std::filesystem::path& out, const Space& space, const V
   write_vtu(out / "solution.vtu", space, solution.u);
   if (!problem.contact.empty())
     write_csv(out / "contact.csv", {"x", "gap", "pressure"}, contact_table(space, problem, solution));
-}
-
-void print_solution(const Space& space, const VariationalInequality& problem, const Solution& solution) {
-  const Counters& c = solution.counters;
-  fmt::print("  {}: {} unknowns, {} contact steps, {} corrections, {} factorisation(s)\n", solution.solver, c.unknowns,
-             c.contact, c.corrections, c.factorisations);
-  const Kkt& k = solution.kkt;
-  fmt::print(
-      "  conditions (relative): smallest gap {:.1e}, smallest pressure {:.1e}, complementarity {:.1e}, residual "
-      "{:.1e}\n",
-      k.min_gap, k.min_pressure, k.complementarity, k.residual);
-  if (!solution.warning.empty()) fmt::print("  WARNING {}\n", solution.warning);
-  const ContactZone zone = contact_zone(space, problem, solution);
-  if (zone.from)
-    fmt::print("  contact at {} of {} points, x from {:.4f} to {:.4f}\n", zone.active, zone.points, *zone.from,
-               *zone.to);
-  else
-    fmt::print("  contact at 0 of {} points\n", zone.points);
-  const SolveSeconds& s = solution.seconds;
-  fmt::print("  energy J(u) = {:.8f}; seconds: analyse {:.3f}, factor {:.3f}, contact {:.3f}, solve {:.3f}\n",
-             energy(problem, solution), s.analyse, s.factor, s.contact, s.solve);
 }
 
 void print_errors(const std::string& what, const Errors& e) {

@@ -53,11 +53,10 @@ std::vector<Exact> exact_solutions(const std::vector<double>& epsilons, int log2
 /// Writes what every solved scene leaves behind: mesh.msh, mesh.freefem.msh, solution.csv, solution.vtu and contact.csv.
 void write_results(const std::filesystem::path& out, const Space& space, const VariationalInequality& problem,
                    const Solution& solution);
-/// Prints how a problem was solved: unknowns, iterations, KKT report, contact zone, energy, seconds by stage.
-void print_solution(const Space& space, const VariationalInequality& problem, const Solution& solution);
 /// Prints the errors in every norm, absolute.
 void print_errors(const std::string& what, const Errors& errors);
-/// The three of them for one solved scene, and what it says of its own locking.
+/// Both of them for one solved scene, with how it was solved: unknowns, iterations, KKT report, contact zone, energy,
+/// seconds by stage, and what it says of its own locking.
 void present(const std::filesystem::path& out, const Scene& scene, const Space& space,
              const VariationalInequality& problem, const Solution& solution, const std::string& what,
              const Errors& errors);

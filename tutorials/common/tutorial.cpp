@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "antilock/core/detail/atomic_file.hpp"
@@ -31,12 +32,6 @@ std::string list(const std::vector<Exercise>& exercises) {
   return text;
 }
 
-/// The question, what is to be predicted, and the outcome.
-void run_exercise(const Exercise& exercise, const Options& options, Report& report) {
-  fmt::print("QUESTION: {}\nPREDICTION: {}\n", exercise.question, exercise.prediction);
-  exercise.outcome(options, report);
-}
-
 }  // namespace
 
 void Report::stage(const std::string& what) {
@@ -60,13 +55,11 @@ void Report::claim(bool holds, const std::string& what) {
 }
 
 void Report::claim_orders(const Table& rows, const std::string& y, double low, double high, const std::string& what) {
-  std::string orders;
-  bool hold = rows.size() > 1;
-  for (const double order : rows.pairwise_orders(y, "h")) {
-    orders += fmt::format("{}{:.2f}", orders.empty() ? "" : ", ", order);
-    hold = hold && order >= low && order <= high;
-  }
-  claim(hold, fmt::format("{}: orders in h {} (accepted {:g} to {:g}; observed)", what, orders, low, high));
+  const std::vector<double> orders = rows.pairwise_orders(y, "h");
+  const bool hold =
+      std::all_of(orders.begin(), orders.end(), [&](double order) { return order >= low && order <= high; });
+  claim(hold && !orders.empty(), "{}: orders in h {:.2f} (accepted {:g} to {:g}; observed)", what,
+        fmt::join(orders, ", "), low, high);
 }
 
 void Report::not_judged(const std::string& why) {
@@ -75,16 +68,15 @@ void Report::not_judged(const std::string& why) {
 }
 
 void Report::claim_within(double value, double low, double high, const std::string& what) {
-  claim(value >= low && value <= high, fmt::format("{} {:.4g} (accepted {:.4g} to {:.4g})", what, value, low, high));
+  claim(value >= low && value <= high, "{} {:.4g} (accepted {:.4g} to {:.4g})", what, value, low, high);
 }
 
 void Report::claim_order(const Table& rows, const std::string& y, const std::string& x, double low, double high,
                          const std::string& what) {
   if (rows.size() < 4) return not_judged(fmt::format("{}: an order needs four rows, here are {}", what, rows.size()));
   const double order = rows.order(y, x);
-  claim(order >= low && order <= high,
-        fmt::format("{}: order {:.2f} ({:.2f} from row to row; accepted {:.2f} to {:.2f})", what, order,
-                    fmt::join(rows.pairwise_orders(y, x), ", "), low, high));
+  claim(order >= low && order <= high, "{}: order {:.2f} ({:.2f} from row to row; accepted {:.2f} to {:.2f})", what,
+        order, fmt::join(rows.pairwise_orders(y, x), ", "), low, high);
 }
 
 int run(int argc, char** argv, const std::string& stem, const std::string& what, Options options,
@@ -107,18 +99,19 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
     fmt::print("{}: {}\n", stem, exercise > 0 ? fmt::format("exercise {}", exercise) : what);
     const Stopwatch watch;
     Report report;
-    if (exercise > 0)
-      run_exercise(options.exercises.at(static_cast<std::size_t>(exercise - 1)), options, report);
-    else
+    if (exercise > 0) {
+      const auto& [question, prediction, outcome] = options.exercises[exercise - 1];
+      fmt::print("QUESTION: {}\nPREDICTION: {}\n", question, prediction);
+      outcome(options, report);
+    } else {
       body(options, report);
+    }
     report.finish();
     fmt::print("{} in {:.2f} s{}\n", stem, watch.seconds(),
                options.out.empty() ? "" : "; results in " + options.out.string());
     return report.all_hold() ? 0 : 1;
   } catch (const NotConverged& failure) {
     return fail(stem, failure.what(), 3);
-  } catch (const Error& error) {
-    return fail(stem, error.what(), 2);
   } catch (const std::exception& error) {
     return fail(stem, error.what(), 2);
   }

@@ -23,13 +23,11 @@ struct Exercise {
   std::function<void(const Options&, Report&)> outcome;  ///< options.out is empty unless --out was given
 };
 
-/// The options that every tutorial understands. Set the defaults, and `add` options of one
-/// tutorial's own.
+/// The options that every tutorial understands. Set the defaults, and `add` options of one tutorial's own.
 struct Options {
   double epsilon = 1e-6;     ///< the paper's epsilon, least_epsilon to 1 (dimensionless)
   double least_epsilon = 0;  ///< the smallest that the study accepts
-  /// What --epsilon stands for, in --help.
-  std::string epsilon_is = "the paper's epsilon; 0 is the rigid limit";
+  std::string epsilon_is = "the paper's epsilon; 0 is the rigid limit";  ///< in --help
   bool takes_epsilon = true;  ///< false where it has none, or studies its own: --epsilon is not offered then
   int cells = 32;             ///< cells per unit side: h = 1/cells
   int least_cells = 1, most_cells = 2048;  ///< what the study needs, and can afford
@@ -41,11 +39,9 @@ struct Options {
 /// What a tutorial says while it runs: stages with their seconds, and the verdict at its end.
 class Report {
  public:
-  /// Prints what is being done now; the seconds of the stage before are printed when the next
-  /// begins.
+  /// Prints what is being done now; the seconds of the stage before are printed when the next begins.
   void stage(const std::string& what);
-  /// A claim of the paper and whether the numbers bear it out, as a line `VERDICT holds: ...` or
-  /// `VERDICT FAILS: ...`.
+  /// A claim of the paper and whether the numbers bear it out: a line `VERDICT holds: ...` or `VERDICT FAILS: ...`.
   void claim(bool holds, const std::string& what);
   /// The same with a format string, `claim(order > 1.8, "falls like h^{:.2f}", order)`.
   template <class First, class... More>
@@ -56,12 +52,11 @@ class Report {
   void claim_within(double value, double low, double high, const std::string& what);
   /// The same of the orders of `y` in h between each row and the next; they are observed.
   void claim_orders(const Table& rows, const std::string& y, double low, double high, const std::string& what);
-  /// A claim that the order of y in x, a least-squares slope, lies in an interval; its line ends with the order, with
-  /// those from row to row, and with the interval. Not judged from fewer than four rows.
+  /// The same of the order of y in x, a least-squares slope; its line ends with the order, those from row to row, and
+  /// the interval. Not judged from fewer than four rows.
   void claim_order(const Table& rows, const std::string& y, const std::string& x, double low, double high,
                    const std::string& what);
-  /// A claim that this run cannot decide, and why: a line `NOT JUDGED: ...`. Nothing is left out in
-  /// silence.
+  /// A claim that this run cannot decide, and why: a line `NOT JUDGED: ...`. Nothing is left out in silence.
   void not_judged(const std::string& why);
   /// Ends the last stage.
   void finish();
