@@ -1,14 +1,203 @@
 #include "antilock/solve/active_set.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 #include "antilock/core/error.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/detail/anderson.hpp"
+#include "antilock/solve/detail/contact_systems.hpp"
+#include "antilock/solve/detail/tied.hpp"
+#include "antilock/solve/detail/tuned.hpp"
+#include "antilock/solve/judge.hpp"
+#include "antilock/solve/kkt.hpp"
+#include "antilock/solve/residual.hpp"
 
 namespace antilock {
-
 namespace {
 
-Solution solve(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
+/// One solve: the factor and where the iterates stand.
+class IteratedPenalty {
+ public:
+  IteratedPenalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
+                  const CorrectionOptions& options, const std::string& name)
+      : problem_(problem),
+        factor_(factor),
+        contact_solver_(contact),
+        options_(options),
+        u_(Eigen::VectorXd::Zero(problem.size())),
+        p_(Eigen::VectorXd::Zero(problem.b.rows())) {
+    u_.high(problem.fixed) = problem.fixed_values;
+    s_.solver = name;
+    note_factor();
+  }
+
+  Solution solve() {
+    for (int correction = 0;; ++correction) {
+      const Correction step = correct(exact_residual(problem_, u_, p_, contact_.lambda));
+      const double largest = u_.high.lpNorm<Eigen::Infinity>(), moved = step.u.lpNorm<Eigen::Infinity>();
+      if (correction == 0) s_.moderate = largest;
+      const double rho = rate(moved), next = std::max(rho * moved, acceleration_.next_companion_step());
+      Accuracy now = accuracy(problem_, u_, next, step.left_of_r2, rho, s_.moderate, options_);
+      // what is left of a load that a bound can hardly bear is seen by the second residual, and not by the first
+      if (correction == 0 && moved > 0 && problem_.force_bound.size() > 0) now.error = 1;
+      s_.history.push_back(largest > 0 ? moved / largest : 0);
+      s_.counters.corrections = correction;
+      if (now.within(options_.tolerance) || correction >= options_.max_corrections || !std::isfinite(moved))
+        return finished(step, now);
+      const bool slow = correction % tuned::corrections_per_penalty == tuned::corrections_per_penalty - 1;
+      if (slow)
+        require_an_admissible_u(problem_, Eigen::VectorXd(problem_.m.cwiseProduct(problem_.b * u_.high)), u_.high,
+                                std::max(s_.moderate, largest) / std::sqrt(tuned::eps), s_);
+      report(options_.progress, {"corrections", correction + 1, now.error, options_.tolerance}, s_.solver);
+      // the u of the first correction is off by the factor's round-off, no image of p: a mix would bring that back,
+      // again and again where p is round-off (the dependent rows of Duran and Liberman's plate at t = 0)
+      if (correction == 1) acceleration_.forget_the_oldest();
+      acceleration_.mix(p_, u_);
+      if (slow) take_a_smaller_penalty();
+    }
+  }
+
+ private:
+  struct Correction {
+    Eigen::VectorXd u, left_of_r2;  ///< N, du; R, what it leaves of r2
+  };
+
+  /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp = (B du - r2) / delta.
+  Correction correct(SplitResidual r) {
+    const std::vector<int>&unknown = factor_.numbering().unknown, &contact = problem_.contact;
+    const Eigen::VectorXd& delta = factor_.deltas();
+    if (p_.size() > 0) r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2).cwiseQuotient(delta);
+    const Eigen::VectorXd u_c = u_.high(contact), low_c = u_.low(contact);
+    const Stairs stairs =
+        Stairs{problem_.lower, problem_.upper, problem_.force_bound, contact_.lambda}.from(u_c).from(low_c);
+    const Pieces before = contact_.pieces;
+    Correction step{Eigen::VectorXd::Zero(problem_.size()), {}};
+    step.u(unknown) =
+        factor_.held() != nullptr ? sparse_road(r.r1(unknown), stairs) : dense_road(r.r1(unknown), stairs);
+    u_ += step.u;
+    const Eigen::VectorXd v = contact_.v.tail(stairs.count());
+    for (int i = 0; i < stairs.count(); ++i)  // what is held stands where its bound is, to the last digit
+      if (const Piece piece = contact_.pieces[i]; is_held(piece) && v(i) == stairs.given(i, piece))
+        u_.set(contact[i], piece == Piece::at_lower ? problem_.lower(i) : problem_.upper(i));
+    if (p_.size() == 0) return step;
+    const Eigen::VectorXd dp = (problem_.b * step.u - r.r2).cwiseQuotient(delta);
+    p_ += dp;
+    step.left_of_r2 = (problem_.compliances() - delta).cwiseProduct(dp);
+    if (contact_.pieces != before) acceleration_.restart();
+    acceleration_.note(p_, dp, u_);
+    return step;
+  }
+
+  void ask(ContactSystem& system, const Stairs& stairs) {
+    contact_ = contact_solver_({system, stairs, contact_, u_.high.lpNorm<Eigen::Infinity>()});
+  }
+
+  /// The contact problem condensed on the bounded unknowns, the last C places of the factor.
+  Eigen::VectorXd dense_road(Eigen::VectorXd r, const Stairs& stairs) {
+    const Eigen::Index c = stairs.count();
+    Stopwatch watch;
+    // what acts on a bounded unknown itself stays out of the factor: a great load there, which the bound bears, would
+    // leave its round-off on the neighbours
+    const Eigen::VectorXd r_c = r.tail(c);
+    r.tail(c).setZero();
+    Eigen::VectorXd y = factor_.dense().forward(r);
+    s_.seconds.solve += watch.lap();
+    if (c > 0) {
+      const auto l = factor_.contact_block().triangularView<Eigen::Lower>();
+      const Eigen::VectorXd q = r_c + l * y.tail(c);
+      DenseContact system(schur_, q);
+      ask(system, stairs);
+      y.tail(c) = l.transpose() * contact_.v;
+      s_.seconds.contact += watch.lap();
+    }
+    Eigen::VectorXd du = factor_.dense().backward(std::move(y));
+    s_.seconds.solve += watch.lap();
+    return du;
+  }
+
+  /// The same on all free places.
+  Eigen::VectorXd sparse_road(const Eigen::VectorXd& r, const Stairs& stairs) {
+    const Stopwatch watch;
+    std::vector<int> bounded(stairs.count());
+    std::iota(bounded.begin(), bounded.end(), factor_.numbering().interior);
+    SparseContact system(*factor_.held(), r, std::move(bounded));
+    ask(system, stairs);
+    s_.seconds.contact += watch.seconds();
+    return contact_.v;
+  }
+
+  /// By how much a correction brings u closer: as the past tells; at first, without B, the round-off of the factor.
+  double rate(double moved) const {
+    if (p_.size() > 0) return acceleration_.contraction();
+    if (s_.history.empty()) return std::min(tuned::slowest, rounding_of_the_factor(problem_, factor_));
+    const double before = s_.history.back() * u_.high.lpNorm<Eigen::Infinity>();
+    return moved < before ? std::clamp(moved / before, 1 - tuned::slowest, tuned::slowest) : tuned::slowest;
+  }
+
+  /// No smaller than the compliance, and than what leaves a factor digits of A1.
+  void take_a_smaller_penalty() {
+    const double before = factor_.delta(), compliance = problem_.b.rows() > problem_.ties ? problem_.compliance : 0;
+    const double smallest = tuned::round_off * relative_stiffness(problem_).value();
+    const double delta = std::max({before / tuned::next_penalty, compliance, std::min(before, smallest)});
+    if (problem_.b.rows() == 0 || delta >= before) return;
+    try {
+      factor_.refactor(problem_, delta);
+    } catch (const Error&) {  // flat cells: no positive pivots
+      factor_.refactor(problem_, before);
+    }
+    note_factor();
+    acceleration_.restart();
+  }
+
+  void note_factor() {
+    const Stopwatch watch;
+    if (factor_.held() == nullptr && factor_.contact_block().size() > 0)
+      schur_ = factor_.contact_block().triangularView<Eigen::Lower>() * factor_.contact_block().transpose();
+    s_.seconds.contact += watch.seconds();
+  }
+
+  /// u, p and lambda of the last correction, with its error and the judge's doubt. Throws NotConverged where the last
+  /// correction is not small enough.
+  Solution finished(const Correction& last, const Accuracy& now) {
+    if (!now.within(options_.tolerance))
+      throw NotConverged(fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative "
+                                     "error of u is {:.1e}, accepted {:.0e}, and compliance p = B u holds to {:.1e} "
+                                     "of what is accepted",
+                                     s_.solver, s_.counters.corrections, now.error, options_.tolerance, now.open),
+                         std::max(now.error, options_.tolerance * now.open), s_.counters.corrections);
+    s_.counters.unknowns = problem_.free_count();
+    s_.counters.factorisations = factor_.factorisations();
+    s_.counters.solves = s_.counters.corrections + 1;
+    s_.seconds.analyse = factor_.analyse_seconds();
+    s_.seconds.factor = factor_.factor_seconds();
+    for (const Piece piece : contact_.pieces) s_.active.push_back(is_held(piece));
+    s_.pieces = std::move(contact_.pieces);
+    s_.u = std::move(u_.high);
+    s_.p = std::move(p_.high);
+    s_.lambda = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(problem_.bound_count());
+    Doubt in_doubt = doubt(problem_, factor_, s_, last.left_of_r2);
+    s_.error = now.off + in_doubt.moves;  // absolute yet
+    s_.warning = std::move(in_doubt.warning);
+    return std::move(s_);
+  }
+
+  const VariationalInequality& problem_;
+  PenaltyFactor& factor_;
+  const ContactSolver& contact_solver_;
+  const CorrectionOptions& options_;
+  Solution s_;             ///< what is counted
+  Twice u_, p_;            ///< N, R
+  ContactAnswer contact_;  ///< of the last correction
+  Eigen::MatrixXd schur_;  ///< C x C, S = L_C L_C', of the factor as it is now; empty on the sparse road
+  Anderson acceleration_;
+};
+
+Solution by_active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
   int most = 0;
   const auto contact = [&](const ContactQuestion& asked) {
     const std::optional<Pieces> before(asked.before.pieces);
@@ -24,14 +213,33 @@ Solution solve(const VariationalInequality& problem, PenaltyFactor& factor, cons
 
 }  // namespace
 
+CorrectionOptions corrections_to(double asked) {
+  CorrectionOptions options;
+  options.tolerance = asked;
+  options.refused = std::max(options.refused, 10 * asked);
+  return options;
+}
+
+Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
+                          const CorrectionOptions& options, const std::string& name) {
+  const Tied tied(problem);
+  Solution answer = IteratedPenalty(*tied, factor, contact, options, name).solve();
+  answer.u.conservativeResize(problem.size());
+  answer.p.conservativeResize(problem.b.rows());
+  answer.lambda = tied.forces(std::move(answer.lambda));
+  if (answer.error > 0) answer.error = answer.error / answer.u.lpNorm<Eigen::Infinity>() + tuned::eps / 2;
+  certify(problem, answer, {.refused = options.refused});
+  return answer;
+}
+
 Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
   factor.check_fits(problem);
-  return solve(problem, factor, options);
+  return by_active_set(problem, factor, options);
 }
 
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options) {
   PenaltyFactor factor(problem, options.penalty, options.road);
-  return solve(problem, factor, options);
+  return by_active_set(problem, factor, options);
 }
 
 }  // namespace antilock

@@ -25,15 +25,15 @@ struct ActiveSetOptions {
 ///              stop where accuracy(next du, r2) is within the tolerance judge.hpp
 ///     then:    doubt and the KKT report               judge.hpp, kkt.hpp: a warning, or NotConverged
 ///
-/// To read in this order: problem/variational_inequality.hpp, stairs.hpp, contact.hpp, residual.hpp, this, judge.hpp; the
-/// constants with their reasons are in detail/tuned.hpp. The loop stands in detail/iterated_penalty.cpp,
-/// IteratedPenalty::solve, and its mathematics in the header beside it. A loop that stops otherwise, after five corrections
-/// say, changes the one condition there; `finished` judges its last correction all the same, and refuses what is not
-/// within the tolerance.
+/// To read in this order: problem/variational_inequality.hpp, stairs.hpp, contact.hpp, residual.hpp, this, judge.hpp;
+/// the constants with their reasons are in detail/tuned.hpp. The outer loop stands in active_set.cpp,
+/// IteratedPenalty::solve, and its mathematics in detail/iterated_penalty.hpp. A loop that stops otherwise, after five
+/// corrections say, changes the one condition there; `finished` judges its last correction all the same, and refuses
+/// what is not within the tolerance.
 ///
-/// Without contact unknowns this is a linear solve. counters.contact are the steps on the finest level, the largest number
-/// over the corrections. Throws Error for a malformed problem, NotConverged instead of ever returning an unconverged
-/// answer. A bounded combination becomes an unknown of its own (tied.hpp).
+/// Without contact unknowns this is a linear solve. counters.contact are the steps on the finest level, the largest
+/// number over the corrections. Throws Error for a malformed problem, NotConverged instead of ever returning an
+/// unconverged answer. A bounded combination becomes an unknown of its own (tied.hpp).
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options = {});
 
 /// The same with a factor made before, for a sweep over loads, bounds or compliances of one pair (A1, B).

@@ -11,8 +11,9 @@
 namespace antilock {
 namespace {
 
-/// A bound that is off its piece: a force by more than round-off, a value by anything. (A value off by round-off costs a
-/// step of the descent, which stays finite. Forces that are 0 but for round-off would be let go of in ever other sets.)
+/// A bound that is off its piece: a force by more than round-off, a value by anything. (A value off by round-off costs
+/// a step of the descent, which stays finite. Forces that are 0 but for round-off would be let go of in ever other
+/// sets.)
 struct Move {
   int bound;
   Piece to;          ///< the piece beyond that end

@@ -51,9 +51,9 @@ struct ContactAnswer {
 ///
 /// It ends: a step on the way holds one bound more at least and never raises J, so after at most C of them v = w.
 /// Letting go lowers J there: J falls in the direction of the new w, its slope along it is that of the forces let go
-/// times their ways, and so not all of these ways lead back. No lowest point is met twice, and they are finitely many. One
-/// that is met again is a tie by round-off, and is taken as the answer. (D. P. Bertsekas, SIAM J. Control Optim. 20,
-/// 1982, projects like this; J. J. More and G. Toraldo, SIAM J. Optim. 1, 1991, let go like this.)
+/// times their ways, and so not all of these ways lead back. No lowest point is met twice, and they are finitely many.
+/// One that is met again is a tie by round-off, and is taken as the answer. (D. P. Bertsekas, SIAM J. Control Optim.
+/// 20, 1982, projects like this; J. J. More and G. Toraldo, SIAM J. Optim. 1, 1991, let go like this.)
 ///
 /// Without a start it begins at the nested one. Throws NotConverged after max_steps linear systems.
 ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const std::optional<Pieces>& start,

@@ -9,7 +9,6 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/detail/kkt_rows.hpp"
 #include "antilock/solve/detail/tuned.hpp"
 
 namespace antilock {
@@ -24,14 +23,6 @@ double ratio(double value, double scale) { return value == 0 ? 0.0 : value / sca
 double least(double a, double b) { return std::isnan(a) || a < b ? a : b; }
 double most(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-/// The report is asked of foreign answers too.
-void require_sizes(const VariationalInequality& problem, const Solution& s) {
-  if (s.u.size() == problem.size() && s.p.size() == problem.b.rows() && s.lambda.size() == problem.bound_count())
-    return;
-  throw Error(fmt::format("kkt: u, p and lambda have {}, {} and {} entries; accepted {}, {} and {}", s.u.size(),
-                          s.p.size(), s.lambda.size(), problem.size(), problem.b.rows(), problem.bound_count()));
-}
-
 /// The largest force of a single bound on each unknown, N.
 Eigen::VectorXd largest_bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda) {
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(problem.size());
@@ -41,27 +32,6 @@ Eigen::VectorXd largest_bound_forces(const VariationalInequality& problem, const
     for (RowMatrix::InnerIterator c(problem.combinations, row); c; ++c)
       largest(c.col()) = std::max(largest(c.col()), std::abs(c.value() * lambda(contact + row)));
   return largest;
-}
-
-/// min_gap, min_pressure and complementarity, each bound in its own units.
-void report_bounds(Kkt& kkt, const VariationalInequality& problem, const Solution& solution, const KktRows& rows) {
-  if (problem.bound_count() == 0) return;
-  const Stairs stairs{problem.lower, problem.upper, problem.force_bound};
-  const Eigen::VectorXd values = bounded_values(problem, solution.u);
-  const int contact = static_cast<int>(problem.contact.size());
-  kkt.min_gap = kkt.min_pressure = unbounded;
-  for (int i = 0; i < stairs.count(); ++i) {
-    double strain = i < contact ? 1 : 0;
-    double force = i < contact ? rows.forces(problem.contact[i]) : unbounded;
-    if (i >= contact)
-      for (RowMatrix::InnerIterator c(problem.combinations, i - contact); c; ++c) {
-        if (c.value() == 0) continue;
-        strain += std::abs(c.value());
-        force = std::min(force, rows.forces(c.col()) / std::abs(c.value()));
-      }
-    rows.note_bound(kkt, stairs, i, values(i), solution.lambda(i), strain, force);
-  }
-  if (kkt.min_gap == unbounded) kkt.min_gap = 0;  // every bound gives way
 }
 
 }  // namespace
@@ -150,12 +120,10 @@ void KktRows::note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, do
 
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   check_data(problem);
-  require_sizes(problem, solution);
-  return kkt_report_unchecked(problem, solution);
-}
-
-Kkt kkt_report_unchecked(const VariationalInequality& problem, const Solution& solution) {
   const Eigen::VectorXd &u = solution.u, &p = solution.p, &lambda = solution.lambda;
+  if (u.size() != problem.size() || p.size() != problem.b.rows() || lambda.size() != problem.bound_count())
+    throw Error(fmt::format("kkt: u, p and lambda have {}, {} and {} entries; accepted {}, {} and {}", u.size(),
+                            p.size(), lambda.size(), problem.size(), problem.b.rows(), problem.bound_count()));
   Kkt kkt;
   if (!u.allFinite() || !p.allFinite() || !lambda.allFinite()) {  // Eigen's maxima may pass over what is not a number
     kkt.residual = unbounded;
@@ -172,7 +140,23 @@ Kkt kkt_report_unchecked(const VariationalInequality& problem, const Solution& s
                      [](double value) { return value; });
   // the prescribed values hold exactly or not at all
   kkt.residual = moved ? std::max(rows.residual, 1.0) : rows.residual;
-  report_bounds(kkt, problem, solution, rows);
+  if (problem.bound_count() == 0) return kkt;
+  const Stairs stairs{problem.lower, problem.upper, problem.force_bound};
+  const Eigen::VectorXd values = bounded_values(problem, u);
+  const int contact = static_cast<int>(problem.contact.size());
+  kkt.min_gap = kkt.min_pressure = unbounded;
+  for (int i = 0; i < contact; ++i)
+    rows.note_bound(kkt, stairs, i, values(i), lambda(i), 1, rows.forces(problem.contact[i]));
+  for (int i = contact; i < stairs.count(); ++i) {  // each combination in its own units
+    double strain = 0, force = unbounded;
+    for (RowMatrix::InnerIterator c(problem.combinations, i - contact); c; ++c) {
+      if (c.value() == 0) continue;
+      strain += std::abs(c.value());
+      force = std::min(force, rows.forces(c.col()) / std::abs(c.value()));
+    }
+    rows.note_bound(kkt, stairs, i, values(i), lambda(i), strain, force);
+  }
+  if (kkt.min_gap == unbounded) kkt.min_gap = 0;  // every bound gives way
   return kkt;
 }
 

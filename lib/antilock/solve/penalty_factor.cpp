@@ -23,11 +23,11 @@ const VariationalInequality& checked(const VariationalInequality& problem) {
 /// Equal bit for bit, stored zeros and all: one walk over both.
 template <class Sparse>
 bool same(const Sparse& one, const Sparse& other) {
+  const auto equal = [](const auto* a, const auto* b, Eigen::Index count) { return std::equal(a, a + count, b); };
   const Eigen::Index n = one.nonZeros();
   return one.rows() == other.rows() && one.cols() == other.cols() && n == other.nonZeros() &&
-         std::equal(one.valuePtr(), one.valuePtr() + n, other.valuePtr()) &&
-         std::equal(one.innerIndexPtr(), one.innerIndexPtr() + n, other.innerIndexPtr()) &&
-         std::equal(one.outerIndexPtr(), one.outerIndexPtr() + one.outerSize(), other.outerIndexPtr());
+         equal(one.valuePtr(), other.valuePtr(), n) && equal(one.innerIndexPtr(), other.innerIndexPtr(), n) &&
+         equal(one.outerIndexPtr(), other.outerIndexPtr(), one.outerSize());
 }
 
 /// Whether the contact problem takes the sparse road (see ContactRoad).
@@ -118,7 +118,5 @@ const SparseCholesky& PenaltyFactor::dense() const {
                     numbering_.unknown.size() - numbering_.interior, numbering_.unknown.size()));
   return factor_.cholesky();
 }
-
-const Eigen::MatrixXd& PenaltyFactor::contact_block() const { return dense(), contact_block_; }
 
 }  // namespace antilock

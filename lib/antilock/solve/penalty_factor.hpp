@@ -1,11 +1,9 @@
 #pragma once
-#include <Eigen/Core>
-#include <memory>
 #include <optional>
 
 #include "antilock/problem/variational_inequality.hpp"
-#include "antilock/solve/detail/held_factor.hpp"
 #include "antilock/solve/detail/penalised_matrix.hpp"
+#include "antilock/solve/detail/sparse_cholesky.hpp"
 
 namespace antilock {
 
@@ -19,25 +17,25 @@ class Tied;
 ///
 ///     C > 600  and  C > 8 sqrt(F),   F free unknowns
 ///
-/// Measured on a membrane (tests/benchmark/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F): dense
-/// over sparse seconds are 0.3 at k = 1 to 3, 0.4 at 4, 0.4 to 0.65 at 6, 0.94 to 1.07 at 8 and 2 to 3.4 at 12, for n =
-/// 32, 64 and 128 alike: C^3 stands against F^(3/2). Up to 600 bounds the dense road takes some tenths of a second, and
-/// makes the contact block that Uzawa and the certificate ask for. (A beam of 512 cells takes as many steps on either.)
+/// Measured on a membrane (tests/benchmark/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F):
+/// dense over sparse seconds are 0.3 at k = 1 to 3, 0.4 at 4, 0.4 to 0.65 at 6, 0.94 to 1.07 at 8 and 2 to 3.4 at 12,
+/// for n = 32, 64 and 128 alike: C^3 stands against F^(3/2). Up to 600 bounds the dense road takes some tenths of a
+/// second, and makes the contact block that Uzawa asks for. (A beam of 512 cells takes as many steps on either.)
 enum class ContactRoad { automatic, dense, sparse };
 
-/// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B. On the dense road with the
-/// contact unknowns ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur complement,
-/// so the whole contact problem is solved on it for next to nothing. It serves every load, every bound and, where delta
-/// is the same, every compliance of one matrix pair (A1, B).
+/// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B. On the dense road with
+/// the contact unknowns ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur
+/// complement, so the whole contact problem is solved on it for next to nothing. It serves every load, every bound and,
+/// where delta is the same, every compliance of one matrix pair (A1, B).
 class PenaltyFactor {
  public:
-  /// delta = moderate_delta(problem, penalty). Throws Error for a malformed problem or a penalty that is not positive, if
-  /// K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of memory.
+  /// delta = moderate_delta(problem, penalty). Throws Error for a malformed problem or a penalty that is not positive,
+  /// if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of memory.
   explicit PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
                          ContactRoad road = ContactRoad::automatic, CholeskyMaker make = default_cholesky);
 
-  /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B or
-  /// M than this factor's: one walk over the data, about the cost of a residual.
+  /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B
+  /// or M than this factor's: one walk over the data, about the cost of a residual.
   void check_fits(const VariationalInequality& problem) const;
   /// A new numeric factorisation for another delta; the symbolic analysis is kept. Throws as the constructor does, and
   /// for a problem with other free or contact unknowns.
@@ -57,11 +55,10 @@ class PenaltyFactor {
   HeldFactor* held() { return sparse_ ? &factor_ : nullptr; }
 
   // The dense road's; on the sparse one they throw Error.
-  /// The factor itself, of r on the F free places: of L^-1 P r the last C entries belong to the contact unknowns, in their
-  /// order. Like contact_block of the dense road; throws Error on the other.
+  /// The factor itself: of L^-1 P r the last C entries belong to the contact unknowns, in their order.
   const SparseCholesky& dense() const;
   /// C x C lower triangular trailing block of L.
-  const Eigen::MatrixXd& contact_block() const;
+  const Eigen::MatrixXd& contact_block() const { return dense(), contact_block_; }
 
   int factorisations() const { return factor_.factorisations(); }  ///< numeric ones so far
   double analyse_seconds() const { return factor_.analyse_seconds(); }

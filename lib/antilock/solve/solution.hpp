@@ -41,12 +41,12 @@ struct Solution {
   std::vector<bool> active;  ///< C: in contact, with either bound: is_held(pieces[i])
   double moderate = 0;       ///< largest |u| with the moderate penalty in place of the compliance: the size of u before
                              ///< it locks, where it is known (0: it is not)
-  /// Forward error of u in the maximum norm, relative to the largest |u|; 0: none is claimed, or there was nothing left to
-  /// correct. The sum of what the next corrections would add, with the contraction that was measured, of what is left of
-  /// B u = compliance p, and of the rounding of u to doubles, eps / 2. An estimate: of 24,000 random problems one was off by
-  /// 15 times what it claims, all others by 10 times at most; the worst that is known, by 24 times. It is above the
-  /// tolerance where u has locked to less than 2e-6 of `moderate`: such a u is the round-off of its size before. It holds
-  /// for the contact set found, and knows nothing of what Uzawa's steps leave.
+  /// Forward error of u in the maximum norm, relative to the largest |u|; 0: none is claimed, or there was nothing left
+  /// to correct. The sum of what the next corrections would add, with the contraction that was measured, of what is
+  /// left of B u = compliance p, and of the rounding of u to doubles, eps / 2. An estimate: of 24,000 random problems
+  /// one was off by 15 times what it claims, all others by 10 times at most; the worst that is known, by 24 times. It
+  /// is above the tolerance where u has locked to less than 2e-6 of `moderate`: such a u is the round-off of its size
+  /// before. It holds for the contact set found, and knows nothing of what Uzawa's steps leave.
   double error = 0;
   Kkt kkt;
   Counters counters;

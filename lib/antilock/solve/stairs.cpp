@@ -23,18 +23,8 @@ double Stairs::above(int i) const { return upper.size() > 0 ? upper(i) : infinit
 double Stairs::most(int i) const { return bears.size() > 0 ? bears(i) : infinity; }
 
 double Stairs::given(int i, Piece piece) const {
-  switch (piece) {
-    case Piece::below:
-      return most(i) - so_far(i);
-    case Piece::at_lower:
-      return lower(i);
-    case Piece::at_upper:
-      return upper(i);
-    case Piece::above:
-      return -most(i) - so_far(i);
-    default:
-      return -so_far(i);
-  }
+  if (is_held(piece)) return piece == Piece::at_lower ? lower(i) : upper(i);
+  return whole_force(i, piece, 0) - so_far(i);
 }
 
 double Stairs::whole_force(int i, Piece piece, double found) const {

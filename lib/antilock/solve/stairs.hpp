@@ -14,8 +14,8 @@ namespace antilock {
 ///     at_upper   v = upper, -bears <= lambda <= 0
 ///     above      v >= upper, lambda = -bears        the bound from above gives way
 ///
-/// Along the stair, from below to above, v rises and lambda falls. On every second piece v is given and lambda is found;
-/// on the others it is the other way round.
+/// Along the stair, from below to above, v rises and lambda falls. On every second piece v is given and lambda is
+/// found; on the others it is the other way round.
 enum class Piece : signed char { below = -2, at_lower = -1, between = 0, at_upper = 1, above = 2 };
 using Pieces = std::vector<Piece>;
 
@@ -27,7 +27,6 @@ struct Stairs {
   Eigen::VectorXd lower;       ///< C; -infinity: none
   Eigen::VectorXd upper = {};  ///< C, or empty: none; +infinity: none here
   Eigen::VectorXd bears = {};  ///< C, or empty: the most that a bound bears; +infinity: anything
-
   Eigen::VectorXd force = {};  ///< C, or empty: the lambda so far, from which the given and found ones count
 
   struct Interval {

@@ -11,7 +11,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
-#include "antilock/solve/detail/dense_contact.hpp"
+#include "antilock/solve/detail/contact_systems.hpp"
 #include "antilock/solve/detail/iterated_penalty.hpp"
 #include "antilock/solve/detail/tuned.hpp"
 

@@ -20,9 +20,9 @@ struct UzawaOptions {
   double tolerance = 1e-10;  ///< on the step in the gap, |lambda - max(0, lambda - rho gap)| / rho, relative to max |u|
   int max_steps = 1'000'000;                                     ///< reached: NotConverged
   double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock; reached: NotConverged
-  std::optional<double>
-      step;  ///< rho; empty: 2 / (largest + smallest eigenvalue of the compliance C), by Lanczos iteration, or
-             ///< the same of C scaled to a unit diagonal, over C_ii, where that is better conditioned
+  /// rho; empty: 2 / (largest + smallest eigenvalue of the compliance C), by Lanczos iteration, or the same of C scaled
+  /// to a unit diagonal, over C_ii, where that is better conditioned.
+  std::optional<double> step;
   std::optional<double> penalty;  ///< delta where compliance is smaller; empty: choose_penalty
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
@@ -32,11 +32,11 @@ struct UzawaOptions {
 
 /// The paper's algorithm: projected gradient on the contact pressure,
 ///     A u = L + lambda,   lambda <- max(0, lambda - rho (u - lower))   on Gamma_C,
-/// and + min(0, lambda - rho (u - upper)) where there is an upper bound, cut to |lambda| <= force_bound; the linear solve
-/// by Cholesky. Condensed on Gamma_C (the compliance is dense there
-/// and small) a step costs a product with a C x C matrix; the stiff part is treated by iterated penalty, as in
-/// active_set. history holds one entry per step. Throws NotConverged, with how far it came, instead of ever returning an
-/// unconverged answer. Bounds of other shapes as in active_set.
+/// and + min(0, lambda - rho (u - upper)) where there is an upper bound, cut to |lambda| <= force_bound; the linear
+/// solve by Cholesky. Condensed on Gamma_C (the compliance is dense there and small) a step costs a product with a C x
+/// C matrix; the stiff part is treated by iterated penalty, as in active_set. history holds one entry per step. Throws
+/// NotConverged, with how far it came, instead of ever returning an unconverged answer. Bounds of other shapes as in
+/// active_set.
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options = {});
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options = {});
 

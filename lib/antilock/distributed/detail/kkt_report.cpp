@@ -5,7 +5,6 @@
 
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/solve/detail/iterated_penalty.hpp"
-#include "antilock/solve/detail/kkt_rows.hpp"
 #include "antilock/solve/kkt.hpp"
 
 namespace antilock::distributed {

@@ -1,24 +1,25 @@
 #pragma once
-#include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "antilock/core/matrix.hpp"
 
 namespace antilock {
 
-/// Sparse Cholesky factor L L' = P K P' of a symmetric positive definite K (F x F), of which the upper triangle is read.
+/// Sparse Cholesky factor L L' = P K P' of a symmetric positive definite K (F x F), of which the upper triangle is
+/// read.
 class SparseCholesky {
  public:
   virtual ~SparseCholesky() = default;
 
   /// Orders and analyses the pattern of K. `last` > 0: the last rows of K stay the last ones, in their order, and the
   /// factor's own ordering is for the rest. Throws Error out of memory.
-  virtual void analyse(SparseMatrix& k, int last) = 0;
+  virtual void analyse(const SparseMatrix& k, int last) = 0;
 
   /// A numeric factorisation of a matrix of the analysed pattern. Returns the row of K whose pivot is not positive or
   /// nothing but round-off (tuned::round_off); empty: K is positive definite. Throws Error out of memory.
-  virtual std::optional<int> factorise(SparseMatrix& k) = 0;
+  virtual std::optional<int> factorise(const SparseMatrix& k) = 0;
 
   /// The smallest pivot: to about a factor of F the smallest eigenvalue of K, for next to nothing. Infinite of no rows.
   virtual double smallest_pivot() const = 0;
@@ -31,9 +32,41 @@ class SparseCholesky {
 /// Who makes a factor.
 using CholeskyMaker = std::unique_ptr<SparseCholesky> (*)();
 
-/// CHOLMOD's, supernodal on a BLAS: the fastest that there is. Where rows are to stay last, CAMD orders the rest (a minimum
-/// degree under that constraint, as good as AMD without it); else CHOLMOD chooses between AMD and METIS. In a browser,
-/// which has neither CHOLMOD nor a BLAS, this is Eigen's (tutorials/book/wasm/host), which answers alike, to round-off.
+/// CHOLMOD's, supernodal on a BLAS: the fastest that there is. Where rows are to stay last, CAMD orders the rest (a
+/// minimum degree under that constraint, as good as AMD without it); else CHOLMOD chooses between AMD and METIS. In a
+/// browser, which has neither CHOLMOD nor a BLAS, this is Eigen's (tutorials/book/wasm/host), which answers alike, to
+/// round-off.
 std::unique_ptr<SparseCholesky> default_cholesky();
+
+/// A symmetric positive definite K (F x F) of which some unknowns may be held: the factor is that of the others, the
+/// rows and columns of the held ones are left with their diagonal alone. One analysis serves every set, so that another
+/// set costs one numeric factorisation.
+class HeldFactor {
+ public:
+  explicit HeldFactor(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
+  /// Takes the upper triangle of K and factors it with nothing held; a later one must have the same pattern, and `last`
+  /// is of the first alone. Returns the row of a lost pivot. All as SparseCholesky.
+  std::optional<int> factorise(SparseMatrix&& k, int last = 0);
+  /// Throws Error where the rest of K is not positive definite.
+  void hold(const std::vector<char>& held);
+
+  /// x = K^-1 r on the unknowns that are not held, 0 on the held ones.
+  Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
+  Eigen::VectorXd times(const Eigen::VectorXd& x) const;           ///< K x, the whole K
+  Eigen::VectorXd absolute_times(const Eigen::VectorXd& x) const;  ///< |K| x
+  const SparseMatrix& upper() const { return k_; }
+  const SparseCholesky& cholesky() const { return *cholesky_; }
+
+  int factorisations() const { return factorisations_; }       ///< so far
+  double analyse_seconds() const { return analyse_seconds_; }  ///< of the one analysis
+  double factor_seconds() const { return factor_seconds_; }    ///< of the last `factorise`
+
+ private:
+  SparseMatrix k_;
+  std::vector<char> held_;
+  int factorisations_ = 0;
+  double analyse_seconds_ = 0, factor_seconds_ = 0;
+  std::unique_ptr<SparseCholesky> cholesky_;
+};
 
 }  // namespace antilock

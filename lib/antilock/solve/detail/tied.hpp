@@ -10,8 +10,8 @@ namespace antilock {
 ///
 ///     B gains the row (c, -1),   lower <= w <= upper,   A1 and the load are 0 at w
 ///
-/// Rows are scaled by a power of two, their largest entry to 1 or more and below 2: the units of a row do not matter.
-/// M of such a row is what K gains, M (c, -1)' (c, -1): tuned::tie times the stiffness 1 / sum (c_j^2 / K_jj) that c . u
+/// Rows are scaled by a power of two, their largest entry to 1 or more and below 2: the units of a row do not matter. M
+/// of such a row is what K gains, M (c, -1)' (c, -1): tuned::tie times the stiffness 1 / sum (c_j^2 / K_jj) that c . u
 /// has at least, K with the usual penalty. Throws Error where K is 0 at a free unknown.
 ///
 /// Without combinations it is the problem itself, which must then outlive this.

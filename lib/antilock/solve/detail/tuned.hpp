@@ -4,21 +4,23 @@
 #include "antilock/solve/kkt.hpp"
 
 /// The constants of solve/ that are neither promises (TrustLevels, CorrectionOptions) nor mathematics, and why they are
-/// what they are. Those of the penalty stand in problem/choose_penalty.hpp, those of the two roads in penalty_factor.hpp.
+/// what they are. Those of the penalty stand in problem/choose_penalty.hpp, those of the two roads in
+/// penalty_factor.hpp.
 namespace antilock::tuned {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// A sum of n rounded terms loses about sqrt(n) eps of them: 64 eps serves rows of 4096 entries. A force is known to so
-/// much of its terms; a pivot below so much of its diagonal entry is nothing but its round-off (sound problems stay above
-/// 1e-12, on meshes and layers of every kind); of a penalty below it, times the stiffness of B' M B beside A1, a factor
-/// keeps no digit of A1.
+/// much of its terms; a pivot below so much of its diagonal entry is nothing but its round-off (sound problems stay
+/// above 1e-12, on meshes and layers of every kind); of a penalty below it, times the stiffness of B' M B beside A1, a
+/// factor keeps no digit of A1.
 constexpr double round_off = 64 * eps;
 
 /// What rounding leaves between two rows that are equal. An entry of B, a gradient on a triangle, is a difference of
-/// coordinates (1 rounding) times the reciprocal of an area (two products of differences and their difference: 4, and 1):
-/// 7 with the last product, each of eps / 2. Two such rows: 7 eps, and the rounding of u to doubles makes it 8. So near
-/// a row of B is closed, and two rows are one. Sums and products with u add nothing: they are exact (residual.hpp).
+/// coordinates (1 rounding) times the reciprocal of an area (two products of differences and their difference: 4, and
+/// 1): 7 with the last product, each of eps / 2. Two such rows: 7 eps, and the rounding of u to doubles makes it 8. So
+/// near a row of B is closed, and two rows are one. Sums and products with u add nothing: they are exact
+/// (residual.hpp).
 constexpr double equal = 8 * eps;
 
 /// Rows of B whose distance from dependent is looked at, among ten times as many unknowns at most: a dense QR of 200 x
@@ -36,8 +38,8 @@ constexpr int corrections_per_penalty = 15;
 /// (delta + sigma): 0.9 becomes 0.12.
 constexpr double next_penalty = 64;
 
-/// A rate of convergence outside 1 - slowest to slowest is not believed: what is slower makes the error of u no smaller by
-/// a factor e in all corrections that are made.
+/// A rate of convergence outside 1 - slowest to slowest is not believed: what is slower makes the error of u no smaller
+/// by a factor e in all corrections that are made.
 constexpr double slowest = 1 - 1.0 / most_corrections;
 
 /// A row that ties a bounded combination c . u to its own unknown w is so much stiffer than c . u: a correction leaves

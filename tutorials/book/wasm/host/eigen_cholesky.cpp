@@ -22,7 +22,7 @@ struct Factor : Eigen::SimplicialLLT<SparseMatrix, Eigen::Upper, Eigen::NaturalO
 
 class EigenCholesky final : public SparseCholesky {
  public:
-  void analyse(SparseMatrix& k, int last) override {
+  void analyse(const SparseMatrix& k, int last) override {
     const Eigen::Index first = k.cols() - last;
     const SparseMatrix inside = SparseMatrix(k.topLeftCorner(first, first)).selfadjointView<Eigen::Upper>();
     Permutation by_degree;
@@ -34,7 +34,7 @@ class EigenCholesky final : public SparseCholesky {
     factor_.analyzePattern(permuted(k));
   }
 
-  std::optional<int> factorise(SparseMatrix& k) override {
+  std::optional<int> factorise(const SparseMatrix& k) override {
     const SparseMatrix p = permuted(k);
     factor_.clear();
     factor_.factorize(p);

@@ -1,4 +1,4 @@
-#include "antilock/solve/detail/held_factor.hpp"
+#include "antilock/solve/detail/sparse_cholesky.hpp"
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
