@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <limits>
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
@@ -21,27 +21,23 @@ namespace {
 /// Steps from one look at the duality gap, the hook and the clock to the next: a step costs far less than a look.
 constexpr int look = 32;
 
-/// v moved to the nearest value that the bounds allow; one that gives way allows any.
-Eigen::VectorXd nearest(const Stairs& stairs, Eigen::VectorXd v) {
-  for (int i = 0; i < stairs.count(); ++i)
-    if (std::isinf(stairs.most(i))) v(i) = std::clamp(v(i), stairs.lower(i), stairs.above(i));
-  return v;
-}
-
 /// An upper bound of J(v+) - J(u_h) on Gamma_C, v+ = v moved to the nearest bound where it is beyond, for v = S^-1 (q +
 /// lambda) and any lambda of the right signs: the energy of v+ less the dual energy of lambda, -(q + lambda) S^-1 (q +
 /// lambda) / 2 + lambda bound (the lower one where lambda > 0, the upper one where lambda < 0), which simplifies to
 ///     lambda (v+ - bound) + d S d / 2,   d = v+ - v what v sinks in.
 /// A bound that gives way moves nothing and adds the work that it takes up, what it bears times the distance from it.
-double duality_gap(const DenseContact& system, const Stairs& stairs, const ContactAnswer& answer) {
-  const Eigen::VectorXd inside = nearest(stairs, answer.v), d = inside - answer.v;
+double duality_gap(const Eigen::MatrixXd& s, const Stairs& stairs, const ContactAnswer& answer) {
+  Eigen::VectorXd inside = answer.v;
   double work = 0;
   for (int i = 0; i < stairs.count(); ++i) {
-    const double lambda = answer.lambda(i), sunk = std::max(stairs.lower(i) - inside(i), inside(i) - stairs.above(i));
-    if (lambda != 0) work += lambda * (inside(i) - (lambda > 0 ? stairs.lower(i) : stairs.above(i)));
+    const double low = stairs.lower(i), high = stairs.above(i), lambda = answer.lambda(i);
+    if (std::isinf(stairs.most(i))) inside(i) = std::clamp(inside(i), low, high);
+    const double sunk = std::max(low - inside(i), inside(i) - high);
+    if (lambda != 0) work += lambda * (inside(i) - (lambda > 0 ? low : high));
     if (sunk > 0) work += stairs.most(i) * sunk;
   }
-  return work + 0.5 * d.dot(system.s() * d);
+  const Eigen::VectorXd d = inside - answer.v;
+  return work + 0.5 * d.dot(s * d);
 }
 
 /// Uzawa on Gamma_C alone. The compliance C = S^-1 maps contact forces to displacements.
@@ -52,28 +48,20 @@ class CondensedUzawa {
   ContactAnswer operator()(const ContactQuestion& asked) {
     const auto& given = dynamic_cast<const DenseContact&>(asked.system);
     const Stairs stairs{asked.stairs.lower, asked.stairs.upper, asked.stairs.bears};
-    Eigen::VectorXd all = given.q();  // the steps are taken on whole forces
-    if (asked.stairs.force.size() > 0) all -= asked.stairs.force;
-    return stepped(DenseContact(given.s(), all), stairs, asked.before, asked.u_scale);
-  }
-
-  std::vector<double> history;
-
- private:
-  ContactAnswer stepped(const DenseContact& system, const Stairs& stairs, const ContactAnswer& before, double u_scale) {
-    if (factor_.delta() != delta_) condense(system.s());  // the corrections may have taken another penalty
-    const Eigen::VectorXd& q = system.q();
+    if (factor_.delta() != delta_) condense(given.s());  // the corrections may have taken another penalty
+    Eigen::VectorXd q = given.q();                       // the steps are taken on whole forces
+    if (asked.stairs.force.size() > 0) q -= asked.stairs.force;
     ContactAnswer answer;
     // the step is taken on f = q + lambda >= q: where the obstacle bears a great load, little is left of the two
     Eigen::VectorXd f = q;
-    if (before.lambda.size() > 0) f += before.lambda;
+    if (asked.before.lambda.size() > 0) f += asked.before.lambda;
     while (true) {
       answer.v = compliance_ * f;
       answer.lambda = f - q;
-      if (options_.enough && answer.steps % look == 0 && duality_gap(system, stairs, answer) <= options_.enough->energy)
-        break;
+      const bool looks = answer.steps % look == 0;
+      if (options_.enough && looks && duality_gap(given.s(), stairs, answer) <= options_.enough->energy) break;
       const Eigen::VectorXd next = projected_step(stairs, q, f, answer.v);
-      const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), u_scale);  // bounds far from v do not count
+      const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), asked.u_scale);  // bounds far from v do not count
       const double change = scale > 0 ? (next - f).cwiseAbs().cwiseQuotient(rho_).maxCoeff() / scale : 0;
       f = next;
       ++answer.steps;
@@ -95,6 +83,9 @@ class CondensedUzawa {
     return answer;
   }
 
+  std::vector<double> history;
+
+ private:
   /// The piece that (v, lambda) stands on: a bound that pushes holds, but not where it bears its most.
   Piece take_piece(const Stairs& stairs, int i, double q, double f, ContactAnswer& answer) const {
     const double most = stairs.most(i);
@@ -129,27 +120,24 @@ class CondensedUzawa {
       return;
     }
     // One step for all, or one per unknown, rho_i = rho / C_ii: where stiffnesses lie decades apart, one step is too
-    // small for most.
-    const Eigen::VectorXd one = Eigen::VectorXd::Ones(count), each = compliance_.diagonal().cwiseInverse();
-    const Step common = best_step(s, one), own = best_step(s, each);
-    rho_ = own.condition < common.condition ? Eigen::VectorXd(own.length * each) : common.length * one;
+    // small for most. The one that contracts fastest is 2 / (largest + smallest eigenvalue of W C).
+    double best = std::numeric_limits<double>::infinity();
+    for (const Eigen::VectorXd& weight :
+         {Eigen::VectorXd(compliance_.diagonal().cwiseInverse()), Eigen::VectorXd(Eigen::VectorXd::Ones(count))}) {
+      const Eigen::VectorXd root = weight.cwiseSqrt();
+      const double most = largest(compliance_, root), least = 1 / largest(s, root.cwiseInverse());
+      if (most / least > best) continue;
+      best = most / least;
+      rho_ = 2 / (most + least) * weight;
+    }
   }
 
-  /// The step rho weight_i that contracts fastest, 2 / (largest + smallest eigenvalue of W C), and their ratio.
-  struct Step {
-    double length, condition;
-  };
-  Step best_step(const Eigen::MatrixXd& s, const Eigen::VectorXd& weight) const {
-    const Eigen::VectorXd root = weight.cwiseSqrt();
-    const auto largest = [&](const Eigen::MatrixXd& matrix, const Eigen::VectorXd& side) {
-      return largest_eigenvalue(
-          [&](const Eigen::VectorXd& x) {
-            return Eigen::VectorXd(side.cwiseProduct(matrix * Eigen::VectorXd(side.cwiseProduct(x))));
-          },
-          s.rows());
+  /// The largest eigenvalue of D `matrix` D, D = diag(side).
+  static double largest(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& side) {
+    const auto scaled = [&](const Eigen::VectorXd& x) {
+      return Eigen::VectorXd(side.cwiseProduct(matrix * Eigen::VectorXd(side.cwiseProduct(x))));
     };
-    const double most = largest(compliance_, root), least = 1 / largest(s, root.cwiseInverse());
-    return {2 / (most + least), most / least};
+    return largest_eigenvalue(scaled, matrix.rows());
   }
 
   const PenaltyFactor& factor_;
