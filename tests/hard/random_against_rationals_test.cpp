@@ -83,16 +83,6 @@ VariationalInequality mirrored(VariationalInequality problem) {
   return problem;
 }
 
-TEST(Mirror, UpperBoundsAreJudgedLikeLowerOnes) {
-  for (unsigned seed = 0; seed < 400; ++seed) {
-    const VariationalInequality problem = random_problem(seed);
-    test::ExactAnswer exact = test::exact_answer(problem);
-    const Judgement of_lower = judge(problem, exact);
-    exact.u *= -1;
-    EXPECT_EQ(judge(mirrored(problem), exact).outcome, of_lower.outcome) << "seed " << seed << of_lower.reason;
-  }
-}
-
 TEST(NothingInSilence, AGreatLoadOnAnUnknownInContactHidesNothing) {
   Eigen::Matrix2d a1;
   a1 << 14, 4, 4, 6;

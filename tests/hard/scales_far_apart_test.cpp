@@ -242,12 +242,4 @@ TEST(ScalesFarApart, ALockedUStopsAtItsRoundOff) {
       }
 }
 
-TEST(ScalesFarApart, AFactorOfAnotherProblemIsRefused) {
-  const TriangleMesh mesh = structured_mesh(4), finer = structured_mesh(5);
-  PenaltyFactor factor(stiff_problem(Space(finer, p1()), 0.1));
-  const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 0.1);
-  expect_refused([&] { active_set(problem, factor); }, "the factor is of");
-  expect_refused([&] { uzawa(problem, factor); }, "the factor is of");
-}
-
 }  // namespace antilock::hard::scales_far_apart_test

@@ -195,8 +195,10 @@ Box obstacle(int n) {
   return r;
 }
 
-TEST(ContactProblem, NestedStartMakesTheStepsIndependentOfH) {
-  for (const int n : {15, 31, 63, 64, 127, 255, 256}) {
+TEST(ContactProblem, NestedStartTakesEverySizeAndMakesTheStepsIndependentOfH) {
+  std::vector<int> sizes{63, 64, 127, 255, 256};
+  for (int n = 1; n < 40; ++n) sizes.push_back(n);
+  for (const int n : sizes) {
     const Box r = obstacle(n);
     const ContactAnswer cold = r.solve(Pieces(n, Piece::between), 1000);
     const ContactAnswer nested = r.solve(r.nested());
@@ -205,15 +207,6 @@ TEST(ContactProblem, NestedStartMakesTheStepsIndependentOfH) {
     if (n > 100) {
       EXPECT_GT(cold.steps, 3 * nested.steps) << n;
     }
-  }
-}
-
-TEST(ContactProblem, NestedStartTakesEverySize) {
-  for (int n = 1; n < 40; ++n) {
-    const Box r = obstacle(n);
-    const Pieces start = r.nested();
-    ASSERT_EQ(static_cast<int>(start.size()), n);
-    EXPECT_EQ(r.solve(start).pieces, r.solve(Pieces(n, Piece::between)).pieces);
   }
 }
 
@@ -477,26 +470,6 @@ TEST(ActiveSet, SlowCorrectionsDoNotStopEarly) {
   }
 }
 
-TEST(PenaltyFactor, ContactBlockIsTheFactorOfTheSchurComplement) {
-  for (const SpaceOn& space : two_square_spaces(6, {&p1(), &crouzeix_raviart()})) {
-    const VariationalInequality problem = stiff_problem(space, 0.1);
-    const PenaltyFactor factor(problem, 0.01);
-    const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + test::gram(problem.b, problem.m) / 0.01;
-    std::vector<int> interior;
-    for (int i = 0; i < problem.size(); ++i)
-      if (!std::count(problem.fixed.begin(), problem.fixed.end(), i) &&
-          !std::count(problem.contact.begin(), problem.contact.end(), i))
-        interior.push_back(i);
-    const auto& c = problem.contact;
-    const Eigen::MatrixXd schur =
-        k(c, c) - test::product(k(c, interior), Cholesky(k(interior, interior)).solve(Eigen::MatrixXd(k(interior, c))));
-    const Eigen::MatrixXd& l = factor.contact_block();
-    EXPECT_LT((test::product(l, l.transpose()) - schur).cwiseAbs().maxCoeff(), 1e-11 * schur.cwiseAbs().maxCoeff())
-        << space.name;
-    EXPECT_EQ(Eigen::MatrixXd(l.triangularView<Eigen::StrictlyUpper>()).cwiseAbs().maxCoeff(), 0) << space.name;
-  }
-}
-
 TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
   const SpaceOn space(unstructured_mesh(6), crouzeix_raviart());
   const VariationalInequality problem = stiff_problem(space, 0.1);
@@ -638,36 +611,6 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
   }
 }
 
-TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
-  const SpaceOn space(structured_mesh(6), p1());
-  const VariationalInequality problem = assemble(Scene({paper_load}, StiffLayer{0.1}), space);
-  const Solution right = active_set(problem);
-  Solution wrong = right;
-  wrong.u *= 1.001;
-  EXPECT_THROW(certify(problem, wrong), NotConverged);
-  wrong = right;
-  wrong.p *= 1.001;
-  EXPECT_THROW(certify(problem, wrong), NotConverged);
-  wrong = right;
-  const int corner = 0;  // (0, -1): its neighbours' equations barely see it, only the clamp itself
-  ASSERT_EQ(problem.fixed[0], corner);
-  wrong.u(corner) = 1e-9;
-  EXPECT_THROW(certify(problem, wrong), NotConverged) << "a clamp that slipped";
-  // the report is linear in what is wrong: above the lower level there is a warning
-  wrong = right;
-  wrong.p *= 1.001;
-  const double unit = worst_violation(kkt_report(problem, wrong)) / 1e-3;
-  for (const double reached : {3e-10, 3e-9}) {
-    wrong = right;
-    wrong.p *= 1 + reached / unit;
-    certify(problem, wrong);
-    EXPECT_EQ(wrong.warning.empty(), reached < TrustLevels{}.trusted) << wrong.warning;
-  }
-  VariationalInequality none = problem;
-  none.load.setZero();
-  EXPECT_EQ(worst_violation(active_set(none).kkt), 0) << "0 of nothing is 0";
-}
-
 // ==== Uzawa, the paper's algorithm: slow, but to the same answer; or no answer.
 
 UnilateralContact gap() {
@@ -684,6 +627,7 @@ TEST(Uzawa, AgreesWithTheActiveSet) {
       EXPECT_LT(relative_difference(slow.u, fast.u), 1e-7) << space.name << epsilon;
       EXPECT_EQ(slow.active, fast.active) << space.name << epsilon;
       EXPECT_GT(slow.counters.contact, 3 * fast.counters.contact);
+      EXPECT_EQ(std::ssize(slow.history), slow.counters.contact);
     }
   }
 }
@@ -758,36 +702,6 @@ TEST(Uzawa, StopsWhereItIsAccurateEnough) {
   };
   stop("P1", structured_mesh(cells), structured_mesh(cells / 2));
   stop("CR", unstructured_mesh(cells), unstructured_mesh(cells / 2));
-}
-
-TEST(Uzawa, TheDualityGapBoundsWhatIsLeft) {
-  const TriangleMesh mesh = structured_mesh(16);
-  for (const UnilateralContact& obstacle : {UnilateralContact{}, gap()}) {
-    // epsilon^2 > penalty: one matrix, no corrections, so that |u - u_h|_a^2 / 2 is below the gap to the last digit
-    const VariationalInequality problem = stiff_problem(Space(mesh, crouzeix_raviart()), 1e-2, obstacle);
-    const Eigen::VectorXd exact = active_set(problem).u;
-    UzawaOptions options;
-    int steps = 0;
-    for (const double energy : {1e-4, 1e-6, 1e-8, 1e-10}) {
-      options.enough = {energy, 1e-3};
-      const Solution s = uzawa(problem, options);
-      const Eigen::VectorXd e = s.u - exact, strain = problem.b * e;
-      const double left =
-          0.5 * (e.dot(problem.a1 * e) + strain.dot(problem.m.cwiseProduct(strain)) / problem.compliance);
-      EXPECT_LE(left, energy);
-      EXPECT_GE(s.counters.contact, steps) << "more asked, more steps";
-      steps = s.counters.contact;
-    }
-    EXPECT_GT(steps, 32) << "the gap is asked for once per 32 steps";
-  }
-}
-
-TEST(Uzawa, KeepsOneEntryOfHistoryAStep) {
-  const TriangleMesh mesh = structured_mesh(8);
-  const Solution s = uzawa(stiff_problem(Space(mesh, p1()), 0.1));
-  ASSERT_EQ(static_cast<int>(s.history.size()), s.counters.contact);
-  EXPECT_GT(s.history.front(), 1e-3);
-  EXPECT_LE(s.history.back(), 1e-10);
 }
 
 TEST(Uzawa, TheStepLengthChangesTheCostNotTheAnswer) {
@@ -1173,30 +1087,6 @@ TEST(TwoBodies, OfEqualShapeMeetHalfWay) {
   }
 }
 
-TEST(TwoBodies, PushEachOtherWithEqualForces) {
-  const SpaceOn space(structured_mesh(4), p1());
-  for (const double compliance : {1.0, 1e-6, 0.0})
-    for (const double gap : {0.0, 1e-3}) {
-      const VariationalInequality one = stiff_problem(space, std::sqrt(compliance));
-      VariationalInequality other = one;  // softer, and loaded by nothing
-      other.a1 *= 0.5;
-      other.load.setZero();
-      const VariationalInequality problem = two_bodies(one, other, gap);
-      const Solution s = active_set(problem);
-      const test::BruteForce truth = test::brute_force(problem);
-      EXPECT_LT(relative_difference(s.u, truth.u), 1e-9) << compliance << ", gap " << gap;
-      EXPECT_LT(relative_difference(s.lambda, truth.lambda), 1e-8) << compliance << ", gap " << gap;
-      EXPECT_GT(s.lambda.maxCoeff(), 1e-4);
-      // what the equilibrium of each body alone says of the force on it
-      const Eigen::VectorXd force = -exact_residual(problem, s.u, s.p, Eigen::VectorXd()).r1;
-      for (std::size_t k = 0; k < one.contact.size(); ++k) {
-        const double on_one = force(one.contact[k]), on_other = force(one.size() + other.contact[k]);
-        EXPECT_NEAR(on_one, -on_other, 1e-9);
-        EXPECT_NEAR(on_one, s.lambda(static_cast<Eigen::Index>(k)), 1e-9);
-      }
-    }
-}
-
 TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
   // a layer with its first contact unknown between two bounds, the second from above, the third in a combination with the
   // unknown over it and a clamped one, whose value is not zero
@@ -1362,33 +1252,6 @@ TEST(Combinations, TheUnitsOfARowAndOfForcesDoNotMatter) {
 }
 
 // ---- What cannot be met, and what is refused.
-
-TEST(Bounds, ThatNoUCanMeetAreRefusedUnderAnyLoad) {
-  // compliance 0 and B: u_0 - u_1 = 0; the bounds ask for u_0 - u_1 >= 0.05, in three shapes
-  for (const double load : {1.0, 1e6, 1e12, 1e18})
-    for (const int shape : {0, 1, 2}) {
-      VariationalInequality problem = springs(Eigen::MatrixXd(0, 3), load * Eigen::Vector3d(1, 2, -3));
-      problem.b = rows_of(Eigen::RowVector3d(1, -1, 0));
-      problem.m = Eigen::VectorXd::Ones(1);
-      problem.compliance = 0;
-      if (shape == 0) {
-        problem.combinations = rows_of(Eigen::RowVector3d(1, -1, 0));
-        problem.lower = Eigen::VectorXd::Constant(1, 0.05);
-      } else {
-        problem.combinations.resize(0, 0);
-        problem.contact = {0, 1};
-        problem.lower = Eigen::Vector2d(0.05, shape == 1 ? -1 : -infinity);
-        problem.upper = Eigen::Vector2d(infinity, 0);
-      }
-      EXPECT_THROW(active_set(problem), NotConverged) << load << ", shape " << shape;
-      problem.upper = Eigen::VectorXd::Constant(problem.bound_count(), infinity);
-      problem.lower(0) = -0.05;
-      if (shape > 0) problem.upper(1) = 0;
-      if (load < 1e12) {
-        EXPECT_NO_THROW(active_set(problem)) << load << ", shape " << shape;
-      }
-    }
-}
 
 TEST(Bounds, AGreatUElsewhereHidesNoUpperBound) {
   // where a bound or B may be impossible to meet every violation counts: u_1 stops at 0.1 though u_0 is 1e14
@@ -1574,6 +1437,13 @@ TEST(ManyBounds, BothRoadsAgreeOnBoundsOfOtherShapes) {
   EXPECT_LE(agreement.other, 10);
 }
 
+TEST(ManyBounds, BothRoadsAgreeOnBoundsThatGiveWay) {
+  const Agreement agreement = compare(hard::random_friction, 600);
+  EXPECT_GT(agreement.answered, 400);
+  EXPECT_LE(agreement.furthest, 1e-10);
+  EXPECT_LE(agreement.other, 4);
+}
+
 /// The layer problem on 8 x 8 squares with every free unknown of the layer, y <= 0, bounded from below.
 VariationalInequality layer_under_bounds(const TriangleMesh& mesh, const std::string& element_name, double epsilon) {
   const Space space(mesh, element(element_name));
@@ -1720,20 +1590,6 @@ TEST(ManyBounds, AHeldFactorCountsTheSetsThatItFactors) {
   EXPECT_EQ(k.factorisations(), 2);
 }
 
-TEST(ManyBounds, EveryStartEndsAtTheSameAnswer) {
-  const VariationalInequality problem = membrane_over_obstacle(28);
-  PenaltyFactor factor(problem);
-  const Solution nested = active_set(problem, factor);
-  std::mt19937 engine(7);
-  for (int k = 0; k < 6; ++k) {
-    ActiveSetOptions options;
-    std::vector<bool> start(problem.contact.size(), k == 1);
-    if (k > 1) std::generate(start.begin(), start.end(), [&] { return engine() % 2 == 0; });
-    options.start = test::held_at_lower(start);
-    EXPECT_LE(apart(nested, active_set(problem, factor, options)), 1e-13) << k;
-  }
-}
-
 TEST(ManyBounds, OneFactorServesASweepOverLoadsBoundsAndCompliances) {
   VariationalInequality problem = layer_under_bounds(structured_mesh(8), "P1", 0.0);
   PenaltyFactor factor(problem, 1e-4, ContactRoad::sparse);
@@ -1793,69 +1649,6 @@ TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
 
 // ==== Bounds that give way: Tresca's friction, and plastic obstacles. Sticks where |lambda| < g, slips where |lambda| = g.
 
-/// Up to six unknowns with a stiff row, contact, friction, plastic obstacles and combinations.
-VariationalInequality random_friction(std::mt19937& engine) {
-  std::normal_distribution<double> normal;
-  const int n = 4 + static_cast<int>(engine() % 3), bounds = 2 + static_cast<int>(engine() % 3);
-  const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, [&](auto, auto) { return normal(engine); });
-  Eigen::MatrixXd a1 = root * root.transpose();
-  a1 = 0.5 * (a1 + a1.transpose().eval()) + 0.1 * Eigen::MatrixXd::Identity(n, n);
-  const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(1, n, [&](auto, auto) { return normal(engine); });
-  VariationalInequality problem = small_problem(a1, Eigen::VectorXd::Zero(n), {}, b);
-  problem.compliance = std::vector{0.0, 1e-20, 1e-3, 1.0}[engine() % 4];
-  problem.load = Eigen::VectorXd::NullaryExpr(n, [&](auto) { return normal(engine); });
-  const int rows = n >= bounds + 2 && engine() % 2 == 0 ? 1 : 0;
-  for (int i = 0; i < bounds; ++i) problem.contact.push_back(i);
-  Eigen::MatrixXd combination = Eigen::MatrixXd::Zero(rows, n);
-  if (rows > 0) combination.row(0).tail(2) << 3 * normal(engine), normal(engine);
-  problem.combinations = combination.sparseView();
-  problem.lower = Eigen::VectorXd::NullaryExpr(bounds + rows, [&](auto) { return -0.2 * std::abs(normal(engine)); });
-  problem.upper = problem.force_bound = Eigen::VectorXd::Constant(bounds + rows, infinity);
-  for (int i = 0; i < bounds + rows; ++i) {
-    if (engine() % 4 == 0) {  // contact, or an equation
-      if (engine() % 2 == 0) problem.upper(i) = problem.lower(i);
-      continue;
-    }
-    if (engine() % 4 == 0) continue;  // contact
-    problem.force_bound(i) = 0.7 * std::abs(normal(engine));
-    if (engine() % 4 == 0) continue;                               // a plastic obstacle
-    problem.upper(i) = problem.lower(i) = engine() % 3 ? 0 : 0.1;  // friction, about 0 or elsewhere
-    if (engine() % 5 == 0) problem.upper(i) += 0.05;               // with play
-  }
-  return problem;
-}
-
-TEST(Friction, IsRightBesideContactInHundredsOfSmallProblems) {
-  std::mt19937 engine(7);
-  int slips = 0, sticks = 0;
-  for (int trial = 0; trial < 400; ++trial) {
-    SCOPED_TRACE(trial);
-    const VariationalInequality problem = random_friction(engine);
-    VariationalInequality limit = problem;  // brute force sums A1 and B' M B / compliance: 1e-20 is 0 to all digits
-    if (problem.compliance == 1e-20) limit.compliance = 0;
-    const test::BruteForce truth = test::brute_force(limit);
-    const double size = truth.u.lpNorm<Eigen::Infinity>();
-    ActiveSetOptions sparse;
-    sparse.road = ContactRoad::sparse;
-    std::vector<Solution> answers{active_set(problem)};
-    if (problem.combinations.rows() == 0) answers.push_back(active_set(problem, sparse));
-    if (trial % 4 == 0) answers.push_back(uzawa(problem));
-    for (const Solution& s : answers) {
-      EXPECT_LT((s.u - truth.u).lpNorm<Eigen::Infinity>(), 1e-7 * size) << s.solver;
-      EXPECT_LT((s.lambda - truth.lambda).lpNorm<Eigen::Infinity>(), 1e-6) << s.solver;
-      EXPECT_LT(worst_violation(s.kkt), 1e-8) << s.solver;
-    }
-    for (Eigen::Index i = 0; i < truth.lambda.size(); ++i) {
-      if (std::isinf(problem.force_bound(i))) continue;
-      const bool slipped = std::abs(truth.lambda(i)) >= problem.force_bound(i) * (1 - 1e-12);
-      ++(slipped ? slips : sticks);
-      EXPECT_EQ(answers[0].active[i], truth.active[i]) << i;
-    }
-  }
-  EXPECT_GT(slips, 200);
-  EXPECT_GT(sticks, 200);
-}
-
 TEST(Friction, ABarSlipsAsFarAsItsPullReaches) {
   std::vector<double> errors;
   for (const int n : {10, 20, 40, 80, 160}) {
@@ -1868,6 +1661,8 @@ TEST(Friction, ABarSlipsAsFarAsItsPullReaches) {
     EXPECT_LE(errors.back(), 1.0 / (8 * n * n)) << n;  // the end of the slip lies within a cell: h^2 / 8
     EXPECT_LT((uzawa(bar).u - s.u).lpNorm<Eigen::Infinity>(), 1e-8);
     EXPECT_NEAR(s.lambda.sum(), -pull, 1e-12);  // the floor bears all
+    for (Eigen::Index i = 0; i < s.lambda.size(); ++i)
+      EXPECT_EQ(s.active[i], s.lambda(i) > -bar.force_bound(i)) << "sticks where it bears less than it can";
     EXPECT_LE(s.counters.contact, 8);
   }
 }
@@ -2016,19 +1811,6 @@ TEST(Friction, TheReportSeesForcesBeyondTheirBoundAndSlipTheWrongWay) {
   wrong = right;
   wrong.lambda(19) *= -1;  // slips with the force, not against it
   EXPECT_GT(kkt_report(bar, wrong).complementarity, 1e-2);
-}
-
-TEST(Friction, ItsUzawaStopsWhereTheGapProvesEnough) {
-  const VariationalInequality bar = bar_on_a_floor(40, 0.53);
-  const Solution exact = active_set(bar);
-  for (const double enough : {1e-4, 1e-6, 1e-8}) {
-    UzawaOptions options;
-    options.enough = {enough, 1e-2};
-    const Solution s = uzawa(bar, options);
-    const double excess = energy(bar, s) - energy(bar, exact);
-    EXPECT_GE(excess, -1e-14);
-    EXPECT_LE(excess, enough);
-  }
 }
 
 TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
