@@ -96,8 +96,10 @@ TEST(WriteFreefemMesh, HoldsTheCountsTheLabelsAndTheSameNumbering) {
   for (int t = 0; t < mesh.triangle_count(); ++t) EXPECT_EQ(triangles(t, 3), static_cast<int>(mesh.region[t]));
   for (const auto& [label, count] : {std::pair{3, 4}, {4, 20}, {5, 4}})
     EXPECT_EQ((edges.col(2).array() == label).count(), count) << label;
-  for (const auto& edge : edges.rowwise())
-    if (edge(2) == 5) EXPECT_LT(mesh.vertices(edge(0) - 1, 0), mesh.vertices(edge(1) - 1, 0)) << "the domain is left";
+  for (const auto& edge : edges.rowwise()) {
+    if (edge(2) != 5) continue;
+    EXPECT_LT(mesh.vertices(edge(0) - 1, 0), mesh.vertices(edge(1) - 1, 0)) << "the domain is left";
+  }
 }
 
 // ==== Tables.
