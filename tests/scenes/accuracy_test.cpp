@@ -158,6 +158,7 @@ TEST(Accuracy, OfACurveReturnsToTheGeometryBesideTheMesh) {
 
 TEST(Accuracy, OutOfReachIsStatusThreeAndNoFiles) {
   expect_no_answer(SceneRun(scene("accuracy = 0.001\nmost_unknowns = 20000")), "can be reached", 3);
+  expect_no_answer(SceneRun(scene("accuracy = 0.1\nmost_unknowns = 50")), "cannot hold the first mesh");
 }
 
 }  // namespace antilock::test::accuracy_test

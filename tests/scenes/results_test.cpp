@@ -379,6 +379,9 @@ TEST(Results, AreThoseThatAreAskedForAndThoseOfAnEarlierRunGo) {
   EXPECT_EQ(files(whole.results), (Keys{"summary.json", "solution.csv", "contact.csv", "mesh.msh", "other_0.vtu"}));
   EXPECT_EQ(again("summary").status, 0);
   EXPECT_EQ(files(whole.results), (Keys{"summary.json", "other_0.vtu"}));
+  for (const std::string name : {"solution.pvtu", "solution_0.vtu"}) std::ofstream(whole.results / name) << "earlier";
+  EXPECT_EQ(again("vtu").status, 0);
+  EXPECT_EQ(files(whole.results), (Keys{"summary.json", "solution.vtu", "other_0.vtu"}));
 }
 
 TEST(Results, OfAnEarlierSceneAreReplacedAndTheTableOfAnAbsentContactGoes) {
@@ -430,6 +433,7 @@ TEST(Unreachable, ToleranceIsSaidInOneLineAndNothingIsWritten) {
                                         {layer("1e-3") + contact, "solver = \"uzawa\"\ntolerance = 1e-16\n"}}) {
     const SceneRun run(scene(effects, structured(8), method));
     expect_no_answer(run, run.scene_path + ": solve: ", 3);
+    EXPECT_TRUE(run.outcome.err.starts_with(run.scene_path + ": solve: "));
   }
 }
 

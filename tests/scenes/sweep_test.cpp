@@ -98,8 +98,11 @@ TEST(Sweep, SharesOneFactorisationBelowThePenalty) {
   sweep.set_epsilon(0.1);
   EXPECT_EQ(sweep.solve().counters.factorisations, 1);
   EXPECT_EQ(sweep.total().factorisations, 2);
-  sweep.set_load([](double x, double y) { return 0.5 * paper_load(x, y); });
   EXPECT_EQ(asked, assembled) << "the forms stay as they are";
+  const double* forms = sweep.problem().a1.valuePtr();
+  sweep.set_load([](double x, double y) { return 0.5 * paper_load(x, y); });
+  sweep.solve();
+  EXPECT_EQ(sweep.problem().a1.valuePtr(), forms);
 }
 
 TEST(Sweep, LoadsShareOneFactorisation) {

@@ -91,6 +91,17 @@ TEST(EnergyBracket, HoldsTheExactEnergyAndBoundsTheErrorOfP1) {
   }
 }
 
+TEST(EnergyBracket, HoldsItWhereTheLoadIsFarFromConstantOnTriangles) {
+  const SineLoad load{{{5, {4.0, -9.0}}, {1, {3.0}}}};  // half a wave on less than two triangles
+  const double exact = Truth(load, 1e-2, true, 14).energy();
+  for (const int cells : {2, 4, 8})
+    for (const auto& [name, mesh] : two_square_meshes(cells)) {
+      const EnergyBracket found = energy_bracket(Scene({load}, StiffLayer{1e-2}, UnilateralContact{}), mesh);
+      EXPECT_LE(found.lower, exact) << name << cells;
+      EXPECT_GE(found.upper, exact) << name << cells;
+    }
+}
+
 TEST(EnergyBracket, IsNeededTheEnergyOfCrouzeixRaviartAloneIsNoBound) {
   // -lap u = 1 on the unit square, u = 0 around: int u = 0.0351442537 (torsion of a square bar), J = -int u / 2
   constexpr double exact = -0.5 * 0.0351442537;

@@ -611,6 +611,36 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
   }
 }
 
+TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
+  const SpaceOn space(structured_mesh(6), p1());
+  const VariationalInequality problem = assemble(Scene({paper_load}, StiffLayer{0.1}), space);
+  const Solution right = active_set(problem);
+  Solution wrong = right;
+  wrong.u *= 1.001;
+  EXPECT_THROW(certify(problem, wrong), NotConverged);
+  wrong = right;
+  wrong.p *= 1.001;
+  EXPECT_THROW(certify(problem, wrong), NotConverged);
+  wrong = right;
+  const int corner = 0;  // (0, -1): its neighbours' equations barely see it, only the clamp itself
+  ASSERT_EQ(problem.fixed[0], corner);
+  wrong.u(corner) = 1e-9;
+  EXPECT_THROW(certify(problem, wrong), NotConverged) << "a clamp that slipped";
+  // the report is linear in what is wrong: above the lower level there is a warning
+  wrong = right;
+  wrong.p *= 1.001;
+  const double unit = worst_violation(kkt_report(problem, wrong)) / 1e-3;
+  for (const double reached : {3e-10, 3e-9}) {
+    wrong = right;
+    wrong.p *= 1 + reached / unit;
+    certify(problem, wrong);
+    EXPECT_EQ(wrong.warning.empty(), reached < TrustLevels{}.trusted) << wrong.warning;
+  }
+  VariationalInequality none = problem;
+  none.load.setZero();
+  EXPECT_EQ(worst_violation(active_set(none).kkt), 0) << "0 of nothing is 0";
+}
+
 // ==== Uzawa, the paper's algorithm: slow, but to the same answer; or no answer.
 
 UnilateralContact gap() {
@@ -628,6 +658,7 @@ TEST(Uzawa, AgreesWithTheActiveSet) {
       EXPECT_EQ(slow.active, fast.active) << space.name << epsilon;
       EXPECT_GT(slow.counters.contact, 3 * fast.counters.contact);
       EXPECT_EQ(std::ssize(slow.history), slow.counters.contact);
+      EXPECT_LE(slow.history.back(), UzawaOptions{}.tolerance);
     }
   }
 }
@@ -702,6 +733,28 @@ TEST(Uzawa, StopsWhereItIsAccurateEnough) {
   };
   stop("P1", structured_mesh(cells), structured_mesh(cells / 2));
   stop("CR", unstructured_mesh(cells), unstructured_mesh(cells / 2));
+}
+
+TEST(Uzawa, TheDualityGapBoundsWhatIsLeft) {
+  const TriangleMesh mesh = structured_mesh(16);
+  for (const UnilateralContact& obstacle : {UnilateralContact{}, gap()}) {
+    // epsilon^2 > penalty: one matrix, no corrections, so that |u - u_h|_a^2 / 2 is below the gap to the last digit
+    const VariationalInequality problem = stiff_problem(Space(mesh, crouzeix_raviart()), 1e-2, obstacle);
+    const Eigen::VectorXd exact = active_set(problem).u;
+    UzawaOptions options;
+    int steps = 0;
+    for (const double energy : {1e-4, 1e-6, 1e-8, 1e-10}) {
+      options.enough = {energy, 1e-3};
+      const Solution s = uzawa(problem, options);
+      const Eigen::VectorXd e = s.u - exact, strain = problem.b * e;
+      const double left =
+          0.5 * (e.dot(problem.a1 * e) + strain.dot(problem.m.cwiseProduct(strain)) / problem.compliance);
+      EXPECT_LE(left, energy);
+      EXPECT_GE(s.counters.contact, steps) << "more asked, more steps";
+      steps = s.counters.contact;
+    }
+    EXPECT_GT(steps, 32) << "the gap is asked for once per 32 steps";
+  }
 }
 
 TEST(Uzawa, TheStepLengthChangesTheCostNotTheAnswer) {
@@ -1253,6 +1306,33 @@ TEST(Combinations, TheUnitsOfARowAndOfForcesDoNotMatter) {
 
 // ---- What cannot be met, and what is refused.
 
+TEST(Bounds, ThatNoUCanMeetAreRefusedUnderAnyLoad) {
+  // compliance 0 and B: u_0 - u_1 = 0; the bounds ask for u_0 - u_1 >= 0.05, in three shapes
+  for (const double load : {1.0, 1e6, 1e12, 1e18})
+    for (const int shape : {0, 1, 2}) {
+      VariationalInequality problem = springs(Eigen::MatrixXd(0, 3), load * Eigen::Vector3d(1, 2, -3));
+      problem.b = rows_of(Eigen::RowVector3d(1, -1, 0));
+      problem.m = Eigen::VectorXd::Ones(1);
+      problem.compliance = 0;
+      if (shape == 0) {
+        problem.combinations = rows_of(Eigen::RowVector3d(1, -1, 0));
+        problem.lower = Eigen::VectorXd::Constant(1, 0.05);
+      } else {
+        problem.combinations.resize(0, 0);
+        problem.contact = {0, 1};
+        problem.lower = Eigen::Vector2d(0.05, shape == 1 ? -1 : -infinity);
+        problem.upper = Eigen::Vector2d(infinity, 0);
+      }
+      EXPECT_THROW(active_set(problem), NotConverged) << load << ", shape " << shape;
+      problem.upper = Eigen::VectorXd::Constant(problem.bound_count(), infinity);
+      problem.lower(0) = -0.05;
+      if (shape > 0) problem.upper(1) = 0;
+      if (load < 1e12) {
+        EXPECT_NO_THROW(active_set(problem)) << load << ", shape " << shape;
+      }
+    }
+}
+
 TEST(Bounds, AGreatUElsewhereHidesNoUpperBound) {
   // where a bound or B may be impossible to meet every violation counts: u_1 stops at 0.1 though u_0 is 1e14
   VariationalInequality problem = springs(Eigen::MatrixXd(0, 4), Eigen::Vector4d(1e14, 0.2, 1, -1));
@@ -1484,6 +1564,12 @@ TEST(ManyBounds, BothRoadsFindTheSameDiscUnderAMembrane) {
   EXPECT_LE(apart(dense.s, sparse.s), 1e-13);
   EXPECT_LE((dense.s.lambda - sparse.s.lambda).lpNorm<Eigen::Infinity>(), 1e-12 * dense.s.lambda.maxCoeff());
   EXPECT_EQ(dense.s.counters.factorisations, 1);
+  std::vector<bool> mixed(problem.bound_count());
+  for (std::size_t i = 0; i < mixed.size(); i += 2) mixed[i] = true;
+  ActiveSetOptions options;
+  options.road = ContactRoad::sparse;
+  options.start = test::held_at_lower(mixed);
+  EXPECT_LE(apart(sparse.s, active_set(problem, options)), 1e-13) << "any start ends there";
 }
 
 // Between two obstacles: the membrane is pressed on the lower one on the left and on the upper one on the right; a few
@@ -1648,6 +1734,69 @@ TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
 }
 
 // ==== Bounds that give way: Tresca's friction, and plastic obstacles. Sticks where |lambda| < g, slips where |lambda| = g.
+
+/// Up to six unknowns with a stiff row, contact, friction, plastic obstacles and combinations.
+VariationalInequality random_friction(std::mt19937& engine) {
+  std::normal_distribution<double> normal;
+  const int n = 4 + static_cast<int>(engine() % 3), bounds = 2 + static_cast<int>(engine() % 3);
+  const Eigen::MatrixXd root = Eigen::MatrixXd::NullaryExpr(n, n, [&](auto, auto) { return normal(engine); });
+  Eigen::MatrixXd a1 = root * root.transpose();
+  a1 = 0.5 * (a1 + a1.transpose().eval()) + 0.1 * Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::NullaryExpr(1, n, [&](auto, auto) { return normal(engine); });
+  VariationalInequality problem = small_problem(a1, Eigen::VectorXd::Zero(n), {}, b);
+  problem.compliance = std::vector{0.0, 1e-20, 1e-3, 1.0}[engine() % 4];
+  problem.load = Eigen::VectorXd::NullaryExpr(n, [&](auto) { return normal(engine); });
+  const int rows = n >= bounds + 2 && engine() % 2 == 0 ? 1 : 0;
+  for (int i = 0; i < bounds; ++i) problem.contact.push_back(i);
+  Eigen::MatrixXd combination = Eigen::MatrixXd::Zero(rows, n);
+  if (rows > 0) combination.row(0).tail(2) << 3 * normal(engine), normal(engine);
+  problem.combinations = combination.sparseView();
+  problem.lower = Eigen::VectorXd::NullaryExpr(bounds + rows, [&](auto) { return -0.2 * std::abs(normal(engine)); });
+  problem.upper = problem.force_bound = Eigen::VectorXd::Constant(bounds + rows, infinity);
+  for (int i = 0; i < bounds + rows; ++i) {
+    if (engine() % 4 == 0) {  // contact, or an equation
+      if (engine() % 2 == 0) problem.upper(i) = problem.lower(i);
+      continue;
+    }
+    if (engine() % 4 == 0) continue;  // contact
+    problem.force_bound(i) = 0.7 * std::abs(normal(engine));
+    if (engine() % 4 == 0) continue;                               // a plastic obstacle
+    problem.upper(i) = problem.lower(i) = engine() % 3 ? 0 : 0.1;  // friction, about 0 or elsewhere
+    if (engine() % 5 == 0) problem.upper(i) += 0.05;               // with play
+  }
+  return problem;
+}
+
+TEST(Friction, IsRightBesideContactInHundredsOfSmallProblems) {
+  std::mt19937 engine(7);
+  int slips = 0, sticks = 0;
+  for (int trial = 0; trial < 400; ++trial) {
+    SCOPED_TRACE(trial);
+    const VariationalInequality problem = random_friction(engine);
+    VariationalInequality limit = problem;  // brute force sums A1 and B' M B / compliance: 1e-20 is 0 to all digits
+    if (problem.compliance == 1e-20) limit.compliance = 0;
+    const test::BruteForce truth = test::brute_force(limit);
+    const double size = truth.u.lpNorm<Eigen::Infinity>();
+    ActiveSetOptions sparse;
+    sparse.road = ContactRoad::sparse;
+    std::vector<Solution> answers{active_set(problem)};
+    if (problem.combinations.rows() == 0) answers.push_back(active_set(problem, sparse));
+    if (trial % 4 == 0) answers.push_back(uzawa(problem));
+    for (const Solution& s : answers) {
+      EXPECT_LT((s.u - truth.u).lpNorm<Eigen::Infinity>(), 1e-7 * size) << s.solver;
+      EXPECT_LT((s.lambda - truth.lambda).lpNorm<Eigen::Infinity>(), 1e-6) << s.solver;
+      EXPECT_LT(worst_violation(s.kkt), 1e-8) << s.solver;
+    }
+    for (Eigen::Index i = 0; i < truth.lambda.size(); ++i) {
+      if (std::isinf(problem.force_bound(i))) continue;
+      const bool slipped = std::abs(truth.lambda(i)) >= problem.force_bound(i) * (1 - 1e-12);
+      ++(slipped ? slips : sticks);
+      EXPECT_EQ(answers[0].active[i], truth.active[i]) << i;
+    }
+  }
+  EXPECT_GT(slips, 200);
+  EXPECT_GT(sticks, 200);
+}
 
 TEST(Friction, ABarSlipsAsFarAsItsPullReaches) {
   std::vector<double> errors;

@@ -15,7 +15,7 @@ struct Equilibrium {
 };
 
 /// The linear system of a contact problem, K symmetric positive definite (n x n), C of its unknowns bounded: all others
-/// are eliminated from it, once (dense_contact.hpp: n = C) or with every set (sparse_contact.hpp).
+/// are eliminated from it, once (DenseContact: n = C) or with every set (SparseContact).
 class ContactSystem {
  public:
   explicit ContactSystem(std::vector<int> bounded) : bounded_(std::move(bounded)) {}
