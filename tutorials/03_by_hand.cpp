@@ -202,7 +202,7 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 // | the inner loop | `contact.hpp` | from guess to guess the energy falls: what leaves its piece stops there, and so it ends (proof there) |
 // | `r2` and `r` | `residual.hpp` | $u$ and $p$ are pairs of doubles: no digit of a residual is lost |
 // | `Cholesky`, one per guess | `penalty_factor.hpp` | one sparse factor, the vertices of $Γ_C$ last |
-// | the outer loop | `detail/iterated_penalty.hpp` | the next start is mixed from the last few (Anderson) |
+// | the outer loop | `active_set.cpp` | the next start is mixed from the last few (Anderson) |
 // | `du > 1e-14` | `judge.hpp`, `kkt.hpp` | the last $du$ says how right $u$ is, a report afterwards whether all holds |
 //
 // ## Exercises

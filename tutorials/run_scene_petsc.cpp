@@ -242,6 +242,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tutorial::choose_machine(argv);
   try {
     const dist::Session session;
     try {

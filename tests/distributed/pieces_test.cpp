@@ -82,6 +82,21 @@ TEST(Pieces, RefinedAreThePiecesOfTheRefinedMesh) {
   EXPECT_EQ(places, wanted);  // to the last bit: both sides of a cut see the same vertex
 }
 
+// Two triangles with one point in common: each rank would take its own unknown there.
+TEST(Pieces, ThatMeetAtAPointAloneAreRefused) {
+  const TriangleMesh bow = make_triangle_mesh(Points{{0, 0}, {0.5, 0}, {0, 1}, {1, 0}, {1, 1}},
+                                              Triples{{0, 1, 2}, {1, 3, 4}}, {Region::body, Region::body},
+                                              {{0, 1, EdgeTag::contact},
+                                               {1, 3, EdgeTag::contact},
+                                               {1, 2, EdgeTag::clamped},
+                                               {0, 2, EdgeTag::clamped},
+                                               {3, 4, EdgeTag::clamped},
+                                               {1, 4, EdgeTag::clamped}},
+                                              "bow");
+  EXPECT_EQ(piece_of(bow, {1, 1}, 1).triangle_count(), 2);
+  EXPECT_THROW(piece_of(bow, {0, 1}, 0), Error);
+}
+
 TEST(Numbers, OneForEveryVertexAndEdgeOfTheWholeMesh) {
   const TriangleMesh coarse = layered_mesh(8), whole = antilock::refined(coarse);
   const TriangleMesh piece = refined_piece(piece_of(coarse, strips(coarse, ranks()), rank()));

@@ -31,11 +31,8 @@ std::string large_pages() {
   return "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=4294967296:glibc.malloc.trim_threshold=4294967296";
 }
 
-/// One thread of the BLAS, unless OPENBLAS_NUM_THREADS says otherwise: two were no faster, since they wait for each
-/// other by spinning, and much slower beside other programs. The kernels of this CPU: OpenBLAS knows CPUs by model
-/// number, and gives kernels of 2004 to one that is younger than itself; the factor then takes 1.6 times as long. And
-/// memory in large pages. Both are read where a program starts, so it starts again with what the environment does not
-/// name yet. Returns where there is nothing to gain, and where ANTILOCK_KEEP_KERNELS asks to leave all as it is.
+}  // namespace
+
 void choose_machine(char** argv) {
   if (!std::getenv("OPENBLAS_NUM_THREADS")) set_blas_threads(1);
   if (std::getenv("ANTILOCK_KEEP_KERNELS")) return;
@@ -49,8 +46,6 @@ void choose_machine(char** argv) {
   ask("GLIBC_TUNABLES", large_pages());
   if (again) become("", argv);
 }
-
-}  // namespace
 
 int launched_rank() { return from_environment({"OMPI_COMM_WORLD_RANK", "PMI_RANK"}, 0); }
 int launched_ranks() { return from_environment({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"}, 1); }

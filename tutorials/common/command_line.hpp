@@ -50,6 +50,14 @@ class CommandLine {
   bool silent_ = false;
 };
 
+/// One thread of the BLAS, unless OPENBLAS_NUM_THREADS says otherwise: two were no faster, since they wait for each
+/// other by spinning, and much slower beside other programs. The kernels of this CPU: OpenBLAS knows CPUs by model
+/// number, and gives kernels of 2004 to one that is younger than itself; the factor then takes 1.6 times as long. And
+/// memory in large pages. Both are read where a program starts, so it starts again with what the environment does not
+/// name yet. Returns where there is nothing to gain, and where ANTILOCK_KEEP_KERNELS asks to leave all as it is.
+/// CommandLine::parse calls it; a program that starts MPI does so before.
+void choose_machine(char** argv);
+
 /// Which of the processes that mpiexec started this is, and how many there are, without MPI: from the environment that
 /// Open MPI, MPICH and Slurm set. 0 of 1 without mpiexec.
 int launched_rank();

@@ -57,7 +57,7 @@ MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
 }
 
 /// What `make` makes, or what was kept under that name: the numbers of vertices and of triangles, then both arrays as
-/// they lie in memory. A file of another size than its numbers promise is made anew.
+/// they lie in memory. A file that does not hold what its numbers promise is made anew.
 template <class Make>
 MeshArrays kept_mesh(const std::string& name, Make&& make) {
   const char* folder = std::getenv("ANTILOCK_MESHES");
@@ -74,7 +74,9 @@ MeshArrays kept_mesh(const std::string& name, Make&& make) {
   if (!error && get(counts.data(), sizeof counts) && counts[0] <= size / vertex && counts[1] <= size / triangle &&
       size == sizeof counts + counts[0] * vertex + counts[1] * triangle) {
     MeshArrays kept{Points(counts[0], 2), Triples(counts[1], 3)};
-    if (get(kept.first.data(), counts[0] * vertex) && get(kept.second.data(), counts[1] * triangle)) return kept;
+    if (get(kept.first.data(), counts[0] * vertex) && get(kept.second.data(), counts[1] * triangle) && counts[1] > 0 &&
+        kept.second.minCoeff() >= 0 && kept.second.maxCoeff() < kept.first.rows())
+      return kept;
   }
   MeshArrays made = make();
   counts = {static_cast<std::uint64_t>(made.first.rows()), static_cast<std::uint64_t>(made.second.rows())};

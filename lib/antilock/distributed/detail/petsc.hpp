@@ -1,10 +1,11 @@
 #pragma once
 #include <petscksp.h>
 
-#include <Eigen/Core>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "antilock/core/detail/eigen_memory.hpp"
 
 namespace antilock::distributed {
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "antilock/core/error.hpp"
 
@@ -34,6 +35,25 @@ std::vector<int> renumbered(const std::vector<char>& marked) {
   int count = 0;
   for (const char mark : marked) number.push_back(mark != 0 ? count++ : -1);
   return number;
+}
+
+/// Throws Error where two ranks meet at a vertex and at no edge of it: by their common edges they know what they share.
+void check_meetings(const TriangleMesh& mesh, const std::vector<int>& rank_of) {
+  std::vector<std::set<int>> by_triangles(mesh.vertex_count()), by_edges(mesh.vertex_count());
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (const int v : mesh.triangles.row(t)) by_triangles[v].insert(rank_of[t]);
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_triangles(e, 1) < 0) continue;
+    const int one = rank_of[mesh.edge_triangles(e, 0)], other = rank_of[mesh.edge_triangles(e, 1)];
+    for (const int v : mesh.edges.row(e))
+      if (one != other) by_edges[v].insert({one, other});
+  }
+  for (int v = 0; v < mesh.vertex_count(); ++v)
+    if (by_triangles[v].size() > 1 && by_triangles[v] != by_edges[v])
+      throw Error(fmt::format(
+          "parts of the body touch at the point ({:.6g}, {:.6g}) alone, and two ranks meet there; accepted: "
+          "fewer ranks, or parts that meet along edges",
+          mesh.vertices(v, 0), mesh.vertices(v, 1)));
 }
 
 /// edge_triangles from triangle_edges.
@@ -86,6 +106,7 @@ std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer) {
 }
 
 TriangleMesh piece_of(const TriangleMesh& coarse, const std::vector<int>& rank_of, int rank) {
+  check_meetings(coarse, rank_of);
   std::vector<char> vertex_here(coarse.vertex_count(), 0), edge_here(coarse.edge_count(), 0);
   std::vector<int> triangles;
   for (int t = 0; t < coarse.triangle_count(); ++t) {

@@ -12,7 +12,7 @@ namespace antilock::distributed {
 std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer = false);
 
 /// What the rank holds of a mesh: its own triangles, as a mesh in which an edge between two ranks has one triangle and
-/// keeps its tag. rank_of: of every triangle of the coarse mesh.
+/// keeps its tag. rank_of: of every triangle of the coarse mesh. Throws Error where two ranks meet at a vertex alone.
 TriangleMesh piece_of(const TriangleMesh& coarse, const std::vector<int>& rank_of, int rank);
 
 /// Every triangle cut into four by its edge midpoints, triangle t into 4 t ... 4 t + 3 (as mesh/refine.hpp does, but

@@ -1,7 +1,7 @@
 #pragma once
-#include <Eigen/Core>
 #include <span>
 
+#include "antilock/core/detail/eigen_memory.hpp"
 #include "antilock/scene/scene.hpp"
 
 namespace antilock {

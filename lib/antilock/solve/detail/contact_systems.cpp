@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
@@ -139,9 +140,10 @@ Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
     all(bounded()) = of_bounds;
     return Eigen::VectorXd(members.transpose() * all);
   };
-  const Eigen::ArrayXd count = sum(Eigen::VectorXd::Ones(stairs.count()));
-  const auto mean = [&](const Eigen::VectorXd& of_bounds, double none) {
-    return Eigen::VectorXd((count > 0).select(sum(of_bounds).array() / count, none));
+  const auto mean = [&](const Eigen::VectorXd& of_bounds, double none) {  // of those that there are
+    const auto known = of_bounds.array().isFinite();
+    const Eigen::ArrayXd count = sum(known.cast<double>()), all = sum(known.select(of_bounds.array(), 0));
+    return Eigen::VectorXd((count > 0).select(all / count, none));
   };
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Stairs fewer{mean(stairs.lower, -infinity)};
@@ -162,7 +164,7 @@ Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
     }
   } catch (const Error&) {  // a start, no more: the fine problem says what is wrong
   }
-  return start;
+  return stairs.there_are(std::move(start));
 }
 
 }  // namespace antilock
