@@ -18,8 +18,9 @@ namespace {
 
 /// Conjugate gradients with BoomerAMG: 2 to 4 iterations for four digits in the energy norm, whatever delta, on layers
 /// in columns. One forward sweep of SOR down and one backward sweep up take half the time of symmetric sweeps on both
-/// ways, and as many iterations.
-constexpr std::array<std::array<const char*, 2>, 10> defaults = {
+/// ways, and as many iterations. MUMPS may take twice the memory that it estimates: its own 20 % more are not enough for
+/// the small first levels on three ranks.
+constexpr std::array<std::array<const char*, 2>, 11> defaults = {
     {{"-no_signal_handler", nullptr},
      {"-ksp_type", "cg"},
      {"-ksp_norm_type", "natural"},
@@ -29,7 +30,8 @@ constexpr std::array<std::array<const char*, 2>, 10> defaults = {
      {"-pc_hypre_boomeramg_interp_type", "ext+i"},
      {"-pc_hypre_boomeramg_P_max", "6"},
      {"-pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
-     {"-pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"}}};
+     {"-pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"},
+     {"-mat_mumps_icntl_14", "100"}}};
 
 enum Outcome : int { unconverged, no_memory, refused };
 
