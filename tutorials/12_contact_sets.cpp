@@ -75,9 +75,9 @@
 // the largest such sum over all $v_h$ of $G_h$ with norm 1, for this one $φ$, and calls it $k_h$.
 
 #include "antilock/analysis/nearest.hpp"
-#include "antilock/analysis/negative_part.hpp"
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/form/h1_norm.hpp"
+#include "backstage/12_negative_part.hpp"
 #include "backstage/12_output.hpp"
 #include "common/course.hpp"
 
@@ -105,7 +105,7 @@ Table measure(const Method& method, int cells, const Exact& u, const Exact& u0) 
   row.add({method.element->name(), method.family.name, cells, 1.0 / cells,
            nearest(on.space(), problem, u.reference(), Within::k_h).distance,
            nearest(on.space(), problem, u0.reference(), Within::k_0h).distance,
-           negative_part(on.space(), problem, norm).constant, dual_norm(problem, norm, slope_of_phi, true),
+           tutorial::negative_part(on.space(), problem, norm).constant, dual_norm(problem, norm, slope_of_phi, true),
            below(contact_trace(on.space(), u_h)), std::sqrt(u_h.dot(norm * u_h))});
   return row;
 }
@@ -121,7 +121,7 @@ Worst worst_dip(const Discretisation& on) {
   std::sort(problem.fixed.begin(), problem.fixed.end());
   problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
   problem.contact.clear(), problem.lower.resize(0);
-  const NegativePart part = negative_part(on.space(), problem, h1_norm(on.space()));
+  const tutorial::NegativePart part = tutorial::negative_part(on.space(), problem, h1_norm(on.space()));
   const Eigen::MatrixX3d trace = contact_trace(on.space(), part.worst);
   return {trace, part.constant, below(trace), part.worst(on.space().contact()).cwiseAbs().maxCoeff()};
 }

@@ -40,7 +40,7 @@
 // So the square of the worst error is the largest eigenvalue of $S - S_h$, and the worst load is its eigenfunction.
 // *Lanczos iteration* finds both from products with $S - S_h$ alone, each of them one solve. Loads are sums of the
 // orthonormal waves $2 \sin kπx \cos μ_m y$, $μ_m = (m - ½) π$. A body that is free on $Σ$ answers each wave with a
-// multiple of it, and the layer adds one number per $k$ (`exact/detail/load_modes.cpp`): $S$ is known in closed form.
+// multiple of it, and the layer adds one number per $k$ (`backstage/17_load_modes.hpp`): $S$ is known in closed form.
 //
 // The sums end at $k^2 + (m - ½)^2 ≤ W^2$, $W = 2/h$. What do the later waves add? The layer only takes away: it holds
 // the body back, so the work $(f, S f)$ of a load is at most that of the same load on the free body, where a later wave
@@ -74,7 +74,7 @@
 // **The sharp limit.** Let $d$ stay and let the body be resolved exactly. Then what is lost is precisely the largest
 // $‖z‖/|z|_a$ of all combinations $z$ of $e_1, e_2, ...$ that fulfil the $d$ conditions. The traces are $x (1 - x)$
 // times polynomials of degree $p - 2$. This is an eigenvalue problem for the coefficients of $z$ (`loss_of_degree` in
-// `analysis/worst_load`). Discrete bodies lose more, so $E_h(0)$ is never below it (proved).
+// `backstage/17_worst_load.hpp`). Discrete bodies lose more, so $E_h(0)$ is never below it (proved).
 //
 // **The width of the ball (proved).** The same proof with $z$ a combination of $n + 1$ sines $\sin kπx \sin mπy$, $n$
 // the number of unknowns of the body, bounds a conforming method where nothing locks: $E_h ≥ 1/(π (k^2 +
@@ -88,7 +88,6 @@
 // (proved, both). For the other methods the run climbs over loads of four waves with this profile: a *lower bound*.
 
 #include "backstage/17_families_of_loads.hpp"
-#include "antilock/analysis/worst_load.hpp"
 #include "common/course.hpp"
 
 using namespace antilock;
@@ -106,10 +105,10 @@ struct Ball {
   // ### Mesh
   Discretisation on;
   // ### Forms
-  ErrorForm form;
-  Ball(const Method& method, int cells) : on(method.on(cells)), form(on.space(), LoadModes(2 * cells)) {}
+  tutorial::ErrorForm form;
+  Ball(const Method& method, int cells) : on(method.on(cells)), form(on.space(), tutorial::LoadModes(2 * cells)) {}
   // ### Solve
-  WorstLoad worst(double epsilon) { return form.set_epsilon(epsilon), form.worst(); }
+  tutorial::WorstLoad worst(double epsilon) { return form.set_epsilon(epsilon), form.worst(); }
   double ours(double epsilon, int wave = 2) {  // the load 10 sin 2πx, scaled to norm 1
     form.set_epsilon(epsilon);
     return form.error(form.modes().constant_in_y(wave, std::sqrt(2.0)));
@@ -121,7 +120,7 @@ void judge(const Method& method, const Table& own, tutorial::Report& report) {
   const std::string name = method.name();
   const int p = method.element->degree();
   const Table rigid = own.where("epsilon", 0), worst = rigid.where("load", ball), climbs = own.where("load", contact);
-  const double last = worst.last("error"), limit = loss_of_degree(p);
+  const double last = worst.last("error"), limit = tutorial::loss_of_degree(p);
   if (p < 3)  // both from Lanczos iterations to 1e-4
     report.claim(std::abs(own.where("load", ball).where("epsilon", 1e-20).last("error") / last - 1) < 1e-3,
                  "{}: epsilon = 1e-20 is epsilon = 0 (observed)", name);
@@ -159,7 +158,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       Ball on(method, n);
       const auto add = [&](const char* load, double epsilon, double error) {
         results.add({load, method.name(), 1.0 / n, epsilon, error, std::hypot(error, on.form.modes().beyond()),
-                     error / width_of_ball(tutorial::unknowns_of_body(on.on.space()))});
+                     error / tutorial::width_of_ball(tutorial::unknowns_of_body(on.on.space()))});
       };
       for (const double epsilon : p > 2 ? std::vector<double>{0} : std::vector{1.0, 1e-1, 1e-2, 1e-4, 1e-20, 0.0}) {
         add(one_load, epsilon, on.ours(epsilon));

@@ -55,7 +55,7 @@
 
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/study/detail/summed.hpp"
+#include "backstage/18_summed.hpp"
 #include "backstage/21_machine.hpp"
 #include "backstage/21_output.hpp"
 #include "backstage/21_price_list.hpp"

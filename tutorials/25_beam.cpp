@@ -67,7 +67,7 @@
 // ends of the cell. Then $(w + b)' - θ = w' - \bar θ$: the reduced form of $(w, θ)$ is the exact form of $(w + b, θ)$.
 // So this *is* another $V_h$, as long as the load does not see $b$ (exercise 3).
 //
-// The truth is a closed form (`exact/detail/beam_truth.cpp`): contact on $[c, 1 - c]$, at ε = 0 with $c = (72 / q)^{1/4}$.
+// The truth is a closed form (`backstage/25_truth.hpp`): contact on $[c, 1 - c]$, at ε = 0 with $c = (72 / q)^{1/4}$.
 
 #include <cmath>
 
@@ -84,7 +84,7 @@ using namespace antilock;
 // The error of $w$ in $L^2$, between the nodes too. (At the nodes alone the largest error has narrow peaks, where the end
 // of contact passes a node: a list of ε misses them.)
 double error_of_w(const Beam& beam, const Eigen::VectorXd& u) {
-  const BeamTruth truth(beam);
+  const tutorial::BeamTruth truth(beam);
   const auto [points, weights] = gauss_rule(4);
   const double h = 1.0 / beam.cells;
   double square = 0;
@@ -133,7 +133,7 @@ void bend(const tutorial::Options& options, tutorial::Report& report) {
   const double difference = (active_set(stiffer).u - locked.u).cwiseAbs().maxCoeff();
 
   // ### Output
-  const BeamTruth truth(reduced_beam);
+  const tutorial::BeamTruth truth(reduced_beam);
   Table table({"", "kernel", "error of w", "contact force", "energy"});
   table.add(
       {"full integration", full_kernel, error_of_w(full_beam, locked.u), locked.lambda.sum(), energy(full, locked)});

@@ -73,14 +73,13 @@
 // $h^2 ‖Δw‖ / 14.6$ in $L^2$. (On a triangle its error is $-½ \sum λ_i λ_j\, w''_{ij}$, with the second differences along the
 // three edges. Its mean square is $\frac{h^4}{720} (\frac{21}{8} (Δw)^2 + \frac{3}{4} |∇^2 w|^2)$, and $∫ |∇^2 w|^2 = ∫ (Δw)^2$.)
 // So $h^2$ is the most to expect, and this number is the unit of a verdict. The truth is a closed form for every $t$
-// (`exact/plate_truth.cpp`): contact on the disc $r ≤ c$. Its energy gives $‖Δw‖^2 = -q ∫ w - F$ with the contact force $F$.
+// (`backstage/27_truth.hpp`): contact on the disc $r ≤ c$. Its energy gives $‖Δw‖^2 = -q ∫ w - F$ with the contact force $F$.
 // *Patch test:* a plate that its rim bends to a constant curvature must have its exact rotation at the vertices.
 
 #include <cmath>
 #include <numbers>
 
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/exact/plate_truth.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/study/sweep.hpp"
 #include "backstage/27_discrete.hpp"
@@ -119,7 +118,7 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
       for (const double t : thicknesses()) {
         sweep.set_compliance(t * t);
         const Solution solution = sweep.solve();
-        errors.add({method.name, n, 1.0 / n, t, error_of_w(on.w, solution, PlateTruth(t)),
+        errors.add({method.name, n, 1.0 / n, t, error_of_w(on.w, solution, tutorial::PlateTruth(t)),
                     solution.counters.corrections, method.locks});
       }
       const double seconds = watch.seconds() / static_cast<double>(thicknesses().size());
@@ -150,7 +149,7 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
                "(proved) patch test, t = 1 and 1e-3: the cures bend exactly ({:.0e}), P1 does not ({:.2f})",
                good.most("patch"), bad.least("patch"));
   // the unit of the derivation above
-  const PlateTruth kirchhoff(0);
+  const tutorial::PlateTruth kirchhoff(0);
   double volume = 0;
   for (int i = 0; i < 4000; ++i)
     volume += 2 * std::numbers::pi * kirchhoff.deflection((i + 0.5) / 4000) * (i + 0.5) / 16e6;

@@ -68,8 +68,8 @@
 
 #include <map>
 
-#include "antilock/exact/detail/slipping_bar.hpp"
 #include "antilock/solve/uzawa.hpp"
+#include "backstage/30_bar.hpp"
 #include "backstage/30_floor.hpp"
 #include "backstage/30_slipping_patch.hpp"
 #include "common/course.hpp"

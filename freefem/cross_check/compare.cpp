@@ -22,7 +22,7 @@
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
-#include "antilock/study/detail/summed.hpp"
+#include "backstage/18_summed.hpp"
 #include "common/command_line.hpp"
 #include "cross_check.hpp"
 #include "lines.hpp"

@@ -9,7 +9,6 @@
 #include "antilock/core/error.hpp"
 #include "antilock/distributed/detail/kkt_report.hpp"
 #include "antilock/distributed/detail/piece.hpp"
-#include "antilock/distributed/detail/snesvi.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/mesh/generate.hpp"
@@ -19,6 +18,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/residual.hpp"
+#include "petsc/snesvi.hpp"
 
 namespace antilock::distributed {
 namespace {
@@ -208,12 +208,12 @@ TEST(Snesvi, LosesTheSummedMatrixAndSolvesTheSplitForm) {
     if (epsilon > 0) {
       const Inequality summed(question, space, Penalty::compliance);
       State state = zero_state(summed);
-      const SnesviEnd end = snesvi(summed, state, false);
+      const tutorial::SnesviEnd end = tutorial::snesvi(summed, state, false);
       EXPECT_EQ(end.converged, epsilon == 1e-2) << end.reason;
     }
     const Inequality problem(question, space, Penalty::rule);
     State state = zero_state(problem);
-    const SnesviEnd end = snesvi(problem, state, true);
+    const tutorial::SnesviEnd end = tutorial::snesvi(problem, state, true);
     EXPECT_TRUE(end.converged) << end.reason;
     EXPECT_LE(end.corrections, 6);
     EXPECT_NEAR(largest(state.u.maxCoeff()), serial.u.maxCoeff(), 1e-9 * serial.u.maxCoeff());

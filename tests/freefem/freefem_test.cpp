@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <fstream>
 
-#include "antilock/analysis/worst_load.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
-#include "antilock/study/detail/summed.hpp"
 #include "antilock/study/scene_sweep.hpp"
+#include "backstage/17_worst_load.hpp"
+#include "backstage/18_summed.hpp"
 #include "cross_check.hpp"
 #include "model_check.hpp"
 #include "numbers.hpp"
@@ -23,6 +23,7 @@ namespace antilock {
 namespace {
 
 using namespace test;
+using namespace tutorial;
 
 struct Setting {
   const char* element;

@@ -4,10 +4,7 @@
 #include <fstream>
 
 #include "antilock/analysis/accurate_enough.hpp"
-#include "antilock/analysis/worst_load.hpp"
 #include "antilock/core/eigenvalues.hpp"
-#include "antilock/exact/detail/load_modes.hpp"
-#include "antilock/exact/plate_truth.hpp"
 #include "antilock/form/detail/averaged.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/contact_zone.hpp"
@@ -16,6 +13,8 @@
 #include "antilock/solve/uzawa.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "antilock/study/table.hpp"
+#include "backstage/17_worst_load.hpp"
+#include "backstage/27_truth.hpp"
 #include "hard/adversary.hpp"
 #include "support/scenes.hpp"
 #include "support/small_problem.hpp"
@@ -23,6 +22,7 @@
 namespace antilock::hard::interface_misuse_test {
 
 using namespace test;
+using namespace tutorial;
 
 double down(double, double) { return -10; }
 

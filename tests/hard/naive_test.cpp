@@ -1,5 +1,5 @@
 // The naive way fails as the tutorial says, and no wrong answer of it gets past the checks.
-#include "antilock/study/detail/summed.hpp"
+#include "backstage/18_summed.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::naive_test {

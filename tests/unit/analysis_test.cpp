@@ -7,11 +7,9 @@
 #include "antilock/analysis/exact_errors.hpp"
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/analysis/load_ascent.hpp"
 #include "antilock/analysis/locking.hpp"
 #include "antilock/analysis/lost_energy.hpp"
 #include "antilock/analysis/nearest.hpp"
-#include "antilock/analysis/worst_load.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/exact/truth_distance.hpp"
@@ -29,12 +27,15 @@
 #include "antilock/problem/projected.hpp"
 #include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
+#include "backstage/17_ascent.hpp"
+#include "backstage/17_worst_load.hpp"
 #include "support/bodies.hpp"
 #include "support/dense.hpp"
 #include "support/platen.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::analysis_test {
+using namespace tutorial;
 
 /// One question with its answer, and room for what a test does to it.
 struct Answered {

@@ -1,13 +1,14 @@
 #include "antilock/exact/detail/contact_line.hpp"
 #include "antilock/exact/detail/sine_transform.hpp"
 #include "antilock/exact/detail/wave.hpp"
-#include "antilock/exact/plate_truth.hpp"
 #include "antilock/exact/truth.hpp"
 #include "antilock/exact/truth_distance.hpp"
 #include "antilock/exact/truth_table.hpp"
+#include "backstage/27_truth.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::exact_test {
+using namespace tutorial;
 
 // ==== The truth is checked from outside: against the differential equations, the conditions on Sigma and Gamma_C, closed
 // forms, refinement, and the values that an independent script gave.

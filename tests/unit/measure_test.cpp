@@ -1,4 +1,3 @@
-#include "antilock/analysis/negative_part.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/form/forms.hpp"
@@ -6,11 +5,13 @@
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/detail/contact_edges.hpp"
 #include "antilock/measure/residual.hpp"
+#include "backstage/12_negative_part.hpp"
 #include "support/dense.hpp"
 #include "support/manufactured.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::measure_test {
+using namespace tutorial;
 
 // ==== Norms against integrals done by hand; rates, contact zones and energy.
 

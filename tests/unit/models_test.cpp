@@ -1,18 +1,19 @@
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/dense.hpp"
-#include "antilock/exact/detail/beam_truth.hpp"
-#include "antilock/exact/plate_truth.hpp"
 #include "antilock/form/detail/plate_forms.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/problem/bounds.hpp"
+#include "backstage/25_truth.hpp"
+#include "backstage/27_truth.hpp"
 #include "support/dense.hpp"
 #include "support/measures.hpp"
 #include "support/platen.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::models_test {
+using namespace tutorial;
 
 // ==== Scenes become discrete inequalities.
 

@@ -14,8 +14,8 @@ const std::vector<tutorial::Exercise> exercises{
        report.claim(one < columns.ours(0, 1), "sin(pi x): P2 {:.4f}, P1 structured {:.4f}", one, columns.ours(0, 1));
        // constant in y, this load has the share (int psi_2) / |psi_2| of the worst one
        const double share = std::tanh(pi) / (2 * pi) / std::sqrt(1 / (4 * pi));
-       report.claim(two > share * loss_of_wave(2), "sin(2 pi x): P2 {:.4f}, at least {:.4f}", two,
-                    share * loss_of_wave(2));
+       report.claim(two > share * tutorial::loss_of_wave(2), "sin(2 pi x): P2 {:.4f}, at least {:.4f}", two,
+                    share * tutorial::loss_of_wave(2));
        report.claim(quadratic.worst(0).error > 3 * one, "the ball: P2 {:.4f}", quadratic.worst(0).error);
      }},
     {"A smaller ball: sixteen waves in place of 2/h = 48 at 1/h = 24. Does the worst error of locked P1 fall? Of P1 in "
@@ -27,7 +27,7 @@ const std::vector<tutorial::Exercise> exercises{
          const Discretisation on = method.on(24);
          std::vector<double> sup;
          for (const int waves : {16, 48}) {
-           ErrorForm form(on.space(), LoadModes(waves));
+           tutorial::ErrorForm form(on.space(), tutorial::LoadModes(waves));
            form.set_epsilon(0);
            sup.push_back(form.worst().error);
          }

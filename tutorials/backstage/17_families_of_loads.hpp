@@ -1,10 +1,10 @@
 #pragma once
 #include <set>
 
-#include "antilock/analysis/load_ascent.hpp"
-#include "antilock/analysis/worst_load.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/study/method.hpp"
+#include "backstage/17_ascent.hpp"
+#include "backstage/17_worst_load.hpp"
 #include "common/course.hpp"
 
 namespace antilock::tutorial {

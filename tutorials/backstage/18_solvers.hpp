@@ -3,7 +3,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/solve/kkt.hpp"
-#include "antilock/study/detail/summed.hpp"
+#include "backstage/18_summed.hpp"
 #include "common/course.hpp"
 
 namespace antilock::tutorial {

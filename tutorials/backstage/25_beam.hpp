@@ -1,7 +1,7 @@
 #pragma once
-#include "antilock/exact/detail/beam_truth.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/study/table.hpp"
+#include "backstage/25_truth.hpp"
 #include "common/tutorial.hpp"
 
 namespace antilock::tutorial {

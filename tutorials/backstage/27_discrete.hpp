@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "antilock/exact/plate_truth.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "backstage/27_truth.hpp"
 
 namespace antilock::tutorial {
 

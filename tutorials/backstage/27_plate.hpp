@@ -4,11 +4,11 @@
 #include <limits>
 
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/exact/plate_truth.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/table.hpp"
+#include "backstage/27_truth.hpp"
 #include "common/tutorial.hpp"
 
 namespace antilock::tutorial {

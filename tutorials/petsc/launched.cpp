@@ -9,12 +9,12 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/distributed/detail/piece.hpp"
-#include "antilock/distributed/detail/snesvi.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "common/course.hpp"
+#include "petsc/snesvi.hpp"
 
 namespace antilock::tutorial {
 namespace {
@@ -91,7 +91,7 @@ Ended by_snesvi(const Asked& asked) {
   const distributed::Inequality problem(paper_scene(asked.epsilon), space,
                                         summed ? distributed::Penalty::compliance : distributed::Penalty::rule);
   distributed::State state = distributed::zero_state(problem);
-  const distributed::SnesviEnd end = distributed::snesvi(problem, state, !summed);
+  const SnesviEnd end = snesvi(problem, state, !summed);
   return {problem.rows().total(), end.corrections, end.linear, 0, 0, 0, end.largest, 0, end.reason};
 }
 

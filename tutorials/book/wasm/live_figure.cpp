@@ -7,7 +7,7 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
-#include "antilock/study/detail/summed.hpp"
+#include "backstage/18_summed.hpp"
 
 namespace antilock::book {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 #include "antilock/distributed/detail/contact_loop.hpp"
 
-namespace antilock::distributed {
+namespace antilock::tutorial {
 
 /// How PETSc's own solver for variational inequalities ended. It vouches for nothing.
 struct SnesviEnd {
@@ -21,6 +21,6 @@ struct SnesviEnd {
 /// compliance^-1 B' M B, in which A1 has lost its digits. `split` true: corrections until du is below 1e-10 of u, 20 at
 /// most. PETSc's default line search gives up on fine meshes, since it compares residuals that are round-off: full steps
 /// are taken. Every rank must call it.
-SnesviEnd snesvi(const Inequality& problem, State& state, bool split);
+SnesviEnd snesvi(const distributed::Inequality& problem, distributed::State& state, bool split);
 
-}  // namespace antilock::distributed
+}  // namespace antilock::tutorial

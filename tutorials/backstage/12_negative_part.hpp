@@ -1,5 +1,4 @@
-#include "antilock/analysis/negative_part.hpp"
-
+#pragma once
 #include <cmath>
 
 #include "antilock/analysis/inf_sup.hpp"
@@ -7,11 +6,24 @@
 #include "antilock/core/error.hpp"
 #include "antilock/measure/detail/contact_edges.hpp"
 #include "antilock/problem/bounds.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/space/space.hpp"
 
-namespace antilock {
+namespace antilock::tutorial {
 
-NegativePart negative_part(const Space& space, VariationalInequality problem, const SparseMatrix& norm) {
+/// The constant c_h of condition (9) of Definition 1: |min(v_h, 0)| <= c_h |v_h|_h in L2(Gamma_C) for v_h in K_h
+/// (bounds 0), since where v_h >= 0 at its points on an edge the part below 0 is no larger than what separates v_h from
+/// the function through those points: the mean (CR: |E| (v_b - v_a)^2 / 12 for the square), the two chords (P2: |E|
+/// (v_a - 2 v_m + v_b)^2 / 120), nothing (P1: c_h = 0). The largest eigenvalue over V_h, so an upper bound.
+struct NegativePart {
+  double constant = 0;    ///< c_h
+  Eigen::VectorXd worst;  ///< the v_h of norm 1 that is furthest from that function; empty for P1
+};
+
+/// `norm`: h1_norm. Where the bounded unknowns of `problem` are fixed to 0, CR's worst v_h is in K_h, and what it has
+/// below 0 is c_h / 2^(1/2). Dense in the edges of Gamma_C. Throws Error for other elements.
+inline NegativePart negative_part(const Space& space, VariationalInequality problem, const SparseMatrix& norm) {
   const Element& element = space.element();
   const bool quadratic = element.degree() == 2;
   if (element.conforming() && element.degree() == 1) return {};
@@ -41,4 +53,4 @@ NegativePart negative_part(const Space& space, VariationalInequality problem, co
   return {std::sqrt(largest), active_set(held_in_contact(problem, none)).u / std::sqrt(largest)};
 }
 
-}  // namespace antilock
+}  // namespace antilock::tutorial

@@ -1,13 +1,4 @@
-// Everything depends on r alone; epsilon = t^2, the shear force is Q = (w' - theta) / epsilon, L the operator
-// L theta = ((r theta)' / r)'. Off the obstacle, on (c, 1):
-//     (r Q)' / r = q,  L theta = -Q   so   Q = q r/2 + A/r,
-//     theta = -q r^3/16 - A (r/2 ln r - r/4) + B r/2 + C/r,   w' = theta + epsilon Q
-// In contact w' = 0, so Q = -theta / epsilon and L theta = theta / epsilon: theta = D I_1(r / t), I_k Bessel's.
-// At c: w' = 0 (w is C1, as for the beam), theta and theta' continuous. I_1' = I_0 - I_1/z and theta(c) = -epsilon Q
-// give theta'(c) = -s Q(c), s = t I_0(c/t) / I_1(c/t) - epsilon / c. With theta(1) = 0 that is A, B and C for
-// every c; w(1) - w(c) = gap then fixes c. As t -> 0, s -> 0: Kirchhoff's plate.
-#include "antilock/exact/plate_truth.hpp"
-
+#pragma once
 #include <fmt/format.h>
 
 #include <cmath>
@@ -16,11 +7,19 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 
-namespace antilock {
-namespace {
+namespace antilock::tutorial {
+
+// Everything depends on r alone; epsilon = t^2, the shear force is Q = (w' - theta) / epsilon, L the operator
+// L theta = ((r theta)' / r)'. Off the obstacle, on (c, 1):
+//     (r Q)' / r = q,  L theta = -Q   so   Q = q r/2 + A/r,
+//     theta = -q r^3/16 - A (r/2 ln r - r/4) + B r/2 + C/r,   w' = theta + epsilon Q
+// In contact w' = 0, so Q = -theta / epsilon and L theta = theta / epsilon: theta = D I_1(r / t), I_k Bessel's.
+// At c: w' = 0 (w is C1, as for the beam), theta and theta' continuous. I_1' = I_0 - I_1/z and theta(c) = -epsilon Q
+// give theta'(c) = -s Q(c), s = t I_0(c/t) / I_1(c/t) - epsilon / c. With theta(1) = 0 that is A, B and C for
+// every c; w(1) - w(c) = gap then fixes c. As t -> 0, s -> 0: Kirchhoff's plate.
 
 /// I_0(z) / I_1(z), by I_(k-1) / I_k = 2 k / z + I_(k+1) / I_k from far above z down; for large z its asymptotic series.
-double bessel_ratio(double z) {
+inline double bessel_ratio(double z) {
   if (z > 1e4) return 1 + 1 / (2 * z) + 3 / (8 * z * z) + 3 / (8 * z * z * z);
   const int above = 40 + 2 * static_cast<int>(z);
   double ratio = 2 * above / z;
@@ -28,9 +27,27 @@ double bessel_ratio(double z) {
   return ratio;
 }
 
-}  // namespace
+/// The exact clamped plate of radius 1 under the load -load, pressed on a flat obstacle at -gap: it touches on the disc
+/// r <= c. Closed form for every thickness but for one scalar root, derived above; t = 0 is Kirchhoff's.
+class PlateTruth {
+ public:
+  /// Throws Error where the plate does not touch the obstacle on a disc.
+  PlateTruth(double thickness, double load = 256, double gap = 1);
+  double contact_radius() const { return c_; }
+  double deflection(double r) const;  ///< w(r) >= -gap, 0 at r = 1
+  double contact_force() const;       ///< load pi less what the rim carries
 
-PlateTruth::Free PlateTruth::free_part(double c) const {
+ private:
+  struct Free {  ///< constants of the free part
+    double a, b, c;
+  };
+  Free free_part(double radius) const;
+  double fallen(double r, const Free& free) const;  ///< w(r) up to a constant
+  double epsilon_, load_, gap_, c_ = 0;
+  Free free_{};
+};
+
+inline PlateTruth::Free PlateTruth::free_part(double c) const {
   const double t = std::sqrt(epsilon_), q = load_, l = std::log(c);
   const double s = t > 0 ? t * bessel_ratio(c / t) - epsilon_ / c : 0;
   Eigen::Matrix3d m;                                      // theta(1), w'(c), theta'(c) + s Q(c), in A, B, C
@@ -42,13 +59,13 @@ PlateTruth::Free PlateTruth::free_part(double c) const {
   return {x(0), x(1), x(2)};
 }
 
-double PlateTruth::fallen(double r, const Free& f) const {
+inline double PlateTruth::fallen(double r, const Free& f) const {
   const double l = std::log(r), r2 = r * r;
   return -load_ * r2 * r2 / 64 - f.a * r2 / 4 * (l - 1) + f.b * r2 / 4 + f.c * l +
          epsilon_ * (load_ * r2 / 4 + f.a * l);
 }
 
-PlateTruth::PlateTruth(double thickness, double load, double gap)
+inline PlateTruth::PlateTruth(double thickness, double load, double gap)
     : epsilon_(thickness * thickness), load_(load), gap_(gap) {
   const auto depth = [&](double c) {  // how far the rim is above r = c
     const Free f = free_part(c);
@@ -69,8 +86,8 @@ PlateTruth::PlateTruth(double thickness, double load, double gap)
   free_ = free_part(c_);
 }
 
-double PlateTruth::deflection(double r) const { return r > c_ ? fallen(r, free_) - fallen(1, free_) : -gap_; }
+inline double PlateTruth::deflection(double r) const { return r > c_ ? fallen(r, free_) - fallen(1, free_) : -gap_; }
 
-double PlateTruth::contact_force() const { return -2 * std::numbers::pi * free_.a; }
+inline double PlateTruth::contact_force() const { return -2 * std::numbers::pi * free_.a; }
 
-}  // namespace antilock
+}  // namespace antilock::tutorial

@@ -1,4 +1,4 @@
-#include "antilock/distributed/detail/snesvi.hpp"
+#include "petsc/snesvi.hpp"
 
 #include <petscsnes.h>
 
@@ -6,7 +6,8 @@
 
 #include "antilock/distributed/ranks.hpp"
 
-namespace antilock::distributed {
+namespace antilock::tutorial {
+using namespace distributed;
 namespace {
 
 struct Linear {
@@ -85,4 +86,4 @@ SnesviEnd snesvi(const Inequality& problem, State& state, bool split) {
   return end;
 }
 
-}  // namespace antilock::distributed
+}  // namespace antilock::tutorial

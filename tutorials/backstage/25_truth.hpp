@@ -1,3 +1,13 @@
+#pragma once
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "antilock/core/error.hpp"
+#include "antilock/models/timoshenko_beam.hpp"
+
+namespace antilock::tutorial {
+
 // Off the obstacle, on (0, c), with the shear force V = (w' - theta) / epsilon:
 //     V' = q,  theta'' = -V   so   V = q x + V0,   theta = -(q x^3/6 + V0 x^2/2) + A x,
 //     w = -(q x^4/24 + V0 x^3/6) + A x^2/2 + epsilon (q x^2/2 + V0 x)
@@ -6,23 +16,13 @@
 // At c: w' = 0 (w solves a second-order obstacle problem, so it is C1), theta and theta' continuous. With
 //     t = sqrt(epsilon) tanh((1/2 - c) / sqrt(epsilon)),  theta(c) = -t theta'(c)
 // these give V0 and A for every c; w(c) = -gap then fixes c. As epsilon -> 0, t -> 0: the clamped Bernoulli beam.
-#include "antilock/exact/detail/beam_truth.hpp"
-
-#include <fmt/format.h>
-
-#include <cmath>
-
-#include "antilock/core/error.hpp"
-
-namespace antilock {
-namespace {
 
 struct Branch {
   double v0, a;
 };
 
 /// V0 and A of the free part for a given c.
-Branch free_part(double epsilon, double q, double c) {
+inline Branch free_part(double epsilon, double q, double c) {
   const double root = std::sqrt(epsilon);
   const double epsilon_over_t = epsilon > 0 ? root / std::tanh((0.5 - c) / root) : 0;
   const double k = c * epsilon_over_t + epsilon;
@@ -32,13 +32,30 @@ Branch free_part(double epsilon, double q, double c) {
   return b;
 }
 
-double free_deflection(double epsilon, double q, const Branch& b, double x) {
+inline double free_deflection(double epsilon, double q, const Branch& b, double x) {
   return -(q * x * x * x * x / 24 + b.v0 * x * x * x / 6) + b.a * x * x / 2 + epsilon * (q * x * x / 2 + b.v0 * x);
 }
 
-}  // namespace
+/// The exact Timoshenko beam over a flat obstacle, in contact on [c, 1 - c] (closed form but for one scalar root,
+/// derived above). At epsilon = 0 it is the Bernoulli beam: c = (72 gap / load)^(1/4).
+class BeamTruth {
+ public:
+  /// Throws Error where the beam does not reach the obstacle over an interval (load too small for this gap).
+  explicit BeamTruth(const Beam& beam);
+  double contact_start() const { return c_; }
+  double deflection(double x) const;  ///< w(x) >= -gap
+  double rotation(double x) const;    ///< theta(x)
+  /// Total contact force R = load - 2 |shear force at a clamp|.
+  double contact_force() const;
+  double energy() const;  ///< J = a1/2 + a0/(2 epsilon) - L = -(1/2) L(w) - (1/2) gap R at the solution
 
-BeamTruth::BeamTruth(const Beam& beam) : epsilon_(beam.epsilon), load_(beam.load), gap_(beam.gap) {
+ private:
+  double epsilon_, load_, gap_;
+  double c_ = 0, v0_ = 0, a_ = 0,
+         d_ = 0;  ///< contact start, shear force and curvature at the clamp, rotation in contact
+};
+
+inline BeamTruth::BeamTruth(const Beam& beam) : epsilon_(beam.epsilon), load_(beam.load), gap_(beam.gap) {
   const auto sinks = [&](double c) {
     return free_deflection(epsilon_, load_, free_part(epsilon_, load_, c), c) + gap_;
   };
@@ -57,12 +74,12 @@ BeamTruth::BeamTruth(const Beam& beam) : epsilon_(beam.epsilon), load_(beam.load
   d_ = rotation(c_);
 }
 
-double BeamTruth::deflection(double x) const {
+inline double BeamTruth::deflection(double x) const {
   if (x > 0.5) return deflection(1 - x);
   return x < c_ ? free_deflection(epsilon_, load_, {v0_, a_}, x) : -gap_;
 }
 
-double BeamTruth::rotation(double x) const {
+inline double BeamTruth::rotation(double x) const {
   if (x > 0.5) return -rotation(1 - x);
   if (x <= c_) return -(load_ * x * x * x / 6 + v0_ * x * x / 2) + a_ * x;
   if (epsilon_ == 0) return 0;
@@ -71,9 +88,9 @@ double BeamTruth::rotation(double x) const {
   return d_ * std::exp(here - far) * std::expm1(-2 * here) / std::expm1(-2 * far);
 }
 
-double BeamTruth::contact_force() const { return load_ + 2 * v0_; }
+inline double BeamTruth::contact_force() const { return load_ + 2 * v0_; }
 
-double BeamTruth::energy() const {
+inline double BeamTruth::energy() const {
   // L(w) = -q int w; a(w, w) = L(w) + int lambda w = L(w) - gap R
   const double q = load_, c = c_, c2 = c * c, c3 = c2 * c;
   const double free_part_integral =
@@ -82,4 +99,4 @@ double BeamTruth::energy() const {
   return -0.5 * work - 0.5 * gap_ * contact_force();
 }
 
-}  // namespace antilock
+}  // namespace antilock::tutorial

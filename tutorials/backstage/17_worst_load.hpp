@@ -1,44 +1,57 @@
-#include "antilock/analysis/worst_load.hpp"
-
+#pragma once
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
-#include "antilock/analysis/load_ascent.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/problem/choose_penalty.hpp"
+#include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/penalty_factor.hpp"
+#include "antilock/space/space.hpp"
+#include "backstage/17_load_modes.hpp"
 
-namespace antilock {
-namespace {
+namespace antilock::tutorial {
 
 /// The basis loads of `modes` at a point.
-Eigen::VectorXd basis_loads(const LoadModes& modes, const Eigen::Vector2d& x) {
+inline Eigen::VectorXd basis_loads(const LoadModes& modes, const Eigen::Vector2d& x) {
   return 2 * modes.sines(x(0))(modes.k()).cwiseProduct(modes.cosines(x(1))(modes.m()));
 }
 
 /// 2 |e_k|_a^2 of e_k = psi_k sin(k pi x) in the body, sin(k pi x) in the layer: a coth a of the body, a^2 of the layer.
-double energy_of_wave(int k) {
+inline double energy_of_wave(int k) {
   const double a = k * std::numbers::pi;
   return a / std::tanh(a) + a * a;
 }
 
-}  // namespace
+/// The load of a ball of which a method makes the largest error: the supremum in the definition of locking of Babuska
+/// and Suri (SIAM J. Numer. Anal. 29, 1992; [3] of the paper), without contact.
+struct WorstLoad {
+  double error = 0;      ///< |u - u_h| in the (broken) energy seminorm, the largest for |f| <= 1 in L2(body)
+  Eigen::VectorXd load;  ///< of norm 1, in LoadModes
+};
 
-double loss_of_wave(int k) {
+/// l_k: the error at epsilon = 0 under psi_k sin(k pi x) / |psi_k|, psi_k = sinh(k pi (1 - y)) / sinh(k pi), of a method
+/// whose functions are all 0 on the layer. A conforming method with d functions there loses at least l_{d+1} on the
+/// ball. k >= 1, falling.
+inline double loss_of_wave(int k) {
   const double a = k * std::numbers::pi, square = (1 / std::tanh(a) - a / std::pow(std::sinh(a), 2)) / (2 * a);
   return std::sqrt(square / energy_of_wave(k));
 }
 
-// The functions lost are z = sum c_k e_k with a(z, v) = 0 for the kept traces v: in the basis e_k / |e_k|_a, orthonormal
-// in a, with |z|^2 = sum l_k^2 c_k^2, they are orthogonal to the vectors (energy_of_wave^(1/2) int v sin(k pi x))_k.
-double loss_of_degree(int p) {
+/// What P_p on an unstructured mesh loses on the ball at epsilon = 0 as h -> 0, and never less: a body resolved exactly
+/// whose traces on Sigma are x (1 - x) times polynomials of degree p - 2; for p = 1 they are 0. By 64 waves; p from 1.
+///
+/// The functions lost are z = sum c_k e_k with a(z, v) = 0 for the kept traces v: in the basis e_k / |e_k|_a, orthonormal
+/// in a, with |z|^2 = sum l_k^2 c_k^2, they are orthogonal to the vectors (energy_of_wave^(1/2) int v sin(k pi x))_k.
+inline double loss_of_degree(int p) {
   const int waves = 64, points = 1024;
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(points + 1, 0, 1);
   Eigen::MatrixXd kept = Eigen::MatrixXd::Zero(waves, p - 1), lost = Eigen::MatrixXd::Zero(waves, waves);
@@ -56,7 +69,9 @@ double loss_of_degree(int p) {
   return std::sqrt(symmetric_eigenvalues(lost).maxCoeff());
 }
 
-double width_of_ball(int n) {
+/// The width of the ball: no conforming space with n functions on the body has a smaller worst error, for any epsilon.
+/// 1 / (pi (k^2 + m^2)^(1/2)), the last of the first n + 1 sines sin(k pi x) sin(m pi y). n >= 0.
+inline double width_of_ball(int n) {
   std::vector<int> squares;
   for (int k = 1; k * k < 2 * n + 8; ++k)  // more than n + 1 of them lie in this square, their first n + 1 in it
     for (int m = 1; m * m < 2 * n + 8; ++m) squares.push_back(k * k + m * m);
@@ -64,7 +79,48 @@ double width_of_ball(int n) {
   return 1 / (std::numbers::pi * std::sqrt(squares[n]));
 }
 
-ErrorForm::ErrorForm(const Space& space, LoadModes modes) : space_(space), modes_(std::move(modes)) {
+/// The error of (23) without contact as a quadratic form in the load f = LoadModes:
+///
+///     |u - u_h|^2 = f' E f,  E = S - F' A^-1 F                                   V_h in V: by Galerkin's orthogonality
+///                            E = S + F' A^-1 F - F' J - J' F                     CR, J f = I_h u
+///
+/// in the seminorm of a^epsilon. S: exact response. F: the loads integrated against the basis. A: the method's matrix.
+/// CR's interpolant I_h u has a_h(u, v_h) = a_h(I_h u, v_h). F is dense, N x n; E is never formed.
+class ErrorForm {
+ public:
+  /// modes.waves() from 1 to 2 per cell side: above, the load is integrated inexactly. The space must outlive this.
+  /// Throws Error for more than 4.25 waves per longest edge, a mesh of anything but the two unit squares, a space without
+  /// layer, or of an element that is neither conforming nor CR.
+  ErrorForm(const Space& space, LoadModes modes);
+
+  /// 0 <= epsilon <= 1, else Error; 1 before the first call.
+  void set_epsilon(double epsilon);
+  const LoadModes& modes() const { return modes_; }
+  /// E f.
+  Eigen::VectorXd apply(const Eigen::VectorXd& f);
+  /// The error |u - u_h| under the load f.
+  double error(const Eigen::VectorXd& f);
+  /// The largest over |f| <= 1, by Lanczos iteration, to a relative `tolerance`, from below.
+  WorstLoad worst(double tolerance = 1e-4);
+
+ private:
+  void integrate_loads();
+  void interpolate_solutions();
+  Eigen::VectorXd interpolant(const Eigen::VectorXd& f) const;             // J f
+  Eigen::VectorXd interpolant_transposed(const Eigen::VectorXd& b) const;  // J' b
+  Eigen::VectorXd answer(const Eigen::VectorXd& load);
+
+  const Space& space_;
+  LoadModes modes_;
+  double epsilon_ = 1;
+  VariationalInequality problem_;
+  std::optional<PenaltyFactor> factor_;
+  std::vector<int> active_;         // unknowns of the body that are not clamped
+  Eigen::MatrixXd loads_;           // F': n x active
+  Eigen::MatrixXd means_, decays_;  // CR: edge means of the basis (n x active), of 2 sin decay (waves + 1 x active)
+};
+
+inline ErrorForm::ErrorForm(const Space& space, LoadModes modes) : space_(space), modes_(std::move(modes)) {
   if (!space.element().conforming() && &space.element() != &crouzeix_raviart())
     throw Error("error form: element " + space.element().name() + "; accepted: conforming ones and CR");
   const TriangleMesh& mesh = space.mesh();
@@ -85,7 +141,7 @@ ErrorForm::ErrorForm(const Space& space, LoadModes modes) : space_(space), modes
   if (!space.element().conforming()) interpolate_solutions();
 }
 
-void ErrorForm::set_epsilon(double epsilon) {
+inline void ErrorForm::set_epsilon(double epsilon) {
   if (!(epsilon >= 0 && epsilon <= 1)) throw Error(fmt::format("error form: epsilon = {}; accepted 0 to 1", epsilon));
   epsilon_ = epsilon;
   problem_.compliance = compliance(StiffLayer{epsilon});
@@ -93,7 +149,7 @@ void ErrorForm::set_epsilon(double epsilon) {
   if (factor_ && factor_->delta() != delta) factor_->refactor(problem_, delta);
 }
 
-void ErrorForm::integrate_loads() {
+inline void ErrorForm::integrate_loads() {
   const TriangleMesh& mesh = space_.mesh();
   const Element& element = space_.element();
   const Quadrature& rule = triangle_rule(12);
@@ -122,7 +178,7 @@ void ErrorForm::integrate_loads() {
 }
 
 // The unknowns of CR are means over edges. Those of the layer are not needed: no load stands there.
-void ErrorForm::interpolate_solutions() {
+inline void ErrorForm::interpolate_solutions() {
   const auto [points, weights] = gauss_rule(10);
   const TriangleMesh& mesh = space_.mesh();
   means_.setZero(modes_.size(), loads_.cols());
@@ -138,76 +194,36 @@ void ErrorForm::interpolate_solutions() {
   }
 }
 
-Eigen::VectorXd ErrorForm::interpolant(const Eigen::VectorXd& f) const {
+inline Eigen::VectorXd ErrorForm::interpolant(const Eigen::VectorXd& f) const {
   return means_.transpose() * modes_.held_at_top().cwiseProduct(f) -
          decays_.transpose() * modes_.taken_away(epsilon_).cwiseProduct(modes_.on_free_sigma(f));
 }
 
-Eigen::VectorXd ErrorForm::interpolant_transposed(const Eigen::VectorXd& b) const {
+inline Eigen::VectorXd ErrorForm::interpolant_transposed(const Eigen::VectorXd& b) const {
   const Eigen::VectorXd decaying = modes_.taken_away(epsilon_).cwiseProduct(decays_ * b);
   return modes_.held_at_top().cwiseProduct(means_ * b - decaying(modes_.k()));
 }
 
-Eigen::VectorXd ErrorForm::answer(const Eigen::VectorXd& load) {
+inline Eigen::VectorXd ErrorForm::answer(const Eigen::VectorXd& load) {
   problem_.load.setZero();
   problem_.load(active_) = load;
   if (!factor_) factor_.emplace(problem_);
   return active_set(problem_, *factor_).u;
 }
 
-Eigen::VectorXd ErrorForm::apply(const Eigen::VectorXd& f) {
+inline Eigen::VectorXd ErrorForm::apply(const Eigen::VectorXd& f) {
   const Eigen::VectorXd exact = modes_.response(f, epsilon_);  // asks for the size of f
   const Eigen::VectorXd load = loads_.transpose() * f, u = answer(load)(active_);
   if (space_.element().conforming()) return exact - loads_ * u;
   return exact + loads_ * (u - interpolant(f)) - interpolant_transposed(load);
 }
 
-double ErrorForm::error(const Eigen::VectorXd& f) { return std::sqrt(std::max(0.0, f.dot(apply(f)))); }
+inline double ErrorForm::error(const Eigen::VectorXd& f) { return std::sqrt(std::max(0.0, f.dot(apply(f)))); }
 
-WorstLoad ErrorForm::worst(double tolerance) {
+inline WorstLoad ErrorForm::worst(double tolerance) {
   const Eigenpair largest =
       largest_eigenpair([this](const Eigen::VectorXd& f) { return apply(f); }, modes_.size(), tolerance, 20);
   return {std::sqrt(std::max(0.0, largest.value)), largest.vector};
 }
 
-SineLoad load_of_modes(const Eigen::VectorXd& c) {
-  const double square = std::pow(std::numbers::pi / 2, 2);
-  SineLoad load;
-  for (int k = 1; k <= c.size(); ++k) {
-    std::vector<double> cosine(13, 0.0);
-    double term = 2 * c(k - 1);
-    for (int i = 0; i <= 12; i += 2) {
-      cosine[i] = term;
-      term *= -square / ((i + 1) * (i + 2));
-    }
-    load.modes.push_back({k, cosine});
-  }
-  return load;
-}
-
-double ascend(const std::function<double(const Eigen::VectorXd&)>& error, const std::vector<Eigen::VectorXd>& starts,
-              int steps) {
-  double best = 0;
-  for (const Eigen::VectorXd& start : starts) {
-    Eigen::VectorXd at = start.normalized();
-    double value = error(at), step = 0.3;
-    for (int i = 0; i < steps && step > 0.02; ++i) {
-      Eigen::VectorXd gradient(at.size());
-      for (Eigen::Index k = 0; k < at.size(); ++k)
-        gradient(k) = error((at + 1e-3 * Eigen::VectorXd::Unit(at.size(), k)).normalized()) - value;
-      const Eigen::VectorXd tried = (at + step * gradient.normalized()).normalized();
-      const double there = error(tried);
-      if (there > value) {
-        at = tried;
-        value = there;
-        step *= 2;
-      } else {
-        step *= 0.5;
-      }
-    }
-    best = std::max(best, value);
-  }
-  return best;
-}
-
-}  // namespace antilock
+}  // namespace antilock::tutorial
