@@ -1,5 +1,6 @@
 #include <Eigen/CholmodSupport>
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <vector>
@@ -41,6 +42,12 @@ class CholmodCholesky final : public SparseCholesky {
     common_.print = 0;
     common_.supernodal = CHOLMOD_SUPERNODAL;
     common_.final_ll = 1;
+    // Two supernodes are merged into one of up to 16 columns always, of up to 32, up to 64 and of more where the merged
+    // block has at most 90, 30 and 10 % zeros. CHOLMOD's own are 4, 16, 48 columns and 80, 10, 5 %: the BLAS is called
+    // twice per supernode, most of which are small. At 1/h = 512 (P1) 28,509 supernodes for 68,896, the factor in 0.6 of
+    // the seconds and with 1.29 of the entries, which the sweeps read. Twice these columns: 15,174, 0.4 and 1.83.
+    std::copy_n(std::array<std::size_t, 3>{16, 32, 64}.data(), 3, common_.nrelax);
+    std::copy_n(std::array{0.9, 0.3, 0.1}.data(), 3, common_.zrelax);
   }
   ~CholmodCholesky() override {
     cholmod_free_factor(&l_, &common_);
