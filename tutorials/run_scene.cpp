@@ -18,7 +18,6 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/detail/scene_problem.hpp"
 #include "antilock/io/detail/scene_results.hpp"
-#include "antilock/io/expression.hpp"
 #include "antilock/io/scene_file.hpp"
 #include "common/command_line.hpp"
 #include "common/tutorial.hpp"

@@ -18,7 +18,6 @@
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/io/detail/scene_checks.hpp"
 #include "antilock/io/detail/scene_results.hpp"
-#include "antilock/io/expression.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"

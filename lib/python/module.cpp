@@ -128,8 +128,7 @@ py::dict certify_scene(const std::string& text, double accuracy, const std::stri
 struct KnownTruth {
   KnownTruth(double epsilon, const std::string& load, bool contact)
       : truth([&] {
-          const auto f = std::make_shared<Expression>(load, std::vector<std::string>{"x", "y"});
-          const Scene scene({[f](double x, double y) { return (*f)(x, y); }}, StiffLayer{epsilon},
+          const Scene scene({Expression(load, {"x", "y"})}, StiffLayer{epsilon},
                             contact ? std::optional(UnilateralContact{}) : std::nullopt);
           std::optional<Truth> known = truth_of(scene);
           if (!known)

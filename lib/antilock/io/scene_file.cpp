@@ -11,7 +11,6 @@
 #include "antilock/io/detail/scene_section.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/measure/detail/point_values.hpp"
-#include "antilock/scene/detail/block_field.hpp"
 
 namespace antilock {
 namespace {
@@ -61,7 +60,7 @@ auto named(const Section& section, const std::string& key, const std::string& te
   };
 }
 Field field(const Section& section, const std::string& key, const std::string& accepted = in_x_and_y) {
-  return BlockField{named(section, key, section.text(key, accepted), {"x", "y"})};
+  return named(section, key, section.text(key, accepted), {"x", "y"});
 }
 Profile profile(const Section& section, const std::string& key, const char* otherwise = nullptr) {
   return named(section, key, section.text(key, in_x, otherwise), {"x"});

@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "antilock/io/detail/scene_checks.hpp"
-#include "antilock/io/expression.hpp"
 #include "antilock/io/scene_file.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"

@@ -8,7 +8,6 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/scene/detail/block_field.hpp"
 
 namespace antilock {
 namespace {
@@ -100,7 +99,10 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
     if (here == 0) continue;
     const bool fits = at_points <= k;
     if (fits) {
-      evaluate(f, (rule.points * mesh.vertices(mesh.triangles.row(t), Eigen::all)).transpose(), at_rule);
+      for (Eigen::Index q = 0; q < at_rule.size(); ++q) {
+        const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+        at_rule(q) = f(x(0), x(1));
+      }
       at_points += at_rule.size();
       quadratic.noalias() = fit * at_rule;
     }

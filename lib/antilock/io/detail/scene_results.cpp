@@ -11,7 +11,6 @@
 #include "antilock/core/detail/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/detail/scene_problem.hpp"
-#include "antilock/io/expression.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/detail/point_values.hpp"
 #include "antilock/measure/errors.hpp"

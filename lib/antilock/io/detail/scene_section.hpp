@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "antilock/core/error.hpp"
-#include "antilock/io/expression.hpp"
 
 namespace antilock {
 
