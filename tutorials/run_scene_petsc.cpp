@@ -117,7 +117,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
           fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; accepted: \"petsc\"",
                       file->name, file->method.solver, dist::ranks()));
     check_folder(out);
-    check_inputs_stay(out, scene, *file, dist::piece_files(out));
+    check_inputs_stay(out, scene, *file, dist::ranks());
     question = dist::question_of(scene, file->mesh.file);
     if (!choices.restart) return;
     const dist::Checkpoint checkpoint = dist::read_checkpoint(kept, question);

@@ -99,17 +99,6 @@ Eigen::MatrixXd with_friction(const Eigen::MatrixX3d& table, const Answer& answe
   return all;
 }
 
-/// What an earlier run on several ranks left in the folder: its pictures would pass for those of this one.
-std::vector<std::string> pieces_in(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::error_code absent;
-  if (!std::filesystem::exists(folder / "solution.pvtu", absent)) return names;
-  names.push_back("solution.pvtu");
-  const auto piece = [](std::size_t rank) { return fmt::format("solution_{}.vtu", rank); };
-  while (std::filesystem::exists(folder / piece(names.size() - 1), absent)) names.push_back(piece(names.size() - 1));
-  return names;
-}
-
 }  // namespace
 
 SceneSummary summary_of(const SceneFile& file, const Answer& answer) {
@@ -200,10 +189,21 @@ void write_summary(const std::filesystem::path& path, const SceneFile& file, con
   write_file(path, [&](std::ostream& out) { out << s.dump(2) << "\n"; });
 }
 
+std::string piece_name(int rank) { return fmt::format("solution_{}.vtu", rank); }
+
+std::vector<std::string> result_names(const std::filesystem::path& folder, int ranks) {
+  std::vector<std::string> names{"summary.json", "solution.csv", "contact.csv",
+                                 "mesh.msh",     "solution.vtu", "solution.pvtu"};
+  std::error_code absent;
+  const bool earlier = std::filesystem::exists(folder / "solution.pvtu", absent);
+  for (int r = 0; r < ranks || (earlier && std::filesystem::exists(folder / piece_name(r), absent)); ++r)
+    names.push_back(piece_name(r));
+  return names;
+}
+
 void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
-                       std::vector<std::string> more) {
-  more.insert(more.end(), {"summary.json", "solution.csv", "contact.csv", "mesh.msh", "solution.vtu"});
-  for (const std::string& name : more)
+                       int ranks) {
+  for (const std::string& name : result_names(folder, ranks))
     for (const std::filesystem::path& input : {scene, file.mesh.file})
       if (std::error_code absent; !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
         throw Error(fmt::format("{}: --out: the result {} would replace {}; accepted: another folder", file.name, name,
@@ -249,12 +249,7 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
       write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
     write_summary(draft / "summary.json", file, summary, answer.seconds, watch.seconds(), certified);
   };
-  std::vector<std::string> stale = pieces_in(folder);
-  if (!csv) stale.emplace_back("solution.csv");
-  if (!csv || !contact) stale.emplace_back("contact.csv");
-  if (!asked.contains("mesh")) stale.emplace_back("mesh.msh");
-  if (!vtu) stale.emplace_back("solution.vtu");
-  write_folder(folder, write, stale);
+  write_folder(folder, write, result_names(folder));
 }
 
 }  // namespace antilock
