@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 #include "antilock/core/error.hpp"
 
@@ -11,47 +11,33 @@ namespace antilock {
 
 void number_edges(TriangleMesh& mesh, const std::string& where) {
   const int triangle_count = mesh.triangle_count();
-  const auto ends = [&](int t, int i) {
-    return std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
-  };
-  // Half-edges in buckets by their smaller vertex: each bucket holds a handful, so that matching the halves is linear.
-  std::vector<int> start(mesh.vertex_count() + 1, 0);
-  for (int t = 0; t < triangle_count; ++t)
-    for (int i = 0; i < 3; ++i) ++start[ends(t, i).first + 1];
-  std::partial_sum(start.begin(), start.end(), start.begin());
-  struct Edge {
-    int to, id;
-  };
-  std::vector<Edge> bucket(3 * static_cast<std::size_t>(triangle_count));
-  std::vector<int> filled(mesh.vertex_count(), 0);
-
   mesh.triangle_edges.resize(triangle_count, 3);
   mesh.edges.resize(3 * static_cast<Eigen::Index>(triangle_count), 2);
   mesh.edge_triangles.resize(3 * static_cast<Eigen::Index>(triangle_count), 2);
-  int count = 0;
+  // a chain of edges per vertex, those whose smaller vertex it is: each holds a handful, so that the search is linear
+  std::vector<int> last(mesh.vertex_count(), -1), before;
   for (int t = 0; t < triangle_count; ++t)
     for (int i = 0; i < 3; ++i) {
-      const auto [from, to] = ends(t, i);
-      Edge* const first = bucket.data() + start[from];
-      Edge* const last = first + filled[from];
-      Edge* const found = std::find_if(first, last, [to = to](const Edge& e) { return e.to == to; });
-      if (found == last) {
-        *last = {to, count};
-        ++filled[from];
-        mesh.edges.row(count) << from, to;
-        mesh.edge_triangles.row(count) << t, -1;
-        mesh.triangle_edges(t, i) = count++;
+      const auto [from, to] = std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
+      int e = last[from];
+      while (e >= 0 && mesh.edges(e, 1) != to) e = before[e];
+      if (e < 0) {
+        e = static_cast<int>(before.size());
+        before.push_back(std::exchange(last[from], e));
+        mesh.edges.row(e) << from, to;
+        mesh.edge_triangles.row(e) << t, -1;
       } else {
-        if (mesh.edge_triangles(found->id, 1) != -1)
+        if (mesh.edge_triangles(e, 1) != -1)
           throw Error(fmt::format("{}: three triangles share the edge from {} to {}; accepted: two at most", where,
                                   mesh.place(from), mesh.place(to)));
-        mesh.edge_triangles(found->id, 1) = t;
-        mesh.triangle_edges(t, i) = found->id;
+        mesh.edge_triangles(e, 1) = t;
       }
+      mesh.triangle_edges(t, i) = e;
     }
+  const auto count = static_cast<Eigen::Index>(before.size());
   mesh.edges.conservativeResize(count, 2);
   mesh.edge_triangles.conservativeResize(count, 2);
-  mesh.edge_tag.assign(count, EdgeTag::interior);
+  mesh.edge_tag.assign(before.size(), EdgeTag::interior);
   for (int e = 0; e < count; ++e) {
     const int other = mesh.edge_triangles(e, 1);
     if (other >= 0 && mesh.region[mesh.edge_triangles(e, 0)] != mesh.region[other]) mesh.edge_tag[e] = EdgeTag::sigma;
