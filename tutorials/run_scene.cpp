@@ -161,7 +161,8 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   watch.lap();
   const SceneSummary summary = summary_of(file, found.answer);
   found.answer.seconds.solve += watch.lap();
-  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer()); stiff != nullptr && file.words.thickness)
+  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
+      stiff != nullptr && file.words.find("\"thickness\"") != file.words.npos)
     fmt::print("  layer: {:g} before a_x^-, {:g} before a_y^-\n", stiff->s,
                stiff->s / (stiff->epsilon * stiff->epsilon));
   report.stage("files");
@@ -171,9 +172,9 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   const std::string name = (asked.out / "solution").string();
   if (asked.files.contains("vtu"))
     fmt::print("  a picture of it: {2} {1} {0}.vtu --out {0}.png\n", name,
-               file.elastic                                ? "deformed"
-               : file.mesh.kind == MeshRequest::Kind::file ? "plan"
-                                                           : "surface",
+               file.elastic            ? "deformed"
+               : file.mesh.from_file() ? "plan"
+                                       : "surface",
                tutorial::beside("render", "figures"));
   if (found.history.empty())
     fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,

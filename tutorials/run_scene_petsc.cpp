@@ -47,7 +47,7 @@ Hierarchy hierarchy(const SceneFile& file, int ranks) {
   Hierarchy h;
   SceneFile first = file;
   std::swap(h.refinements, first.mesh.refinements);
-  const bool halves = file.mesh.kind == MeshRequest::Kind::structured &&
+  const bool halves = file.mesh.kind == "structured" &&
                       !std::holds_alternative<ThinLayer>(file.scene.layer());  // its rows do not halve with the cells
   const int least = std::max(16, 8 * ranks);
   while (halves && first.mesh.cells % 2 == 0 && first.mesh.cells / 2 >= least) first.mesh.cells /= 2, ++h.refinements;
@@ -132,7 +132,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   dist::together([&] {
     h = hierarchy(*file, dist::ranks());
     check_memory(*file, h, dist::ranks());
-    const bool unit_square = file->mesh.kind != MeshRequest::Kind::file;
+    const bool unit_square = !file->mesh.from_file();
     if (unit_square && !options.start && file->scene.contact()) options.start = first_guess(file->scene);
   });
   if (choices.restart) {

@@ -105,7 +105,7 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
                             const std::optional<LayerReport>& layer, const std::string& warning) {
   SceneSummary s;
   s.layer = layer;
-  const bool from_file = file.mesh.kind == MeshRequest::Kind::file;
+  const bool from_file = file.mesh.from_file();
   s.h = from_file ? largest(level.piece.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
   s.unknowns = level.problem.rows().total();
   s.energy = energy_of_all(level);

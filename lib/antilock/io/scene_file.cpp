@@ -88,18 +88,9 @@ void sample_gap(const Profile& gap) {
     for (int i = 0; i <= n; ++i) gap(static_cast<double>(i) / n);
 }
 
-/// Keeps the question of a key as JSON, for the summary.
-void keep(SceneWords& words, const toml::table& table, const std::string& key, const std::string& of = "") {
-  if (!table.contains(key)) return;
-  std::ostringstream json;
-  json << toml::json_formatter{*table.get(key)};
-  words.more += fmt::format("{}\"{}{}\": {}", words.more.empty() ? "" : ", ", of, key, json.str());
-}
-
-Body read_body(const Section& root, SceneWords& words) {
+Body read_body(const Section& root) {
   const Section load = root.section("load"), body = root.section("body");
   load.only({"f"});
-  words.load = load.text("f", in_x_and_y);
   Body read{field(load, "f")};
   body.only({"stiffness"});
   if (root.has("body") && !body.table()["stiffness"].is_table())  // a table: read_groups
@@ -141,24 +132,20 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, MoreGro
   };
 }
 
-UnilateralContact read_contact(const Section& section, SceneWords& words) {
+UnilateralContact read_contact(const Section& section) {
   section.only({"gap", "ceiling"});
-  words.gap = section.text("gap", in_x, "0");
   UnilateralContact contact{profile(section, "gap", "0")};
   if (section.has("ceiling")) contact.ceiling = profile(section, "ceiling");
-  keep(words, section.table(), "ceiling");
   return contact;
 }
 
-Layer read_layer(const Section& section, SceneWords& words) {
+Layer read_layer(const Section& section) {
   section.only({"epsilon", "model", "thickness", "stiffness", "load"});
-  const std::string model = words.model = section.one_of("model", {"scaled", "ventcel", "thin"}, "scaled");
+  const std::string model = section.one_of("model", {"scaled", "ventcel", "thin"}, "scaled");
   const bool numbers = section.has("thickness") || section.has("stiffness");
-  for (const char* key : {"thickness", "stiffness", "load"}) {
+  for (const char* key : {"thickness", "stiffness", "load"})
     if (section.has(key) && model != "scaled")
       section.refuse(key, fmt::format("does not go with model = \"{}\"; accepted: with \"scaled\" only", model));
-    keep(words, section.table(), key, "layer ");
-  }
   if (numbers && section.has("epsilon"))
     section.refuse("epsilon", "stands beside thickness or stiffness; accepted: epsilon, or the other two");
   const std::string key = numbers ? "thickness" : "epsilon";
@@ -170,7 +157,6 @@ Layer read_layer(const Section& section, SceneWords& words) {
   if (!(epsilon >= least && epsilon <= most))
     section.refuse(key, fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon, model,
                                     numbers ? "0 < thickness <= 1" : accepted));
-  words.thickness = numbers;
   if (model == "ventcel") return VentcelLayer{};
   if (model == "thin") return ThinLayer{epsilon};
   StiffLayer layer{epsilon};
@@ -261,27 +247,20 @@ std::optional<ElasticRequest> read_model(const Section& section, const Layer& la
 
 constexpr int most_structured = 2048, most_unstructured = 512;
 
-MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder, SceneWords& words) {
-  using Kind = MeshRequest::Kind;
+MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder) {
   section.only({"kind", "cells", "file", "refinements"});
-  words.mesh = section.one_of("kind", {"structured", "unstructured", "layered", "file"});
   MeshRequest mesh;
-  mesh.kind = words.mesh == "structured"     ? Kind::structured
-              : words.mesh == "unstructured" ? Kind::unstructured
-              : words.mesh == "layered"      ? Kind::layered
-                                             : Kind::file;
-  const bool from_file = mesh.kind == Kind::file;
-  if (const char* other = from_file ? "cells" : "file"; section.has(other))
-    section.refuse(other, fmt::format("does not go with kind = \"{}\"; accepted: {}", words.mesh,
-                                      from_file ? "file alone" : "with kind = \"file\" only"));
-  if (from_file) {
+  mesh.kind = section.one_of("kind", {"structured", "unstructured", "layered", "file"});
+  if (const char* other = mesh.from_file() ? "cells" : "file"; section.has(other))
+    section.refuse(other, fmt::format("does not go with kind = \"{}\"; accepted: {}", mesh.kind,
+                                      mesh.from_file() ? "file alone" : "with kind = \"file\" only"));
+  if (mesh.from_file()) {
     const std::string accepted = "the path of a MSH file, 2.2 or 4.1, relative to the scene file";
-    words.file = section.text("file", accepted);
-    if (words.file.empty() || words.file.find('\0') != words.file.npos)
-      section.refuse("file", "is no path; accepted: " + accepted);
-    mesh.file = folder / words.file;
+    const std::string path = section.text("file", accepted);
+    if (path.empty() || path.find('\0') != path.npos) section.refuse("file", "is no path; accepted: " + accepted);
+    mesh.file = folder / path;
   } else {
-    mesh.cells = section.count("cells", mesh.kind == Kind::structured ? most_structured : most_unstructured);
+    mesh.cells = section.count("cells", mesh.kind == "structured" ? most_structured : most_unstructured);
   }
   if (!section.has("refinements")) return mesh;
   mesh.refinements = section.count("refinements", 10);
@@ -327,7 +306,7 @@ MethodRequest read_method(const Section& section) {
 /// What one section leaves out because of another.
 void check_together(const Section& root, const Scene& scene, const MeshRequest& mesh, const MethodRequest& method) {
   const bool ventcel = std::holds_alternative<VentcelLayer>(scene.layer()), petsc = method.solver == "petsc";
-  if (mesh.kind == MeshRequest::Kind::layered && !std::holds_alternative<StiffLayer>(scene.layer()))
+  if (mesh.kind == "layered" && !std::holds_alternative<StiffLayer>(scene.layer()))
     root.refuse("mesh.kind",
                 "\"layered\" is the mesh of the scaled layer, which this scene does not have; "
                 "accepted: a section [layer] with model = \"scaled\", or \"unstructured\"");
@@ -385,10 +364,11 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
     if (!root.has(required)) root.refuse(required, fmt::format("is missing; accepted: a section [{}]", required));
 
   const std::string title = root.text("title", "any text in quotes", "");
-  SceneWords words;
-  const MeshRequest mesh = read_mesh(root.section("mesh"), path.parent_path(), words);
-  const bool unit_square = mesh.kind != MeshRequest::Kind::file;  // what a file holds is known when it is read
-  Body body = read_body(root, words);
+  std::ostringstream words;
+  words << toml::json_formatter{table};
+  const MeshRequest mesh = read_mesh(root.section("mesh"), path.parent_path());
+  const bool unit_square = !mesh.from_file();  // what a file holds is known when it is read
+  Body body = read_body(root);
   if (unit_square) sample_load(body.load);
   MoreGroups groups;
   const std::vector<EdgeCondition> edges = read_edges(root.sections("edge"), groups);
@@ -396,10 +376,9 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   if (unit_square && !(groups.curves.empty() && groups.bodies.empty()))
     root.refuse(groups.bodies.empty() ? "edge" : "body",
                 "names groups of a mesh file; accepted: with kind = \"file\" only");
-  for (const char* section : {"body", "edge", "at", "model"}) keep(words, table, section);
-  const Layer layer = root.has("layer") ? read_layer(root.section("layer"), words) : NoLayer{};
+  const Layer layer = root.has("layer") ? read_layer(root.section("layer")) : NoLayer{};
   std::optional<UnilateralContact> contact;
-  if (root.has("contact")) contact = read_contact(root.section("contact"), words);
+  if (root.has("contact")) contact = read_contact(root.section("contact"));
   if (contact && unit_square) sample_gap(contact->gap);
   if (contact && !unit_square) contact->held.clear();
   const MethodRequest method = read_method(root.section("method"));
@@ -416,7 +395,7 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   if (elastic) check_elastic(root, scene, method);
   std::vector<Eigen::Vector2d> points;
   if (root.has("at")) points = read_points(root.section("at"));
-  return {name, title, scene, mesh, method, words, groups, points, elastic};
+  return {name, title, scene, mesh, method, words.str(), groups, points, elastic};
 }
 
 }  // namespace antilock

@@ -188,32 +188,21 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
   return mesh;
 }
 
-TriangleMesh made_or_read(const SceneFile& file) {
-  using Kind = MeshRequest::Kind;
-  const Domain domain{file.scene.layer_depth()};
-  switch (file.mesh.kind) {
-    case Kind::structured:
-      return structured_mesh(file.mesh.cells, domain);
-    case Kind::unstructured:
-      return unstructured_mesh(file.mesh.cells, domain);
-    case Kind::layered:
-      return layered_mesh(file.mesh.cells, file.scene.epsilon().value_or(1));
-    case Kind::file:
-      break;
-  }
-  return read_mesh_of(file);
-}
-
 TriangleMesh checked_mesh(const SceneFile& file) {
+  const auto& [kind, cells, path, refinements] = file.mesh;
+  const Domain domain{file.scene.layer_depth()};
   try {
-    return made_or_read(file);
+    return kind == "structured"     ? structured_mesh(cells, domain)
+           : kind == "unstructured" ? unstructured_mesh(cells, domain)
+           : kind == "layered"      ? layered_mesh(cells, file.scene.epsilon().value_or(1))
+                                    : read_mesh_of(file);
   } catch (const Error& error) {
     std::string what = printable(error.what(), 2000);
     if (what.find("accepted") == std::string::npos)
       what +=
           "; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), clamped and contact, its "
           "triangles proper and connected";
-    throw Error(file.name + (file.mesh.kind == MeshRequest::Kind::file ? ": mesh.file: " : ": mesh.cells: ") + what);
+    throw Error(file.name + (file.mesh.from_file() ? ": mesh.file: " : ": mesh.cells: ") + what);
   }
 }
 
@@ -222,8 +211,8 @@ TriangleMesh checked_mesh(const SceneFile& file) {
 TriangleMesh make_mesh(const SceneFile& file) {
   constexpr std::int64_t most_triangles = 1 << 25;
   TriangleMesh mesh = checked_mesh(file);
-  if (file.elastic && file.mesh.kind != MeshRequest::Kind::file) mesh = with_free_sides(std::move(mesh));
-  if (file.mesh.kind == MeshRequest::Kind::file) check_on_mesh(file, mesh);
+  if (file.elastic && !file.mesh.from_file()) mesh = with_free_sides(std::move(mesh));
+  if (file.mesh.from_file()) check_on_mesh(file, mesh);
   const std::int64_t triangles = static_cast<std::int64_t>(mesh.triangle_count()) << (2 * file.mesh.refinements);
   if (triangles > most_triangles)
     throw Error(fmt::format("{}: mesh.refinements: {} refinements of {} triangles make {}; accepted: up to {}",
@@ -233,9 +222,8 @@ TriangleMesh make_mesh(const SceneFile& file) {
 }
 
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh) {
-  return file.mesh.kind == MeshRequest::Kind::file || file.method.accuracy
-             ? mesh.diameter()
-             : 1.0 / (file.mesh.cells << file.mesh.refinements);
+  return file.mesh.from_file() || file.method.accuracy ? mesh.diameter()
+                                                       : 1.0 / (file.mesh.cells << file.mesh.refinements);
 }
 
 }  // namespace antilock

@@ -139,7 +139,7 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
 }
 
 std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
-  if (file.mesh.kind != MeshRequest::Kind::file || !mesh.geometry.empty()) return "";
+  if (!file.mesh.from_file() || !mesh.geometry.empty()) return "";
   constexpr double corner = 0.7071;  // the cosine of 45 degrees, what a regular octagon turns by
   std::vector<Eigen::RowVector2d> turn(mesh.vertex_count(), Eigen::RowVector2d::Zero());
   std::vector<double> cosine(mesh.vertex_count(), 1);  // of the turn at a vertex of the boundary

@@ -32,26 +32,31 @@ const char* asked_of(const MethodRequest& method) { return method.of == Quantity
 
 /// The question in full: with it and the mesh file anyone can ask it again.
 Json question(const SceneFile& file) {
-  const SceneWords& words = file.words;
+  const Json words = Json::parse(file.words);
   const MethodRequest& method = file.method;
-  Json layer, mesh = {{"kind", words.mesh}};
-  if (!words.model.empty()) layer = {{"epsilon", or_null(file.scene.epsilon())}, {"model", words.model}};
-  if (file.mesh.kind == MeshRequest::Kind::file)
-    mesh["file"] = words.file;
-  else
-    mesh["cells"] = file.mesh.cells;
-  if (file.mesh.refinements > 0) mesh["refinements"] = file.mesh.refinements;
   Json asked = {{"title", file.title},
-                {"load", words.load},
-                {"layer", layer},
-                {"gap", file.scene.contact() ? Json(words.gap) : Json(nullptr)},
-                {"mesh", mesh},
+                {"load", words["load"]["f"]},
+                {"layer", nullptr},
+                {"gap", nullptr},
+                {"mesh", words["mesh"]},
                 {"method", {{"element", method.element}, {"solver", method.solver}, {"tolerance", method.tolerance}}},
                 {"version", ANTILOCK_VERSION}};
+  const auto add = [&](const Json& from, const char* key, const std::string& name) {
+    if (from.contains(key)) asked[name] = from[key];
+  };
+  if (words.contains("layer")) {
+    const Json& layer = words["layer"];
+    asked["layer"] = {{"epsilon", or_null(file.scene.epsilon())}, {"model", layer.value("model", "scaled")}};
+    for (const std::string key : {"thickness", "stiffness", "load"}) add(layer, key.c_str(), "layer " + key);
+  }
+  if (words.contains("contact")) {
+    asked["gap"] = words["contact"].value("gap", "0");
+    add(words["contact"], "ceiling", "ceiling");
+  }
   if (method.accuracy)
     asked["method"].update(
         {{"accuracy", *method.accuracy}, {"of", asked_of(method)}, {"most_unknowns", method.most_unknowns}});
-  if (!words.more.empty()) asked.update(Json::parse("{" + words.more + "}"));
+  for (const char* section : {"body", "edge", "at", "model"}) add(words, section, section);
   return asked;
 }
 
