@@ -514,7 +514,6 @@ struct Case {
 };
 std::vector<Case> bodies() {
   return {{"square", unstructured_mesh(8, {0}), 1, 3, 1, 1},
-          {"square with a layer to leave out", unstructured_mesh(8), 1, 3, 1, 1},
           {"L", test::l_shape(8), 0.75, 3, 1, 1},
           {"two feet", test::bridge(8), 0.75, 4.5, 0.5, 2}};
 }
@@ -661,6 +660,7 @@ TEST(ExtrudedLayer, RefusesWhatItCannotStandUnder) {
   expect_refused([&] { extruded(clamped, 1); }, "no edge in the group");
   low.vertices(low.vertex_count() - 1, 1) = -0.1;
   expect_refused([&] { extruded(low, 1); }, "above y = 0");
+  expect_refused([] { extruded(structured_mesh(4), 1); }, "has a layer");
   expect_refused([] { layered_mesh(0); }, "cells = 0");
 }
 
