@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "antilock/core/error.hpp"
-#include "antilock/mesh/detail/edges.hpp"
 
 namespace antilock {
 namespace {

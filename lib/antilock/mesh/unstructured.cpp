@@ -13,7 +13,6 @@
 #include <fstream>
 
 #include "antilock/core/detail/atomic_file.hpp"
-#include "antilock/mesh/detail/edges.hpp"
 #include "antilock/mesh/detail/gmsh_session.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/refine.hpp"
