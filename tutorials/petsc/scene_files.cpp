@@ -11,7 +11,7 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/detail/kkt_report.hpp"
 #include "antilock/distributed/ranks.hpp"
-#include "antilock/io/detail/scene_results.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"

@@ -1,4 +1,4 @@
-#include "antilock/io/detail/scene_checks.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "antilock/io/detail/scene_results.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/detail/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/io/detail/scene_problem.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/detail/point_values.hpp"
 #include "antilock/measure/errors.hpp"
