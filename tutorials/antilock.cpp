@@ -13,7 +13,7 @@
 #include <functional>
 #include <new>
 
-#include "antilock/io/expression.hpp"
+#include "antilock/core/error.hpp"
 #include "common/command_line.hpp"
 #include "doors/doors.hpp"
 

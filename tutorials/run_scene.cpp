@@ -16,9 +16,7 @@
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/io/detail/scene_problem.hpp"
-#include "antilock/io/detail/scene_results.hpp"
-#include "antilock/io/expression.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/io/scene_file.hpp"
 #include "common/command_line.hpp"
 #include "common/tutorial.hpp"
@@ -162,7 +160,8 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   watch.lap();
   const SceneSummary summary = summary_of(file, found.answer);
   found.answer.seconds.solve += watch.lap();
-  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer()); stiff != nullptr && file.words.thickness)
+  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
+      stiff != nullptr && file.words.find("\"thickness\"") != file.words.npos)
     fmt::print("  layer: {:g} before a_x^-, {:g} before a_y^-\n", stiff->s,
                stiff->s / (stiff->epsilon * stiff->epsilon));
   report.stage("files");
@@ -172,9 +171,9 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   const std::string name = (asked.out / "solution").string();
   if (asked.files.contains("vtu"))
     fmt::print("  a picture of it: {2} {1} {0}.vtu --out {0}.png\n", name,
-               file.elastic                                ? "deformed"
-               : file.mesh.kind == MeshRequest::Kind::file ? "plan"
-                                                           : "surface",
+               file.elastic            ? "deformed"
+               : file.mesh.from_file() ? "plan"
+                                       : "surface",
                tutorial::beside("render", "figures"));
   if (found.history.empty())
     fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,

@@ -16,9 +16,7 @@
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/ranks.hpp"
-#include "antilock/io/detail/scene_checks.hpp"
-#include "antilock/io/detail/scene_results.hpp"
-#include "antilock/io/expression.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -48,7 +46,7 @@ Hierarchy hierarchy(const SceneFile& file, int ranks) {
   Hierarchy h;
   SceneFile first = file;
   std::swap(h.refinements, first.mesh.refinements);
-  const bool halves = file.mesh.kind == MeshRequest::Kind::structured &&
+  const bool halves = file.mesh.kind == "structured" &&
                       !std::holds_alternative<ThinLayer>(file.scene.layer());  // its rows do not halve with the cells
   const int least = std::max(16, 8 * ranks);
   while (halves && first.mesh.cells % 2 == 0 && first.mesh.cells / 2 >= least) first.mesh.cells /= 2, ++h.refinements;
@@ -118,7 +116,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
           fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; accepted: \"petsc\"",
                       file->name, file->method.solver, dist::ranks()));
     check_folder(out);
-    check_inputs_stay(out, scene, *file, dist::piece_files(out));
+    check_inputs_stay(out, scene, *file, dist::ranks());
     question = dist::question_of(scene, file->mesh.file);
     if (!choices.restart) return;
     const dist::Checkpoint checkpoint = dist::read_checkpoint(kept, question);
@@ -133,7 +131,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   dist::together([&] {
     h = hierarchy(*file, dist::ranks());
     check_memory(*file, h, dist::ranks());
-    const bool unit_square = file->mesh.kind != MeshRequest::Kind::file;
+    const bool unit_square = !file->mesh.from_file();
     if (unit_square && !options.start && file->scene.contact()) options.start = first_guess(file->scene);
   });
   if (choices.restart) {

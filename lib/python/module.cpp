@@ -11,8 +11,7 @@
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/analysis/locking.hpp"
 #include "antilock/exact/sine_load.hpp"
-#include "antilock/io/detail/scene_problem.hpp"
-#include "antilock/io/detail/scene_results.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
@@ -128,8 +127,7 @@ py::dict certify_scene(const std::string& text, double accuracy, const std::stri
 struct KnownTruth {
   KnownTruth(double epsilon, const std::string& load, bool contact)
       : truth([&] {
-          const auto f = std::make_shared<Expression>(load, std::vector<std::string>{"x", "y"});
-          const Scene scene({[f](double x, double y) { return (*f)(x, y); }}, StiffLayer{epsilon},
+          const Scene scene({Expression(load, {"x", "y"})}, StiffLayer{epsilon},
                             contact ? std::optional(UnilateralContact{}) : std::nullopt);
           std::optional<Truth> known = truth_of(scene);
           if (!known)

@@ -17,7 +17,7 @@ void require(bool condition) {
 
 void check_promises(const antilock::SceneFile& file) {
   require(file.method.tolerance > 0 && file.method.tolerance < 1);
-  require(file.mesh.kind == antilock::MeshRequest::Kind::file || file.mesh.cells > 0);
+  require(file.mesh.from_file() || file.mesh.cells > 0);
   for (const double x : {0.0, 0.3, 1.0}) require(std::isfinite(file.scene.body().load(x, 0.5)));
 }
 

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "antilock/form/forms.hpp"
-#include "antilock/io/detail/scene_problem.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/coating.hpp"

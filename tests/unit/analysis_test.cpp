@@ -806,7 +806,8 @@ double share_by_solving(const Scene& scene, const Space& space, double energy_at
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   const Scene scaled(scene.body(), stiff != nullptr ? *stiff : StiffLayer{*scene.epsilon()}, scene.contact(),
                      scene.edges());
-  const TriangleMesh columns = extruded(space.mesh(), *scene.epsilon());
+  const auto in_body = [&](int t) { return space.mesh().region[t] == Region::body; };
+  const TriangleMesh columns = extruded(antilock::cut_out(space.mesh(), in_body).mesh, *scene.epsilon());
   const Space free_space(columns, space.element());
   const VariationalInequality problem = assemble(scaled, free_space);
   const double best = energy(problem, active_set(problem));

@@ -1,3 +1,5 @@
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -5,7 +7,6 @@
 #include <csignal>
 
 #include "antilock/core/detail/atomic_file.hpp"
-#include "antilock/core/detail/draft.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/io/writers.hpp"
 #include "support/scenes.hpp"
@@ -169,18 +170,18 @@ TEST(Interrupted, DraftsOfOthersAreNeverAdopted) {
 TEST(TwoProcesses, WithOneFolderPlaceTheirFilesOneAfterTheOther) {
   const TemporaryFolder folder;
   write_file(folder / "results/first", [](std::ostream& out) { out << "mine"; });
-  pid_t other = 0;
-  {
-    const FolderLock placing(folder / "results");
-    other = ::fork();
-    if (other == 0) {
-      write_two(folder / "results", [] {});
-      ::_exit(0);
-    }
-    for (int i = 0; i < 30; ++i) ::usleep(10'000);
-    EXPECT_EQ(contents(folder / "results/first"), "mine");
-    EXPECT_FALSE(fs::exists(folder / "results/second"));
+  const int placing = ::open((folder / "results").c_str(), O_RDONLY);
+  ASSERT_EQ(::flock(placing, LOCK_EX), 0);
+  const pid_t other = ::fork();
+  if (other == 0) {
+    write_two(folder / "results", [] {});
+    ::_exit(0);
   }
+  for (int i = 0; i < 30; ++i) ::usleep(10'000);
+  EXPECT_EQ(contents(folder / "results/first"), "mine");
+  EXPECT_FALSE(fs::exists(folder / "results/second"));
+  ::flock(placing, LOCK_UN);
+  ::close(placing);
   int status = 0;
   ::waitpid(other, &status, 0);
   EXPECT_EQ(status, 0);

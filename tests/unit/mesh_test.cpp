@@ -422,22 +422,26 @@ TEST(DiscMesh, IsADiscOfGoodTriangles) {
 
 // ==== Graded lines and tensor meshes, and what they are for: degrees on them.
 
-TEST(GradedLines, KeepTheEndsAndThePointAndAscend) {
-  for (const double at : {0.0, 0.3, 0.7, 1.0})
+/// The x of all vertices, ascending.
+std::vector<double> lines_in_x(const TriangleMesh& mesh) {
+  const std::set<double> x(mesh.vertices.col(0).begin(), mesh.vertices.col(0).end());
+  return {x.begin(), x.end()};
+}
+
+TEST(GradedMesh, KeepsTheEndsAndThePointBetweenCellsOfTheWidth) {
+  for (const double at : {0.3, 0.7})
     for (const int layers : {0, 1, 7}) {
-      const std::vector<double> x = graded_lines(0, at, 1, 0.25, layers, 0.25);
+      const std::vector<double> x = lines_in_x(graded_mesh(at, 0.25, layers, 0.25, 1));
       EXPECT_EQ(x.front(), 0);
       EXPECT_EQ(x.back(), 1);
       EXPECT_EQ(std::count(x.begin(), x.end(), at), 1);
-      EXPECT_EQ(std::adjacent_find(x.begin(), x.end(), std::greater_equal<>()), x.end());
       for (std::size_t i = 1; i < x.size(); ++i) EXPECT_LE(x[i] - x[i - 1], 0.25 * (1 + 1e-14));
-      const std::size_t sides = (at > 0 ? 1 : 0) + (at < 1 ? 1 : 0), cells = at == 0 || at == 1 ? 4 : 5;
-      EXPECT_EQ(x.size(), 1 + cells + sides * layers);
+      EXPECT_EQ(x.size(), 1 + 5 + 2 * static_cast<std::size_t>(layers));
     }
 }
 
-TEST(GradedLines, EachLayerLeavesItsShareNextToThePoint) {
-  const std::vector<double> x = graded_lines(0, 0.5, 1, 0.5, 4, 0.2);  // one cell of 1/2 on each side, cut 4 times
+TEST(GradedMesh, EachLayerLeavesItsShareNextToThePoint) {
+  const std::vector<double> x = lines_in_x(graded_mesh(0.5, 0.5, 4, 0.2, 1));  // one cell on each side, cut 4 times
   ASSERT_EQ(x.size(), 11u);
   for (int k = 0; k <= 4; ++k) {
     EXPECT_NEAR(x[10 - k] - 0.5, 0.5 * std::pow(0.2, k), 1e-15);
@@ -446,11 +450,9 @@ TEST(GradedLines, EachLayerLeavesItsShareNextToThePoint) {
 }
 
 TEST(TensorMesh, OfEqualLinesIsTheStructuredMesh) {
-  const std::vector<double> x = graded_lines(0, 0, 1, 0.25, 0, 0.5);
-  std::vector<double> y = graded_lines(-1, -1, 0, 0.25, 0, 0.5);
-  y.insert(y.end(), x.begin() + 1, x.end());
   for (const Diagonal diagonal : {Diagonal::right, Diagonal::left, Diagonal::crossed})
-    expect_same(tensor_mesh(x, y, diagonal), structured_mesh(4, {}, diagonal));
+    expect_same(tensor_mesh({0, 0.25, 0.5, 0.75, 1}, {-1, -0.75, -0.5, -0.25, 0, 0.25, 0.5, 0.75, 1}, diagonal),
+                structured_mesh(4, {}, diagonal));
 }
 
 TEST(GradedMesh, FillsTheTwoSquaresWithTaggedSides) {
@@ -487,13 +489,6 @@ TEST(GradedMesh, LeavesNoDegreeLocked) {
 }
 
 TEST(GradedMesh, RefusesWhatHasNoMesh) {
-  EXPECT_THROW(graded_lines(0, 1.5, 1, 0.1, 1, 0.5), Error);
-  EXPECT_THROW(graded_lines(1, 1, 1, 0.1, 1, 0.5), Error);
-  EXPECT_THROW(graded_lines(0, 0.5, 1, 0, 1, 0.5), Error);
-  EXPECT_THROW(graded_lines(0, 0.5, 1, NAN, 1, 0.5), Error);
-  EXPECT_THROW(graded_lines(0, 0.5, 1, 0.1, -1, 0.5), Error);
-  EXPECT_THROW(graded_lines(0, 0.5, 1, 0.1, 61, 0.5), Error);
-  EXPECT_THROW(graded_lines(0, 0.5, 1, 0.1, 1, 1), Error);
   EXPECT_THROW(tensor_mesh({0}, {0, 1}), Error);
   EXPECT_THROW(tensor_mesh({0, 1, 1}, {0, 1}), Error);
   EXPECT_THROW(tensor_mesh({0, 1}, {-1, 1}), Error);  // no line y = 0
@@ -502,6 +497,11 @@ TEST(GradedMesh, RefusesWhatHasNoMesh) {
   EXPECT_THROW(graded_mesh(0, 0.1, 1, 0.5, 1), Error);
   EXPECT_THROW(graded_mesh(0.5, 0.1, 1, 0.5, -1), Error);
   EXPECT_THROW(graded_mesh(0.5, 0.1, 1, 0.5, 2), Error);
+  EXPECT_THROW(graded_mesh(0.5, 0, 1, 0.5, 1), Error);
+  EXPECT_THROW(graded_mesh(0.5, NAN, 1, 0.5, 1), Error);
+  EXPECT_THROW(graded_mesh(0.5, 0.1, -1, 0.5, 1), Error);
+  EXPECT_THROW(graded_mesh(0.5, 0.1, 61, 0.5, 1), Error);
+  EXPECT_THROW(graded_mesh(0.5, 0.1, 1, 1, 1), Error);
 }
 
 // ==== The layer in columns under any body: its shape, its tags, and what it does to P1.
@@ -514,7 +514,6 @@ struct Case {
 };
 std::vector<Case> bodies() {
   return {{"square", unstructured_mesh(8, {0}), 1, 3, 1, 1},
-          {"square with a layer to leave out", unstructured_mesh(8), 1, 3, 1, 1},
           {"L", test::l_shape(8), 0.75, 3, 1, 1},
           {"two feet", test::bridge(8), 0.75, 4.5, 0.5, 2}};
 }
@@ -661,6 +660,7 @@ TEST(ExtrudedLayer, RefusesWhatItCannotStandUnder) {
   expect_refused([&] { extruded(clamped, 1); }, "no edge in the group");
   low.vertices(low.vertex_count() - 1, 1) = -0.1;
   expect_refused([&] { extruded(low, 1); }, "above y = 0");
+  expect_refused([] { extruded(structured_mesh(4), 1); }, "has a layer");
   expect_refused([] { layered_mesh(0); }, "cells = 0");
 }
 

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "antilock/core/detail/blas.hpp"
-#include "antilock/io/expression.hpp"
+#include "antilock/core/error.hpp"
 
 namespace antilock::tutorial {
 namespace {

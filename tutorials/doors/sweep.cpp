@@ -94,7 +94,7 @@ int sweep(int argc, char** argv) {
   std::vector<OnMesh> meshes;  // a point outside is refused here, before anything is solved
   for (const double n :
        cells_text.empty() ? std::vector<double>{double(file.mesh.cells)} : numbers("--cells", cells_text, ',')) {
-    if (!cells_text.empty() && (file.mesh.kind == MeshRequest::Kind::file || n != std::floor(n) || n < 1 || n > 512))
+    if (!cells_text.empty() && (file.mesh.from_file() || n != std::floor(n) || n < 1 || n > 512))
       throw Error("antilock sweep: --cells: \"" + cells_text +
                   "\"; accepted: whole numbers from 1 to 512, for a scene whose mesh is made");
     file.mesh.cells = static_cast<int>(n);

@@ -146,9 +146,10 @@ int truth(int argc, char** argv) {
   Known known = series ? by_series(*series, points, std::holds_alternative<StiffLayer>(file.scene.layer()))
                        : by_certificate(file, accuracy, points);
   known.summary["units"] = "everything is dimensionless";
-  known.summary["load"] = file.words.load;
+  const json words = json::parse(file.words);
+  known.summary["load"] = words["load"]["f"];
   known.summary["epsilon"] = file.scene.epsilon() ? json(*file.scene.epsilon()) : json(nullptr);
-  known.summary["gap"] = file.scene.contact() ? json(file.words.gap) : json(nullptr);
+  known.summary["gap"] = file.scene.contact() ? json(words["contact"].value("gap", "0")) : json(nullptr);
   if (!summary.empty() && series && file.scene.layer_depth() > 0) known.summary["norms"] = norms_of(*series);
   if (!summary.empty()) write_file(summary, [&](std::ostream& out) { out << known.summary.dump(2) << '\n'; });
   fmt::print("x,y,u,u_x,u_y,p\n");

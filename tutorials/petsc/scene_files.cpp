@@ -11,7 +11,7 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/detail/kkt_report.hpp"
 #include "antilock/distributed/ranks.hpp"
-#include "antilock/io/detail/scene_results.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -86,8 +86,6 @@ VtuFields fields_of(const NestedLevel& level, const Eigen::VectorXd& pressure, b
   return fields;
 }
 
-std::string piece_name(int rank) { return fmt::format("solution_{}.vtu", rank); }
-
 void write_pvtu(const fs::path& path, bool contact) {
   write_file(path, [&](std::ostream& out) {
     out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
@@ -107,7 +105,7 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
                             const std::optional<LayerReport>& layer, const std::string& warning) {
   SceneSummary s;
   s.layer = layer;
-  const bool from_file = file.mesh.kind == MeshRequest::Kind::file;
+  const bool from_file = file.mesh.from_file();
   s.h = from_file ? largest(level.piece.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
   s.unknowns = level.problem.rows().total();
   s.energy = energy_of_all(level);
@@ -162,13 +160,6 @@ std::optional<LayerReport> layer_report_of_all(const SceneFile& file, const Tria
   return report;
 }
 
-std::vector<std::string> piece_files(const fs::path& folder) {
-  std::vector<std::string> names = {"solution.pvtu"};
-  std::error_code none;
-  for (int r = 0; r < ranks() || fs::exists(folder / piece_name(r), none); ++r) names.push_back(piece_name(r));
-  return names;
-}
-
 void write_scene_files(const fs::path& folder, const SceneFile& file, const NestedLevel& level,
                        const NestedReport& report, int levels, const std::optional<LayerReport>& layer,
                        const std::string& warning, const RunSeconds& seconds) {
@@ -190,12 +181,7 @@ void write_scene_files(const fs::path& folder, const SceneFile& file, const Nest
       write_summary(draft / "summary.json", file, summary, seconds, files.seconds());
     });
   };
-  std::vector<std::string> stale = {"solution.vtu"};
-  if (!contact) stale.emplace_back("contact.csv");
-  if (!csv) stale.emplace_back("solution.csv");
-  const std::vector<std::string> pieces = piece_files(folder);
-  stale.insert(stale.end(), pieces.begin() + 1 + ranks(), pieces.end());
-  write_folder_together(folder, write, stale);
+  write_folder_together(folder, write, result_names(folder));
 }
 
 }  // namespace antilock::distributed

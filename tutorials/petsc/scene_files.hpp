@@ -1,7 +1,6 @@
 #pragma once
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include "antilock/analysis/lost_energy.hpp"
 #include "antilock/distributed/nested.hpp"
@@ -21,9 +20,6 @@ void write_scene_files(const std::filesystem::path& folder, const SceneFile& fil
 /// times; where it can lock, the whole answer is brought together. Every rank must call it.
 std::optional<LayerReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
                                                const NestedLevel& level);
-
-/// solution.pvtu and its pieces: those that write_scene_files writes to the folder and those there that it removes.
-std::vector<std::string> piece_files(const std::filesystem::path& folder);
 
 /// Beyond, the text of solution.csv serves nobody.
 constexpr int most_csv_unknowns = 1'000'000;

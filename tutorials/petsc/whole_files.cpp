@@ -16,7 +16,7 @@ namespace antilock::distributed {
 namespace fs = std::filesystem;
 
 void write_folder_together(const fs::path& folder, const std::function<void(const fs::path&)>& write,
-                           const std::vector<std::string>& stale) {
+                           const std::vector<std::string>& known) {
   std::exception_ptr failure;
   bool begun = false;
   try {
@@ -31,7 +31,7 @@ void write_folder_together(const fs::path& folder, const std::function<void(cons
             from_first(draft.string());
             write(draft);
           },
-          stale);
+          known);
     }
   } catch (const Error&) {  // on every rank, or on rank 0 before or after the others wrote
     failure = std::current_exception();

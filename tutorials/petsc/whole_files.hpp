@@ -14,7 +14,7 @@ namespace antilock::distributed {
 /// Every rank must call it; throws on every rank alike.
 void write_folder_together(const std::filesystem::path& folder,
                            const std::function<void(const std::filesystem::path& draft)>& write,
-                           const std::vector<std::string>& stale = {});
+                           const std::vector<std::string>& known = {});
 
 /// One file that the ranks write one after the other, so that none of them holds all of it: `part` writes this rank's
 /// lines, `head` what comes first. An existing file is continued where `head` is empty.

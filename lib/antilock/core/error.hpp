@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace antilock {
 
@@ -16,5 +18,13 @@ struct NotConverged : Error {
   double reached;  ///< the relative error measure at which the solver stopped (dimensionless)
   int steps;       ///< the iterations done
 };
+
+/// Text from a file for use in a message of one line: control characters become '?', long text is cut.
+inline std::string printable(std::string_view text, std::size_t longest = 60) {
+  std::string line(text.substr(0, longest));
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return text.size() > longest ? line + "..." : line;
+}
 
 }  // namespace antilock

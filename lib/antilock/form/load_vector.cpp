@@ -5,7 +5,6 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/scene/detail/block_field.hpp"
 
 namespace antilock {
 
@@ -25,10 +24,11 @@ Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
     if (mesh.region[t] != region) continue;
     for (int i = 0; i < 3; ++i) corners.col(i) = mesh.vertices.row(mesh.triangles(t, i));
     x = corners.lazyProduct(points);
-    evaluate(f, x, values);
-    for (Eigen::Index q = 0; q < values.size(); ++q)
+    for (Eigen::Index q = 0; q < values.size(); ++q) {
+      values(q) = f(x(0, q), x(1, q));
       if (!std::isfinite(values(q)))
         throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0, q), x(1, q)));
+    }
     local.noalias() = mesh.area(t) * weighted.lazyProduct(values);
     for (Eigen::Index i = 0; i < local.size(); ++i) load(space.unknowns()(t, i)) += local(i);
   }

@@ -1,5 +1,5 @@
 #pragma once
-#include <memory>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,22 +14,17 @@ class Expression {
  public:
   /// Throws Error, with what is wrong and what is accepted, for a text that is empty, longer than 4,000 characters,
   /// that does not parse, or that names anything unknown.
-  Expression(const std::string& text, const std::vector<std::string>& variables);
+  Expression(std::string text, std::vector<std::string> variables);
 
-  /// The values at many points: `variables` has all numbers of the first variable, one per point, then those of the next.
-  /// Throws Error, with the place, where one is not finite or beyond 1e100.
-  void operator()(std::span<const double> variables, std::span<double> values) const;
-  /// The value at one number per variable.
+  /// The value at one number per variable. Throws Error, with the place, where it is not finite or beyond 1e100.
   double operator()(std::span<const double> variables) const;
   double operator()(double x) const { return (*this)(std::span(&x, 1)); }
   double operator()(double x, double y) const;
 
  private:
-  struct Parser;
-  std::shared_ptr<const Parser> parser_;
+  std::string text_;
+  std::vector<std::string> names_;
+  std::function<double(const double* variables)> value_;
 };
-
-/// Text from a file for use in a message of one line: control characters become '?', long text is cut.
-std::string printable(const std::string& text, std::size_t longest = 60);
 
 }  // namespace antilock

@@ -2,19 +2,111 @@
 
 #include <fmt/format.h>
 
+#include <toml++/toml.h>
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
+#include <initializer_list>
 #include <memory>
 #include <sstream>
 
-#include "antilock/io/detail/scene_checks.hpp"
-#include "antilock/io/detail/scene_section.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/measure/detail/point_values.hpp"
-#include "antilock/scene/detail/block_field.hpp"
 
 namespace antilock {
 namespace {
+
+using Names = std::initializer_list<std::string>;
+
+/// A section of the file: gives its values, each checked, and refuses with the name of the file and of the key.
+class Section {
+ public:
+  Section(std::string file, std::string name, const toml::table& table)
+      : file_(std::move(file)), name_(std::move(name)), table_(table) {}
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const { throw Error(where(key) + why); }
+  std::string where(const std::string& key) const {
+    std::string full = name_;
+    if (!full.empty() && !key.empty()) full += '.';
+    return printable(file_, 1000) + ": " + full + printable(key) + ": ";
+  }
+
+  void only(Names accepted) const {
+    for (const auto& [key, value] : table_)
+      if (const std::string name(key.str()); std::find(accepted.begin(), accepted.end(), name) == accepted.end())
+        refuse(name, fmt::format("unknown {}; accepted: {}", name_.empty() ? "key or section" : "key",
+                                 fmt::join(accepted, ", ")));
+  }
+  bool has(const std::string& key) const { return table_.contains(key); }
+  const toml::table& table() const { return table_; }
+
+  /// Here and in one_of: `otherwise`, where it is given and the key is absent.
+  std::string text(const std::string& key, const std::string& accepted, const char* otherwise = nullptr) const {
+    if (otherwise != nullptr && !has(key)) return otherwise;
+    const auto value = table_[key].value_exact<std::string>();
+    if (!value) refuse(key, what_stands_there(key) + "; accepted: " + accepted);
+    return *value;
+  }
+  std::string one_of(const std::string& key, Names accepted, const char* otherwise = nullptr) const {
+    const std::string list = fmt::format("\"{}\"", fmt::join(accepted, "\", \""));
+    std::string value = text(key, list, otherwise);
+    if (std::find(accepted.begin(), accepted.end(), value) == accepted.end())
+      refuse(key, fmt::format("\"{}\" is unknown; accepted: {}", printable(value), list));
+    return value;
+  }
+  /// A number for which `holds` is true.
+  double number(
+      const std::string& key, const std::string& accepted,
+      const std::function<bool(double)>& holds = [](double) { return true; }) const {
+    std::optional<double> value = table_[key].value_exact<double>();
+    if (const auto integer = table_[key].value_exact<std::int64_t>()) value = static_cast<double>(*integer);
+    if (!value) refuse(key, what_stands_there(key) + "; accepted: a number, " + accepted);
+    if (!std::isfinite(*value)) refuse(key, "is not finite; accepted: a number, " + accepted);
+    *value += 0.0;  // -0.0 becomes 0.0
+    if (!holds(*value)) refuse(key, fmt::format("{} is out of range; accepted: {}", *value, accepted));
+    return *value;
+  }
+  int count(const std::string& key, int most) const {
+    const std::string accepted = fmt::format("; accepted: a whole number, 1 to {}", most);
+    const auto value = table_[key].value_exact<std::int64_t>();
+    if (!value) refuse(key, what_stands_there(key) + accepted);
+    if (*value < 1 || *value > most) refuse(key, fmt::format("{} is out of range{}", *value, accepted));
+    return static_cast<int>(*value);
+  }
+
+  /// [key]; empty where it is absent.
+  Section section(const std::string& key) const {
+    static const toml::table absent;
+    if (!has(key)) return {file_, key, absent};
+    const toml::table* table = table_[key].as_table();
+    if (table == nullptr) refuse(key, fmt::format("{}; accepted: a section [{}]", what_stands_there(key), key));
+    return {file_, key, *table};
+  }
+  /// [[key]]: its tables, named key[0], key[1], ...
+  std::vector<Section> sections(const std::string& key) const {
+    std::vector<Section> all;
+    if (!has(key)) return all;
+    const toml::array* array = table_[key].as_array();
+    if (array == nullptr || !array->is_array_of_tables())
+      refuse(key, fmt::format("{}; accepted: sections [[{}]]", what_stands_there(key), key));
+    for (const toml::node& node : *array)
+      all.emplace_back(file_, fmt::format("{}[{}]", key, all.size()), *node.as_table());
+    return all;
+  }
+
+ private:
+  std::string what_stands_there(const std::string& key) const {
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return "is missing";
+    std::ostringstream type;
+    type << node->type();
+    return "is of type " + type.str();
+  }
+
+  std::string file_, name_;
+  const toml::table& table_;
+};
 
 /// The whole file, up to a megabyte: a scene is a page, and some files never end.
 std::string read_text(const std::filesystem::path& path, const std::string& name) {
@@ -61,7 +153,7 @@ auto named(const Section& section, const std::string& key, const std::string& te
   };
 }
 Field field(const Section& section, const std::string& key, const std::string& accepted = in_x_and_y) {
-  return BlockField{named(section, key, section.text(key, accepted), {"x", "y"})};
+  return named(section, key, section.text(key, accepted), {"x", "y"});
 }
 Profile profile(const Section& section, const std::string& key, const char* otherwise = nullptr) {
   return named(section, key, section.text(key, in_x, otherwise), {"x"});
@@ -89,18 +181,9 @@ void sample_gap(const Profile& gap) {
     for (int i = 0; i <= n; ++i) gap(static_cast<double>(i) / n);
 }
 
-/// Keeps the question of a key as JSON, for the summary.
-void keep(SceneWords& words, const toml::table& table, const std::string& key, const std::string& of = "") {
-  if (!table.contains(key)) return;
-  std::ostringstream json;
-  json << toml::json_formatter{*table.get(key)};
-  words.more += fmt::format("{}\"{}{}\": {}", words.more.empty() ? "" : ", ", of, key, json.str());
-}
-
-Body read_body(const Section& root, SceneWords& words) {
+Body read_body(const Section& root) {
   const Section load = root.section("load"), body = root.section("body");
   load.only({"f"});
-  words.load = load.text("f", in_x_and_y);
   Body read{field(load, "f")};
   body.only({"stiffness"});
   if (root.has("body") && !body.table()["stiffness"].is_table())  // a table: read_groups
@@ -142,24 +225,20 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, MoreGro
   };
 }
 
-UnilateralContact read_contact(const Section& section, SceneWords& words) {
+UnilateralContact read_contact(const Section& section) {
   section.only({"gap", "ceiling"});
-  words.gap = section.text("gap", in_x, "0");
   UnilateralContact contact{profile(section, "gap", "0")};
   if (section.has("ceiling")) contact.ceiling = profile(section, "ceiling");
-  keep(words, section.table(), "ceiling");
   return contact;
 }
 
-Layer read_layer(const Section& section, SceneWords& words) {
+Layer read_layer(const Section& section) {
   section.only({"epsilon", "model", "thickness", "stiffness", "load"});
-  const std::string model = words.model = section.one_of("model", {"scaled", "ventcel", "thin"}, "scaled");
+  const std::string model = section.one_of("model", {"scaled", "ventcel", "thin"}, "scaled");
   const bool numbers = section.has("thickness") || section.has("stiffness");
-  for (const char* key : {"thickness", "stiffness", "load"}) {
+  for (const char* key : {"thickness", "stiffness", "load"})
     if (section.has(key) && model != "scaled")
       section.refuse(key, fmt::format("does not go with model = \"{}\"; accepted: with \"scaled\" only", model));
-    keep(words, section.table(), key, "layer ");
-  }
   if (numbers && section.has("epsilon"))
     section.refuse("epsilon", "stands beside thickness or stiffness; accepted: epsilon, or the other two");
   const std::string key = numbers ? "thickness" : "epsilon";
@@ -171,7 +250,6 @@ Layer read_layer(const Section& section, SceneWords& words) {
   if (!(epsilon >= least && epsilon <= most))
     section.refuse(key, fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon, model,
                                     numbers ? "0 < thickness <= 1" : accepted));
-  words.thickness = numbers;
   if (model == "ventcel") return VentcelLayer{};
   if (model == "thin") return ThinLayer{epsilon};
   StiffLayer layer{epsilon};
@@ -262,27 +340,20 @@ std::optional<ElasticRequest> read_model(const Section& section, const Layer& la
 
 constexpr int most_structured = 2048, most_unstructured = 512;
 
-MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder, SceneWords& words) {
-  using Kind = MeshRequest::Kind;
+MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder) {
   section.only({"kind", "cells", "file", "refinements"});
-  words.mesh = section.one_of("kind", {"structured", "unstructured", "layered", "file"});
   MeshRequest mesh;
-  mesh.kind = words.mesh == "structured"     ? Kind::structured
-              : words.mesh == "unstructured" ? Kind::unstructured
-              : words.mesh == "layered"      ? Kind::layered
-                                             : Kind::file;
-  const bool from_file = mesh.kind == Kind::file;
-  if (const char* other = from_file ? "cells" : "file"; section.has(other))
-    section.refuse(other, fmt::format("does not go with kind = \"{}\"; accepted: {}", words.mesh,
-                                      from_file ? "file alone" : "with kind = \"file\" only"));
-  if (from_file) {
+  mesh.kind = section.one_of("kind", {"structured", "unstructured", "layered", "file"});
+  if (const char* other = mesh.from_file() ? "cells" : "file"; section.has(other))
+    section.refuse(other, fmt::format("does not go with kind = \"{}\"; accepted: {}", mesh.kind,
+                                      mesh.from_file() ? "file alone" : "with kind = \"file\" only"));
+  if (mesh.from_file()) {
     const std::string accepted = "the path of a MSH file, 2.2 or 4.1, relative to the scene file";
-    words.file = section.text("file", accepted);
-    if (words.file.empty() || words.file.find('\0') != words.file.npos)
-      section.refuse("file", "is no path; accepted: " + accepted);
-    mesh.file = folder / words.file;
+    const std::string path = section.text("file", accepted);
+    if (path.empty() || path.find('\0') != path.npos) section.refuse("file", "is no path; accepted: " + accepted);
+    mesh.file = folder / path;
   } else {
-    mesh.cells = section.count("cells", mesh.kind == Kind::structured ? most_structured : most_unstructured);
+    mesh.cells = section.count("cells", mesh.kind == "structured" ? most_structured : most_unstructured);
   }
   if (!section.has("refinements")) return mesh;
   mesh.refinements = section.count("refinements", 10);
@@ -328,7 +399,7 @@ MethodRequest read_method(const Section& section) {
 /// What one section leaves out because of another.
 void check_together(const Section& root, const Scene& scene, const MeshRequest& mesh, const MethodRequest& method) {
   const bool ventcel = std::holds_alternative<VentcelLayer>(scene.layer()), petsc = method.solver == "petsc";
-  if (mesh.kind == MeshRequest::Kind::layered && !std::holds_alternative<StiffLayer>(scene.layer()))
+  if (mesh.kind == "layered" && !std::holds_alternative<StiffLayer>(scene.layer()))
     root.refuse("mesh.kind",
                 "\"layered\" is the mesh of the scaled layer, which this scene does not have; "
                 "accepted: a section [layer] with model = \"scaled\", or \"unstructured\"");
@@ -386,10 +457,11 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
     if (!root.has(required)) root.refuse(required, fmt::format("is missing; accepted: a section [{}]", required));
 
   const std::string title = root.text("title", "any text in quotes", "");
-  SceneWords words;
-  const MeshRequest mesh = read_mesh(root.section("mesh"), path.parent_path(), words);
-  const bool unit_square = mesh.kind != MeshRequest::Kind::file;  // what a file holds is known when it is read
-  Body body = read_body(root, words);
+  std::ostringstream words;
+  words << toml::json_formatter{table};
+  const MeshRequest mesh = read_mesh(root.section("mesh"), path.parent_path());
+  const bool unit_square = !mesh.from_file();  // what a file holds is known when it is read
+  Body body = read_body(root);
   if (unit_square) sample_load(body.load);
   MoreGroups groups;
   const std::vector<EdgeCondition> edges = read_edges(root.sections("edge"), groups);
@@ -397,10 +469,9 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   if (unit_square && !(groups.curves.empty() && groups.bodies.empty()))
     root.refuse(groups.bodies.empty() ? "edge" : "body",
                 "names groups of a mesh file; accepted: with kind = \"file\" only");
-  for (const char* section : {"body", "edge", "at", "model"}) keep(words, table, section);
-  const Layer layer = root.has("layer") ? read_layer(root.section("layer"), words) : NoLayer{};
+  const Layer layer = root.has("layer") ? read_layer(root.section("layer")) : NoLayer{};
   std::optional<UnilateralContact> contact;
-  if (root.has("contact")) contact = read_contact(root.section("contact"), words);
+  if (root.has("contact")) contact = read_contact(root.section("contact"));
   if (contact && unit_square) sample_gap(contact->gap);
   if (contact && !unit_square) contact->held.clear();
   const MethodRequest method = read_method(root.section("method"));
@@ -411,13 +482,11 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
       throw Error(root.where("contact.gap") + error.what());
     }
   }();
-  std::optional<ElasticRequest> elastic;
-  if (root.has("model")) elastic = read_model(root.section("model"), layer);
+  const auto elastic = root.has("model") ? read_model(root.section("model"), layer) : std::nullopt;
   check_together(root, scene, mesh, method);
   if (elastic) check_elastic(root, scene, method);
-  std::vector<Eigen::Vector2d> points;
-  if (root.has("at")) points = read_points(root.section("at"));
-  return {name, title, scene, mesh, method, words, groups, points, elastic};
+  const auto points = root.has("at") ? read_points(root.section("at")) : std::vector<Eigen::Vector2d>();
+  return {name, title, scene, mesh, method, words.str(), groups, points, elastic};
 }
 
 }  // namespace antilock

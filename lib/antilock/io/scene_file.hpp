@@ -12,11 +12,11 @@ namespace antilock {
 
 /// The mesh that a scene file asks for.
 struct MeshRequest {
-  enum class Kind { structured, unstructured, layered, file };
-  Kind kind = Kind::structured;
-  int cells = 0;               ///< cells per unit side; 0 where kind is file
-  std::filesystem::path file;  ///< where kind is file: beside the scene file, unless absolute
+  std::string kind;            ///< "structured", "unstructured", "layered" or "file"
+  int cells = 0;               ///< cells per unit side; 0 with a file
+  std::filesystem::path file;  ///< beside the scene file, unless absolute
   int refinements = 0;         ///< how often every triangle is then cut into four
+  bool from_file() const { return kind == "file"; }
 };
 
 /// How a scene file wants to be solved.
@@ -29,13 +29,6 @@ struct MethodRequest {
   std::optional<double> accuracy;  ///< proved relative error asked for, in (0, 1); the element is CR then
   Quantity of = Quantity::displacement;
   double most_unknowns = 2e6;  ///< with accuracy: the limit
-};
-
-/// The words of the file, for the summary, which repeats the question; empty where the section is absent.
-struct SceneWords {
-  std::string load, gap, model, mesh, file;
-  std::string more = {};  ///< JSON of the sections body, edge, at and model, and of the layer's numbers and the ceiling
-  bool thickness = false;  ///< the layer is given by its thickness and stiffness, not by epsilon
 };
 
 /// [model] kind = "plane strain": a block that is pressed down, of rubber or with a coating (models/).
@@ -53,7 +46,7 @@ struct SceneFile {
   Scene scene;
   MeshRequest mesh;
   MethodRequest method;
-  SceneWords words;
+  std::string words;                     ///< its sections as JSON, for the summary, which repeats the question
   MoreGroups groups = {};                ///< of the mesh file: those that [[edge]] and a table of stiffnesses name
   std::vector<Eigen::Vector2d> at = {};  ///< where the summary tells u
   std::optional<ElasticRequest> elastic = {};

@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "antilock/io/detail/scene_checks.hpp"
-#include "antilock/io/expression.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/io/scene_file.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"
@@ -22,69 +21,63 @@ namespace {
 
 constexpr double slack = 1e-6;  // mesh generators place corners to 1e-12, formats with few digits to 1e-8
 
-/// The triangles of a region: their bounding box, and their area.
+/// A part of a mesh: its bounding box, and its area or its length.
 struct Extent {
   Eigen::AlignedBox2d box;
-  double area = 0;
+  double size = 0;
 };
 
 Extent extent_of(const TriangleMesh& mesh, Region region) {
   Extent extent;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != region) continue;
-    extent.area += mesh.area(t);
+    extent.size += mesh.area(t);
     for (const int v : mesh.triangles.row(t)) extent.box.extend(mesh.vertices.row(v).transpose());
   }
   return extent;
 }
 
-/// Edges on a line y = const.
-struct Side {
-  double length = 0, left = 1e300, right = -1e300;
-};
-
 /// The body's edges on the line y = 0, all of which are in the group `tag`, or the rest would be clamped, another
 /// problem.
-Side check_bottom_edge(const TriangleMesh& mesh, EdgeTag tag) {
+Extent check_bottom_edge(const TriangleMesh& mesh, EdgeTag tag) {
   const Eigen::AlignedBox2d box = extent_of(mesh, Region::body).box;
   const Eigen::Vector2d low = box.min(), high = box.max();
   if (low(1) < -slack)
     throw Error(fmt::format("the group body reaches down to y = {:.6g}; accepted: a body on and above y = 0", low(1)));
   const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
-  Side bottom;
+  Extent bottom;
   double tagged = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const Eigen::Matrix2d ends = mesh.vertices(mesh.edges.row(e), Eigen::all);
     if (ends.col(1).cwiseAbs().maxCoeff() > slack) continue;
     if (!body(mesh.edge_triangles(e, 0)) && !body(mesh.edge_triangles(e, 1))) continue;
-    bottom.length += mesh.edge_length(e);
+    bottom.size += mesh.edge_length(e);
     if (mesh.edge_tag[e] == tag) tagged += mesh.edge_length(e);
-    bottom.left = std::min(bottom.left, ends.col(0).minCoeff());
-    bottom.right = std::max(bottom.right, ends.col(0).maxCoeff());
+    bottom.box.extend(ends.row(0).transpose()).extend(ends.row(1).transpose());
   }
-  if (bottom.length == 0)
+  if (bottom.size == 0)
     throw Error(
         fmt::format("the group body has no edge on the line y = 0 (it spans ({:.6g}, {:.6g}) x ({:.6g}, {:.6g})); "
                     "accepted: a body above y = 0 with its bottom edge on that line",
                     low(0), high(0), low(1), high(1)));
-  if (std::abs(tagged - bottom.length) > slack)
+  if (std::abs(tagged - bottom.size) > slack)
     throw Error(fmt::format("of the body's bottom edge on y = 0, {:.6g} long, {:.6g} are {}; accepted: all of it",
-                            bottom.length, tagged,
-                            tag == EdgeTag::contact ? "in the group contact" : "above the layer"));
+                            bottom.size, tagged, tag == EdgeTag::contact ? "in the group contact" : "above the layer"));
   return bottom;
 }
 
 /// The layer fills the strip of the given depth below Sigma: its area and its box say so.
-void check_layer(const TriangleMesh& mesh, const Side& sigma, double depth) {
+void check_layer(const TriangleMesh& mesh, const Extent& sigma, double depth) {
   const auto [box, area] = extent_of(mesh, Region::layer);
   const Eigen::Vector2d low = box.min(), high = box.max();
-  const double error = std::max((low - Eigen::Vector2d(sigma.left, -depth)).lpNorm<Eigen::Infinity>(),
-                                (high - Eigen::Vector2d(sigma.right, 0)).lpNorm<Eigen::Infinity>());
-  if (error <= slack && std::abs(area - sigma.length * depth) <= slack * std::max(1.0, sigma.length)) return;
+  const double left = sigma.box.min()(0), right = sigma.box.max()(0);
+  const double error = std::max((low - Eigen::Vector2d(left, -depth)).lpNorm<Eigen::Infinity>(),
+                                (high - Eigen::Vector2d(right, 0)).lpNorm<Eigen::Infinity>());
+  if (error <= slack && std::abs(area - sigma.size * depth) <= slack * std::max(1.0, sigma.size)) return;
   throw Error(fmt::format(
       "the group layer spans ({:.6g}, {:.6g}) x ({:.6g}, {:.6g}) with area {:.6g}; accepted for this scene: the strip "
       "below the body's bottom edge, ({:.6g}, {:.6g}) x ({:.6g}, 0), filled (area {:.6g})",
-      low(0), high(0), low(1), high(1), area, sigma.left, sigma.right, -depth, sigma.length * depth));
+      low(0), high(0), low(1), high(1), area, left, right, -depth, sigma.size * depth));
 }
 
 /// The contact edges lie on the lower side, all of it.
@@ -135,14 +128,11 @@ void find_geometry(TriangleMesh& mesh, const std::filesystem::path& file) {
 
 /// Whether Gamma_C of a body is no straight line y = const. Throws Error for what does not go with that.
 bool is_curved(const SceneFile& file, const TriangleMesh& mesh) {
-  double low = 1e300, high = -1e300;
+  Eigen::AlignedBox2d line;
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
-      if (mesh.edge_tag[e] == EdgeTag::contact) {
-        low = std::min(low, mesh.vertices(v, 1));
-        high = std::max(high, mesh.vertices(v, 1));
-      }
-  const bool curved = high - low > slack;
+      if (mesh.edge_tag[e] == EdgeTag::contact) line.extend(mesh.vertices.row(v).transpose());
+  const bool curved = line.sizes()(1) > slack;
   const auto* layer = std::get_if<StiffLayer>(&file.scene.layer());
   const char* const what = file.elastic                    ? "plane strain"
                            : file.method.solver == "petsc" ? "solver = \"petsc\""
@@ -162,8 +152,8 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
   TriangleMesh mesh = read_msh(path, scene_file.groups);
   const double depth = scene.layer_depth();
   const auto layered = [&] { return std::count(mesh.region.begin(), mesh.region.end(), Region::layer) > 0; };
+  if (scene_file.method.accuracy || scene_file.mesh.refinements > 0) find_geometry(mesh, path);
   if (!layered() && is_curved(scene_file, mesh)) {
-    if (scene_file.method.accuracy || scene_file.mesh.refinements > 0) find_geometry(mesh, path);
     TriangleMesh below = extruded(mesh, scene.epsilon().value_or(0), true);  // which says what Sigma may be
     return depth > 0 ? below : mesh;
   }
@@ -172,16 +162,15 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
     check_bottom_edge(mesh, EdgeTag::contact);
     mesh = extruded(mesh, *scene.epsilon());  // the layer grows below the body
   }
-  if (scene_file.method.accuracy || scene_file.mesh.refinements > 0) find_geometry(mesh, path);
   const bool has_layer = layered();
   try {
     if (has_layer && depth == 0)
       throw Error("has a group layer, which this scene has no use for; accepted: a mesh of the body alone");
     if (!has_layer && depth > 0) throw Error("has nothing in the physical group \"layer\", which this scene needs");
-    const Side sigma = check_bottom_edge(mesh, has_layer ? EdgeTag::sigma : EdgeTag::contact);
+    const Extent sigma = check_bottom_edge(mesh, has_layer ? EdgeTag::sigma : EdgeTag::contact);
     if (has_layer) check_layer(mesh, sigma, depth);
-    check_contact_side(mesh, -depth, sigma.length);
-    if (std::holds_alternative<VentcelLayer>(scene.layer()) && sigma.right - sigma.left > sigma.length + slack)
+    check_contact_side(mesh, -depth, sigma.size);
+    if (std::holds_alternative<VentcelLayer>(scene.layer()) && sigma.box.sizes()(0) > sigma.size + slack)
       throw Error("the body's bottom edge is in several pieces; accepted with model = \"ventcel\": one piece");
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
@@ -189,32 +178,21 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
   return mesh;
 }
 
-TriangleMesh made_or_read(const SceneFile& file) {
-  using Kind = MeshRequest::Kind;
-  const Domain domain{file.scene.layer_depth()};
-  switch (file.mesh.kind) {
-    case Kind::structured:
-      return structured_mesh(file.mesh.cells, domain);
-    case Kind::unstructured:
-      return unstructured_mesh(file.mesh.cells, domain);
-    case Kind::layered:
-      return layered_mesh(file.mesh.cells, file.scene.epsilon().value_or(1));
-    case Kind::file:
-      break;
-  }
-  return read_mesh_of(file);
-}
-
 TriangleMesh checked_mesh(const SceneFile& file) {
+  const auto& [kind, cells, path, refinements] = file.mesh;
+  const Domain domain{file.scene.layer_depth()};
   try {
-    return made_or_read(file);
+    return kind == "structured"     ? structured_mesh(cells, domain)
+           : kind == "unstructured" ? unstructured_mesh(cells, domain)
+           : kind == "layered"      ? layered_mesh(cells, file.scene.epsilon().value_or(1))
+                                    : read_mesh_of(file);
   } catch (const Error& error) {
     std::string what = printable(error.what(), 2000);
     if (what.find("accepted") == std::string::npos)
       what +=
           "; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), clamped and contact, its "
           "triangles proper and connected";
-    throw Error(file.name + (file.mesh.kind == MeshRequest::Kind::file ? ": mesh.file: " : ": mesh.cells: ") + what);
+    throw Error(file.name + (file.mesh.from_file() ? ": mesh.file: " : ": mesh.cells: ") + what);
   }
 }
 
@@ -223,8 +201,8 @@ TriangleMesh checked_mesh(const SceneFile& file) {
 TriangleMesh make_mesh(const SceneFile& file) {
   constexpr std::int64_t most_triangles = 1 << 25;
   TriangleMesh mesh = checked_mesh(file);
-  if (file.elastic && file.mesh.kind != MeshRequest::Kind::file) mesh = with_free_sides(std::move(mesh));
-  if (file.mesh.kind == MeshRequest::Kind::file) check_on_mesh(file, mesh);
+  if (file.elastic && !file.mesh.from_file()) mesh = with_free_sides(std::move(mesh));
+  if (file.mesh.from_file()) check_on_mesh(file, mesh);
   const std::int64_t triangles = static_cast<std::int64_t>(mesh.triangle_count()) << (2 * file.mesh.refinements);
   if (triangles > most_triangles)
     throw Error(fmt::format("{}: mesh.refinements: {} refinements of {} triangles make {}; accepted: up to {}",
@@ -234,9 +212,8 @@ TriangleMesh make_mesh(const SceneFile& file) {
 }
 
 double mesh_width(const SceneFile& file, const TriangleMesh& mesh) {
-  return file.mesh.kind == MeshRequest::Kind::file || file.method.accuracy
-             ? mesh.diameter()
-             : 1.0 / (file.mesh.cells << file.mesh.refinements);
+  return file.mesh.from_file() || file.method.accuracy ? mesh.diameter()
+                                                       : 1.0 / (file.mesh.cells << file.mesh.refinements);
 }
 
 }  // namespace antilock

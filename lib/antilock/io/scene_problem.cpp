@@ -1,4 +1,4 @@
-#include "antilock/io/detail/scene_problem.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 
 #include "antilock/analysis/locking.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/io/detail/scene_checks.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/solve/active_set.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "antilock/core/error.hpp"
-#include "antilock/mesh/detail/edges.hpp"
 
 namespace antilock {
 namespace {
@@ -21,36 +20,16 @@ void check_lines(const std::vector<double>& lines, const char* name) {
         fmt::format("tensor mesh: the {} lines {} and {}; accepted: ascending numbers", name, *found, found[1]));
 }
 
-/// From `at`, not included, to `end`.
-std::vector<double> side(double at, double end, double width, int layers, double ratio) {
+/// Adds lines from `at`, not included, to `end`: equal cells, as few as are no wider than `width`; the one next to `at` is
+/// cut `layers` times, each cut leaving the share `ratio` next to `at`.
+void add_lines(std::vector<double>& lines, double at, double end, double width, int layers, double ratio) {
   const double cells = std::max(1.0, std::ceil(std::abs(end - at) / width * (1 - 1e-12)));
-  std::vector<double> lines;
   for (int k = layers; k > 0; --k) lines.push_back(at + (end - at) * std::pow(ratio, k) / cells);
   for (int j = 1; j < cells; ++j) lines.push_back(at + (end - at) * j / cells);
   lines.push_back(end);
-  return lines;
 }
 
 }  // namespace
-
-std::vector<double> graded_lines(double from, double at, double to, double width, int layers, double ratio) {
-  if (!(from <= at && at <= to && from < to && std::isfinite(to - from)))
-    throw Error(fmt::format("graded lines: {} in {} to {}; accepted: a point of an interval", at, from, to));
-  if (!(width >= 1e-6 * (to - from) && layers >= 0 && layers <= 60 && ratio > 0 && ratio < 1))
-    throw Error(
-        fmt::format("graded lines: width {}, {} layers, ratio {}; accepted: a width of a millionth of the interval "
-                    "or more, 0 to 60 layers, a ratio between 0 and 1",
-                    width, layers, ratio));
-  std::vector<double> lines;
-  if (from < at) lines = side(at, from, width, layers, ratio);
-  std::reverse(lines.begin(), lines.end());
-  lines.push_back(at);
-  if (at < to) {
-    const std::vector<double> right = side(at, to, width, layers, ratio);
-    lines.insert(lines.end(), right.begin(), right.end());
-  }
-  return lines;
-}
 
 TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>& y, Diagonal diagonal) {
   check_lines(x, "x");
@@ -90,12 +69,20 @@ TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>
 TriangleMesh graded_mesh(double end, double width, int layers, double ratio, double epsilon) {
   if (!(end > 0 && end < 1 && epsilon >= 0 && epsilon <= 1))
     throw Error(fmt::format("graded mesh: end {}, epsilon {}; accepted: 0 < end < 1, 0 <= epsilon <= 1", end, epsilon));
-  const std::vector<double> x = graded_lines(0, end, 1, width, layers, ratio);
+  if (!(width >= 1e-6 && layers >= 0 && layers <= 60 && ratio > 0 && ratio < 1))
+    throw Error(
+        fmt::format("graded mesh: width {}, {} layers, ratio {}; accepted: a width of a millionth or more, 0 to "
+                    "60 layers, a ratio between 0 and 1",
+                    width, layers, ratio));
   const double wider = std::ceil(std::log(epsilon) / std::log(ratio));  // than epsilon; infinite at epsilon = 0
   const int in_body = static_cast<int>(std::min<double>(layers, wider));
-  std::vector<double> y = graded_lines(-1, -1, 0, width, layers - in_body, ratio);
-  const std::vector<double> above = graded_lines(0, 0, 1, width, in_body, ratio);
-  y.insert(y.end(), above.begin() + 1, above.end());
+  std::vector<double> x, y{-1};
+  add_lines(x, end, 0, width, layers, ratio);
+  std::reverse(x.begin(), x.end());
+  x.push_back(end);
+  add_lines(x, end, 1, width, layers, ratio);
+  add_lines(y, -1, 0, width, layers - in_body, ratio);
+  add_lines(y, 0, 1, width, in_body, ratio);
   return tensor_mesh(x, y);
 }
 

@@ -1,6 +1,5 @@
 // Layers of congruent triangles: two lines of equally spaced vertices, one of them shifted by half a space, zipped
 // together. Lines across give rows of triangles, lines upwards columns.
-#include "antilock/mesh/detail/edges.hpp"
 #include "antilock/mesh/generate.hpp"
 
 namespace antilock {

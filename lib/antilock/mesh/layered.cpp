@@ -15,25 +15,11 @@ namespace {
 
 constexpr double on_line = 1e-9;  // gmsh places points of a line to about 1e-12
 
-/// The body's vertices, numbered anew in their order; -1 for those of the layer alone.
-std::vector<int> body_numbers(const TriangleMesh& mesh) {
-  std::vector<int> number(mesh.vertex_count(), -1);
-  for (int t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.region[t] == Region::body)
-      for (int i = 0; i < 3; ++i) number[mesh.triangles(t, i)] = 0;
-  int count = 0;
-  for (int& n : number)
-    if (n == 0) n = count++;
-  return number;
-}
-
 /// The edges of Sigma, each from left to right.
 std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh, bool along_normals) {
-  const bool has_layer = std::find(mesh.region.begin(), mesh.region.end(), Region::layer) != mesh.region.end();
-  const EdgeTag sigma = has_layer ? EdgeTag::sigma : EdgeTag::contact;
   std::vector<std::array<int, 2>> edges;
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != sigma) continue;
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     std::array<int, 2> ends{mesh.edges(e, 0), mesh.edges(e, 1)};
     if (mesh.vertices(ends[0], 0) > mesh.vertices(ends[1], 0)) std::swap(ends[0], ends[1]);
     for (const int v : ends)
@@ -47,7 +33,7 @@ std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh, bool along
                   "; accepted: edges with the body above them");
     edges.push_back(ends);
   }
-  if (edges.empty()) throw Error("extruded layer: the body has no edge in the group contact or sigma to stand on");
+  if (edges.empty()) throw Error("extruded layer: the body has no edge in the group contact to stand on");
   return edges;
 }
 
@@ -85,14 +71,13 @@ Eigen::VectorXd curvatures(const TriangleMesh& mesh, std::vector<std::array<int,
 TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_normals) {
   if (!(epsilon >= 0 && epsilon <= 1))
     throw Error(fmt::format("extruded layer: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
-  const std::vector<int> number = body_numbers(body);
-  const auto kept = static_cast<int>(std::count_if(number.begin(), number.end(), [](int n) { return n >= 0; }));
-  std::vector<Eigen::RowVector2d> vertices(kept);
+  if (std::find(body.region.begin(), body.region.end(), Region::layer) != body.region.end())
+    throw Error("extruded layer: the mesh has a layer; accepted: a body alone");
+  std::vector<Eigen::RowVector2d> vertices;
   for (int v = 0; v < body.vertex_count(); ++v) {
-    if (number[v] < 0) continue;
     if (!along_normals && body.vertices(v, 1) < -on_line)
       throw Error("extruded layer: the body has a vertex at " + body.place(v) + "; accepted: a body above y = 0");
-    vertices[number[v]] = body.vertices.row(v);
+    vertices.emplace_back(body.vertices.row(v));
   }
   const auto columns = sigma_edges(body, along_normals);
   const Eigen::VectorXd curvature = along_normals ? curvatures(body, columns, epsilon) : Eigen::VectorXd();
@@ -111,23 +96,19 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
           vertices.emplace_back(body.vertices(v, 0),
                                 (along_normals ? body.vertices(v, 1) : 0) - static_cast<double>(j) / rows);
       }
-  const auto vertex = [&](int v, int row) { return row == 0 ? number[v] : below[v] + row - 1; };
+  const auto vertex = [&](int v, int row) { return row == 0 ? v : below[v] + row - 1; };
 
-  std::vector<Eigen::RowVector3i> triangles;
-  for (int t = 0; t < body.triangle_count(); ++t)
-    if (body.region[t] == Region::body)
-      triangles.emplace_back(number[body.triangles(t, 0)], number[body.triangles(t, 1)], number[body.triangles(t, 2)]);
+  std::vector<Eigen::RowVector3i> triangles(body.triangles.rowwise().begin(), body.triangles.rowwise().end());
   std::vector<Region> region(triangles.size(), Region::body);
   std::vector<TaggedEdge> tagged;
-  std::vector<EdgeTag> side(body.vertex_count(),
-                            EdgeTag::free);  // where the body is held beside Sigma, so is the layer
+  // where the body is held beside Sigma, so is the layer
+  std::vector<EdgeTag> side(body.vertex_count(), EdgeTag::free);
   for (int e = 0; e < body.edge_count(); ++e) {
-    const int from = number[body.edges(e, 0)], to = number[body.edges(e, 1)];
-    const bool on_outline = body.edge_triangles(e, 1) < 0 && body.region[body.edge_triangles(e, 0)] == Region::body;
-    if (on_outline && body.edge_tag[e] != EdgeTag::contact) {
-      tagged.push_back({from, to, body.edge_tag[e]});
-      if (is_held(body.edge_tag[e])) side[body.edges(e, 0)] = side[body.edges(e, 1)] = body.edge_tag[e];
-    }
+    const int from = body.edges(e, 0), to = body.edges(e, 1);
+    const EdgeTag tag = body.edge_tag[e];
+    if (tag == EdgeTag::interior || tag == EdgeTag::contact) continue;
+    tagged.push_back({from, to, tag});
+    if (is_held(tag)) side[from] = side[to] = tag;
   }
   std::vector<Bend> bend(along_normals ? triangles.size() : 0);
   for (const auto& [left, right] : columns) {

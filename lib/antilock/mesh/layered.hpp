@@ -6,11 +6,10 @@ namespace antilock {
 /// The body's triangles over a layer (-1 < y < 0) in columns: one column under every edge of Sigma, cut into as many
 /// rows as make its cells about square in the true layer, of thickness epsilon: ceil(epsilon / h) rows, h the mean
 /// width of the columns. Each cell is cut by a diagonal (/). `body` is a mesh of any body on or above Sigma, a part of
-/// the line y = 0: Sigma are its edges with the tag contact, or, where it has a layer, those with the tag sigma; that
-/// layer is left out. The body's vertices and triangles come first, in their order, and keep their tags. Below, the
-/// sides are clamped and the bottom is contact, as in Figure 2. A function of P1 on it that is constant on each column
-/// costs no layer stress, so that P1 does not lock on it. Throws Error unless 0 <= epsilon <= 1, for a body below y = 0
-/// and for one without Sigma.
+/// the line y = 0: Sigma are its edges with the tag contact. The body's vertices and triangles come first, in their order,
+/// and keep their tags. Below, the sides are clamped and the bottom is contact, as in Figure 2. A function of P1 on it
+/// that is constant on each column costs no layer stress, so that P1 does not lock on it. Throws Error unless 0 <=
+/// epsilon <= 1, for a body below y = 0, for one without Sigma and for one with a layer.
 ///
 /// `along_normals`: Sigma may be curved, anywhere below the body, each x once. The layer of thickness t = epsilon is then
 /// gamma(s) + t d n(s), 0 < d < 1, with s the length along Sigma and n the normal out of the body. With c the curvature of

@@ -1,20 +1,343 @@
-// A reader of its own: gmsh's reader takes truncated sections, unknown nodes and wrong counts without a word.
-// The file is first read as it stands (msh_sections.cpp), then its tags are resolved here, so that the order of the
-// sections is free.
+// A reader of its own: gmsh's reader takes truncated sections, unknown nodes and wrong counts without a word. The file is
+// first read as it stands, then its tags are resolved, so that the order of the sections is free.
 #include "antilock/mesh/msh_file.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <set>
+#include <sstream>
 #include <unordered_map>
 #include <unordered_set>
 
 #include "antilock/core/error.hpp"
-#include "antilock/mesh/detail/msh_sections.hpp"
 
 namespace antilock {
 namespace {
+
+std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", printable(text, 40)); }
+
+/// A MSH file as lines of fields, one record a line as gmsh writes them; blank lines are skipped. It knows where it is,
+/// so that every refusal names the file and the line. Throws Error alone.
+class MshLines {
+ public:
+  /// Takes the whole stream.
+  MshLines(std::istream& in, std::string name) : name(std::move(name)) {
+    std::ostringstream all;
+    if (in) all << in.rdbuf();
+    if (in.bad()) refuse_file("cannot be read");
+    text_ = std::move(all).str();
+    if (text_.empty()) refuse_file("is empty or cannot be read; accepted: MSH 2.2 or 4.1, ASCII");
+  }
+
+  /// Moves to the next line that is not blank; false at the end of the file.
+  bool next() {
+    while (position_ < text_.size()) {
+      const std::size_t end = std::min(text_.find('\n', position_), text_.size());
+      line = std::string_view(text_).substr(position_, end - position_);
+      position_ = end + 1;
+      ++number;
+      fields.clear();
+      for (std::size_t from = line.find_first_not_of(blanks); from != line.npos;) {
+        const std::size_t to = std::min(line.find_first_of(blanks, from), line.size());
+        fields.push_back(line.substr(from, to - from));
+        from = line.find_first_not_of(blanks, to);
+      }
+      if (!fields.empty()) return true;
+    }
+    return false;
+  }
+  /// Moves to the next record of `section`; refuses the end of the file, a line that starts with $ (fewer records than
+  /// declared), and, unless it is 0, another number of fields; `what` says what the fields are.
+  void next_record(std::string_view section, std::size_t count = 0, std::string_view what = "") {
+    if (!next()) refuse_file("truncated: it ends within ${}", section);
+    if (fields[0].front() == '$') refuse("{} where ${} declares further entries", in_quotes(fields[0]), section);
+    if (count > 0 && fields.size() != count)
+      refuse("{} fields in ${}; accepted: {} ({})", fields.size(), section, count, what);
+  }
+  /// Refuses anything but the end of `section`: more records than declared, or a truncated file.
+  void end_section(std::string_view section) {
+    if (!next()) refuse_file("truncated: it ends within ${}", section);
+    if (fields.size() != 1 || fields[0] != fmt::format("$End{}", section))
+      refuse("{} where the entries that ${} declares are over; accepted: $End{}", in_quotes(line), section, section);
+  }
+  /// Passes over a section that the mesh does not need.
+  void skip_section(std::string_view section) {
+    const std::string end = fmt::format("$End{}", section);
+    while (next())
+      if (fields[0] == end) return;
+    refuse_file("truncated: no {} follows", in_quotes(end));
+  }
+
+  std::int64_t integer(std::size_t field) const {
+    std::int64_t value = 0;
+    if (!parse(field, value)) refuse("{} is no integer", in_quotes(fields[field]));
+    return value;
+  }
+  std::int64_t count(std::size_t field) const {
+    const std::int64_t value = integer(field);
+    if (value < 0) refuse("{} is no count; accepted: 0 or more", value);
+    return value;
+  }
+  double coordinate(std::size_t field) const {
+    double value = 0;
+    if (!parse(field, value) || !std::isfinite(value))
+      refuse("{} is no coordinate; accepted: a finite number", in_quotes(fields[field]));
+    return value;
+  }
+
+  /// Throws Error about this line, another one or the file, `why` a format of the values.
+  template <class... Values>
+  [[noreturn]] void refuse(fmt::format_string<const Values&...> why, const Values&... values) const {
+    refuse_at(number, why, values...);
+  }
+  template <class... Values>
+  [[noreturn]] void refuse_at(int at, fmt::format_string<const Values&...> why, const Values&... values) const {
+    throw Error(fmt::format("{}: line {}: {}", name, at, fmt::format(why, values...)));
+  }
+  template <class... Values>
+  [[noreturn]] void refuse_file(fmt::format_string<const Values&...> why, const Values&... values) const {
+    throw Error(fmt::format("{}: {}", name, fmt::format(why, values...)));
+  }
+
+  const std::string name;
+  std::string_view line;  ///< this one, and its fields
+  std::vector<std::string_view> fields;
+  int number = 0;  ///< of this line
+
+ private:
+  static constexpr std::string_view blanks = " \t\r\v\f";
+  template <class Number>
+  bool parse(std::size_t field, Number& value) const {
+    const std::string_view text = fields[field];
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size();
+  }
+  std::string text_;
+  std::size_t position_ = 0;
+};
+
+/// A point, line or triangle: 1, 2 or 3 nodes.
+struct FileElement {
+  std::int64_t tag;
+  std::int64_t group;  ///< MSH 2.2: the physical group; 4.1: the entity, whose group $Entities tells
+  int size;
+  std::array<std::int64_t, 3> nodes;
+  int line;
+  int dimension() const { return size - 1; }
+};
+
+/// Dimension and number of a physical group or an entity.
+using Place = std::pair<int, std::int64_t>;
+
+/// A MSH file as it stands, its tags not yet resolved.
+struct MshFile {
+  bool version_4 = false;
+  std::map<Place, std::string> names;      ///< of the physical groups of curves and surfaces
+  std::map<Place, std::int64_t> entities;  ///< 4.1: the physical group of a curve or surface, 0 for none
+  std::vector<std::int64_t> node_tags;
+  std::vector<Eigen::RowVector2d> nodes;
+  std::vector<FileElement> elements;
+};
+
+constexpr std::array dimension_names = {"point", "curve", "surface", "volume"};
+
+int read_dimension(const MshLines& lines, std::size_t field) {
+  const std::int64_t dimension = lines.integer(field);
+  if (dimension < 0 || dimension > 3) lines.refuse("dimension {}; accepted: 0 to 3", dimension);
+  return static_cast<int>(dimension);
+}
+
+/// How many nodes an element of gmsh's type has.
+int element_size(const MshLines& lines, std::int64_t type) {
+  if (type == 15) return 1;
+  if (type == 1 || type == 2) return static_cast<int>(type) + 1;
+  lines.refuse("element type {}; accepted: 15 (point), 1 (line), 2 (triangle of 3 nodes)", type);
+}
+
+void read_format(MshLines& lines, MshFile& file) {
+  lines.next_record("MeshFormat", 3, "version, 0 for ASCII, size of a number");
+  const std::string_view version = lines.fields[0];
+  if (version != "2.2" && version != "4.1") lines.refuse("MSH version {}; accepted: 2.2 and 4.1", in_quotes(version));
+  if (lines.fields[1] != "0") lines.refuse("a binary file; accepted: ASCII (gmsh option Mesh.Binary = 0)");
+  file.version_4 = version == "4.1";
+}
+
+/// Records: dimension number "name".
+void read_names(MshLines& lines, MshFile& file, std::map<std::string, int> known) {
+  known.insert({{"body", 2}, {"layer", 2}, {"sigma", 1}, {"clamped", 1}, {"contact", 1}});
+  lines.next_record("PhysicalNames", 1, "their number");
+  for (std::int64_t left = lines.count(0); left > 0; --left) {
+    lines.next_record("PhysicalNames");
+    const std::string_view line = lines.line;
+    const std::size_t open = line.find('"'), close = line.rfind('"');
+    if (lines.fields.size() < 3 || lines.fields[2].front() != '"' || close == open)
+      lines.refuse("a group must read: dimension number \"name\"");
+    const int dimension = read_dimension(lines, 0);
+    if (dimension == 0) continue;  // points carry nothing here
+    const std::string name(line.substr(open + 1, close - open - 1));
+    const auto group = known.find(name);
+    if (group == known.end() || group->second != dimension) {
+      std::string accepted;  // the scene's own names stand here, too: a misspelt one is seen
+      for (const auto& [each, of] : known)
+        if (of == dimension) accepted += each + ", ";
+      lines.refuse("unknown {} group {}; accepted: {}and others that a scene names in [[edge]] or in [body] stiffness",
+                   dimension_names[dimension], in_quotes(name), accepted);
+    }
+    for (const auto& [place, other] : file.names)
+      if (other == name) lines.refuse("the group {} is named twice", in_quotes(name));
+    if (!file.names.emplace(Place{dimension, lines.integer(1)}, name).second)
+      lines.refuse("{} group {} has two names", dimension_names[dimension], lines.integer(1));
+  }
+}
+
+/// Records: tag, a point (0-D) or a bounding box, number of physical groups, the groups, what bounds it.
+void read_entities(MshLines& lines, MshFile& file) {
+  lines.next_record("Entities", 4, "numbers of points, curves, surfaces, volumes");
+  const std::array counts = {lines.count(0), lines.count(1), lines.count(2), lines.count(3)};
+  for (int dimension = 0; dimension < 4; ++dimension)
+    for (std::int64_t i = 0; i < counts[dimension]; ++i) {
+      lines.next_record("Entities");
+      const std::size_t first_group = dimension == 0 ? 5 : 8;
+      if (lines.fields.size() < first_group)
+        lines.refuse("{} fields; accepted: {} or more", lines.fields.size(), first_group);
+      const std::int64_t tag = lines.integer(0), groups = lines.count(first_group - 1);
+      if (groups > static_cast<std::int64_t>(lines.fields.size() - first_group))
+        lines.refuse("{} physical groups declared, but the line ends", groups);
+      if (dimension == 0) continue;
+      if (groups > 1)
+        lines.refuse("{} {} is in {} physical groups; accepted: one", dimension_names[dimension], tag, groups);
+      const std::int64_t group = groups == 0 ? 0 : lines.integer(first_group);
+      if (std::abs(static_cast<double>(group)) > std::numeric_limits<int>::max())
+        lines.refuse("physical group {} is out of range", group);
+      if (!file.entities.emplace(Place{dimension, tag}, group).second)
+        lines.refuse("{} {} is listed twice", dimension_names[dimension], tag);
+    }
+}
+
+/// A node, its coordinates from field `first` on.
+void read_node(const MshLines& lines, MshFile& file, std::int64_t tag, std::size_t first) {
+  constexpr double flat = 1e-12;  // what a generator's round-off may leave
+  if (std::abs(lines.coordinate(first + 2)) > flat)
+    lines.refuse("node {} has z = {}; accepted: a mesh in the plane z = 0", tag, in_quotes(lines.fields[first + 2]));
+  file.node_tags.push_back(tag);
+  file.nodes.emplace_back(lines.coordinate(first), lines.coordinate(first + 1));
+}
+
+void read_nodes_2(MshLines& lines, MshFile& file) {
+  lines.next_record("Nodes", 1, "their number");
+  for (std::int64_t left = lines.count(0); left > 0; --left) {
+    lines.next_record("Nodes", 4, "tag x y z");
+    read_node(lines, file, lines.integer(0), 1);
+  }
+}
+
+/// Blocks: a header, the tags a line each, then the coordinates a line each.
+void read_nodes_4(MshLines& lines, MshFile& file) {
+  lines.next_record("Nodes", 4, "blocks, nodes, smallest tag, largest tag");
+  const std::int64_t total = lines.count(1);
+  for (std::int64_t blocks = lines.count(0); blocks > 0; --blocks) {
+    lines.next_record("Nodes", 4, "dimension, entity, parametric, nodes");
+    const int dimension = read_dimension(lines, 0);
+    const std::size_t fields = lines.integer(2) == 0 ? 3 : 3 + static_cast<std::size_t>(dimension);
+    std::vector<std::int64_t> tags;
+    for (std::int64_t left = lines.count(3); left > 0; --left) {
+      lines.next_record("Nodes", 1, "a node tag");
+      tags.push_back(lines.integer(0));
+    }
+    for (const std::int64_t tag : tags) {
+      lines.next_record("Nodes", fields, "x y z and the parameters declared");
+      read_node(lines, file, tag, 0);
+    }
+  }
+  if (static_cast<std::int64_t>(file.nodes.size()) != total)
+    lines.refuse("$Nodes declares {} nodes, its blocks hold {}", total, file.nodes.size());
+}
+
+FileElement read_element(const MshLines& lines, int size, std::int64_t group, std::size_t first_node) {
+  FileElement element{lines.integer(0), group, size, {}, lines.number};
+  for (int i = 0; i < size; ++i) element.nodes[i] = lines.integer(first_node + i);
+  return element;
+}
+
+/// Records: number type tag-count tags nodes; the first tag is the physical group.
+void read_elements_2(MshLines& lines, MshFile& file) {
+  lines.next_record("Elements", 1, "their number");
+  for (std::int64_t left = lines.count(0); left > 0; --left) {
+    lines.next_record("Elements");
+    if (lines.fields.size() < 4) lines.refuse("too few fields; accepted: number type tag-count tags nodes");
+    const int size = element_size(lines, lines.integer(1));
+    const std::int64_t tags = lines.count(2);
+    if (tags != static_cast<std::int64_t>(lines.fields.size()) - 3 - size)
+      lines.refuse("{} fields; accepted: 3, the {} tags declared and {} nodes", lines.fields.size(), tags, size);
+    const std::int64_t group = tags == 0 ? 0 : lines.integer(3);
+    file.elements.push_back(read_element(lines, size, group, lines.fields.size() - size));
+  }
+}
+
+/// Blocks: a header, then records: number nodes.
+void read_elements_4(MshLines& lines, MshFile& file) {
+  lines.next_record("Elements", 4, "blocks, elements, smallest tag, largest tag");
+  const std::int64_t total = lines.count(1);
+  for (std::int64_t blocks = lines.count(0); blocks > 0; --blocks) {
+    lines.next_record("Elements", 4, "dimension, entity, element type, elements");
+    const int size = element_size(lines, lines.integer(2));
+    if (read_dimension(lines, 0) != size - 1)
+      lines.refuse("element type {} in a block of dimension {}", in_quotes(lines.fields[2]),
+                   in_quotes(lines.fields[0]));
+    const std::int64_t entity = lines.integer(1);
+    for (std::int64_t left = lines.count(3); left > 0; --left) {
+      lines.next_record("Elements", 1 + static_cast<std::size_t>(size), "number and nodes");
+      file.elements.push_back(read_element(lines, size, entity, 1));
+    }
+  }
+  if (static_cast<std::int64_t>(file.elements.size()) != total)
+    lines.refuse("$Elements declares {} elements, its blocks hold {}", total, file.elements.size());
+}
+
+/// Reads and checks every section that a mesh needs, 2.2 or 4.1.
+/// `more`: the names that it may have beside body, layer, sigma, clamped and contact, with their dimensions.
+MshFile read_sections(MshLines& lines, const std::map<std::string, int>& more) {
+  if (!lines.next() || lines.fields[0] != "$MeshFormat")
+    lines.refuse_file("is no MSH file: it does not start with $MeshFormat; accepted: MSH 2.2 or 4.1, ASCII");
+  MshFile file;
+  std::set<std::string, std::less<>> seen;
+  do {
+    if (lines.fields.size() != 1 || lines.fields[0].front() != '$' || lines.fields[0].starts_with("$End"))
+      lines.refuse("{} outside every section", in_quotes(lines.line));
+    const std::string section(lines.fields[0].substr(1));
+    if (!seen.insert(section).second && section != "Comments") lines.refuse("a second {}", in_quotes('$' + section));
+    if (section == "MeshFormat") {
+      read_format(lines, file);
+    } else if (section == "PhysicalNames") {
+      read_names(lines, file, more);
+    } else if (section == "Entities" && file.version_4) {
+      read_entities(lines, file);
+    } else if (section == "Nodes") {
+      file.version_4 ? read_nodes_4(lines, file) : read_nodes_2(lines, file);
+    } else if (section == "Elements") {
+      file.version_4 ? read_elements_4(lines, file) : read_elements_2(lines, file);
+    } else if (section == "PartitionedEntities") {
+      lines.refuse("a partitioned mesh; accepted: one partition");
+    } else {
+      lines.skip_section(section);
+      continue;
+    }
+    lines.end_section(section);
+  } while (lines.next());
+  for (const char* section : {"PhysicalNames", "Nodes", "Elements"})
+    if (!seen.contains(section)) lines.refuse_file("has no section ${}, which is needed", section);
+  if (file.version_4 && !seen.contains("Entities"))
+    lines.refuse_file("has no section $Entities, which in MSH 4.1 tells the physical groups");
+  return file;
+}
 
 /// The name of the physical group that an element is in; points have none.
 const std::string& group_name(const MshLines& lines, const MshFile& file, const FileElement& element) {
@@ -37,14 +360,13 @@ const std::string& group_name(const MshLines& lines, const MshFile& file, const 
   return name->second;
 }
 
-/// FileNode tags, which may have gaps, to indices from 0 in the order of the file.
-std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const std::vector<FileNode>& nodes) {
+/// Node tags, which may have gaps, to indices from 0 in the order of the file.
+std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const std::vector<std::int64_t>& tags) {
   std::unordered_map<std::int64_t, int> index;
-  index.reserve(nodes.size());
-  for (const FileNode& node : nodes) {
-    if (node.tag < 1) lines.refuse_file("node tag {}; accepted: 1 or more", node.tag);
-    if (!index.emplace(node.tag, static_cast<int>(index.size())).second)
-      lines.refuse_file("node tag {} is used twice", node.tag);
+  index.reserve(tags.size());
+  for (const std::int64_t tag : tags) {
+    if (tag < 1) lines.refuse_file("node tag {}; accepted: 1 or more", tag);
+    if (!index.emplace(tag, static_cast<int>(index.size())).second) lines.refuse_file("node tag {} is used twice", tag);
   }
   return index;
 }
@@ -52,7 +374,7 @@ std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const 
 TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroups& more, std::vector<int>* part) {
   std::map<std::string, EdgeTag> edge_tags = more.curves;
   edge_tags.insert({{"sigma", EdgeTag::sigma}, {"clamped", EdgeTag::clamped}, {"contact", EdgeTag::contact}});
-  const auto index = number_nodes(lines, file.nodes);
+  const auto index = number_nodes(lines, file.node_tags);
   std::vector<std::array<int, 3>> corners;
   std::vector<Region> region;
   std::vector<TaggedEdge> edges;
@@ -94,9 +416,9 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
     if (!found.contains(name)) lines.refuse_file("names the physical group {}, but it is empty", in_quotes(name));
 
   Points points(file.nodes.size(), 2);
-  for (std::size_t i = 0; i < file.nodes.size(); ++i) points.row(i) << file.nodes[i].x, file.nodes[i].y;
+  std::copy(file.nodes.begin(), file.nodes.end(), points.rowwise().begin());
   Triples triangles = Eigen::Map<Triples>(corners[0].data(), static_cast<Eigen::Index>(corners.size()), 3);
-  return make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), edges, lines.name());
+  return make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), edges, lines.name);
 }
 
 }  // namespace

@@ -11,10 +11,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <unordered_map>
 
 #include "antilock/core/detail/atomic_file.hpp"
-#include "antilock/mesh/detail/edges.hpp"
 #include "antilock/mesh/detail/gmsh_session.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/refine.hpp"
@@ -38,7 +36,7 @@ MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
     const int d = gmsh.add_point(0, -depth, h_layer), e = gmsh.add_point(1, -depth, h_layer);
     gmsh.add_surface({gmsh.add_line(d, e), gmsh.add_line(e, b), -sigma, gmsh.add_line(a, d)});
   }
-  const auto [tags, xyz, nodes] = gmsh.generate();
+  MeshArrays made = gmsh.generate();
 
   // gmsh places points of the outline to about 1e-12: put them exactly on it
   const auto snap = [](double value, std::initializer_list<double> lines) {
@@ -46,13 +44,7 @@ MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
       if (std::abs(value - line) < 1e-9) return line;
     return value;
   };
-  MeshArrays made{Points(tags.size(), 2), Triples(nodes.size() / 3, 3)};
-  std::unordered_map<std::size_t, int> vertex;
-  for (std::size_t i = 0; i < tags.size(); ++i) {
-    made.first.row(static_cast<Eigen::Index>(i)) << snap(xyz[3 * i], {0, 1}), snap(xyz[3 * i + 1], {-depth, 0, 1});
-    vertex[tags[i]] = static_cast<int>(i);
-  }
-  std::transform(nodes.begin(), nodes.end(), made.second.data(), [&](std::size_t tag) { return vertex.at(tag); });
+  for (auto point : made.first.rowwise()) point << snap(point(0), {0, 1}), snap(point(1), {-depth, 0, 1});
   return made;
 }
 

@@ -9,13 +9,6 @@
 namespace antilock {
 namespace {
 
-template <class... Ts>
-struct Overloaded : Ts... {
-  using Ts::operator()...;
-};
-template <class... Ts>
-Overloaded(Ts...) -> Overloaded<Ts...>;  // clang 14 does not find it by itself
-
 void check_epsilon(const std::string& model, double epsilon, double smallest, const std::string& why) {
   if (!(epsilon >= smallest && epsilon <= 1))
     throw Error(fmt::format("{} layer: epsilon = {} is out of range; accepted {}", model, epsilon, why));
@@ -58,18 +51,14 @@ std::string Scene::beyond_the_certificate() const {
 }
 
 double Scene::layer_depth() const {
-  return std::visit(
-      Overloaded{[](const NoLayer&) { return 0.0; }, [](const VentcelLayer&) { return 0.0; },
-                 [](const StiffLayer&) { return 1.0; }, [](const ThinLayer& thin) { return thin.epsilon; }},
-      layer_);
+  if (const auto* thin = std::get_if<ThinLayer>(&layer_)) return thin->epsilon;
+  return std::holds_alternative<StiffLayer>(layer_) ? 1 : 0;
 }
 
 std::optional<double> Scene::epsilon() const {
-  using Epsilon = std::optional<double>;
-  return std::visit(Overloaded{[](const NoLayer&) -> Epsilon { return std::nullopt; },
-                               [](const VentcelLayer&) -> Epsilon { return 0.0; },
-                               [](const auto& layer) -> Epsilon { return layer.epsilon; }},
-                    layer_);
+  if (const auto* stiff = std::get_if<StiffLayer>(&layer_)) return stiff->epsilon;
+  if (const auto* thin = std::get_if<ThinLayer>(&layer_)) return thin->epsilon;
+  return std::holds_alternative<VentcelLayer>(layer_) ? std::optional(0.0) : std::nullopt;
 }
 
 std::vector<std::string> Scene::effects() const {

@@ -26,8 +26,7 @@ Space::Space(const TriangleMesh& mesh, const Element& element) : mesh_(&mesh), e
         unknowns_(t, local++) = first_edge + per_edge * e + (forward ? k : per_edge - 1 - k);
     }
     for (int k = 0; k < per_triangle; ++k) unknowns_(t, local++) = first_inner + per_triangle * t + k;
-    Eigen::Matrix<double, 3, 2> corners;
-    for (int i = 0; i < 3; ++i) corners.row(i) = mesh.vertices.row(mesh.triangles(t, i));
+    const Eigen::Matrix<double, 3, 2> corners = mesh.vertices(mesh.triangles.row(t), Eigen::all);
     for (int i = 0; i < local; ++i) points_.row(unknowns_(t, i)) = nodes.row(i) * corners;
   }
 

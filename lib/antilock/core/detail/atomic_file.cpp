@@ -1,14 +1,21 @@
 #include "antilock/core/detail/atomic_file.hpp"
 
+#include <dirent.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <memory>
+#include <mutex>
 #include <system_error>
 
-#include "antilock/core/detail/draft.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock {
@@ -21,10 +28,94 @@ namespace fs = std::filesystem;
                           reason));
 }
 
-std::string reason_of(int error) { return error == 0 ? "the stream failed" : std::generic_category().message(error); }
-
 [[noreturn]] void refuse_folder(const fs::path& folder, const std::string& reason) {
   throw Error(fmt::format("{}: {}; accepted: a folder that can be made and written", folder.string(), reason));
+}
+
+/// The folder itself, or the nearest one above it that exists.
+fs::path existing_part(const fs::path& folder) {
+  fs::path part = fs::absolute(folder).lexically_normal();
+  while (!fs::exists(part) && part != part.root_path()) part = part.parent_path();
+  return part;
+}
+
+// A handler may do next to nothing: it notes the signal, and the end of the last draft acts on it.
+std::atomic<int> waiting = 0;
+static_assert(std::atomic<int>::is_always_lock_free);
+extern "C" void note(int signal) { waiting = signal; }
+
+void stop_if_interrupted() {
+  if (waiting != 0) throw Error("interrupted while writing; nothing is written");
+}
+
+/// Signals whose handler is `from` get the handler `to`; those that the program handles or ignores are its own business.
+void change_handlers(void (*from)(int), void (*to)(int)) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction now = {}, then = {};
+    then.sa_handler = to;
+    ::sigaction(signal, nullptr, &now);
+    if ((now.sa_flags & SA_SIGINFO) == 0 && now.sa_handler == from) ::sigaction(signal, &then, nullptr);
+  }
+}
+
+/// While one of them exists, signals that would end the process wait.
+class Uninterrupted {
+ public:
+  Uninterrupted() {
+    const std::lock_guard lock(counting);
+    if (count++ == 0) change_handlers(SIG_DFL, note);
+  }
+  ~Uninterrupted() {
+    const std::lock_guard lock(counting);
+    if (--count > 0) return;
+    change_handlers(note, SIG_DFL);
+    if (const int signal = waiting.exchange(0)) ::raise(signal);
+  }
+  Uninterrupted(const Uninterrupted&) = delete;
+  Uninterrupted& operator=(const Uninterrupted&) = delete;
+
+ private:
+  inline static std::mutex counting;
+  inline static int count = 0;
+};
+
+/// A draft in a folder that exists.
+struct Draft {
+  explicit Draft(const fs::path& place) {
+    std::string name = (place / ".draft-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw fs::filesystem_error("draft", place, std::error_code(errno, std::generic_category()));
+    path = name;
+  }
+  ~Draft() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  Uninterrupted until_it_is_gone;
+  fs::path path;
+};
+
+/// As write_folder; throws std::filesystem::filesystem_error, too.
+void write_through_draft(const fs::path& folder, const std::function<void(const fs::path&)>& write,
+                         const std::vector<std::string>& known) {
+  stop_if_interrupted();
+  const Draft draft(existing_part(folder));
+  write(draft.path);
+  stop_if_interrupted();
+  fs::create_directories(folder);
+  // unlocked before it is closed: closing alone would leave the lock to a process forked meanwhile
+  const std::unique_ptr<DIR, void (*)(DIR*)> placing(::opendir(folder.c_str()), [](DIR* open) {
+    ::flock(::dirfd(open), LOCK_UN);
+    ::closedir(open);
+  });
+  while (placing && ::flock(::dirfd(placing.get()), LOCK_EX) != 0 && errno == EINTR) stop_if_interrupted();
+  std::vector<fs::path> names;
+  for (const auto& file : fs::directory_iterator(draft.path)) names.push_back(file.path().filename());
+  for (const fs::path& name : names)
+    if (fs::is_directory(folder / name)) refuse_folder(folder, name.string() + " is a folder there");
+  for (const fs::path& name : names) fs::rename(draft.path / name, folder / name);
+  for (const std::string& name : known)
+    if (std::find(names.begin(), names.end(), name) == names.end()) fs::remove(folder / name);
 }
 
 }  // namespace
@@ -33,24 +124,23 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
   if (!path.has_filename()) refuse(path, "it names no file");
   std::error_code error;
   if (fs::is_directory(path, error)) refuse(path, "it is a folder");
-  // the rename below would put a plain file in its place
+  // a rename would put a plain file in its place
   if (fs::exists(path, error) && !fs::is_regular_file(path, error)) refuse(path, "it is a device, a pipe or a socket");
 
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  try {
-    stop_if_interrupted();
-    const Draft draft(existing_part(folder));
-    const fs::path unfinished = draft.path() / path.filename();
+  const auto check = [&](const std::ofstream& out) {
+    if (!out) refuse(path, errno == 0 ? "the stream failed" : std::generic_category().message(errno));
+  };
+  const auto fill = [&](const fs::path& draft) {
     errno = 0;
-    std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
-    if (!out) refuse(path, reason_of(errno));
+    std::ofstream out(draft / path.filename(), std::ios::binary | std::ios::trunc);
+    check(out);
     out.precision(std::numeric_limits<double>::max_digits10);
     write(out);
     out.close();  // a full disk may show here first
-    if (!out) refuse(path, reason_of(errno));
-    stop_if_interrupted();
-    fs::create_directories(folder);
-    fs::rename(unfinished, path);
+    check(out);
+  };
+  try {
+    write_through_draft(path.has_parent_path() ? path.parent_path() : fs::path("."), fill, {});
   } catch (const fs::filesystem_error& error) {
     refuse(path, error.code().message());
   }
@@ -69,20 +159,10 @@ void check_folder(const fs::path& folder) {
 }
 
 void write_folder(const fs::path& folder, const std::function<void(const fs::path&)>& write,
-                  const std::vector<std::string>& stale) {
+                  const std::vector<std::string>& known) {
   check_folder(folder);
   try {
-    const Draft draft(existing_part(folder));
-    write(draft.path());
-    stop_if_interrupted();
-    fs::create_directories(folder);
-    const FolderLock lock(folder);
-    std::vector<fs::path> names;
-    for (const auto& file : fs::directory_iterator(draft.path())) names.push_back(file.path().filename());
-    for (const fs::path& name : names)
-      if (fs::is_directory(folder / name)) refuse_folder(folder, name.string() + " is a folder there");
-    for (const fs::path& name : names) fs::rename(draft.path() / name, folder / name);
-    for (const std::string& name : stale) fs::remove(folder / name);
+    write_through_draft(folder, write, known);
   } catch (const fs::filesystem_error& error) {
     refuse_folder(folder, error.code().message());
   }

@@ -1,4 +1,4 @@
-#include "antilock/io/detail/scene_checks.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/form/forms.hpp"
-#include "antilock/scene/detail/block_field.hpp"
 
 namespace antilock {
 namespace {
@@ -100,7 +99,10 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
     if (here == 0) continue;
     const bool fits = at_points <= k;
     if (fits) {
-      evaluate(f, (rule.points * mesh.vertices(mesh.triangles.row(t), Eigen::all)).transpose(), at_rule);
+      for (Eigen::Index q = 0; q < at_rule.size(); ++q) {
+        const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
+        at_rule(q) = f(x(0), x(1));
+      }
       at_points += at_rule.size();
       quadratic.noalias() = fit * at_rule;
     }
@@ -137,7 +139,7 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
 }
 
 std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
-  if (file.mesh.kind != MeshRequest::Kind::file || !mesh.geometry.empty()) return "";
+  if (!file.mesh.from_file() || !mesh.geometry.empty()) return "";
   constexpr double corner = 0.7071;  // the cosine of 45 degrees, what a regular octagon turns by
   std::vector<Eigen::RowVector2d> turn(mesh.vertex_count(), Eigen::RowVector2d::Zero());
   std::vector<double> cosine(mesh.vertex_count(), 1);  // of the turn at a vertex of the boundary

@@ -1,4 +1,4 @@
-#include "antilock/io/detail/scene_results.hpp"
+#include "antilock/io/detail/scene_answer.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,6 @@
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/detail/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/io/detail/scene_problem.hpp"
-#include "antilock/io/expression.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/detail/point_values.hpp"
 #include "antilock/measure/errors.hpp"
@@ -33,26 +31,31 @@ const char* asked_of(const MethodRequest& method) { return method.of == Quantity
 
 /// The question in full: with it and the mesh file anyone can ask it again.
 Json question(const SceneFile& file) {
-  const SceneWords& words = file.words;
+  const Json words = Json::parse(file.words);
   const MethodRequest& method = file.method;
-  Json layer, mesh = {{"kind", words.mesh}};
-  if (!words.model.empty()) layer = {{"epsilon", or_null(file.scene.epsilon())}, {"model", words.model}};
-  if (file.mesh.kind == MeshRequest::Kind::file)
-    mesh["file"] = words.file;
-  else
-    mesh["cells"] = file.mesh.cells;
-  if (file.mesh.refinements > 0) mesh["refinements"] = file.mesh.refinements;
   Json asked = {{"title", file.title},
-                {"load", words.load},
-                {"layer", layer},
-                {"gap", file.scene.contact() ? Json(words.gap) : Json(nullptr)},
-                {"mesh", mesh},
+                {"load", words["load"]["f"]},
+                {"layer", nullptr},
+                {"gap", nullptr},
+                {"mesh", words["mesh"]},
                 {"method", {{"element", method.element}, {"solver", method.solver}, {"tolerance", method.tolerance}}},
                 {"version", ANTILOCK_VERSION}};
+  const auto add = [&](const Json& from, const char* key, const std::string& name) {
+    if (from.contains(key)) asked[name] = from[key];
+  };
+  if (words.contains("layer")) {
+    const Json& layer = words["layer"];
+    asked["layer"] = {{"epsilon", or_null(file.scene.epsilon())}, {"model", layer.value("model", "scaled")}};
+    for (const std::string key : {"thickness", "stiffness", "load"}) add(layer, key.c_str(), "layer " + key);
+  }
+  if (words.contains("contact")) {
+    asked["gap"] = words["contact"].value("gap", "0");
+    add(words["contact"], "ceiling", "ceiling");
+  }
   if (method.accuracy)
     asked["method"].update(
         {{"accuracy", *method.accuracy}, {"of", asked_of(method)}, {"most_unknowns", method.most_unknowns}});
-  if (!words.more.empty()) asked.update(Json::parse("{" + words.more + "}"));
+  for (const char* section : {"body", "edge", "at", "model"}) add(words, section, section);
   return asked;
 }
 
@@ -98,17 +101,6 @@ Eigen::MatrixXd with_friction(const Eigen::MatrixX3d& table, const Answer& answe
     all(row, 3) = answer.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
   }
   return all;
-}
-
-/// What an earlier run on several ranks left in the folder: its pictures would pass for those of this one.
-std::vector<std::string> pieces_in(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  std::error_code absent;
-  if (!std::filesystem::exists(folder / "solution.pvtu", absent)) return names;
-  names.push_back("solution.pvtu");
-  const auto piece = [](std::size_t rank) { return fmt::format("solution_{}.vtu", rank); };
-  while (std::filesystem::exists(folder / piece(names.size() - 1), absent)) names.push_back(piece(names.size() - 1));
-  return names;
 }
 
 }  // namespace
@@ -201,10 +193,21 @@ void write_summary(const std::filesystem::path& path, const SceneFile& file, con
   write_file(path, [&](std::ostream& out) { out << s.dump(2) << "\n"; });
 }
 
+std::string piece_name(int rank) { return fmt::format("solution_{}.vtu", rank); }
+
+std::vector<std::string> result_names(const std::filesystem::path& folder, int ranks) {
+  std::vector<std::string> names{"summary.json", "solution.csv", "contact.csv",
+                                 "mesh.msh",     "solution.vtu", "solution.pvtu"};
+  std::error_code absent;
+  const bool earlier = std::filesystem::exists(folder / "solution.pvtu", absent);
+  for (int r = 0; r < ranks || (earlier && std::filesystem::exists(folder / piece_name(r), absent)); ++r)
+    names.push_back(piece_name(r));
+  return names;
+}
+
 void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
-                       std::vector<std::string> more) {
-  more.insert(more.end(), {"summary.json", "solution.csv", "contact.csv", "mesh.msh", "solution.vtu"});
-  for (const std::string& name : more)
+                       int ranks) {
+  for (const std::string& name : result_names(folder, ranks))
     for (const std::filesystem::path& input : {scene, file.mesh.file})
       if (std::error_code absent; !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
         throw Error(fmt::format("{}: --out: the result {} would replace {}; accepted: another folder", file.name, name,
@@ -250,12 +253,7 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
       write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
     write_summary(draft / "summary.json", file, summary, answer.seconds, watch.seconds(), certified);
   };
-  std::vector<std::string> stale = pieces_in(folder);
-  if (!csv) stale.emplace_back("solution.csv");
-  if (!csv || !contact) stale.emplace_back("contact.csv");
-  if (!asked.contains("mesh")) stale.emplace_back("mesh.msh");
-  if (!vtu) stale.emplace_back("solution.vtu");
-  write_folder(folder, write, stale);
+  write_folder(folder, write, result_names(folder));
 }
 
 }  // namespace antilock

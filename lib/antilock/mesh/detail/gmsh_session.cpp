@@ -4,8 +4,9 @@
 #include <fmt/format.h>
 #include <gmshc.h>
 
-#include <memory>
+#include <algorithm>
 #include <string>
+#include <unordered_map>
 
 #include "antilock/core/error.hpp"
 
@@ -33,8 +34,9 @@ void free_by_gmsh(void* memory) { reinterpret_cast<decltype(gmshFree)*>(dlsym(gm
 /// What gmsh allocated, as a vector; gmsh's own memory is freed.
 template <class Number>
 std::vector<Number> taken(Number* first, std::size_t count) {
-  const std::unique_ptr<Number, decltype(&free_by_gmsh)> owner(first, &free_by_gmsh);
-  return {first, first + count};
+  std::vector<Number> all(first, first + count);
+  free_by_gmsh(first);
+  return all;
 }
 
 }  // namespace
@@ -90,21 +92,28 @@ void GmshSession::add_surface(std::array<int, 4> lines) const {
   call<decltype(gmshModelGeoAddPlaneSurface)>("gmshModelGeoAddPlaneSurface", &loop, 1, -1);
 }
 
-GmshSession::Triangulation GmshSession::generate() const {
+std::pair<Points, Triples> GmshSession::generate() const {
   call<decltype(gmshModelGeoSynchronize)>("gmshModelGeoSynchronize");
   call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2);
-  std::size_t *tags = nullptr, *triangles = nullptr, *nodes = nullptr;
+  std::size_t *tags = nullptr, *elements = nullptr, *nodes = nullptr;
   double *coordinates = nullptr, *parameters = nullptr;
-  std::size_t tag_count = 0, coordinate_count = 0, parameter_count = 0, triangle_count = 0, node_count = 0;
+  std::size_t tag_count = 0, coordinate_count = 0, parameter_count = 0, element_count = 0, node_count = 0;
   call<decltype(gmshModelMeshGetNodes)>("gmshModelMeshGetNodes", &tags, &tag_count, &coordinates, &coordinate_count,
                                         &parameters, &parameter_count, /*dim: all*/ -1, -1, 0, 0);
   if (parameters != nullptr) free_by_gmsh(parameters);
   constexpr int of_three_nodes = 2;
-  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", of_three_nodes, &triangles,
-                                                 &triangle_count, &nodes, &node_count, /*tag: all*/ -1, /*task*/ 0,
+  call<decltype(gmshModelMeshGetElementsByType)>("gmshModelMeshGetElementsByType", of_three_nodes, &elements,
+                                                 &element_count, &nodes, &node_count, /*tag: all*/ -1, /*task*/ 0,
                                                  /*numTasks*/ 1);
-  free_by_gmsh(triangles);
-  return {taken(tags, tag_count), taken(coordinates, coordinate_count), taken(nodes, node_count)};
+  free_by_gmsh(elements);
+  const std::vector<double> xyz = taken(coordinates, coordinate_count);
+  const std::vector<std::size_t> corners = taken(nodes, node_count);
+  std::unordered_map<std::size_t, int> number;
+  for (const std::size_t tag : taken(tags, tag_count)) number.emplace(tag, static_cast<int>(number.size()));
+  std::pair<Points, Triples> made{Points(number.size(), 2), Triples(corners.size() / 3, 3)};
+  for (Eigen::Index v = 0; v < made.first.rows(); ++v) made.first.row(v) << xyz[3 * v], xyz[3 * v + 1];
+  std::transform(corners.begin(), corners.end(), made.second.data(), [&](std::size_t tag) { return number.at(tag); });
+  return made;
 }
 
 std::vector<int> GmshSession::read_curves(const std::string& path) const {

@@ -1,10 +1,11 @@
 #pragma once
 #include <array>
-#include <cstddef>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "antilock/mesh/triangle_mesh.hpp"
 
 namespace antilock {
 
@@ -42,14 +43,8 @@ class GmshSession {
   int add_line(int from, int to) const;
   /// A plane surface inside four lines that follow each other, -line for one that is run through backwards.
   void add_surface(std::array<int, 4> lines) const;
-  /// Makes triangles of the geometry, surface by surface: the tags of the nodes, their coordinates, three each, and the
-  /// nodes of the triangles, three each.
-  struct Triangulation {
-    std::vector<std::size_t> tags;
-    std::vector<double> xyz;
-    std::vector<std::size_t> triangles;
-  };
-  Triangulation generate() const;
+  /// Makes triangles of the geometry, surface by surface.
+  std::pair<Points, Triples> generate() const;
 
   /// Reads a .geo or .brep file; the tags of its curves. Throws Error where gmsh cannot read it.
   std::vector<int> read_curves(const std::string& path) const;
