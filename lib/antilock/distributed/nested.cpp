@@ -37,8 +37,6 @@ Eigen::Matrix3d corners_of_child(int i) {
 
 }  // namespace
 
-int ContactSet::count() const { return static_cast<int>(std::count(active.begin(), active.end(), 1)); }
-
 bool ContactSet::at(double where) const {
   constexpr double slack = 1e-9;  // a point that both meshes have stands between itself and itself
   const auto right = std::lower_bound(x.begin(), x.end(), where - slack);

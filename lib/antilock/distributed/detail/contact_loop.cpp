@@ -104,7 +104,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     double scale = 0, unbalanced = 0, force = load;
     long long changed = 0;
     {
-      Entries value(u), residual(r1), right(rhs), gap(jump);
+      Entries value(u), residual(r1), gap(jump);
       for (int i = 0; i < rows.owned(); ++i) {
         const bool was = state.active[i] != 0;
         const bool is = std::isfinite(lower(i)) && (step == 0 ? was : was ? residual[i] < 0 : value[i] < lower(i));
@@ -115,7 +115,6 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
         if (!is) unbalanced = std::max(unbalanced, std::abs(residual[i]));
         if (!is) continue;
         force = std::max(force, std::abs(residual[i]));
-        right[i] = 0;
         held.push_back(rows.first() + i);
       }
     }

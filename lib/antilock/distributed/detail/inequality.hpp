@@ -27,7 +27,8 @@ class Inequality {
   double delta() const { return delta_; }                  ///< the compliance at least
   const Eigen::VectorXd& lower() const { return lower_; }  ///< per owned row: the bound, -infinity where there is none
 
-  /// r1 = L - A1 u - B' M p, the part of this rank. u at the unknowns of the piece, p at its rows of B.
+  /// r1 = L - A1 u - B' M p, the part of this rank; 0 at the clamped unknowns. u at the unknowns of the piece, p at its
+  /// rows of B.
   Eigen::VectorXd equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const;
   /// r2 = compliance p - B u; never shared.
   Eigen::VectorXd compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const;
@@ -37,7 +38,7 @@ class Inequality {
   Eigen::VectorXd stress_step(const Eigen::VectorXd& du, const Eigen::VectorXd& r2) const;
 
  private:
-  void sum_k(const SparseMatrix& part);
+  void sum_k(Eigen::SparseMatrix<PetscScalar, Eigen::RowMajor, PetscInt> part);
   VariationalInequality part_;
   Rows rows_;
   Matrix k_;
