@@ -14,7 +14,7 @@
 #include <new>
 
 #include "antilock/io/expression.hpp"
-#include "common/command_line.hpp"
+#include "common/tutorial.hpp"
 #include "doors/doors.hpp"
 
 namespace {
