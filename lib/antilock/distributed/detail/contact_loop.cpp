@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <ctime>
 
@@ -121,11 +120,9 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     changed = sum(changed);
     const Progress now{"corrections", step, step > 0 ? report.change : 1, options.tolerance};
     const bool stop = options.progress && !options.progress(now);
-    std::array<double, 4> all = {scale, unbalanced, force, stop ? 1.0 : 0.0};
-    MPI_Allreduce(MPI_IN_PLACE, all.data(), 4, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
-    scale = all[0], force = all[2];
-    unbalanced = force > 0 ? all[1] / force : 0;
-    if (all[3] > 0) antilock::report([](const Progress&) { return false; }, now, "petsc");
+    if (largest(stop ? 1 : 0) > 0) antilock::report([](const Progress&) { return false; }, now, "petsc");
+    scale = largest(scale), force = largest(force), unbalanced = largest(unbalanced);
+    if (force > 0) unbalanced /= force;
     if (changed > 0) ++report.sets, since_change = 0;
     const bool settled = report.change <= options.tolerance && unbalanced <= options.residual;
     if (step > 0 && changed == 0 && settled) break;

@@ -69,20 +69,4 @@ void Inequality::sum_k(Eigen::SparseMatrix<PetscScalar, Eigen::RowMajor, PetscIn
   ok(MatConvert(sum, MATAIJ, MAT_INITIAL_MATRIX, &k_));
 }
 
-Eigen::VectorXd Inequality::equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
-  return rows_.unclamped(part_.load - part_.a1 * u - part_.b.transpose() * part_.m.cwiseProduct(p));
-}
-
-Eigen::VectorXd Inequality::compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
-  return part_.compliance * p - part_.b * u;
-}
-
-Eigen::VectorXd Inequality::right_side(const Eigen::VectorXd& r1, const Eigen::VectorXd& r2) const {
-  return rows_.unclamped(r1 + part_.b.transpose() * part_.m.cwiseProduct(r2) / delta_);
-}
-
-Eigen::VectorXd Inequality::stress_step(const Eigen::VectorXd& du, const Eigen::VectorXd& r2) const {
-  return (part_.b * du - r2) / delta_;
-}
-
 }  // namespace antilock::distributed
