@@ -22,17 +22,14 @@ double penalty_over_all(RelativeStiffness s) {
   return choose_penalty(s);
 }
 
-long long layer_triangles(const TriangleMesh& mesh) {
-  return std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
-}
-
 }  // namespace
 
 Inequality::Inequality(const Scene& scene, const Space& space, Penalty penalty) : rows_(space) {
-  const bool here = layer_triangles(space.mesh()) > 0, somewhere = sum(layer_triangles(space.mesh())) > 0;
+  const auto& region = space.mesh().region;
+  const long long here = std::count(region.begin(), region.end(), Region::layer), all = sum(here);
   together(
       [&] {  // a strip without a part of the layer (between the two feet of a body) has the body's part of the forms
-        part_ = assemble(here || !somewhere ? scene : Scene(scene.body(), NoLayer{}, scene.contact()), space);
+        part_ = assemble(here > 0 || all == 0 ? scene : Scene(scene.body(), NoLayer{}, scene.contact()), space);
         lower_ = Eigen::VectorXd::Constant(rows_.owned(), -std::numeric_limits<double>::infinity());
         if (!scene.contact()) return;
         for (int place = 0; place < rows_.owned(); ++place) {

@@ -24,11 +24,6 @@ std::vector<double> column_lines(const TriangleMesh& mesh) {
   return x;
 }
 
-int column_at(const std::vector<double>& lines, double x) {
-  const auto after = std::upper_bound(lines.begin(), lines.end(), x) - lines.begin();
-  return static_cast<int>(std::clamp<std::ptrdiff_t>(after - 1, 0, static_cast<std::ptrdiff_t>(lines.size()) - 2));
-}
-
 }  // namespace
 
 std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer) {
@@ -42,7 +37,8 @@ std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer) {
   std::vector<int> column(mesh.triangle_count()), filled(columns, 0);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Vector3d x = mesh.vertices.col(0)(mesh.triangles.row(t));
-    column[t] = column_at(lines, x.mean());
+    const auto after = static_cast<int>(std::upper_bound(lines.begin(), lines.end(), x.mean()) - lines.begin());
+    column[t] = std::clamp(after - 1, 0, columns - 1);
     ++filled[column[t]];
     if (any_layer || mesh.region[t] != Region::layer) continue;
     const double left = lines[column[t]], right = lines[column[t] + 1];
