@@ -53,6 +53,8 @@
 // order $b^{1/2}$. Uzawa stops when the duality gap is at most $(b/20)^2 |J|$. Then $|v - u_h|_a$ is at most
 // $b/20$ of $|u_h|_a$, because $|J(u_h)| = ½ |u_h|_a^2$ and $J$ is nearly $J(u_h)$ (`analysis/accurate_enough.hpp`).
 
+#include <CLI/CLI.hpp>
+
 #include "antilock/analysis/accurate_enough.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "backstage/18_summed.hpp"
@@ -205,10 +207,12 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
 
 int main(int argc, char** argv) {
   tutorial::Timing study;
-  const auto add_options = [&](tutorial::CommandLine& line) {
-    line.add("--limit", study.limit, "seconds after which a run counts as failed", 1e-3, 3600);
-    line.add("--repeats", study.repeats, "runs of each solver; their median is its time", 1, 99);
-    line.add("--freefem", study.freefem, "the command freefem/run, to measure FreeFEM's script too");
+  const auto add_options = [&](CLI::App& line) {
+    line.add_option("--limit", study.limit, "seconds after which a run counts as failed")
+        ->check(CLI::Range(1e-3, 3600.0));
+    line.add_option("--repeats", study.repeats, "runs of each solver; their median is its time")
+        ->check(CLI::Range(1, 99));
+    line.add_option("--freefem", study.freefem, "the command freefem/run, to measure FreeFEM's script too");
   };
   return tutorial::run(
       argc, argv, "21_work_precision", "What accuracy costs in time",

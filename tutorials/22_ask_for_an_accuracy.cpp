@@ -41,6 +41,8 @@
 // bisected, and the layer is *extruded* below it in columns. Cells as high as they are wide would cost more unknowns
 // and find nothing more.
 
+#include <CLI/CLI.hpp>
+
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "backstage/22_output.hpp"
@@ -162,8 +164,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 #include "answers/22_ask_for_an_accuracy.hpp"
 
 int main(int argc, char** argv) {
-  const auto ask = [](tutorial::CommandLine& line) {
-    line.add("--asked", smallest_asked, "smallest relative accuracy asked for", 0.005, 0.2);
+  const auto ask = [](CLI::App& line) {
+    line.add_option("--asked", smallest_asked, "smallest relative accuracy asked for")->check(CLI::Range(0.005, 0.2));
   };
   return tutorial::run(argc, argv, "22_ask_for_an_accuracy", "an accuracy asked for, a mesh found, a proof handed over",
                        {.takes_epsilon = false, .cells = 64, .least_cells = 32, .add = ask, .exercises = exercises},

@@ -170,10 +170,7 @@ void judge_uniform(const Table& full, const Table& reduced, tutorial::Report& re
   worst.rows.print("reduced integration: the largest error of w over epsilon, and its order");
   report.claim(worst.denser < 1.02, "every second epsilon would do: the suprema grow by {:.2f} % with the others",
                100 * (worst.denser - 1));
-  report.claim(
-      worst.low > 1.9 && worst.high < 2.1,
-      "(convergence proved, order observed) reduced integration: sup over epsilon falls like h^{:.2f} to h^{:.2f}",
-      worst.low, worst.high);
+  report.claim_orders(worst.rows, "worst", 1.9, 2.1, "(convergence proved) reduced integration, sup over epsilon");
   const double q = Beam{}.load, c = std::pow(72 / q, 0.25), curvature = q * std::pow(c, 2.5) / std::sqrt(135.0);
   double most = 0;
   for (const Table& row : worst.rows.rows())

@@ -164,9 +164,7 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
     worst.rows.print(element.text() + ": the largest error of w in L2 over t <= 0.1, and its order");
     report.claim(worst.denser < 1.02, "{}: every second t would do, the suprema grow by {:.2f} % with the others",
                  element.text(), 100 * (worst.denser - 1));
-    report.claim(worst.low > 1.85 && worst.high < 2.1,
-                 "(convergence proved, order observed) {}: sup over t falls like h^{:.2f} to h^{:.2f}", element.text(),
-                 worst.low, worst.high);
+    report.claim_orders(worst.rows, "worst", 1.85, 2.1, "(convergence proved) " + element.text() + ", sup over t");
     double most = 0;
     for (const Table& row : worst.rows.rows())
       most = std::max(most, row.number("worst") / (unit * std::pow(row.number("h"), 2)));

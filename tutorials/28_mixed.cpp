@@ -144,17 +144,16 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
   report.claim(columns_h.least("hidden") > 0.85 * slope && columns_h.most("hidden") < 1.02 * slope,
                "(proved) columns (half kept): (iii) fails, K_0h hides a slope of {:.3f}, in the limit {:.3f}",
                columns_h.last("hidden"), slope);
-  const double stays = sup("columns (half kept)").last;
+  const double stays = sup("columns (half kept)").rows.rows().back().number("order");
   report.claim(stays < 0.1, "(observed) and the worst error stays, {:.3f}, order {:.2f}", columns_h.last("h1"), stays);
   // A zigzag across the layer, of a wave length of some $h$, has energy from $∂_x$ alone: α ~ $h^2$.
   const Table alone = of("boxes (nothing kept)").where_number("alpha", [](double a) { return std::isfinite(a); });
-  const tutorial::Supremum alpha = tutorial::supremum(alone, "alpha", "epsilon");
-  report.claim(alpha.low > 1.8 && alpha.high < 2.1,
-               "(observed) boxes (nothing kept): (i) fails, alpha ~ h^{:.2f}, h^{:.2f}", alpha.low, alpha.high);
-  const tutorial::Supremum grows = sup("boxes (nothing kept)");
-  report.claim(grows.high < -0.5 && grows.rows.last("worst") > 2 * grows.rows.first("worst"),
-               "(observed) and the worst error grows on every mesh, {:.2f} to {:.2f}", grows.rows.first("worst"),
-               grows.rows.last("worst"));
+  report.claim_orders(alone, "alpha", 1.8, 2.1, "boxes (nothing kept): (i) fails, alpha");
+  const Table grows = sup("boxes (nothing kept)").rows;
+  report.claim(
+      std::ranges::max(grows.pairwise_orders("worst", "h")) < -0.5 && grows.last("worst") > 2 * grows.first("worst"),
+      "(observed) and the worst error grows on every mesh, {:.2f} to {:.2f}", grows.first("worst"),
+      grows.last("worst"));
   const Table half = of("boxes (half kept)");
   report.claim(half.where_number("alpha", [](double a) { return std::isfinite(a); }).least("alpha") > 0.5 * 0.9129,
                "(proved) boxes (half kept): (i), alpha is at least half of that on V, 0.9129");
@@ -167,14 +166,13 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
                    share);
   }
   for (const char* name : {"boxes (half kept)", "Crouzeix-Raviart"}) {
-    const tutorial::Supremum worst = sup(name), near = tutorial::supremum(of(name), "near", "epsilon");
+    const tutorial::Supremum worst = sup(name);
     const double ratio = worst.rows.last("worst") / layer.where("name", name).where("epsilon", 1).last("h1");
-    report.claim(near.low > 0.9 && near.high < 1.1, "(observed) {}: (ii), u^0 is h^{:.2f} to h^{:.2f} from K_0h", name,
-                 near.low, near.high);
-    report.claim(worst.low > 0.9 && worst.high < 1.15 && worst.denser < 1.02 && ratio < 1.1,
-                 "(observed) {}: sup over epsilon falls like h^{:.2f} to h^{:.2f}, locking "
-                 "ratio {:.2f}; every second epsilon would do to {:.2f} %",
-                 name, worst.low, worst.high, ratio, 100 * (worst.denser - 1));
+    report.claim_orders(of(name), "near", 0.9, 1.1, fmt::format("{}: (ii), from u^0 to K_0h", name));
+    report.claim_orders(worst.rows, "worst", 0.9, 1.15, fmt::format("{}: sup over epsilon", name));
+    report.claim(worst.denser < 1.02 && ratio < 1.1,
+                 "(observed) {}: locking ratio {:.2f}; every second epsilon would do to {:.2f} %", name, ratio,
+                 100 * (worst.denser - 1));
     report.claim(layer.where("name", name).most("corrections") <= 4, "(observed) {}: {} corrections at most", name,
                  layer.where("name", name).most("corrections"));
   }

@@ -69,6 +69,8 @@
 // still keeps enough digits of $A_1$. CR in both components needs no remedy: its slope across takes any values, one per
 // triangle, so there always is a $z$.
 
+#include <CLI/CLI.hpp>
+
 #include "backstage/32_coating.hpp"
 #include "common/course.hpp"
 
@@ -212,8 +214,9 @@ int main(int argc, char** argv) {
        .least_cells = 16,  // a quarter of them is the coarsest mesh
        .most_cells = 32,   // a factor at t = 1e-6 on a finer mesh has no digits to spare
        .add =
-           [&](tutorial::CommandLine& line) {
-             line.add("--thickness", thickness, "t of the pictures, relative to the block; 0: the limit", 0, 1);
+           [&](CLI::App& line) {
+             line.add_option("--thickness", thickness, "t of the pictures, relative to the block; 0: the limit")
+                 ->check(CLI::Range(0.0, 1.0));
            },
        .exercises = exercises},
       [&](const tutorial::Options& options, tutorial::Report& report) { press(options, thickness, report); });

@@ -14,7 +14,7 @@
 #include <new>
 
 #include "antilock/core/error.hpp"
-#include "common/command_line.hpp"
+#include "common/tutorial.hpp"
 #include "doors/doors.hpp"
 
 namespace {

@@ -8,8 +8,10 @@
 // status 2 for a question that cannot be asked (the line names file and key), 3 for a solve that did not get there.
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
 #include <new>
 
@@ -18,7 +20,6 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/io/scene_file.hpp"
-#include "common/command_line.hpp"
 #include "common/tutorial.hpp"
 
 using namespace antilock;
@@ -98,6 +99,16 @@ Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/f
 )help";
 // clang-format on
 
+/// Which of the processes that mpiexec started this is, and how many there are, without MPI: from the environment that
+/// Open MPI, MPICH and Slurm set. 0 of 1 without mpiexec.
+int launched(const char* by_open_mpi, const char* by_others, int alone) {
+  for (const char* name : {by_open_mpi, by_others})
+    if (const char* value = std::getenv(name)) return std::atoi(value);
+  return alone;
+}
+int launched_rank() { return launched("OMPI_COMM_WORLD_RANK", "PMI_RANK", 0); }
+int launched_ranks() { return launched("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1); }
+
 /// Scenes with solver = "petsc" are answered by the program beside this one, alone or on many ranks.
 void check_solver(const SceneFile& file, bool for_petsc, char** argv) {
   if (file.method.solver == "petsc") {
@@ -108,7 +119,7 @@ void check_solver(const SceneFile& file, bool for_petsc, char** argv) {
   }
   if (for_petsc)
     throw Error(file.name + ": --restart and --direct go with solver = \"petsc\" only; accepted: a run without it");
-  if (tutorial::launched_ranks() > 1)
+  if (launched_ranks() > 1)
     throw Error(file.name +
                 ": method.solver: was started on several ranks, and PETSc or MPI was missing when this was "
                 "built; accepted: a run without mpiexec");
@@ -185,7 +196,7 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
 }
 
 int fail(const std::string& message, int status) {
-  if (tutorial::launched_rank() > 0) return 0;  // rank 0 says it, and its status is that of the run
+  if (launched_rank() > 0) return 0;  // rank 0 says it, and its status is that of the run
   fmt::print(stderr, "{}\n", printable(message, 4000));
   return status;
 }
@@ -193,25 +204,25 @@ int fail(const std::string& message, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (tutorial::launched_ranks() > 1)
-    tutorial::become("run_scene_petsc", argv);  // which reads the scene on all at once
-  tutorial::CommandLine line(
-      "Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
-      "run_scene");
+  if (launched_ranks() > 1) tutorial::become("run_scene_petsc", argv);  // which reads the scene on all at once
+  CLI::App line("Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
+                "run_scene");
   std::filesystem::path scene;
   Asked asked;
   std::string files = "summary,csv,mesh,vtu";
-  line.add_required("SCENE", scene, "the scene file, in TOML");
-  line.add("--out", asked.out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  line.add("--files", files, "which files to write: any of summary, csv, mesh, vtu, with commas between them");
-  line.add("--direct", asked.direct,
-           "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
-  line.add("--restart", asked.restart, "with solver = \"petsc\": start from the last level of a run that was ended");
-  line.add("--most-seconds", asked.most_seconds, "stop a solve that takes longer: status 3, and how far it came", 0,
-           std::numeric_limits<double>::infinity());
+  line.add_option("SCENE", scene, "the scene file, in TOML")->required();
+  const CLI::Option* out = line.add_option(
+      "--out", asked.out, "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.add_option("--files", files, "which files to write: any of summary, csv, mesh, vtu, with commas between them");
+  line.add_flag("--direct", asked.direct,
+                "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
+  line.add_flag("--restart", asked.restart,
+                "with solver = \"petsc\": start from the last level of a run that was ended");
+  line.add_option("--most-seconds", asked.most_seconds, "stop a solve that takes longer: status 3, and how far it came")
+      ->check(CLI::Range(0.0, asked.most_seconds));
   line.footer(help);
-  if (const auto status = line.parse(argc, argv)) return *status;
-  if (!line.given("--out")) asked.out = std::filesystem::path("results") / scene.stem();
+  if (const auto status = tutorial::parse(line, argc, argv)) return *status;
+  if (out->count() == 0) asked.out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
     report.finish();  // the line of the stage that did not end

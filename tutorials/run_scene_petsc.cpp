@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
+#include <CLI/CLI.hpp>
 #include <new>
 
 #include "antilock/core/detail/atomic_file.hpp"
@@ -20,7 +21,6 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "common/command_line.hpp"
 #include "common/tutorial.hpp"
 #include "petsc/checkpoint.hpp"
 #include "petsc/scene_files.hpp"
@@ -209,19 +209,19 @@ int fail(const std::string& message, int status) {
 }
 
 int run(int argc, char** argv) {
-  tutorial::CommandLine line(
-      "Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.",
-      "run_scene");
-  if (dist::rank() > 0) line.silence();
+  CLI::App line("Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.",
+                "run_scene");
   std::filesystem::path scene, out;
   Choices choices;
-  line.add_required("SCENE", scene, "the scene file, in TOML");
-  line.add("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
-  line.add("--restart", choices.restart, "start from the last level of a run to the same folder that was ended");
-  line.add("--most-seconds", choices.most_seconds, "stop a solve that takes longer: status 3", 0, choices.most_seconds);
-  line.add("--direct", choices.direct, "MUMPS in place of multigrid: for layers without columns");
-  if (const auto status = line.parse(argc, argv)) return *status;
-  if (!line.given("--out")) out = std::filesystem::path("results") / scene.stem();
+  line.add_option("SCENE", scene, "the scene file, in TOML")->required();
+  const CLI::Option* folder =
+      line.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.add_flag("--restart", choices.restart, "start from the last level of a run to the same folder that was ended");
+  line.add_option("--most-seconds", choices.most_seconds, "stop a solve that takes longer: status 3")
+      ->check(CLI::Range(0.0, choices.most_seconds));
+  line.add_flag("--direct", choices.direct, "MUMPS in place of multigrid: for layers without columns");
+  if (const auto status = tutorial::parse(line, argc, argv, dist::rank() > 0)) return *status;
+  if (folder->count() == 0) out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
     if (dist::rank() == 0) report.finish();

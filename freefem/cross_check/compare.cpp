@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "antilock/io/writers.hpp"
@@ -23,7 +24,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "backstage/18_summed.hpp"
-#include "common/command_line.hpp"
+#include "common/tutorial.hpp"
 #include "cross_check.hpp"
 #include "lines.hpp"
 #include "model_check.hpp"
@@ -398,12 +399,12 @@ int main(int argc, char** argv) {
   double epsilon = 1e-6;
   std::filesystem::path out = "results/freefem/compare";
   std::filesystem::path table;
-  tutorial::CommandLine line("The C++ library against FreeFEM, tutorial by tutorial", "compare");
-  line.add("--cells", cells, "cells per unit side, h = 1/cells", 4, 128);
-  line.add("--epsilon", epsilon, "of the tutorials 04 to 08", 1e-7, 1);
-  line.add("--out", out, "folder of the results");
-  line.add("--table", table, "file of the table for README (default: OUT/results.md)");
-  if (const auto status = line.parse(argc, argv)) return *status;
+  CLI::App line("The C++ library against FreeFEM, tutorial by tutorial", "compare");
+  line.add_option("--cells", cells, "cells per unit side, h = 1/cells")->check(CLI::Range(4, 128));
+  line.add_option("--epsilon", epsilon, "of the tutorials 04 to 08")->check(CLI::Range(1e-7, 1.0));
+  line.add_option("--out", out, "folder of the results");
+  line.add_option("--table", table, "file of the table for README (default: OUT/results.md)");
+  if (const auto status = tutorial::parse(line, argc, argv)) return *status;
   if (table.empty()) table = out / "results.md";
   try {
     freefem::check();  // before anything runs

@@ -32,11 +32,8 @@ void print_solution(const Space& space, const VariationalInequality& problem, co
       k.min_gap, k.min_pressure, k.complementarity, k.residual);
   if (!solution.warning.empty()) fmt::print("  WARNING {}\n", solution.warning);
   const ContactZone zone = contact_zone(space, problem, solution);
-  if (zone.from)
-    fmt::print("  contact at {} of {} points, x from {:.4f} to {:.4f}\n", zone.active, zone.points, *zone.from,
-               *zone.to);
-  else
-    fmt::print("  contact at 0 of {} points\n", zone.points);
+  const auto span = zone.from ? fmt::format(", x from {:.4f} to {:.4f}", *zone.from, *zone.to) : "";
+  fmt::print("  contact at {} of {} points{}\n", zone.active, zone.points, span);
   const SolveSeconds& s = solution.seconds;
   fmt::print("  energy J(u) = {:.8f}; seconds: analyse {:.3f}, factor {:.3f}, contact {:.3f}, solve {:.3f}\n",
              energy(problem, solution), s.analyse, s.factor, s.contact, s.solve);
@@ -79,10 +76,9 @@ void write_results(const std::filesystem::path& out, const Space& space, const V
 }
 
 void print_errors(const std::string& what, const Errors& e) {
-  fmt::print("  {:<36} {:>11} {:>11} {:>11} {:>11} {:>11}\n", "error against the truth", "at unknowns", "L-infinity",
-             "L2", "broken H1", "energy");
-  fmt::print("  {:<36} {:11.3e} {:11.3e} {:11.3e} {:11.3e} {:11.3e}\n", what, e.max_at_unknowns, e.max, e.l2, e.h1,
-             e.energy);
+  Table table({"error against the truth", "at unknowns", "L-infinity", "L2", "broken H1", "energy"});
+  table.add({what, e.max_at_unknowns, e.max, e.l2, e.h1, e.energy});
+  table.print();
 }
 
 void present(const std::filesystem::path& out, const Scene& scene, const Space& space,
@@ -95,20 +91,15 @@ void present(const std::filesystem::path& out, const Scene& scene, const Space& 
 }
 
 Supremum supremum(const Table& runs, const std::string& value, const std::string& parameter) {
-  Supremum found{Table({"h", "worst", "at", "order"}), 1e300, -1e300, 0, 1};
+  Supremum found{Table({"h", "worst", "at", "order"}), 1};
   double h_before = 0, before = 0;
   for (const Entry& h : runs.different("h")) {
     const Table mesh = runs.where("h", h);
-    double worst = 0, half = 0, at = 0;
-    for (int i = 0; const Table& row : mesh.rows()) {
-      const double here = row.number(value);
-      if (here > worst) worst = here, at = row.number(parameter);
+    const double worst = mesh.most(value), order = std::log(before / worst) / std::log(h_before / h.number());
+    found.rows.add({h, worst, mesh.where(value, worst).first(parameter), h_before > 0 ? Entry(order) : Entry("")});
+    double half = 0;
+    for (int i = 0; const double here : mesh.numbers(value))
       if (i++ % 2 == 0) half = std::max(half, here);
-    }
-    const double order = std::log(before / worst) / std::log(h_before / h.number());
-    found.rows.add({h, worst, at, h_before > 0 ? Entry(order) : Entry("")});
-    if (h_before > 0)
-      found.low = std::min(found.low, order), found.high = std::max(found.high, order), found.last = order;
     found.denser = std::max(found.denser, worst / half);
     h_before = h.number(), before = worst;
   }

@@ -64,9 +64,8 @@ void present(const std::filesystem::path& out, const Scene& scene, const Space& 
 /// Orders as the course defines them: on each mesh the supremum over a parameter comes first, then the order in h from
 /// one mesh to the next.
 struct Supremum {
-  Table rows;              ///< one row per h: h, "worst", "at" (the parameter there), "order" (from the h before)
-  double low, high, last;  ///< the smallest and the largest of these orders, and that between the two finest meshes
-  double denser;           ///< the largest growth of a supremum, as a factor, by every second value of the parameter
+  Table rows;     ///< one row per h: h, "worst", "at" (the parameter there), "order" (from the h before)
+  double denser;  ///< the largest growth of a supremum, as a factor, by every second value of the parameter
 };
 /// `runs` holds, for one method, a row per h and value of the parameter, meshes from coarse to fine, the values in order.
 Supremum supremum(const Table& runs, const std::string& value, const std::string& parameter);

@@ -3,12 +3,16 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/study/table.hpp"
-#include "common/command_line.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace antilock::tutorial {
 
@@ -32,7 +36,7 @@ struct Options {
   int cells = 32;             ///< cells per unit side: h = 1/cells
   int least_cells = 1, most_cells = 2048;  ///< what the study needs, and can afford
   std::filesystem::path out = {};          ///< folder of the results; default results/STEM
-  std::function<void(CommandLine&)> add = [](CommandLine&) {};
+  std::function<void(CLI::App&)> add = [](CLI::App&) {};
   std::vector<Exercise> exercises = {};  ///< what --exercise accepts; not offered where there are none
 };
 
@@ -66,6 +70,27 @@ class Report {
   Stopwatch watch_;
   bool in_stage_ = false, all_hold_ = true;
 };
+
+/// Fills the values of the options; those given beforehand are the defaults that --help shows. Returns nothing where the
+/// program goes on, otherwise the status to exit with: 0 after --help, 2 after an option that is not accepted (NaN is not),
+/// which one line on standard error names. `silent`: nothing is printed, for every rank of a parallel run but the first.
+std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent = false);
+
+/// One thread of the BLAS, unless OPENBLAS_NUM_THREADS says otherwise: two were no faster, since they wait for each
+/// other by spinning, and much slower beside other programs. The kernels of this CPU: OpenBLAS knows CPUs by model
+/// number, and gives kernels of 2004 to one that is younger than itself; the factor then takes 1.6 times as long. And
+/// memory in large pages. Both are read where a program starts, so it starts again with what the environment does not
+/// name yet. Returns where there is nothing to gain, and where ANTILOCK_KEEP_KERNELS asks to leave all as it is.
+/// `parse` calls it; a program that starts MPI does so before.
+void choose_machine(char** argv);
+
+/// Becomes the program of that name beside this one (this one again, where it is empty), with the same arguments.
+/// Returns where there is none.
+void become(const std::string& program, char** argv);
+
+/// The path of a program that is installed beside this one, or built in that folder of the same build; its bare name
+/// where there is none.
+std::string beside(const std::string& program, const std::string& folder);
 
 /// Parses the command line, runs `body` or the exercise asked for, and turns the outcome into an exit status: 0 all
 /// claims hold, 1 one fails, 2 bad input (one line on standard error), 3 a solver did not converge (one line that says

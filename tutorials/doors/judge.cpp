@@ -1,6 +1,7 @@
 // antilock judge SCENE.toml MESH.msh U.csv: how far another program's answer is from the exact solution.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
@@ -17,7 +18,7 @@
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "common/command_line.hpp"
+#include "common/tutorial.hpp"
 #include "doors/csv_reader.hpp"
 #include "doors/doors.hpp"
 
@@ -193,29 +194,31 @@ double largest(const std::vector<int>& unknowns, const Eigen::VectorXd& u) {
 }  // namespace
 
 int judge(int argc, char** argv) {
-  tutorial::CommandLine line(
+  CLI::App line(
       "Another program's answer to a scene, on its own mesh: its errors, a proved bound, what it keeps of the "
       "layer's displacement, and whether it locks.",
       "antilock judge");
   std::filesystem::path scene, mesh_file, answer, out, where;
   double accuracy = 1e-2;
   std::string row;
-  line.add_required("SCENE", scene, "the scene file, in TOML (run_scene --help); its [mesh] is not used");
-  line.add_required("MESH", mesh_file, "MSH 2.2 or 4.1, with the groups body, layer, clamped, contact");
-  line.add_required("U", answer,
-                    "CSV with the header x,y,u: one row per vertex (P1) or per edge midpoint (CR), in any order");
-  line.add("--accuracy", accuracy, "to which the energy's lower bound is proved, relative, in the energy norm", 1e-4,
-           0.5);
-  line.add("--json", out, "the same numbers as a JSON file");
-  line.add("--where", where,
-           "a CSV file: triangle,region,x,y,error, one row per triangle of MESH with its centroid and its error in the "
-           "energy norm");
-  line.add("--row", row, "NAME of the code: prints a row for the table of codes as well");
+  line.add_option("SCENE", scene, "the scene file, in TOML (run_scene --help); its [mesh] is not used")->required();
+  line.add_option("MESH", mesh_file, "MSH 2.2 or 4.1, with the groups body, layer, clamped, contact")->required();
+  line.add_option("U", answer,
+                  "CSV with the header x,y,u: one row per vertex (P1) or per edge midpoint (CR), in any order")
+      ->required();
+  line.add_option("--accuracy", accuracy, "to which the energy's lower bound is proved, relative, in the energy norm")
+      ->check(CLI::Range(1e-4, 0.5));
+  line.add_option("--json", out, "the same numbers as a JSON file");
+  line.add_option(
+      "--where", where,
+      "a CSV file: triangle,region,x,y,error, one row per triangle of MESH with its centroid and its error in the "
+      "energy norm");
+  line.add_option("--row", row, "NAME of the code: prints a row for the table of codes as well");
   line.footer(
       "Where the error lies is measured against the exact solution where that is known. Elsewhere it is an estimate: "
       "Antilock's own answer to --accuracy stands in for the exact solution, and its own error, which is proved, is "
       "printed.");
-  if (const auto status = line.parse(argc, argv)) return *status;
+  if (const auto status = tutorial::parse(line, argc, argv)) return *status;
 
   const SceneFile file = read_scene_file(scene);
   require_paper_problem(file, "judge");

@@ -1,6 +1,7 @@
 // antilock lockcheck A1.mtx B.mtx M.mtx LOAD.mtx: whether the matrices of another program lock.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -12,7 +13,7 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/sweep.hpp"
 #include "antilock/study/table.hpp"
-#include "common/command_line.hpp"
+#include "common/tutorial.hpp"
 #include "doors/csv_reader.hpp"
 #include "doors/doors.hpp"
 #include "doors/matrix_market.hpp"
@@ -73,42 +74,44 @@ VariationalInequality read_problem(const Files& files) {
   return problem;
 }
 
-void add_files(tutorial::CommandLine& line, Files& files, const std::string& prefix) {
-  line.add(prefix + "fixed", files.fixed, "CSV unknown,value: what is prescribed; unknowns count from 0");
-  line.add(prefix + "bounds", files.bounds, "CSV unknown,lower or unknown,lower,upper: what is bounded");
+void add_files(CLI::App& line, Files& files, const std::string& prefix) {
+  line.add_option(prefix + "fixed", files.fixed, "CSV unknown,value: what is prescribed; unknowns count from 0");
+  line.add_option(prefix + "bounds", files.bounds, "CSV unknown,lower or unknown,lower,upper: what is bounded");
 }
 
 }  // namespace
 
 int lockcheck(int argc, char** argv) {
-  tutorial::CommandLine line(
+  CLI::App line(
       "Whether a discretisation locks, from its matrices alone: a1(u, v) + compliance^-1 (B u, M B v) = L(v), with "
       "bounds. "
       "Prints the diagnosis, and with a load the answers for compliance 1 to 0.",
       "antilock lockcheck");
   Files files, finer;
   std::filesystem::path out;
-  line.add_required("A1", files.a1, "Matrix Market, N x N, symmetric");
-  line.add_required("B", files.b, "Matrix Market, R x N: one row per strain that becomes stiff");
-  line.add_required("M", files.m, "Matrix Market, R entries, positive: one per row of B (areas of cells)");
-  line.add("LOAD", files.load, "Matrix Market, N entries");
+  line.add_option("A1", files.a1, "Matrix Market, N x N, symmetric")->required();
+  line.add_option("B", files.b, "Matrix Market, R x N: one row per strain that becomes stiff")->required();
+  line.add_option("M", files.m, "Matrix Market, R entries, positive: one per row of B (areas of cells)")->required();
+  line.add_option("LOAD", files.load, "Matrix Market, N entries");
   add_files(line, files, "--");
-  std::vector<std::filesystem::path> fine(3);
-  line.add("--finer", fine, "A1 B M of the same discretisation on a finer mesh: only two show what grows");
+  std::vector<std::filesystem::path> fine;
+  line.add_option("--finer", fine, "A1 B M of the same discretisation on a finer mesh: only two show what grows")
+      ->expected(3);
   add_files(line, finer, "--finer-");
-  line.add("--out", out,
-           "CSV compliance,unknown,u,lambda of the answers; lambda is the force of a bound, 0 where there is none");
+  line.add_option(
+      "--out", out,
+      "CSV compliance,unknown,u,lambda of the answers; lambda is the force of a bound, 0 where there is none");
   line.footer(
       "Export with scipy: scipy.io.mmwrite(\"A1.mtx\", A1). Keep the stiff form in factors: B and M, never B' M B.");
-  if (const auto status = line.parse(argc, argv)) return *status;
+  if (const auto status = tutorial::parse(line, argc, argv)) return *status;
 
   const VariationalInequality problem = read_problem(files);
   if (problem.b.rows() == 0) throw Error(files.b.string() + ": no row: nothing becomes stiff; accepted: a B with rows");
-  if (files.load.empty() && !line.given("--finer"))
+  if (files.load.empty() && fine.empty())
     throw Error(
         "antilock lockcheck: nothing to do: one mesh without a load tells nothing; accepted: a LOAD, --finer, or both");
   std::string diagnosis;
-  if (line.given("--finer")) {
+  if (!fine.empty()) {
     finer.a1 = fine[0], finer.b = fine[1], finer.m = fine[2];
     diagnosis = diagnose_locking(problem, read_problem(finer)).text();
   }

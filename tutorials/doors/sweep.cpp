@@ -1,6 +1,7 @@
 // antilock sweep SCENE.toml --epsilon 1e0:1e-8:9 --cells 8,16,32 --at 0.25,-1: one table over epsilon and meshes.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 
@@ -11,7 +12,7 @@
 #include "antilock/study/method.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "antilock/study/table.hpp"
-#include "common/command_line.hpp"
+#include "common/tutorial.hpp"
 #include "doors/doors.hpp"
 
 namespace antilock::doors {
@@ -63,22 +64,23 @@ double ridge(const Space& space, const Eigen::VectorXd& u) {
 }  // namespace
 
 int sweep(int argc, char** argv) {
-  tutorial::CommandLine line(
+  CLI::App line(
       "One scene, asked for many epsilons on many meshes: a table, printed and as CSV. The questions on "
       "one mesh share assembly and, where they can, the factorisation.",
       "antilock sweep");
   std::filesystem::path scene, out;
   std::string epsilon_text = "1:1e-8:9", cells_text, at_text;
-  line.add_required("SCENE", scene, "the scene file, in TOML, with a scaled layer (run_scene --help)");
-  line.add("--epsilon", epsilon_text, "FROM:TO:COUNT, spaced by one factor, or a list such as 1,1e-2,0");
-  line.add("--cells", cells_text, "a list of cells per unit side, such as 8,16,32; default: the mesh of the scene");
-  line.add("--at", at_text, "X,Y, or X,Y,X,Y,...: points whose u is listed");
-  line.add("--out", out, "the CSV file; default: none, the table is printed alone");
+  line.add_option("SCENE", scene, "the scene file, in TOML, with a scaled layer (run_scene --help)")->required();
+  line.add_option("--epsilon", epsilon_text, "FROM:TO:COUNT, spaced by one factor, or a list such as 1,1e-2,0");
+  line.add_option("--cells", cells_text,
+                  "a list of cells per unit side, such as 8,16,32; default: the mesh of the scene");
+  line.add_option("--at", at_text, "X,Y, or X,Y,X,Y,...: points whose u is listed");
+  line.add_option("--out", out, "the CSV file; default: none, the table is printed alone");
   line.footer(
       "The penalty delta of a mesh is chosen from its matrices. All epsilon with epsilon^2 <= delta share one "
       "factorisation, and are corrected; each larger epsilon has its own, since corrections with a smaller delta need "
       "not converge there, and with a larger one are many. The column factorisations counts them.");
-  if (const auto status = line.parse(argc, argv)) return *status;
+  if (const auto status = tutorial::parse(line, argc, argv)) return *status;
 
   SceneFile file = read_scene_file(scene);
   require_paper_problem(file, "sweep");

@@ -1,6 +1,7 @@
 // antilock truth SCENE.toml < points.csv: the exact solution of a scene at given points.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,7 +14,7 @@
 #include "antilock/measure/detail/point_values.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
-#include "common/command_line.hpp"
+#include "common/tutorial.hpp"
 #include "doors/csv_reader.hpp"
 #include "doors/doors.hpp"
 
@@ -118,7 +119,7 @@ CertifiedSolution certified(const SceneFile& file, double accuracy) {
 }
 
 int truth(int argc, char** argv) {
-  tutorial::CommandLine line(
+  CLI::App line(
       "The solution of a scene at given points. Standard input: CSV with the header x,y. Standard output: CSV with the "
       "header "
       "x,y,u,u_x,u_y,p. p is the layer stress, epsilon^-2 u_y, and empty in the body; on the contact boundary -p is "
@@ -128,17 +129,17 @@ int truth(int argc, char** argv) {
   std::filesystem::path scene, summary;
   double accuracy = 1e-2;
   int digits = 17;
-  line.add_required("SCENE", scene, "the scene file, in TOML (run_scene --help)");
-  line.add("--accuracy", accuracy, "where no series is known: the proved relative error of the certified answer", 1e-4,
-           0.5);
-  line.add("--digits", digits, "significant digits; 17 read back as the same double", 4, 17);
-  line.add("--summary", summary, "a JSON file: energy J, ends of contact, and the accuracy of every number");
+  line.add_option("SCENE", scene, "the scene file, in TOML (run_scene --help)")->required();
+  line.add_option("--accuracy", accuracy, "where no series is known: the proved relative error of the certified answer")
+      ->check(CLI::Range(1e-4, 0.5));
+  line.add_option("--digits", digits, "significant digits; 17 read back as the same double")->check(CLI::Range(4, 17));
+  line.add_option("--summary", summary, "a JSON file: energy J, ends of contact, and the accuracy of every number");
   line.footer(
       "A load that is a sum of sines in x with polynomials in y has an exact solution, a series (scaled layer or its "
       "limit, "
       "obstacle at the distance 0). Any other scene is solved to a proved accuracy.\n"
       "Example: printf 'x,y\\n0.25,-1\\n' | antilock truth tutorials/scenes/figure8.toml");
-  if (const auto status = line.parse(argc, argv)) return *status;
+  if (const auto status = tutorial::parse(line, argc, argv)) return *status;
   const SceneFile file = read_scene_file(scene);
   require_paper_problem(file, "truth");
   const Eigen::MatrixXd points = read_csv(std::cin, "standard input", {"x", "y"});

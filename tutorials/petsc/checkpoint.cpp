@@ -2,21 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "antilock/core/detail/atomic_file.hpp"
-#include "antilock/core/detail/text.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock::distributed {
-namespace {
-
-constexpr auto first_line = "antilock checkpoint 1";
-
-}  // namespace
 
 std::string question_of(const std::filesystem::path& scene, const std::filesystem::path& mesh) {
   std::uint64_t hash = 14695981039346656037U;  // FNV-1a
@@ -35,10 +30,10 @@ std::filesystem::path checkpoint_path(const std::filesystem::path& out) {
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
   write_file(path, [&](std::ostream& out) {
-    Text text(out);
-    text.print("{}\n{} {} {}\n", first_line, checkpoint.question, checkpoint.cells, checkpoint.set.x.size());
-    for (std::size_t i = 0; i < checkpoint.set.x.size(); ++i)
-      text.print("{} {}\n", checkpoint.set.x[i], static_cast<int>(checkpoint.set.active[i]));
+    out << nlohmann::json{{"question", checkpoint.question},
+                          {"cells", checkpoint.cells},
+                          {"x", checkpoint.set.x},
+                          {"active", checkpoint.set.active}};
   });
 }
 
@@ -47,25 +42,20 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const std::string&
   if (!in)
     throw Error(path.string() + ": --restart: there is no checkpoint; accepted: after a run to this folder was ended");
   Checkpoint checkpoint;
-  std::string line;
-  std::size_t count = 0;
-  const bool head = std::getline(in, line) && line == first_line;
-  if (!head || !(in >> checkpoint.question >> checkpoint.cells >> count) || checkpoint.cells < 1)
-    throw Error(path.string() + ": --restart: is no checkpoint; accepted: a run without --restart");
-  if (checkpoint.question != question)
+  auto& [asked, cells, set] = checkpoint;
+  try {
+    const nlohmann::json read = nlohmann::json::parse(in);
+    read.at("question").get_to(asked), read.at("cells").get_to(cells);
+    read.at("x").get_to(set.x), read.at("active").get_to(set.active);
+  } catch (const nlohmann::json::exception&) {
+    cells = 0;
+  }
+  if (cells < 1 || set.active.size() != set.x.size() || !std::is_sorted(set.x.begin(), set.x.end()))
+    throw Error(path.string() + ": --restart: is no checkpoint, or is damaged; accepted: a run without --restart");
+  if (asked != question)
     throw Error(path.string() +
                 ": --restart: belongs to another scene; accepted: the scene file as it was then, or a "
                 "run without --restart");
-  for (std::size_t i = 0; i < count; ++i) {
-    double x = 0;
-    int active = 0;
-    const bool whole = static_cast<bool>(in >> x >> active);
-    if (!whole || !std::isfinite(x) || (!checkpoint.set.x.empty() && x < checkpoint.set.x.back()))
-      throw Error(fmt::format("{}: --restart: is damaged at point {} of {}; accepted: a run without --restart",
-                              path.string(), i + 1, count));
-    checkpoint.set.x.push_back(x);
-    checkpoint.set.active.push_back(active != 0 ? 1 : 0);
-  }
   return checkpoint;
 }
 

@@ -11,6 +11,7 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/detail/kkt_report.hpp"
 #include "antilock/distributed/ranks.hpp"
+#include "antilock/form/forms.hpp"
 #include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/mesh/refine.hpp"
@@ -29,31 +30,17 @@ double energy_of_all(const NestedLevel& level) {
   return sum(u.dot(part.a1 * u) / 2 + part.compliance * p.dot(part.m.cwiseProduct(p)) / 2 - part.load.dot(u));
 }
 
-/// Per unknown of the piece: the length of Gamma_C that it stands for, summed over the ranks.
-Eigen::VectorXd contact_lengths_of_all(const NestedLevel& level) {
-  const TriangleMesh& mesh = level.piece;
-  const bool at_vertices = level.space.element().per_vertex() > 0;
-  Eigen::VectorXd lengths = Eigen::VectorXd::Zero(level.space.size());
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
-    if (!at_vertices) lengths(e) += mesh.edge_length(e);
-    for (int i = 0; at_vertices && i < 2; ++i) lengths(mesh.edges(e, i)) += mesh.edge_length(e) / 2;
-  }
-  const Vector v = level.problem.rows().vector();
-  level.problem.rows().summed(lengths, v);
-  return level.problem.rows().local(v);
-}
-
 /// Per unknown of the piece: the contact pressure, a density; 0 off Gamma_C. Certified: below zero is round-off.
 Eigen::VectorXd pressures(const NestedLevel& level) {
   const Rows& rows = level.problem.rows();
-  const Eigen::VectorXd lengths = contact_lengths_of_all(level), lambda = contact_forces(level.problem, level.state);
-  Eigen::VectorXd mine = Eigen::VectorXd::Zero(level.space.size());
-  for (int place = 0; place < rows.owned(); ++place)
-    if (!std::isinf(level.problem.lower()(place)))
-      mine(rows.unknown(place)) = std::max(lambda(place) / lengths(rows.unknown(place)), 0.0);
+  const Eigen::VectorXd lambda = contact_forces(level.problem, level.state);
   const Vector v = rows.vector();
-  rows.owned_part(mine, v);
+  rows.summed(edge_load(level.space, EdgeTag::contact, [](double, double) { return 1.0; }), v);
+  {
+    Entries values(v);  // the length of Gamma_C that each unknown stands for
+    for (int place = 0; place < rows.owned(); ++place)
+      values[place] = std::isinf(level.problem.lower()(place)) ? 0 : std::max(lambda(place) / values[place], 0.0);
+  }
   return rows.local(v);
 }
 
@@ -114,9 +101,8 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
   if (file.scene.contact()) {
     const ContactSet set = level.contact_set();
     s.zone.points = static_cast<int>(set.x.size());
-    s.zone.active = static_cast<int>(set.count());
     for (std::size_t i = 0; i < set.x.size(); ++i)
-      if (set.active[i] != 0) s.zone.from = s.zone.from.value_or(set.x[i]), s.zone.to = set.x[i];
+      if (set.active[i] != 0) ++s.zone.active, s.zone.from = s.zone.from.value_or(set.x[i]), s.zone.to = set.x[i];
   }
   s.kkt = report.kkt;
   s.contact_steps = report.last.sets + 1;
@@ -168,7 +154,7 @@ void write_scene_files(const fs::path& folder, const SceneFile& file, const Nest
   const SceneSummary summary = summary_of_all(file, level, report, levels, layer, warning);
   const Stopwatch files;
   const auto write = [&](const fs::path& draft) {
-    if (csv) write_solution_csv_together(draft / "solution.csv", level.space, level.state.u);
+    if (csv) write_solution_csv_together(draft / "solution.csv", level);
     write_msh_together(draft / "mesh.msh", level.piece);
     const Eigen::VectorXd pressure = pressures(level);
     const Eigen::MatrixX3d table = contact_table_of_all(level, pressure);

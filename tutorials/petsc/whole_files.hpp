@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "antilock/core/detail/text.hpp"
-#include "antilock/space/space.hpp"
+#include "antilock/distributed/nested.hpp"
 
 namespace antilock::distributed {
 
@@ -20,8 +20,8 @@ void write_folder_together(const std::filesystem::path& folder,
 /// lines, `head` what comes first. An existing file is continued where `head` is empty.
 void write_in_turns(const std::filesystem::path& path, const std::string& head, const std::function<void(Text&)>& part);
 
-/// `x,y,u`, one row per unknown in the order of `numbers`: for P1 that of the nodes of write_msh_together.
-void write_solution_csv_together(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u);
+/// `x,y,u`, one row per unknown in the order of the rows of the level: for P1 that of the nodes of write_msh_together.
+void write_solution_csv_together(const std::filesystem::path& path, const NestedLevel& level);
 
 /// The whole mesh, MSH 2.2 with its physical groups.
 void write_msh_together(const std::filesystem::path& path, const TriangleMesh& piece);

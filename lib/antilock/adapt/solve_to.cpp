@@ -73,28 +73,16 @@ TriangleMesh body_of(const TriangleMesh& mesh) {
 }
 
 /// A contact set from one mesh to the next, by x: on the piece of the nearest unknowns on both sides, where they agree.
-class CarriedContact {
- public:
-  void keep(const Space& space, const Solution& solution) {
-    x_.clear();
-    for (const int i : space.contact()) x_.push_back(space.points()(i, 0));
-    pieces_ = solution.pieces;
+/// Nothing where the last mesh has no contact unknown, or is none.
+std::optional<Pieces> carried(const Eigen::VectorXd& x, const Pieces& pieces, const Space& space) {
+  if (x.size() == 0) return std::nullopt;
+  Pieces start;
+  for (const int i : space.contact()) {
+    const auto right = std::lower_bound(x.begin(), x.end(), space.points()(i, 0)) - x.begin();
+    start.push_back(agreed(pieces[std::min(right, x.size() - 1)], pieces[std::max<std::ptrdiff_t>(right - 1, 0)]));
   }
-  std::optional<Pieces> on(const Space& space) const {
-    if (x_.empty()) return std::nullopt;
-    Pieces start;
-    for (const int i : space.contact()) {
-      const auto right = std::lower_bound(x_.begin(), x_.end(), space.points()(i, 0)) - x_.begin();
-      const auto last = static_cast<std::ptrdiff_t>(x_.size()) - 1;
-      start.push_back(agreed(pieces_[std::min(right, last)], pieces_[std::max<std::ptrdiff_t>(right - 1, 0)]));
-    }
-    return start;
-  }
-
- private:
-  std::vector<double> x_;
-  Pieces pieces_;
-};
+  return start;
+}
 
 /// What the levels so far say of the one that will be the last: N grows like relative^(-1/rate), rate 1/2 for a mesh
 /// that is adapted, more while it is still on its way there.
@@ -166,7 +154,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   now.mesh = growth == Growth::extrude ? extruded(body, epsilon) : body;
   now.body = std::move(body);
 
-  CarriedContact contact_set;
+  Eigen::VectorXd contact_x;  // of the last mesh, and what its unknowns do
+  Pieces contact_set;
   while (true) {
     auto mesh = std::make_shared<const TriangleMesh>(now.mesh);
     const Space space(*mesh, crouzeix_raviart());
@@ -181,7 +170,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     VariationalInequality problem = assemble(scene, space);
     PenaltyFactor factor(problem);
     ActiveSetOptions options;
-    if (scene.contact()) options.start = contact_set.on(space);
+    if (scene.contact()) options.start = carried(contact_x, contact_set, space);
     Solution solution;
     Companion v;
     Certificate certificate;
@@ -194,7 +183,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       const bool enough = certificate.imbalance <= 0.1 * certificate.mismatch;
       if (enough || tolerance <= CorrectionOptions{}.tolerance) break;
     }
-    contact_set.keep(space, solution);
+    contact_x = space.points().col(0)(space.contact());
+    contact_set = solution.pieces;
     Answer answer{mesh, space, std::move(problem), std::move(solution), {}, ""};
     if (conforming) {
       Answer own = conforming_answer(scene, p1(), mesh);

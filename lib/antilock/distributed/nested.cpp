@@ -37,17 +37,12 @@ Eigen::Matrix3d corners_of_child(int i) {
 
 }  // namespace
 
-int ContactSet::count() const { return static_cast<int>(std::count(active.begin(), active.end(), 1)); }
-
 bool ContactSet::at(double where) const {
+  if (x.empty()) return false;
   constexpr double slack = 1e-9;  // a point that both meshes have stands between itself and itself
-  const auto right = std::lower_bound(x.begin(), x.end(), where - slack);
-  const auto left = std::upper_bound(x.begin(), x.end(), where + slack);
-  const bool from_right = right != x.end() && active[right - x.begin()] != 0;
-  const bool from_left = left != x.begin() && active[left - x.begin() - 1] != 0;
-  if (right == x.end()) return from_left;
-  if (left == x.begin()) return from_right;
-  return from_left && from_right;
+  const auto right = std::lower_bound(x.begin(), x.end() - 1, where - slack) - x.begin();
+  const auto left = std::upper_bound(x.begin() + 1, x.end(), where + slack) - x.begin() - 1;
+  return active[left] != 0 && active[right] != 0;
 }
 
 NestedLevel::NestedLevel(const Scene& scene, TriangleMesh piece_in, const Element& element)

@@ -14,7 +14,6 @@ struct ContactSet {
   std::vector<double> x;     ///< ascending
   std::vector<char> active;  ///< as many
 
-  int count() const;  ///< points in contact
   /// Whether a point between these is taken to be in contact: where its two neighbours are.
   bool at(double x) const;
 };

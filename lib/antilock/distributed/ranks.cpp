@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <sys/resource.h>
 
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -18,23 +17,21 @@ namespace {
 
 /// Conjugate gradients with BoomerAMG: 2 to 5 iterations for four digits in the energy norm, whatever delta, on layers
 /// in columns. The interpolation FF1 is set up in 0.87 of the seconds of ext+i, for 13 iterations in place of 11 (2.1
-/// million unknowns, two ranks: 0.9 of the processor's seconds in all). One forward sweep of SOR down and one backward sweep up take half the time of symmetric sweeps on both
-/// ways, and as many iterations. MUMPS may take twice the memory that it estimates: its own 20 % more are not enough for
-/// the small first levels on three ranks.
-constexpr std::array<std::array<const char*, 2>, 11> defaults = {
-    {{"-no_signal_handler", nullptr},
-     {"-ksp_type", "cg"},
-     {"-ksp_norm_type", "natural"},
-     {"-pc_type", "hypre"},
-     {"-pc_hypre_type", "boomeramg"},
-     {"-pc_hypre_boomeramg_coarsen_type", "HMIS"},
-     {"-pc_hypre_boomeramg_interp_type", "FF1"},
-     {"-pc_hypre_boomeramg_P_max", "6"},
-     {"-pc_hypre_boomeramg_relax_type_down", "SOR/Jacobi"},
-     {"-pc_hypre_boomeramg_relax_type_up", "backward-SOR/Jacobi"},
-     {"-mat_mumps_icntl_14", "100"}}};
+/// million unknowns, two ranks: 0.9 of the processor's seconds in all). One forward sweep of SOR down and one backward
+/// sweep up take half the time of symmetric sweeps on both ways, and as many iterations. MUMPS may take twice the
+/// memory that it estimates: its own 20 % more are not enough for the small first levels on three ranks.
+constexpr auto defaults =
+    "-no_signal_handler -ksp_type cg -ksp_norm_type natural -pc_type hypre -pc_hypre_type boomeramg "
+    "-pc_hypre_boomeramg_coarsen_type HMIS -pc_hypre_boomeramg_interp_type FF1 -pc_hypre_boomeramg_P_max 6 "
+    "-pc_hypre_boomeramg_relax_type_down SOR/Jacobi -pc_hypre_boomeramg_relax_type_up backward-SOR/Jacobi "
+    "-mat_mumps_icntl_14 100";
 
 enum Outcome : int { unconverged, no_memory, refused };
+struct Failure {
+  Outcome outcome = refused;
+  int steps = 0;
+  double reached = 0;
+};
 
 template <class Value>
 Value over_ranks(Value value, MPI_Datatype type, MPI_Op operation) {
@@ -53,7 +50,7 @@ std::string said_by(int rank, std::string text) {
 }  // namespace
 
 Session::Session() {
-  for (const auto& [name, value] : defaults) ok(PetscOptionsSetValue(nullptr, name, value));
+  ok(PetscOptionsInsertString(nullptr, defaults));
   ok(PetscInitializeNoArguments());  // reads PETSC_OPTIONS over them
   ok(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));
 }
@@ -78,27 +75,24 @@ std::string petsc_version() {
 
 void together(const std::function<void()>& work) {
   std::string message;
-  int outcome = refused, failed = ranks();
-  double reached = 0;
-  int steps = 0;
+  Failure failure;
+  int failed = rank();
   try {
     work();
-  } catch (const NotConverged& failure) {
-    message = failure.what(), outcome = unconverged, failed = rank();
-    reached = failure.reached, steps = failure.steps;
-  } catch (const Error& failure) {
-    message = failure.what(), failed = rank();
+    failed = ranks();
+  } catch (const NotConverged& error) {
+    message = error.what(), failure = {unconverged, error.steps, error.reached};
+  } catch (const Error& error) {
+    message = error.what();
   } catch (const std::bad_alloc&) {
-    outcome = no_memory, failed = rank();
+    failure.outcome = no_memory;
   }
   const int first = over_ranks(failed, MPI_INT, MPI_MIN);
   if (first == ranks()) return;
   message = said_by(first, message);
-  MPI_Bcast(&outcome, 1, MPI_INT, first, PETSC_COMM_WORLD);
-  MPI_Bcast(&reached, 1, MPI_DOUBLE, first, PETSC_COMM_WORLD);
-  MPI_Bcast(&steps, 1, MPI_INT, first, PETSC_COMM_WORLD);
-  if (outcome == no_memory) throw std::bad_alloc();
-  if (outcome == unconverged) throw NotConverged(message, reached, steps);
+  MPI_Bcast(&failure, sizeof failure, MPI_BYTE, first, PETSC_COMM_WORLD);
+  if (failure.outcome == no_memory) throw std::bad_alloc();
+  if (failure.outcome == unconverged) throw NotConverged(message, failure.reached, failure.steps);
   throw Error(message);
 }
 

@@ -1,6 +1,7 @@
-// The forms of (23) and the norm: integrals of products of gradients.
+// The forms of (23), integrals of products of gradients; its load; the norm.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "antilock/core/error.hpp"
@@ -68,19 +69,16 @@ FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const Quadrature& rule = strain_rule(element);
-  const auto points = rule.weights.size(), m = static_cast<Eigen::Index>(element.unknowns());
+  const auto points = rule.weights.size();
   const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
-
+  Eigen::VectorXd dy(element.unknowns());
   FactoredForm strain;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == Region::layer) strain.cell.insert(strain.cell.end(), points, t);
   const auto rows = static_cast<Eigen::Index>(strain.cell.size());
   strain.m.resize(rows);
   strain.b.resize(rows, space.size());
-  strain.b.resizeNonZeros(rows * m);
-  strain.b.outerIndexPtr()[0] = 0;
-  Eigen::VectorXd dy(m);
-  std::vector<std::pair<int, double>> row(m);
+  strain.b.reserve(Eigen::VectorXi::Constant(rows, element.unknowns()));
   for (Eigen::Index r = 0; r < rows; ++r) {
     const int t = strain.cell[r];
     const Eigen::Index q = r % points;
@@ -88,15 +86,37 @@ FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     const Eigen::Vector3d slope = direction ? Eigen::Vector3d(lambda * direction(t)) : Eigen::Vector3d(lambda.col(1));
     dy.noalias() = derivatives[q] * slope;
-    for (Eigen::Index i = 0; i < m; ++i) row[i] = {space.unknowns()(t, i), dy(i)};
-    std::sort(row.begin(), row.end());
-    for (Eigen::Index i = 0; i < m; ++i) {
-      strain.b.innerIndexPtr()[r * m + i] = row[i].first;
-      strain.b.valuePtr()[r * m + i] = row[i].second;
-    }
-    strain.b.outerIndexPtr()[r + 1] = static_cast<int>((r + 1) * m);
+    for (Eigen::Index i = 0; i < dy.size(); ++i) strain.b.insert(r, space.unknowns()(t, i)) = dy(i);
   }
+  strain.b.makeCompressed();
   return strain;
+}
+
+const Quadrature& load_rule(const Element& element) { return triangle_rule(std::max(5, 2 * element.degree())); }
+
+Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = load_rule(space.element());
+  const Eigen::Matrix3Xd points = rule.points.transpose();
+  Eigen::MatrixXd weighted(space.element().unknowns(), points.cols());  // the basis at the points, times their weights
+  for (Eigen::Index q = 0; q < points.cols(); ++q)
+    weighted.col(q) = rule.weights(q) * space.element().basis(points.col(q));
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size()), values(points.cols()), local(weighted.rows());
+  Eigen::Matrix<double, 2, 3> corners;
+  Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::RowMajor> x(2, points.cols());
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (mesh.region[t] != region) continue;
+    for (int i = 0; i < 3; ++i) corners.col(i) = mesh.vertices.row(mesh.triangles(t, i));
+    x = corners.lazyProduct(points);
+    for (Eigen::Index q = 0; q < values.size(); ++q) {
+      values(q) = f(x(0, q), x(1, q));
+      if (!std::isfinite(values(q)))
+        throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0, q), x(1, q)));
+    }
+    local.noalias() = mesh.area(t) * weighted.lazyProduct(values);
+    for (Eigen::Index i = 0; i < local.size(); ++i) load(space.unknowns()(t, i)) += local(i);
+  }
+  return load;
 }
 
 Eigen::SparseMatrix<double> h1_norm(const Space& space) {

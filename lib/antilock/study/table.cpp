@@ -66,19 +66,19 @@ void Table::add(const Table& other) {
 }
 
 Table Table::where(const std::string& column, const Entry& value) const {
-  const std::vector<Entry> all = entries(column);
-  Table selected(columns_);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i] == value) selected.rows_.push_back(rows_[i]);
-  return selected;
+  return kept(column, [&](const Entry& entry) { return entry == value; });
 }
 
 Table Table::where_number(const std::string& column, const std::function<bool(double)>& holds) const {
-  const std::vector<double> all = numbers(column);
-  Table selected(columns_);
-  for (std::size_t i = 0; i < all.size(); ++i)
-    if (holds(all[i])) selected.rows_.push_back(rows_[i]);
-  return selected;
+  numbers(column);  // refuses words
+  return kept(column, [&](const Entry& entry) { return holds(entry.number()); });
+}
+
+Table Table::kept(const std::string& column, const std::function<bool(const Entry&)>& holds) const {
+  Table kept(columns_);
+  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(kept.rows_),
+               [&, at = place(column)](const std::vector<Entry>& row) { return holds(row[at]); });
+  return kept;
 }
 
 std::vector<Table> Table::rows() const {

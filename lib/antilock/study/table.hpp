@@ -78,6 +78,7 @@ class Table {
 
  private:
   std::size_t place(const std::string& column) const;
+  Table kept(const std::string& column, const std::function<bool(const Entry&)>& holds) const;
   std::vector<std::string> columns_;
   std::vector<std::vector<Entry>> rows_;
 };

@@ -252,7 +252,9 @@ TEST(PetscScene, AKilledRunLeavesACheckpointFromWhichAnotherStarts) {
 TEST(PetscScene, ACheckpointOfAnotherSceneOrADamagedOneIsRefused) {
   const Runs runs(scene_text("petsc", "structured", "P1", 64));
   const fs::path checkpoint = runs.results("results").string() + ".checkpoint";
-  for (const std::string text : {"antilock checkpoint 1\n0123456789abcdef 32 1\n0.5 1\n", "nothing\n", ""}) {
+  for (const std::string text : {R"({"question": "0123456789abcdef", "cells": 32, "x": [0.5], "active": [1]})",
+                                 R"({"question": "0123456789abcdef", "cells": 32, "x": [0.5], "act)",
+                                 R"({"question": "0123456789abcdef", "cells": 32, "x": [0.5], "active": []})", ""}) {
     std::ofstream(checkpoint, std::ios::binary) << text;
     const Outcome outcome = runs.run(2, "results", "--restart");
     EXPECT_EQ(outcome.status, 2);

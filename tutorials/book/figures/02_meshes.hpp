@@ -1,4 +1,5 @@
 // Behind 02_meshes.cpp: the reader moves vertices of the structured mesh's layer, and both counts of the chapter answer.
+#include <CLI/CLI.hpp>
 #include <sstream>
 
 std::string moves;  // vertex, its way in x and in y; the next one
@@ -31,7 +32,7 @@ void move(const tutorial::Options& options, tutorial::Report&) {
 }
 
 int figure(int argc, char** argv) {
-  const auto add = [](tutorial::CommandLine& line) { line.add("--moves", moves, "vertex, in x, in y; and so on"); };
+  const auto add = [](CLI::App& line) { line.add_option("--moves", moves, "vertex, in x, in y; and so on"); };
   return tutorial::run(argc, argv, "figure_02_meshes", "groups and kernel of a mesh with moved vertices",
                        {.takes_epsilon = false, .cells = 6, .least_cells = 2, .most_cells = 12, .add = add}, move);
 }

@@ -1,4 +1,6 @@
 // Behind 07_kernel.cpp: what the kernel on the layer leaves of sin πx on Γ_C, for one method.
+#include <CLI/CLI.hpp>
+
 std::string name = "P1", family = "structured";
 
 void project_sine(const tutorial::Options& options, tutorial::Report&) {
@@ -18,9 +20,9 @@ void project_sine(const tutorial::Options& options, tutorial::Report&) {
 }
 
 int figure(int argc, char** argv) {
-  const auto add = [](tutorial::CommandLine& line) {
-    line.add("--element", name, "P1, P2, P3, P4 or CR");
-    line.add("--mesh", family, "a family of meshes");
+  const auto add = [](CLI::App& line) {
+    line.add_option("--element", name, "P1, P2, P3, P4 or CR");
+    line.add_option("--mesh", family, "a family of meshes");
   };
   return tutorial::run(argc, argv, "figure_07_kernel", "what the kernel leaves of a sine",
                        {.takes_epsilon = false, .cells = 8, .least_cells = 4, .most_cells = 16, .add = add},

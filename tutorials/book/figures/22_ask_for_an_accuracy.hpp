@@ -1,4 +1,6 @@
 // Behind 22_ask_for_an_accuracy.cpp: one accuracy, the levels on the way to it, the mesh in the end.
+#include <CLI/CLI.hpp>
+
 double asked = 0.1;
 std::string load = "bump", quantity = "displacement";
 
@@ -24,10 +26,10 @@ void ask_once(const tutorial::Options& options, tutorial::Report&) {
 }
 
 int figure(int argc, char** argv) {
-  const auto add = [](tutorial::CommandLine& line) {
-    line.add("--asked", asked, "relative accuracy asked for", 0.02, 0.2);
-    line.add("--load", load, "paper or bump");
-    line.add("--of", quantity, "displacement or stress");
+  const auto add = [](CLI::App& line) {
+    line.add_option("--asked", asked, "relative accuracy asked for")->check(CLI::Range(0.02, 0.2));
+    line.add_option("--load", load, "paper or bump");
+    line.add_option("--of", quantity, "displacement or stress");
   };
   return tutorial::run(argc, argv, "figure_22_ask_for_an_accuracy", "one accuracy", {.epsilon = 1e-6, .add = add},
                        ask_once);

@@ -1,4 +1,6 @@
 // Behind 30_friction.cpp: how much the floor rubs, times g, and what sticks.
+#include <CLI/CLI.hpp>
+
 double roughness = 1;
 
 void rub_once(const tutorial::Options& options, tutorial::Report&) {
@@ -22,7 +24,9 @@ void rub_once(const tutorial::Options& options, tutorial::Report&) {
 }
 
 int figure(int argc, char** argv) {
-  const auto add = [](tutorial::CommandLine& line) { line.add("--rough", roughness, "times g", 0, 4); };
+  const auto add = [](CLI::App& line) {
+    line.add_option("--rough", roughness, "times g")->check(CLI::Range(0.0, 4.0));
+  };
   return tutorial::run(argc, argv, "figure_30_friction", "stick and slip",
                        {.epsilon = 1e-8, .cells = 32, .least_cells = 8, .most_cells = 64, .add = add}, rub_once);
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <ctime>
 
@@ -104,7 +103,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     double scale = 0, unbalanced = 0, force = load;
     long long changed = 0;
     {
-      Entries value(u), residual(r1), right(rhs), gap(jump);
+      Entries value(u), residual(r1), gap(jump);
       for (int i = 0; i < rows.owned(); ++i) {
         const bool was = state.active[i] != 0;
         const bool is = std::isfinite(lower(i)) && (step == 0 ? was : was ? residual[i] < 0 : value[i] < lower(i));
@@ -115,18 +114,15 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
         if (!is) unbalanced = std::max(unbalanced, std::abs(residual[i]));
         if (!is) continue;
         force = std::max(force, std::abs(residual[i]));
-        right[i] = 0;
         held.push_back(rows.first() + i);
       }
     }
     changed = sum(changed);
     const Progress now{"corrections", step, step > 0 ? report.change : 1, options.tolerance};
     const bool stop = options.progress && !options.progress(now);
-    std::array<double, 4> all = {scale, unbalanced, force, stop ? 1.0 : 0.0};
-    MPI_Allreduce(MPI_IN_PLACE, all.data(), 4, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
-    scale = all[0], force = all[2];
-    unbalanced = force > 0 ? all[1] / force : 0;
-    if (all[3] > 0) antilock::report([](const Progress&) { return false; }, now, "petsc");
+    if (largest(stop ? 1 : 0) > 0) antilock::report([](const Progress&) { return false; }, now, "petsc");
+    scale = largest(scale), force = largest(force), unbalanced = largest(unbalanced);
+    if (force > 0) unbalanced /= force;
     if (changed > 0) ++report.sets, since_change = 0;
     const bool settled = report.change <= options.tolerance && unbalanced <= options.residual;
     if (step > 0 && changed == 0 && settled) break;

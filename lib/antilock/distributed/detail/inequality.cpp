@@ -22,21 +22,18 @@ double penalty_over_all(RelativeStiffness s) {
   return choose_penalty(s);
 }
 
-long long layer_triangles(const TriangleMesh& mesh) {
-  return std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
-}
-
 }  // namespace
 
 Inequality::Inequality(const Scene& scene, const Space& space, Penalty penalty) : rows_(space) {
-  const bool here = layer_triangles(space.mesh()) > 0, somewhere = sum(layer_triangles(space.mesh())) > 0;
+  const auto& region = space.mesh().region;
+  const long long here = std::count(region.begin(), region.end(), Region::layer), all = sum(here);
   together(
       [&] {  // a strip without a part of the layer (between the two feet of a body) has the body's part of the forms
-        part_ = assemble(here || !somewhere ? scene : Scene(scene.body(), NoLayer{}, scene.contact()), space);
+        part_ = assemble(here > 0 || all == 0 ? scene : Scene(scene.body(), NoLayer{}, scene.contact()), space);
         lower_ = Eigen::VectorXd::Constant(rows_.owned(), -std::numeric_limits<double>::infinity());
         if (!scene.contact()) return;
         for (int place = 0; place < rows_.owned(); ++place) {
-          if (rows_.on_contact()[rows_.unknown(place)] == 0) continue;
+          if (!rows_.contact(rows_.unknown(place))) continue;
           const double x = space.points()(rows_.unknown(place), 0), gap = scene.contact()->gap(x);
           if (!std::isfinite(gap)) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x));
           lower_(place) = -gap;
@@ -51,57 +48,22 @@ Inequality::Inequality(const Scene& scene, const Space& space, Penalty penalty) 
   sum_k(stiff ? gradient_form(space, {1, 1}, {1, 1 / delta_}) : part_.a1);
 }
 
-/// The matrix of all ranks from the parts: room for every entry is counted first, since a matrix that must grow takes
-/// many times the time of the rest.
-void Inequality::sum_k(const SparseMatrix& part) {
-  Eigen::VectorXd entries = Eigen::VectorXd::Zero(part.cols());
-  for (Eigen::Index j = 0; j < part.cols(); ++j) entries(j) = static_cast<double>(part.col(j).nonZeros());
-  const Vector counted = rows_.vector();
-  rows_.summed(entries, counted);
-  entries = Entries(counted);
-  std::vector<PetscInt> own(rows_.owned(), 0), other(rows_.owned(), 0);
-  for (int place = 0; place < rows_.owned(); ++place) {
-    if (rows_.shared(rows_.unknown(place))) {  // how many of them coincide is not known: room for all
-      other[place] = static_cast<PetscInt>(entries(place));
-      own[place] = std::min<PetscInt>(other[place], rows_.owned());
-      continue;
-    }
-    for (SparseMatrix::InnerIterator entry(part, rows_.unknown(place)); entry; ++entry) {
-      const PetscInt column = rows_.row(static_cast<int>(entry.row()));
-      if (column >= 0) ++(rows_.owns(column) ? own : other)[place];
-    }
-  }
-  ok(MatCreateAIJ(PETSC_COMM_WORLD, rows_.owned(), rows_.owned(), PETSC_DETERMINE, PETSC_DETERMINE, 0, own.data(), 0,
-                  other.data(), &k_));
-  std::vector<PetscInt> columns;
-  std::vector<PetscScalar> values;
-  for (int unknown = 0; unknown < part.cols(); ++unknown) {
-    columns.clear(), values.clear();
-    for (SparseMatrix::InnerIterator entry(part, unknown); entry; ++entry) {  // symmetric: column = row
-      if (entry.value() == 0) continue;  // across the long edge of a right angle: 7 entries become 5
-      columns.push_back(rows_.row(static_cast<int>(entry.row())));
-      values.push_back(entry.value());
-    }
-    const PetscInt row = rows_.row(unknown);  // PETSc passes over -1, here and among the columns
-    ok(MatSetValues(k_, 1, &row, static_cast<PetscInt>(columns.size()), columns.data(), values.data(), ADD_VALUES));
-  }
-  ok(MatAssemblyBegin(k_, MAT_FINAL_ASSEMBLY)), ok(MatAssemblyEnd(k_, MAT_FINAL_ASSEMBLY));
-}
-
-Eigen::VectorXd Inequality::equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
-  return part_.load - part_.a1 * u - part_.b.transpose() * part_.m.cwiseProduct(p);
-}
-
-Eigen::VectorXd Inequality::compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
-  return part_.compliance * p - part_.b * u;
-}
-
-Eigen::VectorXd Inequality::right_side(const Eigen::VectorXd& r1, const Eigen::VectorXd& r2) const {
-  return r1 + part_.b.transpose() * part_.m.cwiseProduct(r2) / delta_;
-}
-
-Eigen::VectorXd Inequality::stress_step(const Eigen::VectorXd& du, const Eigen::VectorXd& r2) const {
-  return (part_.b * du - r2) / delta_;
+/// The matrix of all ranks from the parts, in which the clamped unknowns keep their diagonal alone.
+void Inequality::sum_k(Eigen::SparseMatrix<PetscScalar, Eigen::RowMajor, PetscInt> part) {
+  part.prune([&](auto row, auto column, double value) {  // 0: across the long edge of a right angle; 7 entries become 5
+    return row == column || (value != 0 && !rows_.clamped(row) && !rows_.clamped(column));
+  });
+  Handle<ISLocalToGlobalMapping, ISLocalToGlobalMappingDestroy> to_rows;
+  Matrix own, sum;
+  const auto size = static_cast<PetscInt>(part.rows());
+  ok(ISLocalToGlobalMappingCreate(PETSC_COMM_WORLD, 1, size, rows_.row().data(), PETSC_COPY_VALUES, &to_rows));
+  ok(MatCreateSeqAIJWithArrays(PETSC_COMM_SELF, size, size, part.outerIndexPtr(), part.innerIndexPtr(), part.valuePtr(),
+                               &own));
+  ok(MatCreateIS(PETSC_COMM_WORLD, 1, rows_.owned(), rows_.owned(), PETSC_DETERMINE, PETSC_DETERMINE, to_rows, to_rows,
+                 &sum));
+  ok(MatISSetLocalMat(sum, own));
+  ok(MatAssemblyBegin(sum, MAT_FINAL_ASSEMBLY)), ok(MatAssemblyEnd(sum, MAT_FINAL_ASSEMBLY));
+  ok(MatConvert(sum, MATAIJ, MAT_INITIAL_MATRIX, &k_));
 }
 
 }  // namespace antilock::distributed

@@ -27,17 +27,26 @@ class Inequality {
   double delta() const { return delta_; }                  ///< the compliance at least
   const Eigen::VectorXd& lower() const { return lower_; }  ///< per owned row: the bound, -infinity where there is none
 
-  /// r1 = L - A1 u - B' M p, the part of this rank. u at the unknowns of the piece, p at its rows of B.
-  Eigen::VectorXd equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const;
+  /// r1 = L - A1 u - B' M p, the part of this rank; 0 at the clamped unknowns. u at the unknowns of the piece, p at its
+  /// rows of B.
+  Eigen::VectorXd equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
+    return rows_.unclamped(part_.load - part_.a1 * u - part_.b.transpose() * part_.m.cwiseProduct(p));
+  }
   /// r2 = compliance p - B u; never shared.
-  Eigen::VectorXd compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const;
+  Eigen::VectorXd compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
+    return part_.compliance * p - part_.b * u;
+  }
   /// A correction of both: K du = r1 + delta^-1 B' M r2, the part of this rank,
-  Eigen::VectorXd right_side(const Eigen::VectorXd& r1, const Eigen::VectorXd& r2) const;
+  Eigen::VectorXd right_side(const Eigen::VectorXd& r1, const Eigen::VectorXd& r2) const {
+    return rows_.unclamped(r1 + part_.b.transpose() * part_.m.cwiseProduct(r2) / delta_);
+  }
   /// and dp = (B du - r2) / delta.
-  Eigen::VectorXd stress_step(const Eigen::VectorXd& du, const Eigen::VectorXd& r2) const;
+  Eigen::VectorXd stress_step(const Eigen::VectorXd& du, const Eigen::VectorXd& r2) const {
+    return (part_.b * du - r2) / delta_;
+  }
 
  private:
-  void sum_k(const SparseMatrix& part);
+  void sum_k(Eigen::SparseMatrix<PetscScalar, Eigen::RowMajor, PetscInt> part);
   VariationalInequality part_;
   Rows rows_;
   Matrix k_;

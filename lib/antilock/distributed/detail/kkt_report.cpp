@@ -40,9 +40,10 @@ Kkt kkt_report(const Inequality& problem, const State& state) {
        {&parts.load, &parts.terms, &parts.moderate, &parts.borne, &parts.diagonal, &parts.stiff})
     *part = summed(rows, *part);
   const Eigen::VectorXd lambda = contact_forces(problem, state);
-  const KktRows report(parts, lambda, lambda.cwiseAbs(), std::vector<char>(rows.owned(), 0),
-                       u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0,
-                       rows.largest_at_clamped(problem.equilibrium(u, p)), [](double value) { return largest(value); });
+  std::vector<char> clamped;
+  for (int i = 0; i < rows.owned(); ++i) clamped.push_back(rows.clamped(rows.unknown(i)) ? 1 : 0);
+  const KktRows report(parts, lambda, lambda.cwiseAbs(), clamped, u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0, 0,
+                       [](double value) { return largest(value); });
   kkt.residual = report.residual;
   kkt.min_gap = kkt.min_pressure = std::numeric_limits<double>::infinity();
   const Stairs stairs{lower};

@@ -12,12 +12,11 @@ namespace antilock::distributed {
 std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer = false);
 
 /// What the rank holds of a mesh: its own triangles, as a mesh in which an edge between two ranks has one triangle and
-/// keeps its tag. rank_of: of every triangle of the coarse mesh. Throws Error where two ranks meet at a vertex alone.
+/// keeps its tag. rank_of: of every triangle of the coarse mesh.
 TriangleMesh piece_of(const TriangleMesh& coarse, const std::vector<int>& rank_of, int rank);
 
-/// Every triangle cut into four by its edge midpoints, triangle t into 4 t ... 4 t + 3 (as mesh/refine.hpp does, but
-/// without a search or a check: the numbers of the new edges follow from those of the old). Both sides of an edge between
-/// two ranks get the same new vertex, to the last bit.
+/// Every triangle cut into four by its edge midpoints, triangle t into 4 t ... 4 t + 3, as mesh/refine.hpp does, but
+/// without a check. Both sides of an edge between two ranks get the same new vertex, to the last bit.
 TriangleMesh refined_piece(const TriangleMesh& piece);
 
 }  // namespace antilock::distributed
