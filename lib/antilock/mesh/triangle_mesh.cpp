@@ -89,43 +89,6 @@ void check_triangles(const TriangleMesh& mesh, const std::string& where) {
   }
 }
 
-/// Fills edges, triangle_edges and edge_triangles from vertices and triangles, in linear time; every edge_tag becomes
-/// interior, or sigma where body meets layer.
-void number_edges(TriangleMesh& mesh, const std::string& where) {
-  const int triangle_count = mesh.triangle_count();
-  mesh.triangle_edges.resize(triangle_count, 3);
-  mesh.edges.resize(3 * static_cast<Eigen::Index>(triangle_count), 2);
-  mesh.edge_triangles.resize(3 * static_cast<Eigen::Index>(triangle_count), 2);
-  // a chain of edges per vertex, those whose smaller vertex it is: each holds a handful, so that the search is linear
-  std::vector<int> last(mesh.vertex_count(), -1), before;
-  for (int t = 0; t < triangle_count; ++t)
-    for (int i = 0; i < 3; ++i) {
-      const auto [from, to] = std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
-      int e = last[from];
-      while (e >= 0 && mesh.edges(e, 1) != to) e = before[e];
-      if (e < 0) {
-        e = static_cast<int>(before.size());
-        before.push_back(std::exchange(last[from], e));
-        mesh.edges.row(e) << from, to;
-        mesh.edge_triangles.row(e) << t, -1;
-      } else {
-        if (mesh.edge_triangles(e, 1) != -1)
-          refuse(where, "three triangles share the edge from {} to {}; accepted: two at most", mesh.place(from),
-                 mesh.place(to));
-        mesh.edge_triangles(e, 1) = t;
-      }
-      mesh.triangle_edges(t, i) = e;
-    }
-  const auto count = static_cast<Eigen::Index>(before.size());
-  mesh.edges.conservativeResize(count, 2);
-  mesh.edge_triangles.conservativeResize(count, 2);
-  mesh.edge_tag.assign(before.size(), EdgeTag::interior);
-  for (int e = 0; e < count; ++e) {
-    const int other = mesh.edge_triangles(e, 1);
-    if (other >= 0 && mesh.region[mesh.edge_triangles(e, 0)] != mesh.region[other]) mesh.edge_tag[e] = EdgeTag::sigma;
-  }
-}
-
 /// Tags sit on the boundary and on Sigma: only those edges need to be found.
 void tag_edges(TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
   std::map<std::pair<int, int>, int> known;
@@ -213,6 +176,41 @@ void check_held(const TriangleMesh& mesh, const std::string& where) {
 }
 
 }  // namespace
+
+void number_edges(TriangleMesh& mesh, const std::string& where) {
+  const int triangle_count = mesh.triangle_count();
+  mesh.triangle_edges.resize(triangle_count, 3);
+  mesh.edges.resize(3 * static_cast<Eigen::Index>(triangle_count), 2);
+  mesh.edge_triangles.resize(3 * static_cast<Eigen::Index>(triangle_count), 2);
+  // a chain of edges per vertex, those whose smaller vertex it is: each holds a handful, so that the search is linear
+  std::vector<int> last(mesh.vertex_count(), -1), before;
+  for (int t = 0; t < triangle_count; ++t)
+    for (int i = 0; i < 3; ++i) {
+      const auto [from, to] = std::minmax(mesh.triangles(t, (i + 1) % 3), mesh.triangles(t, (i + 2) % 3));
+      int e = last[from];
+      while (e >= 0 && mesh.edges(e, 1) != to) e = before[e];
+      if (e < 0) {
+        e = static_cast<int>(before.size());
+        before.push_back(std::exchange(last[from], e));
+        mesh.edges.row(e) << from, to;
+        mesh.edge_triangles.row(e) << t, -1;
+      } else {
+        if (mesh.edge_triangles(e, 1) != -1)
+          refuse(where, "three triangles share the edge from {} to {}; accepted: two at most", mesh.place(from),
+                 mesh.place(to));
+        mesh.edge_triangles(e, 1) = t;
+      }
+      mesh.triangle_edges(t, i) = e;
+    }
+  const auto count = static_cast<Eigen::Index>(before.size());
+  mesh.edges.conservativeResize(count, 2);
+  mesh.edge_triangles.conservativeResize(count, 2);
+  mesh.edge_tag.assign(before.size(), EdgeTag::interior);
+  for (int e = 0; e < count; ++e) {
+    const int other = mesh.edge_triangles(e, 1);
+    if (other >= 0 && mesh.region[mesh.edge_triangles(e, 0)] != mesh.region[other]) mesh.edge_tag[e] = EdgeTag::sigma;
+  }
+}
 
 double TriangleMesh::twice_area(int t) const {
   const auto a = vertices.row(triangles(t, 0)), b = vertices.row(triangles(t, 1)), c = vertices.row(triangles(t, 2));

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "antilock/core/error.hpp"
-#include "antilock/mesh/detail/edges.hpp"
 
 namespace antilock::distributed {
 namespace {
