@@ -60,7 +60,7 @@ CorrectionOptions corrections(double tolerance) {
   if (!(tolerance > 0 && tolerance <= MethodRequest::roughest_tolerance))
     throw Error(fmt::format("solve: tolerance = {}; accepted: above 0, at most {}", tolerance,
                             MethodRequest::roughest_tolerance));
-  CorrectionOptions options = corrections_to(std::max(tolerance, MethodRequest::finest_tolerance));
+  CorrectionOptions options{std::max(tolerance, MethodRequest::finest_tolerance)};
   options.progress = not_interrupted;
   return options;
 }

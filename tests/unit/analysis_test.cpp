@@ -174,8 +174,7 @@ TEST(AccurateEnough, SavesCorrectionsAndNoAccuracy) {
       const VariationalInequality problem = stiff_problem(space, epsilon);
       const Solution full = active_set(problem);
       ActiveSetOptions options;
-      options.corrections =
-          corrections_to(accurate_enough(energy_bracket(test::stiff_scene(epsilon), coarse), 2).relative);
+      options.corrections.tolerance = accurate_enough(energy_bracket(test::stiff_scene(epsilon), coarse), 2).relative;
       const Solution early = active_set(problem, options);
       EXPECT_LT(early.counters.corrections, full.counters.corrections) << element_name << epsilon;
       const Errors a = measure_errors(space, full, epsilon, reference(truth)),

@@ -476,7 +476,7 @@ TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
   PenaltyFactor factor(problem, 0.01);
   EXPECT_EQ(PenaltyFactor(problem).delta(), problem.compliance);  // 0.01, above h^2 / 16
   for (const double delta : {0.01, 1e-4}) {
-    factor.refactor(problem, delta);
+    factor.refactor(delta);
     EXPECT_EQ(factor.delta(), delta);
     const std::vector<int>& unknown = factor.numbering().unknown;
     const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + test::gram(problem.b, problem.m) / delta;
@@ -842,8 +842,8 @@ TEST(Uzawa, AsksTheCorrectionsForItsOwnToleranceButNoLessThan1em12) {
   problem.b = RowMatrix(Eigen::MatrixXd::Ones(1, 1).sparseView());
   problem.m = Eigen::VectorXd::Ones(1);
   problem.compliance = 1e-6;
+  PenaltyFactor factor(problem, 1);
   UzawaOptions options;
-  options.penalty = 1;
   for (const double tolerance : {1e-8, 1e-12, 1e-14}) {
     double asked = 0;
     options.tolerance = tolerance;
@@ -851,7 +851,7 @@ TEST(Uzawa, AsksTheCorrectionsForItsOwnToleranceButNoLessThan1em12) {
       if (progress.stage == "corrections") asked = progress.asked;
       return true;
     };
-    uzawa(problem, options);
+    uzawa(problem, factor, options);
     EXPECT_EQ(asked, std::max(tolerance, 1e-12));
   }
 }
@@ -901,9 +901,8 @@ TEST(Uzawa, FollowsThePenaltyWhereTheCorrectionsTakeASmallerOne) {
   // a penalty that is too large for a locked layer: after 15 corrections the factor is made anew, and S with it
   const SpaceOn space(unstructured_mesh(8), p1());
   VariationalInequality problem = stiff_problem(space, 1e-6);
-  UzawaOptions options;
-  options.penalty = 1e-2;
-  const Solution direct = active_set(problem), projected = uzawa(problem, options);
+  PenaltyFactor factor(problem, 1e-2);
+  const Solution direct = active_set(problem), projected = uzawa(problem, factor);
   EXPECT_GT(projected.counters.factorisations, 1);
   EXPECT_LT((direct.u - projected.u).cwiseAbs().maxCoeff(), 1e-8 * direct.u.cwiseAbs().maxCoeff());
 }

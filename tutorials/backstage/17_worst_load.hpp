@@ -146,7 +146,7 @@ inline void ErrorForm::set_epsilon(double epsilon) {
   epsilon_ = epsilon;
   problem_.compliance = compliance(StiffLayer{epsilon});
   const double delta = moderate_delta(problem_);
-  if (factor_ && factor_->delta() != delta) factor_->refactor(problem_, delta);
+  if (factor_ && factor_->delta() != delta) factor_->refactor(delta);
 }
 
 inline void ErrorForm::integrate_loads() {

@@ -175,7 +175,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     Companion v;
     Certificate certificate;
     for (double tolerance = std::min(1e-2 * accuracy.relative, accuracy.tolerance);; tolerance *= 1e-2) {
-      options.corrections = corrections_to(std::max(tolerance, CorrectionOptions{}.tolerance));
+      options.corrections.tolerance = std::max(tolerance, CorrectionOptions{}.tolerance);
       solution = active_set(problem, factor, options);
       options.start = solution.pieces;
       v = strip_companion(scene, space, problem, solution, !layer_may_lock);

@@ -48,7 +48,7 @@ Solution solve_as_asked(const SceneFile& file, const Space& space, const Variati
     solution = uzawa(problem, options);
   } else {
     ActiveSetOptions options;
-    options.corrections = corrections_to(tolerance);
+    options.corrections.tolerance = tolerance;
     options.corrections.progress = follow;
     if (const auto coating = coating_of(file)) options.penalty = penalty(*coating, {space, space});
     solution = active_set(problem, options);

@@ -15,9 +15,6 @@ Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::
 /// bound gives way. C entries.
 Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
-/// The most that bound i bears; infinite: anything.
-double force_bound(const VariationalInequality& problem, Eigen::Index i);
-
 /// j(u), the work that bounds with a force_bound take up: the sum of force_bound times the distance from the bounds.
 double friction_energy(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
@@ -25,10 +22,6 @@ double friction_energy(const VariationalInequality& problem, const Eigen::Vector
 /// are gone: linear, and where `active` is the contact set of the solution, with the same solution. Throws Error for
 /// another number of marks, and where bounds are others than lower ones on unknowns.
 VariationalInequality held_in_contact(VariationalInequality problem, const std::vector<bool>& active);
-
-/// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of combinations
-/// without a free unknown. Throws Error.
-void check_bounds(const VariationalInequality& problem);
 
 /// Throws Error where `who` takes bounds on unknowns alone and the problem has combinations.
 void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who);

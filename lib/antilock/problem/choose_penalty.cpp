@@ -15,19 +15,10 @@ double RelativeStiffness::value() const {
 }
 
 RelativeStiffness relative_stiffness(const VariationalInequality& problem) {
-  const Eigen::VectorXd a1 = problem.a1.diagonal();
-  Eigen::VectorXd a0 = problem.b.cwiseAbs2().transpose() * problem.m;
-  for (const int i : problem.fixed) a0(i) = -1;
-  RelativeStiffness s;
-  for (int j = 0; j < problem.size(); ++j) {
-    if (a0(j) < 0) continue;
-    s.most_0 = std::max(s.most_0, a0(j));
-    s.most_1 = std::max(s.most_1, a1(j));
-    if (!(a0(j) > 0 && a1(j) > 0)) continue;
-    s.sum_0 += a0(j);
-    s.sum_1 += a1(j);
-  }
-  return s;
+  Eigen::VectorXd a1 = problem.a1.diagonal(), a0 = problem.b.cwiseAbs2().transpose() * problem.m;
+  for (const int i : problem.fixed) a0(i) = a1(i) = 0;
+  const Eigen::VectorXd both = (a0.array() > 0 && a1.array() > 0).cast<double>();
+  return {a0.dot(both), a1.dot(both), a0.maxCoeff(), std::max(0.0, a1.maxCoeff())};
 }
 
 double moderate_delta(const VariationalInequality& problem, std::optional<double> penalty) {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "antilock/core/error.hpp"
-#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 namespace {
@@ -21,30 +21,52 @@ bool finite(const double* values, Eigen::Index count) {
 }
 bool finite(const Eigen::VectorXd& values) { return finite(values.data(), values.size()); }
 
-/// The largest |a_ij - a_ji|, in one walk: while the columns pass in order, the part of every column below its diagonal
-/// is met row by row.
-double asymmetry(const SparseMatrix& a) {
-  const int* const outer = a.outerIndexPtr();
-  const int* const row = a.innerIndexPtr();
-  const double* const value = a.valuePtr();
-  std::vector<int> below(a.cols());
-  for (Eigen::Index j = 0; j < a.cols(); ++j)
-    below[j] = static_cast<int>(std::upper_bound(row + outer[j], row + outer[j + 1], static_cast<int>(j)) - row);
-  double largest = 0;
-  for (Eigen::Index j = 0; j < a.cols(); ++j)
-    for (int k = outer[j]; k < outer[j + 1] && row[k] < j; ++k) {
-      const int i = row[k];
-      for (; below[i] < outer[i + 1] && row[below[i]] < j; ++below[i])  // entries without a partner
-        largest = std::max(largest, std::abs(value[below[i]]));
-      const bool partner = below[i] < outer[i + 1] && row[below[i]] == j;
-      largest = std::max(largest, std::abs(value[k] - (partner ? value[below[i]++] : 0)));
-    }
-  for (Eigen::Index j = 0; j < a.cols(); ++j)
-    for (; below[j] < outer[j + 1]; ++below[j]) largest = std::max(largest, std::abs(value[below[j]]));
-  return largest;
+double largest(const SparseMatrix& a) { return a.nonZeros() > 0 ? a.coeffs().abs().maxCoeff() : 0; }
+
+void check_combinations(const VariationalInequality& problem) {
+  const RowMatrix& rows = problem.combinations;
+  if (rows.rows() == 0) return;
+  require(rows.cols() == problem.size(),
+          fmt::format("combinations have {} columns; accepted {}, one per unknown", rows.cols(), problem.size()));
+  require(rows.isCompressed(), "combinations are accepted compressed only");
+  require(finite(rows.valuePtr(), rows.nonZeros()), "an entry of combinations is not finite");
+  std::vector<char> fixed(problem.size(), 0);
+  for (const int i : problem.fixed) fixed[i] = 1;
+  for (Eigen::Index row = 0; row < rows.rows(); ++row) {
+    bool free = false;
+    for (RowMatrix::InnerIterator c(rows, row); c; ++c) free = free || (c.value() != 0 && fixed[c.col()] == 0);
+    require(free, fmt::format("combination {} holds no free unknown; accepted: one or more", row));
+  }
 }
 
 }  // namespace
+
+void check_bounds(const VariationalInequality& problem) {
+  check_combinations(problem);
+  const Eigen::VectorXd &lower = problem.lower, &upper = problem.upper;
+  const int bounds = problem.bound_count();
+  require(lower.size() == bounds,
+          fmt::format("lower has {} entries; accepted {}: one bound per contact unknown and per combination",
+                      lower.size(), bounds));
+  require(upper.size() == 0 || upper.size() == bounds,
+          fmt::format("upper has {} entries; accepted none, or {} as in lower", upper.size(), bounds));
+  require(
+      problem.force_bound.size() == 0 || problem.force_bound.size() == bounds,
+      fmt::format("force_bound has {} entries; accepted none, or {} as in lower", problem.force_bound.size(), bounds));
+  for (Eigen::Index i = 0; i < problem.force_bound.size(); ++i)
+    require(problem.force_bound(i) >= 0,
+            fmt::format("force_bound {} is {}; accepted: 0 or more, infinity for any", i, problem.force_bound(i)));
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < bounds; ++i) {
+    const double low = lower(i), high = upper.size() > 0 ? upper(i) : infinity;
+    require(low < infinity && high > -infinity && (std::isfinite(low) || std::isfinite(high)),
+            fmt::format("bound {} is not finite: from {} to {}; accepted: one finite side or two, -infinity below "
+                        "or infinity above for none",
+                        i, low, high));
+    require(low <= high,
+            fmt::format("bound {} is from {} to {}; accepted: lower <= upper, equal for an equation", i, low, high));
+  }
+}
 
 void check_data(const VariationalInequality& problem) {
   const Eigen::Index n = problem.load.size(), rows = problem.b.rows();
@@ -77,9 +99,8 @@ void check_data(const VariationalInequality& problem) {
 void check(const VariationalInequality& problem) {
   check_data(problem);
   // Relative to the largest entry: what assembly leaves is round-off of the sums.
-  const Eigen::Map<const Eigen::VectorXd> entries(problem.a1.valuePtr(), problem.a1.nonZeros());
-  const double largest = entries.size() > 0 ? entries.cwiseAbs().maxCoeff() : 0;
-  require(asymmetry(problem.a1) <= 1e-12 * largest, "a1 is not symmetric");
+  const SparseMatrix mirrored = problem.a1.transpose();
+  require(largest(problem.a1 - mirrored) <= 1e-12 * largest(problem.a1), "a1 is not symmetric");
 }
 
 }  // namespace antilock

@@ -61,4 +61,8 @@ void check(const VariationalInequality& problem);
 /// factor. The factor has asked for the symmetry of its matrix.
 void check_data(const VariationalInequality& problem);
 
+/// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of combinations
+/// without a free unknown. Throws Error.
+void check_bounds(const VariationalInequality& problem);
+
 }  // namespace antilock

@@ -33,22 +33,21 @@ class IteratedPenalty {
         p_(Eigen::VectorXd::Zero(problem.b.rows())) {
     u_.high(problem.fixed) = problem.fixed_values;
     s_.solver = name;
-    note_factor();
   }
 
   Solution solve() {
     for (int correction = 0;; ++correction) {
-      const Correction step = correct(exact_residual(problem_, u_, p_, contact_.lambda));
-      const double largest = u_.high.lpNorm<Eigen::Infinity>(), moved = step.u.lpNorm<Eigen::Infinity>();
+      const Eigen::VectorXd du = correct(exact_residual(problem_, u_, p_, contact_.lambda));
+      const double largest = u_.high.lpNorm<Eigen::Infinity>(), moved = du.lpNorm<Eigen::Infinity>();
       if (correction == 0) s_.moderate = largest;
       const double rho = rate(moved), next = std::max(rho * moved, acceleration_.next_companion_step());
-      Accuracy now = accuracy(problem_, u_, next, step.left_of_r2, rho, s_.moderate, options_);
+      Accuracy now = accuracy(problem_, u_, next, left_of_r2_, rho, s_.moderate, options_);
       // what is left of a load that a bound can hardly bear is seen by the second residual, and not by the first
       if (correction == 0 && moved > 0 && problem_.force_bound.size() > 0) now.error = 1;
       s_.history.push_back(largest > 0 ? moved / largest : 0);
       s_.counters.corrections = correction;
       if (now.within(options_.tolerance) || correction >= options_.max_corrections || !std::isfinite(moved))
-        return finished(step, now);
+        return finished(now);
       const bool slow = correction % tuned::corrections_per_penalty == tuned::corrections_per_penalty - 1;
       if (slow)
         require_an_admissible_u(problem_, Eigen::VectorXd(problem_.m.cwiseProduct(problem_.b * u_.high)), u_.high,
@@ -63,38 +62,34 @@ class IteratedPenalty {
   }
 
  private:
-  struct Correction {
-    Eigen::VectorXd u, left_of_r2;  ///< N, du; R, what it leaves of r2
-  };
-
   /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp = (B du - r2) / delta.
-  Correction correct(SplitResidual r) {
+  Eigen::VectorXd correct(SplitResidual r) {
     const std::vector<int>&unknown = factor_.numbering().unknown, &contact = problem_.contact;
-    const Eigen::VectorXd& delta = factor_.deltas();
-    if (p_.size() > 0) r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2).cwiseQuotient(delta);
+    const double delta = factor_.delta();
+    if (p_.size() > 0) r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2) / delta;
     const Eigen::VectorXd u_c = u_.high(contact), low_c = u_.low(contact);
     const Stairs stairs =
         Stairs{problem_.lower, problem_.upper, problem_.force_bound, contact_.lambda}.from(u_c).from(low_c);
     const Pieces before = contact_.pieces;
-    Correction step{Eigen::VectorXd::Zero(problem_.size()), {}};
-    step.u(unknown) =
-        factor_.held() != nullptr ? sparse_road(r.r1(unknown), stairs) : dense_road(r.r1(unknown), stairs);
-    u_ += step.u;
+    Eigen::VectorXd du = Eigen::VectorXd::Zero(problem_.size());
+    du(unknown) = factor_.held() != nullptr ? sparse_road(r.r1(unknown), stairs) : dense_road(r.r1(unknown), stairs);
+    u_ += du;
     const Eigen::VectorXd v = contact_.v.tail(stairs.count());
     for (int i = 0; i < stairs.count(); ++i)  // what is held stands where its bound is, to the last digit
       if (const Piece piece = contact_.pieces[i]; is_held(piece) && v(i) == stairs.given(i, piece))
         u_.set(contact[i], piece == Piece::at_lower ? problem_.lower(i) : problem_.upper(i));
-    if (p_.size() == 0) return step;
-    const Eigen::VectorXd dp = (problem_.b * step.u - r.r2).cwiseQuotient(delta);
+    if (p_.size() == 0) return du;
+    const Eigen::VectorXd dp = (problem_.b * du - r.r2) / delta;
     p_ += dp;
-    step.left_of_r2 = (problem_.compliances() - delta).cwiseProduct(dp);
+    left_of_r2_ = (problem_.compliances().array() - delta) * dp.array();
     if (contact_.pieces != before) acceleration_.restart();
     acceleration_.note(p_, dp, u_);
-    return step;
+    return du;
   }
 
   void ask(ContactSystem& system, const Stairs& stairs) {
-    contact_ = contact_solver_({system, stairs, contact_, u_.high.lpNorm<Eigen::Infinity>()});
+    contact_ = contact_solver_(system, stairs, contact_, u_.high.lpNorm<Eigen::Infinity>());
+    s_.counters.contact = std::max(s_.counters.contact, contact_.steps);
   }
 
   /// The contact problem condensed on the bounded unknowns, the last C places of the factor.
@@ -110,7 +105,7 @@ class IteratedPenalty {
     if (c > 0) {
       const auto l = factor_.contact_block().triangularView<Eigen::Lower>();
       const Eigen::VectorXd q = r_c + l * y.tail(c);
-      DenseContact system(schur_, q);
+      DenseContact system(factor_.schur(), q);
       ask(system, stairs);
       y.tail(c) = l.transpose() * contact_.v;
       s_.seconds.contact += watch.lap();
@@ -146,24 +141,16 @@ class IteratedPenalty {
     const double delta = std::max({before / tuned::next_penalty, compliance, std::min(before, smallest)});
     if (problem_.b.rows() == 0 || delta >= before) return;
     try {
-      factor_.refactor(problem_, delta);
+      factor_.refactor(delta);
     } catch (const Error&) {  // flat cells: no positive pivots
-      factor_.refactor(problem_, before);
+      factor_.refactor(before);
     }
-    note_factor();
     acceleration_.restart();
-  }
-
-  void note_factor() {
-    const Stopwatch watch;
-    if (factor_.held() == nullptr && factor_.contact_block().size() > 0)
-      schur_ = factor_.contact_block().triangularView<Eigen::Lower>() * factor_.contact_block().transpose();
-    s_.seconds.contact += watch.seconds();
   }
 
   /// u, p and lambda of the last correction, with its error and the judge's doubt. Throws NotConverged where the last
   /// correction is not small enough.
-  Solution finished(const Correction& last, const Accuracy& now) {
+  Solution finished(const Accuracy& now) {
     if (!now.within(options_.tolerance))
       throw NotConverged(fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative "
                                      "error of u is {:.1e}, accepted {:.0e}, and compliance p = B u holds to {:.1e} "
@@ -180,9 +167,8 @@ class IteratedPenalty {
     s_.u = std::move(u_.high);
     s_.p = std::move(p_.high);
     s_.lambda = contact_.lambda.size() > 0 ? contact_.lambda : Eigen::VectorXd::Zero(problem_.bound_count());
-    Doubt in_doubt = doubt(problem_, factor_, s_, last.left_of_r2);
-    s_.error = now.off + in_doubt.moves;  // absolute yet
-    s_.warning = std::move(in_doubt.warning);
+    s_.error = now.off;  // absolute yet
+    doubt(problem_, factor_, left_of_r2_, s_);
     return std::move(s_);
   }
 
@@ -190,56 +176,37 @@ class IteratedPenalty {
   PenaltyFactor& factor_;
   const ContactSolver& contact_solver_;
   const CorrectionOptions& options_;
-  Solution s_;             ///< what is counted
-  Twice u_, p_;            ///< N, R
-  ContactAnswer contact_;  ///< of the last correction
-  Eigen::MatrixXd schur_;  ///< C x C, S = L_C L_C', of the factor as it is now; empty on the sparse road
+  Solution s_;                  ///< what is counted
+  Twice u_, p_;                 ///< N, R
+  ContactAnswer contact_;       ///< of the last correction
+  Eigen::VectorXd left_of_r2_;  ///< R, by the last correction
   Anderson acceleration_;
 };
 
-Solution by_active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
-  int most = 0;
-  const auto contact = [&](const ContactQuestion& asked) {
-    const std::optional<Pieces> before(asked.before.pieces);
-    ContactAnswer answer =
-        solve_contact(asked.system, asked.stairs, before->empty() ? options.start : before, options.max_steps);
-    most = std::max(most, answer.steps);
-    return answer;
-  };
-  Solution solution = iterated_penalty(problem, factor, contact, options.corrections, "active set");
-  solution.counters.contact = most;
-  return solution;
-}
-
 }  // namespace
-
-CorrectionOptions corrections_to(double asked) {
-  CorrectionOptions options;
-  options.tolerance = asked;
-  options.refused = std::max(options.refused, 10 * asked);
-  return options;
-}
 
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name) {
-  const Tied tied(problem);
+  const Tied tied = factor.tied(problem);
   Solution answer = IteratedPenalty(*tied, factor, contact, options, name).solve();
   answer.u.conservativeResize(problem.size());
   answer.p.conservativeResize(problem.b.rows());
   answer.lambda = tied.forces(std::move(answer.lambda));
   if (answer.error > 0) answer.error = answer.error / answer.u.lpNorm<Eigen::Infinity>() + tuned::eps / 2;
-  certify(problem, answer, {.refused = options.refused});
+  certify(problem, answer, {.refused = options.refused()});
   return answer;
 }
 
 Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
-  factor.check_fits(problem);
-  return by_active_set(problem, factor, options);
+  const auto contact = [&](ContactSystem& system, const Stairs& stairs, const ContactAnswer& before, double) {
+    return solve_contact(system, stairs, before.pieces.empty() ? options.start : before.pieces, options.max_steps);
+  };
+  return iterated_penalty(problem, factor, contact, options.corrections, "active set");
 }
 
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options) {
   PenaltyFactor factor(problem, options.penalty, options.road);
-  return by_active_set(problem, factor, options);
+  return active_set(problem, factor, options);
 }
 
 }  // namespace antilock

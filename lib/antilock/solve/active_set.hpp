@@ -1,13 +1,27 @@
 #pragma once
+#include <algorithm>
+#include <functional>
 #include <optional>
-#include <vector>
+#include <string>
 
+#include "antilock/core/detail/progress.hpp"
 #include "antilock/problem/variational_inequality.hpp"
-#include "antilock/solve/detail/iterated_penalty.hpp"
+#include "antilock/solve/contact.hpp"
+#include "antilock/solve/detail/tuned.hpp"
+#include "antilock/solve/kkt.hpp"
 #include "antilock/solve/penalty_factor.hpp"
-#include "antilock/solve/solution.hpp"
 
 namespace antilock {
+
+struct CorrectionOptions {
+  double tolerance = 1e-10;                       ///< on the relative algebraic error of u in the maximum norm
+  int max_corrections = tuned::most_corrections;  ///< reached: NotConverged
+  ProgressHook progress = {};                     ///< called after every correction that is not the last
+  double contact = 0;  ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
+
+  /// KKT report above which no answer is returned. Who asks for little gets little, with a warning.
+  double refused() const { return std::max(TrustLevels{}.refused, 10 * tolerance); }
+};
 
 struct ActiveSetOptions {
   CorrectionOptions corrections;
@@ -17,19 +31,26 @@ struct ActiveSetOptions {
   std::optional<Pieces> start;                ///< C: pieces to start from; empty: the nested start
 };
 
-/// Two loops. The outer one corrects u and p by one sparse Cholesky factor, the inner one finds the contact set of each
-/// correction (contact.hpp):
+/// Two loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer
+/// stress p = compliance^-1 B u, with step 1/delta (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976). It corrects u
+/// and p by one factor of the moderately penalised K = A1 + delta^-1 B' M B. The inner one finds the contact set of each
+/// correction:
 ///
-///     repeat:  r1, r2 from u, p, lambda               residual.hpp, exact
-///              u += du, p += dp, lambda from the contact problem of r1, r2
-///              stop where accuracy(next du, r2) is within the tolerance judge.hpp
-///     then:    doubt and the KKT report               judge.hpp, kkt.hpp: a warning, or NotConverged
+///     repeat:  r1 = L - A1 u - B' M p + lambda,   r2 = compliance p - B u       exact: residual.hpp
+///              K du = r1 + delta^-1 B' M r2 + dlambda, with the bounds of u     contact.hpp
+///              u += du,   p += dp = (B du - r2) / delta
+///              stop where accuracy(next du, r2) is within the tolerance         judge.hpp
+///     then:    doubt and the KKT report: a warning, or NotConverged             judge.hpp, kkt.hpp
+///
+/// No digit of A1 is ever added to a large one, so the answer is right at every compliance down to and including 0,
+/// where it solves (7) exactly. Once the contact set stays, a mode with a0 = sigma a1 is multiplied by (delta -
+/// compliance) / (delta + sigma) < 1 in each correction: it converges for every delta, fast where delta is small beside
+/// sigma, and Anderson's mix (anderson.hpp) does the rest. After 15 corrections the next 15 are made with delta / 64.
 ///
 /// To read in this order: problem/variational_inequality.hpp, stairs.hpp, contact.hpp, residual.hpp, this, judge.hpp;
 /// the constants with their reasons are in detail/tuned.hpp. The outer loop stands in active_set.cpp,
-/// IteratedPenalty::solve, and its mathematics in detail/iterated_penalty.hpp. A loop that stops otherwise, after five
-/// corrections say, changes the one condition there; `finished` judges its last correction all the same, and refuses
-/// what is not within the tolerance.
+/// IteratedPenalty::solve. A loop that stops otherwise, after five corrections say, changes the one condition there;
+/// `finished` judges its last correction all the same, and refuses what is not within the tolerance.
 ///
 /// Without contact unknowns this is a linear solve. counters.contact are the steps on the finest level, the largest
 /// number over the corrections. Throws Error for a malformed problem, NotConverged instead of ever returning an
@@ -38,5 +59,14 @@ Solution active_set(const VariationalInequality& problem, const ActiveSetOptions
 
 /// The same with a factor made before, for a sweep over loads, bounds or compliances of one pair (A1, B).
 Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options = {});
+
+/// Solves the contact problem of one correction, in which v and lambda count from what they are so far: a DenseContact or
+/// a SparseContact, as the factor was made. `before`: of the last correction, empty at first; `u_scale`: the largest |u|.
+using ContactSolver =
+    std::function<ContactAnswer(ContactSystem&, const Stairs&, const ContactAnswer& before, double u_scale)>;
+
+/// The outer loop, with any solver of the inner problem. Throws as active_set does; `name` is the solver's.
+Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
+                          const CorrectionOptions& options, const std::string& name);
 
 }  // namespace antilock

@@ -104,9 +104,10 @@ ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const s
 
 Pieces start_by_halves(const Stairs& stairs, ContactSystem& coarse, int max_steps) {
   const int count = stairs.count();
-  std::vector<int> second;
-  for (int i = 1; i < count; i += 2) second.push_back(i);
-  Stairs fewer = stairs.of(second);
+  const auto second = [](const Eigen::VectorXd& of_all) {
+    return Eigen::VectorXd(of_all(Eigen::seqN(1, of_all.size() / 2, 2)));
+  };
+  Stairs fewer{second(stairs.lower), second(stairs.upper), second(stairs.bears), second(stairs.force)};
   // where the others bear nothing, one bears its own force and half of what each neighbour gives up
   for (int i = 0; i < count && stairs.bears.size() > 0; i += 2)
     for (const int beside : {i / 2 - 1, i / 2})

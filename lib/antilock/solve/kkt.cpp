@@ -23,80 +23,39 @@ double ratio(double value, double scale) { return value == 0 ? 0.0 : value / sca
 double least(double a, double b) { return std::isnan(a) || a < b ? a : b; }
 double most(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
-/// The largest force of a single bound on each unknown, N.
-Eigen::VectorXd largest_bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda) {
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(problem.size());
-  const auto contact = static_cast<Eigen::Index>(problem.contact.size());
-  for (Eigen::Index i = 0; i < contact; ++i) largest(problem.contact[i]) = std::abs(lambda(i));
-  for (Eigen::Index row = 0; row < problem.combinations.rows(); ++row)
-    for (RowMatrix::InnerIterator c(problem.combinations, row); c; ++c)
-      largest(c.col()) = std::max(largest(c.col()), std::abs(c.value() * lambda(contact + row)));
-  return largest;
-}
-
 }  // namespace
 
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p) {
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(problem.size());
-  KktParts parts{problem.load, problem.load.cwiseAbs(), zero, zero, zero, zero};
-  for (Eigen::Index j = 0; j < problem.a1.cols(); ++j)
-    for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) {
-      const double term = a.value() * u(j);
-      parts.moderate(a.row()) += term;
-      parts.terms(a.row()) += std::abs(term);
-      if (a.row() == j) parts.diagonal(j) = a.value();
-    }
-  for (Eigen::Index row = 0; row < problem.b.rows(); ++row) {
-    const double m = problem.m(row), stress = m * p(row);
-    double strain = 0, unit = 0;
-    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) {
-      const double term = b.value() * stress;
-      strain += b.value() * u(b.col());
-      unit += std::abs(b.value());
-      parts.borne(b.col()) += term;
-      parts.terms(b.col()) += std::abs(term);
-      parts.stiff(b.col()) += b.value() * b.value() * m;
-    }
-    parts.strain = most(parts.strain, std::abs(problem.compliance * p(row) - strain) / (unit == 0 ? 1 : unit));
-  }
+  const Eigen::VectorXd stress = problem.m.cwiseProduct(p), r2 = problem.compliance * p - problem.b * u;
+  const Eigen::VectorXd unit = problem.b.cwiseAbs() * Eigen::VectorXd::Ones(problem.size());
+  KktParts parts{problem.load - problem.a1 * u - problem.b.transpose() * stress,
+                 problem.load.cwiseAbs() + problem.a1.cwiseAbs() * u.cwiseAbs() +
+                     problem.b.cwiseAbs().transpose() * stress.cwiseAbs(),
+                 problem.a1.diagonal().cwiseAbs() + problem.b.cwiseAbs2().transpose() * problem.m};
+  for (Eigen::Index row = 0; row < r2.size(); ++row)
+    parts.strain = most(parts.strain, std::abs(r2(row)) / (unit(row) == 0 ? 1 : unit(row)));
   return parts;
 }
 
-KktRows::KktRows(const KktParts& parts, const Eigen::VectorXd& bounds, const Eigen::VectorXd& largest_bound,
-                 const std::vector<char>& fixed, double largest_u, double reaction,
-                 const std::function<double(double)>& over_all) {
-  // a locked u may tend to 0: then what a load, as far as neither lambda nor B' M p bears it, would give its unknown if
-  // all the others were held tells what is large
-  double single = 0;
-  const Eigen::VectorXd pulled = parts.load + bounds, r1 = pulled - parts.moderate - parts.borne;
-  for (Eigen::Index i = 0; i < pulled.size(); ++i) {
-    if (fixed[i] != 0) reaction = std::max(reaction, std::abs(r1(i)));  // a force, not an error
-    if (fixed[i] == 0 && parts.diagonal(i) > 0)
-      single =
-          std::max(single, std::min(std::abs(pulled(i)), std::abs(pulled(i) - parts.borne(i))) / parts.diagonal(i));
-  }
-  const auto largest = [](const Eigen::VectorXd& v) { return v.size() > 0 ? v.lpNorm<Eigen::Infinity>() : 0; };
-  u = over_all(std::max(largest_u, single));
-  const double most_force = over_all(std::max(largest(parts.load), largest(largest_bound)));
-  const double with_reactions = std::max(most_force, over_all(reaction));
+Eigen::VectorXd note_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
+                               double with_reactions) {
   // a great force somewhere must hide nothing where all forces are small
-  const Eigen::VectorXd own =
-      parts.terms.cwiseMax(u * (parts.diagonal.cwiseAbs() + parts.stiff)).cwiseMax(largest_bound);
-  forces = own.cwiseMin(most_force);
-  for (Eigen::Index i = 0; i < own.size(); ++i) {
+  const Eigen::VectorXd own = parts.terms.cwiseMax(u * parts.stiffness);
+  Eigen::VectorXd forces = own.cwiseMin(force);
+  kkt.residual = most(kkt.residual, ratio(parts.strain, u));
+  for (Eigen::Index i = 0; i < forces.size(); ++i) {
     if (fixed[i] != 0) {
       forces(i) = unbounded;  // the clamp bears any
       continue;
     }
     // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
-    const double beyond = most(std::abs(r1(i)) - tuned::equal * parts.terms(i), 0);
-    residual = most(residual, ratio(beyond, std::min(own(i), with_reactions)));
+    const double beyond = most(std::abs(parts.r1(i)) - tuned::equal * parts.terms(i), 0);
+    kkt.residual = most(kkt.residual, ratio(beyond, std::min(own(i), with_reactions)));
   }
-  residual = over_all(most(residual, ratio(parts.strain, u)));
+  return forces;
 }
 
-void KktRows::note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, double lambda, double strain,
-                         double force) const {
+void note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, double lambda, double reach, double force) {
   const double lower = stairs.lower(i), upper = stairs.above(i), bears = stairs.most(i);
   const bool soft = std::isfinite(bears);
   // between two bounds either sign of lambda is right, and each side answers for its own
@@ -104,7 +63,7 @@ void KktRows::note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, do
   const double up = two ? std::max(lambda, 0.0) : lambda, down = two ? std::max(-lambda, 0.0) : -lambda;
   const auto side = [&](double bound, double gap, double pressure) {
     if (!std::isfinite(bound)) return;
-    const double scale = std::max(u * strain, std::abs(bound));
+    const double scale = std::max(reach, std::abs(bound));  // its own: a far obstacle hides no near one
     if (!two) kkt.min_pressure = least(kkt.min_pressure, ratio(pressure, force));
     if (!soft) kkt.min_gap = least(kkt.min_gap, ratio(gap, scale));
     // what is not borne beyond a bound; a bound that bears far more than the forces at work is not passed by round-off
@@ -129,32 +88,41 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
     kkt.residual = unbounded;
     return kkt;
   }
+  const int contact = static_cast<int>(problem.contact.size());
+  const auto each_of = [&](int bound, const auto& of) {  // the unknowns of a bound, and how much it holds of each
+    if (bound < contact) return of(problem.contact[bound], 1.0);
+    for (RowMatrix::InnerIterator c(problem.combinations, bound - contact); c; ++c)
+      if (c.value() != 0) of(static_cast<int>(c.col()), c.value());
+  };
+  KktParts parts = kkt_parts(problem, u, p);
+  double largest_force = problem.load.lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < problem.bound_count(); ++i)
+    each_of(i, [&](int unknown, double c) {
+      parts.push(unknown, c * lambda(i));
+      largest_force = std::max(largest_force, std::abs(c * lambda(i)));
+    });
+  double with_reactions = largest_force;
   std::vector<char> fixed(problem.size(), 0);
-  bool moved = false;
   for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
-    fixed[problem.fixed[i]] = 1;
-    moved = moved || u(problem.fixed[i]) != problem.fixed_values(static_cast<Eigen::Index>(i));
+    const int unknown = problem.fixed[i];
+    fixed[unknown] = 1;
+    with_reactions = std::max(with_reactions, std::abs(parts.r1(unknown)));
+    // the prescribed values hold exactly or not at all
+    if (u(unknown) != problem.fixed_values(static_cast<Eigen::Index>(i))) kkt.residual = 1;
   }
-  const KktRows rows(kkt_parts(problem, u, p), bound_forces(problem, lambda), largest_bound_forces(problem, lambda),
-                     fixed, std::max(u.lpNorm<Eigen::Infinity>(), TrustLevels{}.refused * solution.moderate), 0,
-                     [](double value) { return value; });
-  // the prescribed values hold exactly or not at all
-  kkt.residual = moved ? std::max(rows.residual, 1.0) : rows.residual;
+  const double largest_u = std::max(u.lpNorm<Eigen::Infinity>(), TrustLevels{}.refused * solution.moderate);
+  const Eigen::VectorXd forces = note_equations(kkt, parts, fixed, largest_u, largest_force, with_reactions);
   if (problem.bound_count() == 0) return kkt;
   const Stairs stairs{problem.lower, problem.upper, problem.force_bound};
   const Eigen::VectorXd values = bounded_values(problem, u);
-  const int contact = static_cast<int>(problem.contact.size());
   kkt.min_gap = kkt.min_pressure = unbounded;
-  for (int i = 0; i < contact; ++i)
-    rows.note_bound(kkt, stairs, i, values(i), lambda(i), 1, rows.forces(problem.contact[i]));
-  for (int i = contact; i < stairs.count(); ++i) {  // each combination in its own units
-    double strain = 0, force = unbounded;
-    for (RowMatrix::InnerIterator c(problem.combinations, i - contact); c; ++c) {
-      if (c.value() == 0) continue;
-      strain += std::abs(c.value());
-      force = std::min(force, rows.forces(c.col()) / std::abs(c.value()));
-    }
-    rows.note_bound(kkt, stairs, i, values(i), lambda(i), strain, force);
+  for (int i = 0; i < stairs.count(); ++i) {  // each in its own units
+    double most_of_it = 0, force = unbounded;
+    each_of(i, [&](int unknown, double c) {
+      most_of_it += std::abs(c);
+      force = std::min(force, forces(unknown) / std::abs(c));
+    });
+    note_bound(kkt, stairs, i, values(i), lambda(i), largest_u * most_of_it, force);
   }
   if (kkt.min_gap == unbounded) kkt.min_gap = 0;  // every bound gives way
   return kkt;

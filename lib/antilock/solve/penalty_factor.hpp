@@ -35,16 +35,14 @@ class PenaltyFactor {
                          ContactRoad road = ContactRoad::automatic, CholeskyMaker make = default_cholesky);
 
   /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B
-  /// or M than this factor's: one walk over the data, about the cost of a residual.
+  /// or M than this factor's, to the last bit: one walk over the data, about the cost of a residual.
   void check_fits(const VariationalInequality& problem) const;
-  /// A new numeric factorisation for another delta; the symbolic analysis is kept. Throws as the constructor does, and
-  /// for a problem with other free or contact unknowns.
-  void refactor(const VariationalInequality& problem, double delta);
+  /// The same, and the problem whose bounds are all on unknowns (tied.hpp).
+  Tied tied(const VariationalInequality& problem) const;
+  /// A new numeric factorisation for another delta; the symbolic analysis is kept. Throws as the constructor does.
+  void refactor(double delta);
 
   double delta() const { return delta_; }
-  /// The delta of each row: delta(), and 1 for those that tie combinations (tied.hpp), as many times smaller as delta()
-  /// is later.
-  const Eigen::VectorXd& deltas() const { return deltas_; }
   const FreeNumbering& numbering() const { return numbering_; }
   /// The smallest pivot of K: to about a factor of F its smallest eigenvalue, for next to nothing.
   double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
@@ -57,28 +55,22 @@ class PenaltyFactor {
   // The dense road's; on the sparse one they throw Error.
   /// The factor itself: of L^-1 P r the last C entries belong to the contact unknowns, in their order.
   const SparseCholesky& dense() const;
-  /// C x C lower triangular trailing block of L.
+  /// C x C lower triangular trailing block of L, and the Schur complement of which it is the factor.
   const Eigen::MatrixXd& contact_block() const { return dense(), contact_block_; }
+  const Eigen::MatrixXd& schur() const { return dense(), schur_; }
 
   int factorisations() const { return factor_.factorisations(); }  ///< numeric ones so far
   double analyse_seconds() const { return factor_.analyse_seconds(); }
-  double factor_seconds() const { return factor_.factor_seconds(); }  ///< of the last one of the whole K
+  double factor_seconds() const { return factor_.factor_seconds() + schur_seconds_; }  ///< of the last whole K
 
  private:
-  PenaltyFactor(const Tied& problem, double delta, ContactRoad road, CholeskyMaker make);
-  /// Whether A1, B and M are the ones that it was made of, to the last bit.
-  bool owns(const VariationalInequality& problem) const;
-  void check_unknowns(const VariationalInequality& problem) const;
-  void factorise(const VariationalInequality& problem, double delta);
-  FreeNumbering numbering_;
-  SparseMatrix a1_;  ///< A1, B and M that it was made of
-  RowMatrix b_;
-  Eigen::VectorXd m_;
   double first_delta_, delta_ = 0;
-  Eigen::VectorXd deltas_;  ///< R
+  VariationalInequality of_;  ///< that it was made of, tied
+  FreeNumbering numbering_;
   bool sparse_;
   HeldFactor factor_;
-  Eigen::MatrixXd contact_block_;  ///< of the dense road
+  Eigen::MatrixXd contact_block_, schur_;  ///< of the dense road
+  double schur_seconds_ = 0;
 };
 
 }  // namespace antilock

@@ -11,8 +11,8 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
+#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/detail/contact_systems.hpp"
-#include "antilock/solve/detail/iterated_penalty.hpp"
 #include "antilock/solve/detail/tuned.hpp"
 
 namespace antilock {
@@ -45,23 +45,24 @@ class CondensedUzawa {
  public:
   CondensedUzawa(const PenaltyFactor& factor, const UzawaOptions& options) : factor_(factor), options_(options) {}
 
-  ContactAnswer operator()(const ContactQuestion& asked) {
-    const auto& given = dynamic_cast<const DenseContact&>(asked.system);
-    const Stairs stairs{asked.stairs.lower, asked.stairs.upper, asked.stairs.bears};
+  ContactAnswer operator()(const ContactSystem& system, const Stairs& asked, const ContactAnswer& before,
+                           double u_scale) {
+    const auto& given = dynamic_cast<const DenseContact&>(system);
+    const Stairs stairs{asked.lower, asked.upper, asked.bears};
     if (factor_.delta() != delta_) condense(given.s());  // the corrections may have taken another penalty
     Eigen::VectorXd q = given.q();                       // the steps are taken on whole forces
-    if (asked.stairs.force.size() > 0) q -= asked.stairs.force;
+    if (asked.force.size() > 0) q -= asked.force;
     ContactAnswer answer;
     // the step is taken on f = q + lambda >= q: where the obstacle bears a great load, little is left of the two
     Eigen::VectorXd f = q;
-    if (asked.before.lambda.size() > 0) f += asked.before.lambda;
+    if (before.lambda.size() > 0) f += before.lambda;
     while (true) {
       answer.v = compliance_ * f;
       answer.lambda = f - q;
       const bool looks = answer.steps % look == 0;
       if (options_.enough && looks && duality_gap(given.s(), stairs, answer) <= options_.enough->energy) break;
       const Eigen::VectorXd next = projected_step(stairs, q, f, answer.v);
-      const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), asked.u_scale);  // bounds far from v do not count
+      const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), u_scale);  // bounds far from v do not count
       const double change = scale > 0 ? (next - f).cwiseAbs().cwiseQuotient(rho_).maxCoeff() / scale : 0;
       f = next;
       ++answer.steps;
@@ -151,11 +152,9 @@ class CondensedUzawa {
 }  // namespace
 
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options) {
-  factor.check_fits(problem);
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
-  CorrectionOptions corrections =
-      corrections_to(std::max({options.tolerance, options.enough ? options.enough->relative : 0, 1e-12}));
+  CorrectionOptions corrections{std::max({options.tolerance, options.enough ? options.enough->relative : 0, 1e-12})};
   corrections.progress = options.progress;
   corrections.contact = corrections.tolerance;
   if (factor.held() != nullptr) factor.contact_block();  // says that there is none
@@ -169,8 +168,7 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
 
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
   // its steps are products with S^-1, whose round-off no correction mends: a penalty that leaves it more digits
-  const double penalty = tuned::next_penalty * choose_penalty(problem);
-  PenaltyFactor factor(problem, options.penalty.value_or(penalty), ContactRoad::dense);
+  PenaltyFactor factor(problem, tuned::next_penalty * choose_penalty(problem), ContactRoad::dense);
   return uzawa(problem, factor, options);
 }
 

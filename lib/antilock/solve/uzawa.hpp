@@ -23,7 +23,6 @@ struct UzawaOptions {
   /// rho; empty: 2 / (largest + smallest eigenvalue of the compliance C), by Lanczos iteration, or the same of C scaled
   /// to a unit diagonal, over C_ii, where that is better conditioned.
   std::optional<double> step;
-  std::optional<double> penalty;  ///< delta where compliance is smaller; empty: choose_penalty
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
   std::optional<AccurateEnough> enough;

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "antilock/core/error.hpp"
-#include "antilock/problem/bounds.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 
 namespace antilock {
@@ -65,7 +64,7 @@ Solution Sweep::solve(ActiveSetOptions options) {
   if (!factor_)
     factor_.emplace(problem_, delta);
   else if (problem_.b.rows() > 0 && factor_->delta() != delta)
-    factor_->refactor(problem_, delta);
+    factor_->refactor(delta);
   if (!options.start) options.start = pieces_;
 
   Solution solution = active_set(problem_, *factor_, options);

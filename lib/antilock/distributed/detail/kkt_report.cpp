@@ -1,10 +1,11 @@
 #include "antilock/distributed/detail/kkt_report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "antilock/distributed/ranks.hpp"
-#include "antilock/solve/detail/iterated_penalty.hpp"
+#include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 
 namespace antilock::distributed {
@@ -36,19 +37,25 @@ Kkt kkt_report(const Inequality& problem, const State& state) {
     return kkt;
   }
   KktParts parts = kkt_parts(problem.part(), u, p);
-  for (Eigen::VectorXd* part :
-       {&parts.load, &parts.terms, &parts.moderate, &parts.borne, &parts.diagonal, &parts.stiff})
-    *part = summed(rows, *part);
-  const Eigen::VectorXd lambda = contact_forces(problem, state);
+  for (Eigen::VectorXd* part : {&parts.r1, &parts.terms, &parts.stiffness}) *part = summed(rows, *part);
+  const Eigen::VectorXd lambda = contact_forces(problem, state), load = summed(rows, problem.part().load);
+  double force = 0, reaction = 0;
   std::vector<char> clamped;
-  for (int i = 0; i < rows.owned(); ++i) clamped.push_back(rows.clamped(rows.unknown(i)) ? 1 : 0);
-  const KktRows report(parts, lambda, lambda.cwiseAbs(), clamped, u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0, 0,
-                       [](double value) { return largest(value); });
-  kkt.residual = report.residual;
+  for (int i = 0; i < rows.owned(); ++i) {
+    parts.push(i, lambda(i));
+    force = std::max({force, std::abs(load(i)), std::abs(lambda(i))});
+    clamped.push_back(rows.clamped(rows.unknown(i)) ? 1 : 0);
+    if (clamped.back() != 0) reaction = std::max(reaction, std::abs(parts.r1(i)));
+  }
+  force = largest(force);
+  const double largest_u = largest(u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0);
+  const Eigen::VectorXd forces =
+      note_equations(kkt, parts, clamped, largest_u, force, std::max(force, largest(reaction)));
+  kkt.residual = largest(kkt.residual);
   kkt.min_gap = kkt.min_pressure = std::numeric_limits<double>::infinity();
   const Stairs stairs{lower};
   for (int i = 0; i < rows.owned(); ++i)
-    if (std::isfinite(lower(i))) report.note_bound(kkt, stairs, i, u(rows.unknown(i)), lambda(i), 1, report.forces(i));
+    if (std::isfinite(lower(i))) note_bound(kkt, stairs, i, u(rows.unknown(i)), lambda(i), largest_u, forces(i));
   kkt.complementarity = largest(kkt.complementarity);
   kkt.min_gap = -largest(-kkt.min_gap), kkt.min_pressure = -largest(-kkt.min_pressure);
   if (std::isinf(kkt.min_gap)) kkt.min_gap = kkt.min_pressure = 0;  // nothing is bounded
@@ -59,7 +66,7 @@ Kkt certified(const Inequality& problem, const State& state, double tolerance, s
   Solution answer;
   answer.solver = "petsc";
   answer.kkt = kkt_report(problem, state);
-  require_trusted(answer, TrustLevels{.refused = corrections_to(tolerance).refused});
+  require_trusted(answer, TrustLevels{.refused = CorrectionOptions{tolerance}.refused()});
   warning = answer.warning;
   return answer.kkt;
 }

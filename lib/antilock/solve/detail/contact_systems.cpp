@@ -54,13 +54,6 @@ std::vector<int> groups_of(const SparseMatrix& k) {
   return group;
 }
 
-/// F x groups, P = (I - 2/3 D^-1 K) P0, P0 = 1 on the members of a group: the weight is Vanek's 4/3 over the largest
-/// eigenvalue of D^-1 K, about 2 for first derivatives.
-SparseMatrix smoothed(const SparseMatrix& k, const SparseMatrix& members) {
-  const Eigen::VectorXd weight = (2.0 / 3) * k.diagonal().cwiseInverse();
-  return members - SparseMatrix(weight.asDiagonal() * SparseMatrix(k * members));
-}
-
 /// Whether a constant costs no energy but near what is fixed, as aggregation supposes: rows of K sum to 0, to
 /// round-off. Beside what is fixed they do not; of a mesh that is a part of all rows that falls like h. In a beam or a
 /// plate the rows of the rotations do not, half of all or more. A quarter tells the two apart.
@@ -150,7 +143,10 @@ Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
   if (stairs.upper.size() > 0) fewer.upper = mean(stairs.upper, infinity);
   if (stairs.bears.size() > 0) fewer.bears = sum(stairs.bears);
   if (stairs.force.size() > 0) fewer.force = sum(stairs.force);
-  const SparseMatrix p = smoothed(whole, members);
+  // P = (I - 2/3 D^-1 K) P0, P0 = 1 on the members of a group: the weight is Vanek's 4/3 over the largest eigenvalue of
+  // D^-1 K, about 2 for first derivatives
+  const Eigen::VectorXd weight = (2.0 / 3) * whole.diagonal().cwiseInverse();
+  const SparseMatrix p = SparseMatrix(members) - SparseMatrix(weight.asDiagonal() * SparseMatrix(whole * members));
   const Eigen::VectorXd q = p.transpose() * q_;
   try {
     HeldFactor k;

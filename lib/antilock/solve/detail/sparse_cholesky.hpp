@@ -3,7 +3,9 @@
 #include <optional>
 #include <vector>
 
+#include "antilock/core/error.hpp"
 #include "antilock/core/matrix.hpp"
+#include "antilock/core/stopwatch.hpp"
 
 namespace antilock {
 
@@ -44,16 +46,49 @@ std::unique_ptr<SparseCholesky> default_cholesky();
 class HeldFactor {
  public:
   explicit HeldFactor(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
+
   /// Takes the upper triangle of K and factors it with nothing held; a later one must have the same pattern, and `last`
   /// is of the first alone. Returns the row of a lost pivot. All as SparseCholesky.
-  std::optional<int> factorise(SparseMatrix&& k, int last = 0);
+  std::optional<int> factorise(SparseMatrix&& k, int last = 0) {
+    k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved
+    held_.assign(k_.cols(), 0);
+    Stopwatch watch;
+    if (factorisations_++ == 0) {
+      cholesky_->analyse(k_, last);
+      analyse_seconds_ = watch.lap();
+    }
+    const std::optional<int> lost = cholesky_->factorise(k_);
+    factor_seconds_ = watch.lap();
+    return lost;
+  }
+
   /// Throws Error where the rest of K is not positive definite.
-  void hold(const std::vector<char>& held);
+  void hold(const std::vector<char>& held) {
+    if (held == held_) return;
+    SparseMatrix rest = k_;
+    for (Eigen::Index j = 0; j < rest.cols(); ++j)
+      for (SparseMatrix::InnerIterator it(rest, j); it; ++it)
+        if (it.row() != j && (held[j] != 0 || held[it.row()] != 0)) it.valueRef() = 0;
+    held_ = held;
+    ++factorisations_;
+    if (cholesky_->factorise(rest))
+      throw Error("contact: K on the unknowns that are not held is not positive definite");
+  }
 
   /// x = K^-1 r on the unknowns that are not held, 0 on the held ones.
-  Eigen::VectorXd solve(const Eigen::VectorXd& r) const;
-  Eigen::VectorXd times(const Eigen::VectorXd& x) const;           ///< K x, the whole K
-  Eigen::VectorXd absolute_times(const Eigen::VectorXd& x) const;  ///< |K| x
+  Eigen::VectorXd solve(const Eigen::VectorXd& r) const {
+    Eigen::VectorXd x = cholesky_->backward(cholesky_->forward(r));
+    for (Eigen::Index i = 0; i < x.size(); ++i)
+      if (held_[i] != 0) x(i) = 0;
+    return x;
+  }
+
+  /// K x, the whole K; and |K| x.
+  Eigen::VectorXd times(const Eigen::VectorXd& x) const { return k_.selfadjointView<Eigen::Upper>() * x; }
+  Eigen::VectorXd absolute_times(const Eigen::VectorXd& x) const {
+    const SparseMatrix sizes = k_.cwiseAbs();
+    return sizes.selfadjointView<Eigen::Upper>() * x;
+  }
   const SparseMatrix& upper() const { return k_; }
   const SparseCholesky& cholesky() const { return *cholesky_; }
 

@@ -1,8 +1,6 @@
 #pragma once
 #include <limits>
 
-#include "antilock/solve/kkt.hpp"
-
 /// The constants of solve/ that are neither promises (TrustLevels, CorrectionOptions) nor mathematics, and why they are
 /// what they are. Those of the penalty stand in problem/choose_penalty.hpp, those of the two roads in
 /// penalty_factor.hpp.
