@@ -805,8 +805,7 @@ double share_by_solving(const Scene& scene, const Space& space, double energy_at
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   const Scene scaled(scene.body(), stiff != nullptr ? *stiff : StiffLayer{*scene.epsilon()}, scene.contact(),
                      scene.edges());
-  const auto in_body = [&](int t) { return space.mesh().region[t] == Region::body; };
-  const TriangleMesh columns = extruded(antilock::cut_out(space.mesh(), in_body).mesh, *scene.epsilon());
+  const TriangleMesh columns = extruded(body_of(space.mesh()), *scene.epsilon());
   const Space free_space(columns, space.element());
   const VariationalInequality problem = assemble(scaled, free_space);
   const double best = energy(problem, active_set(problem));
@@ -997,7 +996,7 @@ TEST(LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh) {
     EXPECT_EQ(found.report.lost.has_value(), epsilon == 1);
     EXPECT_EQ(found.report.warning.find("second solve") != std::string::npos, epsilon < 1) << found.report.warning;
     // J(v') is above J(u): u of a mesh that has eight points where this one has one
-    const TriangleMesh fine = extruded(refined(refined(refined(mesh))), epsilon);
+    const TriangleMesh fine = extruded(body_of(refined(refined(refined(mesh)))), epsilon);
     const Space space(mesh, p1()), fine_space(fine, p1());
     const VariationalInequality problem = assemble(scene, space), fine_problem = assemble(scene, fine_space);
     const double at_hand = energy(problem, active_set(problem)), best = energy(fine_problem, active_set(fine_problem));
