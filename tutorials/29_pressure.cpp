@@ -171,7 +171,7 @@ void judge(const Table& beta, const Table& forces, const Table& worst, const Tab
   report.claim(on_fluxes.most("moved") < 1e-9, "(proved) gradient loads do not move CR with the load on fluxes: {:.0e}",
                on_fluxes.most("moved"));
   for (const char* name : {"MINI", "Taylor-Hood", "CR with jumps"}) {
-    report.claim_orders(worst.where("name", name), "moved", 0.6, 1.05, fmt::format("they move {}", name));
+    report.claim_orders(worst.where("name", name), "moved", 0.6, 1.05, fmt::format("gradient loads move {}", name));
     const Table own = by_lambda.where("name", name);
     const double stays = own.last("moved") / own.where("lambda", 1e6).number("moved");
     report.claim(std::abs(stays - 1) < 0.01, "(observed) and by the same at lambda = 1e6 and 1e8: ratio {:.4f}", stays);

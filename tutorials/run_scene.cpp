@@ -14,6 +14,7 @@
 #include <cstdlib>
 #include <limits>
 #include <new>
+#include <nlohmann/json.hpp>
 
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/core/detail/atomic_file.hpp"
@@ -172,7 +173,7 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   const SceneSummary summary = summary_of(file, found.answer);
   found.answer.seconds.solve += watch.lap();
   if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
-      stiff != nullptr && file.words.find("\"thickness\"") != file.words.npos)
+      stiff != nullptr && nlohmann::json::parse(file.words)["layer"].contains("thickness"))
     fmt::print("  layer: {:g} before a_x^-, {:g} before a_y^-\n", stiff->s,
                stiff->s / (stiff->epsilon * stiff->epsilon));
   report.stage("files");

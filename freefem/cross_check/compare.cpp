@@ -134,7 +134,7 @@ std::string same_set(const Solution& ours, const Eigen::VectorXd& force) {
 /// The same with friction: where a force is at its bound, nothing holds.
 std::string same_zones(const VariationalInequality& problem, const Solution& ours, Eigen::VectorXd force) {
   for (Eigen::Index i = 0; i < force.size(); ++i)
-    if (std::abs(force(i)) >= (1 - 1e-9) * force_bound(problem, i)) force(i) = 0;
+    if (problem.force_bound.size() > 0 && std::abs(force(i)) >= (1 - 1e-9) * problem.force_bound(i)) force(i) = 0;
   return same_set(ours, force);
 }
 

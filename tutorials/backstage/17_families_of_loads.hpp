@@ -9,8 +9,8 @@
 
 namespace antilock::tutorial {
 
-/// Draws a load of the ball on a mesh of the body, out/ELEMENT_FAMILY.vtu, over its largest value, in the place of u. Of f and
-/// -f it takes the one with the larger pull upwards on one arch and two.
+/// Draws a load of the ball on a mesh of the body, out/ELEMENT_FAMILY.vtu, over its largest value, in the place of u.
+/// Of f and -f it takes the one with the larger pull upwards on one arch and two.
 inline void draw_load(const std::filesystem::path& out, const Method& method, const LoadModes& modes,
                       Eigen::VectorXd f) {
   if (f.dot(modes.constant_in_y(1, 1) + modes.constant_in_y(2, 1)) < 0) f = -f;
@@ -45,7 +45,8 @@ inline int unknowns_of_body(const Space& space) {
   return static_cast<int>(all.size());
 }
 
-/// One row per h of the errors under the worst loads, the largest over epsilon: over the width, over that at epsilon = 1.
+/// One row per h of the errors under the worst loads, the largest over epsilon: over the width, over that at epsilon =
+/// 1.
 inline Table suprema_over_epsilon(const Table& worst) {
   Table suprema({"h", "supremum", "over_width", "ratio"});
   for (const Entry& h : worst.different("h")) {

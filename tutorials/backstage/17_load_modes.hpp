@@ -57,8 +57,8 @@ class LoadModes {
 };
 
 // In the body free on Sigma (u_y = 0 there) the load 2 sin(a x) cos(mu y) gives itself times g = 1 / (a^2 + mu^2): the
-// basis diagonalises that problem. Let P_k = sum_m g_km f_km be its u on Sigma. The layer pulls there with R w, the body
-// gives way by w = P - R w / T, hence w = P T / (T + R), and
+// basis diagonalises that problem. Let P_k = sum_m g_km f_km be its u on Sigma. The layer pulls there with R w, the
+// body gives way by w = P - R w / T, hence w = P T / (T + R), and
 //     u = sum_k 2 sin(a x) (sum_m g_km f_km cos(mu_m y) - P_k R / (T + R) decay(a, y)),
 // since decay(a, 0) = 1 and -decay'(a, 0) = T. With int cos(mu_m y) decay(a, y) dy = T g_km (by parts, twice):
 //     S f = g f - 2 T R / (T + R) P_k g,    per k a diagonal matrix less one of rank one.

@@ -25,7 +25,8 @@ inline Eigen::VectorXd basis_loads(const LoadModes& modes, const Eigen::Vector2d
   return 2 * modes.sines(x(0))(modes.k()).cwiseProduct(modes.cosines(x(1))(modes.m()));
 }
 
-/// 2 |e_k|_a^2 of e_k = psi_k sin(k pi x) in the body, sin(k pi x) in the layer: a coth a of the body, a^2 of the layer.
+/// 2 |e_k|_a^2 of e_k = psi_k sin(k pi x) in the body, sin(k pi x) in the layer: a coth a of the body, a^2 of the
+/// layer.
 inline double energy_of_wave(int k) {
   const double a = k * std::numbers::pi;
   return a / std::tanh(a) + a * a;
@@ -38,9 +39,9 @@ struct WorstLoad {
   Eigen::VectorXd load;  ///< of norm 1, in LoadModes
 };
 
-/// l_k: the error at epsilon = 0 under psi_k sin(k pi x) / |psi_k|, psi_k = sinh(k pi (1 - y)) / sinh(k pi), of a method
-/// whose functions are all 0 on the layer. A conforming method with d functions there loses at least l_{d+1} on the
-/// ball. k >= 1, falling.
+/// l_k: the error at epsilon = 0 under psi_k sin(k pi x) / |psi_k|, psi_k = sinh(k pi (1 - y)) / sinh(k pi), of a
+/// method whose functions are all 0 on the layer. A conforming method with d functions there loses at least l_{d+1} on
+/// the ball. k >= 1, falling.
 inline double loss_of_wave(int k) {
   const double a = k * std::numbers::pi, square = (1 / std::tanh(a) - a / std::pow(std::sinh(a), 2)) / (2 * a);
   return std::sqrt(square / energy_of_wave(k));
@@ -49,8 +50,9 @@ inline double loss_of_wave(int k) {
 /// What P_p on an unstructured mesh loses on the ball at epsilon = 0 as h -> 0, and never less: a body resolved exactly
 /// whose traces on Sigma are x (1 - x) times polynomials of degree p - 2; for p = 1 they are 0. By 64 waves; p from 1.
 ///
-/// The functions lost are z = sum c_k e_k with a(z, v) = 0 for the kept traces v: in the basis e_k / |e_k|_a, orthonormal
-/// in a, with |z|^2 = sum l_k^2 c_k^2, they are orthogonal to the vectors (energy_of_wave^(1/2) int v sin(k pi x))_k.
+/// The functions lost are z = sum c_k e_k with a(z, v) = 0 for the kept traces v: in the basis e_k / |e_k|_a,
+/// orthonormal in a, with |z|^2 = sum l_k^2 c_k^2, they are orthogonal to the vectors (energy_of_wave^(1/2) int v sin(k
+/// pi x))_k.
 inline double loss_of_degree(int p) {
   const int waves = 64, points = 1024;
   const Eigen::ArrayXd x = Eigen::ArrayXd::LinSpaced(points + 1, 0, 1);
@@ -89,8 +91,8 @@ inline double width_of_ball(int n) {
 class ErrorForm {
  public:
   /// modes.waves() from 1 to 2 per cell side: above, the load is integrated inexactly. The space must outlive this.
-  /// Throws Error for more than 4.25 waves per longest edge, a mesh of anything but the two unit squares, a space without
-  /// layer, or of an element that is neither conforming nor CR.
+  /// Throws Error for more than 4.25 waves per longest edge, a mesh of anything but the two unit squares, a space
+  /// without layer, or of an element that is neither conforming nor CR.
   ErrorForm(const Space& space, LoadModes modes);
 
   /// 0 <= epsilon <= 1, else Error; 1 before the first call.

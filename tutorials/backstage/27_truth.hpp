@@ -18,7 +18,8 @@ namespace antilock::tutorial {
 // give theta'(c) = -s Q(c), s = t I_0(c/t) / I_1(c/t) - epsilon / c. With theta(1) = 0 that is A, B and C for
 // every c; w(1) - w(c) = gap then fixes c. As t -> 0, s -> 0: Kirchhoff's plate.
 
-/// I_0(z) / I_1(z), by I_(k-1) / I_k = 2 k / z + I_(k+1) / I_k from far above z down; for large z its asymptotic series.
+/// I_0(z) / I_1(z), by I_(k-1) / I_k = 2 k / z + I_(k+1) / I_k from far above z down; for large z its asymptotic
+/// series.
 inline double bessel_ratio(double z) {
   if (z > 1e4) return 1 + 1 / (2 * z) + 3 / (8 * z * z) + 3 / (8 * z * z * z);
   const int above = 40 + 2 * static_cast<int>(z);

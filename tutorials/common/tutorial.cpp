@@ -24,9 +24,9 @@ std::filesystem::path self() {
   return std::filesystem::read_symlink("/proc/self/exe", ignored);
 }
 
-/// What glibc's malloc is asked for where Linux gives large pages to who asks ("madvise"; "always" and "never" leave nothing
-/// to ask): pages of 2 MB, and to keep what is freed. A factor of half a million unknowns touches 200,000 pages of 4 kB, and
-/// on a virtual machine their faults and the look-ups of their addresses took two fifths of all processor seconds.
+/// What glibc's malloc is asked for where Linux gives large pages to who asks ("madvise"; "always" and "never" leave
+/// nothing to ask): pages of 2 MB, and to keep what is freed. A factor of half a million unknowns touches 200,000 pages
+/// of 4 kB; on a virtual machine their faults and look-ups took two fifths of the processor's seconds.
 std::string large_pages() {
   std::string setting;
   std::getline(std::ifstream("/sys/kernel/mm/transparent_hugepage/enabled"), setting);
@@ -58,7 +58,7 @@ void Report::claim(bool holds, const std::string& what) {
 
 void Report::claim_orders(const Table& rows, const std::string& y, double low, double high, const std::string& what) {
   const std::vector<double> orders = rows.pairwise_orders(y, "h");
-  const bool hold = std::ranges::all_of(orders, [&](double order) { return order >= low && order <= high; });
+  const bool hold = std::all_of(orders.begin(), orders.end(), [&](double o) { return o >= low && o <= high; });
   claim(hold && !orders.empty(), "{}: orders in h {:.2f} (accepted {:g} to {:g}; observed)", what,
         fmt::join(orders, ", "), low, high);
 }
@@ -95,6 +95,7 @@ void choose_machine(char** argv) {
 }
 
 void become(const std::string& program, char** argv) {
+  if (self().empty()) return;
   std::fflush(nullptr);
   execv((program.empty() ? self() : self().parent_path() / program).c_str(), argv);
 }

@@ -62,7 +62,7 @@ SnesviEnd snesvi(const Inequality& problem, State& state, bool split) {
   const Vector u = rows.vector(), rhs = rows.vector();
   rows.owned_part(state.u, u);
   PetscReal load = 0, moved = 0, size = 0;
-  rows.summed(problem.part().load, rhs), ok(VecNorm(rhs, NORM_2, &load));
+  rows.summed(rows.unclamped(problem.part().load), rhs), ok(VecNorm(rhs, NORM_2, &load));
   SnesviEnd end;
   for (bool settled = false; !settled && end.converged && end.corrections < most_corrections; ++end.corrections) {
     const Eigen::VectorXd r2 = problem.compatibility(state.u, state.p);

@@ -91,7 +91,8 @@ void quote(std::vector<Level>& history, double asked) {
   Level& last = history.back();
   const Level& before = history[history.size() - 2];
   if (last.relative <= asked) return;
-  // a bound that rose, since the mesh has only now met kinks of the gap, tells nothing, nor does the first fall after it
+  // a bound that rose, since the mesh has only now met kinks of the gap, tells nothing, nor does the first fall after
+  // it
   if (!(last.relative < before.relative && before.relative < history[history.size() - 3].relative)) return;
   const double growth = std::log(double(last.unknowns) / before.unknowns);
   const double rate = std::clamp(std::log(before.relative / last.relative) / growth, 0.5, 1.5);

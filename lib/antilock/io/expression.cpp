@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <string_view>
+#include <utility>
 
 #include "antilock/core/error.hpp"
 
@@ -27,8 +28,14 @@ using Two = double (*)(double, double);
 Value one(One f, Value a) {
   return [f, a = std::move(a)](const double* at) { return f(a(at)); };
 }
-Value two(Two f, Value a, Value b) {
-  return [f, a = std::move(a), b = std::move(b)](const double* at) { return f(a(at), b(at)); };
+/// The first value, and each of the others put to what has come of those before it.
+Value in_turn(Value first, std::vector<std::pair<Two, Value>> rest) {
+  if (rest.empty()) return first;
+  return [first = std::move(first), rest = std::move(rest)](const double* at) {
+    double value = first(at);
+    for (const auto& [f, next] : rest) value = f(value, next(at));
+    return value;
+  };
 }
 
 struct Operator {
@@ -101,6 +108,7 @@ class Reader {
     Value left = took("-")   ? one([](double a) { return -a; }, binary(sign_binds))
                  : took("+") ? binary(sign_binds)
                              : value();
+    std::vector<std::pair<Two, Value>> rest;  // in a list: a sum of 2,000 terms is no deeper than one of two
     for (;;) {
       next();
       const auto* const found = std::find_if(operators.begin(), operators.end(), [&](const Operator& o) {
@@ -109,10 +117,10 @@ class Reader {
       if (found == operators.end() || found->binds < least) break;
       at_ += found->sign.size();
       // 2^3^2 = 2^9, but 1-2-3 = (1-2)-3
-      left = two(found->value, std::move(left), binary(found->binds == power_binds ? power_binds : found->binds + 1));
+      rest.emplace_back(found->value, binary(found->binds == power_binds ? power_binds : found->binds + 1));
     }
     --nested_;
-    return left;
+    return in_turn(std::move(left), std::move(rest));
   }
   Value value() {
     next();
@@ -151,10 +159,12 @@ class Reader {
     if (function != functions.end()) {
       value = one(function->second, std::move(value));
     } else {
+      std::vector<std::pair<Two, Value>> rest;
       do {
         expect(",");
-        value = two(of_two->second, std::move(value), choice());
+        rest.emplace_back(of_two->second, choice());
       } while (name != "atan2" && (next(), text_.substr(at_, 1) == ","));
+      value = in_turn(std::move(value), std::move(rest));
     }
     expect(")");
     return value;

@@ -20,8 +20,8 @@ void check_lines(const std::vector<double>& lines, const char* name) {
         fmt::format("tensor mesh: the {} lines {} and {}; accepted: ascending numbers", name, *found, found[1]));
 }
 
-/// Adds lines from `at`, not included, to `end`: equal cells, as few as are no wider than `width`; the one next to `at` is
-/// cut `layers` times, each cut leaving the share `ratio` next to `at`.
+/// Adds lines from `at`, not included, to `end`: equal cells, as few as are no wider than `width`; the one next to `at`
+/// is cut `layers` times, each cut leaving the share `ratio` next to `at`.
 void add_lines(std::vector<double>& lines, double at, double end, double width, int layers, double ratio) {
   const double cells = std::max(1.0, std::ceil(std::abs(end - at) / width * (1 - 1e-12)));
   for (int k = layers; k > 0; --k) lines.push_back(at + (end - at) * std::pow(ratio, k) / cells);

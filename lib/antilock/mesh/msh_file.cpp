@@ -1,5 +1,5 @@
-// A reader of its own: gmsh's reader takes truncated sections, unknown nodes and wrong counts without a word. The file is
-// first read as it stands, then its tags are resolved, so that the order of the sections is free.
+// A reader of its own: gmsh's reader takes truncated sections, unknown nodes and wrong counts without a word. The file
+// is first read as it stands, then its tags are resolved, so that the order of the sections is free.
 #include "antilock/mesh/msh_file.hpp"
 
 #include <fmt/format.h>

@@ -10,8 +10,8 @@ namespace antilock {
 /// Physical groups of Figure 2; the numbers are those of the MSH and FreeFEM files.
 enum class Region { body = 1, layer = 2 };
 enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5, free = 6 };
-/// The tags of named groups of edges, k = 0, 1, ...: those where u is given, and all others. Whoever moves tags from mesh
-/// to mesh moves them along.
+/// The tags of named groups of edges, k = 0, 1, ...: those where u is given, and all others. Whoever moves tags from
+/// mesh to mesh moves them along.
 constexpr EdgeTag natural_group(int k) { return static_cast<EdgeTag>(10 + k); }
 constexpr EdgeTag held_group(int k) { return static_cast<EdgeTag>(1000 + k); }
 constexpr bool is_held(EdgeTag tag) { return tag == EdgeTag::clamped || tag >= held_group(0); }

@@ -53,8 +53,8 @@ struct VariationalInequality {
 };
 
 /// Throws Error with the first thing that is wrong: sizes that do not fit, entries that are not finite, an a1 that is
-/// not symmetric, M not positive, compliance out of range, indices out of range or named twice, no free unknown, a bound
-/// without a finite side or with its lower side above its upper one.
+/// not symmetric, M not positive, compliance out of range, indices out of range or named twice, no free unknown, a
+/// bound without a finite side or with its lower side above its upper one.
 void check(const VariationalInequality& problem);
 
 /// The same but for the symmetry of a1, in one walk over the data: what a solver asks at every call, whoever made the

@@ -33,8 +33,8 @@ struct ActiveSetOptions {
 
 /// Two loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer
 /// stress p = compliance^-1 B u, with step 1/delta (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976). It corrects u
-/// and p by one factor of the moderately penalised K = A1 + delta^-1 B' M B. The inner one finds the contact set of each
-/// correction:
+/// and p by one factor of the moderately penalised K = A1 + delta^-1 B' M B. The inner one finds the contact set of
+/// each correction:
 ///
 ///     repeat:  r1 = L - A1 u - B' M p + lambda,   r2 = compliance p - B u       exact: residual.hpp
 ///              K du = r1 + delta^-1 B' M r2 + dlambda, with the bounds of u     contact.hpp
@@ -60,8 +60,9 @@ Solution active_set(const VariationalInequality& problem, const ActiveSetOptions
 /// The same with a factor made before, for a sweep over loads, bounds or compliances of one pair (A1, B).
 Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options = {});
 
-/// Solves the contact problem of one correction, in which v and lambda count from what they are so far: a DenseContact or
-/// a SparseContact, as the factor was made. `before`: of the last correction, empty at first; `u_scale`: the largest |u|.
+/// Solves the contact problem of one correction, in which v and lambda count from what they are so far: a DenseContact
+/// or a SparseContact, as the factor was made. `before`: of the last correction, empty at first; `u_scale`: the largest
+/// |u|.
 using ContactSolver =
     std::function<ContactAnswer(ContactSystem&, const Stairs&, const ContactAnswer& before, double u_scale)>;
 

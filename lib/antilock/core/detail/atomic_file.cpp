@@ -14,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <system_error>
 
 #include "antilock/core/error.hpp"
@@ -48,7 +49,8 @@ void stop_if_interrupted() {
   if (waiting != 0) throw Error("interrupted while writing; nothing is written");
 }
 
-/// Signals whose handler is `from` get the handler `to`; those that the program handles or ignores are its own business.
+/// Signals whose handler is `from` get the handler `to`; those that the program handles or ignores are its own
+/// business.
 void change_handlers(void (*from)(int), void (*to)(int)) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction now = {}, then = {};
@@ -95,27 +97,28 @@ struct Draft {
   fs::path path;
 };
 
-/// As write_folder; throws std::filesystem::filesystem_error, too.
+/// As write_folder, or, without `known`, a single file: its rename needs no lock. Throws
+/// std::filesystem::filesystem_error, too.
 void write_through_draft(const fs::path& folder, const std::function<void(const fs::path&)>& write,
-                         const std::vector<std::string>& known) {
+                         const std::vector<std::string>* known = nullptr) {
   stop_if_interrupted();
   const Draft draft(existing_part(folder));
   write(draft.path);
   stop_if_interrupted();
   fs::create_directories(folder);
   // unlocked before it is closed: closing alone would leave the lock to a process forked meanwhile
-  const std::unique_ptr<DIR, void (*)(DIR*)> placing(::opendir(folder.c_str()), [](DIR* open) {
+  const std::unique_ptr<DIR, void (*)(DIR*)> placing(known ? ::opendir(folder.c_str()) : nullptr, [](DIR* open) {
     ::flock(::dirfd(open), LOCK_UN);
     ::closedir(open);
   });
   while (placing && ::flock(::dirfd(placing.get()), LOCK_EX) != 0 && errno == EINTR) stop_if_interrupted();
-  std::vector<fs::path> names;
-  for (const auto& file : fs::directory_iterator(draft.path)) names.push_back(file.path().filename());
-  for (const fs::path& name : names)
-    if (fs::is_directory(folder / name)) refuse_folder(folder, name.string() + " is a folder there");
-  for (const fs::path& name : names) fs::rename(draft.path / name, folder / name);
-  for (const std::string& name : known)
-    if (std::find(names.begin(), names.end(), name) == names.end()) fs::remove(folder / name);
+  std::set<std::string> names;
+  for (const auto& file : fs::directory_iterator(draft.path)) names.insert(file.path().filename());
+  for (const std::string& name : names)
+    if (fs::is_directory(folder / name)) refuse_folder(folder, name + " is a folder there");
+  for (const std::string& name : names) fs::rename(draft.path / name, folder / name);
+  for (const std::string& name : known ? *known : std::vector<std::string>())
+    if (!names.contains(name)) fs::remove(folder / name);
 }
 
 }  // namespace
@@ -140,7 +143,7 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
     check(out);
   };
   try {
-    write_through_draft(path.has_parent_path() ? path.parent_path() : fs::path("."), fill, {});
+    write_through_draft(path.has_parent_path() ? path.parent_path() : fs::path("."), fill);
   } catch (const fs::filesystem_error& error) {
     refuse(path, error.code().message());
   }
@@ -162,7 +165,7 @@ void write_folder(const fs::path& folder, const std::function<void(const fs::pat
                   const std::vector<std::string>& known) {
   check_folder(folder);
   try {
-    write_through_draft(folder, write, known);
+    write_through_draft(folder, write, &known);
   } catch (const fs::filesystem_error& error) {
     refuse_folder(folder, error.code().message());
   }

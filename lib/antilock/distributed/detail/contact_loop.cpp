@@ -87,7 +87,7 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
   const Vector u = rows.vector(), r1 = rows.vector(), rhs = rows.vector(), du = rows.vector(), jump = rows.vector();
   rows.owned_part(state.u, u);
   state.u = rows.local(u);
-  rows.summed(problem.part().load, rhs);
+  rows.summed(rows.unclamped(problem.part().load), rhs);  // a clamp bears any
   const double load = largest_entry(rhs);
   HeldSystem system(problem, options.direct);
   LoopReport report;

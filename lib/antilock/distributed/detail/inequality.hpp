@@ -9,21 +9,21 @@
 namespace antilock::distributed {
 
 /// delta of K, by the rule of problem/choose_penalty.hpp over all ranks. One 64th of it for the contact loop: conjugate
-/// gradients leave no round-off of a factor (measured at 8.4 million unknowns: with 6e-8 59 iterations, with 1e-9 14). The
-/// rule's own for a solver that sees K alone. The compliance itself, however small, as in most codes: for exhibits.
+/// gradients leave no round-off of a factor (measured at 8.4 million unknowns: with 6e-8 59 iterations, with 1e-9 14).
+/// The rule's own for a solver that sees K alone. The compliance itself, however small, as in most codes: for exhibits.
 enum class Penalty { loop, rule, compliance };
 
 /// The class's problem (6), each rank with the part of its own triangles: a1, B, M and L of the piece, assembled by the
 /// library's forms. Whole forms are sums over the ranks; only K = A1 + delta^-1 B' M B is ever a matrix of all ranks.
 class Inequality {
  public:
-  /// `space`: on the piece of this rank. Every rank must call it. Throws Error, on every rank, where scene and mesh do not fit or a load or a gap is not
-  /// finite.
+  /// `space`: on the piece of this rank. Every rank must call it. Throws Error, on every rank, where scene and mesh do
+  /// not fit or a load or a gap is not finite.
   Inequality(const Scene& scene, const Space& space, Penalty penalty = Penalty::loop);
 
   const VariationalInequality& part() const { return part_; }  ///< without fixed and contact unknowns
   const Rows& rows() const { return rows_; }
-  const Matrix& k() const { return k_; }                   ///< N x N
+  const Matrix& k() const { return k_; }                   ///< N x N, clamped rows with their diagonal alone
   double delta() const { return delta_; }                  ///< the compliance at least
   const Eigen::VectorXd& lower() const { return lower_; }  ///< per owned row: the bound, -infinity where there is none
 

@@ -70,8 +70,8 @@ Eigen::VectorXd pressure_of(const SceneFile& file, const Answer& answer);
 
 /// The picture's part of a run on several ranks.
 std::string piece_name(int rank);
-/// The names of all results that there may be in `folder`, those of an earlier run too, and of one on `ranks` ranks: what
-/// a new result replaces or takes away.
+/// The names of all results that there may be in `folder`, those of an earlier run too, and of one on `ranks` ranks:
+/// what a new result replaces or takes away.
 std::vector<std::string> result_names(const std::filesystem::path& folder, int ranks = 0);
 /// Throws Error where one of them is the scene or its mesh file. Touches nothing.
 void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,

@@ -199,7 +199,7 @@ std::vector<std::string> result_names(const std::filesystem::path& folder, int r
   std::vector<std::string> names{"summary.json", "solution.csv", "contact.csv",
                                  "mesh.msh",     "solution.vtu", "solution.pvtu"};
   std::error_code absent;
-  const bool earlier = std::filesystem::exists(folder / "solution.pvtu", absent);
+  const bool earlier = ranks > 0 || std::filesystem::exists(folder / "solution.pvtu", absent);
   for (int r = 0; r < ranks || (earlier && std::filesystem::exists(folder / piece_name(r), absent)); ++r)
     names.push_back(piece_name(r));
   return names;

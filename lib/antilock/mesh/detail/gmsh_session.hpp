@@ -10,8 +10,8 @@
 namespace antilock {
 
 /// gmsh's one global model, from its initialisation to its end, whatever is thrown in between. The library of gmsh is
-/// loaded when the first session starts, not when a program does: with all that it needs (93 libraries) that takes 0.1 s,
-/// and most programs never ask for an unstructured mesh. Its C functions are called, which have no mangled names.
+/// loaded when the first session starts, not when a program does: with all that it needs (93 libraries) that takes 0.1
+/// s, and most programs never ask for an unstructured mesh. Its C functions are called, which have no mangled names.
 class GmshSession {
  public:
   /// Throws Error where gmsh's library cannot be loaded.
@@ -21,7 +21,8 @@ class GmshSession {
   GmshSession& operator=(const GmshSession&) = delete;
 
   /// Calls one of gmshc.h's functions by its type and its name, with all its arguments but the last one (int* ierr):
-  /// `gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2)`. Throws Error where gmsh reports a failure.
+  /// `gmsh.call<decltype(gmshModelMeshGenerate)>("gmshModelMeshGenerate", 2)`. Throws Error where gmsh reports a
+  /// failure.
   template <class Function, class... Arguments>
   auto call(const char* name, Arguments... arguments) const {
     auto* const function = reinterpret_cast<Function*>(symbol(name));

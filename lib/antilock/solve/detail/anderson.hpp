@@ -55,8 +55,8 @@ class Anderson {
     const auto others = static_cast<Eigen::Index>(past_.size()) - 1;
     if (others < 1) return;
     const Eigen::VectorXd& g = past_[0].g;
-    // min | g_0 - sum gamma_i (g_0 - g_i) |: a handful of columns, by a QR that drops dependent ones. The entries of the
-    // normal matrix are sums of products: a pivot below their round-off tells nothing
+    // min | g_0 - sum gamma_i (g_0 - g_i) |: a handful of columns, by a QR that drops dependent ones. The entries of
+    // the normal matrix are sums of products: a pivot below their round-off tells nothing
     Eigen::MatrixXd difference(g.size(), others);
     for (Eigen::Index i = 0; i < others; ++i) difference.col(i) = g - past_[i + 1].g;
     const Eigen::VectorXd scale = difference.colwise().norm().cwiseMax(std::numeric_limits<double>::min());

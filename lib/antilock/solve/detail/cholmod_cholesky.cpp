@@ -33,8 +33,8 @@ Supernode supernode(const cholmod_factor& l, std::size_t s) {
 
 /// The two sweeps are those of CHOLMOD without its copies and without its calls of the BLAS, two per supernode and most
 /// of them for a few numbers. Measured on the membrane with its layer (P1), a pair of them against CHOLMOD's: 0.34
-/// against 0.47 ms at 1/h = 64, 1.9 against 2.7 at 128, 18 against 22 at 256, where both wait for the memory; with Eigen's
-/// triangular solve of each block they take 1.5 times as long.
+/// against 0.47 ms at 1/h = 64, 1.9 against 2.7 at 128, 18 against 22 at 256, where both wait for the memory; with
+/// Eigen's triangular solve of each block they take 1.5 times as long.
 class CholmodCholesky final : public SparseCholesky {
  public:
   CholmodCholesky() {
@@ -44,8 +44,8 @@ class CholmodCholesky final : public SparseCholesky {
     common_.final_ll = 1;
     // Two supernodes are merged into one of up to 16 columns always, of up to 32, up to 64 and of more where the merged
     // block has at most 90, 30 and 10 % zeros. CHOLMOD's own are 4, 16, 48 columns and 80, 10, 5 %: the BLAS is called
-    // twice per supernode, most of which are small. At 1/h = 512 (P1) 28,509 supernodes for 68,896, the factor in 0.6 of
-    // the seconds and with 1.29 of the entries, which the sweeps read. Twice these columns: 15,174, 0.4 and 1.83.
+    // twice per supernode, most of which are small. At 1/h = 512 (P1) 28,509 supernodes for 68,896, the factor in 0.6
+    // of the seconds and with 1.29 of the entries, which the sweeps read. Twice these columns: 15,174, 0.4 and 1.83.
     std::copy_n(std::array<std::size_t, 3>{16, 32, 64}.data(), 3, common_.nrelax);
     std::copy_n(std::array{0.9, 0.3, 0.1}.data(), 3, common_.zrelax);
   }

@@ -40,8 +40,8 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const
   std::vector<int> touched;
   std::vector<double> sum(size, 0.0);
   std::vector<char> seen(size, 0);
-  // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator. (From triplets it takes ten times as
-  // long at 1/h = 256, an eighth of a solution: memory.)
+  // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator. (From triplets it takes ten times
+  // as long at 1/h = 256, an eighth of a solution: memory.)
   for (int column = 0; column < size; ++column) {
     const int j = numbering.unknown[column];
     const auto add = [&](Eigen::Index unknown, double value) {

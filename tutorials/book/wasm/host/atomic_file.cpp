@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "antilock/core/error.hpp"
 
@@ -11,9 +12,11 @@ namespace fs = std::filesystem;
 
 void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   if (path.has_parent_path()) fs::create_directories(path.parent_path());
+  std::ostringstream text;
+  text.precision(std::numeric_limits<double>::max_digits10);
+  write(text);
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  out.precision(std::numeric_limits<double>::max_digits10);
-  write(out);
+  out << text.str();
   out.close();
   if (!out) throw Error(path.string() + ": cannot be written");
 }
