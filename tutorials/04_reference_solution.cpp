@@ -104,7 +104,8 @@ Solved solve(const Scene& scene, int cells) {
   // ### Forms
   const VariationalInequality problem = assemble(scene, on.space());
   // ### Solve
-  return {scene, on, problem, active_set(problem)};  // chapter 03's two loops
+  const Solution solution = active_set(problem);  // chapter 03's two loops
+  return {scene, on, problem, solution};
 }
 
 // The stiffness of the mesh against $\sin kπx$: push with this pressure, without an obstacle, and see how far it gives.

@@ -27,13 +27,20 @@ double most(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p) {
   const Eigen::VectorXd stress = problem.m.cwiseProduct(p), r2 = problem.compliance * p - problem.b * u;
-  const Eigen::VectorXd unit = problem.b.cwiseAbs() * Eigen::VectorXd::Ones(problem.size());
-  KktParts parts{problem.load - problem.a1 * u - problem.b.transpose() * stress,
-                 problem.load.cwiseAbs() + problem.a1.cwiseAbs() * u.cwiseAbs() +
-                     problem.b.cwiseAbs().transpose() * stress.cwiseAbs(),
-                 problem.a1.diagonal().cwiseAbs() + problem.b.cwiseAbs2().transpose() * problem.m};
-  for (Eigen::Index row = 0; row < r2.size(); ++row)
-    parts.strain = most(parts.strain, std::abs(r2(row)) / (unit(row) == 0 ? 1 : unit(row)));
+  // entry by entry: Eigen's products would copy A1 and B, beside the factor
+  KktParts parts{problem.load - problem.a1 * u - problem.b.transpose() * stress, problem.load.cwiseAbs(),
+                 problem.a1.diagonal().cwiseAbs()};
+  for (Eigen::Index j = 0; j < problem.size(); ++j)
+    for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) parts.terms(a.row()) += std::abs(a.value() * u(j));
+  for (Eigen::Index row = 0; row < r2.size(); ++row) {
+    double unit = 0;
+    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) {
+      unit += std::abs(b.value());
+      parts.terms(b.col()) += std::abs(b.value() * stress(row));
+      parts.stiffness(b.col()) += b.value() * b.value() * problem.m(row);
+    }
+    parts.strain = most(parts.strain, std::abs(r2(row)) / (unit == 0 ? 1 : unit));
+  }
   return parts;
 }
 

@@ -3,7 +3,6 @@
 
 #include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "antilock/core/error.hpp"
 
@@ -12,11 +11,15 @@ namespace fs = std::filesystem;
 
 void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   if (path.has_parent_path()) fs::create_directories(path.parent_path());
-  std::ostringstream text;
-  text.precision(std::numeric_limits<double>::max_digits10);
-  write(text);
   std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  out << text.str();
+  out.precision(std::numeric_limits<double>::max_digits10);
+  try {
+    write(out);
+  } catch (...) {  // no half of a file stays; a copy of it in memory would take the page's
+    out.close();
+    fs::remove(path);
+    throw;
+  }
   out.close();
   if (!out) throw Error(path.string() + ": cannot be written");
 }
