@@ -39,9 +39,4 @@ inline TriangleMesh retagged(TriangleMesh mesh, const std::function<EdgeTag(doub
   return mesh;
 }
 
-/// The body of a mesh as a mesh of its own: Sigma becomes contact.
-inline TriangleMesh body_of(const TriangleMesh& mesh) {
-  return antilock::cut_out(mesh, [&](int t) { return mesh.region[t] == Region::body; }).mesh;
-}
-
 }  // namespace antilock::test

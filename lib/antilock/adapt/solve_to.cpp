@@ -66,12 +66,6 @@ void check_request(const Accuracy& accuracy) {
         fmt::format("accuracy: most_unknowns = {} is out of range; accepted: 1 or more", accuracy.most_unknowns));
 }
 
-/// The body of a mesh as a mesh of its own: Sigma becomes contact.
-TriangleMesh body_of(const TriangleMesh& mesh) {
-  if (std::find(mesh.region.begin(), mesh.region.end(), Region::layer) == mesh.region.end()) return mesh;
-  return cut_out(mesh, [&](int t) { return mesh.region[t] == Region::body; }).mesh;
-}
-
 /// A contact set from one mesh to the next, by x: on the piece of the nearest unknowns on both sides, where they agree.
 /// Nothing where the last mesh has no contact unknown, or is none.
 std::optional<Pieces> carried(const Eigen::VectorXd& x, const Pieces& pieces, const Space& space) {

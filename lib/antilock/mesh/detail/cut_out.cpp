@@ -1,5 +1,7 @@
 #include "antilock/mesh/detail/cut_out.hpp"
 
+#include <algorithm>
+
 namespace antilock {
 
 CutOut cut_out(const TriangleMesh& mesh, const std::function<bool(int triangle)>& kept) {
@@ -36,6 +38,11 @@ CutOut cut_out(const TriangleMesh& mesh, const std::function<bool(int triangle)>
       make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), tagged, "a part of a mesh");
   piece.mesh.geometry = mesh.geometry;
   return piece;
+}
+
+TriangleMesh body_of(const TriangleMesh& mesh) {
+  if (std::find(mesh.region.begin(), mesh.region.end(), Region::layer) == mesh.region.end()) return mesh;
+  return cut_out(mesh, [&](int t) { return mesh.region[t] == Region::body; }).mesh;
 }
 
 }  // namespace antilock

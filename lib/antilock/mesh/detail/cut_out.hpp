@@ -13,5 +13,7 @@ struct CutOut {
   std::vector<int> old_vertex;
 };
 CutOut cut_out(const TriangleMesh& mesh, const std::function<bool(int triangle)>& kept);
+/// The body alone; a mesh without a layer as it is.
+TriangleMesh body_of(const TriangleMesh& mesh);
 
 }  // namespace antilock
