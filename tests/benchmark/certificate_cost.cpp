@@ -18,6 +18,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/table.hpp"
+#include "common/tutorial.hpp"
 
 namespace antilock {
 namespace {
@@ -128,11 +129,11 @@ void adapted_over_uniform(Table& table, int cells, int repeats) {
 int main(int argc, char** argv) {
   int cells = 128, repeats = 3;
   std::filesystem::path out;
-  CLI::App line("What a certificate costs, and what an adapted mesh saves");
+  CLI::App line("What a certificate costs, and what an adapted mesh saves", "certificate_cost");
   line.add_option("--cells", cells, "1/h of the uniform mesh")->check(CLI::Range(16, 256));
   line.add_option("--repeats", repeats, "runs behind each median")->check(CLI::Range(1, 100));
   line.add_option("--out", out, "a table of what was asked and measured, CSV");
-  CLI11_PARSE(line, argc, argv);
+  if (const auto status = antilock::tutorial::parse(line, argc, argv)) return *status;
   antilock::Table table({"what", "asked", "measured"});
   antilock::certificate_over_solve(table, cells, repeats);
   for (const int n : {32, cells}) antilock::diagnosis_over_solve(table, n, repeats);

@@ -17,6 +17,7 @@
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "benchmark/unconstrained_cholesky.hpp"
+#include "common/tutorial.hpp"
 
 // Of the OpenMP library that CHOLMOD is linked to, as in solve/detail/cholmod_cholesky.cpp.
 extern "C" int omp_get_max_active_levels();
@@ -208,13 +209,13 @@ void benchmark(int finest, int repeats, const std::filesystem::path& folder) {
 }  // namespace antilock
 
 int main(int argc, char** argv) {
-  CLI::App line("The cost of contact over one unconstrained sparse Cholesky solve");
+  CLI::App line("The cost of contact over one unconstrained sparse Cholesky solve", "contact_cost");
   int finest = 512, repeats = 9;
   std::filesystem::path folder = "results/benchmark";
   line.add_option("--cells", finest, "finest mesh, 1/h")->check(CLI::Range(64, 1024));
   line.add_option("--repeats", repeats, "runs behind each median")->check(CLI::Range(1, 1000));
   line.add_option("--out", folder, "folder of the results");
-  CLI11_PARSE(line, argc, argv);
+  if (const auto status = antilock::tutorial::parse(line, argc, argv)) return *status;
   try {
     antilock::benchmark(finest, repeats, folder);
   } catch (const antilock::Error& error) {

@@ -13,6 +13,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "common/tutorial.hpp"
 
 using namespace antilock;
 
@@ -77,7 +78,8 @@ int main(int argc, char** argv) {
   CLI::App line(
       "The cost of the distributed road and of the serial one: "
       "solver,element,ranks,unknowns,mesh,assemble,setup or factor,solve,CPU of these two,iterations,corrections,"
-      "most iterations,contact sets,peak MB of the largest rank,residual,seconds of one residual");
+      "most iterations,contact sets,peak MB of the largest rank,residual,seconds of one residual",
+      "distributed_cost");
   int cells = 256;
   double epsilon = 1e-6;
   std::string name = "P1";
@@ -87,7 +89,7 @@ int main(int argc, char** argv) {
   line.add_option("--element", name, "P1 or CR");
   line.add_flag("--serial", alone, "the serial library");
   line.add_flag("--levels", levels, "every level too");
-  CLI11_PARSE(line, argc, argv);
+  if (const auto status = tutorial::parse(line, argc, argv)) return *status;
   const distributed::Session session;
   try {
     const Scene scene({paper_load}, StiffLayer{epsilon}, UnilateralContact{});

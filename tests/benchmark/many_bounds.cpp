@@ -12,6 +12,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "common/tutorial.hpp"
 #include "support/membrane.hpp"
 
 namespace antilock {
@@ -78,14 +79,14 @@ void crossover(const std::filesystem::path& folder) {
 }  // namespace antilock
 
 int main(int argc, char** argv) {
-  CLI::App line("The cost of bounds on all unknowns");
+  CLI::App line("The cost of bounds on all unknowns", "many_bounds");
   int finest = 512;
   bool rows = false;
   std::filesystem::path folder = "results/benchmark";
   line.add_option("--cells", finest, "finest mesh, 1/h")->check(CLI::Range(16, 512));
   line.add_flag("--crossover", rows, "bounds on a few rows of vertices, to see where the two roads cost the same");
   line.add_option("--out", folder, "folder of the results");
-  CLI11_PARSE(line, argc, argv);
+  if (const auto status = antilock::tutorial::parse(line, argc, argv)) return *status;
   try {
     if (rows)
       antilock::crossover(folder);

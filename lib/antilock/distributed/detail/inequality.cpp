@@ -48,8 +48,9 @@ Inequality::Inequality(const Scene& scene, const Space& space, Penalty penalty) 
   sum_k(stiff ? gradient_form(space, {1, 1}, {1, 1 / delta_}) : part_.a1);
 }
 
-/// The matrix of all ranks from the parts, in which the clamped unknowns keep their diagonal alone.
-void Inequality::sum_k(Eigen::SparseMatrix<PetscScalar, Eigen::RowMajor, PetscInt> part) {
+/// The matrix of all ranks from the parts, in which the clamped unknowns keep their diagonal alone. Each part is
+/// symmetric: its columns are PETSc's rows.
+void Inequality::sum_k(SparseMatrix part) {
   part.prune([&](auto row, auto column, double value) {  // 0: across the long edge of a right angle; 7 entries become 5
     return row == column || (value != 0 && !rows_.clamped(row) && !rows_.clamped(column));
   });

@@ -46,7 +46,7 @@ class Inequality {
   }
 
  private:
-  void sum_k(Eigen::SparseMatrix<PetscScalar, Eigen::RowMajor, PetscInt> part);
+  void sum_k(SparseMatrix part);
   VariationalInequality part_;
   Rows rows_;
   Matrix k_;
