@@ -35,7 +35,7 @@ bool same(const Sparse& one, const Sparse& other) {
 bool takes_sparse(ContactRoad road, const FreeNumbering& numbering) {
   const int bounded = numbering.contact();
   if (road != ContactRoad::automatic) return bounded > 0 && road == ContactRoad::sparse;
-  return bounded > 600 && bounded > 8 * std::sqrt(numbering.unknown.size());
+  return bounded > 10 * std::sqrt(numbering.unknown.size());
 }
 
 }  // namespace

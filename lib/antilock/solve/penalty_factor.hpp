@@ -15,12 +15,13 @@ class Tied;
 /// works on their C x C Schur complement. sparse: each step of the contact iteration factors K on the unknowns that are
 /// not held; its cost follows the sparse factor, whatever C is. automatic takes the sparse one where
 ///
-///     C > 600  and  C > 8 sqrt(F),   F free unknowns
+///     C > 10 sqrt(F),   F free unknowns
 ///
 /// Measured on a membrane (tests/benchmark/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F):
-/// dense over sparse seconds are 0.3 at k = 1 to 3, 0.4 at 4, 0.4 to 0.65 at 6, 0.94 to 1.07 at 8 and 2 to 3.4 at 12,
-/// for n = 32, 64 and 128 alike: C^3 stands against F^(3/2). Up to 600 bounds the dense road takes some tenths of a
-/// second, and makes the contact block that Uzawa asks for. (A beam of 512 cells takes as many steps on either.)
+/// dense over sparse seconds are 0.2 to 0.4 at k = 1 to 4, 0.5 to 0.9 at 8, 0.6, 1.1 and 1.4 at 10 and 0.8, 1.4 and 2.5
+/// at 12, for n = 32, 64 and 128: C^3 stands against F^(3/2). Where all unknowns are bounded, the sparse road is taken
+/// from 101 on: at 225 both cost the same, at 529 it takes a fifth. Uzawa asks for a factor of the dense one. (A beam of
+/// 512 cells takes as many steps on either.)
 enum class ContactRoad { automatic, dense, sparse };
 
 /// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B. On the dense road with
