@@ -104,10 +104,10 @@ Ended on_each_rank(const Asked& ask) {
 //
 // | unknowns | serial: seconds, GB | PETSc: seconds, GB | on two ranks: seconds, GB per rank | iterations at most |
 // |---|---|---|---|---|
-// | 32,512 | 0.12, 0.11 | 0.13, 0.11 | 0.09, 0.10 | 2 |
-// | 523,264 | 3.2, 0.67 | 2.9, 0.60 | 1.7, 0.35 | 4 |
-// | 2,095,104 | 17, 2.6 | 14, 2.1 | 8.2, 1.1 | 3 |
-// | 8,384,512 | | | 49, 4.3 | 5 |
+// | 32,512 | 0.07, 0.09 | 0.08, 0.07 | 0.07, 0.06 | 4 |
+// | 523,264 | 2.7, 0.83 | 1.5, 0.50 | 1.1, 0.29 | 5 |
+// | 2,095,104 | 11, 3.3 | 7.2, 1.9 | 5.1, 1.0 | 5 |
+// | 8,384,512 | | | 49, 4.3 (an earlier state) | 5 |
 //
 // On paper $10^9$ unknowns need 1 TB and some 10,000 processor seconds. What breaks first: Debian's PETSc counts with
 // 32 bits (refused beyond 134 million unknowns); then the strips, at most as many as coarse columns, with seams from

@@ -22,7 +22,7 @@ bool finite(const double* values, Eigen::Index count) {
 bool finite(const Eigen::VectorXd& values) { return finite(values.data(), values.size()); }
 
 /// The largest |a_ij - a_ji|, in one walk and without a copy of A1: while the columns pass in order, the part of every
-/// column below its diagonal is met row by row.
+/// column below its diagonal is met row by row. (Looking each partner up takes 4 lines and a twentieth of a solve.)
 double asymmetry(const SparseMatrix& a) {
   const int* const outer = a.outerIndexPtr();
   const int* const row = a.innerIndexPtr();

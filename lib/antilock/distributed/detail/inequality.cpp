@@ -49,7 +49,7 @@ Inequality::Inequality(const Scene& scene, const Space& space, Penalty penalty) 
 }
 
 /// The matrix of all ranks from the parts, in which the clamped unknowns keep their diagonal alone. Each part is
-/// symmetric: its columns are PETSc's rows.
+/// symmetric up to round-off: its columns serve as PETSc's rows.
 void Inequality::sum_k(SparseMatrix part) {
   part.prune([&](auto row, auto column, double value) {  // 0: across the long edge of a right angle; 7 entries become 5
     return row == column || (value != 0 && !rows_.clamped(row) && !rows_.clamped(column));
