@@ -1224,9 +1224,12 @@ TEST(LostEnergy, ReadsBoundsThatAreInfiniteOrOne) {
 
 // Beside a free end v_0 has the value of the other end, and with two of them that of u_h, wherever the zero of u is.
 TEST(LostEnergy, KnowsNoZeroBesideFreeEnds) {
-  for (const auto& [left_free, right_free] : {std::pair(true, false), {false, true}, {true, true}}) {
+  struct Free {  // no structured binding: clang 14 captures none
+    bool left, right;
+  };
+  for (const Free free : {Free{true, false}, {false, true}, {true, true}}) {
     const TriangleMesh mesh = retagged(unstructured_mesh(16), [&](double x, double) {
-      return (left_free && x == 0) || (right_free && x == 1) ? natural_group(0) : held_group(1);
+      return (free.left && x == 0) || (free.right && x == 1) ? natural_group(0) : held_group(1);
     });
     const Space space(mesh, p1());
     const auto lost = [&](double u) {
@@ -1238,9 +1241,9 @@ TEST(LostEnergy, KnowsNoZeroBesideFreeEnds) {
       const VariationalInequality problem = assemble(scene, space);
       const Solution solution = active_set(problem);
       const LostEnergy found = lost_energy(scene, space, problem, solution);
-      if (left_free && right_free) return found;
+      if (free.left && free.right) return found;
       const double best = energy(problem, solution) - found.found;
-      EXPECT_NEAR((energy_with_held_layer(space, problem, u) - best) / found.motion, 1, 0.01) << left_free << u;
+      EXPECT_NEAR((energy_with_held_layer(space, problem, u) - best) / found.motion, 1, 0.01) << free.left << u;
       return found;
     };
     const LostEnergy plain = lost(0), raised = lost(5);
