@@ -31,13 +31,13 @@ double distance_to_kernel(const VariationalInequality& problem);
 struct EnergyRow {
   double epsilon = 0;    ///< the class parameter
   double energy = 0;     ///< J(u); not a number where no answer was found
-  double moved = 0;      ///< largest |u|; a locked problem's falls to the values prescribed
+  double moved = 0;      ///< largest |u|; of a stiff part that locks it falls to the values prescribed
   int corrections = 0;   ///< of the iterated penalty; many: the penalty does not fit, or the problem locks
   double violation = 0;  ///< the KKT report's largest number
 };
 
-/// Solves for every class parameter (0 too). J rises as epsilon falls, to a limit; on a locked problem to that of doing
-/// nothing. Throws Error for a malformed or singular problem.
+/// Solves for every class parameter (0 too). J rises as epsilon falls, to a limit; where the stiff part locks, to that with
+/// the stiff part held: the rest still moves. Throws Error for a malformed or singular problem.
 std::vector<EnergyRow> energy_against_epsilon(VariationalInequality problem, const std::vector<double>& epsilons);
 
 }  // namespace antilock

@@ -10,7 +10,7 @@ namespace antilock {
 /// k_T = abc / (4 area), with a, b, c the extents of the three sides in x. That is the formula of the circumradius, which
 /// it never exceeds, and 0 where a side is vertical. A length.
 double bending_length(const TriangleMesh& mesh, int triangle);
-/// Its root mean square over the layer, k: P1 resists bending there as if (k / epsilon)^2 |u_xx|^2 stood in its energy.
+/// Its root mean square over the layer, k: P1's interpolant pays (k / epsilon)^2 |u_xx|^2 there, in the mean over a layer bent alike.
 /// 0 for a mesh without a layer.
 double bending_length(const TriangleMesh& mesh);
 

@@ -36,8 +36,8 @@ struct VariationalInequality {
   Eigen::VectorXd lower;             ///< C: lower <= u there (= -gap). -infinity: no bound from below
   Eigen::VectorXd upper = {};        ///< C, or empty: none. +infinity: no bound from above; = lower: an equation
   Eigen::VectorXd force_bound = {};  ///< C, or empty: none. The most that a bound bears, 0 or more; +infinity: anything
-  RowMatrix combinations = {};  ///< x N, or empty: a row c bounds c . u, such as the normal displacement on a slope or
-                                ///< the gap between two bodies
+  RowMatrix combinations = {};  ///< a row per bound beyond `contact` x N, or empty: a row c bounds c . u, such as the
+                                ///< normal displacement on a slope or the gap between two bodies
 
   int ties = 0;  ///< the last rows of B have compliance 0, whatever `compliance` is: B u = 0 there
 

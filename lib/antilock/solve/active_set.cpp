@@ -142,7 +142,7 @@ class IteratedPenalty {
     if (problem_.b.rows() == 0 || delta >= before) return;
     try {
       factor_.refactor(delta);
-    } catch (const Error&) {  // flat cells: no positive pivots
+    } catch (const Error&) {  // flat cells: no positive pivots. (Out of memory: the same below, which is told)
       factor_.refactor(before);
     }
     acceleration_.restart();

@@ -14,12 +14,13 @@
 namespace antilock {
 
 struct CorrectionOptions {
-  double tolerance = 1e-10;                       ///< on the relative algebraic error of u in the maximum norm
+  double tolerance = 1e-10;  ///< on the relative algebraic error of u in the maximum norm: far below that of any mesh
   int max_corrections = tuned::most_corrections;  ///< reached: NotConverged
   ProgressHook progress = {};                     ///< called after every correction that is not the last
   double contact = 0;  ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
 
-  /// KKT report above which no answer is returned. Who asks for little gets little, with a warning.
+  /// KKT report above which no answer is returned: room for what a u right to the tolerance leaves of it. Who asks for
+  /// little gets little, with a warning.
   double refused() const { return std::max(TrustLevels{}.refused, 10 * tolerance); }
 };
 
@@ -27,8 +28,9 @@ struct ActiveSetOptions {
   CorrectionOptions corrections;
   std::optional<double> penalty;              ///< delta where compliance is smaller; empty: choose_penalty
   ContactRoad road = ContactRoad::automatic;  ///< of the factor, where the solver makes it
-  int max_steps = 1000;                       ///< of the contact iteration, a correction; reached: NotConverged
-  std::optional<Pieces> start;                ///< C: pieces to start from; empty: the nested start
+  int max_steps =
+      1000;  ///< of the contact iteration per correction, which is finite, but perhaps long; reached: NotConverged
+  std::optional<Pieces> start;  ///< C: pieces to start from; empty: the nested start
 };
 
 /// Two loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer
@@ -36,7 +38,8 @@ struct ActiveSetOptions {
 /// and p by one factor of the moderately penalised K = A1 + delta^-1 B' M B. The inner one finds the contact set of
 /// each correction:
 ///
-///     repeat:  r1 = L - A1 u - B' M p + lambda,   r2 = compliance p - B u       exact: residual.hpp
+///     repeat, correction 0 the first solve:
+///              r1 = L - A1 u - B' M p + lambda,   r2 = compliance p - B u       exact: residual.hpp
 ///              K du = r1 + delta^-1 B' M r2 + dlambda, with the bounds of u     contact.hpp
 ///              u += du,   p += dp = (B du - r2) / delta
 ///              stop where accuracy(next du, r2) is within the tolerance         judge.hpp

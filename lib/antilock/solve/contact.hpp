@@ -11,7 +11,7 @@ namespace antilock {
 struct Equilibrium {
   Eigen::VectorXd v;          ///< n, all unknowns of the system
   Eigen::VectorXd lambda;     ///< C
-  Eigen::VectorXd round_off;  ///< C: of a force at that bound, tuned::round_off of the terms of its row
+  Eigen::VectorXd round_off;  ///< C: of a force there, tuned::round_off times the sum of the absolute terms of its row
 };
 
 /// The linear system of a contact problem, K symmetric positive definite (n x n), C of its unknowns bounded: all others
@@ -39,7 +39,7 @@ struct ContactAnswer {
 };
 
 /// Finds the v that minimises J = v' K v / 2 - q' v and the work of the bounds that give way, on its stairs: lambda =
-/// K v - q, and (v_i, lambda_i) on stair i. A descent: v starts on its pieces and stays on them.
+/// K v - q, and (v_i, lambda_i) on stair i. A descent: v starts at w, with what lies beyond a piece put to its end.
 ///
 ///     solve with the pieces as they are: w, the lowest point of J while these hold
 ///     where w leaves no piece, v = w:  a bound whose force leaves its piece is let go; none is: v is the answer
@@ -50,10 +50,11 @@ struct ContactAnswer {
 /// the first half of them stops, a quarter, ... the first alone, until J is lower than where the first one stops.
 ///
 /// It ends: a step on the way holds one bound more at least and never raises J, so after at most C of them v = w.
-/// Letting go lowers J there: J falls in the direction of the new w, its slope along it is that of the forces let go
-/// times their ways, and so not all of these ways lead back. No lowest point is met twice, and they are finitely many.
-/// One that is met again is a tie by round-off, and is taken as the answer. (D. P. Bertsekas, SIAM J. Control Optim.
-/// 20, 1982, projects like this; J. J. More and G. Toraldo, SIAM J. Optim. 1, 1991, let go like this.)
+/// Letting go lowers J there: its slope towards the new w is negative, as w is lower. This slope is the sum over the
+/// bounds let go of force times way, so that one of them at least moves off its end, and J falls strictly. So no lowest
+/// point is met twice, and they are finitely many. One that is met again is a tie by round-off: it is taken, and the KKT
+/// report judges it. (D. P. Bertsekas, SIAM J. Control Optim. 20, 1982, projects like this; J. J. More and G. Toraldo,
+/// SIAM J. Optim. 1, 1991, let go like this.)
 ///
 /// Without a start it begins at the nested one. Throws NotConverged after max_steps linear systems.
 ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const std::optional<Pieces>& start,

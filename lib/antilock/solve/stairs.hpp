@@ -32,7 +32,7 @@ struct Stairs {
   Eigen::VectorXd lower;       ///< C; -infinity: none
   Eigen::VectorXd upper = {};  ///< C, or empty: none; +infinity: none here
   Eigen::VectorXd bears = {};  ///< C, or empty: the most that a bound bears; +infinity: anything
-  Eigen::VectorXd force = {};  ///< C, or empty: the lambda so far, from which the given and found ones count
+  Eigen::VectorXd force = {};  ///< C, or empty: lambda of the corrections so far; `given` and `found` are without it
 
   struct Interval {
     double low, high;
@@ -51,7 +51,7 @@ struct Stairs {
     return whole_force(i, piece, 0) - so_far(i);
   }
 
-  /// lambda, of which `found` counts from the force so far; where it is given, so to the last digit.
+  /// The whole lambda: the force so far and `found` where v is held, else what the piece gives, to the last digit.
   double whole_force(int i, Piece piece, double found) const {
     if (is_held(piece)) return so_far(i) + found;
     return piece == Piece::below ? most(i) : piece == Piece::above ? -most(i) : 0;

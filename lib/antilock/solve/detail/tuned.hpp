@@ -11,7 +11,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 /// A sum of n rounded terms loses about sqrt(n) eps of them: 64 eps serves rows of 4096 entries. A force is known to so
 /// much of its terms; a pivot below so much of its diagonal entry is nothing but its round-off (sound problems stay
 /// above 1e-12, on meshes and layers of every kind); of a penalty below it, times the stiffness of B' M B beside A1, a
-/// factor keeps no digit of A1.
+/// factor keeps less than two digits of A1.
 constexpr double round_off = 64 * eps;
 
 /// What rounding leaves between two rows that are equal. An entry of B, a gradient on a triangle, is a difference of
@@ -25,8 +25,8 @@ constexpr double equal = 8 * eps;
 /// 2,200 (with a spring per row) is some 2 200^2 2,200 products, tens of milliseconds.
 constexpr int few_rows = 200;
 
-/// Corrections in all, where the caller asks for no other number: 15 with each of six penalties and some
-/// more. The smallest penalty, round_off, is reached from 6e-8 (choose_penalty.hpp) by four steps of 64.
+/// Corrections in all, where the caller asks for no other number: 15 with each of four penalties, and the rest with the
+/// fifth. That is the smallest one, round_off, which four steps of 64 reach from 6e-8 (choose_penalty.hpp).
 constexpr int most_corrections = 100;
 
 /// Corrections with one penalty: a new factor costs as much as 10 to 20 (measured at 1/h = 128).
