@@ -11,10 +11,10 @@
 // A string is held at both ends. The load $f(x) = 10 \sin 2πx$ lifts its left half and presses its right half on a
 // floor at height 0. Without the floor it would be a sine.
 //
-// **Predict, before you read on.** On 32 cells the string has 31 nodes between its ends. (a) A node touches the floor
-// or it does not: there are $2^{31}$ sets of nodes that might touch. How many of them must a program try? (b) The
-// second program below guesses the forces of the floor and corrects them step by step. Halve the cells: how many times
-// as many steps does a further digit cost?
+// **Predict, before you read on.** On 32 cells the string has 31 nodes between its ends. (a) A node touches the floor or
+// it does not: there are $2^{31}$ sets of nodes that might touch. How many of them must a program try? (b) The second
+// program below guesses the forces of the floor and corrects them step by step. Make the cells half as long: how many
+// times as many steps does a further digit cost?
 //
 // ## An energy, and a cone
 //
@@ -199,9 +199,9 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
 // :figure: string_steps
 //
 // (a) Nine of $2^{31}$. Each guess corrects the one before, and from the second one on they only shrink. (b) Four times
-// as many, as the last verdict says. Contact starts at 0.7151 and not at the middle, where the load turns down, since
-// the lifted half pulls its neighbour up. Where the string lies flat it does not bend, so the pressure is $-f$: from
-// the first touch on, the floor carries the whole load.
+// as many: the last verdict has $1/(ρ h)$ of them, and $ρ$ is in proportion to $h$. Contact starts at 0.7151 and not at
+// the middle, where the load turns down, since the lifted half pulls its neighbour up. Where the string lies flat it does
+// not bend, so the pressure is $-f$: from the first touch on, the floor carries the whole load.
 //
 // ## Exercises
 //

@@ -186,11 +186,11 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 // ## What came out
 // :output:
 //
-// (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference of $u$ along it,
-// divided by its length $h$. So one row of $B$ couples two vertices of one vertical line, and never two lines. This is
-// chapter 02's kernel: one function per line. (b) No, by the second table. $B u$ falls like $ε²$, and $p$, their
-// quotient, tends to the stress of the rigid layer, a finite force that holds it straight. The `du` of the corrections
-// fall by a constant factor. After the first the contact set hardly moves: one contact step is enough.
+// (a) Two: on Figure 3's mesh each triangle has one vertical edge, and $∂_y u$ is the difference of $u$ along it, divided
+// by its length $h$. So one row of $B$ couples two vertices of one vertical line, and never two lines. This is chapter
+// 02's kernel: one function per line. (b) No, by the second table. $B u$ falls like $ε²$, and $p$, their quotient, tends
+// to the stress of the rigid layer, a finite force that holds it straight. The `du` of the corrections fall by a factor
+// of some hundred each. After the first the contact set hardly moves: one contact step is enough.
 //
 // ## The same loop in the library
 //

@@ -21,7 +21,8 @@
 //
 // "Unilateral contact problems generally do not admit analytical solution" (Section 4.1). So the paper solves on a very
 // fine mesh, by Uzawa's algorithm (chapter 21 measures what that costs), and takes this for the truth. Ours needs no
-// mesh. All of it follows from two ordinary differential equations, and every verdict of this course rests on them.
+// mesh. All of it follows from two ordinary differential equations, and the errors of (23) in this course are measured
+// against them.
 //
 // All displacements are 0 on the left and on the right side, in the body and in the layer. So write them as sums of
 // sines,

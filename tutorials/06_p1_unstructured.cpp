@@ -6,8 +6,7 @@
 // Run: 06_p1_unstructured --exercise 2
 // Run: 06_p1_unstructured --exercise 3
 //
-// Needs: [02](02_meshes.cpp) (kernel, tied triangles, the generators), [05](05_p1_structured.cpp) (the limit problem
-// (27), Theorem 4).
+// Needs: [02](02_meshes.cpp) (kernel, tied triangles), [05](05_p1_structured.cpp) (the limit problem (27), Theorem 4).
 // :live: mesh=unstructured
 //
 // **The picture.** Figure 7: the same problem, the same element, about as many triangles as in Figure 5, but the mesh

@@ -8,7 +8,7 @@
 // Needs: [05](05_p1_structured.cpp) ((27), Theorem 4), [06](06_p1_unstructured.cpp), [07](07_kernel.cpp) (kernel).
 //
 // **The picture.** Figure 8: the mesh of Figure 6, on which P1 locks, and the ridge is there. *Crouzeix-Raviart did not
-// lock on any mesh that was tried. This page has the core of the proof that it cannot; two of its conditions are
+// lock on any mesh that was tried. This page has the core of the proof that it cannot; three of its conditions are
 // checked in chapters 12 and 14.* Look closely: the triangles do not quite meet.
 //
 // :figure: figure8

@@ -20,12 +20,12 @@
 // discrete problems are chapter 10's (1) and (2) with discrete sets, $K_h$ and $K_{0h} = K_h ∩ G_h$; the paper calls them
 // (6) and (7). For our problem (7) is (27) of chapter 05.
 //
-// **Proposition 1: ε to 0 at fixed $h$.** $u_h^ε → u_h^0$. The proof is that of Theorem 1, for discrete functions. It
-// is even easier, because in a space of finitely many dimensions a bounded sequence has parts that converge strongly,
-// not only weakly. No mesh is excluded. So locked P1 has a limit as well. The order is 2 for every method. For the
-// exact solution it was 3/2, because of the waves $k$ above $1/ε$, which the layer answers in another way (chapter 10).
-// A mesh has no waves beyond $1/h$. So once ε is below $h$ there are none of these: each wave that the mesh has is
-// changed by a share like $ε^2$, and so is their sum.
+// **Proposition 1: ε to 0 at fixed $h$.** $u_h^ε → u_h^0$. The proof is that of Theorem 1, for discrete functions. It is
+// even easier, because in a space of finitely many dimensions a bounded sequence has parts that converge strongly, not
+// only weakly. No mesh is excluded. So locked P1 has a limit as well. The order is 2 for every method. For the exact
+// solution it was 3/2, because of the waves $k$ above $1/ε$, which the layer answers in another way (chapter 10). A mesh
+// has no waves beyond $1/h$. So once ε is below $h$ there are none of these. (For locked P1 ε must be below its wall,
+// too: chapter 06.) Each wave that the mesh has is changed by a share like $ε^2$, and so is their sum.
 //
 // **Proposition 2: $h$ to 0 at fixed ε, and at ε = 0.** If $K_h$ approaches $K$, then $u_h^ε → u^ε$. If $K_{0h}$
 // approaches $K_0$, then $u_h^0 → u^0$. (Both are Theorem 3 of [chapter 14](14_estimates.cpp), which also asks for two

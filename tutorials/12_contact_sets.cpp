@@ -34,9 +34,9 @@
 // **(8) is a distance.** The $v_h$ of $K_h$ that is nearest to $u$ makes $‖u - v_h‖_h^2$ smallest. This is a contact
 // problem again, with the norm in place of the energy, and the same program solves it. For $K_{0h}$ add the condition
 // that $v_h$ does not vary across the layer: it is the same problem at $ε = 0$. How small can the distance be? For a
-// smooth $v$ interpolation gives order $h$ (P1, CR) or $h^2$ (P2), and smooth ones are enough (Lemma 1). But $u$ is not
-// smooth where contact ends: $u^ε$ is like $r^{3/2}$ there, with $r$ the distance, and the second derivative of $u^0$
-// jumps (chapter 09). Either leaves P2 at least the order 3/2.
+// smooth $v$ interpolation gives order $h$ (P1, CR) or $h^2$ (P2), and smooth ones are enough (Lemma 1 for $K_0$; for $K$
+// they are dense, too). But $u$ is not smooth where contact ends: $u^ε$ is like $r^{3/2}$ there, with $r$ the distance,
+// and the second derivative of $u^0$ jumps (chapter 09). Either leaves P2 at least the order 3/2.
 //
 // **(9) for $K$: what lies below 0.** P1 is affine between vertices at which it is not negative, so nothing lies below:
 // $K_h ⊂ K$. CR and P2 may dip between their points. Look at one edge $E$ of $Γ_C$. CR's value at the midpoint is the
@@ -178,9 +178,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :figure: contact_sets
 //
 // (a) As interpolation has it: order 1 for P1 and CR, for P2 a little below 2, and the same for $K_0$. The exception is
-// P1 on the unstructured mesh. All functions of its $K_{0h}$ vanish on the layer, so the distance tends to 0.138,
-// chapter 11's distance from $u^0$ to the solution that is clamped on $Σ$. This is the hypothesis of Theorem 4 that
-// fails.
+// P1 on the unstructured mesh. All functions of its $K_{0h}$ vanish on the layer, so the distance tends to 0.138: to all
+// digits shown chapter 11's distance from $u^0$ to the solution that is clamped on $Σ$. This is the hypothesis of Theorem
+// 4 that fails.
 //
 // (b) Yes: $c_h$ falls like $h^{1/2}$. The solutions are smooth and far better than the worst: $u_h$ of CR on $1/h = 32$
 // dips by 2e-4 where $c_h$ allows 7e-2. The picture shows where: only at the end of contact.

@@ -11,8 +11,8 @@
 // :figure: falk
 //
 // **Predict.** Theorem 2 bounds the error by how near $K_h$ comes to $u$, times a constant. (a) The error of locked P1
-// stays. Does the distance from $u$ to $K_h$ stay as well? (b) The theorem holds in the norm of the energy, too. There its
-// constant is 1. So where does the locking hide now?
+// stays. Does the distance from $u$ to $K_h$ stay as well? (b) The theorem holds in the norm of the energy, too, where
+// $M = α = 1$ and $C = 2$ will do. So where does the locking hide now?
 //
 // ## The work of the contact pressure
 //

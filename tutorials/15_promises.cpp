@@ -32,7 +32,7 @@
 //
 // $$ ‖u^ε - u_h^ε‖_h ≤ C ε^{-1} h^{3/4} (‖u^ε‖_{2,Ω^+} + ‖u^ε‖_{2,Ω^-}). $$
 //
-// The paper has one more factor $ε^{-1}$, since its proof puts $(M/α)^2$ in front of both parts:
+// The paper has one more factor $ε^{-1}$: (13) has one constant, linear in $M$, and puts $ε^{-2}$ before both parts:
 //
 // $$ ‖u^ε - u_h^ε‖_h ≤ C ε^{-2} h^{3/4} (‖u^ε‖_{2,Ω^+} + ‖u^ε‖_{2,Ω^-}). \tag{28, 31} $$
 //
@@ -47,18 +47,19 @@
 //
 // ## Is the $ε^{-1}$ real?
 //
-// For P1 on columns and for CR it is not: their errors do not depend on ε. For P1 on the other families it is, as the
-// run observes, with a constant that can be computed. By [chapter 06](06_p1_unstructured.cpp) P1 resists bending with
+// For P1 on columns and for CR it is not: their errors do not depend on ε. For P1 on the other families it is, as the run
+// observes, with a constant that can be computed. By [chapter 06](06_p1_unstructured.cpp) P1 resists bending with
 // $(k/ε)^2$, where $k$ is a mean over the layer's triangles: the product of the extents of the three sides in $x$, over
-// four times the area. So the loss is governed by $k/ε$ alone, whatever the mesh:
+// four times the area. There it is proved that the loss is at most what $k/ε$ allows. On the families below it is about
+// that (observed):
 //
 // $$ \frac{\text{lost}}{\text{kept}} = x ≈ (5.84 \, k/ε)^2   \text{for the ridge } \sin 2πx. $$
 //
-// Half is lost at $ε = 5.84 k$, the wall of the mesh: to the right of it refining helps, to the left of it P1 has
-// locked. On a family of regular meshes $k ≤ c h$, since $k$ is at most the mean radius of the circles through the
-// corners. So the wall is at $ε = c h$ or to the left of it, which is $h ≪ ε$ again. It is to the left only if the
-// triangles without a vertical edge become rare. On the meshes of Frontal-Delaunay they are left in a band along the
-// boundary whose width is of the order of $h$, so $k^2 ∼ h · h^2$, and the wall is at $ε ∼ h^{3/2}$.
+// Half is lost at $ε = 5.84 k$, the wall of the mesh: to the right of it refining helps, to the left of it P1 has locked.
+// On a family of regular meshes $k ≤ c h$, since $k$ is at most the mean radius of the circles through the corners. So
+// the wall is at $ε = c h$ or to the left of it, which is $h ≪ ε$ again. It moves to the left if the triangles without a
+// vertical edge become rare, or their edges nearly vertical. On the meshes of Frontal-Delaunay they are left in a band
+// along the boundary whose width is of the order of $h$, so $k^2 ∼ h · h^2$, and the wall is at $ε ∼ h^{3/2}$.
 //
 // The runs below have no contact, so that the ridge is $\sin 2πx$ and its exact height is known in closed form. The
 // height that P1 keeps is found by least squares along $Γ_C$.

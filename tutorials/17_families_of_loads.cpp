@@ -186,12 +186,12 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 // :figure: families_of_loads
 // :output: worst load of the ball, epsilon = 0
 //
-// P1 in columns and Crouzeix–Raviart halve their worst error with $h$. P1 on the unstructured mesh comes down to
-// $ℓ_1$ and stays, P2 to $ℓ_2$. **P3 and P4 look robust under our load**, where at 1/h = 8 their errors are below those
-// of structured P1 at 1/h = 32. On the ball they stop at their sharp limits. One load tests one trace: the kernel of P3
-// holds $x (1 - x) (1 - 2x)$, which is much like $\sin 2πx$. (P4 has 0.0178 at 1/h = 4 and 0.0180 at 1/8: the ball of
-// the coarser mesh has half as many waves.) P1 layered is within a third of the width: of all spaces of as many
-// unknowns none could have less than three quarters of its worst error.
+// P1 in columns and Crouzeix–Raviart halve their worst error with $h$. P1 on the unstructured mesh comes down to $ℓ_1$
+// and stays, P2 to $ℓ_2$. **P3 and P4 look robust under our load**, where at 1/h = 8 their errors are below those of
+// structured P1 at 1/h = 32. On the ball they stop at their sharp limits. One load tests one trace: the kernel of P3
+// holds $x (1 - x) (1 - 2x)$, which is much like $\sin 2πx$. (P4 has 0.0178 at 1/h = 4 and 0.0180 at 1/8: the ball of the
+// coarser mesh has a quarter as many waves.) P1 layered is within a third of the width: of all spaces of as many unknowns
+// none could have less than three quarters of its worst error.
 //
 // (a) One arch, largest at $Σ$: $ψ_1 \sin πx$; our load costs P1 a quarter. (b) No: three functions cannot fit four waves.
 // :figure: worst_loads

@@ -23,9 +23,10 @@
 //
 // and to factor $A$. Each row of $B$ is $∂_y$ on a layer triangle, $M$ holds the areas. An entry of the sum is about
 // $ε^{-2}$, rounded after 16 digits; of the entry of $A_1$ that is in it $16 + 2 \log_{10} ε$ digits are left. What is
-// lost is the stiffness of the layer along $x$: it stands in no other entry. The body's entries are in no sum and
-// keep all digits. So $u$ is wrong on the layer alone, and at last it is flat zero there: round-off imitates Figure
-// 7. Most of these wrong answers come without a complaint: the factorisation reports success, the contact set settles.
+// lost is the stiffness of the layer along $x$. On the structured mesh its entries between neighbours on a horizontal
+// line stay exact. But the diagonal that must balance them is rounded, on $Σ$ with the body's share in it. So $u$ is
+// wrong on the layer, and through $Σ$ in the body. At last it is flat zero on the layer: round-off imitates Figure 7, and
+// mostly without a complaint: the factorisation reports success, the contact set settles.
 //
 // The *condition number* foretells it: $κ(A) ∼ ε^{-2}$, and a solver may lose the relative error $10^{-16} κ$.
 //
@@ -37,9 +38,8 @@
 //
 // $$ p = ε^{-2} ∂_y u:   A_1 u + B^T M p = L + λ,   ε^2 p - B u = 0. $$
 //
-// This is the *split form*: a *saddle point* system, in which no number is large; ε = 0 is a value like any other. In
-// the limit $-u_{xx} - ∂_y p = 0$ in the layer: $p$ is affine in $y$, and bounded since $u_{xx}$ is. The second
-// picture shows it.
+// This is the *split form*: a *saddle point* system, without large numbers. ε = 0 is a value like any other. In the limit
+// $-u_{xx} - ∂_y p = 0$ in the layer: $p$ is affine in $y$ (second picture), bounded as $u_{xx}$ and the body's $∂_y u$.
 //
 // `cure` solves it. It factors $A_δ = A_1 + δ^{-1} B^T M B$ once, with a moderate δ in place of $ε^2$, and uses the
 // factor only for corrections: each one solves for what the split form leaves over (*iterated penalty*). To see that
@@ -195,10 +195,10 @@ void judge(const Table& results, const Table& conditions, const Table& lines, tu
 // :output: P1 structured: error at the unknowns
 //
 // (a) 8 digits at 1e-4, none at 1e-8: the sum is right where its condition number times 1e-16 is small, and wrong or
-// without an answer where it is large. (b) In the layer: where Cholesky gives an answer at all it settles, and the last
-// of its answers is $u = 0$ there, error 0.045, the whole ridge. The paper's conjugate gradients with ILUT (an
-// incomplete factorisation that drops small entries) give up from ε = 1e-3 on. The split form has the same error to 1 %
-// from 1e-3 to 1e-16, and `cure` agrees with the library. The condition number of $A_δ$ is 1e8 from ε = 1e-4 down.
+// without an answer where it is large. (b) In the layer, and through $Σ$ in the body: where Cholesky gives an answer it
+// settles, and its last answer is $u = 0$ on the layer, error 0.045, the whole ridge. The paper's conjugate gradients
+// with ILUT (an incomplete factorisation that drops small entries) give up from ε = 1e-3 on. The split form has the same
+// error to 1 % from 1e-3 to 1e-16, and `cure` agrees with the library. $κ(A_δ)$ is 1e8 from ε = 1e-4 down.
 // :output: stiff lines of slope 2: the deepest u on Sigma
 //
 // Every method tends to a limit of its own with order 2 in ε: all are asymptotic-preserving. P1 off the lines tends to

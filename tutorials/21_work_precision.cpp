@@ -49,9 +49,9 @@
 // order $h^2$. A mesh twice as coarse gives it at a quarter of the price. Its width is then divided by 4. This is an
 // extrapolation: the order is observed, and where a method locks it is wrong.
 //
-// *The rule.* Let $b$ be the width over $|J|$. The largest error of $u_h$ is of relative order $b$, its energy error of
-// order $b^{1/2}$. Uzawa stops when the duality gap is at most $(b/20)^2 |J|$. Then $|v - u_h|_a$ is at most
-// $b/20$ of $|u_h|_a$, because $|J(u_h)| = ½ |u_h|_a^2$ and $J$ is nearly $J(u_h)$ (`analysis/accurate_enough.hpp`).
+// *The rule.* Let $b$ be the width over $|J|$. The largest error of $u_h$ is of relative order $b$ where $u$ is smooth,
+// its energy error of order $b^{1/2}$. Uzawa stops when the duality gap is at most $(b/20)^2 |J|$. Then $|v - u_h|_a$ is
+// at most $b/20$ of $|u_h|_a$, because $|J(u_h)| = ½ |u_h|_a^2$ and $J$ is nearly $J(u_h)$.
 
 #include <CLI/CLI.hpp>
 

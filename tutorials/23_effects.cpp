@@ -7,13 +7,13 @@
 //
 // Needs: [01](01_domain.cpp) for (22), (23), [03](03_by_hand.cpp) for corrections, [10](10_limits.cpp) for (25).
 //
-// **The picture.** One body under one load, five times: alone; on an obstacle; held by a stiff layer that is not
-// meshed; with the layer meshed below it; with layer and obstacle. *The free lower side of the body moves by 0.2.
-// Glue a layer under it that is rigid across its thickness, and it moves by 0.045: it is held as by a stretched string.*
+// **The picture.** One body under one load, five times: alone; on an obstacle; held by a stiff layer that is not meshed;
+// with the layer meshed below it; with layer and obstacle. *The free lower side of the body moves by 0.25. Glue a layer
+// under it that is rigid across its thickness, and it moves by 0.035: it is held as by a stretched string.*
 //
-// **Predict.** (a) The layer of (25) is one term on $Σ$. How many triangles, unknowns and linear solves does it cost
-// more than the body alone? (b) Seven values of ε on one mesh: how many factorisations, if those below a fraction of
-// $h$ share one?
+// **Predict.** (a) The layer of (25) is one term on $Σ$. How many triangles, unknowns and linear solves does it cost more
+// than the body alone? (b) Seven values of ε on one mesh: how many factorisations, if all those whose square is below the
+// penalty δ of chapter 18 share one?
 //
 // ## The parts of the inequality (23)
 //
@@ -136,8 +136,8 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
                from);
 }
 
-// **Many questions.** The forms of (23) do not contain ε, and every ε below a fraction of $h$ is solved with one and
-// the same factorisation.
+// **Many questions.** The forms of (23) do not contain ε, and every ε whose square is below δ is solved with one and the
+// same factorisation.
 void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
   const Discretisation on = Method{&crouzeix_raviart(), unstructured()}.on(options.cells);

@@ -43,15 +43,16 @@
 // ## Why columns: the kernel again
 //
 // Multigrid must keep on its coarse problems what $A_δ$ hardly charges: the kernel of $B$ on the layer. For P1 in columns
-// that is one function per column, and the unknowns that hang together through $δ^{-1}$ are those of one column.
-// Merged, they are still in the kernel. Without columns Crouzeix-Raviart has one such function per two triangles
-// (chapter 07), each spread over several triangles. None of the algebraic multigrids that we tried merges unknowns so
-// that they stay in this kernel: each needed 500 iterations and more (observed).
+// that is one function per vertical line of vertices, and the unknowns that hang together through $δ^{-1}$ are those of
+// one such line. Merged, they are still in the kernel. Without columns Crouzeix-Raviart has one such function per two
+// triangles (chapter 07), each spread over several triangles. None of the algebraic multigrids that we tried merges
+// unknowns so that they stay in this kernel: each needed 500 iterations and more (observed).
 //
 // This says nothing against multigrid that *knows* the kernel. For elasticity that is nearly incompressible, the same
-// difficulty, Schöberl (1999) smooths on patches that hold the kernel's functions, and prolongs so that the kernel stays
-// the kernel; the number of iterations then does not depend on the parameter (proved there). Farrell, Mitchell, Scott
-// and Wechsung (2020) do so on meshes of macro elements. Both need the meshes and the patches, not the matrix alone.
+// difficulty, Schöberl (1999) corrects on small patches of triangles that hold the kernel's functions, and carries what a
+// coarse mesh found to the finer one so that the kernel stays the kernel; the number of iterations then does not depend
+// on the parameter (proved there). Farrell, Mitchell, Scott and Wechsung (2020) do so on meshes whose triangles are cut
+// in three at a point inside. Both need the meshes and the patches, not the matrix alone.
 //
 // Our cure is the layered mesh. Another is MUMPS, a direct solver whose ranks share the factor (exercise 2); they send
 // each other its numbers by MPI. A *strip* is here the part of the mesh between two vertical lines that one rank

@@ -27,10 +27,10 @@
 // or CR triangle $\operatorname{div} u$ is constant: one row of $B$ per triangle, $2n^2$ conditions. P1 has two
 // unknowns per vertex that is not held: $2n(n + 1)$. On parallel triangles $2n$ functions are left.
 //
-// Is that too few? In chapter 07 structured P1 keeps $n - 1$ of $2n^2$ unknowns, and it is robust. There $G$ holds functions
-// of one variable, and $n - 1$ values describe them. Here $G$ holds the fields that keep the volume. In the plane these are
-// $u = (∂_y φ, -∂_x φ)$ with a *stream function* $φ(x, y)$. A function of two variables asks for about $n^2$ values, and
-// $2n$ of them cannot do. Three cures leave about $n^2$ or more:
+// Is that too few? In chapter 07 structured P1 keeps $n - 1$ of the layer's $n^2$ unknowns, and it is robust. There $G$
+// holds functions of one variable, and $n - 1$ values describe them. Here $G$ holds the fields that keep the volume. In
+// the plane these are $u = (∂_y φ, -∂_x φ)$ with a *stream function* $φ(x, y)$. A function of two variables asks for
+// about $n^2$ values, and $2n$ of them cannot do. Three cures leave about $n^2$ or more:
 //
 // - *crossed triangles*: each square is cut by both diagonals, and one of its four conditions follows from the other
 // three;
@@ -138,8 +138,8 @@ void judge(const Table& checks, const Table& forces, int cells, tutorial::Report
 //
 // (a) $2n^2$ conditions and about as many unknowns. (b) As many conditions, and three times as many unknowns. Where
 // nothing locks the force is right to 11 h per cent at every λ ($h = 1/32$), in at most 2 corrections. P1 on parallel or
-// arbitrary triangles is right at λ = 1, and more than 100 % off in the limit. The pressure of P1 reaches 46 in stripes, where
-// the true one stays below 0.7.
+// arbitrary triangles is right at λ = 1, and more than 100 % off in the limit. The pressure of P1 reaches 46 in stripes,
+// where that of CR stays below 0.7, and Taylor–Hood's at about 1 (chapter 29).
 //
 // :figure: elasticity_force
 // :live: rubber

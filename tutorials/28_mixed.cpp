@@ -194,10 +194,10 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // :output: Theorem 4
 //
-// (a) A mean over a column sees the values on $Σ$ less those on $Γ_C$, and nothing between. (iii) fails: a slope of 0.18 is
-// hidden at every $h$, and the error stays at 0.217. *Patches* (all triangles at a vertex, one mean per vertex) ask for as many
-// means as the layer has unknowns. (ii) fails, as for P1. It is only seen at smaller ε: at ε = 1e-3 their error is 0.056
-// where P1 has 0.145; in the limit both have 0.148.
+// (a) A mean over a column sees the values on $Σ$ less those on $Γ_C$, and nothing between. (iii) fails: a slope of 0.18
+// is hidden at every $h$, and the error stays at 0.217. *Patches* (all triangles at a vertex, one mean per vertex) ask
+// for as many means as the layer has unknowns. (ii) fails, as for P1. It is only seen at smaller ε: at ε = 1e-3 their
+// error is 0.055 where P1 has 0.145; in the limit both have 0.148.
 //
 // (b) Even on the structured mesh, where P1 does not lock, zigzags across the layer are left whose means are 0. They cost
 // next to nothing: (i) fails, α falls like $h^2$, and the error grows from 0.46 to 1.38. With half of the stiff form kept

@@ -200,9 +200,9 @@ void judge(const Table& results, const Exact& exact, tutorial::Report& report) {
 // hp at ε = 0 divides the $H^1$ error by 6.0, 7.3, 9.0 and 10.4 per level from P2 on. This factor still grows from
 // level to level, so six levels show no rate yet. The order in $N$ grows from 1.5 to 4.0. It is the same at ε = 1e-20.
 //
-// (b) In $H^1$ the degree: with 8 layers at every degree the errors are the same to 0.1 % (exercise 3, ε = 1). On $Γ_C$ it
-// is the layers: P6 with 0 to 4 of them has 1.7e-2, 3.8e-3, 3.9e-4, 5.6e-5, 4.7e-6 there, about $q^{-3/2} = 8$ times less
-// per layer; a fifth and a sixth change nothing. In hp's last level $u_h$ dips at most 5e-8 of the largest $u$ below 0.
+// (b) In $H^1$ the degree: with 8 layers from the start each degree has the error of hp to 0.1 % (exercise 3, ε = 1). On
+// $Γ_C$ it is the layers: P6 with 0 to 4 of them has 1.7e-2, 3.8e-3, 3.9e-4, 5.6e-5, 4.7e-6 there, about $q^{-3/2} = 8$
+// times less per layer; a fifth and a sixth change nothing. hp's last $u_h$ dips at most 5e-8 of the largest $u$ below 0.
 //
 // ## Exercises
 //

@@ -191,17 +191,17 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
 //
 // :output: corrections, by t
 //
-// At most 8 corrections where $B$ depends on $t$, and 10 with P2. With the usual penalty, P1 in columns and P1 / CR take some
-// 40 at $t = 10^{-6}$ (exercise 3).
-// P1 in columns and P1 / CR have another force at $t = 0$ than for $t → 0$: there are motions $w$ without a $z$, and their
-// energy $|B_1 w|^2$, an error of the mesh width, is present for $t > 0$ and absent at $t = 0$.
+// At most 8 corrections where $B$ depends on $t$, and 10 with P2. With the penalty $δ ≈ 6 · 10^{-8}$ of the other
+// chapters, P1 in columns and P1 / CR take some 40 at $t = 10^{-6}$ (exercise 3). P1 in columns and P1 / CR have another
+// force at $t = 0$ than for $t → 0$: there are motions $w$ without a $z$, and their energy $|B_1 w|^2$, an error of the
+// mesh width, is present for $t > 0$ and absent at $t = 0$.
 //
 // ## Exercises
 //
 // 1. Drop the completed square: rows $t u_x + v_Y$ (weight $λ$), $v_Y$ ($2μ$) and $u_Y + t v_x$ ($μ$), $a_1$ with $2μ u_x^2$.
 //    How much further does the coating stretch at $t = 0$ than at $t = 10^{-6}$?
 // 2. CR / P1 at 1/h = 8 and 16: how does $\dim G_h$ grow, and how many independent motions of the bounds are in it?
-// 3. Press P1 in columns at $t = 10^{-4}$, $10^{-5}$, $10^{-6}$ with the usual penalty. How do the corrections grow?
+// 3. Press P1 in columns at $t = 10^{-4}$, $10^{-5}$, $10^{-6}$ with that penalty. How do the corrections grow?
 // 4. On paper: why is there no $z$ for P1 in columns, if $w = (u(x), 0)$ has a kink?
 
 #include "answers/32_coating.hpp"

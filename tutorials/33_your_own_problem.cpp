@@ -84,8 +84,9 @@ void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem) {
   problem.b = b.sparseView();
 }
 
-// With $A_1$, load, what is held and what is bounded from below, that is all that the solver sees. (Three more fields
-// hold bounds from above, bounds on sums, and bounds that bear a given force only ([friction](30_friction.cpp)).)
+// With $A_1$, load, what is held and what is bounded from below, that is all that the solver sees. (Four more fields hold
+// bounds from above, bounds on sums, bounds that bear a given force only ([friction](30_friction.cpp)), and how many rows
+// of $B$ are rigid at every ε.)
 VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) {
   VariationalInequality problem;
   problem.a1 = sum_over_cells(s, 1, 0);
