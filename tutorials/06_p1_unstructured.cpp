@@ -63,14 +63,14 @@
 // $$ x = \frac{‖∂_y I_h w‖^2}{ε^2 E} ≈ \frac{k^2 ‖w''‖^2}{ε^2 E},   E (½ (1 + x) s^2 - s) \text{ is least at }
 // s = \frac{1}{1 + x}. $$
 //
-// The discrete solution has the least energy of all functions, this trial function among them. Without bending the
-// least value, at $s = 1$, is $-E/2$: a layer that gives way sets the energy $E/2$ free. With bending the least value
-// is $-E/(2 (1 + x))$. So P1 sets free at least the share $1/(1 + x)$ of it, up to what the body's interpolation costs.
-// This is proved on any mesh, with contact too: $u_D$ and $u^0$ are in $K$, so what lies between them is. The contact
-// pressure $λ$ of $u^0$ does no work on it, since $u_D = 0$ and $λ u^0 = 0$ on $Γ_C$, so contact adds no term. Since
-// $k ≤ c h$,
+// The discrete solution has the least energy of all functions, this trial function among them. Without bending the least
+// value, at $s = 1$, is $-E/2$: a layer that gives way sets the energy $E/2$ free. With bending the least value is $-E/(2
+// (1 + x))$. So P1 sets free at least the share $1/(1 + x)$ of it, up to what interpolation costs in the body and of
+// $∂_x$ in the layer: on regular meshes this tends to 0 with $h$. It is proved with contact, too: $u_D$ and $u^0$ are in
+// $K$, so what lies between them is. The contact pressure $λ$ of $u^0$ does no work on it, since $u_D = 0$ and $λ u^0 =
+// 0$ on $Γ_C$, so contact adds no term. Since $k ≤ c h$,
 //
-// $$ \text{P1 loses at most the share } \frac{x}{1 + x},   x = (c h/ε)^2, \text{ on any regular mesh.} $$
+// $$ \text{P1 loses at most, up to this, the share } \frac{x}{1 + x},   x = (c h/ε)^2, \text{ on any regular mesh.} $$
 //
 // So all is well once $h ≪ ε$, as the paper says. That as much *is* lost, and that the height of the ridge follows the
 // same law within a factor of about 2, is observed on nine families of meshes ([chapter 15](15_promises.cpp)). On rows
@@ -180,7 +180,7 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   report.claim_within(std::abs(errors.max_at_unknowns - tallest), 0, on_layer + 1e-10,
                       "Figure 7: the error less the ridge at its tallest unknown, against what is kept (proved):");
   // Both solve the same equations on the body and differ on its boundary by what is left on the layer: a maximum
-  // principle, and the layer itself differs by that.
+  // principle (of Delaunay meshes), and the layer itself differs by that.
   report.claim_within(difference, 0.999 * on_layer, 1.001 * on_layer + 1e-10,
                       "difference from the Dirichlet-Laplace solution = largest |u| on the layer (proved):");
   if (on_layer < 1e-9) return;  // ten times larger, epsilon must still be far below k, and u above round-off

@@ -87,8 +87,8 @@ LockingDiagnosis diagnose(const Method& method) {
   return diagnose_locking(assemble(scene, method.on(4).space()), assemble(scene, method.on(8).space()));
 }
 
-// A count says whether a method locks, and not what that costs. The answer itself says so, with the same line that
-// `run_scene` prints and chapters [05](05_p1_structured.cpp) and [06](06_p1_unstructured.cpp) do.
+// A count that does not grow says that a method locks, and none says what that costs. The answer itself does, with the
+// same line that `run_scene` prints and chapters [05](05_p1_structured.cpp) and [06](06_p1_unstructured.cpp) do.
 LayerReport cost(const Method& method) {
   const Discretisation on = method.on(8);
   const VariationalInequality problem = assemble(scene, on.space());

@@ -125,7 +125,7 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
   report.claim_order(lemma, "distance", "h", 0.9, 1.05, "(32): |u^0 - I_h u^0|, order 1 proved");
   // h^2 / 8 |u''| with |u''| <= 10 would be 1.25 h^2 for P1's interpolant
   report.claim_within(errors.max_at_unknowns / (h * h), 0.4, 2, "Figure 8 matches the truth; error / h^2 (observed):");
-  // A step is h/2 times a jump of the gradient, which is like r^(1/2) at the end of contact: the largest ~ h^(3/2).
+  // A step is h/2 times a jump of the gradient: like h^2, and at the end of contact like h^(3/2) where h << epsilon.
   report.claim_within(jump / (h * std::sqrt(h)), 0, 1.5, "largest step between triangles / h^(3/2) (observed):");
   // P1 keeps 1/(1 + (5.84 k / epsilon)^2) of the ridge (chapter 06), and its top lies between two unknowns.
   const double ridge = exact.truth.max_on_contact();

@@ -25,14 +25,14 @@
 // of the ridge is lost, $x = (5.84 k/ε)^2$, and the bending length $k$ of the mesh falls with $h$. For each $ε > 0$ the
 // loss tends to 0; but at every $h$ there is an $ε$ at which nearly all is lost.
 //
-// **The orders.** Interpolation has order 2 in the largest error and order 1 in the gradient. The end of contact may
-// take some of the 2. For $ε > 0$ the solution $u^ε$ is there like $r^{3/2}$, $r$ the distance from it: its second
-// derivative is not bounded. It is like this up to a distance of about $ε$; farther away $u^ε$ looks like $u^0$. For
-// $ε = 0$ the second derivative jumps, as for chapter 00's string. On the one element where it jumps a piecewise affine
-// function errs by a multiple of $h^2$ still, but the multiple depends on where in the element the jump lies. And CR
-// asks $v ≥ 0$ at midpoints alone, so its contact may end half an element too early or too late. Both make the error
-// rough in $h$: the slope from one mesh to the next is then anywhere between 3/2 and 2 and more, although no law with
-// 3/2 is behind it.
+// **The orders.** Interpolation has order 2 in the largest error and order 1 in the gradient. The end of contact may take
+// some of the 2. For $ε > 0$ the solution $u^ε$ is there like $r^{3/2}$, $r$ the distance from it: its second derivative
+// is not bounded. It is like this up to a distance of about $ε$; farther away $u^ε$ looks like $u^0$. For $ε = 0$ the
+// second derivative jumps, as for chapter 00's string. On the one element where it jumps a piecewise affine function errs
+// by a multiple of $h^2$ still, but the multiple depends on where in the element the jump lies. And CR asks $v ≥ 0$ at
+// midpoints alone, so its contact may end half an element too early or too late. Both make the error rough in $h$: the
+// slope from one mesh to the next is then anywhere between 3/2 and 2 and more. (For $h ≪ ε$ the power $r^{3/2}$ must
+// bring it down to 3/2 at last; for $ε ≪ h$ no such law is behind it.)
 //
 // **P1 against CR.** Both gradients are constant per triangle. That of $I_h u$ for CR is the mean of $∇u$, the best
 // constant (chapter 08). So no function that is affine per triangle, P1 or CR, comes nearer to $∇u$. This is about
@@ -148,11 +148,11 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
 // :live: convergence
 //
 // All of this is measured. (What is proved of orders, in the energy norm: [order h](20_order_h.cpp).) (a) Slope 2, for CR
-// on unstructured meshes 1.7, in the last step 1.4; slope 0 where it locks, at $ε = 10^{-4}$ and $10^{-6}$. At $10^{-2}$
-// P1 unstructured "locks already" (caption of Figure 9) on coarse meshes, and recovers where the wall, $5.84 k$, has
-// moved to the left of $10^{-2}$. (b) In the gradient's: there CR has 0.90 to 0.95 of P1's error. In the largest error,
-// which Figure 9 shows, CR's error is 1.5 to 1.7 times that of P1. So the paper's sentence does not hold for our load in
-// that norm; the load of the paper is not known.
+// on unstructured meshes 1.7 at small ε, 1.4 in the last step; slope 0 where it locks, at $ε = 10^{-4}$ and $10^{-6}$. At
+// $10^{-2}$ P1 unstructured "locks already" (caption of Figure 9) on coarse meshes, and recovers where the wall, $5.84
+// k$, has moved to the left of $10^{-2}$. (b) In the gradient's: there CR has 0.90 to 0.95 of P1's error. In the largest
+// error, which Figure 9 shows, CR's error is 1.5 to 1.7 times that of P1. So the paper's sentence does not hold for our
+// load in that norm; the load of the paper is not known.
 //
 // :output: structured meshes
 //

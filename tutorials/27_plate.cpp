@@ -56,9 +56,10 @@
 // $|∇w| ≤ |P(∇w - θ)| + |Pθ|$: the first is in $a_{0h}$, the second is at most a constant times θ in $H^1$. So
 // $a_1 + a_{0h}$ is coercive, with a constant that holds for all $h$.
 // - (ii) Each $w ≥ -1$ with its rotation $∇w$ must be a limit of discrete pairs without shear. Let $w$ be smooth. (Such $w$
-// come near all others: shrink and smooth; both keep $w ≥ -1$.) Interpolate $w$ by edge means (CR) or by its values at
-// vertices (P1): both keep $w_h ≥ -1$. Interpolate θ by P1. Then let the bubbles or the edge functions take away the shear
-// that is left. They need the size $|θ - I θ| ∼ h^2$ for it, and their gradients are of the size $h$: the pair stays near.
+// come near all others on a convex polygon: shrink and smooth; both keep $w ≥ -1$.) Interpolate $w$ by edge means (CR) or
+// by its values at vertices (P1): both keep $w_h ≥ -1$. Interpolate θ by P1. Then let the bubbles or the edge functions
+// take away the shear that is left. They need the size $|θ - I θ| ∼ h^2$ for it, and their gradients are of the size $h$:
+// the pair stays near.
 // - (iii) $θ_h$ tends to θ strongly in $L^2$, because it is bounded in $H^1$. Hence $P θ_h$ tends to θ, and $∇w_h$ to $∇w$
 // weakly (for CR triangle by triangle, chapter 12). If the shear $∇w_h - P θ_h$ vanishes, $∇w = θ$. And $w ≥ -1$, because
 // the mean of $w_h$ over a triangle, that of three values at midpoints or at corners, is at least $-1$.
@@ -180,12 +181,13 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
 
 // ## What came out
 //
-// (a) $9n^2$ unknowns for $12n^2$ conditions. One point leaves nothing free, $\dim G_h = 0$. The beam has one condition
-// per cell for two unknowns, the plate two per triangle for one and a half.
+// (a) $9n^2$ unknowns for $12n^2$ conditions. One point leaves nothing free, $\dim G_h = 0$: along an edge $∇w$ is the
+// same from both sides, and so is $θ$ along it at the two vertices opposite. At the rim θ is 0, and so it is from ring to
+// ring inwards. The beam has one condition per cell for two unknowns, the plate two per triangle for one and a half.
 //
 // (b) $27n^2$ unknowns less $12n^2$ conditions: $15n^2 - 9n + 2$ = 3698 functions for $n = 16$. Durán–Liberman leaves
 // three per vertex off the rim, 2163. At $t = 0$ P1 keeps nothing: its error is all of $w$, 1.08. It fails the patch
-// test, by 0.19 and 0.39; the cures pass it to 6e-15.
+// test, by 0.19 and 0.39; the cures pass it to round-off.
 // :output: Duran-Liberman:
 // :figure: plate_error
 //

@@ -48,10 +48,10 @@
 // ## Which component locks
 //
 // Contact asks for $v ≥ -$gap on $Γ_C$. In the limit $v$ does not change across the layer, so what touches the punch is
-// the lower side of the block. For $v$ this is the problem of chapter 06: on arbitrary triangles P1 has no function of
-// $x$ alone but 0, so the coating cannot move towards the punch or away from it. For $u$ the same happens. But $u$ is
-// not asked to be anywhere on $Γ_C$. If it is locked, the coating and with it the lower side of the block are not
-// stretched. This costs some energy, and the block still comes to lie on the punch.
+// the lower side of the block. For $v$ this is the problem of chapter 06: with free sides P1 on arbitrary triangles has
+// $1$ and $x$ and no other function of $x$ alone, so the coating can be moved and tilted, but not bent round the punch.
+// The same holds for $u$. But $u$ is not asked to be anywhere on $Γ_C$. If it is locked, the coating and the lower side
+// of the block are only stretched evenly. This costs some energy, and the block still comes to lie on the punch.
 //
 // ## Rows that depend on t
 //
@@ -175,26 +175,26 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
 //
 // :output: contact force, by t
 //
-// (a) $v$ alone. With $u$ P1 and $v$ CR the force is right to 1 %; with $u$ CR and $v$ P1 it is 73 % too large, like that of
-// P1 for both. P2 locks too: it has parabolas of $x$, and no more.
+// (a) For the force $v$ alone. With $u$ P1 and $v$ CR it is right to 1 % (though $u$ of the coating stays affine, and
+// only CR for both converges); with $u$ CR and $v$ P1 it is 73 % too large, like that of P1 for both. P2 locks too: it
+// has parabolas of $x$, and no more.
 //
 // :figure: coating_force
 //
-// The diagnosis says so before anything is solved, because it asks for what the *bounded* unknowns can do. The dimension of
-// the kernel would not: for CR / P1 it grows fast with the mesh, all of it motions of $u$ (exercise 2).
+// The diagnosis says so before anything is solved, because it asks for what the *bounded* unknowns can do. The dimension
+// of the kernel would not: for CR / P1 it grows fast with the mesh, all but two motions of $u$ (exercise 2).
 //
 // (b) Between: $E_m = 1.10$ lies between $2μ = 0.77$ and $λ + 2μ = 1.35$. In plane strain the sheet cannot become narrower out
 // of the plane, but it can become thinner.
 //
-// The supremum over $t$ is what makes locking visible in one number per mesh: it falls for the methods that do not lock and
-// stays for those that do.
+// The supremum over $t$ of the force's error shows locking in one number per mesh: it falls, or it stays.
 //
 // :output: corrections, by t
 //
-// At most 8 corrections where $B$ depends on $t$, and 10 with P2. With the penalty $δ ≈ 6 · 10^{-8}$ of the other
-// chapters, P1 in columns and P1 / CR take some 40 at $t = 10^{-6}$ (exercise 3). P1 in columns and P1 / CR have another
-// force at $t = 0$ than for $t → 0$: there are motions $w$ without a $z$, and their energy $|B_1 w|^2$, an error of the
-// mesh width, is present for $t > 0$ and absent at $t = 0$.
+// At most 8 corrections where $B$ depends on $t$, and some 10 with P2 and $t > 0$. With the penalty $δ ≈ 6 · 10^{-8}$ of
+// the other chapters, P1 in columns and P1 / CR take some 40 at $t = 10^{-6}$ (exercise 3). P1 in columns and P1 / CR
+// have another force at $t = 0$ than for $t → 0$: there are motions $w$ without a $z$. Of their energy $|B_1 w|^2$ a part
+// of order $h^2$, which no $z$ removes, is present for $t > 0$ and absent at $t = 0$.
 //
 // ## Exercises
 //

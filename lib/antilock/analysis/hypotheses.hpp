@@ -31,7 +31,7 @@ double distance_to_kernel(const VariationalInequality& problem);
 struct EnergyRow {
   double epsilon = 0;    ///< the class parameter
   double energy = 0;     ///< J(u); not a number where no answer was found
-  double moved = 0;      ///< largest |u|; of a stiff part that locks it falls to the values prescribed
+  double moved = 0;      ///< largest |u|, of all unknowns; a stiff part that locks leaves what the rest moves
   int corrections = 0;   ///< of the iterated penalty; many: the penalty does not fit, or the problem locks
   double violation = 0;  ///< the KKT report's largest number
 };

@@ -23,8 +23,8 @@ RelativeStiffness relative_stiffness(const VariationalInequality& problem);
 ///
 ///     delta = 6e-8 s
 ///
-/// A correction contracts like delta / (delta + sigma), sigma the smallest a0(v, v) / a1(v, v) that is not zero; it falls
-/// with the mesh, like h^2 in the layer, like h^4 in a beam. Round-off in the factor spoils a correction by about 0.005
+/// A correction contracts like delta / (delta + sigma), sigma the smallest eigenvalue of a0 against a1 that is not zero; it
+/// falls with the mesh, like h^2 in the layer, like h^4 in a beam. Round-off in the factor spoils a correction by about 0.005
 /// eps / (h^2 delta). With s = 1 and 1/h = 64 there are 2 corrections from 6e-8 down to 1e-9, 3 at 1e-10 and 5 at 1e-12:
 /// 6e-8 leaves room for finer meshes. In the beam, where r is far below R, 6e-11 on 512 cells took 3 corrections but 19
 /// contact steps, 6e-10 takes 6 and 13, 1e-8 took 20 and 9.
