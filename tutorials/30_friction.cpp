@@ -5,9 +5,9 @@
 // Run: 30_friction --exercise 1
 // Run: 30_friction --exercise 2
 //
-// Needs: [00](00_string_on_an_obstacle.cpp) for the inequality, the active set and Uzawa, [26](26_elasticity.cpp) for
-// the block and its elements, [28](28_mixed.cpp) for Theorem 4 with friction, [29](29_pressure.cpp) for the inf-sup
-// constant. **Here ε is the parameter of the class (1) itself**, $ε = 1/λ$.
+// Needs: [00](00_string_on_an_obstacle.cpp) for the inequality, the active set and Uzawa, [26](26_elasticity.cpp) for the
+// block and its elements, [28](28_mixed.cpp) for Theorem 4 with friction. **Here ε is the parameter of the class (1)
+// itself**, $ε = 1/λ$.
 //
 // **The picture.** The block of chapter 26 is pressed on its obstacle, and the obstacle rubs (λ = 1e8). *Left: the
 // tangential force $T$ of the floor stays between $-g$ and $g$. Right: where $|T| < g$ the rubber sticks, elsewhere it

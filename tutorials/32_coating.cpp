@@ -175,14 +175,14 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
 //
 // :output: contact force, by t
 //
-// (a) For the force $v$ alone. With $u$ P1 and $v$ CR it is right to 1 % (though $u$ of the coating stays affine, and
-// only CR for both converges); with $u$ CR and $v$ P1 it is 73 % too large, like that of P1 for both. P2 locks too: it
-// has parabolas of $x$, and no more.
+// (a) For the force $v$ alone. With $u$ P1 and $v$ CR it is right to 1 % (though $u$ of the coating stays affine: on
+// arbitrary triangles only CR for both converges); with $u$ CR and $v$ P1 it is 73 % too large, like that of P1 for both.
+// P2 locks too: it has parabolas of $x$, and no more.
 //
 // :figure: coating_force
 //
 // The diagnosis says so before anything is solved, because it asks for what the *bounded* unknowns can do. The dimension
-// of the kernel would not: for CR / P1 it grows fast with the mesh, all but two motions of $u$ (exercise 2).
+// of the kernel would not: for CR / P1 it grows fast with the mesh, in the coating by motions of $u$.
 //
 // (b) Between: $E_m = 1.10$ lies between $2μ = 0.77$ and $λ + 2μ = 1.35$. In plane strain the sheet cannot become narrower out
 // of the plane, but it can become thinner.
