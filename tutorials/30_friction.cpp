@@ -46,16 +46,15 @@
 // ## What is discretised, and what is proved
 //
 // With one $g_i$ per unknown, $j$ is replaced by $j_h(v) = \sum g_i |v_i|$: the integral of $g$ times the interpolant of
-// $|v_x|$ at vertices (P1) or midpoints (CR). It is the one new discretisation of this page. For P1 $j_h ≥ j$: the
-// interpolant of a convex function lies above it. On an edge they differ where $v_x$ changes its sign,
-// by at most $h|v_x'|$. So $j_h - j$ is at most $h ∫ g |v_x'| ≤ C h^{1/2} ‖v‖_1$ on P1 functions (an edge's slope is that
-// of its triangle, whose area is $∼ h^2$), and it vanishes with $h$ on bounded $v_h$. For CR the value at a midpoint is the mean
-// over the edge, with the same bound. Traces on $Γ_C$ converge strongly where $v_h$ converges weakly (they are compact),
-// hence $j$ converges too. [Chapter 28](28_mixed.cpp) asks for this. So friction asks nothing more of an element than
-// contact does: the convergence is uniform in λ where (i) to (iv) hold. (i), (iii), (iv) are proved for the three
-// elements that do not lock: (i) is Korn's inequality, for CR with its jumps. (ii) is proved for CR: interpolate
-// $w+zh^2/12$ by edge means; $z$ keeps the volume, is 0 on top, $z_y = 1$ on $Γ_C$ (a mean of the gap is its midpoint's
-// and $h^2/12$ more). For the other two it is neither proved nor tested.
+// $|v_x|$ at vertices (P1) or midpoints (CR), this page's one new discretisation. For P1 $j_h ≥ j$: the interpolant of a
+// convex function lies above it. On an edge they differ where $v_x$ changes its sign, by at most $h|v_x'|$. So $j_h - j$
+// is at most $h∫g|v_x'| ≤ Ch^{1/2}‖v‖_1$ on P1 functions (an edge's slope is that of its triangle, whose area is $∼
+// h^2$), and it vanishes with $h$ on bounded $v_h$. For CR the value at a midpoint is the edge's mean: the same bound.
+// Traces on $Γ_C$ converge strongly where $v_h$ converges weakly (they are compact), hence $j$ converges too, as chapter
+// 28 asks. So friction asks no more of an element than contact: the convergence is uniform in λ where (i) to (iv) hold.
+// (i), (iii), (iv) are proved for the three elements that do not lock: (i) is Korn's inequality, for CR with its jumps.
+// (ii) is proved for CR: interpolate $w+zh^2/12$ by edge means; $z$ keeps the volume, is 0 on top, $z_y = 1$ on $Γ_C$ (a
+// mean of the gap is its midpoint's and $h^2/12$ more). For the other two it is neither proved nor tested.
 //
 // Others impose friction by Nitsche's method with hybrid elements (Chouly, Ern and Pignet 2020, into the incompressible
 // limit), and certify the answer by balanced stresses as chapter 19 does (Fontana and Di Pietro 2024).

@@ -30,9 +30,9 @@ EnergyBracket energy_bracket(const Scene& scene, const TriangleMesh& mesh);
 /// errors in the energy norm are of order sqrt(b), those in the maximum norm of order b where u is smooth: less. Since
 /// the energy is a square and |u_h|_a^2 = 2 |J| on a cone K,
 ///     J(v) - J(u_h) <= (share b)^2 |J|   means   |v - u_h|_a <= share b |u_h|_a.
-/// This share left every error within 1 % (observed, chapter 21). The bracket may come from a mesh `coarser` times as coarse, where it costs
-/// little, and is divided by coarser^2 then (order h^2): cautious where P1 locks. A width that is not positive says
-/// nothing, and nothing is enough: both numbers are 0.
+/// This share left every error within 1 % (observed, chapter 21). The bracket may come from a mesh `coarser` times as
+/// coarse, where it costs little, and is divided by coarser^2 then (order h^2): cautious where P1 locks. A width that is
+/// not positive says nothing, and nothing is enough: both numbers are 0.
 AccurateEnough accurate_enough(const EnergyBracket& bracket, double coarser = 1, double share = 0.05);
 
 }  // namespace antilock

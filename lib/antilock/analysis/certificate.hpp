@@ -10,8 +10,8 @@ enum class Quantity { displacement, stress };
 
 /// A proved bound of the error against the exact solution u of (23), (24), (22) or the body alone, known from one
 /// Crouzeix-Raviart solution and one conforming function v of K. It holds for every epsilon in [0, 1], and was within
-/// 1.5 of the error at those tried (chapter 19). Everything is dimensionless, in the energy norm |.|_a of Remark 4. It holds up to round-off, for load, gap, traction, displacement
-/// and stiffness as sampled.
+/// 1.5 of the error at those tried (chapter 19). Everything is dimensionless, in the energy norm |.|_a of Remark 4. It
+/// holds up to round-off, for load, gap, traction, displacement and stiffness as sampled.
 struct Certificate {
   double displacement = 0;  ///< >= |u - v|_a, v the companion
   double gradient = 0;      ///< >= |A grad u - S_h|, S_h the broken flux of Crouzeix-Raviart: the same number

@@ -36,8 +36,8 @@ struct EnergyRow {
   double violation = 0;  ///< the KKT report's largest number
 };
 
-/// Solves for every class parameter (0 too). J rises as epsilon falls, to a limit; where the stiff part locks, to that with
-/// the stiff part held: the rest still moves. Throws Error for a malformed or singular problem.
+/// Solves for every class parameter (0 too). J rises as epsilon falls, to a limit; where the stiff part locks, to that
+/// with the stiff part held: the rest still moves. Throws Error for a malformed or singular problem.
 std::vector<EnergyRow> energy_against_epsilon(VariationalInequality problem, const std::vector<double>& epsilons);
 
 }  // namespace antilock

@@ -10,8 +10,8 @@ namespace antilock {
 /// k_T = abc / (4 area), with a, b, c the extents of the three sides in x. That is the formula of the circumradius, which
 /// it never exceeds, and 0 where a side is vertical. A length.
 double bending_length(const TriangleMesh& mesh, int triangle);
-/// Its root mean square over the layer, k: P1's interpolant pays (k / epsilon)^2 |u_xx|^2 there, in the mean over a layer bent alike.
-/// 0 for a mesh without a layer.
+/// Its root mean square over the layer, k: P1's interpolant pays (k / epsilon)^2 |u_xx|^2 there, in the mean over a
+/// layer bent alike. 0 for a mesh without a layer.
 double bending_length(const TriangleMesh& mesh);
 
 enum class Verdict { locks_completely, locks, locks_in_part, does_not_lock_for_this_reason };

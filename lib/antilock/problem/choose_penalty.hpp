@@ -23,11 +23,11 @@ RelativeStiffness relative_stiffness(const VariationalInequality& problem);
 ///
 ///     delta = 6e-8 s
 ///
-/// A correction contracts like delta / (delta + sigma), sigma the smallest eigenvalue of a0 against a1 that is not zero; it
-/// falls with the mesh, like h^2 in the layer, like h^4 in a beam. Round-off in the factor spoils a correction by about 0.005
-/// eps / (h^2 delta). With s = 1 and 1/h = 64 there are 2 corrections from 6e-8 down to 1e-9, 3 at 1e-10 and 5 at 1e-12:
-/// 6e-8 leaves room for finer meshes. In the beam, where r is far below R, 6e-11 on 512 cells took 3 corrections but 19
-/// contact steps, 6e-10 takes 6 and 13, 1e-8 took 20 and 9.
+/// A correction contracts like delta / (delta + sigma), sigma the smallest eigenvalue of a0 against a1 that is not
+/// zero; it falls with the mesh, like h^2 in the layer, like h^4 in a beam. Round-off in the factor spoils a correction
+/// by about 0.005 eps / (h^2 delta). With s = 1 and 1/h = 64 there are 2 corrections from 6e-8 down to 1e-9, 3 at 1e-10
+/// and 5 at 1e-12: 6e-8 leaves room for finer meshes. In the beam, where r is far below R, 6e-11 on 512 cells took 3
+/// corrections but 19 contact steps, 6e-10 takes 6 and 13, 1e-8 took 20 and 9.
 ///
 /// Corrections measured with contact, the most over compliance 1 to 1e-12 and 0: layer, 1/h = 8 to 128: P1 2, CR 2, locked
 /// P1 4 (with 1e-6 in place of 6e-8: 4, 4, 20); beam, 512 cells: 6, 1024: 12 (locked, where all of u tends to 0).

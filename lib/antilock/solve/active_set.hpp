@@ -28,8 +28,7 @@ struct ActiveSetOptions {
   CorrectionOptions corrections;
   std::optional<double> penalty;              ///< delta where compliance is smaller; empty: choose_penalty
   ContactRoad road = ContactRoad::automatic;  ///< of the factor, where the solver makes it
-  int max_steps =
-      1000;  ///< of the contact iteration per correction, which is finite, but perhaps long; reached: NotConverged
+  int max_steps = 1000;  ///< of a correction's contact iteration, which ends, but perhaps late; reached: NotConverged
   std::optional<Pieces> start;  ///< C: pieces to start from; empty: the nested start
 };
 

@@ -39,8 +39,8 @@ namespace antilock {
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
 /// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above
-/// `refused` no solver of this library returns it. Promises, not limits of the arithmetic: ten times the tolerance of the
-/// corrections, and what no figure and no mesh of the course could show.
+/// `refused` no solver of this library returns it. Promises, not limits of the arithmetic: ten times the tolerance of
+/// the corrections, and what no figure and no mesh of the course could show.
 struct TrustLevels {
   double trusted = 1e-9;
   double refused = 1e-6;

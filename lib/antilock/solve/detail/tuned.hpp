@@ -11,7 +11,7 @@ constexpr double eps = std::numeric_limits<double>::epsilon();
 /// A sum of n rounded terms loses about sqrt(n) eps of them: 64 eps serves rows of 4096 entries. A force is known to so
 /// much of its terms; a pivot below so much of its diagonal entry is nothing but its round-off (sound problems stay
 /// above 1e-12, on meshes and layers of every kind); of a penalty below it, times the stiffness of B' M B beside A1, a
-/// factor keeps less than two digits of A1.
+/// factor keeps fewer than two digits of A1.
 constexpr double round_off = 64 * eps;
 
 /// What rounding leaves between two rows that are equal. An entry of B, a gradient on a triangle, is a difference of
