@@ -200,12 +200,13 @@ class EveryPage(Book):
 
     def test_no_task_keeps_a_page_from_drawing(self):
         """The processor time of the longest task while the page is loaded and its figure answers first: a frame waits for it. Where
-        other programs run beside, it takes longer than its own: the best of three."""
+        other programs run beside, it takes longer than its own: the best of at most three."""
         for page in ("index", "08_crouzeix_raviart"):
-            longest = min(self.longest_task(page) for _ in range(3))
-            print(f"{page}: the longest task takes {longest:.0f} ms")
-            self.assertGreater(longest, 1)
-            self.assertLess(longest, 100)
+            tries = []
+            while len(tries) < 3 and min(tries, default=100) >= 100:
+                tries.append(self.longest_task(page))
+            print(f"{page}: the longest task takes {min(tries):.0f} ms")
+            self.assertTrue(1 < min(tries) < 100, tries)
 
     def longest_task(self, page):
         browser = open_browser("toplevel,devtools.timeline")  # a fresh one: nothing is compiled or kept yet
