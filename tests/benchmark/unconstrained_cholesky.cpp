@@ -1,7 +1,6 @@
 #include "benchmark/unconstrained_cholesky.hpp"
 
 #include <Eigen/CholmodSupport>
-#include <algorithm>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"

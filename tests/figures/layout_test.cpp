@@ -2,7 +2,6 @@
 // it promises.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "drawing/page.hpp"

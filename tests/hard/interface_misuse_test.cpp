@@ -11,7 +11,6 @@
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/solve/uzawa.hpp"
-#include "antilock/study/scene_sweep.hpp"
 #include "antilock/study/table.hpp"
 #include "backstage/17_worst_load.hpp"
 #include "backstage/27_truth.hpp"

@@ -97,6 +97,7 @@ const std::vector<BadScene> bad_scenes = {
     {"GapNotFinite", "contact.gap", with_contact("gap = \"1/(x - 0.5)\"")},
     {"GapNotRealAtTheEnd", "contact.gap", with_contact("gap = \"log(x)\"")},
     {"GapAgainstTheClamp", "contact.gap", with_contact("gap = \"-0.1\"")},
+    {"CeilingAgainstTheClamp", "contact.ceiling", with_contact("ceiling = \"-0.1\"")},
     {"GapUnknownKey", "contact.friction", with_contact("friction = 0.3")},
     // the mesh
     {"MeshEmpty", "mesh.kind", with_mesh("")},

@@ -139,21 +139,19 @@ TEST(Forms, LoadIntegratesPolynomialsExactly) {
 }
 
 // P1 has three Gauss points on an edge, which are exact to degree 5.
-TEST(Forms, EdgeLoadsAndSpringsIntegratePolynomialsExactly) {
+TEST(Forms, EdgeLoadsAndSpringsIntegratePolynomialsExactlyAndRefuseWhatIsNotFinite) {
   const TriangleMesh mesh = structured_mesh(2);
   const Space space(mesh, p1());
   const auto to = [](int k) { return [k](double x, double) { return std::pow(x, k); }; };
   const Eigen::VectorXd x = space.points().col(0);
   EXPECT_NEAR(edge_load(space, EdgeTag::contact, to(4)).dot(x), 1.0 / 6, 1e-14);
   EXPECT_NEAR(x.dot(edge_mass(space, EdgeTag::contact, to(3)) * x), 1.0 / 6, 1e-14);
+  EXPECT_NEAR(edge_load(space, EdgeTag::sigma, to(0)).sum(), 1, 1e-14);  // on both sides
   const auto below = [](double x, double) { return 0.5 - x; };
   expect_refused([&] { edge_mass(space, EdgeTag::contact, below); }, "spring: its stiffness is negative");
-}
-
-TEST(Forms, RefusesALoadThatIsNotFinite) {
-  const TriangleMesh mesh = structured_mesh(2);
-  expect_refused([&] { load_vector(Space(mesh, p1()), [](double x, double) { return std::log(x - 0.5); }); },
-                 "not finite");
+  const auto nowhere = [](double x, double) { return std::log(x - 0.5); };
+  expect_refused([&] { edge_load(space, EdgeTag::contact, nowhere); }, "not finite");
+  expect_refused([&] { load_vector(space, nowhere); }, "not finite");
 }
 
 TEST(Forms, VentcelTermIsTheEnergyOfTheTraceOnSigma) {
@@ -174,8 +172,10 @@ TEST(Forms, VentcelTermIsTheEnergyOfTheTraceOnSigma) {
         }
       }
     }
-  const TriangleMesh mesh = structured_mesh(2, {0});
+  TriangleMesh mesh = structured_mesh(2, {0});
   expect_refused([&] { ventcel_form(Space(mesh, p2())); }, "Ventcel");
+  std::replace(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::clamped, EdgeTag::free);
+  expect_refused([&] { ventcel_form(Space(mesh, p1())); }, "Sigma has an end at (0, 0)");
 }
 
 TEST(LoadVector, OfTheLayerIntegratesOverTheLayer) {

@@ -641,7 +641,8 @@ TEST(ExtrudedLayer, AlongNormalsIsRefusedWhereThereIsNoSuchLayer) {
   expect_refused([&] { extruded(ring, 0.1, true); }, "a displacement is given at");
   const TriangleMesh grown = extruded(half_ring(8, 2), 0.1, true);
   const Space space(grown, p1());
-  const Scene scene(Body{paper_load}, StiffLayer{0.1}, UnilateralContact{[](double) { return 1.0; }});
+  const Scene scene(Body{paper_load}, StiffLayer{0.1}, UnilateralContact{[](double) { return 1.0; }},
+                    {{"in"}, {"out", EdgeCondition::Kind::displacement, [](double, double) { return 0; }}});
   expect_refused([&] { SceneSweep(scene, space).set_epsilon(0.2); }, "along normals");
   expect_refused([&] { solve_to(scene, grown, {0.1}); }, "along the normals");
   TriangleMesh forgotten = grown;

@@ -61,11 +61,13 @@ TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
 }
 
 TEST(Assemble, RefusesASceneThatDoesNotFitItsMesh) {
-  const TriangleMesh body = structured_mesh(3, {0}), both = structured_mesh(3);
+  TriangleMesh body = structured_mesh(3, {0}), both = structured_mesh(3);
   expect_refused([&] { assemble(Scene({paper_load}, StiffLayer{0.1}), Space(body, p1())); }, "no group layer");
   expect_refused([&] { assemble(Scene({paper_load}, ThinLayer{0.1}), Space(body, p1())); }, "no group layer");
   expect_refused([&] { assemble(Scene({paper_load}), Space(both, p1())); }, "no layer");
   expect_refused([&] { assemble(Scene({paper_load}, VentcelLayer{}), Space(both, p1())); }, "no layer");
+  std::replace(body.edge_tag.begin(), body.edge_tag.end(), EdgeTag::clamped, held_group(0));
+  expect_refused([&] { assemble(Scene({paper_load}), Space(body, p1())); }, "of which the scene says nothing");
 }
 
 // ==== Nearly incompressible elasticity with Signorini contact: another member of the class, the same solver.

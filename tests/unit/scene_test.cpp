@@ -43,6 +43,9 @@ TEST(Scene, RefusesEpsilonOutOfRange) {
 
 TEST(Scene, RefusesABodyWithoutLoadAndContactWithoutGap) {
   expect_refused([] { Scene({Field{}}); }, "no load");
+  expect_refused([] { Scene({paper_load}, StiffLayer{0.1, -1}); }, "s > 0");
+  const EdgeCondition pull{"g", EdgeCondition::Kind::traction};
+  expect_refused([&] { Scene({paper_load}, NoLayer{}, {}, {pull}); }, "group g: no value");
   expect_refused([] { Scene({paper_load}, NoLayer{}, UnilateralContact{Profile{}}); }, "no gap");
 }
 
@@ -51,6 +54,8 @@ TEST(Scene, RefusesAnObstacleAboveAClampedEnd) {
                  "gap(0)");
   expect_refused([] { Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return 0.5 - x; }}); }, "gap(1)");
   expect_refused([] { Scene({paper_load}, NoLayer{}, UnilateralContact{[](double) { return nan; }}); }, "gap(0)");
+  const UnilateralContact low{[](double) { return 1; }, {0, 1}, [](double) { return -0.1; }};
+  expect_refused([&] { Scene({paper_load}, NoLayer{}, low); }, "ceiling(0)");
   // between the ends the obstacle may press in, and round-off at the ends is no contradiction
   EXPECT_NO_THROW(Scene({paper_load}, NoLayer{}, UnilateralContact{[](double x) { return x * (x - 1); }}));
   EXPECT_NO_THROW(

@@ -183,6 +183,13 @@ TEST(SweepOfAnyProblem, Refuses) {
   SceneSweep linear(Scene({paper_load}), space);
   EXPECT_THROW(linear.set_compliance(0.5), Error);
   EXPECT_THROW(linear.set_bounds(Eigen::VectorXd()), Error);
+  const Scene pulled({paper_load}, StiffLayer{0.1, 1, [](double, double) { return 3; }});
+  const SpaceOn both(structured_mesh(4), p1());
+  SceneSweep layer(pulled, both);
+  EXPECT_THROW(layer.set_load([](double x, double) { return std::log(x - 0.5); }), Error);
+  layer.set_load([](double x, double) { return x; });
+  layer.set_load(paper_load);
+  EXPECT_EQ(layer.problem().load, assemble(pulled, both).load);  // what pulls at the layer stays
 }
 
 }  // namespace antilock::test::study_test

@@ -17,7 +17,7 @@ Truth known_truth(const Scene& scene, int log2_points) {
   if (!truth)
     throw Error(
         "exact: the truth of this scene is not known; accepted: a StiffLayer, a load that is a sum of sines, and "
-        "the obstacle, if any, at the distance 0");
+        "the obstacle, if any, at the distance 0, and nothing beyond the paper");
   return std::move(*truth);
 }
 

@@ -1,6 +1,5 @@
 #include "antilock/analysis/hypotheses.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 

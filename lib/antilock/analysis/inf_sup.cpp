@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/CholmodSupport>
-#include <algorithm>
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/dense.hpp"

@@ -85,8 +85,10 @@ LockingDiagnosis diagnose_locking(const VariationalInequality& coarse, const Var
   if (!found.bounded)
     for (VariationalInequality* stiff : {&first, &second}) {
       stiff->contact.clear();
+      std::vector<char> fixed(stiff->size(), 0);
+      for (const int i : stiff->fixed) fixed[i] = 1;
       for (int i = 0; i < stiff->size(); ++i)
-        if (!std::binary_search(stiff->fixed.begin(), stiff->fixed.end(), i)) stiff->contact.push_back(i);
+        if (fixed[i] == 0) stiff->contact.push_back(i);
       stiff->lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stiff->contact.size()));
     }
   found.coarse_bounds = static_cast<int>(first.contact.size());

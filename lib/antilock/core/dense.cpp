@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
+#include "antilock/core/error.hpp"
+
 namespace antilock {
 
 using Eigen::MatrixXd;
@@ -11,7 +13,7 @@ using Eigen::VectorXd;
 
 Cholesky::Cholesky(MatrixXd s) : l_(std::move(s)) {
   const Eigen::LLT<Eigen::Ref<MatrixXd>> in_place(l_);
-  positive_definite_ = in_place.info() == Eigen::Success;
+  positive_definite_ = in_place.info() == Eigen::Success && l_.diagonal().allFinite();
 }
 
 VectorXd Cholesky::half_solve(const VectorXd& right) const { return l_.triangularView<Eigen::Lower>().solve(right); }
@@ -45,6 +47,7 @@ VectorXd symmetric_eigenvalues(const MatrixXd& matrix) {
 
 VectorXd generalised_eigenvalues(const MatrixXd& a, const MatrixXd& b) {
   const Cholesky factor(b);  // L^-1 A L^-T has them
+  if (!factor.positive_definite()) throw Error("eigenvalues of A x = s B x: B is not positive definite");
   const MatrixXd half = factor.half_solve(MatrixXd(a.selfadjointView<Eigen::Lower>()));
   return symmetric_eigenvalues(factor.half_solve(MatrixXd(half.transpose())));
 }

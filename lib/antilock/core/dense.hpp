@@ -12,7 +12,7 @@ namespace antilock {
 class Cholesky {
  public:
   explicit Cholesky(Eigen::MatrixXd s);
-  /// False where a pivot was not positive; every solution is meaningless then.
+  /// False where a pivot was not positive or not finite; every solution is meaningless then.
   bool positive_definite() const { return positive_definite_; }
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;       ///< S^-1 right (n)
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;       ///< S^-1 right (n x any)

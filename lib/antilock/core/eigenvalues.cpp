@@ -47,7 +47,7 @@ Eigenpair only_eigenpair(const Apply& apply, Eigen::Index size, const char* whic
   const double unit = size_of(apply, size);
   if (unit == 0 || size == 1) return {unit, Eigen::VectorXd::Unit(size, 0)};
   Operator scaled{size, apply, unit};
-  Spectra::SymEigsSolver<Operator> solver(scaled, 1, std::min<Eigen::Index>(basis, size));
+  Spectra::SymEigsSolver<Operator> solver(scaled, 1, std::clamp<Eigen::Index>(basis, 2, size));
   try {
     solver.init();
     solver.compute(Spectra::SortRule::LargestAlge, most_restarts, tolerance);

@@ -18,7 +18,7 @@ struct Eigenpair {
 };
 
 /// The same of an operator on R^size, to a relative `tolerance`; from below. One product per step of the iteration, at
-/// least min(size, `basis`) of them.
+/// least min(size, `basis`) of them. Throws Error for no unknowns, NotConverged.
 Eigenpair largest_eigenpair(const Apply& apply, Eigen::Index size, double tolerance = 1e-6, int basis = 30);
 inline double largest_eigenvalue(const Apply& apply, Eigen::Index size, double tolerance = 1e-6, int basis = 30) {
   return largest_eigenpair(apply, size, tolerance, basis).value;

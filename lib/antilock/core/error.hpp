@@ -19,7 +19,8 @@ struct NotConverged : Error {
   int steps;       ///< the iterations done
 };
 
-/// Text from a file for use in a message of one line: control characters become '?', long text is cut.
+/// Text from a file for use in a message of one line: characters that are not printable ASCII become '?', long text is
+/// cut.
 inline std::string printable(std::string_view text, std::size_t longest = 60) {
   std::string line(text.substr(0, longest));
   std::replace_if(

@@ -3,11 +3,11 @@
 
 namespace antilock {
 
-/// Wall seconds since its start.
+/// Wall seconds since its start or its last lap.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-  /// Seconds since the start or the last lap.
+  /// The same; a new lap begins.
   double lap() {
     const double elapsed = seconds();
     start_ = std::chrono::steady_clock::now();

@@ -13,7 +13,8 @@ namespace antilock {
 std::optional<SineLoad> as_sine_load(const Field& f);
 
 /// The exact solution of a scene, where it is known: the scaled layer (23) or its limit (25), a load that is a sum of
-/// sines, an obstacle, if any, at the distance 0 (looked at in 32769 places). Empty otherwise. Throws what Truth throws.
+/// sines, an obstacle, if any, at the distance 0 (looked at in 32769 places), nothing beyond the paper. Empty
+/// otherwise. Throws what Truth throws.
 std::optional<Truth> truth_of(const Scene& scene, int log2_points = 17);
 
 }  // namespace antilock

@@ -29,8 +29,8 @@ class Truth {
   Truth(const SineLoad& load, double epsilon, bool contact = true, int log2_points = 17);
 
   double epsilon() const;
-  // At any point of the closed domain [0,1] x [-1,1], else Error; 8 digits for value. Each call sums the series: about
-  // a millisecond where all N modes are alive, so use TruthTable for many points.
+  // At any point of the closed domain [0,1] x [-1,1], else Error; 8 digits for value from 2^12 points on. Each call
+  // sums the series: about a millisecond where all N modes are alive, so use TruthTable for many points.
   double value(double x, double y) const;
   Eigen::Vector2d gradient(double x, double y) const;  ///< on Sigma: the body's side
   double layer_stress(double x,

@@ -161,6 +161,8 @@ struct TruthTable::Grid {
 };
 
 TruthTable::TruthTable(const Truth& truth, int finest_cells) {
+  if (finest_cells < 1 || !std::has_single_bit(static_cast<unsigned>(finest_cells)))
+    throw Error(fmt::format("truth table: {} cells; accepted: a power of two", finest_cells));
   const Truth::Data& data = truth.data();
   const int waves = data.load.empty() ? 1 : data.load.back().k();  // the largest
   if (waves > most_waves)

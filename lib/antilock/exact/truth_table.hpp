@@ -24,7 +24,7 @@ struct TruthPoint {
 class TruthTable {
  public:
   /// `finest_cells`, a power of two, along Gamma_C and in rows next to it; fewer for a quick look, about a hundredth of
-  /// the time with 2^10. Throws Error if the load has a wave number beyond 32.
+  /// the time with 2^10. Throws Error for another number, and if the load has a wave number beyond 32.
   explicit TruthTable(const Truth& truth, int finest_cells = 1 << 14);
 
   double value(double x, double y) const;

@@ -19,6 +19,7 @@ void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
       if (mesh.edge_tag[e] != tag) continue;
+      const double share = mesh.edge_triangles(e, 1) < 0 ? 1 : 0.5;  // between two triangles: the mean of both sides
       for (Eigen::Index q = 0; q < points.size(); ++q) {
         Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
         lambda((i + 1) % 3) = 1 - points(q);
@@ -27,7 +28,7 @@ void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
         const double value = f(x(0), x(1));
         if (!std::isfinite(value))
           throw Error(fmt::format("edge: its value at ({:.6g}, {:.6g}) is not finite", x(0), x(1)));
-        act(t, weights(q) * mesh.edge_length(e) * value, space.element().basis(lambda));
+        act(t, share * weights(q) * mesh.edge_length(e) * value, space.element().basis(lambda));
       }
     }
 }
@@ -56,14 +57,24 @@ Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Fie
 Eigen::SparseMatrix<double> ventcel_form(const Space& space) {
   if (space.element().degree() != 1)
     throw Error("Ventcel term: element " + space.element().name() + " is not accepted; P1 or CR");
-  double left = 1e300, right = -1e300;  // the ends of Sigma
   const TriangleMesh& mesh = space.mesh();
+  std::vector<int> on_sigma(mesh.vertex_count(), 0), held = on_sigma;  // edges at each vertex
   for (int e = 0; e < mesh.edge_count(); ++e)
-    for (int end = 0; end < 2; ++end)
-      if (mesh.edge_tag[e] == EdgeTag::contact) {
-        left = std::min(left, mesh.vertices(mesh.edges(e, end), 0));
-        right = std::max(right, mesh.vertices(mesh.edges(e, end), 0));
-      }
+    for (const int v : mesh.edges.row(e)) {
+      on_sigma[v] += mesh.edge_tag[e] == EdgeTag::contact ? 1 : 0;
+      held[v] += is_held(mesh.edge_tag[e]) ? 1 : 0;
+    }
+  std::vector<double> ends;  // a single piece has two
+  for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (on_sigma[v] != 1) continue;
+    ends.push_back(mesh.vertices(v, 0));
+    if (held[v] == 0 || ends.size() > 2)
+      throw Error(
+          "Ventcel term: Sigma has an end at " + mesh.place(v) +
+          "; accepted: u = 0 at both of its ends, or a scaled layer with epsilon = 0, which is the same problem");
+  }
+  if (ends.size() != 2) throw Error("Ventcel term: Sigma has no ends; accepted: a piece of the line y = 0");
+  const auto [left, right] = std::minmax(ends[0], ends[1]);
   // x and unknown along Sigma; at the clamped ends u = 0, they have none
   std::vector<std::pair<double, int>> line{{left, -1}};
   for (const int i : space.contact()) line.emplace_back(space.points()(i, 0), i);

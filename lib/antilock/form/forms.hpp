@@ -39,14 +39,17 @@ Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region = 
 /// Of degree 5, or 2 k for an element of degree k > 2: what it leaves out is smaller than the error of the element.
 const Quadrature& load_rule(const Element& element);
 
-/// N values of int g phi_i over the edges with this tag, by Gauss points exact for g of degree k + 3.
+/// N values of int g phi_i over the edges with this tag (between two triangles the mean of both sides), by Gauss
+/// points exact for g of degree k + 3. Throws Error where g is not finite.
 Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g);
-/// N x N matrix of int k u v over them.
+/// N x N matrix of int k u v over them. Throws Error where k is negative or not finite.
 Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Field& k);
 
 /// N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25), on the contact edges of a mesh of the body alone.
 /// The trace is the continuous piecewise affine function through the unknowns on Sigma and the clamped ends: for P1 the
-/// trace itself, for CR the one through the edge midpoints (the broken trace has no derivative across vertices).
+/// trace itself, for CR the one through the edge midpoints (the broken trace has no derivative across vertices). Throws
+/// Error for another element than P1 or CR, and where Sigma is in pieces or not held at both ends, where u is taken to
+/// be 0.
 Eigen::SparseMatrix<double> ventcel_form(const Space& space);
 
 }  // namespace antilock

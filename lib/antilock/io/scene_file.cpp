@@ -176,7 +176,7 @@ void sample_load(const Field& f) {
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) f(static_cast<double>(i) / n, static_cast<double>(j) / n);
 }
-void sample_gap(const Profile& gap) {
+void sample_profile(const Profile& gap) {
   for (const int n : {1000, 3840, 4096})
     for (int i = 0; i <= n; ++i) gap(static_cast<double>(i) / n);
 }
@@ -472,14 +472,16 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   const Layer layer = root.has("layer") ? read_layer(root.section("layer")) : NoLayer{};
   std::optional<UnilateralContact> contact;
   if (root.has("contact")) contact = read_contact(root.section("contact"));
-  if (contact && unit_square) sample_gap(contact->gap);
+  if (contact && unit_square) sample_profile(contact->gap);
+  if (contact && contact->ceiling && unit_square) sample_profile(contact->ceiling);
   if (contact && !unit_square) contact->held.clear();
   const MethodRequest method = read_method(root.section("method"));
   const Scene scene = [&] {
     try {
       return Scene(body, layer, contact, edges);
-    } catch (const Error& error) {  // what is left for the scene to refuse: a gap that no clamped end can keep
-      throw Error(root.where("contact.gap") + error.what());
+    } catch (const Error& error) {  // what is left for the scene to refuse: what no clamped end can keep
+      const std::string what = error.what();
+      throw Error(root.where(what.starts_with("contact: ceiling") ? "contact.ceiling" : "contact.gap") + what);
     }
   }();
   const auto elastic = root.has("model") ? read_model(root.section("model"), layer) : std::nullopt;

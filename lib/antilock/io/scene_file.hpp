@@ -23,10 +23,11 @@ struct MeshRequest {
 struct MethodRequest {
   static constexpr double roughest_tolerance = 1e-3;  ///< beyond, the answer says less than any mesh does
   static constexpr double finest_tolerance = 1e-14;   ///< below, no double can be promised
-  std::string element = "P1";                         ///< "P1", "CR" or "P2"
+  std::string element = "P1";                         ///< "P1" to "P4" or "CR"
   std::string solver = "active-set";                  ///< "active-set", "uzawa" or "petsc"
-  double tolerance = 1e-10;        ///< relative, on the algebraic error; 0 < tolerance <= roughest_tolerance
-  std::optional<double> accuracy;  ///< proved relative error asked for, in (0, 1); the element is CR then
+  double tolerance = 1e-10;  ///< relative, on the algebraic error; 0 < tolerance <= roughest_tolerance
+  std::optional<double>
+      accuracy;  ///< proved relative error asked for, in (0, 1); the element is CR unless P1 or P2 is named
   Quantity of = Quantity::displacement;
   double most_unknowns = 2e6;  ///< with accuracy: the limit
 };
@@ -61,9 +62,10 @@ SceneFile read_scene_file(const std::filesystem::path& path);
 SceneFile read_scene(const std::string& text, const std::filesystem::path& path);
 
 /// The mesh of a scene file: made, or read and compared with the scene, then refined. From a file the body may be
-/// anything on or above y = 0 with a bottom edge on that line: with a layer all of it is Sigma, and the layer fills the
-/// strip below, contact at its bottom; without one all of it is contact. Throws Error as above, KEY mesh.cells,
-/// mesh.file, mesh.refinements, or load.f and contact.gap where these have no value on the body of a file.
+/// anything on or above y = 0 with a bottom edge on that line, or above a curve of contact edges, along whose normals
+/// the layer then grows: with a layer all of it is Sigma, and the layer fills the strip below, contact at its bottom;
+/// without one all of it is contact. Throws Error as above, KEY mesh.cells, mesh.file, mesh.refinements, or load.f and
+/// contact.gap where these have no value on the body of a file.
 TriangleMesh make_mesh(const SceneFile& file);
 
 /// Throws Error, `FILE: WHO: ...`, for a scene that goes beyond the paper's problem: plane strain, or what

@@ -14,6 +14,7 @@
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/mesh/refine.hpp"
+#include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
 
 namespace antilock {
@@ -172,6 +173,8 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
     check_contact_side(mesh, -depth, sigma.size);
     if (std::holds_alternative<VentcelLayer>(scene.layer()) && sigma.box.sizes()(0) > sigma.size + slack)
       throw Error("the body's bottom edge is in several pieces; accepted with model = \"ventcel\": one piece");
+    if (std::holds_alternative<VentcelLayer>(scene.layer()))  // what its term refuses
+      assemble(Scene({[](double, double) { return 0; }}, VentcelLayer{}, {}, scene.edges()), Space(mesh, p1()));
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
   }

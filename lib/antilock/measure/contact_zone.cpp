@@ -1,21 +1,40 @@
 #include "antilock/measure/contact_zone.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+
+#include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/measure/detail/contact_edges.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 
+namespace {
+
+/// The unknowns of the bounded component, one per bound.
+const std::vector<int>& bounded(const Space& space, const VariationalInequality& problem, const std::string& who) {
+  require_bounds_on_unknowns(problem, who);
+  require_firm_bounds(problem, who);
+  if (space.contact().size() != problem.contact.size())
+    throw Error(fmt::format(
+        "{}: {} bounds and a space with {} unknowns on Gamma_C; accepted: that of the component with bounds", who,
+        problem.contact.size(), space.contact().size()));
+  return space.contact();
+}
+
+}  // namespace
+
 ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution) {
-  require_bounds_on_unknowns(problem, "contact zone");
-  require_firm_bounds(problem, "contact zone");
+  if (problem.bound_count() == 0) return {};
+  const std::vector<int>& places = bounded(space, problem, "contact zone");
   ContactZone zone;
   zone.points = static_cast<int>(problem.contact.size());
   for (int i = 0; i < zone.points; ++i) {
     if (!solution.active[i]) continue;
-    const double x = space.points()(problem.contact[i] % space.size(), 0);
+    const double x = space.points()(places[i], 0);
     ++zone.active;
     zone.from = std::min(zone.from.value_or(x), x);
     zone.to = std::max(zone.to.value_or(x), x);
@@ -32,11 +51,10 @@ Eigen::VectorXd contact_lengths(const Space& space) {
 }
 
 Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& problem, const Solution& solution) {
-  require_bounds_on_unknowns(problem, "contact table");
-  require_firm_bounds(problem, "contact table");
+  const std::vector<int>& places = bounded(space, problem, "contact table");
   const auto count = static_cast<Eigen::Index>(problem.contact.size());
   Eigen::MatrixX3d table(count, 3);
-  table.col(0) = space.points().col(0)(space.contact());
+  table.col(0) = space.points().col(0)(places);
   table.col(1) = slack(problem, solution.u);
   table.col(2) = solution.lambda.cwiseQuotient(contact_lengths(space));
   return table;

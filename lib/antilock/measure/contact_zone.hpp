@@ -1,7 +1,6 @@
 #pragma once
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
 
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/solution.hpp"
@@ -14,6 +13,8 @@ struct ContactZone {
   int active = 0;                  ///< of these in contact
   std::optional<double> from, to;  ///< x-range of the active ones; empty where none
 };
+/// `space`: of the component with bounds, one per unknown on Gamma_C. Throws Error for another, for bounds on
+/// combinations (they have no point) and for friction.
 ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution);
 
 /// Length of Gamma_C that each contact unknown stands for: its edge (CR), half its two edges (P1). lambda divided by it
@@ -21,7 +22,7 @@ ContactZone contact_zone(const Space& space, const VariationalInequality& proble
 Eigen::VectorXd contact_lengths(const Space& space);
 
 /// One row per contact unknown: x, gap >= 0 (to the nearer bound), pressure (density) >= 0, <= 0 at an upper bound.
-/// C x 3. Throws Error for bounds on combinations, as contact_zone does: they have no point.
+/// C x 3. Throws Error as contact_zone does.
 Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& problem, const Solution& solution);
 
 }  // namespace antilock

@@ -130,8 +130,9 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
 }
 
 double slope(const std::vector<double>& h, const std::vector<double>& errors) {
-  if (h.size() != errors.size())
-    throw Error(fmt::format("slope: {} errors for {} mesh widths; accepted: one per width", errors.size(), h.size()));
+  if (h.size() != errors.size() || h.size() < 2)
+    throw Error(fmt::format("slope: {} errors for {} mesh widths; accepted: one per width, of two widths or more",
+                            errors.size(), h.size()));
   const Eigen::ArrayXd x = Eigen::Map<const Eigen::ArrayXd>(h.data(), static_cast<Eigen::Index>(h.size())).log();
   const Eigen::ArrayXd y =
       Eigen::Map<const Eigen::ArrayXd>(errors.data(), static_cast<Eigen::Index>(errors.size())).log();
@@ -143,7 +144,7 @@ double energy(const VariationalInequality& problem, const Solution& solution) {
   if (solution.u.size() != problem.size() || solution.p.size() != problem.b.rows())
     throw Error(fmt::format("energy: a solution of {} unknowns and {} rows of B; accepted: {} and {}, of this problem",
                             solution.u.size(), solution.p.size(), problem.size(), problem.b.rows()));
-  const double stiff = problem.compliance * solution.p.dot(problem.m.cwiseProduct(solution.p));
+  const double stiff = solution.p.dot(problem.compliances().cwiseProduct(problem.m).cwiseProduct(solution.p));
   return 0.5 * (solution.u.dot(problem.a1 * solution.u) + stiff) - problem.load.dot(solution.u) +
          friction_energy(problem, solution.u);
 }

@@ -29,14 +29,17 @@ struct Errors {
   double max_at_unknowns = 0;  ///< at the unknowns: vertices (P1) or edge midpoints (CR)
   double max = 0;  ///< L-infinity, sampled at 15 points of every triangle: the lattice of order 4, corners included
   double l2 = 0;
-  double h1 = 0;                ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
-  double energy = 0;            ///< |.|_a^epsilon of Remark 4; the stiff part through p, so it holds at epsilon = 0
+  double h1 = 0;  ///< broken H1: sqrt(sum over triangles of |grad|^2 + L2^2)
+  /// |.|_a^epsilon of Remark 4 for (23) and (24) with s = 1 (the factor s is not known here), the stiff part through
+  /// p, so that it holds at epsilon = 0; for (22), (25) and without a layer the norm of the gradient
+  double energy = 0;
   Eigen::VectorXd by_triangle;  ///< T: of each triangle in the energy norm; their squares add up to that of `energy`
 };
 
 Errors measure_errors(const Space& space, const Solution& solution, double epsilon, const Reference& reference);
 
-/// Least-squares slope of log(error) against log(h).
+/// Least-squares slope of log(error) against log(h); not a number for one that is not positive. Throws Error for fewer
+/// than two pairs and for lists of two lengths.
 double slope(const std::vector<double>& h, const std::vector<double>& errors);
 
 /// J(u) = a(u, u)/2 - L(u) + j(u), the stiff part as compliance p' M p, j of friction (problem/bounds.hpp).

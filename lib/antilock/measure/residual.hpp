@@ -12,7 +12,7 @@ namespace antilock {
 /// int_Gamma_C lambda v of the contact pressure; for Crouzeix-Raviart the fluxes of u through the jumps of v come on
 /// top (consistency). `load`: L(phi_i). The stiff part is taken as the layer stress, so epsilon = 0 is no exception.
 /// `breaks`: the x where that stress jumps (the ends of contact); layer triangles across them are integrated by 1792
-/// points, the others by 7.
+/// points, the others by load_rule.
 Eigen::VectorXd exact_residual(const Space& space, const Eigen::VectorXd& load, const Reference& exact,
                                const std::vector<double>& breaks);
 

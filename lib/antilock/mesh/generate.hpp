@@ -15,9 +15,8 @@ struct Domain {
 /// Throws Error unless 1 <= cells <= most and 0 <= layer_depth <= 1.
 void check_mesh_request(int cells, int most, const Domain& domain);
 
-/// The structured mesh of Figure 3: `cells` squares a unit side, each cut by a diagonal. A layer of another depth than
-/// 1 has as many rows as keep its cells no flatter than needed: max(2, round(depth * cells)). Throws Error unless 1 <=
-/// cells <= 2048.
+/// The structured mesh of Figure 3: `cells` squares per unit side, each cut by a diagonal. A layer has as many rows as
+/// keep its cells no flatter than needed: max(2, round(depth * cells)). Throws Error unless 1 <= cells <= 2048.
 TriangleMesh structured_mesh(int cells, const Domain& domain = {}, Diagonal diagonal = Diagonal::right);
 
 /// The structured mesh with every vertex off Sigma and off the boundary moved by up to amount * h in x and in y, at
@@ -27,8 +26,9 @@ TriangleMesh jittered_mesh(int cells, double amount);
 
 /// The lattices: a layer of `rows` rows of isosceles triangles with the base 1/cells, which lies across and alternates
 /// above and below, so no edge inside is vertical; or the same turned by 90 degrees, `columns` columns with upright
-/// bases. Congruent but for the halves at the ends of each row or column. The body has squares cut by a diagonal. Throws
-/// Error unless 1 <= cells <= 2048.
+/// bases. Congruent but for the halves at the ends of each row or column. The body has rectangles of the lattice's
+/// width, cut by a diagonal. Throws Error unless cells, rows and columns are in range: 1 <= cells <= 2048, up to 4096
+/// of the others.
 TriangleMesh rows_mesh(int cells, int rows);
 TriangleMesh columns_mesh(int cells, int columns);
 
@@ -41,8 +41,8 @@ enum class Mesher { mesh_adapt = 1, delaunay = 5, frontal = 6 };  ///< gmsh's ow
 /// of the coarse mesh, and inside its triangles the mesh is regular. Throws Error unless 1 <= cells <= 512.
 TriangleMesh unstructured_mesh(int cells, const Domain& domain = {}, Mesher mesher = Mesher::frontal);
 
-/// The disc of radius 1, its rim clamped: 6 rings^2 triangles with edges of about 1/rings and nearly equal angles. Its
-/// boundary is the polygon through 6 rings points of the circle. Throws Error unless 1 <= rings <= 512.
+/// The disc of radius 1, its rim clamped: 6 rings^2 triangles with edges of about 1/rings, no angle far above 90
+/// degrees. Its boundary is the polygon through 6 rings points of the circle. Throws Error unless 1 <= rings <= 512.
 TriangleMesh disc_mesh(int rings);
 
 }  // namespace antilock

@@ -37,6 +37,8 @@ TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>
   if (std::find(y.begin(), y.end() - 1, 0.0) == y.end() - 1)
     throw Error(
         fmt::format("tensor mesh: y from {} to {}; accepted: a line y = 0 below the last", y.front(), y.back()));
+  if (static_cast<double>(x.size()) * static_cast<double>(y.size()) > 1 << 25)
+    throw Error(fmt::format("tensor mesh: {} by {} lines; accepted: up to 2^25 crossings", x.size(), y.size()));
   const int columns = static_cast<int>(x.size()) - 1, rows = static_cast<int>(y.size()) - 1;
   const int corners = (rows + 1) * (columns + 1), cells = rows * columns;
   const bool crossed = diagonal == Diagonal::crossed;

@@ -7,9 +7,10 @@ namespace antilock {
 /// rows as make its cells about square in the true layer, of thickness epsilon: ceil(epsilon / h) rows, h the mean
 /// width of the columns. Each cell is cut by a diagonal (/). `body` is a mesh of any body on or above Sigma, a part of
 /// the line y = 0: Sigma are its edges with the tag contact. The body's vertices and triangles come first, in their
-/// order, and keep their tags. Below, the sides are clamped and the bottom is contact, as in Figure 2. A function of P1
-/// on it that is constant on each column costs no layer stress, so that P1 does not lock on it. Throws Error unless 0
-/// <= epsilon <= 1, for a body below y = 0, for one without Sigma and for one with a layer.
+/// order, and keep their tags. Below, the sides are held as the body is at the ends of Sigma, or free, and the bottom
+/// is contact (Figure 2). A function of P1 on it that is constant on each column costs no layer stress, so that P1
+/// does not lock on it. Throws Error unless 0 <= epsilon <= 1, for a body below y = 0, for one without Sigma and for
+/// one with a layer.
 ///
 /// `along_normals`: Sigma may be curved, anywhere below the body, each x once. The layer of thickness t = epsilon is
 /// then gamma(s) + t d n(s), 0 < d < 1, with s the length along Sigma and n the normal out of the body. With c the
@@ -31,7 +32,8 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
 Points drawn_along_normals(const TriangleMesh& mesh);
 
 /// The layered mesh of the unit square: gmsh's body (unstructured_mesh), its layer extruded. Made for one epsilon it
-/// serves every smaller one; the layer has `cells` rows for epsilon = 1 and a single one for epsilon <= 1 / cells.
+/// serves every smaller one; the layer has about `cells` rows for epsilon = 1 and a single one where epsilon is at most
+/// the mean width of a column.
 /// Throws Error unless 1 <= cells <= 512.
 TriangleMesh layered_mesh(int cells, double epsilon = 1);
 

@@ -380,6 +380,7 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
   std::vector<TaggedEdge> edges;
   std::set<std::string_view> found;
   std::unordered_set<std::int64_t> tags;
+  if (part != nullptr) part->clear();
   for (const FileElement& element : file.elements) {
     if (!tags.insert(element.tag).second) lines.refuse_at(element.line, "element number {} is used twice", element.tag);
     std::array<int, 3> vertices{};

@@ -4,8 +4,7 @@
 namespace antilock {
 
 /// Every triangle cut into four by its edge midpoints: triangle t becomes 4 t ... 4 t + 3, so that the father of t is
-/// t / 4 and a function on the mesh is one on its refinement. Regions, tags and the geometry are inherited (clamped and
-/// contact; a mesh with free edges is refused).
+/// t / 4 and a function on the mesh is one on its refinement. Regions, tags and the geometry are inherited.
 TriangleMesh refined(const TriangleMesh& mesh);
 
 /// Puts new vertices on the curves of the mesh's geometry: middle[e] is the row of `vertices` in the middle of edge e, -1

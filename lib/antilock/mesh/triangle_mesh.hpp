@@ -45,7 +45,7 @@ struct TriangleMesh {
   Pairs edges;                    ///< E x 2 vertices, the smaller index first
   Triples triangle_edges;         ///< T x 3 edges; edge i lies opposite vertex i
   Pairs edge_triangles;           ///< E x 2 triangles; the second is -1 on the boundary
-  std::vector<EdgeTag> edge_tag;  ///< E; sigma where body meets layer, clamped or contact on the whole boundary
+  std::vector<EdgeTag> edge_tag;  ///< E; sigma where body meets layer; never interior on the boundary
   std::string geometry = {};      ///< a .geo or .brep file on whose curves the body's boundary has its vertices, and to
       ///< which every refinement returns (mesh/refine.hpp); empty: the boundary is the polygon
 
@@ -75,13 +75,15 @@ struct TaggedEdge {
 /// is turned round.
 /// `where` opens every message (a file name, or what made the mesh). Throws Error for: indices out of range, values
 /// not finite, a single inverted triangle, degenerate triangles (twice the area below 1e-14 of the longest edge
-/// squared), duplicate or unused vertices, hanging nodes, edges of three triangles or of overlapping ones, boundary
-/// edges without the tag clamped or contact, tagged edges that are no edge of the mesh, no body, no clamped edge.
+/// squared), duplicate or unused vertices, edges of three triangles or of overlapping ones, boundary edges without a
+/// tag (as at a hanging node), tagged edges that are no edge of the mesh, no body, no edge that is clamped or in a
+/// named group.
 TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
                                 const std::vector<TaggedEdge>& tagged_edges, const std::string& where);
 
-/// Fills edges, triangle_edges and edge_triangles from vertices and triangles, in linear time; every edge_tag becomes
-/// interior, or sigma where body meets layer. `where` opens the message of the Error for an edge of three triangles.
+/// Fills edges, triangle_edges and edge_triangles from vertices and triangles, in linear time where no vertex has many
+/// neighbours; every edge_tag becomes interior, or sigma where body meets layer. `where` opens the message of the
+/// Error for an edge of three triangles.
 void number_edges(TriangleMesh& mesh, const std::string& where);
 
 /// The mesh of a generator, whose triangles are counterclockwise and need no check. Its parts are told by their places

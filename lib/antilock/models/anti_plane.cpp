@@ -64,6 +64,18 @@ void follow_normals(VariationalInequality& problem, const StiffLayer& layer, con
 void add_edges(VariationalInequality& problem, const Scene& scene, const Space& space) {
   using Kind = EdgeCondition::Kind;
   const TriangleMesh& mesh = space.mesh();
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const EdgeTag tag = mesh.edge_tag[e];
+    const int k = group_of(tag);
+    if (k >= static_cast<int>(scene.edges().size()))
+      throw Error(
+          fmt::format("scene and mesh: the edge at {} is in the group {}, of which the scene says nothing; "
+                      "accepted: a condition per group",
+                      mesh.place(mesh.edges(e, 0)), k));
+    if (k >= 0 && is_held(tag) != (scene.edges()[k].kind == Kind::displacement))
+      throw Error("scene and mesh: the group " + scene.edges()[k].group +
+                  " is held in one of the two alone; accepted: held_group for a displacement, natural_group else");
+  }
   const Eigen::MatrixX3d nodes = space.element().nodes();
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k) {
     const auto& [group, kind, value] = scene.edges()[k];
@@ -109,7 +121,18 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   problem.b.resize(0, space.size());
   problem.load = load_vector(space, load);
   gradient_form(space, {1, 1}, layer, stiffness).swap(problem.a1);  // an assignment would copy the matrix
-  if (std::holds_alternative<VentcelLayer>(scene.layer())) problem.a1 += ventcel_form(space);
+  if (std::holds_alternative<VentcelLayer>(scene.layer())) {
+    problem.a1 += ventcel_form(space);
+    const TriangleMesh& mesh = space.mesh();
+    const Eigen::VectorXd given = prescribed_values(scene, mesh);
+    for (int e = 0; e < mesh.edge_count(); ++e)
+      for (const int v : mesh.edges.row(e))
+        if (mesh.edge_tag[e] == EdgeTag::contact && given(v) != 0)
+          throw Error(
+              fmt::format("Ventcel term: u = {:.6g} is given at {}, an end of Sigma; accepted: u = 0 at both of its "
+                          "ends, or a scaled layer with epsilon = 0, which is the same problem",
+                          given(v), mesh.place(v)));
+  }
   if (stiff != nullptr) {
     FactoredForm strain = layer_strain(space);  // a_y^-, factored
     problem.b.swap(strain.b);

@@ -39,14 +39,15 @@ Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const
   const FactoredForm body = strain_rows(space, {{{lambda, 0, 0, lambda + 2 * mu}}}, Region::body);
   const Eigen::VectorXd stress = body.b * u;
   Eigen::VectorXd pressure = Eigen::VectorXd::Zero(mesh.triangle_count());
-  const Eigen::Index points = divergence_rule(space).weights.size();
+  const Eigen::VectorXd weights = divergence_rule(space).weights;
+  const Eigen::Index points = weights.size();
   for (Eigen::Index row = 0; row < stress.size(); ++row)
-    pressure(body.cell[row]) -= stress(row) / static_cast<double>(points);
+    pressure(body.cell[row]) -= weights(row % points) * stress(row);
   Eigen::Index row = 0;  // of each point of the coating the first of two
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == Region::layer)
       for (Eigen::Index q = 0; q < points; ++q, row += 2)
-        pressure(t) -= (coating.layer.lambda + 2 * coating.layer.mu) * p(row) / static_cast<double>(points);
+        pressure(t) -= (coating.layer.lambda + 2 * coating.layer.mu) * weights(q) * p(row);
   return pressure;
 }
 

@@ -10,6 +10,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/form/detail/averaged.hpp"
 #include "antilock/form/quadrature.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 
@@ -72,11 +73,7 @@ void add_press(VariationalInequality& problem, const Press& press, const VectorS
   for (const int i : space.x.clamped())
     if (!press.sliding) fixed[i] = 0;
   for (const int i : space.y.clamped()) fixed[shift + i] = -press.push;
-  problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()));
-  for (const auto& [i, value] : fixed) {
-    problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
-    problem.fixed.push_back(i);
-  }
+  set_fixed(problem, fixed);
   for (const int i : space.y.contact()) problem.contact.push_back(shift + i);
   problem.lower = -space.y.points().col(0)(space.y.contact()).unaryExpr(press.gap);
   if (press.friction) add_friction(problem, press.friction, space.x);

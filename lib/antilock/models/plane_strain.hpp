@@ -9,7 +9,7 @@ namespace antilock {
 /// (Tresca): + int g |u_x|. Bounds: those of u_y by x, then, with friction, those of u_x by x.
 struct Press {
   double push = 0.1;     ///< displacement of the clamped edges, downwards
-  bool sliding = false;  ///< clamped edges are free to slide in x, but for the vertices on x = 0 (patch test)
+  bool sliding = false;  ///< clamped edges slide in x; u_x = 0 on the whole line x = 0 instead (patch test)
   Profile gap = [](double) { return 0.0; };
   Profile friction = {};   ///< g(x) >= 0, a force per length; empty: none
   double jump_weight = 1;  ///< of jump_form; 0: none (CR then has zero modes)

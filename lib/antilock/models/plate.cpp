@@ -9,6 +9,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 namespace {
@@ -78,11 +79,7 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
   problem.load.head(space.deflection.size()) = load_vector(space.deflection, plate.load);
 
   const std::map<int, double> fixed = held(plate, space);
-  problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()));
-  for (const auto& [i, value] : fixed) {
-    problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
-    problem.fixed.push_back(i);
-  }
+  set_fixed(problem, fixed);
   std::vector<double> lower;
   for (int i = 0; i < space.deflection.size(); ++i) {
     const double gap = plate.gap(space.deflection.points()(i, 0), space.deflection.points()(i, 1));

@@ -48,6 +48,15 @@ double friction_energy(const VariationalInequality& problem, const Eigen::Vector
   return sum;
 }
 
+void set_fixed(VariationalInequality& problem, const std::map<int, double>& values) {
+  problem.fixed.clear();
+  problem.fixed_values.resize(static_cast<Eigen::Index>(values.size()));
+  for (const auto& [unknown, value] : values) {
+    problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
+    problem.fixed.push_back(unknown);
+  }
+}
+
 VariationalInequality held_in_contact(VariationalInequality problem, const std::vector<bool>& active) {
   require_lower_bounds(problem, "held_in_contact");
   if (active.size() != problem.contact.size())
@@ -58,12 +67,7 @@ VariationalInequality held_in_contact(VariationalInequality problem, const std::
     fixed[problem.fixed[i]] = problem.fixed_values(static_cast<Eigen::Index>(i));
   for (std::size_t i = 0; i < active.size(); ++i)
     if (active[i]) fixed[problem.contact[i]] = problem.lower(static_cast<Eigen::Index>(i));
-  problem.fixed.clear();
-  problem.fixed_values.resize(static_cast<Eigen::Index>(fixed.size()));
-  for (const auto& [unknown, value] : fixed) {
-    problem.fixed_values(static_cast<Eigen::Index>(problem.fixed.size())) = value;
-    problem.fixed.push_back(unknown);
-  }
+  set_fixed(problem, fixed);
   problem.contact.clear();
   problem.lower.resize(0);
   return problem;

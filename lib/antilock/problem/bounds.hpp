@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 
 #include "antilock/problem/variational_inequality.hpp"
@@ -17,6 +18,9 @@ Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorX
 
 /// j(u), the work that bounds with a force_bound take up: the sum of force_bound times the distance from the bounds.
 double friction_energy(const VariationalInequality& problem, const Eigen::VectorXd& u);
+
+/// Gives the problem these fixed unknowns with their values, in the place of those that it has.
+void set_fixed(VariationalInequality& problem, const std::map<int, double>& values);
 
 /// The problem whose bounds marked in `active` (one mark per contact unknown) hold as equations, and whose other bounds
 /// are gone: linear, and where `active` is the contact set of the solution, with the same solution. Throws Error for

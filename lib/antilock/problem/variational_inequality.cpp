@@ -104,6 +104,7 @@ void check_data(const VariationalInequality& problem) {
   require(rows == 0 || problem.m.minCoeff() > 0, "M is not positive");
   require(problem.compliance >= 0 && std::isfinite(problem.compliance),
           fmt::format("compliance = {}; accepted: a finite number, 0 or more", problem.compliance));
+  require(problem.ties >= 0 && problem.ties <= rows, fmt::format("ties = {}; accepted: 0 to {}", problem.ties, rows));
   require(problem.fixed_values.size() == static_cast<Eigen::Index>(problem.fixed.size()),
           "one value per fixed unknown is needed");
   std::vector<char> taken(n, 0);

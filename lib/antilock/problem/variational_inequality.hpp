@@ -30,7 +30,7 @@ struct VariationalInequality {
   double compliance = 1;   ///< the class parameter, 0 or more. In (23) it is epsilon^2: the one place that says so is
                            ///< `assemble` (models/anti_plane.hpp)
   Eigen::VectorXd load;    ///< N, L(phi_i)
-  std::vector<int> fixed;  ///< unknowns with a prescribed value, ascending
+  std::vector<int> fixed;  ///< unknowns with a prescribed value
   Eigen::VectorXd fixed_values;      ///< one per fixed unknown
   std::vector<int> contact;          ///< bounded unknowns, in the order of the reports (by x)
   Eigen::VectorXd lower;             ///< C: lower <= u there (= -gap). -infinity: no bound from below

@@ -19,8 +19,13 @@ void check_epsilon(const std::string& model, double epsilon, double smallest, co
 Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, std::vector<EdgeCondition> edges)
     : body_(std::move(body)), layer_(std::move(layer)), contact_(std::move(contact)), edges_(std::move(edges)) {
   if (!body_.load) throw Error("body: no load given; accepted: a function f(x, y)");
-  if (const auto* stiff = std::get_if<StiffLayer>(&layer_))
-    check_epsilon("scaled", stiff->epsilon, 0, "0 < epsilon <= 1, or exactly 0 (the rigid limit)");
+  for (const EdgeCondition& edge : edges_)
+    if (edge.kind != EdgeCondition::Kind::free && !edge.value)
+      throw Error("edge group " + edge.group + ": no value given; accepted: a function of x and y");
+  const auto* stiff = std::get_if<StiffLayer>(&layer_);
+  if (stiff != nullptr && !(stiff->s > 0 && std::isfinite(stiff->s)))
+    throw Error(fmt::format("scaled layer: s = {}; accepted: s > 0", stiff->s));
+  if (stiff != nullptr) check_epsilon("scaled", stiff->epsilon, 0, "0 < epsilon <= 1, or exactly 0 (the rigid limit)");
   if (const auto* thin = std::get_if<ThinLayer>(&layer_))
     check_epsilon("thin", thin->epsilon, 1e-3, "1e-3 <= epsilon <= 1 (below, use the scaled layer)");
   if (!contact_) return;
@@ -32,6 +37,10 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, s
           fmt::format("contact: gap({}) = {}, but u = 0 is prescribed there, so no u >= -gap exists; "
                       "accepted: gap >= 0 at x = {}",
                       x, gap, fmt::join(contact_->held, " and x = ")));
+    if (contact_->ceiling && !(contact_->ceiling(x) >= -1e-12 * std::max(1.0, std::abs(contact_->ceiling(0.5)))))
+      throw Error(
+          fmt::format("contact: ceiling({}) = {}, but u = 0 is prescribed there; accepted: ceiling >= 0 at x = {}", x,
+                      contact_->ceiling(x), fmt::join(contact_->held, " and x = ")));
   }
 }
 

@@ -47,7 +47,7 @@ using Layer = std::variant<NoLayer, StiffLayer, VentcelLayer, ThinLayer>;
 /// Signorini contact on Gamma_C, the last line of (21): u >= -gap, pressure >= 0, complementary.
 struct UnilateralContact {
   Profile gap = [](double) { return 0.0; };  ///< distance of the obstacle at x (negative: it presses in)
-  std::vector<double> held = {0, 1};         ///< where beside Gamma_C u = 0 is prescribed: gap >= 0 there
+  std::vector<double> held = {0, 1};         ///< where beside Gamma_C u = 0 is prescribed: gap, ceiling >= 0 there
   Profile ceiling = {};                      ///< u <= ceiling too; empty: none
 };
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
@@ -26,7 +25,7 @@ double most(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 }  // namespace
 
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p) {
-  const Eigen::VectorXd stress = problem.m.cwiseProduct(p), r2 = problem.compliance * p - problem.b * u;
+  const Eigen::VectorXd stress = problem.m.cwiseProduct(p), r2 = problem.compliances().cwiseProduct(p) - problem.b * u;
   // entry by entry: Eigen's products would copy A1 and B, beside the factor
   KktParts parts{problem.load - problem.a1 * u - problem.b.transpose() * stress, problem.load.cwiseAbs(),
                  problem.a1.diagonal().cwiseAbs()};

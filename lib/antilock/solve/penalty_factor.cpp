@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"

@@ -35,7 +35,8 @@ struct Method {
   Discretisation on(int cells) const { return {mesh(cells), *element}; }
 };
 
-/// Every element on every family, elements first: the four methods of Figure 9 without arguments.
+/// Every element on every family, elements first: without arguments four methods (the caption of Figure 9 counts
+/// three).
 inline std::vector<Method> methods(const std::vector<const Element*>& elements = {&p1(), &crouzeix_raviart()},
                                    const std::vector<MeshFamily>& families = {structured(), unstructured()}) {
   std::vector<Method> all;

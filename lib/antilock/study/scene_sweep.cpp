@@ -7,21 +7,27 @@
 namespace antilock {
 
 SceneSweep::SceneSweep(const Scene& scene, const Space& space)
-    : Sweep(assemble(scene, space)), space_(&space), scene_(scene) {}
+    : Sweep(assemble(scene, space)),
+      space_(&space),
+      scene_(scene),
+      beside_(problem_.load - load_vector(space, scene.body().load)) {}
 
 void SceneSweep::set_epsilon(double epsilon) {
   if (!std::holds_alternative<StiffLayer>(scene_.layer()))
     throw Error("sweep: epsilon does not vary in this scene; accepted: a scene with a scaled layer, (23)");
   if (space_->mesh().curved())
     throw Error("sweep: epsilon is part of the forms of a layer along normals; accepted: a layer below y = 0");
-  const StiffLayer layer{epsilon};
-  scene_ = Scene(scene_.body(), layer, scene_.contact());  // checks epsilon
+  StiffLayer layer = std::get<StiffLayer>(scene_.layer());
+  layer.epsilon = epsilon;
+  scene_ = Scene(scene_.body(), layer, scene_.contact(), scene_.edges());  // checks epsilon
   problem_.compliance = compliance(layer);
 }
 
 void SceneSweep::set_load(const Field& f) {
-  scene_ = Scene({f}, scene_.layer(), scene_.contact());  // checks that there is one
-  problem_.load = load_vector(*space_, f);
+  Scene next({f, scene_.body().stiffness}, scene_.layer(), scene_.contact(), scene_.edges());  // checks that f is there
+  Eigen::VectorXd load = load_vector(*space_, f) + beside_;
+  scene_ = std::move(next);
+  problem_.load = std::move(load);
 }
 
 }  // namespace antilock

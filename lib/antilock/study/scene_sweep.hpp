@@ -14,11 +14,13 @@ class SceneSweep : public Sweep {
 
   /// Another thickness of a scaled layer, 0 to 1. Throws Error for another layer: it holds none, or in its mesh.
   void set_epsilon(double epsilon);
+  /// Another load of the body; what pulls at edges and layer stays. Throws Error for an empty f.
   void set_load(const Field& f);
 
  private:
   const Space* space_;
   Scene scene_;
+  Eigen::VectorXd beside_;  ///< N, what pulls at edges and layer: exactly 0 without
 };
 
 }  // namespace antilock

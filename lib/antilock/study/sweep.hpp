@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <vector>
 
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/active_set.hpp"

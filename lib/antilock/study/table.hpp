@@ -18,7 +18,8 @@ class Entry {
 
   bool is_number() const { return std::holds_alternative<double>(value_); }
   double number() const { return std::get<double>(value_); }
-  /// A number as the shortest text that reads back as the same double, or rounded to `digits`.
+  /// A number as the shortest text that reads back as the same double, or rounded to `digits` (whole numbers
+  /// below 1e9 are not).
   std::string text(int digits = 0) const;
   bool operator==(const Entry&) const = default;  ///< of numbers: the same double
 

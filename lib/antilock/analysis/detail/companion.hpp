@@ -1,6 +1,5 @@
 #pragma once
 #include <optional>
-#include <vector>
 
 #include "antilock/analysis/detail/column_function.hpp"
 #include "antilock/analysis/detail/equilibrated_flux.hpp"

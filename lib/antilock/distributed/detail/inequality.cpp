@@ -29,7 +29,8 @@ Inequality::Inequality(const Scene& scene, const Space& space, Penalty penalty) 
   const long long here = std::count(region.begin(), region.end(), Region::layer), all = sum(here);
   together(
       [&] {  // a strip without a part of the layer (between the two feet of a body) has the body's part of the forms
-        part_ = assemble(here > 0 || all == 0 ? scene : Scene(scene.body(), NoLayer{}, scene.contact()), space);
+        part_ = assemble(here > 0 || all == 0 ? scene : Scene(scene.body(), NoLayer{}, scene.contact(), scene.edges()),
+                         space);
         lower_ = Eigen::VectorXd::Constant(rows_.owned(), -std::numeric_limits<double>::infinity());
         if (!scene.contact()) return;
         for (int place = 0; place < rows_.owned(); ++place) {

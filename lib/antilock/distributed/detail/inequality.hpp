@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 
 #include "antilock/distributed/detail/petsc.hpp"
 #include "antilock/distributed/detail/rows.hpp"

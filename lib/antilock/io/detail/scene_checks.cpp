@@ -8,6 +8,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
 namespace {
@@ -40,12 +41,17 @@ Eigen::MatrixXd quadratic_fit(const Quadrature& rule) {
   return pseudo_inverse(at_points);
 }
 
-std::vector<char> clamped_vertices(const TriangleMesh& mesh) {
-  std::vector<char> clamped(mesh.vertex_count(), 0);
+/// V values: the displacement that is prescribed at a vertex, not a number where none is.
+Eigen::VectorXd prescribed(const SceneFile& file, const TriangleMesh& mesh) {
+  Eigen::VectorXd given = Eigen::VectorXd::Zero(mesh.vertex_count()), values = given * NAN;
+  if (file.elastic)
+    given.setConstant(-file.elastic->push);
+  else
+    given = prescribed_values(file.scene, mesh);
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
-      if (mesh.edge_tag[e] == EdgeTag::clamped) clamped[v] = 1;
-  return clamped;
+      if (is_held(mesh.edge_tag[e])) values(v) = given(v);
+  return values;
 }
 
 }  // namespace
@@ -59,19 +65,25 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
     for (const double s : {0.0, 0.5, 1.0}) f((1 - s) * from(0) + s * to(0), (1 - s) * from(1) + s * to(1));
   }
   if (!file.scene.contact()) return;
-  const Profile& gap = file.scene.contact()->gap;
-  const std::vector<char> clamped = clamped_vertices(mesh);
+  const auto& [gap, held, ceiling] = *file.scene.contact();
+  const Eigen::VectorXd values = prescribed(file, mesh);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
     for (int i = 0; i <= 32; ++i) gap(a + (b - a) * i / 32);
-    for (const int v : mesh.edges.row(e))
-      if (const double x = mesh.vertices(v, 0);
-          clamped[v] && gap(x) < -1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))))
+    for (const int v : mesh.edges.row(e)) {
+      const double x = mesh.vertices(v, 0), round_off = 1e-12 * std::max(1.0, std::abs(gap((a + b) / 2)));
+      if (values(v) < -gap(x) - round_off)
         throw Error(
-            fmt::format("{}: contact.gap: gap({:.6g}) = {:.6g}, but u = 0 is prescribed there, so no u >= -gap "
-                        "exists; accepted: gap >= 0 where Gamma_C meets a clamped edge",
-                        file.name, x, gap(x)));
+            fmt::format("{}: contact.gap: gap({:.6g}) = {:.6g}, but u = {:.6g} is prescribed there, so no u >= -gap "
+                        "exists; accepted: gap >= -u where Gamma_C meets an edge with a given u",
+                        file.name, x, gap(x), values(v)));
+      if (ceiling && values(v) > ceiling(x) + round_off)
+        throw Error(
+            fmt::format("{}: contact.ceiling: ceiling({:.6g}) = {:.6g}, but u = {:.6g} is prescribed there; "
+                        "accepted: ceiling >= u where Gamma_C meets an edge with a given u",
+                        file.name, x, ceiling(x), values(v)));
+    }
   }
 }
 
@@ -166,12 +178,13 @@ std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
   if (!file.scene.contact() || file.elastic) return "";
   const TriangleMesh& mesh = space.mesh();
-  const std::vector<char> clamped = clamped_vertices(mesh);
-  std::vector<std::pair<double, double>> line;  // x and u_h at the contact unknowns and at the clamped ends of Gamma_C
+  const Eigen::VectorXd values = prescribed(file, mesh);
+  std::vector<std::pair<double, double>> line;  // x and u_h at the contact unknowns and at the held ends of Gamma_C
   for (const int i : space.contact()) line.emplace_back(space.points()(i, 0), solution.u(i));
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
-      if (mesh.edge_tag[e] == EdgeTag::contact && clamped[v]) line.emplace_back(mesh.vertices(v, 0), 0);
+      if (mesh.edge_tag[e] == EdgeTag::contact && !std::isnan(values(v)))
+        line.emplace_back(mesh.vertices(v, 0), values(v));
   std::sort(line.begin(), line.end());
 
   const double size = solution.u.lpNorm<Eigen::Infinity>();
