@@ -105,9 +105,9 @@ struct Answer {
 // equation gives the shape. Then look at the signs: a node that sank below the floor should have touched; a node that
 // the floor would have to pull should not. When the guess, the *active set*, repeats itself, all signs are right.
 //
-// It does repeat itself. A force upwards at one node lowers no other node: no entry of $A^{-1}$ is negative (such an
-// $A$ is an *M-matrix*). From the second guess on, each shape is the one before without the pull of the nodes that were
-// let go. So it lies above the one before: no node comes back, the set only shrinks. Other matrices may cycle.
+// It does repeat itself. A force upwards at one node lowers no other: $A$ is an *M-matrix* (no entry off its diagonal
+// is positive, none of its inverse negative). From the second guess on, each shape is the one before without the pull
+// of the nodes that were let go, and so above it: no node comes back, the set shrinks. Other matrices may cycle.
 Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
   Answer answer;

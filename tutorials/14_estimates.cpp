@@ -210,7 +210,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 //
 // 1. In the norm of the energy $M = α = 1$. For P1, what do $J(u_h) - J(u)$ and its order tell on the two meshes?
 // 2. On paper: derive (13) without symmetry, by Young's inequality. Which constant do you get?
-// 3. On paper: why is the second infimum 0 for P2 on no mesh in general, although P2 is conforming?
+// 3. On paper: for P1 the second infimum is not positive. Why may it be positive for P2, although P2 is conforming?
 
 #include "answers/14_estimates.hpp"
 

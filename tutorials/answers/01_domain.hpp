@@ -18,7 +18,7 @@ const std::vector<tutorial::Exercise> exercises{
          const auto problem = assemble(Scene(Body{paper_load}, ThinLayer{epsilon}, UnilateralContact{}), space);
          table.add({epsilon, energy_form(problem, along), energy_form(problem, across)});
        }
-       table.print("a(v, v) on the thin layer");
+       table.print("a(v, v) on body and thin layer together");
        report.claim_within(table.most("along") / table.least("along") - 1, 0, 1e-12, "along: largest / smallest - 1:");
        const auto grown = table.numbers("across");
        report.claim_within(grown[3] / grown[2], 3.5, 4, "across: last factor");
@@ -32,5 +32,5 @@ const std::vector<tutorial::Exercise> exercises{
 // $v + g ≥ 0$. So (22) and (23) stay as they are, with the new $K$.
 //
 // **3.** In the unit layer $∂_y$ becomes $ε^{-1} ∂_y$. So $-ε^{-1} (∂_{xx} + ε^{-2} ∂_{yy}) u = 0$, which is
-// $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$. On $Σ$: $∂_n u^+ = ε^{-2} ∂_n u^-$. On $Γ_C$: $u ≥ 0$, $ε^{-2} ∂_n u ≥ 0$, and
-// their product is 0.
+// $-∂_{xx} u - ε^{-2} ∂_{yy} u = 0$. On $Σ$: $u^+ = u^-$ and $∂_n u^+ = ε^{-2} ∂_n u^-$. On $Γ_C$: $u ≥ 0$,
+// $ε^{-2} ∂_n u ≥ 0$, and their product is 0.

@@ -29,5 +29,5 @@ const std::vector<tutorial::Exercise> exercises{
 // ## Answers on paper
 //
 // **3.** $p$ on $Σ$ minus $p$ on $Γ_C$ is $-u''$, so $∂_y u^+ + λ = -u''$, or $λ = -∂_y u^+ - u''$ on $Σ$. With
-// $∂_n u = -∂_y u^+$, the derivative along the outward normal of the body, $λ = ∂_n u - u''$. Chapter 10 calls this
-// Ventcel's condition.
+// $∂_n u = -∂_y u^+$, the derivative along the outward normal of the body, $λ = ∂_n u - u''$. This is $r$ of (25), the
+// problem of chapter 10.

@@ -4,7 +4,7 @@
 
 const std::vector<tutorial::Exercise> exercises{
     {"The staggered mesh of chapter 02 is as regular as the others. The kernel on its layer, for P1 and for CR?",
-     "P1: 0. CR: N_T / 2, on this mesh as on any",
+     "P1: 0. CR: N_T / 2, as on each mesh with as many edges on the two sides of the layer as on its top and bottom",
      [](const tutorial::Options&, tutorial::Report& report) {
        const TriangleMesh mesh = mesh_family("staggered").mesh(8);
        const auto triangles = static_cast<double>(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));

@@ -28,7 +28,7 @@ const std::vector<tutorial::Exercise> exercises{
 // ## Answers on paper
 //
 // **3.** P1 takes over values at vertices, and the mean of $I_h v$ over an edge is the mean of its two ends. That is
-// not the mean of $v$: for a function of $x$ on an edge from $x_1$ to $x_2$ the two differ by $(x_2 - x_1)^2 v''/12$.
-// Only on vertical edges, and where $v$ is affine, they agree. So Green's formula does not give $∫_T ∇I_h v = ∫_T ∇v$,
-// and $∂_y v = 0$ does not give $∂_y I_h v = 0$: on a triangle without a vertical edge the slope is of size $h |v''|$
-// (exercise 1). In (23) its square is multiplied by $ε^{-2}$.
+// in general not the mean of $v$: for a parabola in $x$ on an edge from $x_1$ to $x_2$ the two differ by
+// $(x_2 - x_1)^2 v''/12$. On a vertical edge they agree, and on all three edges where $v$ is affine. So Green's
+// formula does not give $∫_T ∇I_h v = ∫_T ∇v$, and $∂_y v = 0$ does not give $∂_y I_h v = 0$: on a triangle without a
+// vertical edge the slope is of size $h |v''|$ (exercise 1). In (23) its square is multiplied by $ε^{-2}$.

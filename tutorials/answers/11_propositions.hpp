@@ -3,7 +3,8 @@
 
 const std::vector<tutorial::Exercise> exercises{
     {"Locked P1 along epsilon = h in place of h^2: does its error still stay?",
-     "no, it falls; the second term stays, so the third stays too: two large terms nearly cancel",
+     "no, it falls; the second term stays, so the third stays too: the two differences nearly cancel, "
+     "but (18) adds their norms",
      [](const tutorial::Options& options, tutorial::Report& report) {
        const Exact limit(tutorial::paper_scene(0), 15);
        const Table terms = three_terms({&p1(), unstructured()}, path(1, options.cells, limit), limit);

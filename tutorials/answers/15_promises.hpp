@@ -20,5 +20,5 @@ const std::vector<tutorial::Exercise> exercises{
 // **2.** $ε^{-2} h^{3/4}$ does not fall for $ε ≤ h^{3/8}$: already at $h = 1/32$ that is all $ε$ below 0.27. It has the
 // true order, $h$, for $ε = h^{-1/8}$, and this is above 1: for no ε of the problem.
 //
-// **3.** To smaller ε. A longer wave bends less: with $a = π$ the factor $a^2/(a \coth a + a^2)^{1/2}$ is 2.74 in the
+// **3.** To smaller ε. A longer wave bends less: with $a = π$ the factor $a^2/(a \coth a + a^2)^{1/2}$ is 2.73 in the
 // place of 5.84. Short waves lock first, and a load with many waves has many walls.

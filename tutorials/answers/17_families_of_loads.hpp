@@ -6,8 +6,8 @@ using std::numbers::pi;
 
 const std::vector<tutorial::Exercise> exercises{
     {"epsilon = 0, the unstructured mesh of 1/h = 8, the load sin(pi x): does P2 look robust? And on the ball?",
-     "P2 keeps this load: x (1 - x) is near its ridge, so its error is near that of P1 in columns and below. The ball "
-     "contains sin(2 pi x), of which P2 keeps nothing",
+     "under this load yes: x (1 - x) is near its ridge, and its error is a fifth of that of P1 in columns. On the ball "
+     "no: it contains sin(2 pi x), of whose ridge P2 keeps nothing",
      [](const tutorial::Options&, tutorial::Report& report) {
        Ball quadratic({&p2(), unstructured()}, 8), columns({&p1(), structured()}, 8);
        const double one = quadratic.ours(0, 1), two = quadratic.ours(0, 2);

@@ -21,4 +21,4 @@ const std::vector<tutorial::Exercise> exercises{
 // ## Answers on paper
 //
 // **2.** $h^2 = 2.4e-4$, so the factor is $δ/(δ + h^2) = 1e-6 / 2.45e-4 = 4.1e-3$: 2.4 digits per correction. Five
-// corrections give 11.9 digits, six give more than 12. The library needs 3: most of $u$ belongs to larger $σ$.
+// corrections give 11.9 digits, six give more than 12. The library takes $δ = 6 · 10^{-8}$ here and needs 2.

@@ -52,9 +52,11 @@ void parabola(const tutorial::Options&, tutorial::Report& report) {
 
 const std::vector<tutorial::Exercise> exercises{
     {"u_h and p are multiplied by 1.01. Is the bound still one, and by how much does it grow?",
-     "It is. r1 = 0.01 A u_h, so rho = 0.01 |u_h|_a, and the bound grows by rho and a hundredth of itself at most.",
+     "It is. Off Gamma_C r1 is 0.01 of the forces of u_h and p, so rho is about 0.01 |u_h|_a, and the bound grows by "
+     "rho and a hundredth of itself at most.",
      scaled_solution},
     {"The gap is 0.02 x (1 - x), a problem without an exact solution here. Do the brackets of two meshes agree?",
      "They overlap, since both hold J(u), and half the mesh width makes the bracket four times narrower.", other_gap},
     {"Why may P2 not take the place of P1 in the upper bound?",
-     "Between two unknowns that are not negative a parabola may be: P2's solution does not lie in K.", parabola}};
+     "Between two unknowns that are not negative a parabola may be negative: P2's solution does not lie in K.",
+     parabola}};

@@ -4,7 +4,8 @@
 const std::vector<tutorial::Exercise> exercises{
     {"P1 structured at epsilon = 1e-2, 1/h = 8, 16, 32, 64: how do the contact steps of the active set grow, and those "
      "of Uzawa?",
-     "the active set's do not, at most 4 and fewer on fine meshes; Uzawa's grow with every refinement",
+     "the active set's do not: 1 or 2 on each of the four meshes. Uzawa's grow with every refinement, from 139 to "
+     "some 5,300",
      [](const tutorial::Options&, tutorial::Report& report) {
        Table counts({"cells", "active set", "Uzawa"});
        for (const int n : {8, 16, 32, 64}) {

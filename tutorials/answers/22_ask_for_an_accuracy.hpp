@@ -48,7 +48,8 @@ const std::vector<tutorial::Exercise> exercises{
     {"The load is doubled. How many unknowns does an accuracy of 5 % cost now?",
      "As many: flux, companion and bound are doubled, and what is relative stays.", doubled_load},
     {"The obstacle is a needle of width 0.004. What do 10 % cost, adapted and on a uniform mesh?",
-     "A uniform mesh with 14,000 unknowns proves no better than 20 %. Adapted, less than half of them prove 10 %.",
-     needle},
+     "A uniform mesh with some 14,400 unknowns proves 29 %. Adapted, some 4,900, a third of them, prove 10 %.", needle},
     {"A spike of the load lies between the points of the first mesh's quadrature. Is it seen?",
-     "It is: the load is sampled before the first level, and the mesh refined around the spike.", spike}};
+     "This one is: 64 x 64 samples per triangle, about 0.002 apart, find it before the first level, and the mesh is "
+     "refined around it. A much narrower one may lie between the samples, too.",
+     spike}};

@@ -31,7 +31,7 @@ const std::vector<tutorial::Exercise> exercises{
 
 // ## Answers on paper
 //
-// **3.** For constant loads: the pairs $(w + b, θ)$ of this page are the $V_h$, and $a_0$ is exact on them.
-// On a cell with midpoint $x_m$: $b' = θ' (x - x_m)$, so $b = ½ θ' ((x - x_m)^2 - h^2/4)$ and
+// **3.** For constant loads, on cells of one length $h$: the pairs $(w + b, θ)$ of this page are the $V_h$, and $a_0$
+// is exact on them. On a cell with midpoint $x_m$: $b' = θ' (x - x_m)$, so $b = ½ θ' ((x - x_m)^2 - h^2/4)$ and
 // $∫ b = ½ θ' (h^3/12 - h^3/4) = -h^3 θ'/12$. The load's work on all $b$ is $q h^2/12$ times the sum of $h θ'$ over
 // the cells. This sum is $θ(1) - θ(0) = 0$, by the clamps.

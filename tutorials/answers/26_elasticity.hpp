@@ -9,7 +9,7 @@ const auto named = [](const std::string& name, int cells) {
 const std::vector<tutorial::Exercise> exercises{
     {"CR penalises its jumps with weight 1. Between weight 0.1 and 10, how much does the contact force change, on 8 "
      "and on 16 cells?",
-     "by some per cent, and half as much on half the width: the jumps of the solution vanish with h, and the weight "
+     "by 16 % on 8 cells, by half as much on 16: the jumps of the solution vanish with h, and the effect of the weight "
      "with them",
      [](const tutorial::Options&, tutorial::Report& report) {
        const auto spread = [&](int cells) {

@@ -10,7 +10,8 @@ const auto pressed = [](const PlateElement& method, int rings, const Plate& plat
 const std::vector<tutorial::Exercise> exercises{
     {"Leave the bubbles out of Arnold-Falk: how many functions are left at least, and does it lock at t = 0?",
      "(9 n^2 - 3 n) + 2 (3 n^2 - 3 n + 1) unknowns less 12 n^2 conditions: 3 n^2 - 9 n + 2 at least, a number that "
-     "grows like the unknowns. It does not lock on this mesh, but its error is larger, and no theorem covers it",
+     "grows like the unknowns. It does not lock on these two meshes, but its error is larger, and we know of no "
+     "theorem that covers it",
      [](const tutorial::Options&, tutorial::Report& report) {
        const PlateElement bare{"without bubbles", "", crouzeix_raviart(), p1(), ShearRule::mean, false};
        std::vector<double> without, with;

@@ -3,7 +3,7 @@
 
 const std::vector<tutorial::Exercise> exercises{
     {"Boxes of side h/2, h, 2h, 4h: which side is best? Is smaller always better?",
-     "no: boxes of side h/2 hold one triangle or none, and P1 locks as before. From side h on it does not lock on "
+     "no: most boxes of side h/2 hold one triangle or none, and P1 locks as before. From side h on it does not lock on "
      "these meshes, and the error grows with the side. For side h this is an observation: n^2 conditions on some "
      "1.15 n^2 unknowns, and no proof of (ii) is known to us",
      [](const tutorial::Options&, tutorial::Report& report) {

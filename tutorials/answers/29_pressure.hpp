@@ -5,9 +5,9 @@
 const std::vector<tutorial::Exercise> exercises{
     {"Hold the sides of the rubber block too. What becomes of beta while the groove of the obstacle fills up, and what "
      "of the solution at epsilon = 0 after that?",
-     "beta falls towards 0 (computed for MINI; for every method where all of the bottom is held: then no displacement "
-     "sees "
-     "the constant pressure). A block that is pushed further has no solution, and the solver says so",
+     "beta falls, for MINI from 0.18 to 0.07 at 99 % of the groove. Once all of the bottom is held it is 0 for each "
+     "method, because no displacement sees the constant pressure. A block that is pushed further has no solution, and "
+     "the solver says so",
      [](const tutorial::Options&, tutorial::Report& report) {
        constexpr int n = 8;
        const TriangleMesh mesh = structured_mesh(n, Domain{0});  // the sides are clamped, and move with the top

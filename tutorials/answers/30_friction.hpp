@@ -5,7 +5,7 @@ const std::vector<tutorial::Exercise> exercises{
     {"Coulomb: g = F N with N of the answer before, F = 1/4, from N without friction. By how much does a step reduce "
      "the "
      "change of N?",
-     "by a factor of 10 or more: N hardly depends on the friction below it, and F is small",
+     "by a factor of 10 or more: N hardly depends on the friction, and F is small",
      [](const tutorial::Options&, tutorial::Report& report) {
        const Rubber cr = tutorial::structured_rubbers(32).at(2);  // its unknowns of u_x and u_y share their places
        const Space x(cr.mesh, cr.in_x), y(cr.mesh, cr.in_y);

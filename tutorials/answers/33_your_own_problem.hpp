@@ -16,6 +16,6 @@ const std::vector<tutorial::Exercise> exercises{
 
 // ## Answers on paper
 //
-// **2.** Ask the four questions of chapter 28 of it, in their order: is $a_1 + a_{0h}$ coercive, does $K_{0h}$ approach
-// $K_0$, do limits lie in $G$, does $a_{0h}$ tend to $a_0$? `check_hypotheses` answers what a matrix can answer: coercive,
-// the kernel on two meshes, and whether $K$ and $G$ meet.
+// **2.** Ask the four questions of chapter 28 of it, in their order: is $a_1 + a_{0h}$ coercive, does $K_{0h}$
+// approach $K_0$, do limits lie in $G$, does $a_{0h}$ tend to $a_0$? `check_hypotheses` answers for one mesh what a
+// matrix can answer: coercive, the kernel, and whether $K$ and $G$ meet. Ask it on two meshes.
