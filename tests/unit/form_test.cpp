@@ -158,7 +158,7 @@ TEST(Forms, VentcelTermIsTheEnergyOfTheTraceOnSigma) {
   for (const TriangleMesh& mesh : {structured_mesh(8, {0}), unstructured_mesh(8, {0})})
     for (const Element* element : {&p1(), &crouzeix_raviart()}) {
       const Space space(mesh, *element);
-      const Eigen::MatrixXd form = ventcel_form(space);
+      const Eigen::MatrixXd form = ventcel_form(space, Eigen::VectorXd::Zero(mesh.vertex_count()));
       EXPECT_LT((form - form.transpose()).cwiseAbs().maxCoeff(), 1e-14);
       // the hat min(x, 1 - x) with its peak at an unknown or between two: slopes are 1 and -1 but near the peak
       const Eigen::ArrayXd x = space.points().col(0).array();
@@ -173,9 +173,13 @@ TEST(Forms, VentcelTermIsTheEnergyOfTheTraceOnSigma) {
       }
     }
   TriangleMesh mesh = structured_mesh(2, {0});
-  expect_refused([&] { ventcel_form(Space(mesh, p2())); }, "Ventcel");
+  Eigen::VectorXd given = Eigen::VectorXd::Zero(mesh.vertex_count());
+  expect_refused([&] { ventcel_form(Space(mesh, p2()), given); }, "Ventcel");
+  given(0) = 0.1;
+  expect_refused([&] { ventcel_form(Space(mesh, p1()), given); }, "Sigma has an end at (0, 0) with u not 0");
+  given(0) = 0;
   std::replace(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::clamped, EdgeTag::free);
-  expect_refused([&] { ventcel_form(Space(mesh, p1())); }, "Sigma has an end at (0, 0)");
+  expect_refused([&] { ventcel_form(Space(mesh, p1()), given); }, "Sigma has an end at (0, 0);");
 }
 
 TEST(LoadVector, OfTheLayerIntegratesOverTheLayer) {

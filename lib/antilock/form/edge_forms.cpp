@@ -54,7 +54,7 @@ Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Fie
   return summed<SparseMatrix>(space.size(), space.size(), entries);
 }
 
-Eigen::SparseMatrix<double> ventcel_form(const Space& space) {
+Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::VectorXd& given) {
   if (space.element().degree() != 1)
     throw Error("Ventcel term: element " + space.element().name() + " is not accepted; P1 or CR");
   const TriangleMesh& mesh = space.mesh();
@@ -68,9 +68,9 @@ Eigen::SparseMatrix<double> ventcel_form(const Space& space) {
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     if (on_sigma[v] != 1) continue;
     ends.push_back(mesh.vertices(v, 0));
-    if (held[v] == 0 || ends.size() > 2)
+    if (held[v] == 0 || given(v) != 0 || ends.size() > 2)
       throw Error(
-          "Ventcel term: Sigma has an end at " + mesh.place(v) +
+          "Ventcel term: Sigma has an end at " + mesh.place(v) + (given(v) != 0 ? " with u not 0" : "") +
           "; accepted: u = 0 at both of its ends, or a scaled layer with epsilon = 0, which is the same problem");
   }
   if (ends.size() != 2) throw Error("Ventcel term: Sigma has no ends; accepted: a piece of the line y = 0");

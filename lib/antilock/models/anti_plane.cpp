@@ -60,7 +60,7 @@ void follow_normals(VariationalInequality& problem, const StiffLayer& layer, con
   problem.a1 += Eigen::SparseMatrix<double>(along.b.transpose() * along.m.asDiagonal() * along.b);
 }
 
-/// What the named groups of edges add to A1, to the load and to the given values.
+/// What the named groups of edges add to A1 and to the given values.
 void add_edges(VariationalInequality& problem, const Scene& scene, const Space& space) {
   using Kind = EdgeCondition::Kind;
   const TriangleMesh& mesh = space.mesh();
@@ -79,7 +79,6 @@ void add_edges(VariationalInequality& problem, const Scene& scene, const Space& 
   const Eigen::MatrixX3d nodes = space.element().nodes();
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k) {
     const auto& [group, kind, value] = scene.edges()[k];
-    if (kind == Kind::traction) problem.load += edge_load(space, natural_group(k), value);
     if (kind == Kind::spring) problem.a1 += edge_mass(space, natural_group(k), value);
     if (kind != Kind::displacement) continue;
     for (int t = 0; t < mesh.triangle_count(); ++t)
@@ -107,6 +106,16 @@ Eigen::VectorXd prescribed_values(const Scene& scene, const TriangleMesh& mesh) 
   return values;
 }
 
+Eigen::VectorXd load_of(const Scene& scene, const Space& space) {
+  Eigen::VectorXd load = load_vector(space, scene.body().load);
+  const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
+  if (stiff != nullptr && stiff->load) load += load_vector(space, stiff->load, Region::layer);
+  for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k)
+    if (const EdgeCondition& edge = scene.edges()[k]; edge.kind == EdgeCondition::Kind::traction)
+      load += edge_load(space, natural_group(k), edge.value);
+  return load;
+}
+
 VariationalInequality assemble(const Scene& scene, const Space& space) {
   check_fit(scene, space);
   static_assert(std::variant_size_v<Layer> == 4, "what a new layer adds to A1 and to B stands here");
@@ -116,35 +125,23 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   Stiffness layer{0, 0};
   if (stiff != nullptr) layer.x = curved ? 0 : stiff->s;       // a_x^- of (23)
   if (thin != nullptr) layer.x = layer.y = 1 / thin->epsilon;  // mu / epsilon of (22)
-  const auto& [load, stiffness] = scene.body();
   VariationalInequality problem;
   problem.b.resize(0, space.size());
-  problem.load = load_vector(space, load);
-  gradient_form(space, {1, 1}, layer, stiffness).swap(problem.a1);  // an assignment would copy the matrix
-  if (std::holds_alternative<VentcelLayer>(scene.layer())) {
-    problem.a1 += ventcel_form(space);
-    const TriangleMesh& mesh = space.mesh();
-    const Eigen::VectorXd given = prescribed_values(scene, mesh);
-    for (int e = 0; e < mesh.edge_count(); ++e)
-      for (const int v : mesh.edges.row(e))
-        if (mesh.edge_tag[e] == EdgeTag::contact && given(v) != 0)
-          throw Error(
-              fmt::format("Ventcel term: u = {:.6g} is given at {}, an end of Sigma; accepted: u = 0 at both of its "
-                          "ends, or a scaled layer with epsilon = 0, which is the same problem",
-                          given(v), mesh.place(v)));
-  }
+  gradient_form(space, {1, 1}, layer, scene.body().stiffness).swap(problem.a1);  // an assignment would copy the matrix
+  if (std::holds_alternative<VentcelLayer>(scene.layer()))
+    problem.a1 += ventcel_form(space, prescribed_values(scene, space.mesh()));
   if (stiff != nullptr) {
     FactoredForm strain = layer_strain(space);  // a_y^-, factored
     problem.b.swap(strain.b);
     problem.m = stiff->s * strain.m;
     if (curved) follow_normals(problem, *stiff, space);
-    if (stiff->load) problem.load += load_vector(space, stiff->load, Region::layer);
     problem.compliance = compliance(*stiff);
   }
 
   problem.fixed = space.clamped();
   problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
   add_edges(problem, scene, space);
+  problem.load = load_of(scene, space);
   if (scene.contact()) {
     const auto& [gap, held, ceiling] = *scene.contact();
     problem.contact = space.contact();

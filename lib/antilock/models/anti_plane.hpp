@@ -10,6 +10,9 @@ namespace antilock {
 /// and scene do not fit, and where the gap is not finite.
 VariationalInequality assemble(const Scene& scene, const Space& space);
 
+/// N values of L(v) of such a problem: what pulls at the body, at a scaled layer and at the named edges.
+Eigen::VectorXd load_of(const Scene& scene, const Space& space);
+
 /// The class parameter of (1), which in (23) is the square of the paper's epsilon. The one place that says so.
 double compliance(const StiffLayer& layer);
 /// V values: what is given at the ends of held edges, 0 elsewhere. On the side of a layer it is what is given above, on y =

@@ -1,16 +1,12 @@
 #include "antilock/study/scene_sweep.hpp"
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/forms.hpp"
 #include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
 
 SceneSweep::SceneSweep(const Scene& scene, const Space& space)
-    : Sweep(assemble(scene, space)),
-      space_(&space),
-      scene_(scene),
-      beside_(problem_.load - load_vector(space, scene.body().load)) {}
+    : Sweep(assemble(scene, space)), space_(&space), scene_(scene) {}
 
 void SceneSweep::set_epsilon(double epsilon) {
   if (!std::holds_alternative<StiffLayer>(scene_.layer()))
@@ -25,9 +21,8 @@ void SceneSweep::set_epsilon(double epsilon) {
 
 void SceneSweep::set_load(const Field& f) {
   Scene next({f, scene_.body().stiffness}, scene_.layer(), scene_.contact(), scene_.edges());  // checks that f is there
-  Eigen::VectorXd load = load_vector(*space_, f) + beside_;
+  problem_.load = load_of(next, *space_);
   scene_ = std::move(next);
-  problem_.load = std::move(load);
 }
 
 }  // namespace antilock

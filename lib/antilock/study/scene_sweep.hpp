@@ -20,7 +20,6 @@ class SceneSweep : public Sweep {
  private:
   const Space* space_;
   Scene scene_;
-  Eigen::VectorXd beside_;  ///< N, what pulls at edges and layer: exactly 0 without
 };
 
 }  // namespace antilock

@@ -43,11 +43,9 @@ Eigen::MatrixXd quadratic_fit(const Quadrature& rule) {
 
 /// V values: the displacement that is prescribed at a vertex, not a number where none is.
 Eigen::VectorXd prescribed(const SceneFile& file, const TriangleMesh& mesh) {
-  Eigen::VectorXd given = Eigen::VectorXd::Zero(mesh.vertex_count()), values = given * NAN;
-  if (file.elastic)
-    given.setConstant(-file.elastic->push);
-  else
-    given = prescribed_values(file.scene, mesh);
+  const Eigen::VectorXd given = file.elastic ? Eigen::VectorXd::Constant(mesh.vertex_count(), -file.elastic->push)
+                                             : prescribed_values(file.scene, mesh);
+  Eigen::VectorXd values = Eigen::VectorXd::Constant(mesh.vertex_count(), NAN);
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
       if (is_held(mesh.edge_tag[e])) values(v) = given(v);
