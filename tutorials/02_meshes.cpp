@@ -119,7 +119,7 @@ int kernel_on_layer(const TriangleMesh& mesh) {
 void meshes(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
   const int n = options.cells;
-  std::vector<tutorial::Layer> layers;
+  std::vector<tutorial::TiedMesh> layers;
   Table table({"mesh", "triangles", "smallest angle", "vertical edges", "groups", "kernel"});
   for (const std::string name : {"structured", "unstructured", "staggered", "layered"}) {
     const TriangleMesh mesh = mesh_family(name).mesh(n);
@@ -130,7 +130,7 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
     layers.push_back({name, mesh, groups.leader, groups.count});
   }
   // ### Output
-  for (const tutorial::Layer& layer : layers) {
+  for (const tutorial::TiedMesh& layer : layers) {
     write_msh(options.out / (layer.name + ".msh"), layer.mesh);  // for this library and others
     write_freefem_mesh(options.out / (layer.name + ".freefem.msh"), layer.mesh);
   }

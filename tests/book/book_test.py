@@ -13,6 +13,7 @@ import sys
 import tempfile
 import time
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from urllib.parse import unquote, urlparse
 
@@ -201,12 +202,16 @@ class EveryPage(Book):
     def test_no_task_keeps_a_page_from_drawing(self):
         """The processor time of the longest task while the page is loaded and its figure answers first: a frame waits for it. Where
         other programs run beside, it takes longer than its own: the best of at most three."""
-        for page in ("index", "08_crouzeix_raviart"):
-            tries = []
-            while len(tries) < 3 and min(tries, default=100) >= 100:
-                tries.append(self.longest_task(page))
-            print(f"{page}: the longest task takes {min(tries):.0f} ms")
-            self.assertTrue(1 < min(tries) < 100, tries)
+        with ThreadPoolExecutor() as pool:  # the browser takes five seconds to hand over its trace
+            for page, longest in pool.map(self.best_of_three, ("index", "08_crouzeix_raviart")):
+                print(f"{page}: the longest task takes {longest:.0f} ms")
+                self.assertTrue(1 < longest < 100, page)
+
+    def best_of_three(self, page):
+        tries = []
+        while len(tries) < 3 and min(tries, default=100) >= 100:
+            tries.append(self.longest_task(page))
+        return page, min(tries)
 
     def longest_task(self, page):
         browser = open_browser("toplevel,devtools.timeline")  # a fresh one: nothing is compiled or kept yet
@@ -486,35 +491,37 @@ class LiveFigure(Book):
             self.wait(f"{said.replace('return said', 'return new RegExp(arguments[1]).test(said)')}", kind, pattern, seconds=60)
             return [float(number) for number in re.findall(r"-?\d+\.?\d*(?:e-?\d+)?", self.run_script(said, kind))]
 
-        for width in (1280, 375):
-            with self.subTest(width=width):
-                open_at("string", width)
-                self.assertEqual(says("string", "after 9 linear solves, Uzawa after [0-9]+")[0], 9)  # as the chapter says for 32 cells
-                open_at("move", width)
-                says("move", "^6 groups of triangles; G_h has 5 functions")
-                vertex = self.browser.find_element("css selector", "#live-move circle")
-                vertex.send_keys(Keys.ARROW_UP)
-                self.wait("return document.querySelector('#live-move').dataset.asked.includes('0.02')", seconds=30)
-                says("move", "^6 groups of triangles; G_h has 5 functions")  # its vertical line is still one
-                self.browser.find_element("css selector", "#live-move circle").send_keys(Keys.ARROW_RIGHT)
-                says("move", "^5 groups of triangles; G_h has 4 functions")
-                self.run_script("document.querySelector('#live-move .live-drawing button').click()")
-                says("move", "^6 groups")
-                open_at("kernel", width)
-                says("kernel", "^The kernel on this layer has 7 dimensions.*does not lock")  # n - 1, as the chapter proves
-                says("kernel", "^The kernel on this layer has 0 dimensions.*locks completely", mesh="unstructured")
-                says("kernel", "^The kernel on this layer has 1 dimension\\..*it locks", element="P2")
-                says("kernel", "^The kernel on this layer has [0-9]{2,} dimensions.*does not lock", element="CR")
-                open_at("beam", width)
-                stiff, full, reduced = says("beam", "is 1.814 times too stiff", cells=32)  # as the chapter says
-                self.assertAlmostEqual(full / reduced, 15, delta=1)
-                says("beam", "is infinitely too stiff", epsilon=-8)
-                open_at("friction", width)
-                self.assertAlmostEqual(says("friction", "It sticks on 0.2")[0], 0.22, delta=0.011)
-                self.assertEqual(says("friction", "It sticks on 0.00", rough=0)[0], 0)
-                open_at("accuracy", width)
-                asked, proved, *_ = says("accuracy", "Asked 10 %, proved")
-                self.assertTrue(asked / 2 < proved <= asked)
+        # at a telephone's width they stand as wide as it is; what they answer is the same
+        for kind in ("string", "move", "kernel", "beam", "friction", "accuracy", "models", "bound", "degree", "rubber"):
+            with self.subTest(kind=kind):
+                open_at(kind, 375)
+        open_at("string")
+        self.assertEqual(says("string", "after 9 linear solves, Uzawa after [0-9]+")[0], 9)  # as the chapter says for 32 cells
+        open_at("move")
+        says("move", "^6 groups of triangles; G_h has 5 functions")
+        vertex = self.browser.find_element("css selector", "#live-move circle")
+        vertex.send_keys(Keys.ARROW_UP)
+        self.wait("return document.querySelector('#live-move').dataset.asked.includes('0.02')", seconds=30)
+        says("move", "^6 groups of triangles; G_h has 5 functions")  # its vertical line is still one
+        self.browser.find_element("css selector", "#live-move circle").send_keys(Keys.ARROW_RIGHT)
+        says("move", "^5 groups of triangles; G_h has 4 functions")
+        self.run_script("document.querySelector('#live-move .live-drawing button').click()")
+        says("move", "^6 groups")
+        open_at("kernel")
+        says("kernel", "^The kernel on this layer has 7 dimensions.*does not lock")  # n - 1, as the chapter proves
+        says("kernel", "^The kernel on this layer has 0 dimensions.*locks completely", mesh="unstructured")
+        says("kernel", "^The kernel on this layer has 1 dimension\\..*it locks", element="P2")
+        says("kernel", "^The kernel on this layer has [0-9]{2,} dimensions.*does not lock", element="CR")
+        open_at("beam")
+        stiff, full, reduced = says("beam", "is 1.814 times too stiff", cells=32)  # as the chapter says
+        self.assertAlmostEqual(full / reduced, 15, delta=1)
+        says("beam", "is infinitely too stiff", epsilon=-8)
+        open_at("friction")
+        self.assertAlmostEqual(says("friction", "It sticks on 0.2")[0], 0.22, delta=0.011)
+        self.assertEqual(says("friction", "It sticks on 0.00", rough=0)[0], 0)
+        open_at("accuracy")
+        asked, proved, *_ = says("accuracy", "Asked 10 %, proved")
+        self.assertTrue(asked / 2 < proved <= asked)
         open_at("models")
         says("models", r"are 1\.1e-04 apart, the limit \(25\) and \(23\) 4\.[45]e-03", epsilon=-1, cells=32)
 

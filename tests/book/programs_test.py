@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The programs in their pages say what they say on this machine: the verdicts of every exercise, and of the chapters that
-take a moment. Run: programs_test.py PARTS PROGRAMS     build/book-parts, and the folder of the programs"""
+take a moment. Run: programs_test.py PARTS PROGRAMS EXERCISES     build/book-parts, the folder of the programs, and where
+tests/chapters/exercises left what the exercises print"""
 import json
 import os
 import re
@@ -12,7 +13,7 @@ from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 TUTORIALS = HERE.parents[1] / "tutorials"
-PARTS, PROGRAMS = (Path(word).resolve() for word in sys.argv[1:3])
+PARTS, PROGRAMS, EXERCISES = (Path(word).resolve() for word in sys.argv[1:4])
 
 sys.path.insert(0, str(TUTORIALS / "book"))
 from runs import rows  # noqa: E402
@@ -58,21 +59,27 @@ class Programs(unittest.TestCase):
         return said["status"], said["out"], said["errors"], said["MiB"]
 
     def both(self, command):
-        """What the machine and the page say of one command. The meshes that it asks gmsh for are those that runs.csv names."""
+        """What the machine and the page say of one command."""
         with tempfile.TemporaryDirectory() as meshes:
             here = native(command, ANTILOCK_MESHES=meshes)
-            row = ROWS.get(" ".join(command))
-            if row:
-                self.assertEqual(sorted(path.name for path in Path(meshes).iterdir()), row["meshes"].split(), "tutorials/book/wasm/measure notes them")
+            self.asked_for(command, Path(meshes))
         return here, self.page(command)
+
+    def asked_for(self, command, meshes):
+        """The meshes that it asked gmsh for are those that runs.csv names."""
+        row = ROWS.get(" ".join(command))
+        if row:
+            self.assertEqual(sorted(path.name for path in meshes.iterdir()), row["meshes"].split(), "tutorials/book/wasm/measure notes them")
 
     def test_every_exercise_ends_as_on_the_machine(self):
         asked = [command for command in commands() if "--exercise" in command]
         self.assertGreater(len(asked), 50)
         for command in asked:
             with self.subTest(command=" ".join(command)):
-                here, page = self.both(command)
-                self.assertEqual((page[0], verdicts(page[1])), (here[0], verdicts(here[1])), page[2])
+                here = EXERCISES / f"{command[0]}.{command[2]}"  # it ended with status 0, or this test would not run
+                self.asked_for(command, Path(f"{here}.meshes"))
+                page = self.page(command)
+                self.assertEqual((page[0], verdicts(page[1])), (0, verdicts(here.read_text())), page[2])
 
     def test_short_chapters_end_as_on_the_machine(self):
         for stem in ("00_string_on_an_obstacle", "01_domain", "02_meshes", "03_by_hand", "06_p1_unstructured", "25_beam"):
@@ -95,4 +102,4 @@ class Programs(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[4:]], verbosity=2)

@@ -26,7 +26,7 @@ inline double smallest_angle(const TriangleMesh& mesh) {
 }
 
 /// A mesh, and the leader of the group of each of its triangles (-1 in the body).
-struct Layer {
+struct TiedMesh {
   std::string name;
   TriangleMesh mesh;
   std::vector<int> leader;
@@ -35,7 +35,7 @@ struct Layer {
 
 /// The layers side by side, two per row, their triangles coloured by group from left to right, as a table of shapes that
 /// figures/pictures/domain.cpp reads.
-inline void draw_ties(const std::filesystem::path& path, const std::vector<Layer>& layers) {
+inline void draw_ties(const std::filesystem::path& path, const std::vector<TiedMesh>& layers) {
   Table table({"kind", "name", "label", "x", "y"});
   table.add({"page", "", "", -0.04, -2.5});
   table.add({"page", "", "", 2.16, 0.06});
