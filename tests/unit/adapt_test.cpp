@@ -225,6 +225,11 @@ TEST(SolveTo, LooksForASpikeThatTheQuadratureMisses) {
   // too fine for any mesh within the limit: said, not hidden
   const Field dust = [](double x, double y) { return std::sin(4000 * x) * std::sin(4000 * y) > 0.9 ? 1.0 : 0.0; };
   EXPECT_NE(resolve_load(smooth, dust, 2 * before).find("as sampled"), std::string::npos);
+  // a strip per column that no point of the rule meets: each triangle misses a thousandth of the load, all of them all
+  const Field strips = [](double x, double) {
+    return std::abs(32 * x - std::floor(32 * x) - 0.2) < 0.03 ? 100.0 : 0.0;
+  };
+  EXPECT_GT(solve_to(Scene({strips}), structured_mesh(32, {0}), {0.2}).certificate.norm, 1);  // 1.4 on coarser meshes
 }
 
 TEST(SolveTo, RefusesWithASentence) {
@@ -238,6 +243,11 @@ TEST(SolveTo, RefusesWithASentence) {
         solve_to(Scene({paper_load}), first_mesh(0), {1e-1, Quantity::displacement, 1e6, Growth::extrude});
       },
       "no scaled layer");
+  TriangleMesh free_below = structured_mesh(8);  // the layer that is asked about is not that of columns
+  for (int e = 0; e < free_below.edge_count(); ++e)
+    if (free_below.edge_tag[e] == EdgeTag::contact && free_below.vertices(free_below.edges(e, 0), 0) < 0.5)
+      free_below.edge_tag[e] = EdgeTag::free;
+  expect_refused([&] { solve_to(scene, free_below, {1e-1}); }, "not that of columns");
   const auto millions = [&] { solve_to(scene, first_mesh(0), {1e-3, Quantity::displacement, 20000}); };
   expect_refused(millions, "can be reached");
   const auto error = thrown<NotConverged>(millions);

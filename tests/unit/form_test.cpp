@@ -178,6 +178,9 @@ TEST(Forms, VentcelTermIsTheEnergyOfTheTraceOnSigma) {
   given(0) = 0.1;
   expect_refused([&] { ventcel_form(Space(mesh, p1()), given); }, "Sigma has an end at (0, 0) with u not 0");
   given(0) = 0;
+  TriangleMesh bent = mesh;
+  bent.vertices.row(1) += Eigen::RowVector2d(0, 0.1);
+  expect_refused([&] { ventcel_form(Space(bent, p1()), given); }, "Sigma leaves its line");
   std::replace(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::clamped, EdgeTag::free);
   expect_refused([&] { ventcel_form(Space(mesh, p1()), given); }, "Sigma has an end at (0, 0);");
 }
@@ -299,6 +302,8 @@ TEST(Averaged, RefusesSharesThatDoNotFit) {
   FactoredForm cut = layer_strain(quadratic), outside = strain;
   cut.cell.pop_back();
   expect_refused([&] { vertex_shares(mesh, cut, strain_rule(p2())); }, "not a point of the rule");
+  const FactoredForm two = strain_rows({space, space}, {{{1, 0, 0, 0}}, {{0, 0, 0, 1}}});  // two strains per point
+  expect_refused([&] { vertex_shares(mesh, two, strain_rule(p1())); }, "not a point of the rule");
   outside.cell.back() = mesh.triangle_count();
   expect_refused([&] { box_shares(mesh, outside, 1, 1); }, "in cell 16 of a mesh of 16");
   expect_refused([&] { vertex_shares(mesh, strain, strain_rule(p2())); }, "not a point of the rule");

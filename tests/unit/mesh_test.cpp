@@ -687,8 +687,7 @@ std::string refused(const std::string& text) {
 }
 
 // A unit square of two triangles, by hand.
-const std::string square_22 = R"($MeshFormat
-2.2 0 8
+const std::string groups = R"( 0 8
 $EndMeshFormat
 $PhysicalNames
 3
@@ -696,7 +695,8 @@ $PhysicalNames
 1 5 "contact"
 2 1 "body"
 $EndPhysicalNames
-$Nodes
+)";
+const std::string square_22 = "$MeshFormat\n2.2" + groups + R"($Nodes
 4
 1 0 0 0
 2 1 0 0
@@ -713,16 +713,7 @@ $Elements
 6 2 2 1 1 1 3 4
 $EndElements
 )";
-const std::string square_41 = R"($MeshFormat
-4.1 0 8
-$EndMeshFormat
-$PhysicalNames
-3
-1 4 "clamped"
-1 5 "contact"
-2 1 "body"
-$EndPhysicalNames
-$Entities
+const std::string square_41 = "$MeshFormat\n4.1" + groups + R"($Entities
 1 2 1 0
 7 0 0 0 0
 8 0 0 0 1 0 0 1 5 0

@@ -7,6 +7,7 @@
 #include "antilock/problem/bounds.hpp"
 #include "backstage/25_truth.hpp"
 #include "backstage/27_truth.hpp"
+#include "support/bodies.hpp"
 #include "support/dense.hpp"
 #include "support/measures.hpp"
 #include "support/platen.hpp"
@@ -67,7 +68,14 @@ TEST(Assemble, RefusesASceneThatDoesNotFitItsMesh) {
   expect_refused([&] { assemble(Scene({paper_load}), Space(both, p1())); }, "no layer");
   expect_refused([&] { assemble(Scene({paper_load}, VentcelLayer{}), Space(both, p1())); }, "no layer");
   std::replace(body.edge_tag.begin(), body.edge_tag.end(), EdgeTag::clamped, held_group(0));
-  expect_refused([&] { assemble(Scene({paper_load}), Space(body, p1())); }, "of which the scene says nothing");
+  for (const Layer& layer : {Layer(NoLayer{}), Layer(VentcelLayer{})})
+    expect_refused([&] { assemble(Scene({paper_load}, layer), Space(body, p1())); }, "of which the scene says nothing");
+  for (int v = 0; v < both.vertex_count(); ++v)  // whichever end of an edge it is
+    if (both.vertices(v, 1) == 0) {
+      TriangleMesh bent = both;
+      bent.vertices(v, 1) = 1e-3;
+      expect_refused([&] { assemble(Scene({paper_load}, StiffLayer{0.1}), Space(bent, p1())); }, "Sigma has a vertex");
+    }
 }
 
 // ==== Nearly incompressible elasticity with Signorini contact: another member of the class, the same solver.
@@ -844,8 +852,12 @@ TEST(Plate, ValuesOutOfRangeAreRefused) {
   for (const double nu : {-0.1, 1.0})
     test::expect_refused([&] { assemble(Plate{.poisson = nu}, on.space); }, "Poisson");
   Plate sunk;  // below the obstacle on a part of the rim
+  const TriangleMesh group = retagged(mesh, [](double, double) { return held_group(0); });
+  const On named(arnold_falk, group);
+  EXPECT_TRUE(assemble(sunk, named.space).a1.isApprox(assemble(sunk, on.space).a1)) << "held under whatever name";
   sunk.gap = [](double x, double) { return x > 0.9 ? -0.1 : 1.0; };
-  test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at 0.1");
+  for (const On* rim : {&on, &named})
+    test::expect_refused([&] { assemble(sunk, rim->space); }, "below the obstacle at 0.1");
   sunk.gap = [](double x, double) { return x < 0 ? 0.1 : 1e13; };  // large elsewhere: hides nothing
   sunk.rim = [](double, double) { return -1.0; };
   test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at -0.1");

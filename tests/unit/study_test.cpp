@@ -156,6 +156,8 @@ TEST(SweepOfAnyProblem, GivesTheAnswersOfTheBeam) {
   }
   EXPECT_EQ(sweep.total().factorisations, factorisations);
   EXPECT_LT(factorisations, 5);
+  sweep.solve({{}, 1e-3, ContactRoad::automatic, 1000, {}});
+  EXPECT_EQ(sweep.factor().delta(), 1e-3) << "as asked";
 }
 
 TEST(SweepOfAnyProblem, TakesAnotherLoadAndOtherBounds) {

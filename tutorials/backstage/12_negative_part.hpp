@@ -4,6 +4,7 @@
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/form/quadrature.hpp"
 #include "antilock/measure/detail/contact_edges.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/problem/variational_inequality.hpp"
@@ -33,7 +34,7 @@ inline NegativePart negative_part(const Space& space, VariationalInequality prob
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < static_cast<int>(edges.size()); ++row) {
     const ContactEdge& edge = edges[row];
-    const auto at = [&](double s) { return element.basis(edge.lambda(s)); };
+    const auto at = [&](double s) { return element.basis(on_edge(edge.opposite, s)); };
     Eigen::VectorXd hidden = std::sqrt(edge.length / 12) * (at(1) - at(0));
     if (quadratic) hidden = std::sqrt(edge.length / 120) * (at(0) - 2 * at(0.5) + at(1));
     for (Eigen::Index i = 0; i < hidden.size(); ++i)

@@ -63,7 +63,7 @@ inline Parts take_apart(const Exact& exact, const Space& space, const Variationa
   for (const ContactEdge& edge : contact_edges(mesh)) {
     double pressure = 0, height = 0, slope = 0;
     for (int i = 0; i < points; ++i) {
-      const double x = point_in(mesh, edge.triangle, edge.lambda((i + 0.5) / points))(0);
+      const double x = point_in(mesh, edge.triangle, on_edge(edge.opposite, (i + 0.5) / points))(0);
       const TruthPoint u = exact.table.at(x, -1);
       pressure += exact.truth.pressure(x) / points;
       height += u.value / points;

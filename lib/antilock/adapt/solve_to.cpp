@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/adapt/detail/marking.hpp"
+#include "antilock/analysis/detail/companion.hpp"
 #include "antilock/analysis/detail/ties.hpp"
 #include "antilock/analysis/lost_energy.hpp"
 #include "antilock/core/error.hpp"
@@ -35,22 +37,22 @@ Growth growth_of(const Scene& scene) {
 /// The answer of a conforming element; that of P1 in K between the vertices, too.
 Answer conforming_answer(const Scene& scene, const Element& element, const std::shared_ptr<const TriangleMesh>& mesh) {
   Answer answer{mesh, Space(*mesh, element), {}, {}, {}, ""};
-  answer.problem = assemble(scene, answer.space);
-  if (scene.contact() && element.degree() == 1)
-    answer.problem.lower = admissible_bounds(*scene.contact(), answer.space);
+  answer.problem = element.degree() == 1 ? assemble_in_k(scene, answer.space) : assemble(scene, answer.space);
   answer.solution = active_set(answer.problem);
   return answer;
 }
 
 /// Of an answer that locks: what is told of it, where the unknowns that would be needed are more than the limit. The
-/// error's square is at least twice what is lost, and lost over kept falls like h^2 for P1 and h^4 for P2.
-std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate, const Accuracy& accuracy) {
+/// error's square is at least twice what is lost, and lost over kept falls like h^2 for P1 and h^4 for P2. `counted`: the
+/// unknowns that the limit is about.
+std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate, const Accuracy& accuracy,
+                   int counted) {
   const auto report = report_layer(scene, answer.space, answer.problem, answer.solution);
   if (!report || report->warning.empty()) return "";
   const double enough = std::pow(accuracy.relative * (certificate.norm + certificate.displacement), 2) / 2;
   const double now = report->found / (1 - report->found), then = enough / report->motion;  // lost over kept
   const double times = std::pow(now / then, 1.0 / accuracy.element->degree());             // the unknowns, as h^-2
-  return answer.space.free_count() * times > accuracy.most_unknowns ? report->warning : "";
+  return counted * times > accuracy.most_unknowns ? report->warning : "";
 }
 
 void check_request(const Accuracy& accuracy) {
@@ -109,18 +111,32 @@ Marking marking(const std::vector<Level>& history, int marks) {
   return marking;
 }
 
-[[noreturn]] void refuse(const Accuracy& accuracy, const std::vector<Level>& history, const std::string& why,
-                         bool converges = true) {
+/// `per_unknown`: unknowns of Crouzeix-Raviart, which the limit counts, per one of the element that was asked for.
+[[noreturn]] void refuse(const Accuracy& accuracy, const std::vector<Level>& history, double per_unknown,
+                         const std::string& why, bool converges = true) {
   const Level& last = history.back();
-  const double reachable = last.relative * std::sqrt(last.unknowns / accuracy.most_unknowns);
+  const double reachable = last.relative * std::sqrt(per_unknown * last.unknowns / accuracy.most_unknowns);
   throw NotConverged(
       fmt::format(
-          "accuracy: {:.3g} is not reached within {:.0f} unknowns: {}; proved so far: {:.3g} with {} unknowns in "
+          "accuracy: {:.3g} is not reached within {:.0f} unknowns{}: {}; proved so far: {:.3g} with {} unknowns in "
           "{} level{}{}",
-          accuracy.relative, accuracy.most_unknowns, why, last.relative, last.unknowns, history.size(),
-          history.size() == 1 ? "" : "s",
+          accuracy.relative, accuracy.most_unknowns, accuracy.element->conforming() ? " of Crouzeix-Raviart" : "", why,
+          last.relative, last.unknowns, history.size(), history.size() == 1 ? "" : "s",
           converges ? fmt::format("; within the limit about {:.2g} can be reached", reachable) : ""),
       last.relative, static_cast<int>(history.size()));
+}
+
+/// What the layer is held by: the tags of its outer edges, those of the lower side at -infinity, those of the sides at
+/// their x, to nine digits.
+std::set<std::pair<double, EdgeTag>> held_by(const TriangleMesh& mesh) {
+  std::set<std::pair<double, EdgeTag>> tags;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_triangles(e, 1) >= 0 || mesh.region[mesh.edge_triangles(e, 0)] != Region::layer) continue;
+    const bool below = (mesh.vertices(mesh.edges.row(e), 1).array() < -1 + 1e-6).all();
+    for (const int v : mesh.edges.row(e))
+      tags.emplace(below ? -INFINITY : std::round(1e9 * mesh.vertices(v, 0)), mesh.edge_tag[e]);
+  }
+  return tags;
 }
 
 }  // namespace
@@ -143,12 +159,19 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   const double epsilon = scene.epsilon().value_or(1);
   std::vector<Level> history;
   TriangleMesh body = longest_edge_first(growth == Growth::extrude ? body_of(first) : first);
-  const int most_triangles = static_cast<int>(std::min(accuracy.most_unknowns / 3, 1e9));  // about 3/2 edges each
+  if (const auto held = held_by(first);
+      growth == Growth::extrude && !held.empty() && held != held_by(extruded(body, epsilon)))
+    throw Error(
+        "accuracy: the layer of the mesh is not that of columns below its body; accepted: sides that are upright, and "
+        "held where the body is beside them, and contact all along the lower side");
+  // 3/2 edges per triangle, and as much again for the levels that follow
+  const int most_triangles = static_cast<int>(std::min(accuracy.most_unknowns / 3, 1e9));
   const std::string warning = resolve_load(body, scene.body().load, most_triangles);
   GrowingMesh now;
   now.mesh = growth == Growth::extrude ? extruded(body, epsilon) : body;
   now.body = std::move(body);
 
+  double per_unknown = 1;
   Eigen::VectorXd contact_x;  // of the last mesh, and what its unknowns do
   Pieces contact_set;
   while (true) {
@@ -160,7 +183,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
             fmt::format("accuracy: most_unknowns = {:.0f} cannot hold the first mesh, which has {} unknowns; "
                         "accepted: at least as many, or a coarser first mesh",
                         accuracy.most_unknowns, space.free_count()));
-      refuse(accuracy, history, fmt::format("the next mesh has {}", space.free_count()));
+      refuse(accuracy, history, per_unknown, fmt::format("the next mesh has {}", space.free_count()));
     }
     VariationalInequality problem = assemble(scene, space);
     PenaltyFactor factor(problem);
@@ -194,6 +217,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     answer.warning = warning;
     answer.solution.warning.clear();  // the certificate counts what the corrections left
     seconds += watch.lap();
+    per_unknown = double(space.free_count()) / answer.space.free_count();
     const double relative = certificate.relative(accuracy.of);
     history.push_back({answer.space.free_count(), certificate.bound(accuracy.of), relative, seconds});
     quote(history, accuracy.relative);
@@ -209,10 +233,10 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       return {std::move(answer), std::move(companion), std::move(certificate), std::move(history)};
     }
     if (conforming)
-      if (const std::string why = locked(scene, answer, certificate, accuracy); !why.empty())
-        refuse(accuracy, history, why, false);
-    if (const double needed = history.back().quoted_unknowns; needed > accuracy.most_unknowns)
-      refuse(accuracy, history, fmt::format("about {:.2g} are needed", needed));
+      if (const std::string why = locked(scene, answer, certificate, accuracy, space.free_count()); !why.empty())
+        refuse(accuracy, history, per_unknown, why, false);
+    if (const double needed = per_unknown * history.back().quoted_unknowns; needed > accuracy.most_unknowns)
+      refuse(accuracy, history, per_unknown, fmt::format("about {:.2g} are needed", needed));
     now = grown(now, growth, epsilon, certificate.indicator, marking(history, now.marks));
   }
 }

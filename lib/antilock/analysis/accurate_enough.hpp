@@ -9,21 +9,14 @@ namespace antilock {
 
 /// Two numbers with the energy J(u) of the exact solution between them, computed without knowing it.
 struct EnergyBracket {
-  double lower = 0;  ///< energy_lower_bound of a Crouzeix-Raviart solution
-  double upper = 0;  ///< J of a function of K: energy() of a P1 solution, since K_h is part of K
+  double lower = 0;  ///< by duality, from a Crouzeix-Raviart solution
+  double upper = 0;  ///< J of a function of K, the P1 solution, with what the quadrature leaves of the load
 
   double width() const { return upper - lower; }
 };
 
-/// A lower bound of J(u) at every epsilon in [0, 1], proved (derivation in accurate_enough.cpp) up to round-off, for
-/// the load as sampled. It lies below the energy of the Crouzeix-Raviart solution by O(h^2), however small epsilon is:
-/// that energy alone is no bound. It holds with a gap, with nonzero fixed values and for a solve stopped early. Sharper
-/// with a function of K at hand: certify(). Throws Error as equilibrated_flux does.
-double energy_lower_bound(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                          const Solution& solution);
-
-/// The bracket of a scene on a mesh: P1 above, a bound from Crouzeix-Raviart below, both by active set. Throws as
-/// energy_lower_bound and active_set do.
+/// The bracket of a scene on a mesh, from its certificate: P1 above, a bound from Crouzeix-Raviart below, both by active
+/// set. Throws as certify and active_set do.
 EnergyBracket energy_bracket(const Scene& scene, const TriangleMesh& mesh);
 
 /// When an iteration for u_h may stop: at `share` of the relative width b = width / |J|, in the energy norm. Why b:

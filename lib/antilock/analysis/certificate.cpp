@@ -103,9 +103,8 @@ void check_prescribed(const Scene& scene, const Space& space, const VariationalI
                       const Companion& v) {
   const TriangleMesh& mesh = space.mesh();
   const Eigen::VectorXd prescribed = prescribed_values(scene, mesh);
-  const auto differs = [](double value, double asked) {
-    return !(std::abs(value - asked) <= 1e-11 * std::max(1.0, std::abs(asked)));
-  };
+  const double scale = std::max(prescribed.cwiseAbs().maxCoeff(), v.at_vertices.cwiseAbs().maxCoeff());
+  const auto differs = [&](double value, double asked) { return !(std::abs(value - asked) <= 1e-11 * scale); };
   for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
     const auto ends = mesh.edges.row(problem.fixed[i]);
     for (const int vertex : {ends(0), ends(1)}) {

@@ -6,6 +6,7 @@
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/measure/errors.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 
@@ -28,7 +29,7 @@ double distance_to_kernel(const VariationalInequality& problem) {
   unloaded.load.setZero();
   for (double& g : unloaded.force_bound)  // what gives way is no part of K_h
     if (std::isfinite(g)) g = 0;
-  unloaded.compliance = 1e-9;
+  unloaded.compliance = 1e-9 * relative_stiffness(problem).value();
   const Solution s = active_set(unloaded);
   const double u = s.u.lpNorm<Eigen::Infinity>();
   const Eigen::VectorXd unit = problem.b.cwiseAbs() * Eigen::VectorXd::Ones(problem.size());  // of a row, for |u| = 1

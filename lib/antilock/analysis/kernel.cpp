@@ -4,6 +4,7 @@
 
 #include <Eigen/SPQRSupport>
 #include <algorithm>
+#include <set>
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
@@ -50,16 +51,14 @@ VariationalInequality stiff_part(VariationalInequality problem) {
   for (int i = 0; i < problem.size(); ++i)
     if (held[i]) problem.fixed.push_back(i);
   problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  std::set<int> bounded(problem.contact.begin(), problem.contact.end());
   for (Eigen::Index row = 0; row < problem.combinations.rows(); ++row)  // what they combine counts as bounded
     for (RowMatrix::InnerIterator entry(problem.combinations, row); entry; ++entry)
-      problem.contact.push_back(static_cast<int>(entry.col()));
-  std::sort(problem.contact.begin(), problem.contact.end());
-  problem.contact.erase(std::unique(problem.contact.begin(), problem.contact.end()), problem.contact.end());
-  std::erase_if(problem.contact, [&](int i) { return held[i] != 0; });
+      bounded.insert(static_cast<int>(entry.col()));
+  std::erase_if(bounded, [&](int i) { return held[i] != 0; });
+  clear_bounds(problem);  // no bound has a part in the kernel of B
+  problem.contact.assign(bounded.begin(), bounded.end());
   problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
-  problem.force_bound.resize(0);
-  problem.upper.resize(0);  // no bound has a part in the kernel of B
-  problem.combinations.resize(0, 0);
   return problem;
 }
 

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/problem/bounds.hpp"
+#include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {
@@ -33,8 +36,7 @@ namespace {
 std::optional<double> flexibility(VariationalInequality problem, const std::vector<int>& bounds, double compliance) {
   problem.load.setZero();
   for (const int i : bounds) problem.load(i) = 1.0 / static_cast<double>(bounds.size());
-  problem.contact.clear();
-  problem.lower.resize(0), problem.upper.resize(0), problem.force_bound.resize(0), problem.combinations.resize(0, 0);
+  clear_bounds(problem);
   problem.fixed_values.setZero();
   problem.compliance = compliance;
   try {
@@ -84,11 +86,10 @@ LockingDiagnosis diagnose_locking(const VariationalInequality& coarse, const Var
   found.bounded = !first.contact.empty() && !second.contact.empty();
   if (!found.bounded)
     for (VariationalInequality* stiff : {&first, &second}) {
-      stiff->contact.clear();
-      std::vector<char> fixed(stiff->size(), 0);
-      for (const int i : stiff->fixed) fixed[i] = 1;
-      for (int i = 0; i < stiff->size(); ++i)
-        if (fixed[i] == 0) stiff->contact.push_back(i);
+      stiff->contact.resize(stiff->size());
+      std::iota(stiff->contact.begin(), stiff->contact.end(), 0);
+      std::erase_if(stiff->contact,
+                    [&](int i) { return std::binary_search(stiff->fixed.begin(), stiff->fixed.end(), i); });
       stiff->lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stiff->contact.size()));
     }
   found.coarse_bounds = static_cast<int>(first.contact.size());
@@ -104,9 +105,11 @@ LockingDiagnosis diagnose_locking(const VariationalInequality& coarse, const Var
     if (!on_fine || !(*on_coarse > 0) || !(*on_fine > 0)) return {};
     return *on_fine / *on_coarse;
   };
-  const std::optional<double> soft = ratio(1);
+  // No unit of the forms is better than another: in that in which both are as stiff, rounded to a decade.
+  const double unit = std::pow(10, std::round(std::log10(relative_stiffness(fine).value())));
+  const std::optional<double> soft = ratio(unit);
   for (int decade = 1; soft && decade <= 6 && found.compliance == 0; ++decade) {
-    const double compliance = std::pow(10, -decade);
+    const double compliance = unit * std::pow(10, -decade);
     found.softening = ratio(compliance).value_or(0) / *soft - 1;
     if (found.softening > std::max(LockingDiagnosis::telling, std::abs(*soft - 1))) found.compliance = compliance;
   }

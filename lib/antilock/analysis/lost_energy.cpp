@@ -27,6 +27,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/form/detail/sparse_assembly.hpp"
 #include "antilock/form/forms.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -152,10 +153,7 @@ RowMatrix hats(const Points& at, const Line& sigma, const std::vector<char>& in_
 SparseMatrix layer_at(const Line& sigma, const Space& space, const Eigen::Vector2d& stiffness) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = strain_rule(space.element());
-  std::vector<Eigen::MatrixX3d> derivative;
-  for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-    derivative.push_back(space.element().derivative(rule.points.row(q)));
-  std::vector<Eigen::Triplet<double>> entries;
+  Triplets entries;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const auto corner = mesh.triangles.row(t);
     if (mesh.region[t] == Region::body ||
@@ -163,16 +161,14 @@ SparseMatrix layer_at(const Line& sigma, const Space& space, const Eigen::Vector
       continue;
     const auto unknown = space.unknowns().row(t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::MatrixX2d gradient = derivative[q] * barycentric_gradients(mesh, t);
+      const Eigen::MatrixX2d gradient = space.element().derivative(rule.points.row(q)) * barycentric_gradients(mesh, t);
       const Eigen::MatrixXd local =
           gradient * (rule.weights(q) * mesh.area(t) * stiffness).asDiagonal() * gradient.transpose();
       for (Eigen::Index i = 0; i < local.rows(); ++i)
         for (Eigen::Index j = 0; j < local.cols(); ++j) entries.emplace_back(unknown(i), unknown(j), local(i, j));
     }
   }
-  SparseMatrix layer(space.size(), space.size());
-  layer.setFromTriplets(entries.begin(), entries.end());
-  return layer;
+  return summed<SparseMatrix>(space.size(), space.size(), entries);
 }
 
 /// The form of the body on W and a force, of which the hats above Sigma are eliminated. What those gain alone is
@@ -199,7 +195,7 @@ Sunk sunk_to_sigma(const SparseMatrix& body, const Eigen::VectorXd& on_body, con
   Eigen::VectorXd force = w.transpose() * on_body;
   // hats may reach no vertex, or be dependent at the few that they reach: a little energy more makes w unique, and v no
   // better than it is
-  form.diagonal().array() += 1e-10 * form.diagonal().maxCoeff();
+  for (double& own : form.diagonal()) own = own > 0 ? (1 + 1e-10) * own : 1;
   for (Eigen::Index i = 0; i < all; ++i)
     if (held[i]) form.row(i).setZero(), form.col(i).setZero(), form(i, i) = 1, force(i) = 0;
   const Cholesky upper(form.bottomRightCorner(above, above));

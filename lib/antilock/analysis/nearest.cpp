@@ -5,6 +5,7 @@
 
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/residual.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace antilock {
@@ -14,9 +15,12 @@ namespace {
 void minimise_norm(VariationalInequality& problem, const SparseMatrix& norm, bool kernel) {
   problem.a1 = norm;
   problem.compliance = 0;
+  for (double& g : problem.force_bound)  // what gives way is no part of K_h
+    if (std::isfinite(g)) g = 0;
   if (kernel) return;
   problem.b.resize(0, problem.size());
   problem.m.resize(0);
+  problem.ties = 0;
 }
 
 }  // namespace
@@ -36,8 +40,8 @@ Nearest nearest(const Space& space, VariationalInequality problem, const Referen
 double dual_norm(VariationalInequality problem, const SparseMatrix& norm, const Eigen::VectorXd& functional,
                  bool kernel) {
   minimise_norm(problem, norm, kernel);
-  problem.contact.clear();
-  problem.lower.resize(0);
+  clear_bounds(problem);
+  problem.fixed_values.setZero();
   problem.load = functional;
   return std::sqrt(std::max(0.0, functional.dot(active_set(problem).u)));
 }

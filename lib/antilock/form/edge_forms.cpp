@@ -21,9 +21,7 @@ void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
       if (mesh.edge_tag[e] != tag) continue;
       const double share = mesh.edge_triangles(e, 1) < 0 ? 1 : 0.5;  // between two triangles: the mean of both sides
       for (Eigen::Index q = 0; q < points.size(); ++q) {
-        Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-        lambda((i + 1) % 3) = 1 - points(q);
-        lambda((i + 2) % 3) = points(q);
+        const Eigen::Vector3d lambda = on_edge(i, points(q));
         const Eigen::Vector2d x = point_in(mesh, t, lambda);
         const double value = f(x(0), x(1));
         if (!std::isfinite(value))
@@ -65,7 +63,13 @@ Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::Vector
       held[v] += is_held(mesh.edge_tag[e]) ? 1 : 0;
     }
   std::vector<double> ends;  // a single piece has two
+  double height = NAN;
   for (int v = 0; v < mesh.vertex_count(); ++v) {
+    if (on_sigma[v] == 0) continue;
+    if (std::isnan(height)) height = mesh.vertices(v, 1);
+    if (std::abs(mesh.vertices(v, 1) - height) > 1e-6)
+      throw Error("Ventcel term: Sigma leaves its line at " + mesh.place(v) +
+                  "; accepted: a piece of a line y = const");
     if (on_sigma[v] != 1) continue;
     ends.push_back(mesh.vertices(v, 0));
     if (held[v] == 0 || given(v) != 0 || ends.size() > 2)
@@ -73,7 +77,7 @@ Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::Vector
           "Ventcel term: Sigma has an end at " + mesh.place(v) + (given(v) != 0 ? " with u not 0" : "") +
           "; accepted: u = 0 at both of its ends, or a scaled layer with epsilon = 0, which is the same problem");
   }
-  if (ends.size() != 2) throw Error("Ventcel term: Sigma has no ends; accepted: a piece of the line y = 0");
+  if (ends.size() != 2) throw Error("Ventcel term: Sigma has no ends; accepted: a piece of a line y = const");
   const auto [left, right] = std::minmax(ends[0], ends[1]);
   // x and unknown along Sigma; at the clamped ends u = 0, they have none
   std::vector<std::pair<double, int>> line{{left, -1}};

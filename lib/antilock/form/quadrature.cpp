@@ -65,15 +65,15 @@ const Quadrature& triangle_rule(int degree) {
 const Quadrature& midpoint_rule() { return triangle_rule(2); }
 const Quadrature& radon_rule() { return triangle_rule(5); }
 
+Eigen::Vector3d on_edge(int i, double s) {
+  const Eigen::Matrix3d corner = Eigen::Matrix3d::Identity();
+  return (1 - s) * corner.col((i + 1) % 3) + s * corner.col((i + 2) % 3);
+}
+
 Eigen::VectorXd means_on_edge(const Element& element, int i) {
   const auto [places, weights] = gauss_rule(element.degree() / 2 + 1);
   Eigen::VectorXd means = Eigen::VectorXd::Zero(element.unknowns());
-  for (Eigen::Index q = 0; q < places.size(); ++q) {
-    Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
-    lambda((i + 1) % 3) = 1 - places(q);
-    lambda((i + 2) % 3) = places(q);
-    means += weights(q) * element.basis(lambda);
-  }
+  for (Eigen::Index q = 0; q < places.size(); ++q) means += weights(q) * element.basis(on_edge(i, places(q)));
   return means;
 }
 

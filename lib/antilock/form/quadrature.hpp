@@ -24,6 +24,9 @@ const Quadrature& triangle_rule(int degree);
 /// Points (n) and weights (n) of Gauss on (0, 1), exact for degree 2n - 1.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n);
 
+/// Barycentric coordinates of the place s on the edge opposite local vertex i: s = 0 at vertex i + 1, 1 at i + 2.
+Eigen::Vector3d on_edge(int i, double s);
+
 /// The mean of every basis function of the element on the edge opposite local vertex i, exact.
 Eigen::VectorXd means_on_edge(const Element& element, int i);
 

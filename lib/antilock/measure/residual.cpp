@@ -80,7 +80,7 @@ Eigen::VectorXd contact_work(const Space& space, const Profile& g) {
   Eigen::VectorXd work = Eigen::VectorXd::Zero(space.size());
   for (const ContactEdge& edge : contact_edges(mesh))
     for (int k = 0; k < points; ++k) {
-      const Eigen::Vector3d lambda = edge.lambda((k + 0.5) / points);
+      const Eigen::Vector3d lambda = on_edge(edge.opposite, (k + 0.5) / points);
       const double weighted = edge.length / points * g(point_in(mesh, edge.triangle, lambda)(0));
       work(space.unknowns().row(edge.triangle)) += weighted * space.element().basis(lambda);
     }

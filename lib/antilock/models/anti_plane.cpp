@@ -17,23 +17,36 @@ bool is_whole(const TriangleMesh& mesh) {
   return true;
 }
 
-void check_fit(const Scene& scene, const Space& space) {
-  const auto& region = space.mesh().region;
+void check_fit(const Scene& scene, const TriangleMesh& mesh) {
+  using Kind = EdgeCondition::Kind;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    const EdgeTag tag = mesh.edge_tag[e];
+    const int k = group_of(tag);
+    if (k >= static_cast<int>(scene.edges().size()))
+      throw Error(
+          fmt::format("scene and mesh: the edge at {} is in the group {}, of which the scene says nothing; "
+                      "accepted: a condition per group",
+                      mesh.place(mesh.edges(e, 0)), k));
+    if (k >= 0 && is_held(tag) != (scene.edges()[k].kind == Kind::displacement))
+      throw Error("scene and mesh: the group " + scene.edges()[k].group +
+                  " is held in one of the two alone; accepted: held_group for a displacement, natural_group else");
+  }
+  const auto& region = mesh.region;
   const bool mesh_has_layer = std::find(region.begin(), region.end(), Region::layer) != region.end();
-  if (mesh_has_layer && scene.layer_depth() == 0)
-    throw Error(
-        "scene and mesh: the scene has no layer to mesh, the mesh has a group layer; accepted: a mesh of the body");
-  if (!mesh_has_layer && scene.layer_depth() > 0)
-    throw Error("scene and mesh: the scene has a layer, the mesh has no group layer, which is needed");
-  if (space.mesh().curved()) return;
-  for (int e = 0; mesh_has_layer && e < space.mesh().edge_count(); ++e)
-    if (const int v = space.mesh().edges(e, 0);
-        space.mesh().edge_tag[e] == EdgeTag::sigma && std::abs(space.mesh().vertices(v, 1)) > 1e-6)
-      throw Error("scene and mesh: Sigma has a vertex at " + space.mesh().place(v) +
-                  "; accepted: Sigma on the line y = 0, or a layer that is grown along its normals");
+  if (mesh_has_layer != (scene.layer_depth() > 0))
+    throw Error("scene and mesh: " +
+                std::string(mesh_has_layer ? "the scene has no layer to mesh, the mesh has a group layer"
+                                           : "the scene has a layer, the mesh has no group layer") +
+                "; accepted: both or none");
+  if (mesh.curved()) return;
+  for (int e = 0; mesh_has_layer && e < mesh.edge_count(); ++e)
+    for (const int v : mesh.edges.row(e))
+      if (mesh.edge_tag[e] == EdgeTag::sigma && std::abs(mesh.vertices(v, 1)) > 1e-6)
+        throw Error("scene and mesh: Sigma has a vertex at " + mesh.place(v) +
+                    "; accepted: Sigma on the line y = 0, or a layer that is grown along its normals");
   // (22) and (23) differ by the depth of their meshes
-  const double lowest = space.mesh().vertices.col(1).minCoeff(), wanted = -scene.layer_depth();
-  if (mesh_has_layer && (lowest < wanted - 1e-6 || (lowest > wanted + 1e-6 && is_whole(space.mesh()))))
+  const double lowest = mesh.vertices.col(1).minCoeff(), wanted = -scene.layer_depth();
+  if (mesh_has_layer && (lowest < wanted - 1e-6 || (lowest > wanted + 1e-6 && is_whole(mesh))))
     throw Error(
         fmt::format("scene and mesh: the mesh reaches down to y = {:.6g}; accepted: y = {:.6g}, the lower side of the "
                     "layer of this scene",
@@ -64,18 +77,6 @@ void follow_normals(VariationalInequality& problem, const StiffLayer& layer, con
 void add_edges(VariationalInequality& problem, const Scene& scene, const Space& space) {
   using Kind = EdgeCondition::Kind;
   const TriangleMesh& mesh = space.mesh();
-  for (int e = 0; e < mesh.edge_count(); ++e) {
-    const EdgeTag tag = mesh.edge_tag[e];
-    const int k = group_of(tag);
-    if (k >= static_cast<int>(scene.edges().size()))
-      throw Error(
-          fmt::format("scene and mesh: the edge at {} is in the group {}, of which the scene says nothing; "
-                      "accepted: a condition per group",
-                      mesh.place(mesh.edges(e, 0)), k));
-    if (k >= 0 && is_held(tag) != (scene.edges()[k].kind == Kind::displacement))
-      throw Error("scene and mesh: the group " + scene.edges()[k].group +
-                  " is held in one of the two alone; accepted: held_group for a displacement, natural_group else");
-  }
   const Eigen::MatrixX3d nodes = space.element().nodes();
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k) {
     const auto& [group, kind, value] = scene.edges()[k];
@@ -117,7 +118,7 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space) {
 }
 
 VariationalInequality assemble(const Scene& scene, const Space& space) {
-  check_fit(scene, space);
+  check_fit(scene, space.mesh());
   static_assert(std::variant_size_v<Layer> == 4, "what a new layer adds to A1 and to B stands here");
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   const auto* thin = std::get_if<ThinLayer>(&scene.layer());

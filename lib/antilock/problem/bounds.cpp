@@ -57,6 +57,12 @@ void set_fixed(VariationalInequality& problem, const std::map<int, double>& valu
   }
 }
 
+void clear_bounds(VariationalInequality& problem) {
+  problem.contact.clear();
+  for (Eigen::VectorXd* of_bounds : {&problem.lower, &problem.upper, &problem.force_bound}) of_bounds->resize(0);
+  problem.combinations.resize(0, 0);
+}
+
 VariationalInequality held_in_contact(VariationalInequality problem, const std::vector<bool>& active) {
   require_lower_bounds(problem, "held_in_contact");
   if (active.size() != problem.contact.size())

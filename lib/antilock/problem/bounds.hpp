@@ -22,6 +22,9 @@ double friction_energy(const VariationalInequality& problem, const Eigen::Vector
 /// Gives the problem these fixed unknowns with their values, in the place of those that it has.
 void set_fixed(VariationalInequality& problem, const std::map<int, double>& values);
 
+/// Leaves the problem without bounds, on unknowns or combinations.
+void clear_bounds(VariationalInequality& problem);
+
 /// The problem whose bounds marked in `active` (one mark per contact unknown) hold as equations, and whose other bounds
 /// are gone: linear, and where `active` is the contact set of the solution, with the same solution. Throws Error for
 /// another number of marks, and where bounds are others than lower ones on unknowns.

@@ -30,18 +30,12 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, s
     check_epsilon("thin", thin->epsilon, 1e-3, "1e-3 <= epsilon <= 1 (below, use the scaled layer)");
   if (!contact_) return;
   if (!contact_->gap) throw Error("contact: no gap given; accepted: a function gap(x)");
-  for (const double x : contact_->held) {
-    const double gap = contact_->gap(x);
-    if (!(gap >= -1e-12 * std::max(1.0, std::abs(contact_->gap(0.5)))))  // sin(pi) in double precision is 1.2e-16
-      throw Error(
-          fmt::format("contact: gap({}) = {}, but u = 0 is prescribed there, so no u >= -gap exists; "
-                      "accepted: gap >= 0 at x = {}",
-                      x, gap, fmt::join(contact_->held, " and x = ")));
-    if (contact_->ceiling && !(contact_->ceiling(x) >= -1e-12 * std::max(1.0, std::abs(contact_->ceiling(0.5)))))
-      throw Error(
-          fmt::format("contact: ceiling({}) = {}, but u = 0 is prescribed there; accepted: ceiling >= 0 at x = {}", x,
-                      contact_->ceiling(x), fmt::join(contact_->held, " and x = ")));
-  }
+  for (const double x : contact_->held)
+    for (const auto& [name, bound] : {std::pair("gap", &contact_->gap), {"ceiling", &contact_->ceiling}})
+      // sin(pi) in double precision is 1.2e-16
+      if (*bound && !((*bound)(x) >= -1e-12 * std::max(1.0, std::abs((*bound)(0.5)))))
+        throw Error(fmt::format("contact: {0}({1}) = {2}, but u = 0 is prescribed there; accepted: {0} >= 0 at x = {3}",
+                                name, x, (*bound)(x), fmt::join(contact_->held, " and x = ")));
 }
 
 std::string Scene::beyond_the_paper() const {

@@ -28,9 +28,6 @@ void Sweep::set_load(Eigen::VectorXd load) {
 
 void Sweep::set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper) {
   if (problem_.contact.empty()) throw Error("sweep: no unknown is bounded; accepted: a problem with contact");
-  if (lower.size() != problem_.lower.size())
-    throw Error(
-        fmt::format("sweep: {} bounds; accepted: {}, one per contact unknown", lower.size(), problem_.lower.size()));
   const auto before = std::pair(problem_.lower, problem_.upper);
   problem_.lower = std::move(lower);
   if (upper) problem_.upper = std::move(*upper);
@@ -58,10 +55,10 @@ const PenaltyFactor& Sweep::factor() const {
 }
 
 Solution Sweep::solve(ActiveSetOptions options) {
-  const double delta = moderate_delta(problem_);
+  const double delta = moderate_delta(problem_, options.penalty);
   const int factorisations_before = factor_ ? factor_->factorisations() : 0;
   if (!factor_)
-    factor_.emplace(problem_, delta);
+    factor_.emplace(problem_, delta, options.road);
   else if (problem_.b.rows() > 0 && factor_->delta() != delta)
     factor_->refactor(delta);
   if (!options.start) options.start = pieces_;

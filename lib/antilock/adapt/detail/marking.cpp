@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 #include "antilock/adapt/bisection.hpp"
@@ -64,13 +66,19 @@ GrowingMesh grown(const GrowingMesh& last, Growth growth, double epsilon, const 
 std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangles) {
   constexpr int per_side = 64, most_rounds = 16;
   constexpr double negligible = 1e-3;  // of the integral of f^2, on one triangle
+  constexpr double seen_enough = 0.1;  // of what is sampled, on one triangle as on all of them together
   const Quadrature& rule = radon_rule();
-  std::vector<bool> fresh(mesh.triangle_count(), true);
+  std::map<std::array<int, 3>, double> known;  // by corners, whose numbers bisection keeps
   double total = 0;
   for (int round = 0;; ++round) {
     Eigen::ArrayXd difference = Eigen::ArrayXd::Zero(mesh.triangle_count());
     for (int t = 0; t < mesh.triangle_count(); ++t) {
-      if (mesh.region[t] != Region::body || !fresh[t]) continue;
+      if (mesh.region[t] != Region::body) continue;
+      std::array<int, 3> corners{mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2)};
+      std::sort(corners.begin(), corners.end());
+      const auto [place, fresh] = known.try_emplace(corners, 0);
+      difference(t) = place->second;
+      if (!fresh) continue;
       const auto square = [&](const Eigen::Vector3d& lambda) {
         const Eigen::Vector2d x = point_in(mesh, t, lambda);
         return std::pow(load(x(0), x(1)), 2);
@@ -84,28 +92,29 @@ std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangl
       sampled *= 2.0 / (per_side * (per_side + 1));
       for (Eigen::Index q = 0; q < rule.weights.size(); ++q) seen += rule.weights(q) * square(rule.points.row(q));
       if (round == 0) total += mesh.area(t) * std::max(sampled, seen);
-      if (const double off = std::abs(sampled - seen); off > 0.1 * std::max(sampled, seen))
-        difference(t) = mesh.area(t) * off;
+      if (const double off = std::abs(sampled - seen); off > seen_enough * std::max(sampled, seen))
+        difference(t) = place->second = mesh.area(t) * off;
     }
-    std::vector<bool> missed;
+    std::vector<int> order(mesh.triangle_count());
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(), [&](int a, int b) { return difference(a) > difference(b); });
+    std::vector<bool> missed(mesh.triangle_count(), false);
+    const double all = difference.sum();
     double left = 0;
-    int where = -1;
-    for (int t = 0; t < mesh.triangle_count(); ++t) {
-      missed.push_back(difference(t) > negligible * total);
-      if (missed[t]) left += difference(t), where = t;
+    for (const int t : order) {
+      if (difference(t) <= negligible * total && all - left <= seen_enough * total) break;
+      missed[t] = true;
+      left += difference(t);
     }
-    if (where < 0) return {};
+    if (left == 0) return {};
     if (round == most_rounds || mesh.triangle_count() > most_triangles) {
-      const Eigen::Vector2d x = point_in(mesh, where, Eigen::Vector3d::Constant(1.0 / 3));
+      const Eigen::Vector2d x = point_in(mesh, order.front(), Eigen::Vector3d::Constant(1.0 / 3));
       return fmt::format(
           "the load varies between the points of the quadrature near ({:.4g}, {:.4g}), by {:.1e} of its square: the "
           "certificate holds for the load as sampled",
           x(0), x(1), left / total);
     }
-    const int before = mesh.vertex_count();
     mesh = bisected(mesh, missed);
-    fresh.assign(mesh.triangle_count(), false);
-    for (int t = 0; t < mesh.triangle_count(); ++t) fresh[t] = (mesh.triangles.row(t).array() >= before).any();
   }
 }
 

@@ -65,7 +65,7 @@ Eigen::Vector2d Companion::flux(const TriangleMesh& mesh, int t, int row, const 
   return law.stiffness * flux;
 }
 
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& near) {
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Eigen::VectorXd& near) {
   constexpr int samples = 32;
   const Eigen::ArrayXd s = Eigen::ArrayXd::LinSpaced(samples + 1, 0, 1), rest = 1 - s;
   const TriangleMesh& mesh = space.mesh();
@@ -79,7 +79,7 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
     std::array<int, 2> place;
     for (int end = 0; end < 2; ++end) {
       const int v = mesh.edges(e, end);
-      x[end] = mesh.vertices(v, 0), at[end] = near ? near(x[end], mesh.vertices(v, 1)) : 0, place[end] = bound_of[v];
+      x[end] = mesh.vertices(v, 0), at[end] = near(v), place[end] = bound_of[v];
     }
     Eigen::ArrayXd obstacle = rest * x[0] + s * x[1];
     for (double& here : obstacle) {
@@ -102,6 +102,13 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
       if (place[end] >= 0) lower(place[end]) = std::max(lower(place[end]), bound[end]);
   }
   return lower;
+}
+
+VariationalInequality assemble_in_k(const Scene& scene, const Space& space) {
+  VariationalInequality problem = assemble(scene, space);
+  if (scene.contact())
+    problem.lower = admissible_bounds(*scene.contact(), space, prescribed_values(scene, space.mesh()));
+  return problem;
 }
 
 Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
@@ -141,24 +148,19 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
   std::map<double, double> above;  // near v on Gamma_C is u_CR on Sigma, at the same x
   for (int v = 0; v < mesh.vertex_count(); ++v)
     if (on_line[v]) above[mesh.vertices(v, 0)] = companion.at_vertices(v);
-  const Field near = [&](double x, double) {
-    const auto found = above.find(x);
-    return found != above.end() ? found->second : 0;
-  };
+  Eigen::VectorXd near = Eigen::VectorXd::Zero(columns.vertex_count());
+  for (int v = 0; v < columns.vertex_count(); ++v)
+    if (const auto found = above.find(columns.vertices(v, 0)); found != above.end()) near(v) = found->second;
   if (scene.contact()) strip.lower = admissible_bounds(*scene.contact(), p1_space, near);
   strip.fixed.clear();
   for (int v = 0; v < columns.vertex_count(); ++v)
     if (fixed[v]) strip.fixed.push_back(v);
   strip.fixed_values = value(strip.fixed);
-  std::vector<int> contact;
-  std::vector<double> lower;
-  for (std::size_t i = 0; i < strip.contact.size(); ++i)
-    if (!fixed[strip.contact[i]]) {
-      contact.push_back(strip.contact[i]);
-      lower.push_back(strip.lower(static_cast<Eigen::Index>(i)));
-    }
-  strip.contact = contact;
-  strip.lower = Eigen::Map<const Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
+  std::vector<Eigen::Index> bounded;
+  for (Eigen::Index i = 0; i < strip.lower.size(); ++i)
+    if (!fixed[strip.contact[i]]) bounded.push_back(i);
+  strip.lower = strip.lower(bounded).eval();
+  std::erase_if(strip.contact, [&](int v) { return fixed[v] != 0; });
   Solution answer;
   if (strip.free_count() > 0) {
     answer = active_set(strip);

@@ -24,8 +24,11 @@ struct Companion {
 /// Bounds for the contact unknowns of a P1 space under which v >= -gap on the whole of Gamma_C, not at the vertices
 /// alone. Per edge the one of two that is nearer to v: -gap at the ends, raised by what its chord leaves out, which is
 /// right where the gap is smooth; or the largest -gap at both ends, which is right where it has a step or a kink. The gap
-/// is sampled at 33 points per edge. `near`: v at the held ends, and near it elsewhere (empty: 0).
-Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Field& near = {});
+/// is sampled at 33 points per edge. `near`: V values, v at the held ends, and near it elsewhere.
+Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space& space, const Eigen::VectorXd& near);
+
+/// The problem of a scene whose K_h is part of K, by admissible_bounds. The space is P1.
+VariationalInequality assemble_in_k(const Scene& scene, const Space& space);
 
 /// The strip: v is the average of u_CR, weighted by the stiffness, at the body's vertices off Sigma, and on Sigma and in the layer the function of
 /// least energy in K, by active set. The scaled layer has columns for it under the vertices of Sigma (mesh/layered.hpp),

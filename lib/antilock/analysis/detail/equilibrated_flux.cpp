@@ -60,6 +60,7 @@ void check_request(const Scene& scene, const Space& space, const VariationalIneq
 /// The conforming v takes the displacement given on an edge as it is: affine, and the same at a vertex from either side.
 void check_displacement(const Scene& scene, const TriangleMesh& mesh) {
   const Eigen::VectorXd at_vertices = prescribed_values(scene, mesh);
+  const double largest = at_vertices.cwiseAbs().maxCoeff();
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const int from = mesh.edges(e, 0), to = mesh.edges(e, 1), k = group_of(mesh.edge_tag[e]);
     if (!is_held(mesh.edge_tag[e]) || (k >= 0 && mesh.region[mesh.edge_triangles(e, 0)] == Region::layer)) continue;
@@ -67,7 +68,7 @@ void check_displacement(const Scene& scene, const TriangleMesh& mesh) {
       const double s = part / 4.0, affine = (1 - s) * at_vertices(from) + s * at_vertices(to);
       const Eigen::RowVector2d x = (1 - s) * mesh.vertices.row(from) + s * mesh.vertices.row(to);
       if (const double off = (k < 0 ? 0 : scene.edges()[k].value(x(0), x(1))) - affine;
-          !(std::abs(off) <= 1e-11 * std::max(1.0, std::abs(affine))))
+          !(std::abs(off) <= 1e-11 * largest))
         throw Error(
             fmt::format("certificate: the displacement given at ({:.6g}, {:.6g}) is {:.1e} off that of the vertices "
                         "beside it; accepted: values that do not jump, affine on every edge of the mesh",
@@ -100,11 +101,9 @@ struct TractionOn {
   TractionOn(const TriangleMesh& mesh, int t, int i, const Field& g) {
     static const auto rule = gauss_rule(12);
     const auto& [points, weights] = rule;
-    const Eigen::RowVector2d from = mesh.vertices.row(mesh.triangles(t, (i + 1) % 3)),
-                             to = mesh.vertices.row(mesh.triangles(t, (i + 2) % 3));
     Eigen::VectorXd values(points.size());
     for (Eigen::Index q = 0; q < points.size(); ++q) {
-      const Eigen::RowVector2d x = (1 - points(q)) * from + points(q) * to;
+      const Eigen::Vector2d x = point_in(mesh, t, on_edge(i, points(q)));
       values(q) = g(x(0), x(1));
     }
     const Eigen::ArrayXd odd = points.array() - 0.5;

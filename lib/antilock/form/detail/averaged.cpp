@@ -83,7 +83,8 @@ Shares vertex_shares(const TriangleMesh& mesh, const FactoredForm& form, const Q
   const auto points = static_cast<std::size_t>(rule.weights.size());
   std::vector<int> mean(mesh.vertex_count(), -1);
   for (std::size_t r = 0; r < form.cell.size(); ++r) {
-    if (form.cell.size() % points != 0 || form.cell[r] != form.cell[r - r % points])
+    if (form.cell.size() % points != 0 || form.cell[r] != form.cell[r - r % points] ||
+        (r > 0 && r % points == 0 && form.cell[r] == form.cell[r - 1]))
       throw Error(
           fmt::format("vertex_shares: row {} of B is not a point of the rule of {} points per cell; accepted: "
                       "the rule that the form was made with",

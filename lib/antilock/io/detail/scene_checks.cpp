@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 
 #include "antilock/core/dense.hpp"
 #include "antilock/form/forms.hpp"
@@ -71,16 +72,12 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
     for (int i = 0; i <= 32; ++i) gap(a + (b - a) * i / 32);
     for (const int v : mesh.edges.row(e)) {
       const double x = mesh.vertices(v, 0), round_off = 1e-12 * std::max(1.0, std::abs(gap((a + b) / 2)));
-      if (values(v) < -gap(x) - round_off)
-        throw Error(
-            fmt::format("{}: contact.gap: gap({:.6g}) = {:.6g}, but u = {:.6g} is prescribed there, so no u >= -gap "
-                        "exists; accepted: gap >= -u where Gamma_C meets an edge with a given u",
-                        file.name, x, gap(x), values(v)));
-      if (ceiling && values(v) > ceiling(x) + round_off)
-        throw Error(
-            fmt::format("{}: contact.ceiling: ceiling({:.6g}) = {:.6g}, but u = {:.6g} is prescribed there; "
-                        "accepted: ceiling >= u where Gamma_C meets an edge with a given u",
-                        file.name, x, ceiling(x), values(v)));
+      for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &ceiling, 1}})
+        if (*bound && sign * values(v) > (*bound)(x) + round_off)
+          throw Error(
+              fmt::format("{0}: contact.{1}: {1}({2:.6g}) = {3:.6g}, but u = {4:.6g} is prescribed there; accepted: "
+                          "{1} >= {5}u where Gamma_C meets an edge with a given u",
+                          file.name, name, x, (*bound)(x), values(v), sign < 0 ? "-" : ""));
     }
   }
 }

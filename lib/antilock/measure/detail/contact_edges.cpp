@@ -2,14 +2,9 @@
 
 #include <algorithm>
 
-namespace antilock {
+#include "antilock/form/quadrature.hpp"
 
-Eigen::Vector3d ContactEdge::lambda(double s) const {
-  Eigen::Vector3d l = Eigen::Vector3d::Zero();
-  l((opposite + 1) % 3) = 1 - s;
-  l((opposite + 2) % 3) = s;
-  return l;
-}
+namespace antilock {
 
 std::vector<ContactEdge> contact_edges(const TriangleMesh& mesh) {
   std::vector<ContactEdge> edges;
@@ -28,7 +23,7 @@ Eigen::MatrixX3d contact_trace(const Space& space, const Eigen::VectorXd& v) {
   std::vector<Eigen::RowVector3d> samples;
   for (const ContactEdge& edge : contact_edges(space.mesh()))
     for (int k = 0; k < points; ++k) {
-      const Eigen::Vector3d lambda = edge.lambda((k + 0.5) / points);
+      const Eigen::Vector3d lambda = on_edge(edge.opposite, (k + 0.5) / points);
       const double value = space.element().basis(lambda).dot(v(space.unknowns().row(edge.triangle)));
       samples.emplace_back(point_in(space.mesh(), edge.triangle, lambda)(0), value, edge.length / points);
     }

@@ -1,42 +1,49 @@
 #include "antilock/measure/detail/point_values.hpp"
 
-#include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace antilock {
+namespace {
 
-PointValues::PointValues(const Space& space) : space_(&space) {
-  const TriangleMesh& mesh = space.mesh();
-  // as many strips as the square root of the triangles: each holds about as many again
-  const int strips = std::max(1, static_cast<int>(std::sqrt(double(mesh.triangle_count()))));
-  left_ = mesh.vertices.col(0).minCoeff();
-  width_ = (mesh.vertices.col(0).maxCoeff() - left_) / strips;
-  strips_.resize(static_cast<std::size_t>(strips));
-  for (int t = 0; t < mesh.triangle_count(); ++t) {
-    double from = mesh.vertices(mesh.triangles(t, 0), 0), to = from;
-    for (int i = 1; i < 3; ++i) {
-      const double x = mesh.vertices(mesh.triangles(t, i), 0);
-      from = std::min(from, x), to = std::max(to, x);
-    }
-    // one strip more on both sides: a point on an edge may be rounded across it
-    for (int s = std::max(0, column(from) - 1); s <= std::min(strips - 1, column(to) + 1); ++s)
-      strips_[static_cast<std::size_t>(s)].push_back(t);
+using Box = Eigen::AlignedBox2d;
+
+/// Asked by Eigen's walk through the boxes: the triangle of the smallest number that holds x.
+struct Search {
+  const TriangleMesh& mesh;
+  Eigen::Vector2d x;
+  double outside, beyond;  ///< of a triangle's size, and of its box
+  PointValues::Place found{-1, {}};
+
+  bool intersectVolume(const Box& box) const {
+    return box.squaredExteriorDistance(x) <= beyond * beyond * box.diagonal().squaredNorm();
   }
-}
-
-int PointValues::column(double x) const {
-  return std::clamp(static_cast<int>((x - left_) / width_), 0, static_cast<int>(strips_.size()) - 1);
-}
-
-std::optional<PointValues::Place> PointValues::locate(const Eigen::Vector2d& x, double outside) const {
-  const TriangleMesh& mesh = space_->mesh();
-  for (const int t : strips_[static_cast<std::size_t>(column(x(0)))]) {
+  bool intersectObject(int t) {
     const Eigen::Vector2d corner = mesh.vertices.row(mesh.triangles(t, 0));
     Eigen::Vector3d lambda = barycentric_gradients(mesh, t) * (x - corner);
     lambda(0) += 1;
-    if (lambda.minCoeff() >= -outside) return Place{t, lambda};
+    if (lambda.minCoeff() >= -outside && (found.triangle < 0 || t < found.triangle)) found = {t, lambda};
+    return false;  // on to the next
   }
-  return {};
+};
+
+}  // namespace
+
+PointValues::PointValues(const Space& space) : space_(&space) {
+  const TriangleMesh& mesh = space.mesh();
+  std::vector<int> triangles(std::max(2, mesh.triangle_count()));  // a tree has two leaves or more
+  std::vector<Box> boxes(triangles.size());
+  for (std::size_t k = 0; k < triangles.size(); ++k) {
+    triangles[k] = std::min(static_cast<int>(k), mesh.triangle_count() - 1);
+    for (const int v : mesh.triangles.row(triangles[k])) boxes[k].extend(mesh.vertices.row(v).transpose());
+  }
+  tree_.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
+}
+
+std::optional<PointValues::Place> PointValues::locate(const Eigen::Vector2d& x, double outside) const {
+  // a point with lambda >= -outside lies at most 2 outside diameters beyond the triangle, and lambda is rounded
+  Search search{space_->mesh(), x, outside, 2 * outside + 1e-9};
+  Eigen::BVIntersect(tree_, search);
+  return search.found.triangle >= 0 ? std::optional(search.found) : std::nullopt;
 }
 
 double PointValues::value(const Eigen::VectorXd& u, const Place& at) const {

@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
+#include <unsupported/Eigen/BVH>
 
 #include "antilock/space/space.hpp"
 
@@ -25,10 +25,8 @@ class PointValues {
   Eigen::Vector2d gradient(const Eigen::VectorXd& u, const Place& at) const;
 
  private:
-  int column(double x) const;
   const Space* space_;
-  double left_, width_;                   // of the strips in x
-  std::vector<std::vector<int>> strips_;  // the triangles that touch each
+  Eigen::KdBVH<double, 2, int> tree_;  ///< the triangles, by their boxes
 };
 
 }  // namespace antilock
