@@ -18,7 +18,7 @@ Road: how FreeFEM solved the stiff part.
 mixed: the saddle point of u and the layer stress as it stands, one UMFPACK.
 penalty: iterated penalty; for P1 at epsilon = 0 the mixed matrix is singular.
 sum: a1 + epsilon^-2 a0 in one matrix.
-The library corrects a penalised problem throughout.
+The library corrects a penalised problem. In the two lines of the paper's Uzawa both sides solve the sum by CG.
 Difference: maximum norm over the unknowns, relative to the largest |u|.
 Where a script writes numbers and no solution: the worst of the numbers that the line names, each relative to itself
 (u to the largest |u|; distances, which fall like epsilon^2, to the one at epsilon = 1; energies see an error of u only
