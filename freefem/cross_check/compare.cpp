@@ -277,7 +277,7 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
   add("23_effects",
       fmt::format("eight scenes, h = 1/{}, epsilon = 0.01: energy, least and largest u, how many in contact", cells),
       freefem::effects(cells, 1e-2, folder));
-  add("07_kernel", fmt::format("P1 by ties to h = 1/{}; P1 and CR by rank at h = 1/4: dimensions", half),
+  add("07_kernel", fmt::format("P1 by ties to h = 1/{}, P1 and CR by rank at h = 1/4, both meshes: dimensions", half),
       freefem::kernels(half, folder));
   add("11_propositions", fmt::format("P1, CR, both meshes, h = 1/{}, 9 epsilons: distance to the limit", half),
       freefem::limits(half, folder));
