@@ -104,7 +104,8 @@ Line meshes(int cells, const std::filesystem::path& out) {
   return line;
 }
 
-/// The convergence study: one method, every epsilon and mesh; the worst difference and the seconds together.
+/// The solutions of the convergence study, by the scripts 05, 06 and 08: one method, every epsilon and mesh; the worst
+/// difference and the seconds together.
 Line study(const Compared& method, int cells, const std::filesystem::path& out) {
   Line all{"09_convergence", "", ""};
   int meshes = 0;
@@ -122,7 +123,8 @@ Line study(const Compared& method, int cells, const std::filesystem::path& out) 
       if (line.contact != "same" && all.contact.find("other") == std::string::npos) all.contact = line.contact;
     }
   }
-  all.what = fmt::format("{}, {} runs to h = 1/{}", method.name(), 5 * meshes, cells);
+  all.what =
+      fmt::format("{}, {} runs of {} to h = 1/{}", method.name(), 5 * meshes, method.script().substr(0, 2), cells);
   return all;
 }
 
@@ -268,6 +270,9 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
   };
   const std::filesystem::path folder = out / "freefem";
   const int half = std::max(4, cells / 2);
+  add("09_convergence",
+      "P1 and CR structured, h = 1/8, 5 epsilons: error at the unknowns, P1 on h = 1/32 for the truth",
+      freefem::errors_at_unknowns(folder));
   add("00_string_on_an_obstacle", fmt::format("{} cells: u, contact force, energy", cells),
       freefem::string_on_an_obstacle(cells, folder));
   add("03_by_hand", "P1 structured, h = 1/8, no varf: u, energy", freefem::by_hand(8, 1e-6, folder));
@@ -402,7 +407,7 @@ int main(int argc, char** argv) {
   std::filesystem::path table;
   CLI::App line("The C++ library against FreeFEM, tutorial by tutorial", "compare");
   line.add_option("--cells", cells, "cells per unit side, h = 1/cells")->check(CLI::Range(4, 128));
-  line.add_option("--epsilon", epsilon, "of the tutorials 04 to 08")->check(CLI::Range(1e-7, 1.0));
+  line.add_option("--epsilon", epsilon, "of the tutorials 04, 05, 06 and 08")->check(CLI::Range(1e-7, 1.0));
   line.add_option("--out", out, "folder of the results");
   line.add_option("--table", table, "file of the table for README (default: OUT/results.md)");
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;

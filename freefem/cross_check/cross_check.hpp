@@ -35,7 +35,7 @@ struct Answer {
   double seconds = 0;        ///< of the solve alone
   int steps = 0;             ///< of the contact loop
 };
-/// Writes the mesh of `space` into `folder`, runs `script` (of 04 to 08) on it and reads its files.
+/// Writes the mesh of `space` into `folder`, runs `script` (04, 05, 06 or 08) on it and reads its files.
 Answer solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
              const std::vector<std::string>& options = {});
 

@@ -1,5 +1,5 @@
-// 12, 11 and 15: errors and distances, for which FreeFEM knows only its own fine mesh in place of the truth; so the same is
-// done here, and not with the sine series.
+// 09, 12, 13, 17 and 20: errors and distances, for which FreeFEM knows only its own fine mesh in place of the truth; so
+// the same is done here, and not with the sine series.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,6 +64,43 @@ class ByPlace {
 };
 
 }  // namespace
+
+Numbers errors_at_unknowns(const std::filesystem::path& folder) {
+  const int cells = 8;
+  run("09_convergence", {"-cells", std::to_string(cells), "-out", folder});
+  const ScriptTable table = read_table(folder / "results.csv", 3);
+  if (table.rows.rows() != 20) throw Error(fmt::format("results.csv: {} rows; accepted 20", table.rows.rows()));
+  const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
+  const Space fine_space(fine, p1());
+  const ByPlace by_place(fine_space, 4 * cells);
+  const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
+  SceneSweep fine_sweep(scene, fine_space);
+  Numbers numbers;
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const Space space(mesh, *element);
+    SceneSweep sweep(scene, space);
+    Eigen::Index row = element == &p1() ? 0 : 10;  // behind P1's: its rows on FreeFEM's own mesh
+    for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6}) {
+      sweep.set_epsilon(epsilon);
+      fine_sweep.set_epsilon(epsilon);
+      const Solution solution = sweep.solve(), truth = fine_sweep.solve();
+      numbers.solved(space, solution);
+      double worst = 0;
+      for (int i = 0; i < space.size(); ++i)
+        worst = std::max(worst,
+                         std::abs(solution.u(i) - by_place.value(truth.u, space.points()(i, 0), space.points()(i, 1))));
+      const std::string at = fmt::format(" {} structured", element->name());
+      if (!table.names[row].ends_with(at)) throw Error("results.csv: " + table.names[row] + "; accepted" + at);
+      numbers.took(table.names[row].substr(0, table.names[row].find(' ')));
+      numbers.count(fmt::format("{}, epsilon = {:g}: unknowns", element->name(), epsilon), space.size(),
+                    table.column("unknowns")(row));
+      numbers.relative(fmt::format("{}, epsilon = {:g}: error", element->name(), epsilon), worst,
+                       table.column("max_at_unknowns")(row));
+      numbers.freefem_seconds += table.column("seconds")(row++);
+    }
+  }
+  return numbers;
+}
 
 std::vector<Numbers> worst_errors(const std::filesystem::path& folder) {
   const int cells = 8;

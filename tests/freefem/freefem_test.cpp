@@ -466,6 +466,7 @@ TEST(FreeFemScripts, WriteTheNumbersOfTheLibrary) {
   for (const double epsilon : {1e-2, 1e-6}) same([&](Path at) { return freefem::by_hand(8, epsilon, at); }, 1e-10);
   same([](Path folder) { return freefem::estimates(8, folder); }, 1e-9);
   same([](Path folder) { return freefem::contact_sets(folder); }, 1e-9);
+  same([](Path folder) { return freefem::errors_at_unknowns(folder); }, 1e-9);
   // two ways to integrate the glue (Gauss points here, P1dc there), one bilinear form
   same([](Path folder) { return freefem::glued_strings(16, folder); }, 1e-8);
 }
