@@ -83,18 +83,18 @@ reads it; a .geo is a script).
 
 Written to the results folder: summary.json; solution.csv (x,y,u; in plane strain x,y,u_x,u_y); contact.csv (x,gap,pressure; with contact only,
 with friction a column of that name: the tangential force per length), where
-gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it);
+gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it; parts of the body that [body] names are one group there);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
 build/figures/render surface DIR/solution.vtu --out picture.png (of a mesh from a file: render plan, in plane strain: render deformed)
-In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file, the layer of depth 1 included; seconds are wall seconds, which add up to total;
+In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file or of the last mesh of an accuracy, the layer of depth 1 included; seconds are wall seconds, which add up to total;
 blas is the library of dense linear algebra, its kernels and threads (where OpenBLAS does not know the CPU and falls
 back to old kernels, the program starts again with wider ones, and with memory in large pages where Linux gives them to
 who asks; ANTILOCK_KEEP_KERNELS=1 leaves both);
 locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
-motion that is lost at least (proved; null where it locks and that is not), kept is 1 - lost_energy;
+motion that is lost at least (proved; null where nothing is proved), kept is 1 - lost_energy;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
-polygon of the last mesh, with load and gap as sampled; warning says what to
-doubt: a layer that locks, an answer above the trusted error, a load that the mesh misses.
+polygon of the last mesh, with load, traction and gap as sampled; warning says what to
+doubt: a layer that locks, an answer above the trusted error, a load of the body that the mesh misses.
 Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8
 )help";

@@ -72,6 +72,7 @@ const std::vector<BadScene> bad_scenes = {
     {"LoadInfiniteOnALine", "load.f", with_load("\"1/(x - y)\"")},
     {"LoadNotReal", "load.f", with_load("\"sqrt(x - 0.5)\"")},
     {"LoadLogarithmOfZero", "load.f", with_load("\"log(y)\"")},
+    {"LoadNoNumberUnderMax", "load.f", with_load("\"max(0, log(x - 0.5))\"")},
     {"LoadOverflows", "load.f", with_load("\"exp(1000*x)\"")},
     {"LoadHuge", "load.f", with_load("\"1e200\"")},
     {"LoadDividesByZero", "load.f", with_load("\"1/0\"")},

@@ -85,6 +85,11 @@ TEST_F(Door, TruthOfAnyOtherLoadIsCertified) {
   EXPECT_EQ(summary["kind"], "certified");
   EXPECT_LE(summary["relative"], 0.1);
   EXPECT_LT(summary["energy"][0], summary["energy"][1]);
+  // the series is of the unit squares alone
+  const std::string other = in_shell(EXAMPLE_SCENES "/l_shape.toml");
+  EXPECT_NE(ask("truth " + other + " --accuracy 0.3 < " + file("inside.csv", "x,y\n0.25,0.5\n")).err.find("certified"),
+            std::string::npos);
+  EXPECT_NE(ask("sweep " + other + " --epsilon 1:0.1:2").out.find("no exact solution"), std::string::npos);
 }
 
 TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {

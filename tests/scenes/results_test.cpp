@@ -292,6 +292,15 @@ TEST(Warnings, ALoadWithoutForceOrMomentIsFoundBetweenThePoints) {
   }
 }
 
+// s / t^2 = 1, s = 1e-6: CR's u is 13 times the largest one of P2. The maximum principle tells.
+TEST(Warnings, ALayerSoSoftAlongXThatCrouzeixRaviartIsWrongInItIsNamed) {
+  for (const auto& [method, wrong] : {std::pair(cr, true), {std::string("element = \"P2\""), false}}) {
+    const SceneRun run(scene("[layer]\nthickness = 1e-3\nstiffness = 1e-3\n" + contact, unstructured(32), method));
+    EXPECT_EQ(run.summary()["warning"].get<std::string>().find("beyond the values around it") != std::string::npos,
+              wrong);
+  }
+}
+
 // Figure 7 says of itself what Figure 8 shows, on the terminal and in the summary, with the remedies; they are some.
 TEST(Warnings, ALayerThatLocksIsNamedWithWhatIsLost) {
   const auto asked = [](const std::string& epsilon, const std::string& kind, const std::string& method) -> SceneRun {
@@ -316,10 +325,11 @@ TEST(Warnings, ALayerThatLocksIsNamedWithWhatIsLost) {
 }
 
 TEST(Warnings, AnObstacleBetweenTheContactUnknownsIsFound) {
-  for (const std::string& mesh : {structured(8), unstructured(8)}) {
-    const SceneRun run(scene(layer("1e-3") + "[contact]\ngap = \"0.01 - exp(-1e8*(x - 0.4567)^2)\"\n", mesh, cr));
-    EXPECT_NE(run.summary()["warning"].get<std::string>().find("contact.gap"), std::string::npos);
-  }
+  for (const std::string& mesh : {structured(8), unstructured(8)})
+    for (const std::string bound : {"gap = \"0.01", "gap = \"1\"\nceiling = \"0.01"}) {
+      const SceneRun run(scene(layer("1e-3") + "[contact]\n" + bound + " - exp(-1e8*(x - 0.4567)^2)\"\n", mesh, cr));
+      EXPECT_NE(run.summary()["warning"].get<std::string>().find("misses the obstacle"), std::string::npos) << bound;
+    }
   for (const std::string element : {"P1", "CR", "P2"}) {
     const SceneRun run(scene(layer("0.05") + "[contact]\ngap = \"0.02 - 0.1*exp(-50*(x - 0.5)^2)\"\n", structured(32),
                              "element = \"" + element + "\"\n", "1"));

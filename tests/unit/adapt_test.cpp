@@ -230,6 +230,10 @@ TEST(SolveTo, LooksForASpikeThatTheQuadratureMisses) {
     return std::abs(32 * x - std::floor(32 * x) - 0.2) < 0.03 ? 100.0 : 0.0;
   };
   EXPECT_GT(solve_to(Scene({strips}), structured_mesh(32, {0}), {0.2}).certificate.norm, 1);  // 1.4 on coarser meshes
+  TriangleMesh signs = structured_mesh(32, {0});  // the same with a square of 1 everywhere
+  resolve_load(
+      signs, [&](double x, double y) { return strips(x, y) > 0 ? 1.0 : -1.0; }, 100000);
+  EXPECT_GT(signs.triangle_count(), 4096);
 }
 
 TEST(SolveTo, RefusesWithASentence) {

@@ -70,6 +70,9 @@ TEST(Assemble, RefusesASceneThatDoesNotFitItsMesh) {
   std::replace(body.edge_tag.begin(), body.edge_tag.end(), EdgeTag::clamped, held_group(0));
   for (const Layer& layer : {Layer(NoLayer{}), Layer(VentcelLayer{})})
     expect_refused([&] { assemble(Scene({paper_load}, layer), Space(body, p1())); }, "of which the scene says nothing");
+  const TriangleMesh hangs = retagged(structured_mesh(4, {0}), [](double, double) { return natural_group(0); });
+  const Scene pulled({paper_load}, NoLayer{}, {}, {{"rim", EdgeCondition::Kind::traction, paper_load}});
+  expect_refused([&] { assemble(pulled, Space(hangs, p1())); }, "nothing holds the piece of the mesh");
   for (int v = 0; v < both.vertex_count(); ++v)  // whichever end of an edge it is
     if (both.vertices(v, 1) == 0) {
       TriangleMesh bent = both;

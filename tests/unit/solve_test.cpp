@@ -488,6 +488,46 @@ TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
   EXPECT_EQ(factor.factorisations(), 3);
 }
 
+// A harder question moves its delta, and one too small for its digits is raised; each question has the answer of its own.
+TEST(PenaltyFactor, ServesEveryComplianceAndEveryDeltaAskedFor) {
+  const auto graded = [](double compliance) {
+    return small_problem(Eigen::Vector3d(1, 1e-8, 1e-8).asDiagonal(), Eigen::Vector3d(1, 1e-8, 0), Eigen::VectorXd(),
+                         Eigen::Matrix<double, 2, 3>{{1, 0, 0}, {0, 1, 1}}, compliance);
+  };
+  const auto expect_exact = [](const Solution& s, double c) {  // u_1 = 1 / (1 + 1 / c), u_2 + u_3 = 1 / (1 + 2e8 / c)
+    EXPECT_NEAR(s.u(0), c / (c + 1), 1e-9);
+    EXPECT_NEAR(s.u(1) - s.u(2), 1, 1e-9);
+    EXPECT_NEAR(s.u(1) + s.u(2), c / (c + 2e8), 1e-9);
+  };
+  PenaltyFactor factor(graded(1), 1);
+  Sweep sweep(graded(1));
+  for (const double compliance : {1.0, 0.0, 1.0, 0.0}) {
+    expect_exact(active_set(graded(compliance), factor), compliance);
+    sweep.set_compliance(compliance);
+    expect_exact(sweep.solve(), compliance);
+    expect_exact(sweep.solve(), compliance);
+  }
+}
+
+TEST(ActiveSet, EndsWhereNumbersOverflowAndRefusesATolerance0) {
+  VariationalInequality problem =
+      small_problem(Eigen::Matrix2d{{1, -0.99}, {-0.99, 1}}, Eigen::Vector2d(1e307, 1e307), Eigen::Vector2d(0, 0));
+  problem.upper = Eigen::Vector2d(1, 2);
+  EXPECT_EQ(active_set(problem).u, problem.upper);
+  ActiveSetOptions options;
+  options.corrections.tolerance = 0;
+  EXPECT_THROW(active_set(problem, options), Error);
+}
+
+TEST(Combinations, LeaveTiedRowsTied) {
+  VariationalInequality problem =
+      small_problem(Eigen::Matrix2d{{2, -1}, {-1, 2}}, Eigen::Vector2d(1, 0.5), {}, Eigen::RowVector2d(1, 1), 1e-3);
+  problem.ties = 1;
+  problem.combinations = RowMatrix(Eigen::MatrixXd(Eigen::RowVector2d(1, -3)).sparseView());
+  problem.lower = Eigen::VectorXd::Constant(1, -10);
+  EXPECT_NEAR(active_set(problem).u.sum(), 0, 1e-15);
+}
+
 TEST(Progress, IsReportedOncePerCorrectionAndStopsTheSolve) {
   const SpaceOn space(structured_mesh(8), p1());
   const VariationalInequality problem = test::stiff_problem(space, 1e-6);

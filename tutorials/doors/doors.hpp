@@ -15,6 +15,10 @@ int sweep(int argc, char** argv);
 int judge(int argc, char** argv);
 int lockcheck(int argc, char** argv);
 
+/// Whether body and layer are the unit squares of Figure 2, clamped and in contact as there, of which the series is: the
+/// box, the area and the edges of each say so.
+bool is_unit_square(const TriangleMesh& mesh);
+
 /// The scene solved to a proved relative error of `accuracy` in the energy norm, from its own first mesh.
 CertifiedSolution certified(const SceneFile& file, double accuracy);
 

@@ -80,8 +80,12 @@ std::optional<Pieces> carried(const Eigen::VectorXd& x, const Pieces& pieces, co
   return start;
 }
 
-/// What the levels so far say of the one that will be the last: N grows like relative^(-1/rate), rate 1/2 for a mesh
-/// that is adapted, more while it is still on its way there.
+/// The bound relative to |v|_a, which falls like a power of N; a bound relative to what it leaves of |v|_a does not, where
+/// both are of one size.
+double of_norm(double relative) { return std::isfinite(relative) ? relative / (1 + relative) : 1; }
+
+/// What the levels so far say of the one that will be the last: N grows like of_norm(relative)^(-1/rate), rate 1/2 for a
+/// mesh that is adapted, more while it is still on its way there.
 void quote(std::vector<Level>& history, double asked) {
   if (history.size() < 3) return;
   Level& last = history.back();
@@ -91,8 +95,8 @@ void quote(std::vector<Level>& history, double asked) {
   // it
   if (!(last.relative < before.relative && before.relative < history[history.size() - 3].relative)) return;
   const double growth = std::log(double(last.unknowns) / before.unknowns);
-  const double rate = std::clamp(std::log(before.relative / last.relative) / growth, 0.5, 1.5);
-  const double factor = std::pow(last.relative / asked, 1 / rate);
+  const double rate = std::clamp(std::log(of_norm(before.relative) / of_norm(last.relative)) / growth, 0.5, 1.5);
+  const double factor = std::pow(of_norm(last.relative) / of_norm(asked), 1 / rate);
   last.quoted_unknowns = last.unknowns * (std::isfinite(factor) ? factor : 1e300);
   const double own =
       last.seconds - before.seconds;  // a level costs like its unknowns to the power 1.2, all before less
@@ -115,14 +119,16 @@ Marking marking(const std::vector<Level>& history, int marks) {
 [[noreturn]] void refuse(const Accuracy& accuracy, const std::vector<Level>& history, double per_unknown,
                          const std::string& why, bool converges = true) {
   const Level& last = history.back();
-  const double reachable = last.relative * std::sqrt(per_unknown * last.unknowns / accuracy.most_unknowns);
+  const double reachable = of_norm(last.relative) * std::sqrt(per_unknown * last.unknowns / accuracy.most_unknowns);
   throw NotConverged(
       fmt::format(
           "accuracy: {:.3g} is not reached within {:.0f} unknowns{}: {}; proved so far: {:.3g} with {} unknowns in "
           "{} level{}{}",
           accuracy.relative, accuracy.most_unknowns, accuracy.element->conforming() ? " of Crouzeix-Raviart" : "", why,
           last.relative, last.unknowns, history.size(), history.size() == 1 ? "" : "s",
-          converges ? fmt::format("; within the limit about {:.2g} can be reached", reachable) : ""),
+          converges && reachable < 0.5
+              ? fmt::format("; within the limit about {:.2g} can be reached", reachable / (1 - reachable))
+              : ""),
       last.relative, static_cast<int>(history.size()));
 }
 

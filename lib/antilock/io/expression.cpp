@@ -65,9 +65,10 @@ const std::map<std::string_view, One> functions{
     {"atan", std::atan}, {"sinh", std::sinh}, {"cosh", std::cosh}, {"tanh", std::tanh},   {"exp", std::exp},
     {"ln", std::log},    {"log", std::log},   {"log2", std::log2}, {"log10", std::log10}, {"sqrt", std::sqrt},
     {"abs", std::fabs},  {"sign", sign_of},   {"rint", half_up}};
-const std::map<std::string_view, Two> functions_of_two{{"min", [](double a, double b) { return std::min(a, b); }},
-                                                       {"max", [](double a, double b) { return std::max(a, b); }},
-                                                       {"atan2", std::atan2}};
+const std::map<std::string_view, Two> functions_of_two{
+    {"min", [](double a, double b) { return std::isnan(b) ? b : std::min(a, b); }},
+    {"max", [](double a, double b) { return std::isnan(b) ? b : std::max(a, b); }},
+    {"atan2", std::atan2}};
 
 class Reader {
  public:

@@ -313,7 +313,7 @@ std::vector<Eigen::Vector2d> read_points(const Section& section) {
 
 /// [model] kind = "plane strain"; empty for "anti-plane".
 std::optional<ElasticRequest> read_model(const Section& section, const Layer& layer) {
-  if (section.one_of("kind", {"anti-plane", "plane strain"}) == "anti-plane") {
+  if (section.one_of("kind", {"anti-plane", "plane strain"}, "anti-plane") == "anti-plane") {
     section.only({"kind"});
     return std::nullopt;
   }
@@ -334,7 +334,9 @@ std::optional<ElasticRequest> read_model(const Section& section, const Layer& la
   elastic.epsilon = number("epsilon", elastic.epsilon, 0, 1);
   const double young = number("young", 1, 1e-6, 1e6), nu = number("poisson", 0.3, 0, 0.49);
   elastic.material = {young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
-  if (section.has("friction")) elastic.friction = profile(section, "friction");
+  if (section.has("friction"))
+    elastic.friction = [bound = field_above([of = profile(section, "friction")](double x, double) { return of(x); },
+                                            section.where("friction"), true)](double x) { return bound(x, 0); };
   return elastic;
 }
 
@@ -474,7 +476,8 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   if (root.has("contact")) contact = read_contact(root.section("contact"));
   if (contact && unit_square) sample_profile(contact->gap);
   if (contact && contact->ceiling && unit_square) sample_profile(contact->ceiling);
-  if (contact && !unit_square) contact->held.clear();
+  const auto elastic = root.has("model") ? read_model(root.section("model"), layer) : std::nullopt;
+  if (contact && (!unit_square || elastic)) contact->held.clear();  // of a block the sides are free
   const MethodRequest method = read_method(root.section("method"));
   const Scene scene = [&] {
     try {
@@ -484,7 +487,6 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
       throw Error(root.where(what.starts_with("contact: ceiling") ? "contact.ceiling" : "contact.gap") + what);
     }
   }();
-  const auto elastic = root.has("model") ? read_model(root.section("model"), layer) : std::nullopt;
   check_together(root, scene, mesh, method);
   if (elastic) check_elastic(root, scene, method);
   const auto points = root.has("at") ? read_points(root.section("at")) : std::vector<Eigen::Vector2d>();

@@ -96,7 +96,8 @@ CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow) {
       throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
     } catch (const Error& error) {
       const std::string what = error.what();
-      throw Error(!method.accuracy || what.starts_with(file.name) ? what : file.name + ": method.accuracy: " + what);
+      throw Error(what.starts_with(file.name) ? what
+                                              : file.name + (method.accuracy ? ": method.accuracy: " : ": ") + what);
     }
   };
   const auto spent = [&](Answer& answer) {
@@ -117,12 +118,13 @@ CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow) {
   const Space space(*mesh, element(method.element));
   if (space.free_count() == 0)
     throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
-  Answer answer{mesh, space, problem_of(file, space), {}, seconds, ""};
+  Answer answer{mesh, space, solved([&] { return problem_of(file, space); }), {}, seconds, ""};
   const std::string load = load_warning(file, space, answer.problem);
   answer.seconds.assemble = watch.lap();
   begin(fmt::format("solve: {}, {} unknowns", method.solver, answer.problem.free_count()));
   answer.solution = solved([&] { return solve_as_asked(file, space, answer.problem, follow.solve); });
-  answer.warning = joined(joined(answer.solution.warning, load), gap_warning(file, space, answer.solution));
+  answer.warning = joined(joined(answer.solution.warning, load), joined(gap_warning(file, space, answer.solution),
+                                                                        range_warning(file, space, answer.solution)));
   spent(answer);
   return {std::move(answer), {}, {}, {}};
 }

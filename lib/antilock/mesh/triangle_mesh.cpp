@@ -153,6 +153,17 @@ void check_boundary(const TriangleMesh& mesh, const std::string& where) {
 
 /// A piece that no clamped edge holds could move freely: the problem would be singular.
 void check_held(const TriangleMesh& mesh, const std::string& where) {
+  const auto held = [&](int e) { return is_held(mesh.edge_tag[e]) || group_of(mesh.edge_tag[e]) >= 0; };
+  bool any = false;
+  for (int e = 0; e < mesh.edge_count() && !any; ++e) any = held(e);
+  if (!any) refuse(where, "no edge is in the group clamped, which is needed");
+  if (const int t = loose_triangle(mesh, held); t >= 0)
+    refuse(where, "dangling {}: no clamped edge holds its piece of the mesh", triangle_at(mesh, t));
+}
+
+}  // namespace
+
+int loose_triangle(const TriangleMesh& mesh, const std::function<bool(int edge)>& held) {
   std::vector<char> reached(mesh.triangle_count(), 0);
   std::vector<int> stack;
   const auto reach = [&](int t) {
@@ -161,8 +172,7 @@ void check_held(const TriangleMesh& mesh, const std::string& where) {
     stack.push_back(t);
   };
   for (int e = 0; e < mesh.edge_count(); ++e)
-    if (is_held(mesh.edge_tag[e]) || group_of(mesh.edge_tag[e]) >= 0) reach(mesh.edge_triangles(e, 0));
-  if (stack.empty()) refuse(where, "no edge is in the group clamped, which is needed");
+    if (held(e)) reach(mesh.edge_triangles(e, 0));
   while (!stack.empty()) {
     const int t = stack.back();
     stack.pop_back();
@@ -170,12 +180,8 @@ void check_held(const TriangleMesh& mesh, const std::string& where) {
       for (int side = 0; side < 2; ++side) reach(mesh.edge_triangles(mesh.triangle_edges(t, i), side));
   }
   const auto loose = std::find(reached.begin(), reached.end(), 0);
-  if (loose != reached.end())
-    refuse(where, "dangling {}: no clamped edge holds its piece of the mesh",
-           triangle_at(mesh, static_cast<int>(loose - reached.begin())));
+  return loose != reached.end() ? static_cast<int>(loose - reached.begin()) : -1;
 }
-
-}  // namespace
 
 void number_edges(TriangleMesh& mesh, const std::string& where) {
   const int triangle_count = mesh.triangle_count();

@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,9 @@ struct TaggedEdge {
 /// named group.
 TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
                                 const std::vector<TaggedEdge>& tagged_edges, const std::string& where);
+
+/// A triangle of a piece without an edge that is held; -1: there is none. Pieces hang together by edges, not by vertices.
+int loose_triangle(const TriangleMesh& mesh, const std::function<bool(int edge)>& held);
 
 /// Fills edges, triangle_edges and edge_triangles from vertices and triangles, in linear time where no vertex has many
 /// neighbours; every edge_tag becomes interior, or sigma where body meets layer. `where` opens the message of the

@@ -31,6 +31,13 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
       throw Error("scene and mesh: the group " + scene.edges()[k].group +
                   " is held in one of the two alone; accepted: held_group for a displacement, natural_group else");
   }
+  const int loose = loose_triangle(mesh, [&](int e) {
+    const int k = group_of(mesh.edge_tag[e]);
+    return is_held(mesh.edge_tag[e]) || (k >= 0 && scene.edges()[k].kind == Kind::spring);
+  });
+  if (loose >= 0 && is_whole(mesh))
+    throw Error("scene and mesh: nothing holds the piece of the mesh at " + mesh.place(mesh.triangles(loose, 0)) +
+                "; accepted: a displacement or a spring on one of its edges");
   const auto& region = mesh.region;
   const bool mesh_has_layer = std::find(region.begin(), region.end(), Region::layer) != region.end();
   if (mesh_has_layer != (scene.layer_depth() > 0))

@@ -140,11 +140,7 @@ class IteratedPenalty {
     const double smallest = tuned::round_off * relative_stiffness(problem_).value();
     const double delta = std::max({before / tuned::next_penalty, compliance, std::min(before, smallest)});
     if (problem_.b.rows() == 0 || delta >= before) return;
-    try {
-      factor_.refactor(delta);
-    } catch (const Error&) {  // flat cells: no positive pivots. (Out of memory: the same below, which is told)
-      factor_.refactor(before);
-    }
+    factor_.refactor(delta);
     acceleration_.restart();
   }
 
@@ -187,7 +183,12 @@ class IteratedPenalty {
 
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name) {
+  if (!(options.tolerance > 0))
+    throw Error(fmt::format("{}: tolerance {}; accepted: above 0", name, options.tolerance));
   const Tied tied = factor.tied(problem);
+  // corrections diverge where delta is below the compliance; it is 0 where the last factorisation failed
+  if (factor.delta() == 0 || (tied->b.rows() > tied->ties && factor.delta() < problem.compliance))
+    factor.refactor(moderate_delta(problem));
   Solution answer = IteratedPenalty(*tied, factor, contact, options, name).solve();
   answer.u.conservativeResize(problem.size());
   answer.p.conservativeResize(problem.b.rows());

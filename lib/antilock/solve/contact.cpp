@@ -53,8 +53,8 @@ void descend(const ContactSystem& system, std::vector<Move>& beyond, const Eigen
   const Eigen::VectorXd way = w - v;
   const std::vector<int>& place = system.bounded();
   for (Move& m : beyond) {
-    const double all = way(place[m.bound]);
-    m.reached = all != 0 ? std::clamp((m.end - v(place[m.bound])) / all, 0.0, 1.0) : 0;
+    const double all = way(place[m.bound]), share = (m.end - v(place[m.bound])) / all;
+    m.reached = all != 0 && share > 0 ? std::min(share, 1.0) : 0;  // 0 where it is no number, so that the loop ends
   }
   std::sort(beyond.begin(), beyond.end(), [](const Move& a, const Move& b) { return a.reached < b.reached; });
   const double first = beyond.front().reached, lowest = (1 - first) * (1 - first) * system.square(way);

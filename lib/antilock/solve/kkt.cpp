@@ -157,8 +157,9 @@ void require_trusted(Solution& solution, const TrustLevels& levels) {
                                    solution.solver, worst, levels.refused, report),
                        worst, steps);
   if (worst > levels.trusted)
-    solution.warning = fmt::format("{}: the conditions hold to {:.1e}, trusted {:.0e} ({})", solution.solver, worst,
-                                   levels.trusted, report);
+    solution.warning +=
+        fmt::format("{}{}: the conditions hold to {:.1e}, trusted {:.0e} ({})", solution.warning.empty() ? "" : "; ",
+                    solution.solver, worst, levels.trusted, report);
 }
 
 }  // namespace antilock

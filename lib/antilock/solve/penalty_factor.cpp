@@ -46,13 +46,7 @@ PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, std::optional
       numbering_(of_),
       sparse_(takes_sparse(road, numbering_)),
       factor_(make) {
-  // a larger penalty leaves the factor more digits of A1, until nothing is stiff beside it any more
-  for (double delta = first_delta_; delta_ == 0; delta *= tuned::next_penalty) try {
-      refactor(delta);
-    } catch (const Error&) {
-      if (of_.b.rows() == 0 || !(delta < first_delta_ / usual_penalty)) throw;
-      delta_ = 0;
-    }
+  refactor(first_delta_);
 }
 
 void PenaltyFactor::check_fits(const VariationalInequality& problem) const { tied(problem); }
@@ -74,15 +68,18 @@ Tied PenaltyFactor::tied(const VariationalInequality& problem) const {
 void PenaltyFactor::refactor(double delta) {
   if (!(delta > 0 && std::isfinite(delta)))
     throw Error(fmt::format("solve: delta = {}; accepted: a positive number", delta));
-  delta_ = delta;
-  const std::optional<int> lost =
-      factor_.factorise(penalised_matrix(of_, numbering_, delta), sparse_ ? 0 : numbering_.contact());
-  if (lost)
-    throw Error(fmt::format(
-        "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
-        "by nothing, a cell is too flat for double precision, or A1 and B are in units far apart; accepted: enough "
-        "fixed unknowns, cells, entries of A1 and B' M B of like size",
-        delta, numbering_.unknown[*lost]));
+  for (delta_ = 0; delta_ == 0; delta *= tuned::next_penalty) {
+    const std::optional<int> lost =
+        factor_.factorise(penalised_matrix(of_, numbering_, delta), sparse_ ? 0 : numbering_.contact());
+    if (!lost) delta_ = delta;
+    // a larger penalty leaves the factor more digits of A1, until nothing is stiff beside it any more
+    else if (of_.b.rows() == 0 || !(delta < first_delta_ / usual_penalty))
+      throw Error(fmt::format(
+          "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
+          "by nothing, a cell is too flat for double precision, or A1 and B are in units far apart; accepted: enough "
+          "fixed unknowns, cells, entries of A1 and B' M B of like size",
+          delta, numbering_.unknown[*lost]));
+  }
   if (sparse_) return;
   const Stopwatch watch;
   contact_block_ = factor_.cholesky().trailing_block(numbering_.interior);

@@ -30,7 +30,7 @@ enum class ContactRoad { automatic, dense, sparse };
 /// where delta is the same, every compliance of one matrix pair (A1, B).
 class PenaltyFactor {
  public:
-  /// delta = moderate_delta(problem, penalty). Throws Error for a malformed problem or a penalty that is not positive,
+  /// refactor(moderate_delta(problem, penalty)). Throws Error for a malformed problem or a penalty that is not positive,
   /// if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of memory.
   explicit PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
                          ContactRoad road = ContactRoad::automatic, CholeskyMaker make = default_cholesky);
@@ -40,7 +40,8 @@ class PenaltyFactor {
   void check_fits(const VariationalInequality& problem) const;
   /// The same, and the problem whose bounds are all on unknowns (tied.hpp).
   Tied tied(const VariationalInequality& problem) const;
-  /// A new numeric factorisation for another delta; the symbolic analysis is kept. Throws as the constructor does.
+  /// A new numeric factorisation for another delta, or one so much larger that the factor has its pivots; the symbolic
+  /// analysis is kept. Throws as the constructor does, and delta() is 0 then, until it succeeds.
   void refactor(double delta);
 
   double delta() const { return delta_; }

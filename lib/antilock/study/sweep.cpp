@@ -59,8 +59,9 @@ Solution Sweep::solve(ActiveSetOptions options) {
   const int factorisations_before = factor_ ? factor_->factorisations() : 0;
   if (!factor_)
     factor_.emplace(problem_, delta, options.road);
-  else if (problem_.b.rows() > 0 && factor_->delta() != delta)
+  else if (problem_.b.rows() > 0 && asked_ != delta)  // its own delta may have moved
     factor_->refactor(delta);
+  asked_ = delta;
   if (!options.start) options.start = pieces_;
 
   Solution solution = active_set(problem_, *factor_, options);

@@ -39,6 +39,7 @@ class Sweep {
 
  private:
   std::optional<PenaltyFactor> factor_;
+  double asked_ = 0;  ///< the delta that the factor was asked for last
   std::optional<Pieces> pieces_;
   Counters total_;
 };

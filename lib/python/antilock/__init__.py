@@ -53,6 +53,9 @@ class Problem(_antilock.Problem):
         held = sorted(fixed)
         low, high = array("lower", lower, n, -np.inf), array("upper", upper, n, np.inf)
         bounded = (low != -np.inf) | (high != np.inf)
+        for i in held:
+            if 0 <= i < n and not low[i] <= fixed[i] <= high[i]:
+                raise Error(f"fixed[{i}] = {fixed[i]}; accepted: from {low[i]} to {high[i]}, its bounds")
         bounded[[i for i in held if 0 <= i < n]] = False
         most = [] if force_bound is None else array("force_bound", force_bound, n)[bounded]
         super().__init__(a1, b, array("m", m, b.shape[0]), array("load", load, n), compliance, held,

@@ -64,13 +64,14 @@ GrowingMesh grown(const GrowingMesh& last, Growth growth, double epsilon, const 
 }
 
 std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangles) {
-  constexpr int per_side = 64, most_rounds = 16;
-  constexpr double negligible = 1e-3;  // of the integral of f^2, on one triangle
+  constexpr int most_rounds = 16, most_samples = 1 << 20;  // of a round: they take no longer than its solve would
+  constexpr double negligible = 1e-3;                      // of the integral of f^2, on one triangle
   constexpr double seen_enough = 0.1;  // of what is sampled, on one triangle as on all of them together
   const Quadrature& rule = radon_rule();
   std::map<std::array<int, 3>, double> known;  // by corners, whose numbers bisection keeps
   double total = 0;
   for (int round = 0;; ++round) {
+    const int per_side = std::clamp(static_cast<int>(std::sqrt(2 * most_samples / mesh.triangle_count())), 8, 64);
     Eigen::ArrayXd difference = Eigen::ArrayXd::Zero(mesh.triangle_count());
     for (int t = 0; t < mesh.triangle_count(); ++t) {
       if (mesh.region[t] != Region::body) continue;
@@ -79,11 +80,12 @@ std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangl
       const auto [place, fresh] = known.try_emplace(corners, 0);
       difference(t) = place->second;
       if (!fresh) continue;
-      const auto square = [&](const Eigen::Vector3d& lambda) {
+      const auto square = [&](const Eigen::Vector3d& lambda) {  // f^2, and with the sign of f
         const Eigen::Vector2d x = point_in(mesh, t, lambda);
-        return std::pow(load(x(0), x(1)), 2);
+        const double f = load(x(0), x(1));
+        return Eigen::Array2d(f * f, f * std::abs(f));
       };
-      double sampled = 0, seen = 0;
+      Eigen::Array2d sampled(0, 0), seen(0, 0);
       for (int i = 0; i < per_side; ++i)
         for (int j = 0; i + j < per_side; ++j) {
           const double a = (i + 1.0 / 3) / per_side, b = (j + 1.0 / 3) / per_side;
@@ -91,9 +93,9 @@ std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangl
         }
       sampled *= 2.0 / (per_side * (per_side + 1));
       for (Eigen::Index q = 0; q < rule.weights.size(); ++q) seen += rule.weights(q) * square(rule.points.row(q));
-      if (round == 0) total += mesh.area(t) * std::max(sampled, seen);
-      if (const double off = std::abs(sampled - seen); off > seen_enough * std::max(sampled, seen))
-        difference(t) = place->second = mesh.area(t) * off;
+      const double largest = std::max(sampled(0), seen(0)), off = (sampled - seen).abs().maxCoeff();
+      if (round == 0) total += mesh.area(t) * largest;
+      if (off > seen_enough * largest) difference(t) = place->second = mesh.area(t) * off;
     }
     std::vector<int> order(mesh.triangle_count());
     std::iota(order.begin(), order.end(), 0);
@@ -107,7 +109,8 @@ std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangl
       left += difference(t);
     }
     if (left == 0) return {};
-    if (round == most_rounds || mesh.triangle_count() > most_triangles) {
+    const auto marks = std::count(missed.begin(), missed.end(), true);
+    if (round == most_rounds || mesh.triangle_count() + 3 * marks > most_triangles) {
       const Eigen::Vector2d x = point_in(mesh, order.front(), Eigen::Vector3d::Constant(1.0 / 3));
       return fmt::format(
           "the load varies between the points of the quadrature near ({:.4g}, {:.4g}), by {:.1e} of its square: the "

@@ -37,6 +37,10 @@ std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh);
 /// into it, looked for at a hundred thousand places of Gamma_C, if above a twentieth of max |u_h|.
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution);
 
+/// Empty, or a line about a layer without a load in which u_h of Crouzeix-Raviart leaves the range of the values around it
+/// by more than a twentieth of max |u_h|: no exact solution does, by the maximum principle.
+std::string range_warning(const SceneFile& file, const Space& space, const Solution& solution);
+
 /// Who follows the answer to a scene; an empty hook costs nothing.
 struct Followers {
   std::function<void(const std::string&)> stage;  ///< what begins now

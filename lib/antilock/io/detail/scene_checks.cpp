@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -172,6 +173,7 @@ std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
 
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
   if (!file.scene.contact() || file.elastic) return "";
+  const auto& [gap, held, ceiling] = *file.scene.contact();
   const TriangleMesh& mesh = space.mesh();
   const Eigen::VectorXd values = prescribed(file, mesh);
   std::vector<std::pair<double, double>> line;  // x and u_h at the contact unknowns and at the held ends of Gamma_C
@@ -186,6 +188,7 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
   const auto edges = static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::contact));
   const int places = std::max(32, 100'000 / std::max(edges, 1));
   double deepest = 0, where = 0;
+  const char* missed = "";
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
@@ -196,17 +199,36 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
       const auto [x0, u0] = *(right - 1);
       const auto [x1, u1] = *right;
       const double u = x1 > x0 ? u0 + (u1 - u0) * (x - x0) / (x1 - x0) : u0;
-      if (const double depth = -u - file.scene.contact()->gap(x); depth > deepest) {
-        deepest = depth;
-        where = x;
-      }
+      for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &ceiling, 1}})
+        if (const double depth = *bound ? sign * u - (*bound)(x) : 0; depth > deepest)
+          std::tie(deepest, where, missed) = std::tuple(depth, x, name);
     }
   }
   if (deepest <= telling * size || deepest < 1e-12) return "";
   return fmt::format(
-      "contact.gap: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep into it at x = "
+      "contact.{}: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep into it at x = "
       "{:.6g} (max |u| is {:.3g}): a finer mesh is needed there",
-      deepest, where, size);
+      missed, deepest, where, size);
+}
+
+std::string range_warning(const SceneFile& file, const Space& space, const Solution& solution) {
+  const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
+  if (stiff == nullptr || stiff->load || file.elastic || space.element().conforming()) return "";
+  const TriangleMesh& mesh = space.mesh();
+  Eigen::AlignedBox1d around, inside;  // u_h at the edges around the layer, and within it
+  for (int e = 0; e < mesh.edge_count(); ++e)
+    if (const int t = mesh.edge_triangles(e, 0); mesh.region[t] == Region::layer || mesh.edge_tag[e] == EdgeTag::sigma)
+      (mesh.edge_tag[e] == EdgeTag::interior ? inside : around).extend(Eigen::Matrix<double, 1, 1>(solution.u(e)));
+  const double size = solution.u.lpNorm<Eigen::Infinity>(),
+               off = inside.isEmpty() || around.isEmpty()
+                         ? 0
+                         : std::max(around.min()(0) - inside.min()(0), inside.max()(0) - around.max()(0));
+  if (off <= telling * size) return "";
+  return fmt::format(
+      "layer: within it u is {:.0f} % of max |u| beyond the values around it, where no exact solution is: this element "
+      "is "
+      "wrong in a layer so soft along x; remedy: element = \"P2\", or a layer in columns (kind = \"layered\")",
+      100 * off / size);
 }
 
 }  // namespace antilock

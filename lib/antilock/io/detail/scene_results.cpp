@@ -74,7 +74,7 @@ Json certificate(const MethodRequest& method, const CertifiedSolution& certified
           {"bound", finite("the certified error", proof.bound(method.of))},
           {"energy_lower", proof.energy_lower},
           {"energy_upper", proof.energy_upper},
-          {"proved_of", "the polygon of the last mesh" + corners + ", with load and gap as sampled"},
+          {"proved_of", "the polygon of the last mesh" + corners + ", with load, traction and gap as sampled"},
           {"levels", levels}};
 }
 

@@ -69,10 +69,11 @@ class HeldFactor {
     for (Eigen::Index j = 0; j < rest.cols(); ++j)
       for (SparseMatrix::InnerIterator it(rest, j); it; ++it)
         if (it.row() != j && (held[j] != 0 || held[it.row()] != 0)) it.valueRef() = 0;
-    held_ = held;
+    held_.clear();
     ++factorisations_;
     if (cholesky_->factorise(rest))
       throw Error("contact: K on the unknowns that are not held is not positive definite");
+    held_ = held;
   }
 
   /// x = K^-1 r on the unknowns that are not held, 0 on the held ones.
