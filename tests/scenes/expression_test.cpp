@@ -65,47 +65,20 @@ TEST(Expression, ServesSeveralThreads) {
 TEST(Expression, SaysWhereItIsNotFinite) {
   const Expression f("1/(x - y)", {"x", "y"});
   EXPECT_EQ(f(1, 0.5), 2);
-  try {
-    f(0.25, 0.25);
-    FAIL() << "accepted infinity";
-  } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find("x = 0.25, y = 0.25"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(refusal([&] { f(0.25, 0.25); }).find("x = 0.25, y = 0.25"), std::string::npos);
 }
 
 TEST(Expression, RefusesInOneLineWhatItDoesNotUnderstand) {
-  const std::vector<std::string> texts = {"",
-                                          " ",
-                                          "x +",
-                                          "z",
-                                          "2x",
-                                          "x = 1",
-                                          "x, y",
-                                          "\"x\"",
-                                          "_pi",
-                                          "_e",
-                                          "e",
-                                          "sin x",
-                                          "(x",
-                                          "x)",
-                                          "x**2",
-                                          "x ? 1",
-                                          "f(x)",
-                                          "x;y",
-                                          "x\ny",
-                                          "1.2.3",
-                                          "0x1",
-                                          "x'",
-                                          "\xc3\xa9",
-                                          "sin(x,y)",
-                                          std::string("x\0y", 3),
-                                          std::string(5000, '(')};
-  for (const std::string& text : texts) try {
-      const Expression taken(text, {"x", "y"});
-      ADD_FAILURE() << "accepted: " << text;
-    } catch (const Error& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-    }
+  std::vector<std::string> texts{"",     " ",   "x +",  "z",     "2x",  "x = 1", "x, y",     "\"x\"",
+                                 "_pi",  "_e",  "e",    "sin x", "(x",  "x)",    "x**2",     "x ? 1",
+                                 "f(x)", "x;y", "x\ny", "1.2.3", "0x1", "x'",    "\xc3\xa9", "sin(x,y)"};
+  texts.emplace_back("x\0y", 3);
+  texts.emplace_back(5000, '(');
+  for (const std::string& text : texts) {
+    const std::string said = refusal([&] { Expression(text, {"x", "y"}); });
+    EXPECT_EQ(said.find('\n'), std::string::npos) << said;
+    EXPECT_NE(said, "") << text;
+  }
   EXPECT_THROW(Expression("y", {"x"}), Error);
 }
 

@@ -157,6 +157,10 @@ TEST(AccurateEnough, FollowsTheBracket) {
   EXPECT_NEAR(enough.relative, 0.005, 1e-15);  // half of 1 %
   EXPECT_NEAR(enough.energy, 0.005 * 0.005, 1e-18);
   EXPECT_NEAR(accurate_enough(bracket, 2, 0.5).relative, enough.relative / 4, 1e-15) << "h^2";
+  for (const double bad : {0.0, -1.0, std::nan(""), infinity}) {
+    test::expect_refused([&] { accurate_enough(bracket, bad); }, "times as coarse");
+    test::expect_refused([&] { accurate_enough(bracket, 1, bad); }, "a share of");
+  }
   for (const EnergyBracket& nothing : {EnergyBracket{0, 0}, EnergyBracket{-0.99, -1}, EnergyBracket{-1, NAN}}) {
     EXPECT_EQ(accurate_enough(nothing).energy, 0);
     EXPECT_EQ(accurate_enough(nothing).relative, 0);

@@ -298,6 +298,7 @@ TEST(Averaged, RefusesSharesThatDoNotFit) {
   expect_refused([&] { averaged(strain, negative); }, "share -1 of row 0");
   expect_refused([&] { averaged(strain, empty); }, "has no row of B");
   expect_refused([&] { box_shares(mesh, strain, 0, 1); }, "accepted: positive lengths");
+  expect_refused([&] { box_shares(mesh, strain, 1e-30, 0.1); }, "a billionth");
   EXPECT_EQ(box_shares(mesh, strain, 1e-8, 2).rows(), 4) << "a box per place in x of the centroids";
   FactoredForm cut = layer_strain(quadratic), outside = strain;
   cut.cell.pop_back();

@@ -5,19 +5,29 @@
 
 #include "antilock/analysis/hypotheses.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/kkt.hpp"
 #include "antilock/study/table.hpp"
 
 namespace antilock::tutorial {
 
-/// A problem at every class parameter from 1 to 1e-12, and at 0: epsilon, energy, "max |u|", corrections, KKT.
-inline Table energies(const VariationalInequality& problem) {
-  std::vector<double> epsilons;
-  for (int k = 0; k <= 12; ++k) epsilons.push_back(std::pow(10.0, -k));
-  epsilons.push_back(0);
+/// A problem at every class parameter from 1 to 1e-12, and at 0: epsilon, energy, "max |u|" of all unknowns, corrections
+/// (many: the penalty does not fit, or the problem locks), and the KKT report's largest number. J rises as epsilon falls,
+/// to a limit; where the stiff part locks, to that with the stiff part held: the rest still moves. Energy and |u| are no
+/// numbers where no answer was found.
+inline Table energies(VariationalInequality problem) {
   Table table({"epsilon", "energy", "max |u|", "corrections", "KKT"});
-  for (const EnergyRow& row : energy_against_epsilon(problem, epsilons))
-    table.add({row.epsilon, row.energy, row.moved, row.corrections, row.violation});
+  for (int k = 0; k <= 13; ++k) {
+    problem.compliance = k <= 12 ? std::pow(10.0, -k) : 0;
+    try {
+      const Solution s = active_set(problem);
+      table.add({problem.compliance, energy(problem, s), s.u.lpNorm<Eigen::Infinity>(), s.counters.corrections,
+                 worst_violation(s.kkt)});
+    } catch (const NotConverged& failure) {
+      table.add({problem.compliance, NAN, NAN, failure.steps, failure.reached});
+    }
+  }
   return table;
 }
 

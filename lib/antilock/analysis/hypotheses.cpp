@@ -37,25 +37,4 @@ double distance_to_kernel(const VariationalInequality& problem) {
   return u > 0 ? strain.lpNorm<Eigen::Infinity>() / u : 0;
 }
 
-std::vector<EnergyRow> energy_against_epsilon(VariationalInequality problem, const std::vector<double>& epsilons) {
-  std::vector<EnergyRow> rows;
-  for (const double epsilon : epsilons) {
-    problem.compliance = epsilon;
-    EnergyRow row{epsilon};
-    try {
-      const Solution s = active_set(problem);
-      row.energy = energy(problem, s);
-      row.moved = s.u.lpNorm<Eigen::Infinity>();
-      row.corrections = s.counters.corrections;
-      row.violation = worst_violation(s.kkt);
-    } catch (const NotConverged& failure) {
-      row.energy = row.moved = std::numeric_limits<double>::quiet_NaN();
-      row.corrections = failure.steps;
-      row.violation = failure.reached;
-    }
-    rows.push_back(row);
-  }
-  return rows;
-}
-
 }  // namespace antilock

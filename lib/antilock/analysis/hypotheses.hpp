@@ -1,6 +1,4 @@
 #pragma once
-#include <vector>
-
 #include "antilock/problem/variational_inequality.hpp"
 
 namespace antilock {
@@ -26,18 +24,5 @@ Hypotheses check_hypotheses(const VariationalInequality& problem, const SparseMa
 /// sum |B| times max|v|. Zero up to round-off (below 1e-6) where problem (7), epsilon = 0, has a solution; larger where
 /// it has none. Throws Error for a malformed or singular problem.
 double distance_to_kernel(const VariationalInequality& problem);
-
-/// One line of a locking diagnosis.
-struct EnergyRow {
-  double epsilon = 0;    ///< the class parameter
-  double energy = 0;     ///< J(u); not a number where no answer was found
-  double moved = 0;      ///< largest |u|, of all unknowns; a stiff part that locks leaves what the rest moves
-  int corrections = 0;   ///< of the iterated penalty; many: the penalty does not fit, or the problem locks
-  double violation = 0;  ///< the KKT report's largest number
-};
-
-/// Solves for every class parameter (0 too). J rises as epsilon falls, to a limit; where the stiff part locks, to that
-/// with the stiff part held: the rest still moves. Throws Error for a malformed or singular problem.
-std::vector<EnergyRow> energy_against_epsilon(VariationalInequality problem, const std::vector<double>& epsilons);
 
 }  // namespace antilock

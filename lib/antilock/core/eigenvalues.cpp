@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <Spectra/SymEigsSolver.h>
-
-#include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -39,28 +37,6 @@ double size_of(const Apply& apply, Eigen::Index size) {
   return size == 1 ? image(0) : image.lpNorm<Eigen::Infinity>();
 }
 
-/// 30 vectors between restarts are enough for the clustered ends of a stiff spectrum.
-Eigenpair only_eigenpair(const Apply& apply, Eigen::Index size, const char* which, double tolerance = 1e-6,
-                         int basis = 30) {
-  if (size < 1) throw Error(fmt::format("{} eigenvalue: of no unknowns; accepted: one or more", which));
-  // Spectra takes what is far below 1 for 0, and ends without an answer where there is nothing else
-  const double unit = size_of(apply, size);
-  if (unit == 0 || size == 1) return {unit, Eigen::VectorXd::Unit(size, 0)};
-  Operator scaled{size, apply, unit};
-  Spectra::SymEigsSolver<Operator> solver(scaled, 1, std::clamp<Eigen::Index>(basis, 2, size));
-  try {
-    solver.init();
-    solver.compute(Spectra::SortRule::LargestAlge, most_restarts, tolerance);
-  } catch (const std::runtime_error& failure) {
-    throw NotConverged(fmt::format("{} eigenvalue: the Lanczos iteration broke down ({})", which, failure.what()), 1,
-                       0);
-  }
-  if (solver.info() != Spectra::CompInfo::Successful)
-    throw NotConverged(fmt::format("{} eigenvalue: the Lanczos iteration has not settled to {:.0e}", which, tolerance),
-                       1, static_cast<int>(solver.num_iterations()));
-  return {unit * solver.eigenvalues()(0), solver.eigenvectors(1).col(0)};
-}
-
 }  // namespace
 
 double largest_eigenvalue(const SparseMatrix& upper) {
@@ -71,19 +47,22 @@ double largest_eigenvalue(const SparseMatrix& upper) {
 }
 
 Eigenpair largest_eigenpair(const Apply& apply, Eigen::Index size, double tolerance, int basis) {
-  return only_eigenpair(apply, size, "largest", tolerance, basis);
-}
-
-double smallest_eigenvalue(const SparseMatrix& upper) {
-  Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor;
-  factor.cholmod().print = 0;  // what is wrong is said below
-  factor.compute(upper);
-  if (factor.info() != Eigen::Success)
-    throw Error(
-        "smallest eigenvalue: the matrix is singular to working precision, or not positive definite; accepted: "
-        "symmetric positive definite");
-  const auto inverse = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return factor.solve(x); };
-  return 1 / only_eigenpair(inverse, upper.rows(), "smallest").value;
+  if (size < 1) throw Error("largest eigenvalue: of no unknowns; accepted: one or more");
+  // Spectra takes what is far below 1 for 0, and ends without an answer where there is nothing else
+  const double unit = size_of(apply, size);
+  if (unit == 0 || size == 1) return {unit, Eigen::VectorXd::Unit(size, 0)};
+  Operator scaled{size, apply, unit};
+  Spectra::SymEigsSolver<Operator> solver(scaled, 1, std::clamp<Eigen::Index>(basis, 2, size));
+  try {
+    solver.init();
+    solver.compute(Spectra::SortRule::LargestAlge, most_restarts, tolerance);
+  } catch (const std::runtime_error& failure) {
+    throw NotConverged(fmt::format("largest eigenvalue: the Lanczos iteration broke down ({})", failure.what()), 1, 0);
+  }
+  if (solver.info() != Spectra::CompInfo::Successful)
+    throw NotConverged(fmt::format("largest eigenvalue: the Lanczos iteration has not settled to {:.0e}", tolerance), 1,
+                       static_cast<int>(solver.num_iterations()));
+  return {unit * solver.eigenvalues()(0), solver.eigenvectors(1).col(0)};
 }
 
 }  // namespace antilock

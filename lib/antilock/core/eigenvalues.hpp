@@ -17,15 +17,12 @@ struct Eigenpair {
   Eigen::VectorXd vector;
 };
 
-/// The same of an operator on R^size, to a relative `tolerance`; from below. One product per step of the iteration, at
+/// The same of an operator on R^size, to a relative `tolerance`; from below. 30 vectors between restarts
+/// are enough for the clustered ends of a stiff spectrum. One product per step of the iteration, at
 /// least min(size, `basis`) of them. Throws Error for no unknowns, NotConverged.
 Eigenpair largest_eigenpair(const Apply& apply, Eigen::Index size, double tolerance = 1e-6, int basis = 30);
 inline double largest_eigenvalue(const Apply& apply, Eigen::Index size, double tolerance = 1e-6, int basis = 30) {
   return largest_eigenpair(apply, size, tolerance, basis).value;
 }
-
-/// The smallest one, by inverse iteration on a sparse Cholesky factor: trustworthy only where the matrix itself can be
-/// factored, that is for condition numbers well below 1e16. Throws Error where it has no factor, NotConverged.
-double smallest_eigenvalue(const SparseMatrix& upper);
 
 }  // namespace antilock
