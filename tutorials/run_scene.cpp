@@ -94,7 +94,8 @@ locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the sha
 motion that is lost at least (proved; null where nothing is proved), kept is 1 - lost_energy;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
 polygon of the last mesh, with load, traction and gap as sampled; warning says what to
-doubt: a layer that locks, an answer above the trusted error, a load of the body that the mesh misses.
+doubt: a layer that locks, an answer above the trusted error, a load of the body or
+an obstacle that the mesh misses, u within a layer beyond its values around it, a polygon in place of a curve.
 Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8
 )help";

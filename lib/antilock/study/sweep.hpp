@@ -26,7 +26,7 @@ class Sweep {
   /// C entries, or none, as in the problem. Throws Error as `check` does.
   void set_force_bound(Eigen::VectorXd force_bound);
 
-  /// The answer, its counters saying what this question cost beyond the ones before.
+  /// The answer, its counters saying what this question cost beyond the ones before. The road is that of the first one.
   Solution solve(ActiveSetOptions options = {});
 
   const VariationalInequality& problem() const { return problem_; }

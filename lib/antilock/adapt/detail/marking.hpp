@@ -35,8 +35,8 @@ GrowingMesh grown(const GrowingMesh& last, Growth growth, double epsilon, const 
                   const Marking& marking = {});
 
 /// Refines the body's triangles where the load varies between the points of the quadrature rule: the integrals of f^2
-/// and of f |f| by up to 2,080 samples per triangle, a million in all, are held against those by the rule, until less
-/// than a tenth of the first is missed in all, and less than a thousandth by any triangle. Returns what could not be resolved, as a warning, or nothing.
+/// and f |f| by up to 2,080 samples per triangle, a million in all, are held against the rule's, until the triangles off by
+/// over a tenth of their own miss less than a tenth of the first in all, a thousandth each. Returns a warning, or nothing.
 std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangles);
 
 }  // namespace antilock

@@ -213,21 +213,22 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
 
 std::string range_warning(const SceneFile& file, const Space& space, const Solution& solution) {
   const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
-  if (stiff == nullptr || stiff->load || file.elastic || space.element().conforming()) return "";
+  if (stiff == nullptr || file.elastic || space.element().conforming()) return "";
+  const auto pull = [&](const Field& f, Region region) { return load_vector(space, f, region).lpNorm<1>(); };
+  if (stiff->load && pull(stiff->load, Region::layer) > 1e-3 * pull(file.scene.body().load, Region::body)) return "";
   const TriangleMesh& mesh = space.mesh();
   Eigen::AlignedBox1d around, inside;  // u_h at the edges around the layer, and within it
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (const int t = mesh.edge_triangles(e, 0); mesh.region[t] == Region::layer || mesh.edge_tag[e] == EdgeTag::sigma)
       (mesh.edge_tag[e] == EdgeTag::interior ? inside : around).extend(Eigen::Matrix<double, 1, 1>(solution.u(e)));
-  const double size = solution.u.lpNorm<Eigen::Infinity>(),
-               off = inside.isEmpty() || around.isEmpty()
-                         ? 0
-                         : std::max(around.min()(0) - inside.min()(0), inside.max()(0) - around.max()(0));
+  const double size = solution.u.lpNorm<Eigen::Infinity>();  // an empty box is infinitely far from everything
+  const double off = std::max(around.min()(0) - inside.min()(0), inside.max()(0) - around.max()(0));
   if (off <= telling * size) return "";
   return fmt::format(
-      "layer: within it u is {:.0f} % of max |u| beyond the values around it, where no exact solution is: this element "
-      "is "
-      "wrong in a layer so soft along x; remedy: element = \"P2\", or a layer in columns (kind = \"layered\")",
+      "layer: within it u is {:.0f} % of max |u| beyond the values around it, where no exact solution is: the layer is "
+      "too "
+      "soft along x for this element, or the mesh too coarse; remedy: a layer in columns (kind = \"layered\"), a finer "
+      "mesh",
       100 * off / size);
 }
 

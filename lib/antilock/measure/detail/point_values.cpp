@@ -1,6 +1,6 @@
 #include "antilock/measure/detail/point_values.hpp"
 
-#include <limits>
+#include <algorithm>
 
 namespace antilock {
 namespace {
