@@ -19,6 +19,12 @@ int lockcheck(int argc, char** argv);
 /// box, the area and the edges of each say so.
 bool is_unit_square(const TriangleMesh& mesh);
 
+/// Largest |u| on the contact boundary: what locking takes away.
+double ridge(const Space& space, const Eigen::VectorXd& u);
+
+/// The row of p of each layer triangle, one per triangle in their order.
+std::vector<int> stress_rows(const TriangleMesh& mesh);
+
 /// The scene solved to a proved relative error of `accuracy` in the energy norm, from its own first mesh.
 CertifiedSolution certified(const SceneFile& file, double accuracy);
 

@@ -131,8 +131,7 @@ Reference reference(const Answer& own, const PointValues& at) {
     if (!found) throw Error(fmt::format("judge: ({}, {}) is outside the mesh of the certified answer", x, y));
     return *found;
   };
-  std::vector<int> row(own.mesh->region.size());  // of p, one per layer triangle in their order
-  for (std::size_t t = 1; t < row.size(); ++t) row[t] = row[t - 1] + (own.mesh->region[t - 1] == Region::layer);
+  const std::vector<int> row = stress_rows(*own.mesh);
   Reference reference;
   reference.value = [=, &own, &at](double x, double y) { return at.value(own.solution.u, place(x, y)); };
   reference.at = [=, &own, &at](double x, double y) {
@@ -172,12 +171,6 @@ Places places_of(const Space& space, const Eigen::VectorXd& error) {
     sum += error(*t) * error(*t);
   }
   return places;
-}
-
-double largest(const std::vector<int>& unknowns, const Eigen::VectorXd& u) {
-  double most = 0;
-  for (const int i : unknowns) most = std::max(most, std::abs(u(i)));
-  return most;
 }
 
 }  // namespace
@@ -301,8 +294,8 @@ int judge(int argc, char** argv) {
                    mesh.triangle_count(), list);
   }
   if (file.scene.layer_depth() > 0 && file.scene.contact()) {
-    const double ridge = largest(certified.answer.space.contact(), certified.answer.solution.u);
-    const double kept = ridge > 0 ? largest(space->contact(), v.u) / ridge : 1;
+    const double whole = ridge(certified.answer.space, certified.answer.solution.u);
+    const double kept = whole > 0 ? ridge(*space, v.u) / whole : 1;
     found["kept"] = kept;
     fmt::format_to(say, "  kept of the largest displacement on the contact boundary: {:.4g} %\n", 100 * kept);
   }

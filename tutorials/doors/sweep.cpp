@@ -54,14 +54,13 @@ struct OnMesh {
   std::vector<PointValues::Place> places;
 };
 
-/// Largest |u| on the contact boundary: what locking takes away.
+}  // namespace
+
 double ridge(const Space& space, const Eigen::VectorXd& u) {
   double largest = 0;
   for (const int i : space.contact()) largest = std::max(largest, std::abs(u(i)));
   return largest;
 }
-
-}  // namespace
 
 int sweep(int argc, char** argv) {
   CLI::App line(

@@ -92,16 +92,14 @@ Known by_certificate(const SceneFile& file, double accuracy, const Eigen::Matrix
   const auto& [mesh, space, problem, solution, seconds, warning] = found.answer;
   const PointValues at(space);
   const bool scaled = std::holds_alternative<StiffLayer>(file.scene.layer());
+  const std::vector<int> p_row = stress_rows(*mesh);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     Eigen::Vector2d x = points.row(i);
     if (std::abs(x(1)) < rounded) x(1) = rounded;  // on Sigma the gradient is the body's
     const auto place = at.locate(x, rounded);
     if (!place) throw Error(fmt::format("points: ({}, {}) is {}", points(i, 0), points(i, 1), outside));
     Row row{at.value(solution.u, *place), at.gradient(solution.u, *place)};
-    if (scaled && mesh->region[place->triangle] == Region::layer) {
-      const auto& region = mesh->region;  // p: one value per layer triangle, in their order
-      row.p = solution.p(std::count(region.begin(), region.begin() + place->triangle, Region::layer));
-    }
+    if (scaled && mesh->region[place->triangle] == Region::layer) row.p = solution.p(p_row[place->triangle]);
     known.rows.push_back(row);
   }
   const Certificate& proof = found.certificate;
@@ -139,6 +137,12 @@ bool is_unit_square(const TriangleMesh& mesh) {
         mesh.edge_triangles(e, 1) < 0 && mesh.edge_tag[e] != (below ? EdgeTag::contact : EdgeTag::clamped))
       return false;
   return true;
+}
+
+std::vector<int> stress_rows(const TriangleMesh& mesh) {
+  std::vector<int> row(mesh.region.size());
+  for (std::size_t t = 1; t < row.size(); ++t) row[t] = row[t - 1] + (mesh.region[t - 1] == Region::layer);
+  return row;
 }
 
 CertifiedSolution certified(const SceneFile& file, double accuracy) {

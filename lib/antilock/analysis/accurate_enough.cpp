@@ -7,7 +7,6 @@
 
 #include "antilock/analysis/certificate.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/measure/errors.hpp"
 #include "antilock/models/anti_plane.hpp"
 
 namespace antilock {

@@ -4,11 +4,8 @@
 #include <limits>
 
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/core/error.hpp"
-#include "antilock/measure/errors.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/kkt.hpp"
 
 namespace antilock {
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include "antilock/analysis/kernel.hpp"
@@ -86,10 +85,9 @@ LockingDiagnosis diagnose_locking(const VariationalInequality& coarse, const Var
   found.bounded = !first.contact.empty() && !second.contact.empty();
   if (!found.bounded)
     for (VariationalInequality* stiff : {&first, &second}) {
-      stiff->contact.resize(stiff->size());
-      std::iota(stiff->contact.begin(), stiff->contact.end(), 0);
-      std::erase_if(stiff->contact,
-                    [&](int i) { return std::binary_search(stiff->fixed.begin(), stiff->fixed.end(), i); });
+      stiff->contact.clear();
+      for (int i = 0; i < stiff->size(); ++i)
+        if (!std::binary_search(stiff->fixed.begin(), stiff->fixed.end(), i)) stiff->contact.push_back(i);
       stiff->lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stiff->contact.size()));
     }
   found.coarse_bounds = static_cast<int>(first.contact.size());

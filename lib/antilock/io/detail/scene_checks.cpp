@@ -226,9 +226,8 @@ std::string range_warning(const SceneFile& file, const Space& space, const Solut
   if (off <= telling * size) return "";
   return fmt::format(
       "layer: within it u is {:.0f} % of max |u| beyond the values around it, where no exact solution is: the layer is "
-      "too "
-      "soft along x for this element, or the mesh too coarse; remedy: a layer in columns (kind = \"layered\"), a finer "
-      "mesh",
+      "too soft along x for this element, or the mesh too coarse; remedy: a layer in columns (kind = \"layered\"), a "
+      "finer mesh",
       100 * off / size);
 }
 
