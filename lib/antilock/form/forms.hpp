@@ -48,8 +48,8 @@ Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Fie
 /// N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25), on the contact edges of a mesh of the body alone.
 /// The trace is the continuous piecewise affine function through the unknowns on Sigma and the clamped ends: for P1 the
 /// trace itself, for CR the one through the edge midpoints (the broken trace has no derivative across vertices). Throws
-/// Error for another element than P1 or CR, and where Sigma is bent, in pieces or not held at both ends by u = 0. given: the V values
-/// that are prescribed at the ends of held edges.
+/// Error for another element than P1 or CR, and where Sigma is bent, in pieces or not held at both ends by u = 0.
+/// given: the V values that are prescribed at the ends of held edges.
 Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::VectorXd& given);
 
 }  // namespace antilock

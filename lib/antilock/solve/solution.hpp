@@ -46,7 +46,8 @@ struct Solution {
   /// left of B u = compliance p, and of the rounding of u to doubles, eps / 2. An estimate: of 24,000 random problems
   /// one was off by 15 times what it claims, all others by 10 times at most; the worst that is known, by 24 times. It
   /// is above the tolerance where u has locked to less than 2e-6 of `moderate`: such a u is the round-off of its size
-  /// before; infinite where u is 0 with more to correct. Of the contact set found, without what Uzawa's steps leave.
+  /// before. It is infinite where u is 0 and something is left to correct. It holds for the contact set found, and
+  /// knows nothing of what Uzawa's steps leave.
   double error = 0;
   Kkt kkt;
   Counters counters;

@@ -34,9 +34,11 @@ struct GrowingMesh {
 GrowingMesh grown(const GrowingMesh& last, Growth growth, double epsilon, const Eigen::VectorXd& indicator,
                   const Marking& marking = {});
 
-/// Refines the body's triangles where the load varies between the points of the quadrature rule: the integrals of f^2
-/// and f |f| by up to 2,080 samples per triangle, a million in all, are held against the rule's, until the triangles off by
-/// over a tenth of their own miss less than a tenth of the first in all, a thousandth each. Returns a warning, or nothing.
+/// Refines the body's triangles where the load varies between the points of the quadrature rule. The integrals of f^2 and
+/// of f |f| by up to 2,080 samples per triangle, a million in all, are held against those by the rule. A triangle misses
+/// what it is off by, if that is more than a tenth of its own integral of f^2. It goes on until each triangle misses less
+/// than a thousandth of the whole integral of f^2, and all of them together less than a tenth. Returns what could not be
+/// resolved, as a warning, or nothing.
 std::string resolve_load(TriangleMesh& mesh, const Field& load, int most_triangles);
 
 }  // namespace antilock
