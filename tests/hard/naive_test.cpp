@@ -42,10 +42,10 @@ TEST(Naive, IsRightWhereEpsilonIsModerateAndNoWrongAnswerGetsPastTheChecks) {
         }
         if (off > 1e-3) {
           ++wrong;
-          EXPECT_THROW(certify(problem, answer.solution), NotConverged);
+          EXPECT_THROW(check_kkt(problem, answer.solution), NotConverged);
         } else if (off > 1e-6) {
           try {
-            certify(problem, answer.solution);
+            check_kkt(problem, answer.solution);
             EXPECT_FALSE(answer.solution.warning.empty());
           } catch (const NotConverged&) {  // refused: safer still
           }

@@ -133,7 +133,7 @@ TEST(NothingInSilence, TheErrorIsThatOfAllCorrectionsToCome) {
   for (const double rate : {0.1, 0.5, 0.9}) {
     double to_come = 0, correction = 1e-3;
     for (int k = 0; k < 1000; ++k) to_come += correction *= rate;
-    const Accuracy now = accuracy(small_problem(chain(3), Eigen::Vector3d::Ones()), Twice(Eigen::Vector3d(2, 1, 0)),
+    const ForwardError now = accuracy(small_problem(chain(3), Eigen::Vector3d::Ones()), Twice(Eigen::Vector3d(2, 1, 0)),
                                   rate * 1e-3, {}, rate, 0, {});
     EXPECT_NEAR(now.error / (to_come / 2), 1, 1e-13) << rate;
   }

@@ -88,16 +88,16 @@ TEST(ScalesFarApart, TheReportSeesSmallForcesBesideGreatOnes) {
   const Solution right = active_set(v);
   Solution wrong = right;
   wrong.u(2) *= 1 + 1e-4;
-  EXPECT_THROW(certify(v, wrong), NotConverged) << "a force out of balance";
+  EXPECT_THROW(check_kkt(v, wrong), NotConverged) << "a force out of balance";
   // in balance, but with the wrong contact set
   VariationalInequality pulled = v;
   pulled.load(1) = -0.99;
   wrong = active_set(pulled);
   EXPECT_NEAR(wrong.u(1), -0.99, 1e-15);
   wrong.u(1) = -1, wrong.lambda(1) = -0.01;
-  EXPECT_THROW(certify(pulled, wrong), NotConverged) << "a contact that pulls";
+  EXPECT_THROW(check_kkt(pulled, wrong), NotConverged) << "a contact that pulls";
   wrong.u(1) = -0.98, wrong.lambda(1) = 0.01;
-  EXPECT_THROW(certify(pulled, wrong), NotConverged) << "pressed and open";
+  EXPECT_THROW(check_kkt(pulled, wrong), NotConverged) << "pressed and open";
 }
 
 // Prescribed values alone, and an obstacle that keeps the rest at zero: nothing moves in the first correction.

@@ -62,24 +62,24 @@ TEST_P(WrongAnswers, EveryKindOfWrongAnswerIsRefused) {
   for (const auto& [what, spoil] : faults) {
     Solution wrong = solution_;
     spoil(wrong);
-    EXPECT_THROW(certify(problem_, wrong), NotConverged) << what;
+    EXPECT_THROW(check_kkt(problem_, wrong), NotConverged) << what;
   }
 }
 
 TEST_P(WrongAnswers, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
   Solution slightly = solution_;
   slightly.u *= 1 + 1e-8;
-  certify(problem_, slightly);
+  check_kkt(problem_, slightly);
   EXPECT_NE(slightly.warning.find("trusted 1e-09"), std::string::npos) << slightly.warning;
   EXPECT_EQ(slightly.warning.find('\n'), std::string::npos) << "one line";
   Solution same = slightly;
-  EXPECT_THROW(certify(problem_, same, {1e-12, 1e-10}), NotConverged);
+  EXPECT_THROW(check_kkt(problem_, same, {1e-12, 1e-10}), NotConverged);
   same = slightly;
   same.warning.clear();
-  certify(problem_, same, {1e-3, 1e-2});
+  check_kkt(problem_, same, {1e-3, 1e-2});
   EXPECT_TRUE(same.warning.empty());
   slightly.u *= 1.1;
-  const auto refusal = thrown<NotConverged>([&] { certify(problem_, slightly); });
+  const auto refusal = thrown<NotConverged>([&] { check_kkt(problem_, slightly); });
   EXPECT_NE(std::string(refusal.what()).find("active set: answer refused"), std::string::npos) << refusal.what();
   EXPECT_NEAR(refusal.reached, worst_violation(kkt_report(problem_, slightly)), 1e-15);
   EXPECT_GT(refusal.reached, 1e-6);
@@ -92,7 +92,7 @@ TEST_P(WrongAnswers, AWrongAnswerIsRefusedOnAFineMeshToo) {
   Solution wrong = active_set(problem);
   EXPECT_TRUE(wrong.warning.empty());
   wrong.u *= 1 + 1e-5;
-  EXPECT_THROW(certify(problem, wrong), NotConverged);
+  EXPECT_THROW(check_kkt(problem, wrong), NotConverged);
 }
 
 // Scale-free: load and answer multiplied by a power of two give the same report bit for bit, right or wrong.
@@ -187,7 +187,7 @@ TEST(Impossible, AFarBoundDoesNotHideABrokenCompliance) {
     foreign.p = Eigen::Vector2d::Zero();
     foreign.lambda = Eigen::Vector2d::Zero();
     EXPECT_GT(kkt_report(problem, foreign).residual, 0.1) << far;
-    EXPECT_THROW(certify(problem, foreign), NotConverged) << far;
+    EXPECT_THROW(check_kkt(problem, foreign), NotConverged) << far;
   }
 }
 

@@ -162,7 +162,7 @@ TEST(ExactResidual, IsTheWorkOfTheContactPressureOnConformingSpaces) {
   std::vector<double> ends;
   for (const auto& [from, to] : truth.contact_zones()) ends.insert(ends.end(), {from, to});
   for (const SpaceOn& space : two_square_spaces(8, {&p1(), &p2()})) {
-    Eigen::VectorXd residual = exact_residual(space, load_vector(space, paper_load), reference(table), ends);
+    Eigen::VectorXd residual = consistency_residual(space, load_vector(space, paper_load), reference(table), ends);
     Eigen::VectorXd work = contact_work(space, [&](double x) { return truth.pressure(x); });
     for (const int i : space.clamped()) residual(i) = work(i) = 0;  // reactions
     // 1e-3: the stress rises like a square root at the end of contact, within one column of triangles
@@ -175,7 +175,7 @@ TEST(ExactResidual, OfCrouzeixRaviartIsItsFormAtTheInterpolant) {
   const Reference u = product(1);
   for (const auto& [name, mesh] : two_square_meshes(4)) {
     const Space space(mesh, crouzeix_raviart());
-    const Eigen::VectorXd form = exact_residual(space, Eigen::VectorXd::Zero(space.size()), u, {0.3});
+    const Eigen::VectorXd form = consistency_residual(space, Eigen::VectorXd::Zero(space.size()), u, {0.3});
     const Eigen::VectorXd discrete = gradient_form(space, {1, 1}, {1, 1}) * interpolant(space, u.value);
     EXPECT_LT((form - discrete).cwiseAbs().maxCoeff(), 1e-12) << name;
   }

@@ -131,9 +131,9 @@ TEST(Stairs, ValuesRiseAndForcesFallFromPieceToPiece) {
   for (std::size_t k = 0; k < all.size(); ++k) {
     const auto [low, high] = stairs.found(0, all[k]);
     const double given = stairs.given(0, all[k]);
-    EXPECT_GE(is_held(all[k]) ? given : low, v);
-    EXPECT_LE(is_held(all[k]) ? high : given, lambda);
-    v = is_held(all[k]) ? given : high, lambda = is_held(all[k]) ? low : given;
+    EXPECT_GE(is_active(all[k]) ? given : low, v);
+    EXPECT_LE(is_active(all[k]) ? high : given, lambda);
+    v = is_active(all[k]) ? given : high, lambda = is_active(all[k]) ? low : given;
     if (k > 0) {
       EXPECT_EQ(stairs.next(0, all[k], false), all[k - 1]);
       EXPECT_EQ(stairs.next(0, all[k - 1], true), all[k]);
@@ -146,11 +146,11 @@ TEST(Stairs, ValuesRiseAndForcesFallFromPieceToPiece) {
   later.force = Eigen::VectorXd{{0.5}};
   for (const Piece piece : all) {
     const Stairs::Interval before = stairs.found(0, piece), now = later.found(0, piece);
-    const double moved = is_held(piece) ? 0.5 : 0, given = stairs.given(0, piece);
+    const double moved = is_active(piece) ? 0.5 : 0, given = stairs.given(0, piece);
     EXPECT_EQ(now.low, before.low - moved);
     EXPECT_EQ(now.high, before.high - moved);
     EXPECT_EQ(later.given(0, piece), given - (0.5 - moved));
-    EXPECT_EQ(later.whole_force(0, piece, 0.25), is_held(piece) ? 0.75 : given);
+    EXPECT_EQ(later.whole_force(0, piece, 0.25), is_active(piece) ? 0.75 : given);
   }
 }
 
@@ -640,7 +640,7 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
         if (active[i]) wrong.lambda(static_cast<Eigen::Index>(i)) = -r.r1(s.problem.contact[i]);
       wrong.active = active;
       EXPECT_LT(kkt_report(s.problem, wrong).residual, 1e-8);
-      EXPECT_THROW(certify(s.problem, wrong), NotConverged) << "epsilon " << epsilon << ", one more: " << one_more;
+      EXPECT_THROW(check_kkt(s.problem, wrong), NotConverged) << "epsilon " << epsilon << ", one more: " << one_more;
     }
   }
 }
@@ -651,15 +651,15 @@ TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
   const Solution right = active_set(problem);
   Solution wrong = right;
   wrong.u *= 1.001;
-  EXPECT_THROW(certify(problem, wrong), NotConverged);
+  EXPECT_THROW(check_kkt(problem, wrong), NotConverged);
   wrong = right;
   wrong.p *= 1.001;
-  EXPECT_THROW(certify(problem, wrong), NotConverged);
+  EXPECT_THROW(check_kkt(problem, wrong), NotConverged);
   wrong = right;
   const int corner = 0;  // (0, -1): its neighbours' equations barely see it, only the clamp itself
   ASSERT_EQ(problem.fixed[0], corner);
   wrong.u(corner) = 1e-9;
-  EXPECT_THROW(certify(problem, wrong), NotConverged) << "a clamp that slipped";
+  EXPECT_THROW(check_kkt(problem, wrong), NotConverged) << "a clamp that slipped";
   // the report is linear in what is wrong: above the lower level there is a warning
   wrong = right;
   wrong.p *= 1.001;
@@ -667,7 +667,7 @@ TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
   for (const double reached : {3e-10, 3e-9}) {
     wrong = right;
     wrong.p *= 1 + reached / unit;
-    certify(problem, wrong);
+    check_kkt(problem, wrong);
     EXPECT_EQ(wrong.warning.empty(), reached < TrustLevels{}.trusted) << wrong.warning;
   }
   VariationalInequality none = problem;
@@ -1402,7 +1402,7 @@ TEST(KktOfBounds, ReportsEachSideOfABoundByItself) {
   wrong = active_set(above);
   wrong.lambda(top - 1) = 0.1 * wrong.lambda.lpNorm<Eigen::Infinity>();
   EXPECT_LT(kkt_report(above, wrong).min_pressure, -0.05);
-  EXPECT_THROW(certify(above, wrong), NotConverged);
+  EXPECT_THROW(check_kkt(above, wrong), NotConverged);
 }
 
 TEST(KktOfBounds, ReportsCombinationsInTheirOwnUnits) {
@@ -1672,8 +1672,8 @@ TEST(ManyBounds, TheNestedStartIsMostOfTheContactSetAndLittleElse) {
   int found = 0, contact = 0, elsewhere = 0;
   for (int i = 0; i < problem.size(); ++i) {
     contact += active[i];
-    found += active[i] && is_held(start[i]);
-    elsewhere += !active[i] && is_held(start[i]);
+    found += active[i] && is_active(start[i]);
+    elsewhere += !active[i] && is_active(start[i]);
   }
   EXPECT_GE(3 * found, 2 * contact);                              // measured: 108 of 145
   EXPECT_LE(elsewhere, 5);                                        // measured: 2
@@ -1689,7 +1689,7 @@ TEST(ManyBounds, TheNestedStartHoldsNoBoundThatIsNotThere) {
     problem.lower.setZero();
     problem.lower(hole) = -infinity;
     const Pieces start = nested_start_of(problem);
-    EXPECT_FALSE(is_held(start[hole])) << hole;
+    EXPECT_FALSE(is_active(start[hole])) << hole;
     EXPECT_GT(std::count(start.begin(), start.end(), Piece::at_lower), 700) << hole;  // of 729
   }
 }

@@ -38,7 +38,7 @@ inline Table compare_solvers(const Method& method, const Space& space, const Exa
   };
   const auto checked = [&](Solution solution) {
     try {
-      certify(problem, solution);
+      check_kkt(problem, solution);
       return solution.warning.empty() ? "trusted" : "warned";
     } catch (const NotConverged&) {
       return "refused";

@@ -45,7 +45,7 @@ Answer conforming_answer(const Scene& scene, const Element& element, const std::
 /// Of an answer that locks: what is told of it, where the unknowns that would be needed are more than the limit. The
 /// error's square is at least twice what is lost, and lost over kept falls like h^2 for P1 and h^4 for P2. `counted`: the
 /// unknowns that the limit is about.
-std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate, const Accuracy& accuracy,
+std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate, const AccuracyGoal& accuracy,
                    int counted) {
   const auto report = report_layer(scene, answer.space, answer.problem, answer.solution);
   if (!report || report->warning.empty()) return "";
@@ -55,7 +55,7 @@ std::string locked(const Scene& scene, const Answer& answer, const Certificate& 
   return counted * times > accuracy.most_unknowns ? report->warning : "";
 }
 
-void check_request(const Accuracy& accuracy) {
+void check_request(const AccuracyGoal& accuracy) {
   if (accuracy.element->degree() > (accuracy.element->conforming() ? 2 : 1) || accuracy.element->per_triangle() > 0)
     throw Error("accuracy: element " + accuracy.element->name() + " is not accepted; accepted: CR, P1, P2");
   if (accuracy.element->conforming() && accuracy.of != Quantity::displacement)
@@ -116,7 +116,7 @@ Marking marking(const std::vector<Level>& history, int marks) {
 }
 
 /// `per_unknown`: unknowns of Crouzeix-Raviart, which the limit counts, per one of the element that was asked for.
-[[noreturn]] void refuse(const Accuracy& accuracy, const std::vector<Level>& history, double per_unknown,
+[[noreturn]] void refuse(const AccuracyGoal& accuracy, const std::vector<Level>& history, double per_unknown,
                          const std::string& why, bool converges = true) {
   const Level& last = history.back();
   const double reachable = of_norm(last.relative) * std::sqrt(per_unknown * last.unknowns / accuracy.most_unknowns);
@@ -147,7 +147,7 @@ std::set<std::pair<double, EdgeTag>> held_by(const TriangleMesh& mesh) {
 
 }  // namespace
 
-CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const Accuracy& accuracy,
+CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const AccuracyGoal& accuracy,
                            const std::function<void(const Level&)>& progress) {
   check_request(accuracy);
   if (first.curved())

@@ -12,7 +12,7 @@
 namespace antilock {
 
 /// What is asked: the proved relative error in the energy norm is at most `relative`.
-struct Accuracy {
+struct AccuracyGoal {
   double relative;  ///< in (0, 1)
   Quantity of =
       Quantity::displacement;  ///< or the stress field in the middle of the two fluxes: a quarter of the unknowns
@@ -54,7 +54,7 @@ struct CertifiedSolution {
 ///
 /// Throws Error for an accuracy outside (0, 1), another element, a limit that cannot hold the first mesh, a scene and a
 /// mesh that do not fit; NotConverged where the accuracy is not to be reached within the limit, with what is.
-CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const Accuracy& accuracy,
+CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const AccuracyGoal& accuracy,
                            const std::function<void(const Level&)>& progress = {});
 
 }  // namespace antilock

@@ -261,7 +261,7 @@ LostEnergy lost_energy(const Scene& scene, const Space& space, const Variational
   }
 
   for (int e = 0; e < mesh.edge_count(); ++e)
-    if (const EdgeTag tag = mesh.edge_tag[e]; group_of(tag) >= 0 && !is_held(tag) &&
+    if (const EdgeTag tag = mesh.edge_tag[e]; group_of(tag) >= 0 && !is_dirichlet(tag) &&
                                               mesh.region[mesh.edge_triangles(e, 0)] == Region::layer &&
                                               scene.edges()[group_of(tag)].kind != EdgeCondition::Kind::free)
       throw Error("lost energy: accepted: no traction and no spring on the layer");

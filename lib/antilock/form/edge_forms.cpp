@@ -60,7 +60,7 @@ Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::Vector
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e)) {
       on_sigma[v] += mesh.edge_tag[e] == EdgeTag::contact ? 1 : 0;
-      held[v] += is_held(mesh.edge_tag[e]) ? 1 : 0;
+      held[v] += is_dirichlet(mesh.edge_tag[e]) ? 1 : 0;
     }
   std::vector<double> ends;  // a single piece has two
   double height = NAN;

@@ -89,7 +89,7 @@ Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, b
     if (part->element().conforming()) continue;  // no steps
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const bool interior = mesh.edge_triangles(e, 1) >= 0;
-      const bool held = is_held(mesh.edge_tag[e]) && (clamped_in_x || part == &space.y);
+      const bool held = is_dirichlet(mesh.edge_tag[e]) && (clamped_in_x || part == &space.y);
       if (!interior && !held) continue;
       // |e|^-1 int_e of an affine function from s to -s squared: s^2 / 3; times 2 mu
       const auto step = jump(*part, first, e);

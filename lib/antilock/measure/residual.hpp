@@ -13,7 +13,7 @@ namespace antilock {
 /// top (consistency). `load`: L(phi_i). The stiff part is taken as the layer stress, so epsilon = 0 is no exception.
 /// `breaks`: the x where that stress jumps (the ends of contact); layer triangles across them are integrated by 1792
 /// points, the others by load_rule.
-Eigen::VectorXd exact_residual(const Space& space, const Eigen::VectorXd& load, const Reference& exact,
+Eigen::VectorXd consistency_residual(const Space& space, const Eigen::VectorXd& load, const Reference& exact,
                                const std::vector<double>& breaks);
 
 /// N values (u, phi_i)_h in the broken H1 product, by the rule that measure_errors uses: for projections of u.

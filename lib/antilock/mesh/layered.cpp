@@ -108,7 +108,7 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
     const EdgeTag tag = body.edge_tag[e];
     if (tag == EdgeTag::interior || tag == EdgeTag::contact) continue;
     tagged.push_back({from, to, tag});
-    if (is_held(tag)) side[from] = side[to] = tag;
+    if (is_dirichlet(tag)) side[from] = side[to] = tag;
   }
   std::vector<Bend> bend(along_normals ? triangles.size() : 0);
   for (const auto& [left, right] : columns) {

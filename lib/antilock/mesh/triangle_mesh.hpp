@@ -15,7 +15,7 @@ enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5, free = 6
 /// mesh to mesh moves them along.
 constexpr EdgeTag natural_group(int k) { return static_cast<EdgeTag>(10 + k); }
 constexpr EdgeTag held_group(int k) { return static_cast<EdgeTag>(1000 + k); }
-constexpr bool is_held(EdgeTag tag) { return tag == EdgeTag::clamped || tag >= held_group(0); }
+constexpr bool is_dirichlet(EdgeTag tag) { return tag == EdgeTag::clamped || tag >= held_group(0); }
 /// k, or -1 for a tag of no named group.
 constexpr int group_of(EdgeTag tag) {
   const int number = static_cast<int>(tag);

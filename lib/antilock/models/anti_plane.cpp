@@ -27,13 +27,13 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
           fmt::format("scene and mesh: the edge at {} is in the group {}, of which the scene says nothing; "
                       "accepted: a condition per group",
                       mesh.place(mesh.edges(e, 0)), k));
-    if (k >= 0 && is_held(tag) != (scene.edges()[k].kind == Kind::displacement))
+    if (k >= 0 && is_dirichlet(tag) != (scene.edges()[k].kind == Kind::displacement))
       throw Error("scene and mesh: the group " + scene.edges()[k].group +
                   " is held in one of the two alone; accepted: held_group for a displacement, natural_group else");
   }
   const int loose = loose_triangle(mesh, [&](int e) {
     const int k = group_of(mesh.edge_tag[e]);
-    return is_held(mesh.edge_tag[e]) || (k >= 0 && scene.edges()[k].kind == Kind::spring);
+    return is_dirichlet(mesh.edge_tag[e]) || (k >= 0 && scene.edges()[k].kind == Kind::spring);
   });
   if (loose >= 0 && is_whole(mesh))
     throw Error("scene and mesh: nothing holds the piece of the mesh at " + mesh.place(mesh.triangles(loose, 0)) +

@@ -25,7 +25,7 @@ std::map<int, double> held(const Plate& plate, const PlateSpace& space) {
   hold(space.rotation.x, space.theta_x(), plate.rim_slope_x);
   hold(space.rotation.y, space.theta_y(), plate.rim_slope_y);
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (!is_held(mesh.edge_tag[e])) continue;
+    if (!is_dirichlet(mesh.edge_tag[e])) continue;
     const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
     const Eigen::RowVector2d middle = (a + b) / 2, along = (b - a).normalized();
     const auto curve = [&](const Field& f) {  // Simpson's mean minus the mean of the ends
@@ -44,7 +44,7 @@ std::map<int, double> held(const Plate& plate, const PlateSpace& space) {
 void require_rim_above(const Plate& plate, const TriangleMesh& mesh) {
   const auto gap = [&](int corner) { return plate.gap(mesh.vertices(corner, 0), mesh.vertices(corner, 1)); };
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    if (!is_held(mesh.edge_tag[e])) continue;
+    if (!is_dirichlet(mesh.edge_tag[e])) continue;
     double around = 0;
     for (const int corner : mesh.triangles.row(mesh.edge_triangles(e, 0)))
       if (const double size = std::abs(gap(corner)); std::isfinite(size)) around = std::max(around, size);

@@ -41,7 +41,7 @@ class IteratedPenalty {
       const double largest = u_.high.lpNorm<Eigen::Infinity>(), moved = du.lpNorm<Eigen::Infinity>();
       if (correction == 0) s_.moderate = largest;
       const double rho = rate(moved), next = std::max(rho * moved, acceleration_.next_companion_step());
-      Accuracy now = accuracy(problem_, u_, next, left_of_r2_, rho, s_.moderate, options_);
+      ForwardError now = accuracy(problem_, u_, next, left_of_r2_, rho, s_.moderate, options_);
       // what is left of a load that a bound can hardly bear is seen by the second residual, and not by the first
       if (correction == 0 && moved > 0 && problem_.force_bound.size() > 0) now.error = 1;
       s_.history.push_back(largest > 0 ? moved / largest : 0);
@@ -76,7 +76,7 @@ class IteratedPenalty {
     u_ += du;
     const Eigen::VectorXd v = contact_.v.tail(stairs.count());
     for (int i = 0; i < stairs.count(); ++i)  // what is held stands where its bound is, to the last digit
-      if (const Piece piece = contact_.pieces[i]; is_held(piece) && v(i) == stairs.given(i, piece))
+      if (const Piece piece = contact_.pieces[i]; is_active(piece) && v(i) == stairs.given(i, piece))
         u_.set(contact[i], piece == Piece::at_lower ? problem_.lower(i) : problem_.upper(i));
     if (p_.size() == 0) return du;
     const Eigen::VectorXd dp = (problem_.b * du - r.r2) / delta;
@@ -146,7 +146,7 @@ class IteratedPenalty {
 
   /// u, p and lambda of the last correction, with its error and the judge's doubt. Throws NotConverged where the last
   /// correction is not small enough.
-  Solution finished(const Accuracy& now) {
+  Solution finished(const ForwardError& now) {
     if (!now.within(options_.tolerance))
       throw NotConverged(fmt::format("{}: not converged, or infeasible: after {} corrections the estimated relative "
                                      "error of u is {:.1e}, accepted {:.0e}, and compliance p = B u holds to {:.1e} "
@@ -158,7 +158,7 @@ class IteratedPenalty {
     s_.counters.solves = s_.counters.corrections + 1;
     s_.seconds.analyse = factor_.analyse_seconds();
     s_.seconds.factor = factor_.factor_seconds();
-    for (const Piece piece : contact_.pieces) s_.active.push_back(is_held(piece));
+    for (const Piece piece : contact_.pieces) s_.active.push_back(is_active(piece));
     s_.pieces = std::move(contact_.pieces);
     s_.u = std::move(u_.high);
     s_.p = std::move(p_.high);
@@ -194,7 +194,7 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   answer.p.conservativeResize(problem.b.rows());
   answer.lambda = tied.forces(std::move(answer.lambda));
   if (answer.error > 0) answer.error = answer.error / answer.u.lpNorm<Eigen::Infinity>() + tuned::eps / 2;
-  certify(problem, answer, {.refused = options.refused()});
+  check_kkt(problem, answer, {.refused = options.refused()});
   return answer;
 }
 

@@ -25,7 +25,7 @@ Equilibrium equilibrium(ContactSystem& system, const Stairs& stairs, const Piece
   std::vector<char> held(pieces.size());
   Eigen::VectorXd given(stairs.count());
   for (int i = 0; i < stairs.count(); ++i) {
-    held[i] = is_held(pieces[i]) ? 1 : 0;
+    held[i] = is_active(pieces[i]) ? 1 : 0;
     given(i) = stairs.given(i, pieces[i]);
   }
   return system.solve(held, given);
@@ -36,7 +36,7 @@ std::vector<Move> moves(const Stairs& stairs, const Pieces& pieces, const Equili
                         const std::vector<int>& place, bool held) {
   std::vector<Move> moves;
   for (int i = 0; i < stairs.count(); ++i) {
-    if (is_held(pieces[i]) != held) continue;
+    if (is_active(pieces[i]) != held) continue;
     const double value = held ? now.lambda(i) : now.v(place[i]);
     const auto [low, high] = stairs.found(i, pieces[i]);
     const double noise = held ? now.round_off(i) : 0;

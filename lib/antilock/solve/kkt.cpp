@@ -140,7 +140,7 @@ double worst_violation(const Kkt& kkt) {
   return finite ? worst : unbounded;
 }
 
-void certify(const VariationalInequality& problem, Solution& solution, const TrustLevels& levels) {
+void check_kkt(const VariationalInequality& problem, Solution& solution, const TrustLevels& levels) {
   solution.kkt = kkt_report(problem, solution);
   require_trusted(solution, levels);
 }

@@ -48,7 +48,7 @@ struct TrustLevels {
 double worst_violation(const Kkt& kkt);
 
 /// Fills solution.kkt and solution.warning; throws NotConverged where the report is above `refused` or not finite.
-void certify(const VariationalInequality& problem, Solution& solution, const TrustLevels& levels = {});
+void check_kkt(const VariationalInequality& problem, Solution& solution, const TrustLevels& levels = {});
 /// The second half of it: judges the report that the solution carries.
 void require_trusted(Solution& solution, const TrustLevels& levels = {});
 

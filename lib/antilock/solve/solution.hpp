@@ -38,7 +38,7 @@ struct Solution {
   Eigen::VectorXd lambda;    ///< C contact forces, one per bound (a force; measure/ turns it to a density): >= 0 at a
                              ///< lower bound, <= 0 at an upper one
   Pieces pieces;             ///< C: the piece of its stair that each bound is on; empty where the solver knows none
-  std::vector<bool> active;  ///< C: in contact, with either bound: is_held(pieces[i])
+  std::vector<bool> active;  ///< C: in contact, with either bound: is_active(pieces[i])
   double moderate = 0;       ///< largest |u| with the moderate penalty in place of the compliance: the size of u before
                              ///< it locks, where it is known (0: it is not)
   /// Forward error of u in the maximum norm, relative to the largest |u|; 0: none is claimed, or there was nothing left

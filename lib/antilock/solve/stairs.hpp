@@ -25,7 +25,7 @@ enum class Piece : signed char { below = -2, at_lower = -1, between = 0, at_uppe
 using Pieces = std::vector<Piece>;
 
 /// Whether v is given there.
-inline bool is_held(Piece piece) { return piece == Piece::at_lower || piece == Piece::at_upper; }
+inline bool is_active(Piece piece) { return piece == Piece::at_lower || piece == Piece::at_upper; }
 
 /// C stairs. A bound from below, two bounds, an equation, friction: each is a list of the pieces above that it has.
 struct Stairs {
@@ -47,13 +47,13 @@ struct Stairs {
 
   /// What `piece` gives: v where it holds, else lambda - force.
   double given(int i, Piece piece) const {
-    if (is_held(piece)) return piece == Piece::at_lower ? lower(i) : upper(i);
+    if (is_active(piece)) return piece == Piece::at_lower ? lower(i) : upper(i);
     return whole_force(i, piece, 0) - so_far(i);
   }
 
   /// The whole lambda: the force so far and `found` where v is held, else what the piece gives, to the last digit.
   double whole_force(int i, Piece piece, double found) const {
-    if (is_held(piece)) return so_far(i) + found;
+    if (is_active(piece)) return so_far(i) + found;
     return piece == Piece::below ? most(i) : piece == Piece::above ? -most(i) : 0;
   }
 
@@ -78,7 +78,7 @@ struct Stairs {
   Piece next(int i, Piece piece, bool up) const {
     // v rises and lambda falls: a piece without an end that way is the last one
     const auto [low, high] = found(i, piece);
-    if (!std::isfinite(is_held(piece) == up ? low : high))
+    if (!std::isfinite(is_active(piece) == up ? low : high))
       throw Error(
           fmt::format("contact: stair {} ends with piece {}; there is none beyond", i, static_cast<int>(piece)));
     if (is_equation(i)) return piece != Piece::at_lower ? Piece::at_lower : up ? Piece::above : Piece::below;
@@ -94,10 +94,10 @@ struct Stairs {
       Piece& piece = asked[i];
       const bool low = std::isfinite(lower(i)), high = std::isfinite(above(i)), gives_way = std::isfinite(most(i));
       if (gives_way && ((piece == Piece::below && low) || (piece == Piece::above && high))) continue;
-      if (is_equation(i) || (is_held(piece) && low && !(piece == Piece::at_upper && high)))
+      if (is_equation(i) || (is_active(piece) && low && !(piece == Piece::at_upper && high)))
         piece = Piece::at_lower;
       else
-        piece = is_held(piece) && high ? Piece::at_upper : Piece::between;
+        piece = is_active(piece) && high ? Piece::at_upper : Piece::between;
     }
     return asked;
   }

@@ -31,7 +31,7 @@ Space::Space(const TriangleMesh& mesh, const Element& element) : mesh_(&mesh), e
   }
 
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    const bool held = is_held(mesh.edge_tag[e]);
+    const bool held = is_dirichlet(mesh.edge_tag[e]);
     if (!held && mesh.edge_tag[e] != EdgeTag::contact) continue;
     auto& marked = held ? on_clamped : on_contact;
     for (int k = 0; k < per_edge; ++k) marked[first_edge + per_edge * e + k] = 1;

@@ -50,7 +50,7 @@ Eigen::VectorXd prescribed(const SceneFile& file, const TriangleMesh& mesh) {
   Eigen::VectorXd values = Eigen::VectorXd::Constant(mesh.vertex_count(), NAN);
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
-      if (is_held(mesh.edge_tag[e])) values(v) = given(v);
+      if (is_dirichlet(mesh.edge_tag[e])) values(v) = given(v);
   return values;
 }
 
