@@ -1,9 +1,7 @@
-# The room lib/antilock/distributed: PETSc over MPI, where it is asked for or found. Where it is built, there is a target
+# The module lib/antilock/distributed: PETSc over MPI, where it is asked for or found. Where it is built, there is a target
 # antilock::distributed.
-find_package(PkgConfig QUIET)
-if(ANTILOCK_DISTRIBUTED AND PkgConfig_FOUND)
-  pkg_check_modules(PETSc QUIET IMPORTED_TARGET GLOBAL PETSc>=3.18)
-  find_package(MPI QUIET COMPONENTS CXX)
+if(ANTILOCK_DISTRIBUTED)
+  include(cmake/find_petsc.cmake)
 endif()
 if(NOT (PETSc_FOUND AND MPI_CXX_FOUND))
   if(ANTILOCK_DISTRIBUTED AND NOT ANTILOCK_DISTRIBUTED STREQUAL "AUTO")
@@ -16,15 +14,11 @@ endif()
 set_target_properties(MPI::MPI_CXX PROPERTIES IMPORTED_GLOBAL TRUE)
 message(STATUS "PETSc over MPI: built with PETSc ${PETSc_VERSION}")
 
-# Debian's own flags for the hardening of its packages, which are no part of PETSc's interface: with them GCC refuses the
-# precompiled header
-set_target_properties(PkgConfig::PETSc PROPERTIES INTERFACE_COMPILE_OPTIONS "")
-
 file(GLOB distributed_sources CONFIGURE_DEPENDS antilock/distributed/*.cpp antilock/distributed/detail/*.cpp)
 add_library(antilock_distributed STATIC ${distributed_sources})
 add_library(antilock::distributed ALIAS antilock_distributed)
-target_link_libraries(antilock_distributed PUBLIC antilock PkgConfig::PETSc MPI::MPI_CXX PRIVATE antilock_warnings)
+set_target_properties(antilock_distributed PROPERTIES EXPORT_NAME distributed)
+target_link_libraries(antilock_distributed PUBLIC antilock PkgConfig::PETSc MPI::MPI_CXX
+                      PRIVATE $<BUILD_INTERFACE:antilock_warnings>)
 # MPI's C++ interface is not used, and its header is not free of warnings
 target_compile_definitions(antilock_distributed PUBLIC OMPI_SKIP_MPICXX MPICH_SKIP_MPICXX)
-set_target_properties(antilock_distributed PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
-target_precompile_headers(antilock_distributed REUSE_FROM antilock_precompiled)

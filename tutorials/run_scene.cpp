@@ -85,7 +85,7 @@ Written to the results folder: summary.json; solution.csv (x,y,u; in plane strai
 with friction a column of that name: the tangential force per length), where
 gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it; parts of the body that [body] names are one group there);
 solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
-build/figures/render surface DIR/solution.vtu --out picture.png (of a mesh from a file: render plan, in plane strain: render deformed)
+build/bin/render surface DIR/solution.vtu --out picture.png (of a mesh from a file: render plan, in plane strain: render deformed)
 In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file or of the last mesh of an accuracy, the layer of depth 1 included; seconds are wall seconds, which add up to total;
 blas is the library of dense linear algebra, its kernels and threads (where OpenBLAS does not know the CPU and falls
 back to old kernels, the program starts again with wider ones, and with memory in large pages where Linux gives them to
@@ -187,7 +187,7 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
                file.elastic            ? "deformed"
                : file.mesh.from_file() ? "plan"
                                        : "surface",
-               tutorial::beside("render", "figures"));
+               tutorial::beside("render"));
   if (found.history.empty())
     fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,
                summary.u_max, summary.contact_steps, summary.corrections, asked.out.string());

@@ -200,7 +200,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
       solved.unknowns.back(), solved.last.corrections, solved.last.linear_iterations, out.string());
   if (dist::ranks() == 1)
     fmt::print("  a picture of it: {1} surface {0}_0.vtu --out {0}.png\n", (out / "solution").string(),
-               tutorial::beside("render", "figures"));
+               tutorial::beside("render"));
 }
 
 int fail(const std::string& message, int status) {

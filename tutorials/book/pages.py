@@ -209,7 +209,7 @@ class Book:
         commands, here = [command for command, _ in page.runs], runs_in_the_page(source.read_text())
         missing = [command for command in commands if here and command not in self.takes]
         if missing:
-            self.complain(f"{stem}.cpp: {missing[0]} has no row in wasm/runs.csv; tutorials/book/wasm/measure build/tutorials writes it")
+            self.complain(f"{stem}.cpp: {missing[0]} has no row in wasm/runs.csv; tutorials/book/wasm/measure build/bin writes it")
         if here and commands:
             out += self.console(stem, commands[0])
             body, commands = with_exercises(body, commands, self.takes)

@@ -100,12 +100,10 @@ void become(const std::string& program, char** argv) {
   execv((program.empty() ? self() : self().parent_path() / program).c_str(), argv);
 }
 
-std::string beside(const std::string& program, const std::string& folder) {
+std::string beside(const std::string& program) {
   std::error_code ignored;
-  const std::filesystem::path here = self().parent_path();
-  for (const auto& path : {here / program, here.parent_path() / folder / program})
-    if (std::filesystem::exists(path, ignored)) return path.string();
-  return program;
+  const std::filesystem::path path = self().parent_path() / program;
+  return std::filesystem::exists(path, ignored) ? path.string() : program;
 }
 
 std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent) {

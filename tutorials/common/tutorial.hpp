@@ -88,9 +88,8 @@ void choose_machine(char** argv);
 /// Returns where there is none.
 void become(const std::string& program, char** argv);
 
-/// The path of a program that is installed beside this one, or built in that folder of the same build; its bare name
-/// where there is none.
-std::string beside(const std::string& program, const std::string& folder);
+/// The path of a program that stands in the folder of this one; its bare name where there is none.
+std::string beside(const std::string& program);
 
 /// Parses the command line, runs `body` or the exercise asked for, and turns the outcome into an exit status: 0 all
 /// claims hold, 1 one fails, 2 bad input (one line on standard error), 3 a solver did not converge (one line that says

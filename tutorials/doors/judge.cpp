@@ -246,7 +246,7 @@ int judge(int argc, char** argv) {
     }
   }
   const Solution own = active_set(problem);
-  const CertifiedSolution certified = solve_to(file.scene, mesh, Accuracy{accuracy});
+  const CertifiedSolution certified = solve_to(file.scene, mesh, AccuracyGoal{accuracy});
   const Bound bound = space->element().conforming()
                           ? conforming_bound(file.scene, *space, problem, v.u, certified.certificate.energy_lower)
                           : nonconforming_bound(file.scene, *space, problem, v.u, own);

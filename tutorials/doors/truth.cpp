@@ -146,7 +146,7 @@ std::vector<int> stress_rows(const TriangleMesh& mesh) {
 }
 
 CertifiedSolution certified(const SceneFile& file, double accuracy) {
-  return solve_to(file.scene, make_mesh(file), Accuracy{accuracy, Quantity::displacement, file.method.most_unknowns});
+  return solve_to(file.scene, make_mesh(file), AccuracyGoal{accuracy, Quantity::displacement, file.method.most_unknowns});
 }
 
 int truth(int argc, char** argv) {

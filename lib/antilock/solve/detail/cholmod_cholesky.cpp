@@ -10,8 +10,11 @@
 #include "antilock/solve/detail/tuned.hpp"
 
 // Of the OpenMP library that CHOLMOD is linked to; the <omp.h> that a compiler finds may be that of another.
-extern "C" int omp_get_max_active_levels();
-extern "C" void omp_set_max_active_levels(int levels);
+// Declared here, and absent where CHOLMOD was built without OpenMP: the addresses are null then.
+extern "C" {
+[[gnu::weak]] int omp_get_max_active_levels();
+[[gnu::weak]] void omp_set_max_active_levels(int levels);
+}
 
 namespace antilock {
 namespace {
@@ -70,10 +73,11 @@ class CholmodCholesky final : public SparseCholesky {
     // one thread, the least wall seconds of a factor on two cores (P1, the membrane with its layer): 5.5 against 6.7 ms
     // at 1/h = 64, 31 against 39 at 128; where other programs want the cores as well, the four cost up to ten times the
     // factor.
-    const int levels = omp_get_max_active_levels();
-    omp_set_max_active_levels(0);
+    const bool has_openmp = omp_get_max_active_levels && omp_set_max_active_levels;
+    const int levels = has_openmp ? omp_get_max_active_levels() : 0;
+    if (has_openmp) omp_set_max_active_levels(0);
     cholmod_factorize(&whole, l_, &common_);
-    omp_set_max_active_levels(levels);
+    if (has_openmp) omp_set_max_active_levels(levels);
     require(common_.status >= CHOLMOD_OK, "factorisation");
     smallest_pivot_ = 0;
     if (common_.status == CHOLMOD_NOT_POSDEF) return order()(static_cast<int>(l_->minor));

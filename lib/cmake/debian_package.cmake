@@ -1,0 +1,23 @@
+# cpack -G DEB (in the build folder): one package with the programs, the library and its headers. What the programs load is
+# found by dpkg-shlibdeps; what a user's own program is compiled and linked with is named here.
+set(CPACK_PACKAGE_NAME antilock)
+set(CPACK_PACKAGE_CONTACT "The Antilock authors")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Numerical locking in variational inequalities: library and programs")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION math)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(packages libeigen3-dev libsuitesparse-dev libopenblas-dev libfftw3-dev libtomlplusplus-dev libfmt-dev)
+# gmsh's library is loaded by name when the first mesh is made, and so dpkg-shlibdeps does not see it
+file(REAL_PATH ${Gmsh_LIBRARY} gmsh)
+execute_process(COMMAND dpkg-query -S ${gmsh} OUTPUT_VARIABLE owner ERROR_QUIET)
+if(owner MATCHES "^([a-z0-9.+-]+)")
+  list(APPEND packages ${CMAKE_MATCH_1})
+endif()
+if(TARGET render)
+  list(APPEND packages fonts-stix)
+  set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "xvfb, xauth")
+endif()
+list(JOIN packages ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
+include(CPack)
