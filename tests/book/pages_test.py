@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The book of a small repository of three chapters: their order, where the live figures stand, and what must stop the build.
 Each fault is put into a copy of its own, and the build must name it. Run: pages_test.py [unittest's options]"""
+import html
 import re
 import shutil
 import subprocess
@@ -83,6 +84,13 @@ int main() {}
 """,
 }
 EXAMPLE = "TEST(SolveTo, TakesTheVentcelLayerForTheRigidLimit) {\n  solve_to();\n}\nTEST(SolveTo, Other) {\n}\n"
+CAPTION = 'A string (a "cable"), before, and after: 1 < 2.'
+
+
+def entry(image, chapter, caption):
+    """An entry of figures/table.toml."""
+    return (f"[[picture]]\nimage = '{image}'\nchapters = ['{chapter}']\nrender = ['plan']\n"
+            f"caption = '''{caption}'''\n")
 
 
 def small_repository(root):
@@ -115,9 +123,10 @@ def small_repository(root):
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{still}.png")
     for picture in ("ties", "first"):
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{picture}.png")
-    (root / "figures/table.csv").write_text(
-        "image,figure,tutorial,freefem,render,caption\nstring,,00_start,,,A string\n"
-        "first,,27_later,,,The first\nties,,27_later,,,The ties\ntop,,27_later,,,On top\n".replace("top,", "hero,"))
+    shutil.copy(ROOT / "figures/table.py", root / "figures")
+    (root / "figures/table.toml").write_text(
+        entry("string", "00_start", CAPTION) + entry("first", "27_later", "The first.") +
+        entry("ties", "27_later", "The ties.") + entry("hero", "27_later", "On top."))
     (root / "results/logs").mkdir(parents=True)
     (root / "results/logs/27_later.log").write_text("27_later: a run\n\n  two rows of it\na  1\nb  2\n\nVERDICT holds: all\n")
     for script in ("live.js", "live_data.js", "meshes_data.js"):
@@ -202,6 +211,14 @@ class Pages(unittest.TestCase):
         self.assertEqual(self.page("27_later").count("{figure}"), 4)
         self.assertEqual(self.page("27_later").count("two rows of it"), 2)  # there, and in all that it printed
 
+    def test_a_caption_and_its_alternative_text_keep_every_sign(self):
+        page = self.page("00_start", "html", "book")
+        alt = next(tag for tag in re.findall(r"<img [^>]*>", page) if "images/string" in tag)
+        self.assertIn(CAPTION, html.unescape(alt))
+        shown = re.search("<figcaption>(.*?)</figcaption>", page, re.S)[1]
+        shown = html.unescape(re.sub("<[^>]*>", "", shown))
+        self.assertIn(CAPTION, shown.translate(str.maketrans("“”", '""')))  # Sphinx sets quotes
+
     # ---- references
 
     def test_the_first_use_of_a_term_leads_to_its_line(self):
@@ -280,15 +297,19 @@ class Pages(unittest.TestCase):
         for says, file, line in (
                 ("unknown link", chapter, "// [nowhere](no_such_file.cpp)"),
                 ("chapter 98 does not exist", chapter, "// As chapter 98 says."),
-                ("figures/images/none.png is missing", "figures/table.csv", "none,,00_start,,,A picture"),
+                ("figures/images/none.png is missing", "figures/table.toml",
+                 entry("none", "00_start", "A picture.")),
+                ("picture 5 (more): unknown chapter 28_more", "figures/table.toml",
+                 entry("more", "28_more", "Another.")),
                 ("00_start.cpp: :live: tree: tree is unknown; accepted: locking", chapter, "// :live: tree"),
                 ("mesh=round is no setting of locking; accepted: mesh=structured|", chapter, "// :live: mesh=round"),
                 ("cells=9 is no setting of string; accepted: none", "tutorials/27_later.cpp", "// :live: string cells=9"),
                 ("a page holds one figure of a kind", chapter, "// :live: string"),
                 ("tutorials: `ε ≥ 0`: a formula stands between dollars", chapter, "// For `ε ≥ 0`."),
-                (":figure: tree: no picture of figures/table.csv", chapter, "// :figure: tree"),
+                (":figure: tree: no picture of figures/table.toml", chapter, "// :figure: tree"),
                 ("27_later.cpp: :figure: ties: it stands on the page already", "tutorials/27_later.cpp", "// :figure: ties"),
-                ("27_later.cpp: no line places the picture more", "figures/table.csv", "more,,27_later,,,Another"),
+                ("27_later.cpp: no line places the picture more", "figures/table.toml",
+                 entry("more", "27_later", "Another.")),
                 ("27_later.cpp: :output: three: no line of", "tutorials/27_later.cpp", "// :output: three"),
                 ('step "Dance"', "freefem/00_start.edp", "// ### Dance")):
             with self.subTest(line=line):

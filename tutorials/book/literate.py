@@ -5,7 +5,7 @@
 - `### Solve` in the C++ finds `// ### Solve` in the FreeFEM twin, which is folded under it.
 - `Run: COMMAND    what it does` lines become a table with buttons; includes are folded away.
 - `:live: string` places a live figure, `:live: mesh=layered cells=32` the one of P1 and Crouzeix-Raviart with its settings.
-- `:figure: NAME ...` places pictures of figures/table.csv, `:output:` what the program printed: pages.py puts them in.
+- `:figure: NAME ...` places pictures of figures/table.toml, `:output:` what the program printed: pages.py puts them in.
 """
 import html
 import re

@@ -4,7 +4,6 @@
 --without-runs leaves out what a run would have printed, where it has not run; --draft, for who writes a chapter, says what
 is wrong and goes on.
 """
-import csv
 import json
 import os
 import re
@@ -24,6 +23,9 @@ from links import linked, term_anchor
 from runs import expected
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "figures"))
+from table import TableError, read as read_table  # noqa: E402
+
 PARTS = [("What an inequality is", 0, 3), ("The paper's figures", 4, 9), ("The theory", 10, 17),
          ("What accuracy costs", 18, 24), ("The class", 25, 99)]
 EXTRA = ["howto_scene", "howto_matrices", "howto_python", "lab", "dataset", "uniform_rate", "errata", "glossary", "notation"]
@@ -35,7 +37,7 @@ class Book:
         self.out, self.draft, self.without_runs = out, draft, without_runs
         self.sources = sorted(path for path in (ROOT / "tutorials").glob("[0-9][0-9]_*.cpp"))
         self.names = [path.stem for path in self.sources]
-        self.table = list(csv.DictReader((ROOT / "figures/table.csv").open()))
+        self.table = read_table()
         self.library = Library(ROOT / "lib")
         self.pages, self.equations = {}, {}  # by tag: the chapter that has the equation first
         self.takes = defaultdict(lambda: "seconds", expected())
@@ -105,10 +107,10 @@ class Book:
         path = self.picture(row["image"])
         if path is None:
             return []
-        title = f"**Figure {row['figure']} of the paper.** " if row["figure"] else ""
-        alt = row["caption"].replace('"', "'")
-        return [f"```{{figure}} {path}", f":alt: \"{alt}\"", ":figclass: picture", f":target: _images/{row['image']}.webp",
-                *([] if eager else [":class: lazy"]), "", title + signs(row["caption"].rstrip(".")) + ".", "```", ""]
+        title = f"**Figure {row['figure']} of the paper.** " if "figure" in row else ""
+        alt = json.dumps(row["caption"], ensure_ascii=False)  # a quoted text of YAML
+        return [f"```{{figure}} {path}", f":alt: {alt}", ":figclass: picture", f":target: _images/{row['image']}.webp",
+                *([] if eager else [":class: lazy"]), "", title + signs(row["caption"]), "```", ""]
 
     # ---- pages
 
@@ -157,7 +159,7 @@ class Book:
         return re.sub(r"([\\`*_\[\]<>$^|#])", r"\\\1", text)
 
     def pictures_of(self, stem):
-        return [row for row in self.table if stem in row["tutorial"].split()]
+        return [row for row in self.table if stem in row["chapters"]]
 
     def placed(self, lines, stem):
         """The page with the pictures and the output that its lines place: (lines, names of these pictures, all of the output?)."""
@@ -180,7 +182,7 @@ class Book:
     def shot(self, stem, name, before):
         row = next((row for row in self.table if row["image"] == name), None)
         if row is None:
-            self.complain(f"{stem}.cpp: :figure: {name}: no picture of figures/table.csv")
+            self.complain(f"{stem}.cpp: :figure: {name}: no picture of figures/table.toml")
         if name in before:
             self.complain(f"{stem}.cpp: :figure: {name}: it stands on the page already")
         return row
@@ -202,7 +204,7 @@ class Book:
         body, names, output = self.placed(self.linked(page.body, source.parent, terms=self.terms), stem)
         shots = [row for row in self.pictures_of(stem) if row["image"] not in names]
         if names:
-            shots = [row for row in shots if row["tutorial"] == stem]  # one of two chapters may leave their picture to the other
+            shots = [row for row in shots if row["chapters"] == [stem]]  # one of two chapters may leave their picture to the other
         if names and len(shots) > 1:
             self.complain(f"{stem}.cpp: no line places the picture {shots[1]['image']}; accepted: :figure: {shots[1]['image']}")
         out = [f"# {stem[:2]} {page.title}", "", *self.relations(stem)]
@@ -271,7 +273,7 @@ class Book:
     def gallery(self):
         out = ["# Gallery", "", "Every picture, and the chapter that makes it.", ""]
         for row in self.table:
-            chapters = [f"[{self.pages[name].title}]({name}.md)" for name in row["tutorial"].split() if name in self.pages]
+            chapters = [f"[{self.pages[name].title}]({name}.md)" for name in row["chapters"] if name in self.pages]
             picture = self.figure(row)
             if not picture:
                 continue
@@ -334,5 +336,5 @@ class Book:
 if __name__ == "__main__":
     try:
         Book(Path(sys.argv[1]).resolve(), "--draft" in sys.argv[2:], "--without-runs" in sys.argv[2:]).make()
-    except BookError as error:
+    except (BookError, TableError) as error:
         sys.exit(f"book: {error}")
