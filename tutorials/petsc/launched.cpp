@@ -24,13 +24,6 @@ const std::vector<std::string> columns{"what",        "ranks",      "cells", "ep
                                        "corrections", "iterations", "most",  "seconds", "megabytes",
                                        "u_max",       "u_min",      "reason"};
 
-/// One machine: no network is looked for; root may start ranks, and more of them than there are cores, which then give
-/// way to each other while they wait. Ranks are not bound: one that shares its core with another program would hold up
-/// all of them.
-constexpr auto environment =
-    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-    "OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_pml=ob1 OMPI_MCA_btl=self,vader OPENBLAS_NUM_THREADS=1";
-
 }  // namespace
 
 std::optional<int> answer_as_rank(int argc, char** argv, const std::function<Ended(const Asked&)>& solve) {
@@ -54,8 +47,9 @@ std::optional<int> answer_as_rank(int argc, char** argv, const std::function<End
 Table on_ranks(const Asked& asked) {
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   const bool crowded = asked.ranks > static_cast<int>(std::thread::hardware_concurrency());
+  // MPI_ENVIRONMENT: lib/cmake/mpi_environment.cmake. Where there are more ranks than cores, one that waits gives way.
   const std::string command =
-      fmt::format("{} OMPI_MCA_mpi_yield_when_idle={} mpiexec -n {} '{}' {} '{}' {} {}", environment, crowded ? 1 : 0,
+      fmt::format(MPI_ENVIRONMENT " OMPI_MCA_mpi_yield_when_idle={} mpiexec -n {} '{}' {} '{}' {} {}", crowded ? 1 : 0,
                   asked.ranks, self, flag, asked.what, asked.cells, asked.epsilon);
   FILE* pipe = ::popen(command.c_str(), "r");
   std::string answer;

@@ -26,13 +26,8 @@ std::string scene_text(const std::string& solver, const std::string& kind, const
          element + "\"\nsolver = \"" + solver + "\"\n" + method;
 }
 
-/// Root may start ranks, and more of them than there are cores; unbound they share them with whatever else runs. One
-/// machine: no network is looked for, and nobody waits a second for ranks that have ended.
-std::string environment() {
-  return "env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 "
-         "OMPI_MCA_hwloc_base_binding_policy=none OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_pml=ob1 "
-         "OMPI_MCA_btl=self,vader OMPI_MCA_odls_base_sigkill_timeout=0 OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1 ";
-}
+/// lib/cmake/mpi_environment.cmake says why; ranks that wait give way to whatever else runs.
+constexpr auto environment = "env " MPI_ENVIRONMENT " OMPI_MCA_mpi_yield_when_idle=1 ";
 
 /// A scene and its runs, on as many ranks as asked: 0 is without mpiexec.
 class Runs {
@@ -40,7 +35,7 @@ class Runs {
   explicit Runs(const std::string& scene) { std::ofstream(folder / "scene.toml", std::ios::binary) << scene; }
   fs::path results(const std::string& name) const { return folder / name; }
   std::string command(int ranks, const std::string& name, const std::string& options = "") const {
-    const std::string launch = ranks > 0 ? environment() + MPIEXEC " -n " + std::to_string(ranks) + " " : "";
+    const std::string launch = ranks > 0 ? std::string(environment) + MPIEXEC " -n " + std::to_string(ranks) + " " : "";
     return launch + in_shell(RUN_SCENE) + " " + in_shell(folder / "scene.toml") + " --out " +
            in_shell(results(name).string()) + " " + options + " >" + in_shell(folder / "out") + " 2>" +
            in_shell(folder / "err");
