@@ -27,14 +27,16 @@ pygments_dark_style = "github-dark"
 
 
 def repair(app, error):
-    """Debian's furo was rebuilt without its tools, and lost three things on the way (bookworm, 2022.12.07+dfsg-1): its
-    script imports but is no module, its style asks the web server for normalize.css, "auto" is never dark."""
+    """Debian's furo was rebuilt without its tools, and lost three things on the way: its script imports but is no
+    module, its style asks the web server for normalize.css (bookworm alone), "auto" is never dark."""
     static = Path(app.outdir) / "_static"
     script, style = static / "scripts/furo.js", static / "styles/furo.css"
-    if error is None and app.builder.format == "html" and script.read_text().startswith("import Gumshoe"):
+    if error is None and app.builder.format == "html" and re.match("import .*Gumshoe", script.read_text()):
         script.write_text((static / "scripts/gumshoe-patched.js").read_text() + script.read_text().split("\n", 1)[1])
-        (static / "styles/normalize.css").write_text(Path("/usr/share/nodejs/normalize.css/normalize.css").read_text())
-        css = style.read_text().replace("/javascript/normalize.css/normalize.css", "normalize.css")
+        asked, css = "/javascript/normalize.css/normalize.css", style.read_text()
+        if asked in css:
+            (static / "styles/normalize.css").write_text(Path("/usr/share/nodejs/normalize.css/normalize.css").read_text())
+            css = css.replace(asked, "normalize.css")
         dark = re.search(r'body\[data-theme="dark"\] (\{.*?\})', css, re.S)[1]
         style.write_text(css + '@media not print { @media (prefers-color-scheme: dark) { body:not([data-theme="light"]) ' + dark + "} }\n")
 
