@@ -7,6 +7,8 @@
 #include "antilock/core/detail/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/truth.hpp"
+#include "antilock/mesh/detail/cut_out.hpp"
+#include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/msh_file.hpp"
 #include "antilock/space/space.hpp"
 #include "scenes/runner.hpp"
@@ -302,21 +304,37 @@ TEST(Warnings, ALayerSoSoftAlongXThatCrouzeixRaviartIsWrongInItIsNamed) {
   }
 }
 
+/// The share of the energy that the layer's motion releases which P1 loses on an unstructured mesh, by two more solves: on
+/// the same body with a layer in columns, and at epsilon = 0, where P1 holds the layer still. 31 % by gmsh 4.8.
+double lost_by_p1(int cells, double epsilon) {
+  const TriangleMesh mesh = unstructured_mesh(cells), columns = extruded(body_of(mesh), epsilon);
+  const auto energy_on = [](const TriangleMesh& on, double eps) {
+    const Space space(on, p1());
+    const VariationalInequality problem = assemble(stiff_scene(eps), space);
+    return energy(problem, active_set(problem));
+  };
+  const double best = energy_on(columns, epsilon);
+  return (energy_on(mesh, epsilon) - best) / (energy_on(mesh, 0) - best);
+}
+
 // Figure 7 says of itself what Figure 8 shows, on the terminal and in the summary, with the remedies; they are some.
 TEST(Warnings, ALayerThatLocksIsNamedWithWhatIsLost) {
   const auto asked = [](const std::string& epsilon, const std::string& kind, const std::string& method) -> SceneRun {
     return SceneRun(scene(layer(epsilon) + contact, "kind = \"" + kind + "\"\ncells = 32", method));
   };
+  const double lost = lost_by_p1(32, 1e-2);
+  EXPECT_GT(lost, 0.1);
   for (const std::string solver : {"active-set", "uzawa"}) {
     const SceneRun run = asked("1e-2", "unstructured", "solver = \"" + solver + "\"\ntolerance = 1e-6");
     const auto s = run.summary();
-    EXPECT_NE(s["warning"].get<std::string>().find("P1 locks in this layer: it loses at least 31 %"),
+    const double told = s["locking"]["lost_energy"];
+    EXPECT_NE(s["warning"].get<std::string>().find(
+                  fmt::format("P1 locks in this layer: it loses at least {:.0f} %", std::floor(100 * told))),
               std::string::npos);
     EXPECT_NE(run.outcome.out.find("  warning: P1 locks"), std::string::npos) << run.outcome.out;
-    // the second solve's 0.319, and what a layer constant in y does not reach: (2 pi epsilon)^2 / 3 for one wave, four times
-    // that for two
-    EXPECT_NEAR(s["locking"]["lost_energy"].get<double>(), 0.319, 5e-3);
-    EXPECT_EQ(s["locking"]["kept"].get<double>() + s["locking"]["lost_energy"].get<double>(), 1);
+    // what a layer constant in y does not reach: (2 pi epsilon)^2 / 3 for one wave, four times that for two
+    EXPECT_NEAR(told, lost, 5e-3);
+    EXPECT_EQ(s["locking"]["kept"].get<double>() + told, 1);
   }
   for (const auto& [epsilon, kind, method] : std::vector<std::array<std::string, 3>>{{"1e-2", "unstructured", cr},
                                                                                      {"1e-2", "layered", ""},
