@@ -112,9 +112,8 @@ class Reader {
     std::vector<std::pair<Two, Value>> rest;  // in a list: a sum of 2,000 terms is no deeper than one of two
     for (;;) {
       next();
-      const auto* const found = std::find_if(operators.begin(), operators.end(), [&](const Operator& o) {
-        return text_.substr(at_, o.sign.size()) == o.sign;
-      });
+      const auto found = std::find_if(operators.begin(), operators.end(),
+                                      [&](const Operator& o) { return text_.substr(at_, o.sign.size()) == o.sign; });
       if (found == operators.end() || found->binds < least) break;
       at_ += found->sign.size();
       // 2^3^2 = 2^9, but 1-2-3 = (1-2)-3
@@ -142,8 +141,7 @@ class Reader {
       return [number](const double*) { return number; };
     }
     if (!letter(rest[0])) fail(fmt::format("\"{}\" is not expected", printable(rest.substr(0, 1))));
-    const auto* const end =
-        std::find_if_not(rest.begin(), rest.end(), [&](char c) { return letter(c) || in(c, '0', '9'); });
+    const auto end = std::find_if_not(rest.begin(), rest.end(), [&](char c) { return letter(c) || in(c, '0', '9'); });
     return name(rest.substr(0, static_cast<std::size_t>(end - rest.begin())));
   }
   Value name(std::string_view name) {
