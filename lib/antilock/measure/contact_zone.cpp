@@ -14,22 +14,22 @@ namespace antilock {
 
 namespace {
 
-/// The unknowns of the bounded component, one per bound.
-const std::vector<int>& bounded(const Space& space, const VariationalInequality& problem, const std::string& who) {
+/// Throws Error unless the space has one unknown on Gamma_C per bound.
+void require_space_of_bounds(const Space& space, const VariationalInequality& problem, const std::string& who) {
   require_bounds_on_unknowns(problem, who);
   require_firm_bounds(problem, who);
   if (space.contact().size() != problem.contact.size())
     throw Error(fmt::format(
         "{}: {} bounds and a space with {} unknowns on Gamma_C; accepted: that of the component with bounds", who,
         problem.contact.size(), space.contact().size()));
-  return space.contact();
 }
 
 }  // namespace
 
 ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution) {
   if (problem.bound_count() == 0) return {};
-  const std::vector<int>& places = bounded(space, problem, "contact zone");
+  require_space_of_bounds(space, problem, "contact zone");
+  const std::vector<int>& places = space.contact();
   ContactZone zone;
   zone.points = static_cast<int>(problem.contact.size());
   for (int i = 0; i < zone.points; ++i) {
@@ -51,7 +51,8 @@ Eigen::VectorXd contact_lengths(const Space& space) {
 }
 
 Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& problem, const Solution& solution) {
-  const std::vector<int>& places = bounded(space, problem, "contact table");
+  require_space_of_bounds(space, problem, "contact table");
+  const std::vector<int>& places = space.contact();
   const auto count = static_cast<Eigen::Index>(problem.contact.size());
   Eigen::MatrixX3d table(count, 3);
   table.col(0) = space.points().col(0)(places);
