@@ -49,18 +49,18 @@ CsvTable::CsvTable(const std::filesystem::path& path) : name_(path.string()) {
   if (rows_.empty()) throw Error(fmt::format("{}: no rows; accepted: CSV with a header line", name_));
 }
 
-std::size_t CsvTable::column_index(const std::string& column) const {
+std::size_t CsvTable::column_index(std::string_view column) const {
   const auto found = std::find(header_.begin(), header_.end(), column);
   if (found == header_.end())
     throw Error(fmt::format("{}: no column '{}'; it has {}", name_, column, fmt::join(header_, ", ")));
   return static_cast<std::size_t>(found - header_.begin());
 }
 
-const std::string& CsvTable::text(std::size_t row, const std::string& column) const {
+const std::string& CsvTable::text(std::size_t row, std::string_view column) const {
   return rows_[row][column_index(column)];
 }
 
-double CsvTable::number(std::size_t row, const std::string& column) const {
+double CsvTable::number(std::size_t row, std::string_view column) const {
   const std::string& field = text(row, column);
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
@@ -69,7 +69,7 @@ double CsvTable::number(std::size_t row, const std::string& column) const {
   return value;
 }
 
-std::vector<std::string> CsvTable::values(const std::string& column) const {
+std::vector<std::string> CsvTable::values(std::string_view column) const {
   std::vector<std::string> different;
   for (std::size_t row = 0; row < rows(); ++row)
     if (std::find(different.begin(), different.end(), text(row, column)) == different.end())
