@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -19,13 +18,13 @@ struct NotConverged : Error {
   int steps;       ///< the iterations done
 };
 
-/// Text from a file for use in a message of one line: characters that are not printable ASCII become '?', long text is
-/// cut.
-inline std::string printable(std::string_view text, std::size_t longest = 60) {
-  std::string line(text.substr(0, longest));
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return text.size() > longest ? line + "..." : line;
-}
+/// Text from a file or a command line for use in a message of one line. Characters of UTF-8 stay as
+/// they are; a control character, one that changes the direction or the line of the text, and each
+/// byte that is no UTF-8 become '?'. Text of more than `longest` characters is cut and ends in "...".
+std::string printable(std::string_view text, std::size_t longest = 60);
+
+/// The first character of a text in UTF-8, of one to four bytes: its first byte where that begins no
+/// character. Empty for an empty text.
+std::string_view first_character(std::string_view text);
 
 }  // namespace antilock

@@ -75,7 +75,8 @@ class Reader {
   Reader(std::string_view text, const std::vector<std::string>& names) : text_(text), names_(names) {}
   Value read() {
     Value all = choice();
-    if (next(), at_ < text_.size()) fail(fmt::format("\"{}\" is not expected", printable(text_.substr(at_, 1))));
+    if (next(), at_ < text_.size())
+      fail(fmt::format("\"{}\" is not expected", printable(first_character(text_.substr(at_)))));
     return all;
   }
 
@@ -140,7 +141,7 @@ class Reader {
       at_ += static_cast<std::size_t>(end - rest.data());
       return [number](const double*) { return number; };
     }
-    if (!letter(rest[0])) fail(fmt::format("\"{}\" is not expected", printable(rest.substr(0, 1))));
+    if (!letter(rest[0])) fail(fmt::format("\"{}\" is not expected", printable(first_character(rest))));
     const auto end = std::find_if_not(rest.begin(), rest.end(), [&](char c) { return letter(c) || in(c, '0', '9'); });
     return name(rest.substr(0, static_cast<std::size_t>(end - rest.begin())));
   }
