@@ -226,7 +226,7 @@ const std::vector<BadMesh> bad_meshes = {
          contact_edge + clamped_edges + "5 2 2 1 1 2 1 5\n6 2 2 1 1 2 3 5\n7 2 2 1 1 3 4 5\n8 2 2 1 1 4 1 5\n"),
      ""},
     {"Degenerate", msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0 0\n", whole_square), ""},
-    {"DanglingNode", msh(square_nodes + "6 0.2 0.7 0\n", whole_square), ""},
+    {"DanglingEdge", msh(square_nodes + "6 0.2 0.7 0\n", whole_square + "9 1 2 4 4 1 6\n"), ""},
     {"DanglingTriangle",
      msh(square_nodes + "6 3 3 0\n7 4 3 0\n8 3 4 0\n",
          whole_square + "9 2 2 1 1 6 7 8\n10 1 2 5 5 6 7\n11 1 2 5 5 7 8\n12 1 2 5 5 8 6\n"),

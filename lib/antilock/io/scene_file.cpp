@@ -11,6 +11,7 @@
 #include <memory>
 #include <sstream>
 
+#include "antilock/core/detail/plain_text.hpp"
 #include "antilock/io/expression.hpp"
 #include "antilock/measure/detail/point_values.hpp"
 
@@ -126,6 +127,7 @@ std::string read_text(const std::filesystem::path& path, const std::string& name
 }
 
 toml::table parse(const std::string& text, const std::string& name) {
+  plain_text(text, name + ": syntax");  // TOML knows UTF-8 and its byte order mark alone
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {

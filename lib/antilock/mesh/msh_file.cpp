@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -17,6 +16,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "antilock/core/detail/number.hpp"
+#include "antilock/core/detail/plain_text.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock {
@@ -34,6 +35,7 @@ class MshLines {
     if (in) all << in.rdbuf();
     if (in.bad()) refuse_file("cannot be read");
     text_ = std::move(all).str();
+    text_.erase(0, text_.size() - plain_text(text_, this->name).size());
     if (text_.empty()) refuse_file("is empty or cannot be read; accepted: MSH 2.2 or 4.1, ASCII");
   }
 
@@ -78,7 +80,7 @@ class MshLines {
 
   std::int64_t integer(std::size_t field) const {
     std::int64_t value = 0;
-    if (!parse(field, value)) refuse("{} is no integer", in_quotes(fields[field]));
+    if (!read_number(fields[field], value)) refuse("{} is no integer", in_quotes(fields[field]));
     return value;
   }
   std::int64_t count(std::size_t field) const {
@@ -88,8 +90,8 @@ class MshLines {
   }
   double coordinate(std::size_t field) const {
     double value = 0;
-    if (!parse(field, value) || !std::isfinite(value))
-      refuse("{} is no coordinate; accepted: a finite number", in_quotes(fields[field]));
+    if (!read_number(fields[field], value) || !std::isfinite(value))
+      refuse("{} is no coordinate; accepted: a finite number, as -2.5e-01", in_quotes(fields[field]));
     return value;
   }
 
@@ -114,20 +116,22 @@ class MshLines {
 
  private:
   static constexpr std::string_view blanks = " \t\r\v\f";
-  template <class Number>
-  bool parse(std::size_t field, Number& value) const {
-    const std::string_view text = fields[field];
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size();
-  }
   std::string text_;
   std::size_t position_ = 0;
+};
+
+/// A node, in the plane z = 0 if an element needs it.
+struct FileNode {
+  std::int64_t tag;
+  std::array<double, 3> at;
+  int line;
 };
 
 /// A point, line or triangle: 1, 2 or 3 nodes.
 struct FileElement {
   std::int64_t tag;
-  std::int64_t group;  ///< MSH 2.2: the physical group; 4.1: the entity, whose group $Entities tells
+  std::int64_t group;    ///< MSH 2.2: the physical group; 4.1: the entity, whose group $Entities tells
+  std::int64_t surface;  ///< the point, curve or surface that it is on; MSH 2.2: the group, where that is not told
   int size;
   std::array<std::int64_t, 3> nodes;
   int line;
@@ -142,8 +146,7 @@ struct MshFile {
   bool version_4 = false;
   std::map<Place, std::string> names;      ///< of the physical groups of curves and surfaces
   std::map<Place, std::int64_t> entities;  ///< 4.1: the physical group of a curve or surface, 0 for none
-  std::vector<std::int64_t> node_tags;
-  std::vector<Eigen::RowVector2d> nodes;
+  std::vector<FileNode> nodes;
   std::vector<FileElement> elements;
 };
 
@@ -198,6 +201,14 @@ void read_names(MshLines& lines, MshFile& file, std::map<std::string, int> known
   }
 }
 
+/// The number of a physical group: an int for gmsh, below 0 where it turns the entity round.
+std::int64_t read_group(const MshLines& lines, std::size_t field) {
+  const std::int64_t group = lines.integer(field);
+  if (group > std::numeric_limits<int>::max() || group < -std::numeric_limits<int>::max())
+    lines.refuse("physical group {} is out of range", group);
+  return group;
+}
+
 /// Records: tag, a point (0-D) or a bounding box, number of physical groups, the groups, what bounds it.
 void read_entities(MshLines& lines, MshFile& file) {
   lines.next_record("Entities", 4, "numbers of points, curves, surfaces, volumes");
@@ -214,9 +225,7 @@ void read_entities(MshLines& lines, MshFile& file) {
       if (dimension == 0) continue;
       if (groups > 1)
         lines.refuse("{} {} is in {} physical groups; accepted: one", dimension_names[dimension], tag, groups);
-      const std::int64_t group = groups == 0 ? 0 : lines.integer(first_group);
-      if (std::abs(static_cast<double>(group)) > std::numeric_limits<int>::max())
-        lines.refuse("physical group {} is out of range", group);
+      const std::int64_t group = groups == 0 ? 0 : read_group(lines, first_group);
       if (!file.entities.emplace(Place{dimension, tag}, group).second)
         lines.refuse("{} {} is listed twice", dimension_names[dimension], tag);
     }
@@ -224,17 +233,23 @@ void read_entities(MshLines& lines, MshFile& file) {
 
 /// A node, its coordinates from field `first` on.
 void read_node(const MshLines& lines, MshFile& file, std::int64_t tag, std::size_t first) {
-  constexpr double flat = 1e-12;  // what a generator's round-off may leave
-  if (std::abs(lines.coordinate(first + 2)) > flat)
-    lines.refuse("node {} has z = {}; accepted: a mesh in the plane z = 0", tag, in_quotes(lines.fields[first + 2]));
-  file.node_tags.push_back(tag);
-  file.nodes.emplace_back(lines.coordinate(first), lines.coordinate(first + 1));
+  file.nodes.push_back(
+      {tag, {lines.coordinate(first), lines.coordinate(first + 1), lines.coordinate(first + 2)}, lines.number});
 }
 
-void read_nodes_2(MshLines& lines, MshFile& file) {
-  lines.next_record("Nodes", 1, "their number");
+/// Records: tag x y z; in $ParametricNodes (Mesh.SaveParametric) also the dimension and the tag of the entity that the
+/// node is on, and one parameter on a curve, two on a surface.
+void read_nodes_2(MshLines& lines, MshFile& file, const std::string& section) {
+  lines.next_record(section, 1, "their number");
   for (std::int64_t left = lines.count(0); left > 0; --left) {
-    lines.next_record("Nodes", 4, "tag x y z");
+    if (section == "Nodes") {
+      lines.next_record(section, 4, "tag x y z");
+    } else {
+      lines.next_record(section);
+      if (lines.fields.size() < 6 || lines.fields.size() > 8)
+        lines.refuse("{} fields in ${}; accepted: 6 to 8 (tag x y z dimension entity parameters)", lines.fields.size(),
+                     section);
+    }
     read_node(lines, file, lines.integer(0), 1);
   }
 }
@@ -261,13 +276,14 @@ void read_nodes_4(MshLines& lines, MshFile& file) {
     lines.refuse("$Nodes declares {} nodes, its blocks hold {}", total, file.nodes.size());
 }
 
-FileElement read_element(const MshLines& lines, int size, std::int64_t group, std::size_t first_node) {
-  FileElement element{lines.integer(0), group, size, {}, lines.number};
+FileElement read_element(const MshLines& lines, int size, std::int64_t group, std::int64_t surface,
+                         std::size_t first_node) {
+  FileElement element{lines.integer(0), group, surface, size, {}, lines.number};
   for (int i = 0; i < size; ++i) element.nodes[i] = lines.integer(first_node + i);
   return element;
 }
 
-/// Records: number type tag-count tags nodes; the first tag is the physical group.
+/// Records: number type tag-count tags nodes; the first tag is the physical group, the second the entity.
 void read_elements_2(MshLines& lines, MshFile& file) {
   lines.next_record("Elements", 1, "their number");
   for (std::int64_t left = lines.count(0); left > 0; --left) {
@@ -277,8 +293,9 @@ void read_elements_2(MshLines& lines, MshFile& file) {
     const std::int64_t tags = lines.count(2);
     if (tags != static_cast<std::int64_t>(lines.fields.size()) - 3 - size)
       lines.refuse("{} fields; accepted: 3, the {} tags declared and {} nodes", lines.fields.size(), tags, size);
-    const std::int64_t group = tags == 0 ? 0 : lines.integer(3);
-    file.elements.push_back(read_element(lines, size, group, lines.fields.size() - size));
+    const std::int64_t group = tags == 0 ? 0 : read_group(lines, 3);
+    const std::int64_t surface = tags < 2 ? group : lines.integer(4);
+    file.elements.push_back(read_element(lines, size, group, surface, lines.fields.size() - size));
   }
 }
 
@@ -295,7 +312,7 @@ void read_elements_4(MshLines& lines, MshFile& file) {
     const std::int64_t entity = lines.integer(1);
     for (std::int64_t left = lines.count(3); left > 0; --left) {
       lines.next_record("Elements", 1 + static_cast<std::size_t>(size), "number and nodes");
-      file.elements.push_back(read_element(lines, size, entity, 1));
+      file.elements.push_back(read_element(lines, size, entity, entity, 1));
     }
   }
   if (static_cast<std::int64_t>(file.elements.size()) != total)
@@ -305,29 +322,38 @@ void read_elements_4(MshLines& lines, MshFile& file) {
 /// Reads and checks every section that a mesh needs, 2.2 or 4.1.
 /// `more`: the names that it may have beside body, layer, sigma, clamped and contact, with their dimensions.
 MshFile read_sections(MshLines& lines, const std::map<std::string, int>& more) {
-  if (!lines.next() || lines.fields[0] != "$MeshFormat")
+  bool any = lines.next();
+  for (; any && lines.fields[0] == "$Comments"; any = lines.next()) lines.skip_section("Comments");
+  if (!any || lines.fields[0] != "$MeshFormat")
     lines.refuse_file("is no MSH file: it does not start with $MeshFormat; accepted: MSH 2.2 or 4.1, ASCII");
   MshFile file;
   std::set<std::string, std::less<>> seen;
+  const auto first_time = [&](const std::string& section) {
+    if (!seen.insert(section).second) lines.refuse("a second {}", in_quotes('$' + section));
+  };
   do {
     if (lines.fields.size() != 1 || lines.fields[0].front() != '$' || lines.fields[0].starts_with("$End"))
       lines.refuse("{} outside every section", in_quotes(lines.line));
     const std::string section(lines.fields[0].substr(1));
-    if (!seen.insert(section).second && section != "Comments") lines.refuse("a second {}", in_quotes('$' + section));
     if (section == "MeshFormat") {
+      first_time(section);
       read_format(lines, file);
     } else if (section == "PhysicalNames") {
+      first_time(section);
       read_names(lines, file, more);
     } else if (section == "Entities" && file.version_4) {
+      first_time(section);
       read_entities(lines, file);
-    } else if (section == "Nodes") {
-      file.version_4 ? read_nodes_4(lines, file) : read_nodes_2(lines, file);
+    } else if (section == "Nodes" || (section == "ParametricNodes" && !file.version_4)) {
+      first_time("Nodes");
+      file.version_4 ? read_nodes_4(lines, file) : read_nodes_2(lines, file, section);
     } else if (section == "Elements") {
+      first_time(section);
       file.version_4 ? read_elements_4(lines, file) : read_elements_2(lines, file);
     } else if (section == "PartitionedEntities") {
       lines.refuse("a partitioned mesh; accepted: one partition");
     } else {
-      lines.skip_section(section);
+      lines.skip_section(section);  // which may come again, as $NodeData does for each step of time
       continue;
     }
     lines.end_section(section);
@@ -339,17 +365,21 @@ MshFile read_sections(MshLines& lines, const std::map<std::string, int>& more) {
   return file;
 }
 
-/// The name of the physical group that an element is in; points have none.
+/// The physical group that a line or a triangle is in, 0 for none; a negative number, which turns the entity round, is
+/// that of the same group.
+std::int64_t group_number(const MshLines& lines, const MshFile& file, const FileElement& element) {
+  if (!file.version_4) return std::abs(element.group);
+  const auto entity = file.entities.find({element.dimension(), element.group});
+  if (entity == file.entities.end())
+    lines.refuse_at(element.line, "element {} is on {} {}, which $Entities does not list", element.tag,
+                    dimension_names[element.dimension()], element.group);
+  return std::abs(entity->second);
+}
+
+/// Its name.
 const std::string& group_name(const MshLines& lines, const MshFile& file, const FileElement& element) {
   const char* dimension = dimension_names[element.dimension()];
-  std::int64_t group = element.group;
-  if (file.version_4) {
-    const auto entity = file.entities.find({element.dimension(), element.group});
-    if (entity == file.entities.end())
-      lines.refuse_at(element.line, "element {} is on {} {}, which $Entities does not list", element.tag, dimension,
-                      element.group);
-    group = entity->second < 0 ? -entity->second : entity->second;  // a negative group turns the entity round
-  }
+  const std::int64_t group = group_number(lines, file, element);
   if (group == 0)
     lines.refuse_at(element.line, "element {} is in no physical group; accepted: body, layer, sigma, clamped, contact",
                     element.tag);
@@ -360,23 +390,62 @@ const std::string& group_name(const MshLines& lines, const MshFile& file, const 
   return name->second;
 }
 
-/// Node tags, which may have gaps, to indices from 0 in the order of the file.
-std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const std::vector<std::int64_t>& tags) {
-  std::unordered_map<std::int64_t, int> index;
-  index.reserve(tags.size());
-  for (const std::int64_t tag : tags) {
-    if (tag < 1) lines.refuse_file("node tag {}; accepted: 1 or more", tag);
-    if (!index.emplace(tag, static_cast<int>(index.size())).second) lines.refuse_file("node tag {} is used twice", tag);
+/// Node tags, which may have gaps, to places in the file from 0 on.
+std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const std::vector<FileNode>& nodes) {
+  std::unordered_map<std::int64_t, int> place;
+  place.reserve(nodes.size());
+  for (const auto& [tag, at, line] : nodes) {
+    if (tag < 1) lines.refuse_at(line, "node tag {}; accepted: 1 or more", tag);
+    if (!place.emplace(tag, static_cast<int>(place.size())).second)
+      lines.refuse_at(line, "node tag {} is used twice", tag);
   }
-  return index;
+  return place;
 }
+
+/// The vertices of the mesh: the nodes that a line or a triangle has, in the order of the file. A node of none of them
+/// (the centre of a circle, a physical point) is left out.
+class Vertices {
+ public:
+  explicit Vertices(const std::vector<FileNode>& nodes) : nodes_(nodes), number_(nodes.size(), unused) {}
+  void use(int place) { number_[place] = 0; }
+
+  /// Numbers those in use. Throws Error for one that is off the plane z = 0.
+  void number(const MshLines& lines) {
+    std::vector<const FileNode*> used;
+    for (std::size_t place = 0; place < nodes_.size(); ++place) {
+      if (number_[place] == unused) continue;
+      number_[place] = static_cast<int>(used.size());
+      used.push_back(&nodes_[place]);
+    }
+    points.resize(static_cast<Eigen::Index>(used.size()), 2);
+    for (std::size_t v = 0; v < used.size(); ++v)
+      points.row(static_cast<Eigen::Index>(v)) << used[v]->at[0], used[v]->at[1];
+    if (used.empty()) return;
+    const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).maxCoeff();
+    constexpr double flat = 1e-12;  // of the mesh's size: what a generator's round-off may leave
+    for (const FileNode* node : used)
+      if (std::abs(node->at[2]) > flat * size)
+        lines.refuse_at(node->line, "node {} has z = {:.6g}; accepted: a mesh in the plane z = 0", node->tag,
+                        node->at[2]);
+  }
+  int at(int place) const { return number_[place]; }
+  Points points;
+
+ private:
+  static constexpr int unused = -1;
+  const std::vector<FileNode>& nodes_;
+  std::vector<int> number_;  ///< by place in the file
+};
 
 TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroups& more, std::vector<int>* part) {
   std::map<std::string, EdgeTag> edge_tags = more.curves;
   edge_tags.insert({{"sigma", EdgeTag::sigma}, {"clamped", EdgeTag::clamped}, {"contact", EdgeTag::contact}});
-  const auto index = number_nodes(lines, file.node_tags);
+  const auto place_of = number_nodes(lines, file.nodes);
+  Vertices used(file.nodes);
   std::vector<std::array<int, 3>> corners;
   std::vector<Region> region;
+  std::vector<int> surface;
+  std::map<std::pair<std::int64_t, std::int64_t>, int> surfaces;  // of a group and its entity
   std::vector<TaggedEdge> edges;
   std::set<std::string_view> found;
   std::unordered_set<std::int64_t> tags;
@@ -385,19 +454,24 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
     if (!tags.insert(element.tag).second) lines.refuse_at(element.line, "element number {} is used twice", element.tag);
     std::array<int, 3> vertices{};
     for (int i = 0; i < element.size; ++i) {
-      const auto node = index.find(element.nodes[i]);
-      if (node == index.end())
+      const auto node = place_of.find(element.nodes[i]);
+      if (node == place_of.end())
         lines.refuse_at(element.line, "element {} has node {}, which $Nodes does not list", element.tag,
                         element.nodes[i]);
       vertices[i] = node->second;
     }
     if (element.dimension() == 0) continue;
+    // Mesh.SaveAll: of the lines within the body nothing is said, and a side in no group is refused with its place
+    if (element.dimension() == 1 && group_number(lines, file, element) == 0) continue;
     const std::string& name = group_name(lines, file, element);
     found.insert(name);
+    for (int i = 0; i < element.size; ++i) used.use(vertices[i]);
     if (element.dimension() == 1) {
       edges.push_back({vertices[0], vertices[1], edge_tags.at(name)});
     } else {
       corners.push_back(vertices);
+      const std::pair named(element.group, element.surface);
+      surface.push_back(surfaces.emplace(named, static_cast<int>(surfaces.size())).first->second);
       region.push_back(name == "layer" ? Region::layer : Region::body);
       if (part != nullptr) {
         const auto at = std::find(more.bodies.begin(), more.bodies.end(), name);
@@ -416,10 +490,16 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
   for (const auto& [place, name] : file.names)
     if (!found.contains(name)) lines.refuse_file("names the physical group {}, but it is empty", in_quotes(name));
 
-  Points points(file.nodes.size(), 2);
-  std::copy(file.nodes.begin(), file.nodes.end(), points.rowwise().begin());
+  used.number(lines);
+  for (auto& triangle : corners)
+    for (int& corner : triangle) corner = used.at(corner);
+  for (TaggedEdge& edge : edges) {
+    edge.from = used.at(edge.from);
+    edge.to = used.at(edge.to);
+  }
   Triples triangles = Eigen::Map<Triples>(corners[0].data(), static_cast<Eigen::Index>(corners.size()), 3);
-  return make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), edges, lines.name);
+  return make_triangle_mesh(std::move(used.points), std::move(triangles), std::move(region), edges, lines.name,
+                            surface);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -57,23 +58,33 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
 }
 
 /// A surface that gmsh oriented downwards is turned round as a whole; a single inverted triangle is an error.
-void orient(TriangleMesh& mesh, const std::string& where) {
-  for (const Region region : {Region::body, Region::layer}) {
-    int clockwise = 0, members = 0, example = -1;
-    for (int t = 0; t < mesh.triangle_count(); ++t) {
-      if (mesh.region[t] != region) continue;
-      ++members;
-      if (mesh.twice_area(t) < 0) {
-        ++clockwise;
-        example = t;
-      }
-    }
-    if (clockwise == 0) continue;
-    if (clockwise != members)
-      refuse(where, "inverted {}; accepted: all triangles of a surface in one orientation", triangle_at(mesh, example));
-    for (int t = 0; t < mesh.triangle_count(); ++t)
-      if (mesh.region[t] == region) std::swap(mesh.triangles(t, 1), mesh.triangles(t, 2));
+void orient(TriangleMesh& mesh, const std::vector<int>& surface, const std::string& where) {
+  struct Turns {
+    int members = 0;
+    int clockwise = 0;
+    int example = -1;  ///< a clockwise triangle
+  };
+  std::vector<Turns> turns(surface.empty() ? 0 : *std::max_element(surface.begin(), surface.end()) + 1);
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    Turns& here = turns[surface[t]];
+    ++here.members;
+    if (mesh.twice_area(t) >= 0) continue;
+    ++here.clockwise;
+    here.example = t;
   }
+  for (const Turns& here : turns)
+    if (here.clockwise > 0 && here.clockwise != here.members)
+      refuse(where, "inverted {}; accepted: all triangles of a surface in one orientation",
+             triangle_at(mesh, here.example));
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    if (turns[surface[t]].clockwise > 0) std::swap(mesh.triangles(t, 1), mesh.triangles(t, 2));
+}
+
+/// The regions as the surfaces of a mesh that names none.
+std::vector<int> surfaces_of(const std::vector<Region>& region) {
+  std::vector<int> surface;
+  for (const Region each : region) surface.push_back(static_cast<int>(each));
+  return surface;
 }
 
 void check_triangles(const TriangleMesh& mesh, const std::string& where) {
@@ -229,6 +240,23 @@ std::string TriangleMesh::place(int vertex) const {
   return fmt::format("({:.6g}, {:.6g})", vertices(vertex, 0), vertices(vertex, 1));
 }
 
+double body_size(const TriangleMesh& mesh) {
+  const auto in_body = [&](int t) { return mesh.region[t] == Region::body; };
+  bool any = false;
+  for (int t = 0; t < mesh.triangle_count() && !any; ++t) any = in_body(t);
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Eigen::RowVector2d low = Eigen::RowVector2d::Constant(infinity);
+  Eigen::RowVector2d high = -low;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (any && !in_body(t)) continue;
+    for (const int v : mesh.triangles.row(t)) {
+      low = low.cwiseMin(mesh.vertices.row(v));
+      high = high.cwiseMax(mesh.vertices.row(v));
+    }
+  }
+  return (high - low).maxCoeff();
+}
+
 double TriangleMesh::diameter() const {
   double longest = 0;
   for (int e = 0; e < edge_count(); ++e) longest = std::max(longest, edge_length(e));
@@ -236,15 +264,18 @@ double TriangleMesh::diameter() const {
 }
 
 TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
-                                const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
+                                const std::vector<TaggedEdge>& tagged_edges, const std::string& where,
+                                const std::vector<int>& surface) {
   TriangleMesh mesh;
   mesh.vertices = std::move(vertices);
   mesh.triangles = std::move(triangles);
   mesh.region = std::move(region);
   check_indices(mesh, tagged_edges, where);
+  if (!surface.empty() && (surface.size() != mesh.region.size() || std::ranges::min(surface) < 0))
+    refuse(where, "{} numbers of surfaces; accepted: none, or one per triangle, from 0 on", surface.size());
   check_vertices(mesh, where);
   check_triangles(mesh, where);
-  orient(mesh, where);
+  orient(mesh, surface.empty() ? surfaces_of(mesh.region) : surface, where);
   if (std::find(mesh.region.begin(), mesh.region.end(), Region::body) == mesh.region.end())
     refuse(where, "no triangle is in the group body, which is needed");
   number_edges(mesh, where);

@@ -72,15 +72,20 @@ struct TaggedEdge {
   EdgeTag tag;
 };
 
-/// Numbers the edges and checks everything a finite element relies on; a region whose triangles all turn the wrong way
-/// is turned round.
+/// The longer side of the box around the body's triangles, in the unit of the mesh's coordinates. A mesh has the unit
+/// that its file has, so a tolerance of a length is a share of this one. Of a mesh without a body: of the whole box.
+double body_size(const TriangleMesh& mesh);
+
+/// Numbers the edges and checks everything a finite element relies on. `surface` has a number, from 0 on, per triangle: a surface
+/// whose triangles all turn the wrong way is turned round. Where it is empty, the regions are the surfaces.
 /// `where` opens every message (a file name, or what made the mesh). Throws Error for: indices out of range, values
 /// not finite, a single inverted triangle, degenerate triangles (twice the area below 1e-14 of the longest edge
 /// squared), duplicate or unused vertices, edges of three triangles or of overlapping ones, boundary edges without a
 /// tag (as at a hanging node), tagged edges that are no edge of the mesh, no body, no edge that is clamped or in a
 /// named group.
 TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<Region> region,
-                                const std::vector<TaggedEdge>& tagged_edges, const std::string& where);
+                                const std::vector<TaggedEdge>& tagged_edges, const std::string& where,
+                                const std::vector<int>& surface = {});
 
 /// A triangle of a piece without an edge that is held; -1: there is none. Pieces hang together by edges, not by vertices.
 int loose_triangle(const TriangleMesh& mesh, const std::function<bool(int edge)>& held);
