@@ -133,14 +133,15 @@ Marking marking(const std::vector<Level>& history, int marks) {
 }
 
 /// What the layer is held by: the tags of its outer edges, those of the lower side at -infinity, those of the sides at
-/// their x, to nine digits.
+/// their x, to nine digits of the body's size.
 std::set<std::pair<double, EdgeTag>> held_by(const TriangleMesh& mesh) {
   std::set<std::pair<double, EdgeTag>> tags;
+  const double digits = 1e9 / body_size(mesh);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_triangles(e, 1) >= 0 || mesh.region[mesh.edge_triangles(e, 0)] != Region::layer) continue;
     const bool below = (mesh.vertices(mesh.edges.row(e), 1).array() < -1 + 1e-6).all();
     for (const int v : mesh.edges.row(e))
-      tags.emplace(below ? -INFINITY : std::round(1e9 * mesh.vertices(v, 0)), mesh.edge_tag[e]);
+      tags.emplace(below ? -INFINITY : std::round(digits * mesh.vertices(v, 0)), mesh.edge_tag[e]);
   }
   return tags;
 }

@@ -39,7 +39,7 @@ Eigen::Matrix3d corners_of_child(int i) {
 
 bool ContactSet::at(double where) const {
   if (x.empty()) return false;
-  constexpr double slack = 1e-9;  // a point that both meshes have stands between itself and itself
+  const double slack = 1e-9 * (x.back() - x.front());  // a point of both meshes stands between itself and itself
   const auto right = std::lower_bound(x.begin(), x.end() - 1, where - slack) - x.begin();
   const auto left = std::upper_bound(x.begin() + 1, x.end(), where + slack) - x.begin() - 1;
   return active[left] != 0 && active[right] != 0;

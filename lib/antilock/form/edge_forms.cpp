@@ -64,10 +64,11 @@ Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::Vector
     }
   std::vector<double> ends;  // a single piece has two
   double height = NAN;
+  const double off = 1e-6 * body_size(mesh);  // formats with few digits place a vertex to 1e-8
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     if (on_sigma[v] == 0) continue;
     if (std::isnan(height)) height = mesh.vertices(v, 1);
-    if (std::abs(mesh.vertices(v, 1) - height) > 1e-6)
+    if (std::abs(mesh.vertices(v, 1) - height) > off)
       throw Error("Ventcel term: Sigma leaves its line at " + mesh.place(v) +
                   "; accepted: a piece of a line y = const");
     if (on_sigma[v] != 1) continue;

@@ -20,7 +20,9 @@
 namespace antilock {
 namespace {
 
-constexpr double slack = 1e-6;  // mesh generators place corners to 1e-12, formats with few digits to 1e-8
+/// How far two lengths that are meant to be one may differ, as a share of the size of the body or of the depth of the
+/// layer: mesh generators place corners to 1e-12 of it, formats with few digits to 1e-8.
+constexpr double slack = 1e-6;
 
 /// A part of a mesh: its bounding box, and its area or its length.
 struct Extent {
@@ -41,17 +43,20 @@ Extent extent_of(const TriangleMesh& mesh, Region region) {
 /// The body's edges on the line y = 0, all of which are in the group `tag`, or the rest would be clamped, another
 /// problem.
 Extent check_bottom_edge(const TriangleMesh& mesh, EdgeTag tag) {
+  const double off = slack * body_size(mesh);
   const Eigen::AlignedBox2d box = extent_of(mesh, Region::body).box;
   const Eigen::Vector2d low = box.min(), high = box.max();
-  if (low(1) < -slack)
+  if (low(1) < -off)
     throw Error(fmt::format("the group body reaches down to y = {:.6g}; accepted: a body on and above y = 0", low(1)));
   const auto body = [&](int t) { return t >= 0 && mesh.region[t] == Region::body; };
   Extent bottom;
   double tagged = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const Eigen::Matrix2d ends = mesh.vertices(mesh.edges.row(e), Eigen::all);
-    if (ends.col(1).cwiseAbs().maxCoeff() > slack) continue;
-    if (!body(mesh.edge_triangles(e, 0)) && !body(mesh.edge_triangles(e, 1))) continue;
+    if (ends.col(1).cwiseAbs().maxCoeff() > off) continue;
+    if (body(mesh.edge_triangles(e, 0)) == body(mesh.edge_triangles(e, 1))) continue;  // not where the body ends
+    const Eigen::RowVector2d along = (ends.row(1) - ends.row(0)).cwiseAbs();
+    if (along(1) > along(0)) continue;  // the lowest edges of a side, in a mesh that is fine there
     bottom.size += mesh.edge_length(e);
     if (mesh.edge_tag[e] == tag) tagged += mesh.edge_length(e);
     bottom.box.extend(ends.row(0).transpose()).extend(ends.row(1).transpose());
@@ -61,7 +66,7 @@ Extent check_bottom_edge(const TriangleMesh& mesh, EdgeTag tag) {
         fmt::format("the group body has no edge on the line y = 0 (it spans ({:.6g}, {:.6g}) x ({:.6g}, {:.6g})); "
                     "accepted: a body above y = 0 with its bottom edge on that line",
                     low(0), high(0), low(1), high(1)));
-  if (std::abs(tagged - bottom.size) > slack)
+  if (std::abs(tagged - bottom.size) > off)
     throw Error(fmt::format("of the body's bottom edge on y = 0, {:.6g} long, {:.6g} are {}; accepted: all of it",
                             bottom.size, tagged, tag == EdgeTag::contact ? "in the group contact" : "above the layer"));
   return bottom;
@@ -72,9 +77,11 @@ void check_layer(const TriangleMesh& mesh, const Extent& sigma, double depth) {
   const auto [box, area] = extent_of(mesh, Region::layer);
   const Eigen::Vector2d low = box.min(), high = box.max();
   const double left = sigma.box.min()(0), right = sigma.box.max()(0);
-  const double error = std::max((low - Eigen::Vector2d(left, -depth)).lpNorm<Eigen::Infinity>(),
-                                (high - Eigen::Vector2d(right, 0)).lpNorm<Eigen::Infinity>());
-  if (error <= slack && std::abs(area - sigma.size * depth) <= slack * std::max(1.0, sigma.size)) return;
+  const double size = body_size(mesh), height = std::max(size, depth);
+  const double beside = std::max(std::abs(low(0) - left), std::abs(high(0) - right));
+  const double below = std::max(std::abs(low(1) + depth), std::abs(high(1)));
+  const double unfilled = std::abs(area - sigma.size * depth);
+  if (beside <= slack * size && below <= slack * height && unfilled <= slack * height * size) return;
   throw Error(fmt::format(
       "the group layer spans ({:.6g}, {:.6g}) x ({:.6g}, {:.6g}) with area {:.6g}; accepted for this scene: the strip "
       "below the body's bottom edge, ({:.6g}, {:.6g}) x ({:.6g}, 0), filled (area {:.6g})",
@@ -83,29 +90,32 @@ void check_layer(const TriangleMesh& mesh, const Extent& sigma, double depth) {
 
 /// The contact edges lie on the lower side, all of it.
 void check_contact_side(const TriangleMesh& mesh, double bottom, double wanted) {
+  const double size = body_size(mesh), height = std::max(size, -bottom);
   double length = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     length += mesh.edge_length(e);
     for (const int v : mesh.edges.row(e))
-      if (const auto vertex = mesh.vertices.row(v); std::abs(vertex(1) - bottom) > slack)
+      if (const auto vertex = mesh.vertices.row(v); std::abs(vertex(1) - bottom) > slack * height)
         throw Error(fmt::format("the contact edge at ({:.6g}, {:.6g}) is not on the lower side; accepted: y = {:.6g}",
                                 vertex(0), vertex(1), bottom));
   }
-  if (std::abs(length - wanted) > slack)
+  if (std::abs(length - wanted) > slack * size)
     throw Error(fmt::format("the group contact is {:.6g} long; accepted: the whole side y = {:.6g}, {:.6g} long",
                             length, bottom, wanted));
 }
 
 /// Columns whose x a file has rounded are columns: from Sigma down, a layer edge that is off the vertical by no more
 /// than a file's digits is made vertical. At a tiny epsilon such an edge would tie its neighbours to each other.
-void straighten_columns(TriangleMesh& mesh) {
-  constexpr double digits = 1e-8;
+void straighten_columns(TriangleMesh& mesh, double depth) {
+  const double size = body_size(mesh);
+  const double digits = 1e-8 * size;
   std::vector<std::array<int, 2>> edges;  // of the layer, the upper vertex first
   for (int e = 0; e < mesh.edge_count(); ++e) {
     std::array<int, 2> ends{mesh.edges(e, 0), mesh.edges(e, 1)};
     if (mesh.vertices(ends[0], 1) < mesh.vertices(ends[1], 1)) std::swap(ends[0], ends[1]);
-    if (mesh.vertices(ends[0], 1) <= slack && mesh.vertices(ends[1], 1) < -slack) edges.push_back(ends);
+    const bool from_sigma_or_below = mesh.vertices(ends[0], 1) <= slack * size;
+    if (from_sigma_or_below && mesh.vertices(ends[1], 1) < -slack * std::max(size, depth)) edges.push_back(ends);
   }
   const auto y = [&](const std::array<int, 2>& edge) { return mesh.vertices(edge[0], 1); };
   std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return y(a) > y(b); });
@@ -133,7 +143,7 @@ bool is_curved(const SceneFile& file, const TriangleMesh& mesh) {
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
       if (mesh.edge_tag[e] == EdgeTag::contact) line.extend(mesh.vertices.row(v).transpose());
-  const bool curved = line.sizes()(1) > slack;
+  const bool curved = line.sizes()(1) > slack * body_size(mesh);
   const auto* layer = std::get_if<StiffLayer>(&file.scene.layer());
   const char* const what = file.elastic                    ? "plane strain"
                            : file.method.solver == "petsc" ? "solver = \"petsc\""
@@ -158,7 +168,7 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
     TriangleMesh below = extruded(mesh, scene.epsilon().value_or(0), true);  // which says what Sigma may be
     return depth > 0 ? below : mesh;
   }
-  if (depth > 0) straighten_columns(mesh);
+  if (depth > 0) straighten_columns(mesh, depth);
   if (!layered() && std::holds_alternative<StiffLayer>(scene.layer())) {
     check_bottom_edge(mesh, EdgeTag::contact);
     mesh = extruded(mesh, *scene.epsilon());  // the layer grows below the body
@@ -171,7 +181,8 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
     const Extent sigma = check_bottom_edge(mesh, has_layer ? EdgeTag::sigma : EdgeTag::contact);
     if (has_layer) check_layer(mesh, sigma, depth);
     check_contact_side(mesh, -depth, sigma.size);
-    if (std::holds_alternative<VentcelLayer>(scene.layer()) && sigma.box.sizes()(0) > sigma.size + slack)
+    if (std::holds_alternative<VentcelLayer>(scene.layer()) &&
+        sigma.box.sizes()(0) > sigma.size + slack * body_size(mesh))
       throw Error("the body's bottom edge is in several pieces; accepted with model = \"ventcel\": one piece");
     if (std::holds_alternative<VentcelLayer>(scene.layer()))  // what its term refuses
       assemble(Scene({[](double, double) { return 0; }}, VentcelLayer{}, {}, scene.edges()), Space(mesh, p1()));

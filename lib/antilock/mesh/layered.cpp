@@ -13,17 +13,18 @@
 namespace antilock {
 namespace {
 
-constexpr double on_line = 1e-9;  // gmsh places points of a line to about 1e-12
+constexpr double on_line = 1e-9;  // of the body's size: gmsh places points of a line to about 1e-12
 
 /// The edges of Sigma, each from left to right.
 std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh, bool along_normals) {
+  const double off = on_line * body_size(mesh);
   std::vector<std::array<int, 2>> edges;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     std::array<int, 2> ends{mesh.edges(e, 0), mesh.edges(e, 1)};
     if (mesh.vertices(ends[0], 0) > mesh.vertices(ends[1], 0)) std::swap(ends[0], ends[1]);
     for (const int v : ends)
-      if (!along_normals && std::abs(mesh.vertices(v, 1)) > on_line)
+      if (!along_normals && std::abs(mesh.vertices(v, 1)) > off)
         throw Error("extruded layer: Sigma has a vertex at " + mesh.place(v) + "; accepted: Sigma on the line y = 0");
     const auto corners = mesh.triangles.row(mesh.edge_triangles(e, 0));
     const Eigen::RowVector2d from = mesh.vertices.row(ends[0]), along = mesh.vertices.row(ends[1]) - from,
@@ -39,13 +40,14 @@ std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh, bool along
 
 /// The curvature at the vertices of Sigma where two of its edges meet; 0 elsewhere. Throws what extruded() says.
 Eigen::VectorXd curvatures(const TriangleMesh& mesh, std::vector<std::array<int, 2>> edges, double thickness) {
+  const double off = on_line * body_size(mesh);
   const auto x = [&](int v) { return mesh.vertices(v, 0); };
   std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return x(a[0]) < x(b[0]); });
   Eigen::VectorXd turn = Eigen::VectorXd::Zero(mesh.vertex_count()), length = turn, count = turn;
   double end = edges.empty() ? 0 : x(edges[0][0]);
   for (const auto& [left, right] : edges) {
     const Eigen::RowVector2d along = mesh.vertices.row(right) - mesh.vertices.row(left);
-    if (x(left) < end - on_line || !(along(0) > 1e-6 * along.norm()))
+    if (x(left) < end - off || !(along(0) > 1e-6 * along.norm()))
       throw Error("extruded layer: Sigma has an edge at " + mesh.place(left) +
                   " that is vertical or above another; accepted: every x once");
     end = x(right);
@@ -73,9 +75,10 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
     throw Error(fmt::format("extruded layer: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
   if (std::find(body.region.begin(), body.region.end(), Region::layer) != body.region.end())
     throw Error("extruded layer: the mesh has a layer; accepted: a body alone");
+  const double off = on_line * body_size(body);
   std::vector<Eigen::RowVector2d> vertices;
   for (int v = 0; v < body.vertex_count(); ++v) {
-    if (!along_normals && body.vertices(v, 1) < -on_line)
+    if (!along_normals && body.vertices(v, 1) < -off)
       throw Error("extruded layer: the body has a vertex at " + body.place(v) + "; accepted: a body above y = 0");
     vertices.emplace_back(body.vertices.row(v));
   }

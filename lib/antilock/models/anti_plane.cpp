@@ -46,14 +46,17 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
                                            : "the scene has a layer, the mesh has no group layer") +
                 "; accepted: both or none");
   if (mesh.curved()) return;
+  constexpr double slack = 1e-6;  // of the sizes of body and layer: formats with few digits place a vertex to 1e-8
+  const double size = body_size(mesh);
   for (int e = 0; mesh_has_layer && e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
-      if (mesh.edge_tag[e] == EdgeTag::sigma && std::abs(mesh.vertices(v, 1)) > 1e-6)
+      if (mesh.edge_tag[e] == EdgeTag::sigma && std::abs(mesh.vertices(v, 1)) > slack * size)
         throw Error("scene and mesh: Sigma has a vertex at " + mesh.place(v) +
                     "; accepted: Sigma on the line y = 0, or a layer that is grown along its normals");
   // (22) and (23) differ by the depth of their meshes
   const double lowest = mesh.vertices.col(1).minCoeff(), wanted = -scene.layer_depth();
-  if (mesh_has_layer && (lowest < wanted - 1e-6 || (lowest > wanted + 1e-6 && is_whole(mesh))))
+  const double off = slack * std::max(size, scene.layer_depth());
+  if (mesh_has_layer && (lowest < wanted - off || (lowest > wanted + off && is_whole(mesh))))
     throw Error(
         fmt::format("scene and mesh: the mesh reaches down to y = {:.6g}; accepted: y = {:.6g}, the lower side of the "
                     "layer of this scene",

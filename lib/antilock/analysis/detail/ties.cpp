@@ -16,13 +16,14 @@ Ties find_ties(const TriangleMesh& mesh) {
     while (leader[t] != t) t = leader[t] = leader[leader[t]];
     return t;
   };
+  const double vertical = 1e-12 * body_size(mesh);  // of rounded coordinates
   int edges = 0;
   double length = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const int a = mesh.edge_triangles(e, 0), b = mesh.edge_triangles(e, 1);
     if (mesh.edge_tag[e] == EdgeTag::sigma) ++edges, length += mesh.edge_length(e);
     if (b >= 0 && mesh.region[a] == Region::layer && mesh.region[b] == Region::layer &&
-        std::abs(x(mesh.edges(e, 0)) - x(mesh.edges(e, 1))) > 1e-12)  // not vertical, of rounded coordinates
+        std::abs(x(mesh.edges(e, 0)) - x(mesh.edges(e, 1))) > vertical)
       leader[find(a)] = find(b);
   }
   Ties ties;

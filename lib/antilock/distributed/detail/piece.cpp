@@ -9,7 +9,8 @@
 namespace antilock::distributed {
 namespace {
 
-constexpr double slack = 1e-9;  // between abscissae that are meant to be the same
+/// Abscissae that are meant to be the same are so near.
+double rounding(const TriangleMesh& mesh) { return 1e-9 * body_size(mesh); }
 
 /// The vertical lines of the layer, by x; without a layer, those of the contact edges; else those of all vertices.
 std::vector<double> column_lines(const TriangleMesh& mesh) {
@@ -19,7 +20,7 @@ std::vector<double> column_lines(const TriangleMesh& mesh) {
       for (int i = 0; i < 2; ++i) x.push_back(mesh.vertices(mesh.edges(e, i), 0));
   if (x.empty()) x.assign(mesh.vertices.col(0).begin(), mesh.vertices.col(0).end());
   std::sort(x.begin(), x.end());
-  x.erase(std::unique(x.begin(), x.end(), [](double a, double b) { return b - a < slack; }), x.end());
+  x.erase(std::unique(x.begin(), x.end(), [off = rounding(mesh)](double a, double b) { return b - a < off; }), x.end());
   return x;
 }
 
@@ -34,6 +35,7 @@ std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer) {
                     "ranks, or ask for more cells)",
                     ranks, columns));
   std::vector<int> column(mesh.triangle_count()), filled(columns, 0);
+  const double off = rounding(mesh);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Vector3d x = mesh.vertices.col(0)(mesh.triangles.row(t));
     const auto after = static_cast<int>(std::upper_bound(lines.begin(), lines.end(), x.mean()) - lines.begin());
@@ -41,7 +43,7 @@ std::vector<int> strips(const TriangleMesh& mesh, int ranks, bool any_layer) {
     ++filled[column[t]];
     if (any_layer || mesh.region[t] != Region::layer) continue;
     const double left = lines[column[t]], right = lines[column[t] + 1];
-    if (x.minCoeff() < left - slack || x.maxCoeff() > right + slack)
+    if (x.minCoeff() < left - off || x.maxCoeff() > right + off)
       throw Error(
           fmt::format("the layer's triangle at ({:.6g}, {:.6g}) crosses a vertical line through the vertices "
                       "of the contact edges: the layer is not made of columns, and multigrid fails on it; "

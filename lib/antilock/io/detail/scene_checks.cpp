@@ -67,12 +67,18 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
   if (!file.scene.contact()) return;
   const auto& [gap, held, ceiling] = *file.scene.contact();
   const Eigen::VectorXd values = prescribed(file, mesh);
+  double largest = 0;  // |gap|: u may be in a unit in which 1e-12 is much
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
-    for (int i = 0; i <= 32; ++i) gap(a + (b - a) * i / 32);
+    for (int i = 0; i <= 32; ++i) largest = std::max(largest, std::abs(gap(a + (b - a) * i / 32)));
+  }
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (mesh.edge_tag[e] != EdgeTag::contact) continue;
+    const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
     for (const int v : mesh.edges.row(e)) {
-      const double x = mesh.vertices(v, 0), round_off = 1e-12 * std::max(1.0, std::abs(gap((a + b) / 2)));
+      const double x = mesh.vertices(v, 0), scale = std::max(largest, std::abs(values(v)));
+      const double round_off = std::min(1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))), 1e-6 * scale);
       for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &ceiling, 1}})
         if (*bound && sign * values(v) > (*bound)(x) + round_off)
           throw Error(
@@ -187,7 +193,7 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
   const double size = solution.u.lpNorm<Eigen::Infinity>();
   const auto edges = static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::contact));
   const int places = std::max(32, 100'000 / std::max(edges, 1));
-  double deepest = 0, where = 0;
+  double deepest = 0, where = 0, largest = size;  // of u and its bounds
   const char* missed = "";
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
@@ -200,11 +206,14 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
       const auto [x1, u1] = *right;
       const double u = x1 > x0 ? u0 + (u1 - u0) * (x - x0) / (x1 - x0) : u0;
       for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &ceiling, 1}})
-        if (const double depth = *bound ? sign * u - (*bound)(x) : 0; depth > deepest)
-          std::tie(deepest, where, missed) = std::tuple(depth, x, name);
+        if (*bound) {
+          const double at = (*bound)(x), depth = sign * u - at;
+          largest = std::max(largest, std::abs(at));
+          if (depth > deepest) std::tie(deepest, where, missed) = std::tuple(depth, x, name);
+        }
     }
   }
-  if (deepest <= telling * size || deepest < 1e-12) return "";
+  if (deepest <= telling * size || deepest < 1e-12 * largest) return "";
   return fmt::format(
       "contact.{}: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep into it at x = "
       "{:.6g} (max |u| is {:.3g}): a finer mesh is needed there",

@@ -1,6 +1,7 @@
 #include "antilock/measure/detail/point_values.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace antilock {
 namespace {
@@ -14,14 +15,20 @@ struct Search {
   double outside, beyond;  ///< of a triangle's size, and of its box
   PointValues::Place found{-1, {}};
 
+  /// The rounding of the coordinates, which far from the origin is more than `outside`.
+  double ulp() const { return std::numeric_limits<double>::epsilon() * x.lpNorm<1>(); }
+
   bool intersectVolume(const Box& box) const {
-    return box.squaredExteriorDistance(x) <= beyond * beyond * box.diagonal().squaredNorm();
+    return box.exteriorDistance(x) <= beyond * box.diagonal().norm() + ulp() * 4;
   }
   bool intersectObject(int t) {
     const Eigen::Vector2d corner = mesh.vertices.row(mesh.triangles(t, 0));
-    Eigen::Vector3d lambda = barycentric_gradients(mesh, t) * (x - corner);
+    const auto slopes = barycentric_gradients(mesh, t);
+    Eigen::Vector3d lambda = slopes * (x - corner);
     lambda(0) += 1;
-    if (lambda.minCoeff() >= -outside && (found.triangle < 0 || t < found.triangle)) found = {t, lambda};
+    if (lambda.minCoeff() >= -outside - ulp() * slopes.cwiseAbs().maxCoeff() &&
+        (found.triangle < 0 || t < found.triangle))
+      found = {t, lambda};
     return false;  // on to the next
   }
 };
