@@ -15,6 +15,7 @@
 #include "antilock/io/expression.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace py = pybind11;
@@ -209,6 +210,7 @@ PYBIND11_MODULE(_antilock, module) {
       .def_property_readonly(
           "contact", [](const T& t) { return t.truth.contact_zones(); }, "intervals of x, to 1e-5");
 
+  module.def("without_void_bound", py::vectorize(&without_void_bound), "infinite where |bound| >= 1e100");
   module.def("diagnose", &diagnose_locking, py::call_guard<Unlocked>());
   module.def("assemble", [](const std::string& text, const std::string& folder) {
     const SceneFile file = scene_of(text, folder);

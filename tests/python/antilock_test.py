@@ -75,6 +75,43 @@ def test_solve_of_the_matrices_is_run():
     assert np.array_equal(np.flatnonzero(found.active), np.flatnonzero(found.lambda_))
 
 
+def bounded_string(lower, upper, fixed={0: 0, 7: 0}):
+    n = 8
+    a1 = 2 * np.eye(n) - np.eye(n, k=1) - np.eye(n, k=-1)
+    load = -np.ones(n)
+    load[2] = 3
+    return antilock.solve(a1, np.eye(n)[:3] - np.eye(n)[1:4], np.ones(3), load, fixed=fixed, lower=lower, upper=upper)
+
+
+# slsqp #37, OpenMDAO1 #427: the largest double and other customary infinities are no bounds
+@pytest.mark.parametrize("none", [1e20, 1e30, 1e99, 1e300, np.finfo(float).max, np.inf])
+def test_no_bound_has_many_names(none):
+    lower, upper = np.full(8, -none), np.full(8, none)
+    lower[3], upper[2] = -0.5, 0.25
+    given = lower.copy()
+    found = bounded_string(lower, upper)
+    assert np.array_equal(lower, given)  # the user's own array
+    assert found.u[2] == pytest.approx(0.25, abs=1e-12) and found.u[3] == pytest.approx(-0.5, abs=1e-12)
+    assert np.array_equal(np.flatnonzero(found.active), [2, 3])
+    alone = bounded_string(np.where(lower == -0.5, -0.5, -np.inf), np.where(upper == 0.25, 0.25, np.inf))
+    assert found.u == pytest.approx(alone.u, abs=1e-10)  # both are solved to 1e-10
+
+
+# osqp #256, 4C #947: sides that cross, and bounds that shut out a prescribed value
+@pytest.mark.parametrize("at, low, high, says", [
+    (3, 0.5, -0.5, "lower[3] = 0.5, upper[3] = -0.5; accepted: lower <= upper"),
+    (3, np.nan, 1, "lower[3] = nan"),
+    (3, np.inf, np.inf, "lower[3] = inf"),
+    (0, 0.25, np.inf, "fixed[0] = 0; accepted: from 0.25 to inf, its bounds"),
+])
+def test_bounds_that_nothing_meets_are_refused(at, low, high, says):
+    lower, upper = np.full(8, -np.inf), np.full(8, np.inf)
+    lower[at], upper[at] = low, high
+    with pytest.raises(antilock.Error) as refused:
+        bounded_string(lower, upper)
+    assert says in str(refused.value) and "\n" not in str(refused.value)
+
+
 def test_arrays_of_an_answer_are_views():
     found = antilock.assemble(SCENE).solve()
     assert not found.u.flags.owndata and not found.u.flags.writeable

@@ -307,7 +307,7 @@ TEST_F(Door, RefusesInOneLine) {
              file("huge.mtx", "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1e200\n"),
          "accepted: a load whose energy is a number"},
         {"lockcheck " + one + " " + one + " " + one + " " + one + " --fixed " + file("one.csv", "unknown,value\n1,0\n"),
-         "one.csv: unknown 1; accepted: whole numbers from 0 to 0"},
+         "one.csv: line 2: unknown 1; accepted: whole numbers from 0 to 0"},
         {"judge " + good + " " + points + " " + points, "points.csv"}}) {
     const Outcome told = ask(arguments);
     EXPECT_EQ(told.status, 2) << arguments;

@@ -4,12 +4,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <numeric>
+#include <limits>
+#include <map>
 
 #include "antilock/analysis/locking.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
+#include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/sweep.hpp"
 #include "antilock/study/table.hpp"
@@ -21,31 +22,74 @@
 namespace antilock::doors {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// The files of one problem; empty: not given.
 struct Files {
   std::filesystem::path a1, b, m, load, fixed, bounds;
 };
 
-int unknown(const std::filesystem::path& path, double number, Eigen::Index size) {
-  if (number != std::floor(number) || number < 0 || number >= double(size))
-    throw Error(fmt::format("{}: unknown {}; accepted: whole numbers from 0 to {}", path.string(), number, size - 1));
-  return static_cast<int>(number);
+/// A row of a CSV file whose first column is an unknown.
+struct UnknownRow {
+  std::string place;       ///< for messages, "bounds.csv: line 3: unknown 7"
+  Eigen::VectorXd values;  ///< the columns after the first
+};
+
+/// The rows of a file by unknown, in ascending order. Throws Error for a number that is no unknown, or one for the
+/// second time.
+std::map<int, UnknownRow> by_unknown(const std::filesystem::path& path, const std::vector<std::string>& header,
+                                     Eigen::Index size, const CsvForm& form = {}) {
+  const auto [numbers, line] = read_csv_table(path.string(), header, form);
+  std::map<int, UnknownRow> rows;
+  for (Eigen::Index i = 0; i < numbers.rows(); ++i) {
+    const double number = numbers(i, 0);
+    const std::string place = fmt::format("{}: line {}: unknown {}", path.string(), line[std::size_t(i)], number);
+    if (number != std::floor(number) || number < 0 || number >= double(size))
+      throw Error(fmt::format("{}; accepted: whole numbers from 0 to {}", place, size - 1));
+    if (!rows.emplace(static_cast<int>(number), UnknownRow{place, numbers.row(i).tail(numbers.cols() - 1)}).second)
+      throw Error(place + " for the second time; accepted: one row per unknown");
+  }
+  return rows;
 }
 
-/// Rows of a CSV by unknown, ascending; the columns after the first are optional from the right.
-Eigen::MatrixXd by_unknown(const std::filesystem::path& path, std::vector<std::string> header, Eigen::Index size) {
-  std::ifstream in(path);
-  if (!in) throw Error(path.string() + ": cannot be opened; accepted: a CSV file");
-  std::string first;
-  std::getline(in, first);
-  if (header.size() == 3 && std::count(first.begin(), first.end(), ',') == 1) header.pop_back();
-  Eigen::MatrixXd rows = read_csv(path.string(), header);
-  std::vector<Eigen::Index> order(static_cast<std::size_t>(rows.rows()));
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](Eigen::Index i, Eigen::Index j) { return rows(i, 0) < rows(j, 0); });
-  Eigen::MatrixXd sorted = rows(order, Eigen::all);
-  for (Eigen::Index i = 0; i < sorted.rows(); ++i) unknown(path, sorted(i, 0), size);
-  return sorted;
+void read_fixed(const std::filesystem::path& path, VariationalInequality& problem) {
+  std::map<int, double> values;
+  for (const auto& [unknown, row] : by_unknown(path, {"unknown", "value"}, problem.a1.rows()))
+    values[unknown] = row.values(0);
+  set_fixed(problem, values);
+}
+
+/// The bounds of the unknowns that are not fixed. A side that is infinite, or as large as no u is, bounds nothing; the
+/// bounds of a fixed unknown hold its value and bound nothing either.
+void read_bounds(const std::filesystem::path& path, VariationalInequality& problem) {
+  std::map<int, double> fixed;
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+    fixed[problem.fixed[i]] = problem.fixed_values(static_cast<Eigen::Index>(i));
+  const CsvForm form{.optional_columns = 1, .infinite = true};
+  std::vector<double> lower, upper;
+  for (const auto& [unknown, row] : by_unknown(path, {"unknown", "lower", "upper"}, problem.a1.rows(), form)) {
+    const double low = without_void_bound(row.values(0));
+    const double high = without_void_bound(row.values.size() > 1 ? row.values(1) : infinity);
+    if (!(low <= high && low < infinity && high > -infinity))
+      throw Error(fmt::format("{} is bounded from {} to {}; accepted: lower <= upper, -inf below or inf above for none",
+                              row.place, low, high));
+    const auto value = fixed.find(unknown);
+    if (value != fixed.end() && !(low <= value->second && value->second <= high))
+      throw Error(
+          fmt::format("{} is bounded from {} to {}, but fixed at {}; accepted: bounds that hold this value, or "
+                      "no row",
+                      row.place, low, high, value->second));
+    if (value != fixed.end() || (low == -infinity && high == infinity)) continue;
+    problem.contact.push_back(unknown);
+    lower.push_back(low);
+    upper.push_back(high);
+  }
+  const auto given = [](const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  };
+  problem.lower = given(lower);
+  if (std::any_of(upper.begin(), upper.end(), [](double high) { return high < infinity; }))
+    problem.upper = given(upper);
 }
 
 VariationalInequality read_problem(const Files& files) {
@@ -55,17 +99,8 @@ VariationalInequality read_problem(const Files& files) {
   problem.m = read_vector(files.m.string());
   const Eigen::Index n = problem.a1.rows();
   problem.load = files.load.empty() ? Eigen::VectorXd::Zero(n) : read_vector(files.load.string());
-  if (!files.fixed.empty()) {
-    const Eigen::MatrixXd rows = by_unknown(files.fixed, {"unknown", "value"}, n);
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) problem.fixed.push_back(static_cast<int>(rows(i, 0)));
-    problem.fixed_values = rows.col(1);
-  }
-  if (!files.bounds.empty()) {
-    const Eigen::MatrixXd rows = by_unknown(files.bounds, {"unknown", "lower", "upper"}, n);
-    for (Eigen::Index i = 0; i < rows.rows(); ++i) problem.contact.push_back(static_cast<int>(rows(i, 0)));
-    problem.lower = rows.col(1);
-    if (rows.cols() == 3) problem.upper = rows.col(2);
-  }
+  if (!files.fixed.empty()) read_fixed(files.fixed, problem);
+  if (!files.bounds.empty()) read_bounds(files.bounds, problem);
   try {
     check(problem);
   } catch (const Error& error) {
@@ -76,7 +111,8 @@ VariationalInequality read_problem(const Files& files) {
 
 void add_files(CLI::App& line, Files& files, const std::string& prefix) {
   line.add_option(prefix + "fixed", files.fixed, "CSV unknown,value: what is prescribed; unknowns count from 0");
-  line.add_option(prefix + "bounds", files.bounds, "CSV unknown,lower or unknown,lower,upper: what is bounded");
+  line.add_option(prefix + "bounds", files.bounds,
+                  "CSV unknown,lower or unknown,lower,upper: what is bounded; -inf and inf for none");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <vector>
 
+#include "antilock/core/detail/plain_text.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock::doors {
@@ -21,7 +22,7 @@ class Lines {
   }
   bool next(std::istringstream& words) {
     for (std::string line; std::getline(in_, line);) {
-      ++number_;
+      if (++number_ == 1) line = plain_text(line, path_);
       if (line.empty() || (number_ > 1 && line[0] == '%') || line.find_first_not_of(" \t\r") == std::string::npos)
         continue;
       words = std::istringstream(line);

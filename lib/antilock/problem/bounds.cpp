@@ -11,6 +11,10 @@
 
 namespace antilock {
 
+double without_void_bound(double bound) {
+  return std::abs(bound) >= void_bound ? std::copysign(std::numeric_limits<double>::infinity(), bound) : bound;
+}
+
 Eigen::VectorXd bounded_values(const VariationalInequality& problem, const Eigen::VectorXd& u) {
   Eigen::VectorXd values(problem.bound_count());
   values.head(static_cast<Eigen::Index>(problem.contact.size())) = u(problem.contact);

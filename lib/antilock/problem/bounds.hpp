@@ -6,6 +6,13 @@
 
 namespace antilock {
 
+/// A bound of this size or more is none: products of such numbers leave the range of double. The
+/// customary infinities of other programs below it (1e20, 1e30, the largest float, 3.4e38) are numbers.
+constexpr double void_bound = 1e100;
+
+/// The bound, infinite where it is void: |bound| >= void_bound, as the largest double.
+double without_void_bound(double bound);
+
 /// What is bounded, for any u of N entries: the contact unknowns, then the combinations. C entries.
 Eigen::VectorXd bounded_values(const VariationalInequality& problem, const Eigen::VectorXd& u);
 

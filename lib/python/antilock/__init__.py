@@ -34,7 +34,8 @@ class Problem(_antilock.Problem):
     """a1(u, v) + compliance^-1 (B u, M B v) = L(v), with bounds; compliance 0 is the limit.
 
     a1: N x N, symmetric; b: R x N, one row per strain that becomes stiff; m: R positive weights (areas of cells), the
-    diagonal of M; load: N; fixed: unknown -> value; lower, upper: N, infinite where there is no bound; force_bound: N,
+    diagonal of M; load: N; fixed: unknown -> value; lower, upper: N, infinite (or 1e100 and more)
+    where there is no bound; force_bound: N,
     the most that a bound bears. a1 and b are scipy matrices or arrays. compliance may be set again between two solves.
     """
 
@@ -51,7 +52,10 @@ class Problem(_antilock.Problem):
             return numbers
 
         held = sorted(fixed)
-        low, high = array("lower", lower, n, -np.inf), array("upper", upper, n, np.inf)
+        low = _antilock.without_void_bound(array("lower", lower, n, -np.inf))
+        high = _antilock.without_void_bound(array("upper", upper, n, np.inf))
+        for i in np.flatnonzero(~((low <= high) & (low < np.inf) & (high > -np.inf))):
+            raise Error(f"lower[{i}] = {low[i]}, upper[{i}] = {high[i]}; accepted: lower <= upper, infinite for none")
         bounded = (low != -np.inf) | (high != np.inf)
         for i in held:
             if 0 <= i < n and not low[i] <= fixed[i] <= high[i]:
