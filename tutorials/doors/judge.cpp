@@ -5,12 +5,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
 #include "antilock/analysis/detail/companion.hpp"
 #include "antilock/analysis/lost_energy.hpp"
 #include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/number.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/measure/detail/point_values.hpp"
@@ -25,30 +27,102 @@
 namespace antilock::doors {
 namespace {
 
-/// The values of the file by unknown of the space; empty where a point of the file is none of its unknowns, or one for
-/// the second time: `wrong` tells which. The digits of a file are cut off: a point is an unknown where it is within 1e-6
-/// of the triangle's size.
-std::optional<Eigen::VectorXd> values_on(const Space& space, const Eigen::MatrixXd& rows, std::string& wrong) {
-  if (rows.rows() != space.size()) return {};
-  constexpr double digits = 1e-6;
+/// The rows of a file, each at an unknown of a space.
+struct Matched {
+  Eigen::VectorXd u;          ///< by unknown
+  double off = 0;             ///< of the row that is farthest from its unknown, as a share of the triangle's size
+  Eigen::Index farthest = 0;  ///< that row
+  std::string wrong = {};     ///< not empty: the first row at no unknown, or at one for the second time
+};
+
+/// The digits of a file are cut off: a row is at the unknown that is nearest, within `most_off` of the triangle's size.
+Matched matched(const Space& space, const Eigen::MatrixXd& rows, double most_off) {
   const PointValues at(space);
   const Eigen::MatrixX3d nodes = space.element().nodes();
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(space.size());
+  Matched found{Eigen::VectorXd::Zero(space.size())};
   std::vector<char> met(static_cast<std::size_t>(space.size()), 0);
   for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const auto place = at.locate(rows.row(i).head(2).transpose(), digits);
+    const auto place = at.locate(rows.row(i).head(2).transpose(), most_off);
     int unknown = -1;
-    for (Eigen::Index k = 0; place && k < nodes.rows(); ++k)
-      if ((nodes.row(k).transpose() - place->lambda).lpNorm<Eigen::Infinity>() < 2 * digits)
-        unknown = space.unknowns()(place->triangle, k);
-    if (unknown < 0 || met[static_cast<std::size_t>(unknown)]++) {
-      wrong = fmt::format("row {}, ({:g}, {:g}), is the first of them that is {}; ", i + 1, rows(i, 0), rows(i, 1),
-                          unknown < 0 ? "none" : "there twice");
-      return {};
+    double nearest = 2 * most_off;  // the barycentric coordinates sum to 1: one of them may be twice as far off
+    for (Eigen::Index k = 0; place && k < nodes.rows(); ++k) {
+      const double off = (nodes.row(k).transpose() - place->lambda).lpNorm<Eigen::Infinity>();
+      if (off >= nearest) continue;
+      nearest = off;
+      unknown = space.unknowns()(place->triangle, k);
     }
-    u(unknown) = rows(i, 2);
+    if (unknown < 0 || met[static_cast<std::size_t>(unknown)]++) {
+      found.wrong = fmt::format("row {}, ({:g}, {:g}), is the first of them that is {}; ", i + 1, rows(i, 0),
+                                rows(i, 1), unknown < 0 ? "none" : "there twice");
+      return found;
+    }
+    found.u(unknown) = rows(i, 2);
+    if (nearest > found.off) found.farthest = i;
+    found.off = std::max(found.off, nearest);
   }
-  return u;
+  return found;
+}
+
+/// The significant digits with which the numbers were written: the fewest that give each of them back.
+int digits_of(const Eigen::MatrixXd& numbers) {
+  constexpr int most = std::numeric_limits<double>::max_digits10;
+  const auto gives_back = [](double number, int digits) {
+    double read = 0;
+    return read_number(fmt::format("{:.{}g}", number, digits), read) && read == number;
+  };
+  int digits = 1;
+  for (const double number : numbers.reshaped())
+    while (digits < most && !gives_back(number, digits)) ++digits;
+  return digits;
+}
+
+/// Where more than this share of a triangle's size is cut off from the rows' places, as much is cut off from u and its
+/// slopes, and the four digits of the errors that are printed are none.
+constexpr double most_cut_off = 1e-4;
+
+/// The answer of another program, by unknown of the first space that its rows fit.
+struct ReadAnswer {
+  std::optional<Space> space;
+  Eigen::VectorXd u;
+  std::string digits = {};  ///< what is to be said of them
+};
+
+/// Throws Error for rows that fit neither the vertices nor the midpoints, or with too few digits to tell where they are.
+void match(ReadAnswer& answer, const TriangleMesh& mesh, const Eigen::MatrixXd& rows, const std::string& file,
+           const std::string& mesh_file) {
+  const int digits = digits_of(rows.leftCols(2));
+  std::string wrong;
+  for (const Element* element : {&p1(), &crouzeix_raviart()}) {
+    const Space& space = answer.space.emplace(mesh, *element);
+    if (rows.rows() != space.size()) continue;
+    // Nine digits leave less than the first on any mesh that is not extreme. The last, a tenth of the way to the next
+    // unknown, is for the message alone: what is farther off is of another mesh.
+    Matched found;
+    for (const double most_off : {1e-6, most_cut_off, 0.05}) {
+      found = matched(space, rows, most_off);
+      if (most_off == 1e-6 && !found.wrong.empty()) wrong = found.wrong;
+      if (found.wrong.empty()) break;
+    }
+    if (!found.wrong.empty()) continue;
+    if (found.off > 2 * most_cut_off)
+      throw Error(
+          fmt::format("{}: the coordinates have {} digits, which place row {}, ({:g}, {:g}), {:.1g} of a triangle's "
+                      "size beside its "
+                      "{}; accepted: {:g} of it at most, {} digits or more",
+                      file, digits, found.farthest + 1, rows(found.farthest, 0), rows(found.farthest, 1), found.off,
+                      element->conforming() ? "vertex" : "midpoint", most_cut_off,
+                      digits + static_cast<int>(std::ceil(std::log10(found.off / most_cut_off)))));
+    if (found.off > 2e-6)  // the first of the three did not do
+      answer.digits =
+          fmt::format("  coordinates of {} digits: rows and {} are up to {:.1g} of a triangle's size apart\n", digits,
+                      element->conforming() ? "vertices" : "midpoints", found.off);
+    answer.u = found.u;
+    return;
+  }
+  throw Error(
+      fmt::format("{}: {} rows that fit neither the {} vertices nor the {} edge midpoints of {}; {}accepted: one row "
+                  "per vertex or one per midpoint",
+                  file, rows.rows(), mesh.vertex_count(), mesh.edge_count(), mesh_file, wrong));
 }
 
 /// |v|_a of a discrete function; infinite at compliance 0 unless B v = 0 to the round-off of values of the size of `of`.
@@ -206,25 +280,19 @@ int judge(int argc, char** argv) {
   require_paper_problem(file, "judge");
   const TriangleMesh mesh = read_msh(mesh_file.string());
   const Eigen::MatrixXd rows = read_csv(answer.string(), {"x", "y", "u"});
-  std::optional<Space> space;
-  std::optional<Eigen::VectorXd> u;
-  std::string wrong;
-  for (const Element* element : {&p1(), &crouzeix_raviart()})
-    if (!u) u = values_on(space.emplace(mesh, *element), rows, wrong);
-  if (!u)
-    throw Error(
-        fmt::format("{}: {} rows that fit neither the {} vertices nor the {} edge midpoints of {}; {}accepted: one row "
-                    "per vertex or one per midpoint",
-                    answer.string(), rows.rows(), mesh.vertex_count(), mesh.edge_count(), mesh_file.string(), wrong));
+  ReadAnswer read;
+  match(read, mesh, rows, answer.string(), mesh_file.string());
+  const std::optional<Space>& space = read.space;
   const VariationalInequality problem = assemble(file.scene, *space);
   Solution v;
-  v.u = *u;
+  v.u = read.u;
   v.p = problem.compliance > 0 ? Eigen::VectorXd(problem.b * v.u / problem.compliance)
                                : Eigen::VectorXd::Zero(problem.b.rows());
 
   const std::string element = space->element().name();
   nlohmann::json found = {{"element", element}, {"unknowns", space->free_count()}, {"h", mesh.diameter()}};
   std::string text = fmt::format("{}: {}, {} unknowns\n", answer.string(), element, space->free_count());
+  text += read.digits;
   const auto say = std::back_inserter(text);  // printed when all is known: a refusal prints nothing else
   const std::optional<Truth> truth = is_unit_square(mesh) ? truth_of(file.scene) : std::nullopt;
   Eigen::VectorXd error;  // by triangle
