@@ -644,6 +644,22 @@ TEST(FreeFemRunner, SaysInOneLineThatFreeFemIsMissingTooOldOrBroken) {
           " 4.11 starts, but does not solve a small system by UMFPACK; a complete FreeFEM 4.9 or later is needed");
 }
 
+// FreeFem-sources #236 and #166: a mesh of gmsh, or anything else that is not FreeFEM's own
+TEST(FreeFemRunner, NamesTheFormatOfAMeshThatIsNotFreeFemsOwn) {
+  const TemporaryFolder folder;
+  const std::string path = (folder / "a mesh.msh").string();
+  const auto is_no_mesh = [&](const std::string& text, const std::string& why) {
+    std::ofstream(path) << text;
+    EXPECT_EQ(message_of("08_crouzeix_raviart", {"-mesh", path}),
+              "freefem/run: -mesh " + path + ": " + why +
+                  "; accepted: FreeFEM's own format (savemesh; a C++ chapter writes it as mesh.freefem.msh)");
+  };
+  is_no_mesh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "is a MSH file of gmsh");
+  is_no_mesh("\xef\xbb\xbf$MeshFormat\r\n4.1 0 8\r\n", "is a MSH file of gmsh");
+  for (const std::string text : {std::string(), std::string("MeshVersionFormatted 2\n"), std::string("4 2\n0 0 1\n")})
+    is_no_mesh(text, "does not begin with three numbers (of vertices, triangles, edges)");
+}
+
 TEST(FreeFemRunner, RefusesBadInputInOneLine) {
   const auto refuses = [](const std::string& script, const std::vector<std::string>& options,
                           const std::string& words) { EXPECT_EQ(message_of(script, options), script + ": " + words); };
