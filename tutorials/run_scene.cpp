@@ -61,6 +61,7 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   kind = "unstructured"         # "structured" (cells up to 2048), "unstructured" (up to 512), "layered" (up to 512: the
                                 # unstructured body over a scaled layer in columns) or "file"
   cells = 64                    # cells per unit side; with kind = "file" instead: file = "my.msh", beside the scene
+  geometry = "my.geo"           # optional, with a file: the .geo or .brep that the mesh was made from, beside the scene
   refinements = 2               # optional: every triangle of that mesh is cut into four so many times; with "petsc" each
                                 # rank refines its own strip of a small mesh
   [method]                      # optional
@@ -77,9 +78,12 @@ shape on and above y = 0 with a bottom edge on that line; all of that edge is co
 layer that the file does not hold is grown below the contact edges, in columns. In a file with the body alone these edges may be
 curved, each x once, and at any height: the layer grows along their normals, and gap(x) is asked at the x of the edge. accuracy refuses springs, a ceiling, a
 load on the layer, a stiffness that varies on a triangle and a displacement that is not affine on the edges of the mesh;
-"petsc" refuses all of [body], [[edge]], [at], ceiling and the layer's numbers. Where a file of the same name, .geo or
-.brep, lies beside the mesh file, accuracy and refinements put the new vertices of the body's boundary on its curves (gmsh
-reads it; a .geo is a script).
+"petsc" refuses all of [body], [[edge]], [at], geometry, ceiling and the layer's numbers. With a geometry, accuracy and refinements put
+the new vertices of the body's boundary on its curves.
+Read are the scene and the two files that [mesh] names, no other; nothing is run. A .geo is a script of gmsh, which may run programs
+and read and write files: gmsh gets the commands of it that draw. A script with any other is refused by name and line; statements on
+the mesh alone (Mesh, Physical, Field, ...) are left out. A .brep holds data, which OpenCASCADE reads. A .geo or .brep
+that lies beside the mesh file and is not named is not read: refinements and accuracy warn of it.
 
 Written to the results folder: summary.json; solution.csv (x,y,u; in plane strain x,y,u_x,u_y); contact.csv (x,gap,pressure; with contact only,
 with friction a column of that name: the tangential force per length), where

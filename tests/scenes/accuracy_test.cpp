@@ -101,8 +101,8 @@ TEST(Accuracy, OfACurveIsProvedOfItsPolygonAndSaysSo) {
 }
 
 // A body whose top is an arc of a circle through (0, 1), (1/2, 1 + rise) and (1, 1), first as a polygon of a few edges.
-// With the arc's .geo beside it the brackets of two first meshes meet; without it they belong to two polygons.
-TEST(Accuracy, OfACurveReturnsToTheGeometryBesideTheMesh) {
+// With the arc's .geo the brackets of two first meshes meet; without it they belong to two polygons.
+TEST(Accuracy, OfACurveReturnsToTheGeometryThatTheSceneNames) {
   const TemporaryFolder folder;
   const double rise = -0.1, radius = (0.25 + rise * rise) / (2 * -rise), centre = 1 + rise + radius;
   const auto arc = [&](double x) { return centre - std::sqrt(radius * radius - (x - 0.5) * (x - 0.5)); };
@@ -121,8 +121,9 @@ TEST(Accuracy, OfACurveReturnsToTheGeometryBesideTheMesh) {
     write_msh(folder / "arch.msh", mesh);
     std::filesystem::remove(folder / "arch.geo");
     if (!curve.empty()) std::ofstream(folder / "arch.geo") << geometry << curve;
+    const std::string named = curve.empty() ? "" : "geometry = \"" + (folder / "arch.geo").string() + "\"\n";
     return SceneRun("[load]\nf = \"10\"\n[mesh]\nkind = \"file\"\nfile = \"" + (folder / "arch.msh").string() + "\"\n" +
-                    (more == "refinements" ? "refinements = 3\n" : "[method]\n" + more + "\n"));
+                    named + (more == "refinements" ? "refinements = 3\n" : "[method]\n" + more + "\n"));
   };
   const auto bracket = [&](int cells, const std::string& curve) {
     const SceneRun found = run(cells, curve);
@@ -152,7 +153,7 @@ TEST(Accuracy, OfACurveReturnsToTheGeometryBesideTheMesh) {
   EXPECT_EQ(on_top, 17);
 
   expect_no_answer(run(2, "Line(3) = {3, 4};\n"), "arch.geo: no curve of it holds the edge of the boundary from");
-  expect_no_answer(run(2, "Line(3) = {3, \n"), "syntax error");
+  expect_no_answer(run(2, "Line(3) = {3 4};\n"), "arch.geo', line 4: syntax error");
   expect_no_answer(run(2, circle, 0.02), "for which the first mesh is too coarse: inverted");
 }
 

@@ -345,18 +345,24 @@ std::optional<ElasticRequest> read_model(const Section& section, const Layer& la
 constexpr int most_structured = 2048, most_unstructured = 512;
 
 MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder) {
-  section.only({"kind", "cells", "file", "refinements"});
+  section.only({"kind", "cells", "file", "geometry", "refinements"});
+  const auto path_of = [&](const std::string& key, const std::string& what) {
+    const std::string accepted = "the path of " + what + ", relative to the scene file";
+    const std::string path = section.text(key, accepted);
+    if (path.empty() || path.find('\0') != path.npos) section.refuse(key, "is no path; accepted: " + accepted);
+    return folder / path;
+  };
   MeshRequest mesh;
   mesh.kind = section.one_of("kind", {"structured", "unstructured", "layered", "file"});
   if (const char* other = mesh.from_file() ? "cells" : "file"; section.has(other))
     section.refuse(other, fmt::format("does not go with kind = \"{}\"; accepted: {}", mesh.kind,
                                       mesh.from_file() ? "file alone" : "with kind = \"file\" only"));
   if (mesh.from_file()) {
-    const std::string accepted = "the path of a MSH file, 2.2 or 4.1, relative to the scene file";
-    const std::string path = section.text("file", accepted);
-    if (path.empty() || path.find('\0') != path.npos) section.refuse("file", "is no path; accepted: " + accepted);
-    mesh.file = folder / path;
+    mesh.file = path_of("file", "a MSH file, 2.2 or 4.1");
+    if (section.has("geometry")) mesh.geometry = path_of("geometry", "a .geo or .brep file");
   } else {
+    if (section.has("geometry"))
+      section.refuse("geometry", "goes with a mesh file only; accepted: with kind = \"file\"");
     mesh.cells = section.count("cells", mesh.kind == "structured" ? most_structured : most_unstructured);
   }
   if (!section.has("refinements")) return mesh;
@@ -414,6 +420,8 @@ void check_together(const Section& root, const Scene& scene, const MeshRequest& 
   if (method.element != "P1" && method.element != "CR" && (petsc || ventcel))
     root.refuse("method.element", fmt::format("\"{}\" does not go with {}; accepted: \"P1\", \"CR\"", method.element,
                                               petsc ? "solver = \"petsc\"" : "model = \"ventcel\""));
+  if (petsc && !mesh.geometry.empty())
+    root.refuse("mesh.geometry", "does not go with solver = \"petsc\"; accepted: \"active-set\", \"uzawa\"");
   if (!petsc && !method.accuracy) return;
   const std::string beyond = !petsc           ? scene.beyond_the_certificate()
                              : root.has("at") ? "points"

@@ -12,10 +12,11 @@ namespace antilock {
 
 /// The mesh that a scene file asks for.
 struct MeshRequest {
-  std::string kind;            ///< "structured", "unstructured", "layered" or "file"
-  int cells = 0;               ///< cells per unit side; 0 with a file
-  std::filesystem::path file;  ///< beside the scene file, unless absolute
-  int refinements = 0;         ///< how often every triangle is then cut into four
+  std::string kind;                     ///< "structured", "unstructured", "layered" or "file"
+  int cells = 0;                        ///< cells per unit side; 0 with a file
+  std::filesystem::path file;           ///< beside the scene file, unless absolute
+  int refinements = 0;                  ///< how often every triangle is then cut into four
+  std::filesystem::path geometry = {};  ///< of a mesh file: the .geo or .brep file to whose curves refinement returns
   bool from_file() const { return kind == "file"; }
 };
 
@@ -64,7 +65,8 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
 /// The mesh of a scene file: made, or read and compared with the scene, then refined. From a file the body may be
 /// anything on or above y = 0 with a bottom edge on that line, or above a curve of contact edges, along whose normals
 /// the layer then grows: with a layer all of it is Sigma, and the layer fills the strip below, contact at its bottom;
-/// without one all of it is contact. Throws Error as above, KEY mesh.cells, mesh.file, mesh.refinements, or load.f and
+/// without one all of it is contact. A geometry that the scene names is read and compared with the boundary; no other
+/// is looked at. Throws Error as above, KEY mesh.cells, mesh.file, mesh.geometry, mesh.refinements, or load.f and
 /// contact.gap where these have no value on the body of a file.
 TriangleMesh make_mesh(const SceneFile& file);
 

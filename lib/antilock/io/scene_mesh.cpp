@@ -125,12 +125,8 @@ void straighten_columns(TriangleMesh& mesh, double depth) {
   }
 }
 
-/// A .geo or .brep file of the same name beside the mesh file is what refinement returns to; held against the boundary.
-void find_geometry(TriangleMesh& mesh, const std::filesystem::path& file) {
-  for (const char* kind : {".brep", ".geo"})
-    if (const auto beside = file.parent_path() / (file.stem().string() + kind);
-        std::filesystem::is_regular_file(beside))
-      mesh.geometry = beside.string();
+/// Every edge of the boundary lies on a curve of the geometry.
+void check_geometry(const TriangleMesh& mesh) {
   Points middles(mesh.edge_count(), 2);
   std::vector<int> all(mesh.edge_count());
   std::iota(all.begin(), all.end(), 0);
@@ -157,13 +153,14 @@ bool is_curved(const SceneFile& file, const TriangleMesh& mesh) {
   return curved;
 }
 
-TriangleMesh read_mesh_of(const SceneFile& scene_file) {
+TriangleMesh read_mesh_of(const SceneFile& scene_file, const Geometry& geometry) {
   const Scene& scene = scene_file.scene;
   const std::string path = scene_file.mesh.file.string();
   TriangleMesh mesh = read_msh(path, scene_file.groups);
   const double depth = scene.layer_depth();
   const auto layered = [&] { return std::count(mesh.region.begin(), mesh.region.end(), Region::layer) > 0; };
-  if (scene_file.method.accuracy || scene_file.mesh.refinements > 0) find_geometry(mesh, path);
+  mesh.geometry = geometry;
+  check_geometry(mesh);
   if (!layered() && is_curved(scene_file, mesh)) {
     TriangleMesh below = extruded(mesh, scene.epsilon().value_or(0), true);  // which says what Sigma may be
     return depth > 0 ? below : mesh;
@@ -192,14 +189,25 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file) {
   return mesh;
 }
 
+/// The geometry that the scene names, if it names one.
+Geometry named_geometry(const SceneFile& file) {
+  if (file.mesh.geometry.empty()) return {};
+  try {
+    return read_geometry(file.mesh.geometry);
+  } catch (const Error& error) {
+    throw Error(file.name + ": mesh.geometry: " + error.what());
+  }
+}
+
 TriangleMesh checked_mesh(const SceneFile& file) {
-  const auto& [kind, cells, path, refinements] = file.mesh;
+  const auto& [kind, cells, path, refinements, geometry] = file.mesh;
   const Domain domain{file.scene.layer_depth()};
+  const Geometry named = named_geometry(file);
   try {
     return kind == "structured"     ? structured_mesh(cells, domain)
            : kind == "unstructured" ? unstructured_mesh(cells, domain)
            : kind == "layered"      ? layered_mesh(cells, file.scene.epsilon().value_or(1))
-                                    : read_mesh_of(file);
+                                    : read_mesh_of(file, named);
   } catch (const Error& error) {
     std::string what = printable(error.what(), 2000);
     if (what.find("accepted") == std::string::npos)

@@ -111,7 +111,7 @@ CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow) {
     CertifiedSolution found = solved([&] { return solve_to(file.scene, *mesh, asked, follow.level); });
     found.answer.seconds = seconds;
     spent(found.answer);
-    found.answer.warning = joined(found.answer.warning, polygon_warning(file, *mesh));
+    found.answer.warning = joined(found.answer.warning, joined(polygon_warning(file, *mesh), geometry_warning(file)));
     return found;
   }
   begin(fmt::format("assembly: {} on {} triangles", method.element, mesh->triangle_count()));
@@ -125,6 +125,7 @@ CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow) {
   answer.solution = solved([&] { return solve_as_asked(file, space, answer.problem, follow.solve); });
   answer.warning = joined(joined(answer.solution.warning, load), joined(gap_warning(file, space, answer.solution),
                                                                         range_warning(file, space, answer.solution)));
+  answer.warning = joined(answer.warning, geometry_warning(file));
   spent(answer);
   return {std::move(answer), {}, {}, {}};
 }

@@ -39,15 +39,15 @@ void follow_geometry(const TriangleMesh& mesh, const std::vector<int>& middle, P
     if (!nearest)
       throw Error(
           fmt::format("{}: no curve of it holds the edge of the boundary from {} to {}; accepted: the geometry "
-                      "that the mesh was made from, or no file of that name beside it",
-                      mesh.geometry, mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1))));
+                      "that the mesh was made from, or none",
+                      mesh.geometry.file, mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1))));
   }
 }
 
 std::string refinement_name(const TriangleMesh& mesh, const std::string& how) {
   return mesh.geometry.empty()
              ? how
-             : how + " on the curves of " + mesh.geometry + ", for which the first mesh is too coarse";
+             : how + " on the curves of " + mesh.geometry.file + ", for which the first mesh is too coarse";
 }
 
 TriangleMesh refined(const TriangleMesh& mesh) {

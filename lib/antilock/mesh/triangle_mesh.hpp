@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "antilock/core/detail/eigen_memory.hpp"
+#include "antilock/mesh/geometry.hpp"
 
 namespace antilock {
 
@@ -47,8 +48,7 @@ struct TriangleMesh {
   Triples triangle_edges;         ///< T x 3 edges; edge i lies opposite vertex i
   Pairs edge_triangles;           ///< E x 2 triangles; the second is -1 on the boundary
   std::vector<EdgeTag> edge_tag;  ///< E; sigma where body meets layer; never interior on the boundary
-  std::string geometry = {};      ///< a .geo or .brep file on whose curves the body's boundary has its vertices, and to
-      ///< which every refinement returns (mesh/refine.hpp); empty: the boundary is the polygon
+  Geometry geometry = {};         ///< on whose curves the body's boundary has its vertices
 
   std::vector<Bend> bend = {};  ///< T, where the layer follows a curved Sigma; else empty
 

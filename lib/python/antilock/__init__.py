@@ -89,6 +89,7 @@ def assemble(scene: str, folder: str = ".") -> _antilock.Problem:
 def run(scene: str, folder: str = ".") -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """A scene file's text, answered: arrays and the summary that run_scene writes.
 
+    The mesh file and the geometry that it names are looked for in the folder. No other file is read, and nothing is run.
     points N x 2 and u N, one per unknown; p R; vertices V x 2 and triangles T x 3; contact C x 3 (x, gap, pressure).
     """
     with tempfile.TemporaryDirectory() as place:

@@ -33,6 +33,10 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
 /// an angle up to that of a regular octagon. What is proved is proved of the polygon.
 std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh);
 
+/// Empty, or a line about a .geo or .brep file that has the name of the mesh file and that the scene does not name: the
+/// mesh is refined without it.
+std::string geometry_warning(const SceneFile& file);
+
 /// Empty, or a line about an obstacle that is missed between the contact unknowns: the largest depth to which u_h sinks
 /// into it, looked for at a hundred thousand places of Gamma_C, if above a twentieth of max |u_h|.
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution);
@@ -77,7 +81,7 @@ std::string piece_name(int rank);
 /// The names of all results that there may be in `folder`, those of an earlier run too, and of one on `ranks` ranks:
 /// what a new result replaces or takes away.
 std::vector<std::string> result_names(const std::filesystem::path& folder, int ranks = 0);
-/// Throws Error where one of them is the scene or its mesh file. Touches nothing.
+/// Throws Error where one of them is the scene, its mesh file or its geometry. Touches nothing.
 void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
                        int ranks = 0);
 

@@ -173,8 +173,24 @@ std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh) {
   if (curved < 6) return "";
   return fmt::format(
       "mesh.file: the boundary turns a little at {} vertices, as the mesh of a curve does; what is proved is proved of "
-      "this polygon; a .geo or .brep file beside the mesh file is what refinement returns to",
+      "this polygon; with geometry = \"my.geo\" in [mesh] refinement returns to the curves of that file",
       curved);
+}
+
+std::string geometry_warning(const SceneFile& file) {
+  const auto& [kind, cells, path, refinements, geometry] = file.mesh;
+  const bool refined = refinements > 0 || file.method.accuracy;
+  if (!file.mesh.from_file() || !geometry.empty() || !refined || file.method.solver == "petsc") return "";
+  for (const char* extension : {".geo", ".brep"}) {
+    const std::filesystem::path beside = path.parent_path() / (path.stem().string() + extension);
+    if (std::error_code ignored; !std::filesystem::exists(beside, ignored)) continue;
+    const auto relative = beside.lexically_relative(std::filesystem::path(file.name).parent_path());
+    return fmt::format(
+        "mesh.geometry: {} lies beside the mesh file and was not read, since the scene does not name it; with geometry "
+        "= \"{}\" in [mesh] refinement returns to its curves",
+        printable(beside.filename().string(), 200), printable((relative.empty() ? beside : relative).string(), 1000));
+  }
+  return "";
 }
 
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {

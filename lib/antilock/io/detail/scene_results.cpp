@@ -63,7 +63,7 @@ Json question(const SceneFile& file) {
 Json certificate(const MethodRequest& method, const CertifiedSolution& certified) {
   const Certificate& proof = certified.certificate;
   Json levels = Json::array();
-  const std::string& geometry = certified.answer.mesh->geometry;
+  const std::string& geometry = certified.answer.mesh->geometry.file;
   const std::string corners =
       geometry.empty() ? "" : ", its corners on the curves of " + std::filesystem::path(geometry).filename().string();
   for (const Level& level : certified.history)
@@ -208,7 +208,7 @@ std::vector<std::string> result_names(const std::filesystem::path& folder, int r
 void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
                        int ranks) {
   for (const std::string& name : result_names(folder, ranks))
-    for (const std::filesystem::path& input : {scene, file.mesh.file})
+    for (const std::filesystem::path& input : {scene, file.mesh.file, file.mesh.geometry})
       if (std::error_code absent; !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
         throw Error(fmt::format("{}: --out: the result {} would replace {}; accepted: another folder", file.name, name,
                                 printable(input.string(), 1000)));

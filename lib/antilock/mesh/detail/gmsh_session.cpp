@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "antilock/core/error.hpp"
+#include "antilock/mesh/detail/memory_file.hpp"
 
 namespace antilock {
 namespace {
@@ -116,8 +117,37 @@ std::pair<Points, Triples> GmshSession::generate() const {
   return made;
 }
 
-std::vector<int> GmshSession::read_curves(const std::string& path) const {
-  call<decltype(gmshMerge)>("gmshMerge", path.c_str());
+// gmshMerge tells the kind of a file by its name and its first line, and executes NAME.opt beside a file NAME, whatever
+// its kind. So it is given nothing but the checked script, in a file that has no folder; a .brep file goes to
+// OpenCASCADE, which knows no other kind.
+void GmshSession::read(const Geometry& geometry) const {
+  if (geometry.script.empty()) {
+    int* shapes = nullptr;
+    std::size_t count = 0;
+    call<decltype(gmshModelOccImportShapes)>("gmshModelOccImportShapes", geometry.file.c_str(), &shapes, &count,
+                                             /*highestDimOnly*/ 0, "brep");
+    free_by_gmsh(shapes);
+    if (count == 0)
+      throw Error(fmt::format("{}: OpenCASCADE finds no shape in it; accepted: a .brep file", geometry.file));
+    call<decltype(gmshModelOccSynchronize)>("gmshModelOccSynchronize");
+    return;
+  }
+  const MemoryFile script(geometry.script);
+  try {
+    call<decltype(gmshMerge)>("gmshMerge", script.path().c_str());
+  } catch (const Error& error) {
+    // gmsh's scanner keeps the rest of the line at fault, and would put it before the next script: it is read off here
+    set("General.AbortOnError", 0);
+    call<decltype(gmshMerge)>("gmshMerge", MemoryFile("\n").path().c_str());
+    std::string what = error.what();
+    if (const auto at = what.find(script.path()); at != what.npos)
+      what.replace(at, script.path().size(), geometry.file);
+    throw Error(what);
+  }
+}
+
+std::vector<int> GmshSession::read_curves(const Geometry& geometry) const {
+  read(geometry);
   int* entities = nullptr;
   std::size_t count = 0;
   call<decltype(gmshModelGetEntities)>("gmshModelGetEntities", &entities, &count, /*dim*/ 1);

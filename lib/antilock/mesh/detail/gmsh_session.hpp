@@ -47,12 +47,13 @@ class GmshSession {
   /// Makes triangles of the geometry, surface by surface.
   std::pair<Points, Triples> generate() const;
 
-  /// Reads a .geo or .brep file; the tags of its curves. Throws Error where gmsh cannot read it.
-  std::vector<int> read_curves(const std::string& path) const;
+  /// The tags of a geometry's curves. Throws Error where gmsh cannot read it.
+  std::vector<int> read_curves(const Geometry& geometry) const;
   /// The points of a curve that are nearest to some points, three coordinates each.
   std::vector<double> nearest(int curve, std::vector<double> xyz) const;
 
  private:
+  void read(const Geometry& geometry) const;
   static void* symbol(const char* name);
   void check(int failed, const char* name) const;
 };

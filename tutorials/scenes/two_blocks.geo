@@ -1,5 +1,5 @@
 // A block of two materials, x < 1/2 and x > 1/2: the sides clamped, the top in a group of its own.
-// gmsh -2 two_materials.geo -o two_materials.msh
+// gmsh -2 two_blocks.geo -o two_materials.msh
 h = 0.08;
 Point(1) = {0, 0, 0, h};   Point(2) = {0.5, 0, 0, h}; Point(3) = {1, 0, 0, h};
 Point(4) = {1, 1, 0, h};   Point(5) = {0.5, 1, 0, h}; Point(6) = {0, 1, 0, h};

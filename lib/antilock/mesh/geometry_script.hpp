@@ -1,0 +1,24 @@
+#pragma once
+#include <string>
+
+namespace antilock {
+
+/// The part of a .geo script that draws, in the words of a language without side effects: gmsh
+/// reads it in place of the file. A .geo script is a program: it may run commands of the machine,
+/// and read and write files. Nobody expects that of a drawing, so that gmsh never sees the text
+/// itself.
+///
+/// What is returned consists of numbers, of signs, of words from a list of commands that draw, and
+/// of names of variables with the prefix `v_`, with which no word of gmsh begins. The only texts in
+/// quotation marks are "OpenCASCADE" and "Built-in". So whatever the order of its words, it can
+/// name no file and start no program. Tokens keep their lines, so that gmsh's own messages name the
+/// right one.
+///
+/// Left out are comments and the statements that concern the mesh alone: Mesh, Physical, Field,
+/// Characteristic Length, Transfinite and the like, and Printf without a file. Accepted beyond
+/// that: variables, lists, For, DefineConstant, arithmetic, points, curves, surfaces, solids,
+/// transformations, Boolean operations and numbers of Geometry. Throws Error, `line N: NAME: ...`,
+/// for anything else.
+std::string geometry_script(const std::string& text);
+
+}  // namespace antilock

@@ -1,0 +1,632 @@
+// What gmsh is given of a .geo file (mesh/geometry_script.hpp): all that draws, and nothing that
+// reads, writes or runs.
+#include "antilock/mesh/geometry_script.hpp"
+
+#include <gmshc.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <random>
+
+#include "antilock/core/error.hpp"
+#include "antilock/mesh/detail/gmsh_session.hpp"
+#include "antilock/mesh/geometry.hpp"
+#include "support/temporary_folder.hpp"
+
+namespace antilock::test::geometry_script_test {
+
+/// The message of a refusal; empty for a script that is accepted.
+std::string refusal(const std::string& script) {
+  try {
+    geometry_script(script);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+/// `script` is refused in line `line`, and the message names `name` there.
+void expect_refused(const std::string& script, int line, const std::string& name) {
+  const std::string why = refusal(script), begin = "line " + std::to_string(line) + ": " + name;
+  EXPECT_EQ(why.substr(0, begin.size()), begin) << script << "\n" << why;
+  EXPECT_NE(why.find("accepted: "), std::string::npos) << why;
+  EXPECT_EQ(why.find('\n'), std::string::npos) << why;
+}
+
+/// The words of a script, one blank between two.
+std::string words(const std::string& script) {
+  std::istringstream in(script);
+  std::string all;
+  for (std::string word; in >> word;) all += (all.empty() ? "" : " ") + word;
+  return all;
+}
+
+// ==== what is kept ====
+
+TEST(GeometryScript, KeepsNumbersSignsAndCommandsAndRenamesVariables) {
+  EXPECT_EQ(words(geometry_script("h = 1e-1; Point(1) = {0.5, -.5, 2., h};")),
+            "v_h = 1e-1 ; Point ( 1 ) = { 0.5 , - .5 , 2. , v_h } ;");
+  EXPECT_EQ(words(geometry_script("a() = {1:3}; a(0) += 2; a() -= 1; b~{1} = #a();b~{1}++;")),
+            "v_a ( ) = { 1 : 3 } ; v_a ( Min ( 1e6 , Fabs ( 0 ) ) ) += 2 ; v_a ( ) -= 1 ; v_b ~ { "
+            "1 } = # v_a ( ) ; "
+            "v_b ~ { 1 } ++ ;");
+  EXPECT_EQ(words(geometry_script("Merge = 1; x = Merge;")), "v_Merge = 1 ; v_x = v_Merge ;");
+}
+
+TEST(GeometryScript, KeepsTheLinesOfItsTokens) {
+  const std::string script = geometry_script("// one\n/* two\nthree */\nPoint(1) =\n{0, 0, 0};\n");
+  EXPECT_EQ(script, "\n\n\n Point ( 1 ) =\n { 0 , 0 , 0 } ;\n");
+}
+
+TEST(GeometryScript, BreaksLongLinesBetweenTokens) {
+  std::string list = "1";
+  for (int i = 2; i < 5000; ++i) list += ", " + std::to_string(i);
+  const std::string script = geometry_script("Spline(1) = {" + list + "};");
+  EXPECT_EQ(words(script).substr(0, 26), "Spline ( 1 ) = { 1 , 2 , 3");
+  std::istringstream lines(script);
+  for (std::string line; std::getline(lines, line);)
+    EXPECT_LT(line.size(), 2200U);  // gmsh cuts from 8192 on
+}
+
+TEST(GeometryScript, LeavesOutCommentsAndWhatConcernsTheMeshAlone) {
+  for (const std::string nothing :
+       {"// SystemCall \"touch marker\";", "/* Merge \"x\"; */", "Mesh.Algorithm = 6;", "Mesh 2;",
+        "Physical Curve(\"SystemCall 'touch marker';\", 3) = {1, 2};",
+        "Characteristic Length {:} = 0.1;",
+        "Field[1] = MathEval; Field[1].F = \"x*y\"; Background Field = 1;",
+        "Printf(\"%g SystemCall\", 1);",
+        "Transfinite Curve {1} = 10 Using Progression 1.1; Recombine Surface {1};",
+        "BoundaryLayer Field = 1;"})
+    EXPECT_EQ(words(geometry_script(nothing)), "") << nothing;
+}
+
+TEST(GeometryScript, KeepsTheValuesOfConstantsAndLeavesOutTheirMenus) {
+  EXPECT_EQ(
+      words(geometry_script(
+          "DefineConstant[ h = {0.1, Min 0, Name \"a/b\"}, n = 3, l() = {{1, 2}, Name \"c\"} ];")),
+      "DefineConstant [ v_h = { 0.1 } , v_n = 3 , v_l ( ) = { { 1 , 2 } } ] ;");
+}
+
+TEST(GeometryScript, KeepsLoopsAndTheKernel) {
+  EXPECT_EQ(words(geometry_script(
+                "SetFactory(\"OpenCASCADE\");\nFor i In {1:3}\n  Point(i) = {i, 0, 0};\nEndFor\n")),
+            "SetFactory ( \"OpenCASCADE\" ) ; For v_i In { 1 : 3 } Point ( v_i ) = { v_i , 0 , 0 } "
+            "; EndFor");
+  EXPECT_EQ(words(geometry_script("For (1:2)\n p = newp;\nEndFor")),
+            "For ( 1 : 2 ) v_p = newp ; EndFor");
+}
+
+// ==== what is refused ====
+
+TEST(GeometryScript, RefusesByNameAndLineWhatRunsReadsOrWrites) {
+  for (const auto& [script, name] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"SystemCall \"touch marker\";", "SystemCall"},
+           {"System \"touch marker\";", "System"},
+           {"NonBlockingSystemCall \"touch marker\";", "NonBlockingSystemCall"},
+           {"OnelabRun(\"a\", \"touch marker\");", "OnelabRun"},
+           {"OnelabRun \"a\";", "OnelabRun"},
+           {"Printf(\"a\") > \"marker\";", "Printf"},
+           {"Printf(\"%g\", 1) >> \"marker\";", "Printf"},
+           {"Print \"marker.png\";", "Print"},
+           {"Save \"marker.msh\";", "Save"},
+           {"Save View[0] \"marker\";", "Save"},
+           {"Include \"marker\";", "Include"},
+           {"Merge \"marker\";", "Merge"},
+           {"MergeWithBoundingBox \"marker\";", "MergeWithBoundingBox"},
+           {"s() = ShapeFromFile(\"marker.step\");", "ShapeFromFile"},
+           {"l() = ListFromFile[\"marker\"];", "ListFromFile"},
+           {"CreateDir \"marker\";", "CreateDir"},
+           {"Plugin(Triangulate).Run;", "Plugin"},
+           {"Plugin(MathEval).Expression0 = \"x\";", "Plugin"},
+           {"View \"a\" { SP(0,0,0){1}; };", "View"},
+           {"View[0].Visible = 0;", "View"},
+           {"General.OptionsFileName = \"marker\";", "General.OptionsFileName"},
+           {"General.ExecutableFileName = \"marker\";", "General.ExecutableFileName"},
+           {"Solver.Executable0 = \"touch marker\";", "Solver.Executable0"},
+           {"Print.Text = 1;", "Print.Text"},
+           {"PostProcessing.SaveMesh = 1;", "PostProcessing.SaveMesh"},
+           {"Geometry.OCCTargetUnit = \"M\";", "Geometry.OCCTargetUnit"},
+           {"x = General.Terminal;", "General.Terminal"},
+           {"Field[1] = ExternalProcess;", "Field = ExternalProcess"},
+           {"Field[1] = Structured;", "Field = Structured"},
+           {"Field[1] = PostView;", "Field = PostView"},
+           {"SetString(\"a\", \"b\");", "SetString"},
+           {"SetNumber(\"a\", 1);", "SetNumber"},
+           {"UndefineConstant[\"a\"];", "UndefineConstant"},
+           {"x = GetEnv(\"HOME\");", "GetEnv"},
+           {"x = GetValue(\"a\", 1);", "GetValue"},
+           {"DefineConstant[ x = DefineString(\"a\") ];", "DefineString"},
+           {"StringToName[\"SystemCall\"] \"touch marker\";", "StringToName"},
+           {"S2N[\"SystemCall\"] \"touch marker\";", "S2N"},
+           {"System~{1} \"touch marker\";", "System"},
+           {"If (1)", "If"},
+           {"Macro M", "Macro"},
+           {"Function M", "Function"},
+           {"Call M;", "Call"},
+           {"Return", "Return"},
+           {"Exit;", "Exit"},
+           {"Abort;", "Abort"},
+           {"Sleep 1000;", "Sleep"},
+           {"NewModel;", "NewModel"},
+           {"Struct S[a 1];", "Struct"},
+           {"SetFactory(Str(\"OpenCASCADE\"));", "SetFactory"},
+           {"SetFactory(\"marker\");", "\"marker\""},
+           {"Levelset Plane(1) = {0, 0, 1, 0};", "Levelset"},
+           {"PolarSphere(1) = {1, 2};", "PolarSphere"},
+           {"ThruSections(1) = {1:3};", "ThruSections"}}) {
+    expect_refused("\n\n" + script, 3, name);
+    expect_refused("a = 1;\nb() = {1, 2};\n" + script, 3, name);
+    expect_refused("Mesh.Algorithm = 6;\n\n" + script, 3, name);
+    expect_refused("Delete { Point{1}; }\n/* ; */\n" + script, 3, name);
+    expect_refused("For i In {1:2}\r\n\r\n" + script + "\r\nEndFor", 3, name);
+    expect_refused("// \\\n\"'\";\n" + script, 2, "\"'\"");  // a backslash continues no line
+  }
+}
+
+TEST(GeometryScript, RefusesOddSpellings) {
+  for (const std::string script :
+       {"SystemCall'touch marker';", "SystemCall/**/\"touch marker\";",
+        "SystemCall\t\f\"touch marker\";", "SystemCall \"touch\nmarker\";",
+        "a = 1;SystemCall\"touch marker\";", "/*/*/SystemCall \"touch marker\";",
+        "/* /* */ SystemCall \"touch marker\"; /* */", "SystemCall StrCat(\"touch\", \" marker\");",
+        "SystemCall \"touch marker\"", "{ SystemCall \"touch marker\"; }",
+        "Surface { SystemCall \"touch marker\"; };", "a() = { SystemCall };",
+        "SystemCall = 1; SystemCall 2; System \"a\";"})
+    EXPECT_NE(refusal(script), "") << script;
+  // a name that the script assigns is a variable: the text behind it is refused
+  expect_refused("SystemCall = 1;\nSystemCall \"touch marker\";", 2, "\"touch marker\"");
+  expect_refused("Merge() = {1};\nMerge \"marker\";", 2, "\"marker\"");
+  expect_refused("a = \"touch marker\";\nSystemCall a;", 1, "\"touch marker\"");
+  // a text ends at the next quotation mark, whatever stands before it
+  expect_refused("Printf(\"a\\\");\nSystemCall \"touch marker\"; //\");", 2, "SystemCall");
+  expect_refused("Printf('a\"');\nSystemCall \"touch marker\";", 2, "SystemCall");
+  expect_refused("Physical Point(\"/*\") = {1};\nSystemCall \"touch marker\"; // */", 2,
+                 "SystemCall");
+  expect_refused("// /*\nSystemCall \"touch marker\"; // */", 2, "SystemCall");
+  // carriage returns end no comment, for gmsh as well
+  EXPECT_EQ(words(geometry_script("// \rSystemCall \"touch marker\";")), "");
+}
+
+TEST(GeometryScript, RefusesWhatIsNoScript) {
+  using namespace std::string_literals;
+  expect_refused("a = 1;\nb = \0;"s, 2, "a byte 0");
+  expect_refused("// \0\n"s, 1, "a byte 0");
+  expect_refused("\xEF\xBB\xBFPoint(1) = {0,0,0};", 1, "?");
+  expect_refused("\n$MeshFormat", 2, "$");
+  expect_refused("Point(1) = {0, 0, 0};\n/* ", 2, "/*");
+  expect_refused("Printf(\"", 1, "a text");
+  expect_refused("Printf('\"\n", 1, "a text");
+  expect_refused("Point(1) = {0, 0, 0", 1, "{");
+  expect_refused("Point(1) = (0, 0, 0};", 1, "}");
+  expect_refused("\n)", 2, ")");
+  expect_refused("Mesh.Algorithm = 1", 1, "Mesh");
+  expect_refused("For i In {1:2}", 1, "For");
+  expect_refused("For i In {1:2}\nEndFor\nEndFor", 3, "EndFor");
+  expect_refused("x = 1 % 0;", 1, "%");
+  expect_refused("x = y;", 1, "y");
+  expect_refused("a() = {1}; b = a({0});", 1, "a");
+  expect_refused(std::string(101, 'x') + " = 1;", 1, "xxx");
+  EXPECT_EQ(refusal(std::string(100, 'x') + " = 1;"), "");
+  EXPECT_EQ(refusal("// \xC3\xA9\nPhysical Point(\"\xC3\xA9\") = {1};"),
+            "");  // UTF-8 where it means nothing
+}
+
+// gmsh checks the upper bound of an index alone. It is kept within 0 and 1e6, wherever the brackets
+// stand.
+TEST(GeometryScript, KeepsEveryIndexFromZeroOn) {
+  const std::string before = "l() = {1}; k~{1} = {1}; ", guarded = "Min ( 1e6 , Fabs ( - 3 ) )";
+  for (const auto& [index, kept] :
+       {std::pair<std::string, std::string>{"l[-3] = 1;", "v_l [ " + guarded + " ] = 1 ;"},
+        {"l(-3) = 1;", "v_l ( " + guarded + " ) = 1 ;"},
+        {"x = l /* */ [-3];", "v_x = v_l [ " + guarded + " ] ;"},
+        {"x = k~{1}[-3];", "v_x = v_k ~ { 1 } [ " + guarded + " ] ;"},
+        {"k~{1}~{2}(-3)++;", "v_k ~ { 1 } ~ { 2 } ( " + guarded + " ) ++ ;"},
+        {"x = l[l[-3]];", "v_x = v_l [ Min ( 1e6 , Fabs ( v_l [ " + guarded + " ] ) ) ] ;"}}) {
+    const std::string script = words(geometry_script(before + index));
+    EXPECT_EQ(script.substr(script.size() - kept.size()), kept) << script;
+  }
+}
+
+// ==== what gmsh makes of it ====
+
+/// The bounding boxes of the curves that gmsh has now.
+std::vector<std::array<double, 6>> boxes(const GmshSession& gmsh, const std::vector<int>& curves) {
+  std::vector<std::array<double, 6>> all;
+  for (const int curve : curves) {
+    auto& [a, b, c, d, e, f] = all.emplace_back();
+    gmsh.call<decltype(gmshModelGetBoundingBox)>("gmshModelGetBoundingBox", 1, curve, &a, &b, &c,
+                                                 &d, &e, &f);
+  }
+  return all;
+}
+std::vector<std::array<double, 6>> boxes_of(const Geometry& geometry) {
+  const GmshSession gmsh;
+  return boxes(gmsh, gmsh.read_curves(geometry));
+}
+/// Of a file as gmsh itself reads it.
+std::vector<std::array<double, 6>> boxes_by_gmsh(const std::filesystem::path& file) {
+  const GmshSession gmsh;
+  gmsh.call<decltype(gmshMerge)>("gmshMerge", file.c_str());
+  return boxes(gmsh, gmsh.read_curves({"nothing", geometry_script("")}));
+}
+
+const std::string plate_with_holes =
+    "SetFactory(\"OpenCASCADE\");\nDefineConstant[ r = {0.1, Min 0.01, Name \"radius\"} "
+    "];\nRectangle(1) = {0, 0, 0, "
+    "4, 1};\n"
+    "holes() = {};\nFor i In {0:2}\n  d = news;\n  Disk(d) = {1 + i, 0.5 + r*Sin(Pi*i/2), 0, r + "
+    "i/20};\n"
+    "  holes() += d;\nEndFor\nb() = BooleanDifference{ Surface{1}; Delete; }{ Surface{holes()}; "
+    "Delete; };\n"
+    "e() = Translate{0, 2, 0}{ Duplicata{ Surface{b(0)}; } };\nPhysical Surface(\"body\") = "
+    "{b()};\nMesh.Algorithm = "
+    "6;\n";
+const std::string built_in =
+    "h = .1;\nFor i In {0:20}\n  Point(10 + i) = {i/20, 0.1*Cos(2*Pi*i/20)^2, 0, h};\n  l(i) = 10 "
+    "+ i;\nEndFor\n"
+    "Spline(1) = {l()};\nPoint(1) = {1, 1, 0}; Point(2) = {0, 1, 0}; Point(3) = {0.5, 1, "
+    "0};\nLine(2) = {30, 1};\n"
+    "Circle(3) = {1, 3, 2};\nBSpline(4) = {2, 3, 10};\nCurve Loop(1) = {1, 2, 3, 4}; Plane "
+    "Surface(1) = {1};\n"
+    "o() = Extrude {0, 0, 1} { Curve{2}; Layers{3}; Recombine; };\nRotate{{0, 0, 1}, {0, 0, 0}, "
+    "Pi/3} { Curve{3}; }\n";
+
+TEST(GeometryScript, DrawsWhatTheFileDraws) {
+  const TemporaryFolder folder;
+  for (const std::string& script : {plate_with_holes, built_in}) {
+    std::ofstream(folder / "body.geo") << script;
+    const auto drawn = boxes_of(read_geometry(folder / "body.geo"));
+    EXPECT_EQ(drawn, boxes_by_gmsh(folder / "body.geo"));
+    EXPECT_GE(drawn.size(), 7U);
+  }
+}
+
+TEST(GeometryScript, IsReadOnceAndNothingLiesBesideIt) {
+  const TemporaryFolder folder;
+  const std::string marker = (folder / "marker").string(),
+                    command = "SystemCall \"touch " + marker + "\";\n";
+  std::ofstream(folder / "body.geo") << built_in;
+  std::ofstream(folder / "body.geo.opt") << command;  // gmsh merges it with body.geo
+  const Geometry geometry = read_geometry(folder / "body.geo");
+  const auto drawn = boxes_of(geometry);
+  std::ofstream(folder / "body.geo") << command;
+  EXPECT_EQ(boxes_of(geometry), drawn);
+  EXPECT_THROW(read_geometry(folder / "body.geo"), Error);
+  EXPECT_FALSE(std::filesystem::exists(marker));
+}
+
+TEST(GeometryScript, WithASyntaxErrorLeavesNothingForTheNextOne) {
+  const auto drawn = boxes_of({"body.geo", geometry_script(built_in)});
+  for (const std::string bad :
+       {"Point(1) = {1 1}; Point(2) = {0, 0, 0}; Point(3) = {1, 0, 0}; Line(77) = {2, 3};\n",
+        "For i In {1:3}\n Point(i) = {1 1}; EndFor", "Point(1) = {,,,,,};;;", "Line(1) = {1};"})
+    for (int twice = 0; twice < 2; ++twice) {
+      EXPECT_THROW(boxes_of({"bad.geo", geometry_script(bad)}), Error) << bad;
+      EXPECT_EQ(boxes_of({"body.geo", geometry_script(built_in)}), drawn) << bad;
+    }
+}
+
+TEST(GeometryScript, OfABrepIsNotNeededSinceItIsDataWhateverItHolds) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "body.brep").string(), marker = (folder / "marker").string();
+  const std::string command = "SystemCall \"touch " + marker + "\";\n";
+  std::vector<std::array<double, 6>> drawn;
+  {
+    const GmshSession gmsh;
+    drawn = boxes(gmsh, gmsh.read_curves({"plate", geometry_script(plate_with_holes)}));
+    gmsh.call<decltype(gmshWrite)>("gmshWrite", file.c_str());
+  }
+  const auto by_gmsh = boxes_by_gmsh(file);
+  std::ofstream(file + ".opt") << command;
+  EXPECT_EQ(boxes_of(read_geometry(file)), by_gmsh);
+  EXPECT_EQ(by_gmsh.size(), drawn.size());
+  EXPECT_FALSE(std::filesystem::exists(marker));
+
+  std::filesystem::remove(file + ".opt");
+  for (const std::string& text :
+       {command, std::string(), std::string("DBRep_DrawableShape\nnothing")}) {
+    std::ofstream(file) << text;
+    EXPECT_THROW(boxes_of(read_geometry(file)), Error) << text;
+    EXPECT_FALSE(std::filesystem::exists(marker));
+  }
+}
+
+TEST(GeometryScript, IsOfAFileGeoOrBrep) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "body.step") << "";
+  std::ofstream(folder / "body.geo.gz") << "";
+  std::filesystem::create_directory(folder / "folder.geo");
+  ASSERT_EQ(::mkfifo((folder / "pipe.geo").c_str(), 0600), 0);
+  std::ofstream(folder / "large.geo") << std::string((4 << 20) + 1, ' ');
+  for (const std::string name :
+       {"body.step", "body.geo.gz", "folder.geo", "pipe.geo", "large.geo", "absent.geo"})
+    EXPECT_THROW(read_geometry(folder / name), Error) << name;
+}
+
+// ==== random scripts ====
+
+/// What a process left behind.
+struct Traces {
+  int files = 0;
+  bool started = false;  ///< another process
+  bool crashed = false;
+};
+
+/// Runs `work` in a process of its own, whose folder is empty.
+template <class Work>
+Traces traces_of(const Work& work) {
+  const TemporaryFolder folder;
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::alarm(60);
+    if (::chdir(folder.path().c_str()) != 0) ::_exit(1);
+    ::setenv("HOME", folder.path().c_str(), 1);
+    work();
+    rusage children{};
+    ::getrusage(RUSAGE_CHILDREN,
+                &children);  // of those that were waited for; waitpid sees the others
+    ::_exit(children.ru_minflt > 0 || ::waitpid(-1, nullptr, WNOHANG) != -1 ? 2 : 0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return {folder.file_count(), WIFEXITED(status) && WEXITSTATUS(status) != 0, WIFSIGNALED(status)};
+}
+
+void draw(const std::string& script) {
+  try {
+    const GmshSession gmsh;
+    gmsh.read_curves({"random.geo", script});
+  } catch (const Error&) {  // most of them make no sense
+  }
+}
+
+TEST(GeometryScript, WithoutTheRewritingLeavesTraces) {
+  boxes_of({"empty.geo", "\n"});  // gmsh is loaded before the fork
+  const Traces of_a_call = traces_of([] { draw("SystemCall \"touch marker\";\n"); });
+  EXPECT_EQ(of_a_call.files, 1);
+  EXPECT_TRUE(of_a_call.started);
+  const Traces in_the_background =
+      traces_of([] { draw("NonBlockingSystemCall \"sleep 0.1\";\n"); });
+  EXPECT_TRUE(in_the_background.started);
+  const Traces of_nothing = traces_of([] { draw("Point(1) = {0, 0, 0};\n"); });
+  EXPECT_EQ(of_nothing.files, 0);
+  EXPECT_FALSE(of_nothing.started || of_nothing.crashed);
+}
+
+class RandomScripts {
+ public:
+  explicit RandomScripts(unsigned seed) : random_(seed) {}
+
+  /// Statements, some of them changed: a token taken away, doubled, replaced or put in.
+  std::string changed_statements() {
+    std::string script = "a = 1; b() = {1, 2, 3}; p = newp;\n";
+    for (int k = below(6) + 1; k > 0; --k) {
+      std::vector<std::string> tokens = split(one_of(statements_));
+      for (int changes = below(3); changes > 0 && !tokens.empty(); --changes) {
+        const auto at = tokens.begin() + below(static_cast<int>(tokens.size()));
+        switch (below(4)) {
+          case 0:
+            tokens.erase(at);
+            break;
+          case 1:
+            tokens.insert(at, *at);
+            break;
+          case 2:
+            *at = any_token();
+            break;
+          default:
+            tokens.insert(at, any_token());
+        }
+      }
+      for (const std::string& token : tokens) script += token + (below(8) == 0 ? "\n" : " ");
+      script += '\n';
+    }
+    return script;
+  }
+
+  /// Words that are accepted, in any order, brackets in pairs.
+  std::string accepted_words() {
+    std::string script = "a = 1; b() = {1, 2, 3}; Merge = 1; SystemCall() = {1};\n", open;
+    for (int k = below(40) + 2; k > 0; --k) {
+      if (!open.empty() && below(3) == 0) {
+        script += open.back();
+        open.pop_back();
+      } else if (below(4) == 0) {
+        const int kind = below(3);
+        script += "([{"[kind];
+        open += ")]}"[kind];
+      } else {
+        script += one_of(below(2) == 0 ? words_ : plain_);
+      }
+      script += below(12) == 0 ? " ;\n" : " ";
+    }
+    for (; !open.empty(); open.pop_back()) script += open.back();
+    return script + " ;\n";
+  }
+
+ private:
+  int below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
+  const std::string& one_of(const std::vector<std::string>& all) {
+    return all[below(static_cast<int>(all.size()))];
+  }
+  std::string any_token() {
+    const int kind = below(3);
+    return one_of(kind == 0 ? dangerous_ : kind == 1 ? words_ : plain_);
+  }
+  static std::vector<std::string> split(const std::string& statement) {
+    std::istringstream in(statement);
+    return {std::istream_iterator<std::string>(in), {}};
+  }
+
+  std::mt19937 random_;
+  const std::vector<std::string> statements_ = {
+      "Point ( 1 ) = { 0 , 0 , 0 } ;",
+      "Point ( p ) = { a , b(1) , 0 , 0.1 } ;",
+      "Line ( 1 ) = { 1 , p } ;",
+      "Circle ( 3 ) = { 1 , 2 , p } ;",
+      "Curve Loop ( 1 ) = { 1 , 2 , 3 } ;",
+      "Plane Surface ( 1 ) = { 1 } ;",
+      "SetFactory ( \"OpenCASCADE\" ) ;",
+      "Rectangle ( 1 ) = { 0 , 0 , 0 , 1 , a } ;",
+      "Disk ( 2 ) = { 0 , 0 , 0 , 0.3 } ;",
+      "BooleanUnion { Surface { 1 } ; Delete ; } { Surface { 2 } ; }",
+      "c ( ) = Curve In BoundingBox { 0 , 0 , 0 , b() } ;",
+      "Translate { a , 0 , 0 } { Duplicata { Surface { 1 } ; } }",
+      "Delete { Curve { b() } ; }",
+      "Coherence ;",
+      "For i In { 1 : 3 }\nPoint ( i ) = { i , 0 , 0 } ;\nEndFor",
+      "b ( 2 ) = a ? Sqrt ( 2 ) : Fabs ( -3 ) ;",
+      "DefineConstant [ d = { 1 , Name \"marker\" } , e = 2 ] ;",
+      "Geometry . Tolerance = 1e-8 ;",
+      "Mesh . Algorithm = 6 ;",
+      "Physical Curve ( \"marker\" ) = { 1 } ;",
+      "Printf ( \"marker\" , a ) ;",
+      "Field [ 1 ] = MathEval ;",
+      "SystemCall \"touch marker\" ;",
+      "Printf ( \"a\" ) > \"marker\" ;",
+      "Save \"marker.msh\" ;",
+      "Merge \"marker\" ;",
+      "Macro M\nSystemCall \"touch marker\" ;\nReturn",
+      "If ( a )\nPrint \"marker.png\" ;\nEndIf",
+      "CreateDir \"marker\" ;"};
+  const std::vector<std::string> dangerous_ = {"SystemCall",
+                                               "\"touch marker\"",
+                                               "System",
+                                               "NonBlockingSystemCall",
+                                               "Printf",
+                                               ">",
+                                               ">>",
+                                               "\"marker\"",
+                                               "Print",
+                                               "Save",
+                                               "Include",
+                                               "Merge",
+                                               "CreateDir",
+                                               "OnelabRun",
+                                               "ShapeFromFile",
+                                               "Plugin",
+                                               "StringToName",
+                                               "Macro",
+                                               "Call",
+                                               "Return",
+                                               "If",
+                                               "EndIf",
+                                               "Else",
+                                               "General",
+                                               ".",
+                                               "Field",
+                                               "View",
+                                               "//",
+                                               "/*",
+                                               "*/",
+                                               "\"",
+                                               "'",
+                                               "EndFor",
+                                               "For"};
+  const std::vector<std::string> plain_ = {
+      "1",  "2",  "0.5", "1e3", "a",  "b",  "Merge", "SystemCall", ",",  ";", ":", "=",
+      "+=", "-=", "*=",  "/=",  "++", "--", "+",     "-",          "*",  "/", "^", "?",
+      "!",  "<",  ">",   "<=",  ">=", "==", "!=",    "&&",         "||", "~", "#", "..."};
+  const std::vector<std::string> words_ = {"Point",
+                                           "Line",
+                                           "Curve",
+                                           "Circle",
+                                           "Ellipse",
+                                           "Spline",
+                                           "BSpline",
+                                           "Bezier",
+                                           "Wire",
+                                           "Loop",
+                                           "Plane",
+                                           "Ruled",
+                                           "Surface",
+                                           "Rectangle",
+                                           "Disk",
+                                           "Volume",
+                                           "Box",
+                                           "Sphere",
+                                           "Cylinder",
+                                           "Cone",
+                                           "Torus",
+                                           "Wedge",
+                                           "Translate",
+                                           "Rotate",
+                                           "Symmetry",
+                                           "Dilate",
+                                           "Affine",
+                                           "Duplicata",
+                                           "Extrude",
+                                           "Layers",
+                                           "Recombine",
+                                           "Delete",
+                                           "Recursive",
+                                           "Coherence",
+                                           "BooleanUnion",
+                                           "BooleanIntersection",
+                                           "BooleanDifference",
+                                           "BooleanFragments",
+                                           "In",
+                                           "BoundingBox",
+                                           "Boundary",
+                                           "CombinedBoundary",
+                                           "PointsOf",
+                                           "newp",
+                                           "newl",
+                                           "newll",
+                                           "news",
+                                           "newsl",
+                                           "newv",
+                                           "newf",
+                                           "newreg",
+                                           "Pi",
+                                           "Exp",
+                                           "Log",
+                                           "Sqrt",
+                                           "Sin",
+                                           "Cos",
+                                           "Fabs",
+                                           "Abs",
+                                           "Fmod",
+                                           "Min",
+                                           "Max",
+                                           "Rand",
+                                           "List",
+                                           "LinSpace",
+                                           "Unique",
+                                           "SetFactory(\"OpenCASCADE\");",
+                                           "Geometry.Tolerance"};
+};
+
+// Whatever is accepted, gmsh makes a drawing of it or complains. 16 scripts share a process; gmsh
+// may crash on nonsense, which ends the 16 without a trace.
+TEST(GeometryScript, OfRandomTokensLeavesNoFileAndStartsNoProcess) {
+  boxes_of({"empty.geo", "\n"});  // gmsh is loaded before the forks
+  int accepted = 0, crashes = 0;
+  constexpr int batches = 48, in_a_batch = 16;
+  for (int batch = 0; batch < batches; ++batch) {
+    RandomScripts random(static_cast<unsigned>(batch));
+    std::vector<std::string> scripts, originals;
+    for (int tries = 0; scripts.size() < in_a_batch && tries < 2000; ++tries) {
+      originals.push_back(batch % 2 == 0 ? random.changed_statements() : random.accepted_words());
+      if (refusal(originals.back()).empty())
+        scripts.push_back(geometry_script(originals.back()));
+      else
+        originals.pop_back();
+    }
+    accepted += static_cast<int>(scripts.size());
+    const Traces traces = traces_of([&] { std::for_each(scripts.begin(), scripts.end(), draw); });
+    crashes += traces.crashed ? 1 : 0;
+    if (traces.files == 0 && !traces.started) continue;
+    for (const std::string& original : originals)
+      ADD_FAILURE() << "one of these left a trace:\n" << original;
+  }
+  EXPECT_EQ(accepted, batches * in_a_batch);
+  EXPECT_LT(crashes, batches / 4) << "too few scripts were read to their end";
+}
+
+}  // namespace antilock::test::geometry_script_test
