@@ -210,7 +210,7 @@ PYBIND11_MODULE(_antilock, module) {
       .def_property_readonly(
           "contact", [](const T& t) { return t.truth.contact_zones(); }, "intervals of x, to 1e-5");
 
-  module.def("without_void_bound", py::vectorize(&without_void_bound), "infinite where |bound| >= 1e100");
+  module.def("without_void_bound", py::vectorize(&without_void_bound), "infinite where |bound| >= 1e40");
   module.def("diagnose", &diagnose_locking, py::call_guard<Unlocked>());
   module.def("assemble", [](const std::string& text, const std::string& folder) {
     const SceneFile file = scene_of(text, folder);

@@ -6,9 +6,9 @@
 
 namespace antilock {
 
-/// A bound of this size or more is none: products of such numbers leave the range of double. The
-/// customary infinities of other programs below it (1e20, 1e30, the largest float, 3.4e38) are numbers.
-constexpr double void_bound = 1e100;
+/// A bound of this size or more, in a file or an array of a user's, is none: products of such numbers
+/// leave the range of double. The customary infinities 1e20, 1e30 and 3.4e38 are numbers, and bound nothing.
+constexpr double void_bound = 1e40;
 
 /// The bound, infinite where it is void: |bound| >= void_bound, as the largest double.
 double without_void_bound(double bound);

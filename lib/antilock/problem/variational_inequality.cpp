@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "antilock/core/error.hpp"
-#include "antilock/problem/bounds.hpp"
 
 namespace antilock {
 namespace {
@@ -85,10 +84,6 @@ void check_bounds(const VariationalInequality& problem) {
             fmt::format("bound {} is not finite: from {} to {}; accepted: one finite side or two, -infinity below "
                         "or infinity above for none",
                         i, low, high));
-    const auto usable = [](double side) { return std::abs(side) < void_bound || std::isinf(side); };
-    require(usable(low) && usable(high),
-            fmt::format("bound {} is from {} to {}; accepted: below {:g} in size, or infinite for none", i, low, high,
-                        void_bound));
     require(low <= high,
             fmt::format("bound {} is from {} to {}; accepted: lower <= upper, equal for an equation", i, low, high));
   }

@@ -34,7 +34,7 @@ class Problem(_antilock.Problem):
     """a1(u, v) + compliance^-1 (B u, M B v) = L(v), with bounds; compliance 0 is the limit.
 
     a1: N x N, symmetric; b: R x N, one row per strain that becomes stiff; m: R positive weights (areas of cells), the
-    diagonal of M; load: N; fixed: unknown -> value; lower, upper: N, infinite (or 1e100 and more)
+    diagonal of M; load: N; fixed: unknown -> value; lower, upper: N, infinite (or 1e40 and more)
     where there is no bound; force_bound: N,
     the most that a bound bears. a1 and b are scipy matrices or arrays. compliance may be set again between two solves.
     """
