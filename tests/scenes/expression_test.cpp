@@ -33,6 +33,89 @@ TEST(Expression, ConditionsChoose) {
   EXPECT_EQ(at("x >= 0.5 ? 1/x : 0", 0, 0), 0);  // the branch not taken may be infinite
 }
 
+// py-expression-eval #60, cexprtk #12, mathjs #1262: 0.2 < x < 0.5 was (0.2 < x) < 0.5, which is true of every x <= 0.2
+// and false beyond.
+TEST(Expression, AChainOfComparisonsMeansWhatMathematicsMeans) {
+  for (const std::string chain : {"0.2 < x < 0.5", "0.5 > x > 0.2", "0.2 < x <= 0.5 && 1 > 0", "0 < x - 0.2 < y - 0.2"})
+    for (const double x : {-1.0, 0.0, 0.2, 0.3, 0.5, 0.7, 2.0}) {
+      const bool holds = 0.2 < x && (chain.find("<= 0.5") != chain.npos ? x <= 0.5 : x < 0.5);
+      EXPECT_EQ(at("10*(" + chain + ")", x, 0.5), holds ? 10 : 0) << chain << " at " << x;
+      EXPECT_EQ(at(chain + " ? 7 : 3", x, 0.5), holds ? 7 : 3) << chain << " at " << x;
+    }
+  EXPECT_EQ(at("0 <= x <= y <= 1", 0.3, 0.2), 0);
+  EXPECT_EQ(at("0 <= x <= y <= 1", 0.2, 0.3), 1);
+  EXPECT_EQ(at("x == y == 0.5", 0.5, 0.5), 1);
+  EXPECT_EQ(at("x == y == 0", 0, 0), 1);        // (x == y) == 0 is false there
+  EXPECT_EQ(at("x == y == 0", 1, 2), 0);        // and true here
+  EXPECT_EQ(at("(0.2 < x) < 0.5", 0.1, 0), 1);  // in brackets: what they say
+}
+
+// Other texts that a reader takes in two ways: each has the meaning of mathematics, which C++ or numpy may not share, or is
+// refused.
+TEST(Expression, HasNoSecondMeaning) {
+  EXPECT_EQ(at("-2^2", 0, 0), -4);
+  EXPECT_EQ(at("2^-1", 0, 0), 0.5);
+  EXPECT_EQ(at("2^3^2", 0, 0), 512);
+  EXPECT_EQ(at("2^-2^2", 0, 0), 1.0 / 16);
+  EXPECT_EQ(at("1/2", 0, 0), 0.5);  // no division of integers
+  EXPECT_EQ(at("7/2*2", 0, 0), 7);
+  EXPECT_EQ(at("+x - +1", 3, 0), 2);
+  EXPECT_EQ(at("x < 0.3 ? 1 : x < 0.6 ? 2 : 3", 0.7, 0), 3);
+  EXPECT_EQ(at("x < 0.3 ? 1 : x < 0.6 ? 2 : 3", 0.1, 0), 1);
+  EXPECT_EQ(at("1 > 0 || x > 1 && y > 1", 0, 0), 1);  // && binds tighter
+  EXPECT_EQ(at("-x < y && x + 1 > 2*y", 1, 0.5), 1);
+  EXPECT_EQ(at("log(exp(2))", 0, 0), 2);             // natural
+  for (const std::string text : {"x < y == 1",       // C: (x < y) == 1; mathematics: x < y = 1
+                                 "x < y > 0.5",      // two directions
+                                 "x != y != 1",      // not transitive
+                                 "x == 0.2 || 0.5",  // always true in C: "x is 0.2 or 0.5" is meant
+                                 "0.5 && x < 1",
+                                 "x ? 1 : 2",
+                                 "x < 1 && y ? 1 : 2",
+                                 "x + y ? 1 : 2",  // numbers as conditions
+                                 "!x",
+                                 "x < !y",
+                                 "1e3x",
+                                 "2x",
+                                 "2 x",
+                                 "2(x)",
+                                 "(x)(y)",
+                                 "x(2)",
+                                 "1/2x",
+                                 "x**2",
+                                 "x^^2",
+                                 "1.2.3",
+                                 "0,5",
+                                 "0,5*x",
+                                 "1 000",
+                                 "1_000",
+                                 "sin x",
+                                 "sin^2(x)",
+                                 "X",
+                                 "PI",
+                                 "Sin(x)",
+                                 "SIN(x)",
+                                 "sin(0,5)",
+                                 "atan2(0,5, 1)",
+                                 "x % 2",
+                                 "x = 1",
+                                 "x =< 1",
+                                 "x => 1",
+                                 "x <> 1",
+                                 "x < = 1",
+                                 "|x|",
+                                 "x!",
+                                 "x and y",
+                                 "not x",
+                                 "1e",
+                                 "1d3",
+                                 "1e400",
+                                 "x > 0.2 && < 0.5"})
+    EXPECT_NE(refusal([&] { Expression(text, {"x", "y"}); }), "") << text;
+  const std::string said = refusal([] { Expression("x < y == 1", {"x", "y"}); });
+  EXPECT_NE(said.find("all < and <=, all > and >=, or all =="), std::string::npos) << said;
+}
+
 TEST(Expression, DoesNotDependOnTheLocale) {
   const char* const before = std::setlocale(LC_ALL, "de_DE.UTF-8");  // a comma for the decimal point, where installed
   EXPECT_EQ(at("0.5*x", 3, 0), 1.5);

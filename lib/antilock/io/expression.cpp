@@ -43,20 +43,36 @@ struct Operator {
   int binds;  ///< the larger, the tighter; a sign before a value binds as tightly as `sign_binds`
   Two value;
 };
-constexpr int sign_binds = 6, power_binds = 7;
-constexpr std::array<Operator, 13> operators{{{"||", 1, [](double a, double b) { return double(a != 0 || b != 0); }},
-                                              {"&&", 2, [](double a, double b) { return double(a != 0 && b != 0); }},
-                                              {"<=", 3, [](double a, double b) { return double(a <= b); }},
-                                              {">=", 3, [](double a, double b) { return double(a >= b); }},
-                                              {"==", 3, [](double a, double b) { return double(a == b); }},
-                                              {"!=", 3, [](double a, double b) { return double(a != b); }},
-                                              {"<", 3, [](double a, double b) { return double(a < b); }},
-                                              {">", 3, [](double a, double b) { return double(a > b); }},
-                                              {"+", 4, [](double a, double b) { return a + b; }},
-                                              {"-", 4, [](double a, double b) { return a - b; }},
-                                              {"*", 5, [](double a, double b) { return a * b; }},
-                                              {"/", 5, [](double a, double b) { return a / b; }},
-                                              {"^", power_binds, [](double a, double b) { return std::pow(a, b); }}}};
+constexpr int or_binds = 1, and_binds = 2, comparison_binds = 3, sign_binds = 6, power_binds = 7;
+constexpr std::array<Operator, 13> operators{
+    {{"||", or_binds, [](double a, double b) { return double(a != 0 || b != 0); }},
+     {"&&", and_binds, [](double a, double b) { return double(a != 0 && b != 0); }},
+     {"<=", comparison_binds, [](double a, double b) { return double(a <= b); }},
+     {">=", comparison_binds, [](double a, double b) { return double(a >= b); }},
+     {"==", comparison_binds, [](double a, double b) { return double(a == b); }},
+     {"!=", comparison_binds, [](double a, double b) { return double(a != b); }},
+     {"<", comparison_binds, [](double a, double b) { return double(a < b); }},
+     {">", comparison_binds, [](double a, double b) { return double(a > b); }},
+     {"+", 4, [](double a, double b) { return a + b; }},
+     {"-", 4, [](double a, double b) { return a - b; }},
+     {"*", 5, [](double a, double b) { return a * b; }},
+     {"/", 5, [](double a, double b) { return a / b; }},
+     {"^", power_binds, [](double a, double b) { return std::pow(a, b); }}}};
+
+/// first r1 v1 r2 v2 ... of comparisons r: 1 where v(k-1) rk vk holds for every k, else 0.
+Value all_hold(Value first, std::vector<std::pair<Two, Value>> chain) {
+  if (chain.size() == 1) return in_turn(std::move(first), std::move(chain));
+  return [first = std::move(first), chain = std::move(chain)](const double* at) {
+    bool hold = true;
+    double left = first(at);
+    for (const auto& [compare, next] : chain) {
+      const double right = next(at);
+      hold = hold && compare(left, right) != 0;
+      left = right;
+    }
+    return double(hold);
+  };
+}
 
 double sign_of(double a) { return double(a > 0) - double(a < 0); }
 double half_up(double a) { return std::floor(a + 0.5); }
@@ -95,9 +111,16 @@ class Reader {
     if (!took(sign)) fail(fmt::format("\"{}\" is missing", sign));
   }
 
+  /// Refuses a number where a condition is meant, as in x == 0.2 || 0.5: no comparison was read since `before`.
+  void require_comparison(int before, std::string_view beside) const {
+    if (comparisons_ == before) fail(fmt::format("there is no comparison beside \"{}\"", beside));
+  }
+
   Value choice() {
+    const int before = comparisons_;
     Value condition = binary(1);
     if (!took("?")) return condition;
+    require_comparison(before, "?");
     Value yes = choice();
     expect(":");
     return [condition = std::move(condition), yes = std::move(yes), no = choice()](const double* at) {
@@ -107,21 +130,50 @@ class Reader {
   /// A value, and all that binds to it at least as tightly as `least`.
   Value binary(int least) {
     if (++nested_ > most_nested) fail("too many values wait for what follows");
+    const int at_start = comparisons_;
     Value left = took("-")   ? one([](double a) { return -a; }, binary(sign_binds))
                  : took("+") ? binary(sign_binds)
                              : value();
     std::vector<std::pair<Two, Value>> rest;  // in a list: a sum of 2,000 terms is no deeper than one of two
-    for (;;) {
-      next();
-      const auto found = std::find_if(operators.begin(), operators.end(),
-                                      [&](const Operator& o) { return text_.substr(at_, o.sign.size()) == o.sign; });
-      if (found == operators.end() || found->binds < least) break;
+    while (const Operator* const found = operator_here(least)) {
+      if (found->binds == comparison_binds) {
+        left = comparison(in_turn(std::move(left), std::exchange(rest, {})));
+        continue;
+      }
+      const bool of_conditions = found->binds == and_binds || found->binds == or_binds;
+      if (of_conditions) require_comparison(at_start, found->sign);
       at_ += found->sign.size();
+      const int before = comparisons_;
       // 2^3^2 = 2^9, but 1-2-3 = (1-2)-3
       rest.emplace_back(found->value, binary(found->binds == power_binds ? power_binds : found->binds + 1));
+      if (of_conditions) require_comparison(before, found->sign);
     }
     --nested_;
     return in_turn(std::move(left), std::move(rest));
+  }
+  /// The operator that stands here, if it binds at least as tightly as `least`; else null.
+  const Operator* operator_here(int least) {
+    next();
+    const auto* const found = std::find_if(operators.begin(), operators.end(), [&](const Operator& o) {
+      return text_.substr(at_, o.sign.size()) == o.sign;
+    });
+    return found == operators.end() || found->binds < least ? nullptr : found;
+  }
+  /// One comparison, or a chain of them: a < b <= c is a < b && b <= c, as in mathematics. A chain that changes its
+  /// direction, or that joins == or != to others, has no one meaning there and is refused.
+  Value comparison(Value first) {
+    std::vector<std::pair<Two, Value>> chain;
+    char direction = 0;
+    while (const Operator* const found = operator_here(comparison_binds)) {
+      const char here = found->sign[0];
+      if (!chain.empty() && (here != direction || here == '!'))
+        fail("a chain of comparisons is all < and <=, all > and >=, or all ==; others need brackets or &&");
+      direction = here;
+      at_ += found->sign.size();
+      ++comparisons_;
+      chain.emplace_back(found->value, binary(comparison_binds + 1));
+    }
+    return all_hold(std::move(first), std::move(chain));
   }
   Value value() {
     next();
@@ -173,7 +225,7 @@ class Reader {
   std::string_view text_;
   const std::vector<std::string>& names_;
   std::size_t at_ = 0;
-  int nested_ = 0;
+  int nested_ = 0, comparisons_ = 0;  // comparisons: read so far
 };
 
 }  // namespace
