@@ -154,10 +154,10 @@ class Reader {
   /// The operator that stands here, if it binds at least as tightly as `least`; else null.
   const Operator* operator_here(int least) {
     next();
-    const auto* const found = std::find_if(operators.begin(), operators.end(), [&](const Operator& o) {
+    const auto found = std::find_if(operators.begin(), operators.end(), [&](const Operator& o) {
       return text_.substr(at_, o.sign.size()) == o.sign;
     });
-    return found == operators.end() || found->binds < least ? nullptr : found;
+    return found == operators.end() || found->binds < least ? nullptr : &*found;
   }
   /// One comparison, or a chain of them: a < b <= c is a < b && b <= c, as in mathematics. A chain that changes its
   /// direction, or that joins == or != to others, has no one meaning there and is refused.
