@@ -26,7 +26,7 @@ using MeshArrays = std::pair<Points, Triples>;
 
 /// gmsh's mesh of Figure 2, with edges of about h in the body and h_layer along and below Sigma.
 MeshArrays by_gmsh(double depth, double h, double h_layer, Mesher mesher) {
-  const GmshSession gmsh;
+  GmshSession gmsh;
   gmsh.set("Mesh.Algorithm", static_cast<int>(mesher));
   const int a = gmsh.add_point(0, 0, h_layer), b = gmsh.add_point(1, 0, h_layer);  // the ends of Sigma
   const int top_left = gmsh.add_point(0, 1, h), top_right = gmsh.add_point(1, 1, h), sigma = gmsh.add_line(a, b);

@@ -3,10 +3,16 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 #include <gmshc.h>
+#include <locale.h>  // NOLINT(modernize-deprecated-headers): uselocale is POSIX's
 
 #include <algorithm>
+#include <clocale>
+#include <cstdlib>
+#include <memory>
+#include <optional>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "antilock/core/error.hpp"
 #include "antilock/mesh/detail/memory_file.hpp"
@@ -14,10 +20,14 @@
 namespace antilock {
 namespace {
 
+/// Whether the program had loaded gmsh itself before the first session.
+bool loaded_before_us = false;
+
 /// The library, for as long as the program runs: gmsh does not bear being unloaded.
 void* gmsh_library() {
   static std::string why;
   static void* const library = [] {
+    loaded_before_us = dlopen(ANTILOCK_GMSH_LIBRARY, RTLD_LAZY | RTLD_NOLOAD) != nullptr;
     void* const loaded = dlopen(ANTILOCK_GMSH_LIBRARY, RTLD_LAZY | RTLD_LOCAL);
     if (loaded == nullptr) why = dlerror();
     return loaded;
@@ -28,6 +38,47 @@ void* gmsh_library() {
                     "libgmsh-dev), a structured mesh or a mesh file does not",
                     why));
   return library;
+}
+
+/// gmsh's one model and its options, for one session at a time: threads wait for each other here.
+std::mutex& one_session() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+/// Numbers of this thread are read and written with a decimal point, whatever the locale of the process is.
+locale_t use_decimal_points() {
+  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  return ::uselocale(plain);
+}
+
+/// While it exists, gmsh may do to the process what its initialisation does: it takes the locale of the environment
+/// for the whole process and adds its folder to PYTHONPATH. Both are put back at the end.
+class Unchanged {
+ public:
+  Unchanged() {
+    if (const char* path = std::getenv("PYTHONPATH")) python_path_ = path;
+  }
+  ~Unchanged() {
+    std::setlocale(LC_ALL, locale_.c_str());
+    if (python_path_)
+      ::setenv("PYTHONPATH", python_path_->c_str(), /*overwrite*/ 1);
+    else
+      ::unsetenv("PYTHONPATH");
+  }
+  Unchanged(const Unchanged&) = delete;
+  Unchanged& operator=(const Unchanged&) = delete;
+
+ private:
+  std::string locale_ = std::setlocale(LC_ALL, nullptr);
+  std::optional<std::string> python_path_;
+};
+
+/// A call in a destructor: nothing is thrown where it fails.
+template <class Function, class... Arguments>
+void try_call(const char* name, Arguments... arguments) {
+  int ignored = 0;
+  reinterpret_cast<Function*>(dlsym(gmsh_library(), name))(arguments..., &ignored);
 }
 
 void free_by_gmsh(void* memory) { reinterpret_cast<decltype(gmshFree)*>(dlsym(gmsh_library(), "gmshFree"))(memory); }
@@ -58,12 +109,19 @@ void GmshSession::check(int failed, const char* name) const {
   throw Error(fmt::format("mesh: gmsh failed in {}{}{}", name, said.empty() ? "" : ": ", said));
 }
 
-GmshSession::GmshSession() {
+GmshSession::Turn::Turn() : alone(one_session()), locale(use_decimal_points()) {}
+
+GmshSession::Turn::~Turn() { ::uselocale(static_cast<locale_t>(locale)); }
+
+GmshSession::GmshSession() : callers_model_(current_model()) {
+  if (!callers_model_) {
+    const Unchanged unchanged;
 #if GMSH_API_VERSION_MINOR < 9
-  call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, /*readConfigFiles=*/0);
+    call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, /*readConfigFiles=*/0);
 #else
-  call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, /*readConfigFiles=*/0, /*run=*/0);
+    call<decltype(gmshInitialize)>("gmshInitialize", 0, nullptr, /*readConfigFiles=*/0, /*run=*/0);
 #endif
+  }
   set("General.Terminal", 0);
   set("General.NumThreads", 1);  // the mesh depends on the number of threads
   set("Mesh.RandomSeed", 1);
@@ -72,12 +130,44 @@ GmshSession::GmshSession() {
 }
 
 GmshSession::~GmshSession() {
-  int ignored = 0;
-  reinterpret_cast<decltype(gmshFinalize)*>(dlsym(gmsh_library(), "gmshFinalize"))(&ignored);
+  if (!callers_model_) {
+    try_call<decltype(gmshFinalize)>("gmshFinalize");
+    return;
+  }
+  try_call<decltype(gmshModelRemove)>("gmshModelRemove");
+  try_call<decltype(gmshModelSetCurrent)>("gmshModelSetCurrent", callers_model_->c_str());
+  for (auto option = callers_options_.rbegin(); option != callers_options_.rend(); ++option)
+    try_call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", option->first.c_str(), option->second);
 }
 
-void GmshSession::set(const char* option, double value) const {
+std::optional<std::string> GmshSession::current_model() {
+  gmsh_library();
+  // gmsh 4.8 prints a line where it is asked before it has ever been initialised
+  static bool never_initialised = !loaded_before_us;
+  if (std::exchange(never_initialised, false)) return std::nullopt;
+  int failed = 0;
+  if (void* const initialised = dlsym(gmsh_library(), "gmshIsInitialized")) {  // since 4.10
+    if (reinterpret_cast<int (*)(int*)>(initialised)(&failed) == 0) return std::nullopt;
+  } else {
+    constexpr double untouched = -1;  // no mesh algorithm has this number
+    double algorithm = untouched;
+    reinterpret_cast<decltype(gmshOptionGetNumber)*>(symbol("gmshOptionGetNumber"))("Mesh.Algorithm", &algorithm,
+                                                                                    &failed);
+    if (failed != 0 || algorithm == untouched) return std::nullopt;
+  }
+  char* name = nullptr;
+  reinterpret_cast<decltype(gmshModelGetCurrent)*>(symbol("gmshModelGetCurrent"))(&name, &failed);
+  if (name == nullptr) return std::nullopt;
+  std::string model = name;
+  free_by_gmsh(name);
+  return model;
+}
+
+void GmshSession::set(const char* option, double value) {
+  double before = 0;
+  call<decltype(gmshOptionGetNumber)>("gmshOptionGetNumber", option, &before);
   call<decltype(gmshOptionSetNumber)>("gmshOptionSetNumber", option, value);
+  callers_options_.emplace_back(option, before);
 }
 
 int GmshSession::add_point(double x, double y, double size) const {

@@ -1,5 +1,7 @@
 #pragma once
 #include <array>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -12,6 +14,10 @@ namespace antilock {
 /// gmsh's one global model, from its initialisation to its end, whatever is thrown in between. The library of gmsh is
 /// loaded when the first session starts, not when a program does: with all that it needs (93 libraries) that takes 0.1
 /// s, and most programs never ask for an unstructured mesh. Its C functions are called, which have no mangled names.
+///
+/// gmsh has one model and one set of options per process. A session of another thread waits until this one has ended.
+/// The process keeps its locale and its environment. Where its program uses gmsh itself, from this thread, its models
+/// and options are the same after the session as before.
 class GmshSession {
  public:
   /// Throws Error where gmsh's library cannot be loaded.
@@ -37,7 +43,7 @@ class GmshSession {
     }
   }
 
-  void set(const char* option, double value) const;
+  void set(const char* option, double value);
   /// A point at (x, y) around which edges are `size` long; its tag.
   int add_point(double x, double y, double size) const;
   /// A line between two points; its tag.
@@ -53,9 +59,25 @@ class GmshSession {
   std::vector<double> nearest(int curve, std::vector<double> xyz) const;
 
  private:
+  /// The session's turn, and the locale that its thread has afterwards.
+  struct Turn {
+    Turn();
+    ~Turn();
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+    std::lock_guard<std::mutex> alone;
+    void* locale;
+  };
+
   void read(const Geometry& geometry) const;
   static void* symbol(const char* name);
+  /// The name of gmsh's current model; empty where gmsh is not initialised.
+  static std::optional<std::string> current_model();
   void check(int failed, const char* name) const;
+
+  Turn turn_;
+  std::optional<std::string> callers_model_;
+  std::vector<std::pair<std::string, double>> callers_options_;
 };
 
 }  // namespace antilock
