@@ -12,7 +12,9 @@
 #include <cstring>
 #include <functional>
 #include <new>
+#include <system_error>
 
+#include "antilock/core/detail/standard_output.hpp"
 #include "antilock/core/error.hpp"
 #include "common/tutorial.hpp"
 #include "doors/doors.hpp"
@@ -42,9 +44,10 @@ const std::vector<Door>& doors() {
 }
 
 int help(std::FILE* where, int status) {
+  antilock::open_standard_streams();
   fmt::print(where, "antilock SUBCOMMAND ...; each has --help\n");
   for (const Door& door : doors()) fmt::print(where, "  {:<10} {}\n", door.name, door.what);
-  return status;
+  return antilock::delivered(status, "antilock");
 }
 
 int fail(const std::string& message, int status) {
@@ -58,7 +61,10 @@ int main(int argc, char** argv) {
   try {
     for (const Door& door : doors())
       for (int k = 0; k < std::min(argc, 2); ++k)  // 0: it started again, as choose_machine does
-        if (!std::strcmp(argv[k], door.name)) return door.open(argc - k, argv + k);
+        if (!std::strcmp(argv[k], door.name)) {
+          const int status = door.open(argc - k, argv + k);
+          return antilock::delivered(status, std::string("antilock ") + door.name);
+        }
     if (argc < 2) return help(stderr, 2);
     if (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h")) return help(stdout, 0);
     return fail(std::string("antilock: \"") + argv[1] +
@@ -68,6 +74,8 @@ int main(int argc, char** argv) {
     return fail(failure.what(), 3);
   } catch (const std::bad_alloc&) {
     return fail("antilock: out of memory; accepted: fewer cells or points", 3);
+  } catch (const std::system_error& error) {  // of standard output: those of files come as Error
+    return fail(std::string("antilock: ") + error.what(), 2);
   } catch (const std::exception& error) {
     return fail(error.what(), 2);
   }

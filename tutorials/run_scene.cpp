@@ -15,9 +15,11 @@
 #include <limits>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/standard_output.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/detail/scene_answer.hpp"
 #include "antilock/io/scene_file.hpp"
@@ -33,6 +35,8 @@ const char* const help = R"help(A scene file is TOML; the text after # is a comm
   title = "figure 8"            # optional
   [load]                        # required: the force per area on the body, -div(stiffness grad u) = f; u has one component, upwards
   f = "10*sin(2*pi*x)"          # in x and y: + - * / ^, sin cos exp sqrt abs, pi, comparisons, x < 0.5 ? 1 : 2
+                                # 0.2 < x < 0.5 holds where both do; -x^2 is -(x^2), 2^3^2 is 2^9, 1/2 is 0.5, log is natural; a
+                                # comparison counts as 1 or 0, and stands on both sides of && and || and before ?
   [layer]                       # leave out: no layer
   epsilon = 1e-6                # 0 (the rigid limit) to 1
                                 # or the two numbers of a real layer, relative to a body of stiffness 1:
@@ -100,7 +104,8 @@ scene is the question in full; certificate, with an accuracy, is what was proved
 polygon of the last mesh, with load, traction and gap as sampled; warning says what to
 doubt: a layer that locks, an answer above the trusted error, a load of the body or
 an obstacle that the mesh misses, u within a layer beyond its values around it, a polygon in place of a curve.
-Exit status: 0 answered; 2 bad input; 3 not solved to the tolerance. 2 and 3 say why in one line and write nothing.
+Exit status: 0 answered; 2 bad input, or what is printed does not arrive; 3 not solved to the tolerance, or out of memory. 2 and
+3 say why in one line and write nothing.
 Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8
 )help";
 // clang-format on
@@ -186,12 +191,11 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   report.finish();
   if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
   const std::string name = (asked.out / "solution").string();
+  const char* const of_one_component = file.mesh.from_file() ? "plan" : "surface";
+  const char* const kind = file.elastic ? "deformed" : of_one_component;
   if (asked.files.contains("vtu"))
-    fmt::print("  a picture of it: {2} {1} {0}.vtu --out {0}.png\n", name,
-               file.elastic            ? "deformed"
-               : file.mesh.from_file() ? "plan"
-                                       : "surface",
-               tutorial::beside("render"));
+    fmt::print("  a picture of it: {} {} {} --out {}\n", tutorial::in_shell(tutorial::beside("render")),
+               kind, tutorial::in_shell(name + ".vtu"), tutorial::in_shell(name + ".png"));
   if (found.history.empty())
     fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,
                summary.u_max, summary.contact_steps, summary.corrections, asked.out.string());
@@ -231,7 +235,7 @@ int main(int argc, char** argv) {
   if (out->count() == 0) asked.out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;
   const auto failed = [&](const std::string& message, int status) {
-    report.finish();  // the line of the stage that did not end
+    if (std::ferror(stdout) == 0) report.finish();  // the line of the stage that did not end
     return fail(message, status);
   };
   try {
@@ -241,8 +245,10 @@ int main(int argc, char** argv) {
     return failed(failure.what(), 3);
   } catch (const std::bad_alloc&) {
     return failed(scene.string() + ": mesh: out of memory; accepted: fewer cells", 3);
+  } catch (const std::system_error& error) {  // of standard output: those of files come as Error
+    return failed(std::string("run_scene: ") + error.what(), 2);
   } catch (const std::exception& error) {
     return failed(error.what(), 2);
   }
-  return 0;
+  return delivered(0, "run_scene");
 }

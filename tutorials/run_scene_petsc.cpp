@@ -15,6 +15,7 @@
 #include <new>
 
 #include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/standard_output.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/io/detail/scene_answer.hpp"
@@ -199,8 +200,9 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
       "  {} unknowns; {} corrections and {} iterations of conjugate gradients on the last level; results in {}\n",
       solved.unknowns.back(), solved.last.corrections, solved.last.linear_iterations, out.string());
   if (dist::ranks() == 1)
-    fmt::print("  a picture of it: {1} surface {0}_0.vtu --out {0}.png\n", (out / "solution").string(),
-               tutorial::beside("render"));
+    fmt::print("  a picture of it: {} surface {} --out {}\n", tutorial::in_shell(tutorial::beside("render")),
+               tutorial::in_shell((out / "solution_0.vtu").string()),
+               tutorial::in_shell((out / "solution.png").string()));
 }
 
 int fail(const std::string& message, int status) {
@@ -244,7 +246,7 @@ int main(int argc, char** argv) {
   try {
     const dist::Session session;
     try {
-      return run(argc, argv);
+      return delivered(run(argc, argv), "run_scene");
     } catch (const std::exception& failure) {  // of this rank alone: the others may wait for it
       const bool memory = dynamic_cast<const std::bad_alloc*>(&failure) != nullptr;
       dist::abort(

@@ -7,6 +7,7 @@
 
 #include <cstdio>
 
+#include "antilock/core/detail/standard_output.hpp"
 #include "render/display.hpp"
 #include "render/options.hpp"
 
@@ -46,7 +47,8 @@ int draw(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return draw(argc, argv);
+    antilock::open_standard_streams();
+    return antilock::delivered(draw(argc, argv), "render");
   } catch (const std::exception& error) {
     return fail(error.what());
   }

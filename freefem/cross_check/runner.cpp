@@ -10,20 +10,10 @@
 #include <fstream>
 
 #include "antilock/core/error.hpp"
+#include "common/tutorial.hpp"
 
 namespace antilock::freefem {
 namespace {
-
-/// For the shell: in single quotes, a single quote inside as '\''.
-std::string quoted(const std::string& word) {
-  std::string out{'\''};
-  for (const char c : word) {
-    if (c == '\'') out.append("'\\'");
-    out.push_back(c);
-  }
-  out.push_back('\'');
-  return out;
-}
 
 std::vector<std::string> split(const std::string& line) {
   std::vector<std::string> fields{""};
@@ -38,8 +28,9 @@ std::vector<std::string> split(const std::string& line) {
 }  // namespace
 
 void run(const std::string& script, const std::vector<std::string>& options) {
-  std::string command = fmt::format("{} {}", quoted(ANTILOCK_FREEFEM_FOLDER "/run"), quoted(script));
-  for (const std::string& option : options) command.append(" ").append(quoted(option));
+  using tutorial::in_shell;
+  std::string command = fmt::format("{} {}", in_shell(ANTILOCK_FREEFEM_FOLDER "/run"), in_shell(script));
+  for (const std::string& option : options) command.append(" ").append(in_shell(option));
   command.append(" 2>&1 >/dev/null");  // standard error alone
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) throw Error("freefem/run cannot be started");

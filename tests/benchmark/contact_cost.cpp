@@ -11,6 +11,7 @@
 #include <functional>
 
 #include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/standard_output.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/generate.hpp"
@@ -222,5 +223,5 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "contact_cost: {}\n", error.what());
     return 2;
   }
-  return 0;
+  return antilock::delivered(0, "contact_cost");
 }

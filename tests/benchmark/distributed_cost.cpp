@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <ctime>
 
+#include "antilock/core/detail/standard_output.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/nested.hpp"
 #include "antilock/distributed/ranks.hpp"
@@ -101,5 +102,5 @@ int main(int argc, char** argv) {
     if (distributed::rank() == 0) fmt::print(stderr, "distributed_cost: {}\n", error.what());
     return 3;
   }
-  return 0;
+  return delivered(0, "distributed_cost");
 }

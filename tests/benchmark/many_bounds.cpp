@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/detail/standard_output.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -96,5 +97,5 @@ int main(int argc, char** argv) {
     fmt::print(stderr, "many_bounds: {}\n", error.what());
     return 2;
   }
-  return 0;
+  return antilock::delivered(0, "many_bounds");
 }

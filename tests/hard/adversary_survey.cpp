@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "antilock/core/detail/standard_output.hpp"
 #include "hard/adversary.hpp"
 
 using namespace antilock::hard;
@@ -61,5 +62,5 @@ int main(int argc, char** argv) {
   for (const auto& [what, count] : counts) fmt::print("{:>7} {}\n", count, what);
   fmt::print("reasons:\n");
   for (const auto& [what, count] : reasons) fmt::print("{:>7} {}\n", count, what);
-  return 0;
+  return antilock::delivered(0, "adversary_survey");
 }

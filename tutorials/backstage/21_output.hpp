@@ -5,6 +5,7 @@
 #include "antilock/io/writers.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "backstage/21_timing.hpp"
+#include "common/tutorial.hpp"
 
 namespace antilock::tutorial {
 
@@ -18,9 +19,10 @@ inline void add_freefem(Timing& study, TimedRun run, const Space& space, const T
   std::filesystem::create_directories(folder);
   write_freefem_mesh(mesh, space.mesh());
   // what stands before the script's own clock, forms and all, may take a while, too
-  const std::string line = fmt::format(
-      "timeout {} '{}' {} -mesh '{}' -out '{}' -epsilon {} -stiff sum > /dev/null 2>&1", study.limit + 5, study.freefem,
-      run.element == "P1" ? "05_p1_structured" : "08_crouzeix_raviart", mesh.string(), folder.string(), run.epsilon);
+  const std::string line =
+      fmt::format("timeout {} {} {} -mesh {} -out {} -epsilon {} -stiff sum > /dev/null 2>&1", study.limit + 5,
+                  in_shell(study.freefem), run.element == "P1" ? "05_p1_structured" : "08_crouzeix_raviart",
+                  in_shell(mesh.string()), in_shell(folder.string()), run.epsilon);
   std::vector<double> seconds;
   for (int i = 0; i < study.repeats && run.ok; ++i) {
     std::filesystem::remove(summary);

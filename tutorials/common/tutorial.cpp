@@ -3,16 +3,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <unistd.h>
+#if defined(__linux__)
+#include <sys/resource.h>
+#endif
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <string_view>
 
 #include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/detail/blas.hpp"
+#include "antilock/core/detail/standard_output.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock::tutorial {
@@ -34,12 +40,28 @@ std::string large_pages() {
   return "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=4294967296:glibc.malloc.trim_threshold=4294967296";
 }
 
+/// Whether a limit of the process (ulimit -v, ulimit -d) is too low for the threads that OpenBLAS has. Each maps its
+/// buffer as soon as it is there, and asks without end where it gets none: then the program could not even end.
+bool too_many_threads([[maybe_unused]] int threads) {
+#if defined(__linux__)
+  constexpr double thread = 220e6;  // bytes: a buffer of 134e6, a stack of 8e6, up to 67e6 of malloc's; 209e6 were seen
+  constexpr double program = 250e6;  // bytes: with all of its libraries, and the first thread's buffer
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (threads > 1 && getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+        double(limit.rlim_cur) < program + (threads - 1) * thread)
+      return true;
+  }
+#endif
+  return false;
+}
+
 }  // namespace
 
 void Report::stage(const std::string& what) {
   finish();
   fmt::print("  {:<60}", what + " ...");
-  std::fflush(stdout);
+  require_output();  // better now than after minutes of work
   watch_.lap();
   in_stage_ = true;
 }
@@ -81,7 +103,12 @@ void Report::claim_order(const Table& rows, const std::string& y, const std::str
 }
 
 void choose_machine(char** argv) {
-  if (!std::getenv("OPENBLAS_NUM_THREADS")) set_blas_threads(1);
+  const char* const threads = std::getenv("OPENBLAS_NUM_THREADS");
+  if (too_many_threads(blas().threads) && (threads == nullptr || std::string_view(threads) != "1")) {
+    setenv("OPENBLAS_NUM_THREADS", "1", /*overwrite*/ 1);
+    become("", argv);
+  }
+  if (threads == nullptr) set_blas_threads(1);
   if (std::getenv("ANTILOCK_KEEP_KERNELS")) return;
   bool again = false;
   const auto ask = [&](const char* variable, const std::string& value) {
@@ -106,6 +133,16 @@ std::string beside(const std::string& program) {
   return std::filesystem::exists(path, ignored) ? path.string() : program;
 }
 
+std::string in_shell(const std::string& word) {
+  const auto plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || std::string_view("_-+./,:=@%").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + "'";
+}
+
 std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent) {
   const auto refuse = [&](const std::string& message) {
     if (!silent) fmt::print(stderr, "{}: {} (see --help)\n", line.get_name(), printable(message, 4000));
@@ -113,10 +150,11 @@ std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent) {
   };
   for (CLI::Option* option : line.get_options())
     if (option->get_expected_max() == 1) option->capture_default_str();
+  open_standard_streams();
   try {
     line.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
-    return silent ? 0 : line.exit(help);
+    return silent ? 0 : delivered(line.exit(help), line.get_name());
   } catch (const CLI::ParseError& error) {
     return refuse(error.what());
   }
@@ -152,6 +190,7 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
       std::filesystem::remove(probe);
     }
     fmt::print("{}: {}\n", stem, exercise > 0 ? fmt::format("exercise {}", exercise) : what);
+    require_output();  // not every body begins with a stage
     const Stopwatch watch;
     Report report;
     if (exercise > 0) {
@@ -164,7 +203,7 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
     report.finish();
     fmt::print("{} in {:.2f} s{}\n", stem, watch.seconds(),
                options.out.empty() ? "" : "; results in " + options.out.string());
-    return report.all_hold() ? 0 : 1;
+    return delivered(report.all_hold() ? 0 : 1, stem);
   } catch (const std::exception& error) {
     std::fflush(stdout);
     fmt::print(stderr, "{}: {}\n", stem, error.what());

@@ -43,7 +43,8 @@ struct Options {
 /// What a tutorial says while it runs: stages with their seconds, and the verdict at its end.
 class Report {
  public:
-  /// Prints what is being done now; the seconds of the stage before are printed when the next begins.
+  /// Prints what is being done now; the seconds of the stage before are printed when the next begins. Throws Error
+  /// where what is printed does not arrive.
   void stage(const std::string& what);
   /// A claim of the paper and whether the numbers bear it out: a line `VERDICT holds: ...` or `VERDICT FAILS: ...`.
   void claim(bool holds, const std::string& what);
@@ -73,7 +74,7 @@ class Report {
 
 /// Fills the values of the options; those given beforehand are the defaults that --help shows. Returns nothing where the
 /// program goes on, otherwise the status to exit with: 0 after --help, 2 after an option that is not accepted (NaN is not),
-/// which one line on standard error names. `silent`: nothing is printed, for every rank of a parallel run but the first.
+/// which one line on standard error names, or where the help did not arrive. `silent`: nothing is printed, for every rank of a parallel run but the first.
 std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent = false);
 
 /// One thread of the BLAS, unless OPENBLAS_NUM_THREADS says otherwise: two were no faster, since they wait for each
@@ -90,6 +91,9 @@ void become(const std::string& program, char** argv);
 
 /// The path of a program that stands in the folder of this one; its bare name where there is none.
 std::string beside(const std::string& program);
+
+/// A word of a command as a shell takes it: in quotes where a blank, a bracket or another sign would mean something.
+std::string in_shell(const std::string& word);
 
 /// Parses the command line, runs `body` or the exercise asked for, and turns the outcome into an exit status: 0 all
 /// claims hold, 1 one fails, 2 bad input (one line on standard error), 3 a solver did not converge (one line that says
