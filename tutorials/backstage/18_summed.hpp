@@ -10,6 +10,7 @@
 #include <cmath>
 #include <set>
 
+#include "antilock/core/detail/memory.hpp"
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
@@ -69,6 +70,7 @@ struct NaiveAnswer {
 /// x = K^-1 b by the factor asked for (K symmetric, n x n, both triangles given); empty where the factorisation gives
 /// up.
 inline Eigen::VectorXd summed_solve(const SparseMatrix& k, const Eigen::VectorXd& b, SummedFactor kind) {
+  const BlasCalls blas;
   Eigen::VectorXd x;
   if (kind == SummedFactor::cholesky) {
     Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor;

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "antilock/core/dense.hpp"
+#include "antilock/core/detail/memory.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
 
@@ -23,10 +24,20 @@ SparseMatrix free_unknowns(const VariationalInequality& problem) {
 
 namespace {
 
+/// Orthogonal triangular factors of b, in which what is dependent to `threshold(b)` counts as dependent.
+using Factors = Eigen::SPQR<SparseMatrix>;
+
 double threshold(const SparseMatrix& b) {
   double largest = 0;
   for (Eigen::Index j = 0; j < b.cols(); ++j) largest = std::max(largest, b.col(j).norm());
   return 1e-10 * largest;  // what is dependent is so to round-off
+}
+
+void factorise(Factors& qr, const SparseMatrix& b, double threshold) {
+  qr.setPivotThreshold(threshold);
+  qr.compute(b);
+  if (qr.info() != Eigen::Success)
+    throw NotConverged("kernel: the factorisation of B failed: out of memory; accepted: fewer unknowns", 1, 0);
 }
 
 }  // namespace
@@ -35,9 +46,9 @@ int kernel_dimension(const VariationalInequality& problem) {
   check(problem);
   const SparseMatrix b = problem.b * free_unknowns(problem);
   if (b.nonZeros() == 0) return problem.free_count();
-  Eigen::SPQR<SparseMatrix> qr;
-  qr.setPivotThreshold(threshold(b));
-  qr.compute(b);
+  const BlasCalls blas;
+  Factors qr;
+  factorise(qr, b, threshold(b));
   return problem.free_count() - static_cast<int>(qr.rank());
 }
 
@@ -76,9 +87,9 @@ Eigen::MatrixXd kernel_basis(const VariationalInequality& problem) {
   const SparseMatrix b = problem.b * places;
   if (b.nonZeros() == 0) return places.toDense();
   // B' = Q R: the columns of Q behind the rank are orthogonal to every row of B
-  Eigen::SPQR<SparseMatrix> qr;
-  qr.setPivotThreshold(threshold(b));
-  qr.compute(SparseMatrix(b.transpose()));
+  const BlasCalls blas;
+  Factors qr;
+  factorise(qr, b.transpose(), threshold(b));
   const Eigen::MatrixXd behind = Eigen::MatrixXd::Identity(n, n).rightCols(n - qr.rank());
   if (behind.cols() == 0) return Eigen::MatrixXd(problem.size(), 0);
   const Eigen::MatrixXd basis = qr.matrixQ() * behind;

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <vector>
 
+#include "antilock/core/detail/memory.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/solve/detail/sparse_cholesky.hpp"
 #include "antilock/solve/detail/tuned.hpp"
@@ -67,6 +68,9 @@ class CholmodCholesky final : public SparseCholesky {
   }
 
   std::optional<int> factorise(const SparseMatrix& k) override {
+    if (l_->xtype == CHOLMOD_PATTERN)  // the entries of L and the largest update of a supernode are not allocated yet
+      require_memory((l_->xsize + l_->maxcsize) * sizeof(double), "solve: the sparse factor");
+    const BlasCalls blas;
     cholmod_sparse whole = viewAsCholmod(k.selfadjointView<Eigen::Upper>());
     // CHOLMOD 3 shares the assembly of every supernode among four OpenMP threads, on any number of cores, and the four
     // wait for each other at every loop, which is over in microseconds; a BLAS with threads of its own keeps them. On
@@ -165,7 +169,9 @@ class CholmodCholesky final : public SparseCholesky {
   }
 
   static void require(bool holds, const std::string& step) {
-    if (!holds) throw Error("solve: the " + step + " of the sparse factor failed: out of memory");
+    if (holds) return;
+    throw NotConverged("solve: the " + step + " of the sparse factor failed: out of memory; accepted: fewer unknowns",
+                       1, 0);
   }
 
   /// The order of the columns of L: place -> row of K.

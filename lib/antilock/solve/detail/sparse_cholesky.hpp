@@ -16,11 +16,11 @@ class SparseCholesky {
   virtual ~SparseCholesky() = default;
 
   /// Orders and analyses the pattern of K. `last` > 0: the last rows of K stay the last ones, in their order, and the
-  /// factor's own ordering is for the rest. Throws Error out of memory.
+  /// factor's own ordering is for the rest. Throws NotConverged out of memory.
   virtual void analyse(const SparseMatrix& k, int last) = 0;
 
   /// A numeric factorisation of a matrix of the analysed pattern. Returns the row of K whose pivot is not positive or
-  /// nothing but round-off (tuned::round_off); empty: K is positive definite. Throws Error out of memory.
+  /// nothing but round-off (tuned::round_off); empty: K is positive definite. Throws NotConverged out of memory.
   virtual std::optional<int> factorise(const SparseMatrix& k) = 0;
 
   /// The smallest pivot: to about a factor of F the smallest eigenvalue of K, for next to nothing. Infinite of no rows.
