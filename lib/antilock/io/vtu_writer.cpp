@@ -27,7 +27,9 @@ struct Grid {
   bool regions = false;                                ///< with names for the numbers in the cell data `region`
 };
 
-/// The XML names each array and its place; their bytes follow it one after the other, each array behind its length.
+/// The XML names each array and its place; their bytes follow it one after the other, each array behind its length. The
+/// last array of the XML is added first: meshio puts places of its own into the XML, first array first, while it still
+/// looks for the next one by its place; where both agree, it takes the one that stands earlier in the XML.
 class Bytes {
  public:
   /// The element of the XML that stands for `values`, which are kept until they are written.
@@ -43,22 +45,28 @@ class Bytes {
         name, components, place);
   }
   std::string add(const char* section, const std::vector<Array>& arrays) {
-    std::string xml = fmt::format("<{} Scalars=\"{}\">\n", section, arrays.front().name);
-    for (const auto& [name, values, integers] : arrays) {
+    std::string xml = fmt::format("</{}>\n", section);
+    for (auto array = arrays.rbegin(); array != arrays.rend(); ++array) {
+      const auto& [name, values, integers] = *array;
       const auto in_rows = values.transpose().reshaped();
-      xml += integers ? add("Int32", name, values.cols(), std::vector<std::int32_t>(in_rows.begin(), in_rows.end()))
-                      : add("Float64", name, values.cols(), std::vector<double>(in_rows.begin(), in_rows.end()));
+      xml.insert(0, integers
+                        ? add("Int32", name, values.cols(), std::vector<std::int32_t>(in_rows.begin(), in_rows.end()))
+                        : add("Float64", name, values.cols(), std::vector<double>(in_rows.begin(), in_rows.end())));
     }
-    return xml + fmt::format("</{}>\n", section);
+    return fmt::format("<{} Scalars=\"{}\">\n", section, arrays.front().name) + xml;
   }
 
   std::string bytes;
 };
 
-/// none, body, layer: text in the manner of VTK, the codes of its signs, each text closed by a zero.
+/// The names of the numbers in `region`: an array of one number per name. VTK's own text arrays (type "String") make
+/// meshio refuse the whole file.
 const char* const region_names =
-    "<FieldData>\n<DataArray type=\"String\" Name=\"region_names\" NumberOfTuples=\"3\" format=\"ascii\">\n"
-    "110 111 110 101 0\n98 111 100 121 0\n108 97 121 101 114 0\n</DataArray>\n</FieldData>\n";
+    "<FieldData>\n"
+    "<DataArray type=\"Int32\" Name=\"body\" NumberOfTuples=\"1\" format=\"ascii\">1</DataArray>\n"
+    "<DataArray type=\"Int32\" Name=\"layer\" NumberOfTuples=\"1\" format=\"ascii\">2</DataArray>\n"
+    "</FieldData>\n";
+static_assert(static_cast<int>(Region::body) == 1 && static_cast<int>(Region::layer) == 2);
 
 void write(const std::filesystem::path& path, const Grid& grid) {
   constexpr std::uint8_t vtk_triangle = 5;
@@ -70,17 +78,20 @@ void write(const std::filesystem::path& path, const Grid& grid) {
   std::vector<std::int32_t> ends(triangles);
   for (Eigen::Index t = 0; t < triangles; ++t) ends[t] = static_cast<std::int32_t>(3 * (t + 1));
 
-  Bytes arrays;
+  Bytes arrays;  // the last one first
+  const std::string types = arrays.add("UInt8", "types", 1, std::vector<std::uint8_t>(triangles, vtk_triangle));
+  const std::string offsets = arrays.add("Int32", "offsets", 1, ends);
+  const std::string connectivity = arrays.add("Int32", "connectivity", 1, corners);
+  const std::string places = arrays.add("Float64", "points", 3, in_space);
+  const std::string cell_data = arrays.add("CellData", grid.cell_data);
+  const std::string point_data = arrays.add("PointData", grid.point_data);
   std::string xml =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
       "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
   if (grid.regions) xml += region_names;
   xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points, triangles);
-  xml += arrays.add("PointData", grid.point_data) + arrays.add("CellData", grid.cell_data);
-  xml += "<Points>\n" + arrays.add("Float64", "points", 3, in_space) + "</Points>\n<Cells>\n";
-  xml += arrays.add("Int32", "connectivity", 1, corners) + arrays.add("Int32", "offsets", 1, ends);
-  xml += arrays.add("UInt8", "types", 1, std::vector<std::uint8_t>(triangles, vtk_triangle));
-  xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+  xml += point_data + cell_data + "<Points>\n" + places + "</Points>\n<Cells>\n";
+  xml += connectivity + offsets + types + "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
   write_file(path, [&](std::ostream& out) { out << xml << arrays.bytes << "\n</AppendedData>\n</VTKFile>\n"; });
 }
 

@@ -29,7 +29,7 @@ struct VtuFields {
   Eigen::VectorXd pressure = {};  ///< C, the contact pressure, a density, one value per contact unknown of the space
 };
 /// VTU (XML, its arrays as raw bytes) for ParaView and the figures: point data `u` and `pressure` (0 off Gamma_C), cell
-/// data `region` (1 body, 2 layer: their names are the field data `region_names`) and `p`. A vertex per triangle
+/// data `region` (1 and 2: the field data `body` and `layer` name them) and `p`. A vertex per triangle
 /// corner, so that Crouzeix-Raviart fields keep their jumps; P1 and P2 fields share their vertices, and P2 is shown
 /// there alone.
 void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u,
