@@ -50,7 +50,16 @@ struct Solved : Solution {
   double energy = 0;
 };
 
-/// Ctrl-C ends a solve between two corrections.
+/// An argument of Python as a number: antilock/_arguments.py says what is accepted, and refuses the rest.
+double number(const char* name, const py::object& given, const char* accepted) {
+  return py::module_::import("antilock._arguments").attr("number")(name, given, accepted).cast<double>();
+}
+/// Real numbers of any shape.
+py::array_t<double> numbers(const char* name, const py::object& given) {
+  return py::module_::import("antilock._arguments").attr("numbers_of")(name, given).cast<py::array_t<double>>();
+}
+
+/// Ctrl-C ends a solve between two corrections, and an accuracy between two steps of a level.
 bool not_interrupted(const Progress&) {
   const py::gil_scoped_acquire locked;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -89,13 +98,14 @@ SceneFile scene_of(const std::string& text, const std::string& folder) {
   return file;
 }
 
-py::dict run(const std::string& text, const std::string& folder, const std::string& summary_path) {
+py::tuple run(const std::string& text, const std::string& folder) {
   const SceneFile file = scene_of(text, folder);
+  std::string summary;
   CertifiedSolution found = [&] {
     const Unlocked unlocked;
     CertifiedSolution answered = answer_scene(file, {{}, not_interrupted, {}});
-    write_summary(summary_path, file, summary_of(file, answered.answer), answered.answer.seconds, 0,
-                  answered.history.empty() ? nullptr : &answered);
+    summary = summary_text(file, summary_of(file, answered.answer), answered.answer.seconds, 0,
+                           answered.history.empty() ? nullptr : &answered);
     return answered;
   }();
   Answer& answer = found.answer;
@@ -107,7 +117,7 @@ py::dict run(const std::string& text, const std::string& folder, const std::stri
     arrays["contact"] = contact_table(answer.space, normal.problem, normal.solution);
   }
   arrays["u"] = given(answer.solution.u), arrays["p"] = given(answer.solution.p);
-  return arrays;
+  return py::make_tuple(arrays, summary);
 }
 
 py::dict certify_scene(const std::string& text, double accuracy, const std::string& folder) {
@@ -115,7 +125,9 @@ py::dict certify_scene(const std::string& text, double accuracy, const std::stri
   require_paper_problem(file, "certify");
   const CertifiedSolution found = [&] {
     const Unlocked unlocked;
-    return solve_to(file.scene, make_mesh(file), {accuracy, Quantity::displacement, file.method.most_unknowns, {}, 1});
+    Accuracy asked{accuracy, Quantity::displacement, file.method.most_unknowns, {}, 1};
+    asked.follow = not_interrupted;
+    return solve_to(file.scene, make_mesh(file), asked);
   }();
   const Certificate& proof = found.certificate;
   return py::dict("energy_lower"_a = proof.energy_lower, "energy_upper"_a = proof.energy_upper,
@@ -149,6 +161,40 @@ TruthPoint at(const KnownTruth* known, double x, double y, double top = 1) {
   return known->table.at(in_x, in_y);
 }
 
+double pressure_at(const KnownTruth& known, double x) {
+  const double in_x = std::clamp(x, 0.0, 1.0);
+  if (!(std::abs(x - in_x) <= 1e-9)) throw Error(fmt::format("truth: x = {}; accepted: 0 <= x <= 1", x));
+  return known.truth.pressure(in_x);
+}
+
+/// f(x, y) at numbers or arrays that broadcast to one shape.
+template <class Function>
+py::object at_points(const Function& f, const py::object& x, const py::object& y) {
+  using Array = py::array_t<double>;
+  const auto [xs, ys] = py::module_::import("antilock._arguments").attr("points")(x, y).cast<std::pair<Array, Array>>();
+  return py::vectorize(Function(f))(xs, ys);
+}
+
+/// What the language or the C++ library throws becomes an Error of one line, memory that runs out too.
+void translate(std::exception_ptr thrown) {
+  const auto raise = [](const char* what) {
+    PyErr_SetString(py::module_::import("antilock._antilock").attr("Error").ptr(), what);
+  };
+  try {
+    if (thrown) std::rethrow_exception(thrown);
+  } catch (const Error&) {  // these have translators of their own
+    throw;
+  } catch (const py::error_already_set&) {
+    throw;
+  } catch (const py::builtin_exception&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    raise("out of memory; accepted: a smaller problem, or a higher limit");
+  } catch (const std::exception& failure) {
+    raise(failure.what());
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_antilock, module) {
@@ -156,13 +202,27 @@ PYBIND11_MODULE(_antilock, module) {
   const py::object error = py::register_exception<Error>(module, "Error", PyExc_ValueError);
   py::register_exception<NotConverged>(module, "NotConverged", error);
   for (const char* name : {"Error", "NotConverged"}) module.attr(name).attr("__module__") = "antilock";
+  py::register_local_exception_translator(&translate);
 
   using P = VariationalInequality;
   py::class_<P>(module, "Problem")
       .def(py::init(&problem_from))
-      .def("solve", py::overload_cast<const P&, double>(&answer_of), "tolerance"_a = 1e-10,
-           "The answer, to a relative error of u. Throws NotConverged, or Error for a problem that has none.")
-      .def_readwrite("compliance", &P::compliance, "0 or more")
+      .def(
+          "solve",
+          [](const P& p, const py::object& tolerance) {
+            return answer_of(p, number("tolerance", tolerance, "a number above 0, at most 1e-3"));
+          },
+          "tolerance"_a = 1e-10,
+          "The answer, to a relative error of u. Throws NotConverged, or Error for a problem that has none.")
+      .def_property(
+          "compliance", [](const P& p) { return p.compliance; },
+          [](P& p, const py::object& given) {
+            const double compliance = number("compliance", given, "0 or more");
+            if (!(compliance >= 0 && std::isfinite(compliance)))
+              throw Error(fmt::format("compliance = {}; accepted: 0 or more", compliance));
+            p.compliance = compliance;
+          },
+          "0 or more")
       .def_readonly("m", &P::m, "R")
       .def_readonly("load", &P::load, "N")
       .def_readonly("fixed", &P::fixed, "the unknowns that are held")
@@ -194,17 +254,47 @@ PYBIND11_MODULE(_antilock, module) {
       .def("__str__", &LockingDiagnosis::text);
 
   using T = KnownTruth;
+  using Any = const py::object&;
   py::class_<T>(module, "Truth", "The exact solution of (23). x and y are numbers or arrays, which broadcast.")
-      .def(py::init<double, const std::string&, bool>(), py::call_guard<Unlocked>())
-      .def("__call__", py::vectorize([](const T* t, double x, double y) { return at(t, x, y).value; }), "u, to 1e-8")
-      .def("u_x", py::vectorize([](const T* t, double x, double y) { return at(t, x, y).gradient(0); }),
-           "to 4e-6 of the largest; 5e-4 within 1e-4 of an end of contact")
-      .def("u_y", py::vectorize([](const T* t, double x, double y) { return at(t, x, y).gradient(1); }),
-           "as u_x; on y = 0 the body's")
-      .def("p", py::vectorize([](const T* t, double x, double y) { return at(t, x, y, 0).layer_stress; }),
-           "the layer stress epsilon^-2 u_y where y <= 0, to 1e-6; 1e-4 near an end of contact")
-      .def("pressure", py::vectorize([](const T* t, double x) { return t->truth.pressure(x); }),
-           "of contact on y = -1, a density, 0 or more")
+      .def(py::init([](Any epsilon, Any load, Any contact) {
+             const auto arguments = py::module_::import("antilock._arguments");
+             const double size = number("epsilon", epsilon, "0 to 1");
+             const auto f = arguments.attr("text")("load", load, "a formula in x and y").cast<std::string>();
+             const bool bounded = arguments.attr("flag")("contact", contact).cast<bool>();
+             const Unlocked unlocked;
+             return std::make_unique<T>(size, f, bounded);
+           }),
+           "epsilon"_a, "load"_a, "contact"_a)
+      .def(
+          "__call__",
+          [](const T& t, Any x, Any y) {
+            return at_points([&t](double a, double b) { return at(&t, a, b).value; }, x, y);
+          },
+          "x"_a, "y"_a, "u, to 1e-8")
+      .def(
+          "u_x",
+          [](const T& t, Any x, Any y) {
+            return at_points([&t](double a, double b) { return at(&t, a, b).gradient(0); }, x, y);
+          },
+          "x"_a, "y"_a, "to 4e-6 of the largest; 5e-4 within 1e-4 of an end of contact")
+      .def(
+          "u_y",
+          [](const T& t, Any x, Any y) {
+            return at_points([&t](double a, double b) { return at(&t, a, b).gradient(1); }, x, y);
+          },
+          "x"_a, "y"_a, "as u_x; on y = 0 the body's")
+      .def(
+          "p",
+          [](const T& t, Any x, Any y) {
+            return at_points([&t](double a, double b) { return at(&t, a, b, 0).layer_stress; }, x, y);
+          },
+          "x"_a, "y"_a, "the layer stress epsilon^-2 u_y where y <= 0, to 1e-6; 1e-4 near an end of contact")
+      .def(
+          "pressure",
+          [](const T& t, Any x) {
+            return py::vectorize([&t](double a) { return pressure_at(t, a); })(numbers("x", x));
+          },
+          "x"_a, "of contact on y = -1, a density, 0 or more")
       .def_property_readonly(
           "energy", [](const T& t) { return t.truth.energy(); }, "J(u), to 1e-8")
       .def_property_readonly(
@@ -214,6 +304,7 @@ PYBIND11_MODULE(_antilock, module) {
   module.def("diagnose", &diagnose_locking, py::call_guard<Unlocked>());
   module.def("assemble", [](const std::string& text, const std::string& folder) {
     const SceneFile file = scene_of(text, folder);
+    const Unlocked unlocked;
     const TriangleMesh mesh = make_mesh(file);
     return problem_of(file, Space(mesh, element(file.method.element)));
   });

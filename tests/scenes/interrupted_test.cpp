@@ -1,4 +1,6 @@
 // run_scene stopped at any moment: the files of a whole answer, or none, and no draft.
+#include <chrono>
+
 #include "scenes/runner.hpp"
 #include "support/scenes.hpp"
 
@@ -28,6 +30,23 @@ TEST(InterruptedRun, LeavesAWholeAnswerOrNothing) {
     if (whole == 3) break;  // it ends in less than that
   }
   EXPECT_GT(nothing, 0);
+}
+
+// arbor #2068, HiGHS #1593: Ctrl-C during minutes of work. The accuracy takes half a minute or more; the signal comes after
+// 1.5 s, and a second is ten times as long as the end takes.
+TEST(InterruptedRun, OfAnAccuracyEndsWithinASecond) {
+  const TemporaryFolder input, log, output;
+  std::ofstream(input / "scene.toml") << "[load]\nf = \"10*sin(2*pi*x)\"\n[layer]\nepsilon = 1e-6\n[contact]\n[mesh]\n"
+                                         "kind = \"structured\"\ncells = 16\n[method]\naccuracy = 1e-3\n"
+                                         "most_unknowns = 3e7\n";
+  const auto begin = std::chrono::steady_clock::now();
+  const int result = std::system(("timeout -s INT 1.5 " + in_shell(RUN_SCENE) + " " + in_shell(input / "scene.toml") +
+                                  " --out " + in_shell(output / "results") + " >" + in_shell(log / "out") + " 2>&1")
+                                     .c_str());
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  EXPECT_EQ(WEXITSTATUS(result), 124) << "ended before the signal";
+  EXPECT_LT(seconds.count(), 2.5);
+  EXPECT_TRUE(std::filesystem::is_empty(output.path()));
 }
 
 }  // namespace antilock::test::interrupted_test

@@ -35,10 +35,13 @@ Growth growth_of(const Scene& scene) {
 }
 
 /// The answer of a conforming element; that of P1 in K between the vertices, too.
-Answer conforming_answer(const Scene& scene, const Element& element, const std::shared_ptr<const TriangleMesh>& mesh) {
+Answer conforming_answer(const Scene& scene, const Element& element, const std::shared_ptr<const TriangleMesh>& mesh,
+                         const ProgressHook& follow) {
   Answer answer{mesh, Space(*mesh, element), {}, {}, {}, ""};
   answer.problem = element.degree() == 1 ? assemble_in_k(scene, answer.space) : assemble(scene, answer.space);
-  answer.solution = active_set(answer.problem);
+  ActiveSetOptions options;
+  options.corrections.progress = follow;
+  answer.solution = active_set(answer.problem, options);
   return answer;
 }
 
@@ -181,7 +184,14 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   double per_unknown = 1;
   Eigen::VectorXd contact_x;  // of the last mesh, and what its unknowns do
   Pieces contact_set;
+  const auto step = [&](const Progress& = {}) {
+    const int level = static_cast<int>(history.size()) + 1;
+    const double reached = history.empty() ? 1 : history.back().relative;
+    report(accuracy.follow, {"refinement, level", level, reached, accuracy.relative}, "accuracy");
+    return true;
+  };
   while (true) {
+    step();
     auto mesh = std::make_shared<const TriangleMesh>(now.mesh);
     const Space space(*mesh, crouzeix_raviart());
     if (space.free_count() > accuracy.most_unknowns) {
@@ -193,8 +203,11 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       refuse(accuracy, history, per_unknown, fmt::format("the next mesh has {}", space.free_count()));
     }
     VariationalInequality problem = assemble(scene, space);
+    step();
     PenaltyFactor factor(problem);
+    step();
     ActiveSetOptions options;
+    options.corrections.progress = step;
     if (scene.contact()) options.start = carried(contact_x, contact_set, space);
     Solution solution;
     Companion v;
@@ -203,7 +216,9 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       options.corrections.tolerance = std::max(tolerance, CorrectionOptions{}.tolerance);
       solution = active_set(problem, factor, options);
       options.start = solution.pieces;
+      step();
       v = strip_companion(scene, space, problem, solution, !layer_may_lock);
+      step();
       certificate = certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});
       const bool enough = certificate.imbalance <= 0.1 * certificate.mismatch;
       if (enough || tolerance <= CorrectionOptions{}.tolerance) break;
@@ -212,11 +227,11 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     contact_set = solution.pieces;
     Answer answer{mesh, space, std::move(problem), std::move(solution), {}, ""};
     if (conforming) {
-      Answer own = conforming_answer(scene, p1(), mesh);
+      Answer own = conforming_answer(scene, p1(), mesh, step);
       v = p1_companion(own.solution);
       certificate = certify(scene, space, answer.problem, answer.solution, {.factor = &factor, .companion = &v});
       if (accuracy.element->degree() > 1) {
-        own = conforming_answer(scene, *accuracy.element, mesh);
+        own = conforming_answer(scene, *accuracy.element, mesh, step);
         certificate.displacement = certified_distance(certificate, v, own.space, own.problem, own.solution);
       }
       answer = std::move(own);
@@ -244,6 +259,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
         refuse(accuracy, history, per_unknown, why, false);
     if (const double needed = per_unknown * history.back().quoted_unknowns; needed > accuracy.most_unknowns)
       refuse(accuracy, history, per_unknown, fmt::format("about {:.2g} are needed", needed));
+    step();
     now = grown(now, growth, epsilon, certificate.indicator, marking(history, now.marks));
   }
 }

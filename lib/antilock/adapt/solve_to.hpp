@@ -5,6 +5,7 @@
 
 #include "antilock/adapt/detail/marking.hpp"
 #include "antilock/analysis/certificate.hpp"
+#include "antilock/core/detail/progress.hpp"
 #include "antilock/measure/detail/answer.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/solve/solution.hpp"
@@ -22,6 +23,7 @@ struct AccuracyGoal {
                          ///< everything is bisected
   double tolerance = 1;  ///< relative, on the algebraic error; no less than the certificate needs
   const Element* element = &crouzeix_raviart();  ///< or P1, P2, on the mesh as it is: displacement alone
+  ProgressHook follow = {};  ///< called between the steps of each level, and in its solves; `false` stops
 };
 
 /// One mesh on the way.
@@ -53,7 +55,8 @@ struct CertifiedSolution {
 /// must come down to epsilon first: an end that needs more than the limit is told at once, with what locks.
 ///
 /// Throws Error for an accuracy outside (0, 1), another element, a limit that cannot hold the first mesh, a scene and a
-/// mesh that do not fit; NotConverged where the accuracy is not to be reached within the limit, with what is.
+/// mesh that do not fit; NotConverged where the accuracy is not to be reached within the limit, with what is; Stopped
+/// where accuracy.follow says so.
 CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const AccuracyGoal& accuracy,
                            const std::function<void(const Level&)>& progress = {});
 

@@ -6,28 +6,22 @@ accepted; NotConverged is an Error of a solve that did not reach its tolerance. 
 from __future__ import annotations
 
 import json
-import pathlib
-import tempfile
 from typing import Any, Mapping
 
-import numpy as np
-from numpy.typing import ArrayLike
-from scipy import sparse
+from ._memory import one_thread_where_memory_is_limited
 
-from . import _antilock
+with one_thread_where_memory_is_limited():  # both of them, and the library, load OpenBLAS
+    import numpy as np
+    from scipy import sparse
+
+    from . import _antilock
+from numpy.typing import ArrayLike
+
+from . import _arguments as arguments
 from ._antilock import Diagnosis, Error, NotConverged, Solution, Truth, __version__
 
 __all__ = ["Diagnosis", "Error", "NotConverged", "Problem", "Solution", "Truth",
            "assemble", "certify", "diagnose", "run", "solve", "truth"]
-
-
-def _matrix(name: str, given: Any, kind: Any) -> Any:
-    """A copy with its entries in order and each place once."""
-    if np.iscomplexobj(given):
-        raise Error(f"{name} is complex; accepted: real numbers")
-    matrix = kind(given, dtype=float, copy=True)
-    matrix.sum_duplicates()
-    return matrix
 
 
 class Problem(_antilock.Problem):
@@ -40,30 +34,25 @@ class Problem(_antilock.Problem):
     """
 
     def __init__(self, a1: Any, b: Any, m: ArrayLike, load: ArrayLike, *, compliance: float = 1.0,
-                 fixed: Mapping[int, float] = {}, lower: ArrayLike | None = None, upper: ArrayLike | None = None,
+                 fixed: Mapping[int, float] | None = None, lower: ArrayLike | None = None, upper: ArrayLike | None = None,
                  force_bound: ArrayLike | None = None) -> None:
-        a1, b = _matrix("a1", a1, sparse.csc_matrix), _matrix("b", b, sparse.csr_matrix)
+        a1, b = arguments.matrix("a1", a1, sparse.csc_matrix), arguments.matrix("b", b, sparse.csr_matrix)
         n = a1.shape[0]
-
-        def array(name: str, given: Any, size: int, none: float = 0) -> np.ndarray:
-            numbers = np.full(size, none) if given is None else np.asarray(given, dtype=float).ravel()
-            if len(numbers) != size:
-                raise Error(f"{name} has {len(numbers)} entries; accepted: {size}")
-            return numbers
-
-        held = sorted(fixed)
-        low = _antilock.without_void_bound(array("lower", lower, n, -np.inf))
-        high = _antilock.without_void_bound(array("upper", upper, n, np.inf))
+        m, load = arguments.vector("m", m, b.shape[0]), arguments.vector("load", load, n)
+        compliance = arguments.number("compliance", compliance, "0 or more")
+        held = arguments.unknowns("fixed", fixed, n)
+        low = _antilock.without_void_bound(arguments.vector("lower", lower, n, -np.inf))
+        high = _antilock.without_void_bound(arguments.vector("upper", upper, n, np.inf))
         for i in np.flatnonzero(~((low <= high) & (low < np.inf) & (high > -np.inf))):
             raise Error(f"lower[{i}] = {low[i]}, upper[{i}] = {high[i]}; accepted: lower <= upper, infinite for none")
+        for i, value in held.items():
+            if not low[i] <= value <= high[i]:
+                raise Error(f"fixed[{i}] = {value}; accepted: from {low[i]} to {high[i]}, its bounds")
         bounded = (low != -np.inf) | (high != np.inf)
-        for i in held:
-            if 0 <= i < n and not low[i] <= fixed[i] <= high[i]:
-                raise Error(f"fixed[{i}] = {fixed[i]}; accepted: from {low[i]} to {high[i]}, its bounds")
-        bounded[[i for i in held if 0 <= i < n]] = False
-        most = [] if force_bound is None else array("force_bound", force_bound, n)[bounded]
-        super().__init__(a1, b, array("m", m, b.shape[0]), array("load", load, n), compliance, held,
-                         [fixed[i] for i in held], np.flatnonzero(bounded), low[bounded], high[bounded], most)
+        bounded[list(held)] = False
+        most = [] if force_bound is None else arguments.vector("force_bound", force_bound, n)[bounded]
+        super().__init__(a1, b, m, load, compliance, list(held), list(held.values()), np.flatnonzero(bounded),
+                         low[bounded], high[bounded], most)
 
 
 def solve(a1: Any, b: Any, m: ArrayLike, load: ArrayLike, *, tolerance: float = 1e-10, **keywords: Any) -> Solution:
@@ -73,7 +62,8 @@ def solve(a1: Any, b: Any, m: ArrayLike, load: ArrayLike, *, tolerance: float = 
 
 def diagnose(coarse: _antilock.Problem, fine: _antilock.Problem) -> Diagnosis:
     """Whether a method locks, from two problems of it, on a mesh and on a finer one. Loads are not looked at."""
-    return _antilock.diagnose(coarse, fine)
+    return _antilock.diagnose(arguments.problem("coarse", coarse, _antilock.Problem),
+                              arguments.problem("fine", fine, _antilock.Problem))
 
 
 def truth(epsilon: float, load: str = "10*sin(2*pi*x)", contact: bool = True) -> Truth:
@@ -83,7 +73,7 @@ def truth(epsilon: float, load: str = "10*sin(2*pi*x)", contact: bool = True) ->
 
 def assemble(scene: str, folder: str = ".") -> _antilock.Problem:
     """The matrices of a scene file's text on its mesh; mesh files are looked for in the folder."""
-    return _antilock.assemble(scene, folder)
+    return _antilock.assemble(arguments.scene(scene), arguments.folder(folder))
 
 
 def run(scene: str, folder: str = ".") -> tuple[dict[str, np.ndarray], dict[str, Any]]:
@@ -92,9 +82,8 @@ def run(scene: str, folder: str = ".") -> tuple[dict[str, np.ndarray], dict[str,
     The mesh file and the geometry that it names are looked for in the folder. No other file is read, and nothing is run.
     points N x 2 and u N, one per unknown; p R; vertices V x 2 and triangles T x 3; contact C x 3 (x, gap, pressure).
     """
-    with tempfile.TemporaryDirectory() as place:
-        arrays = _antilock.run(scene, folder, f"{place}/summary.json")
-        return arrays, json.loads(pathlib.Path(place, "summary.json").read_text())
+    arrays, summary = _antilock.run(arguments.scene(scene), arguments.folder(folder))
+    return arrays, json.loads(summary)
 
 
 def certify(scene: str, accuracy: float = 1e-2, folder: str = ".") -> dict[str, Any]:
@@ -103,4 +92,5 @@ def certify(scene: str, accuracy: float = 1e-2, folder: str = ".") -> dict[str, 
     The scene is refined until the relative error of its answer is proved to be `accuracy` at most. For each v of K, whoever
     computed it, |u - v|_a <= sqrt(2 (J(v) - energy_lower)).
     """
-    return _antilock.certify(scene, accuracy, folder)
+    accuracy = arguments.number("accuracy", accuracy, "above 0, below 1")
+    return _antilock.certify(arguments.scene(scene), accuracy, arguments.folder(folder))

@@ -48,7 +48,7 @@ std::string range_warning(const SceneFile& file, const Space& space, const Solut
 /// Who follows the answer to a scene; an empty hook costs nothing.
 struct Followers {
   std::function<void(const std::string&)> stage;  ///< what begins now
-  ProgressHook solve;                             ///< may end a solve on one mesh
+  ProgressHook solve;                             ///< may end a solve on one mesh, or a level of an accuracy
   std::function<void(const Level&)> level;        ///< with an accuracy, after every level
 };
 
@@ -107,9 +107,12 @@ struct SceneSummary {
 /// With the layer's report, whose warning comes first.
 SceneSummary summary_of(const SceneFile& file, const Answer& answer);
 
-/// summary.json: the only writer of its keys, which are those of `run_scene --help`. `certified`, where an accuracy was
-/// asked for, gives its `certificate`; `files` are the seconds spent on the other files. Throws NotConverged where a
-/// number is not finite.
+/// The text of summary.json, the only place of its keys, which are those of `run_scene --help`. `certified`, where an
+/// accuracy was asked for, gives its `certificate`; `files` are the seconds spent on the other files. Throws
+/// NotConverged where a number is not finite.
+std::string summary_text(const SceneFile& file, const SceneSummary& summary, const RunSeconds& seconds, double files,
+                         const CertifiedSolution* certified = nullptr);
+/// The same as a file.
 void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
                    const RunSeconds& seconds, double files, const CertifiedSolution* certified = nullptr);
 

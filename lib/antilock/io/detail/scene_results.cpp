@@ -140,8 +140,8 @@ SceneSummary summary_of(const SceneFile& file, const Answer& answer) {
   return s;
 }
 
-void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
-                   const RunSeconds& seconds, double files, const CertifiedSolution* certified) {
+std::string summary_text(const SceneFile& file, const SceneSummary& summary, const RunSeconds& seconds, double files,
+                         const CertifiedSolution* certified) {
   Json s;
   s["element"] = file.method.element;
   s["solver"] = file.method.solver;
@@ -190,7 +190,13 @@ void write_summary(const std::filesystem::path& path, const SceneFile& file, con
   const auto& [mesh, assemble, factor, solve] = seconds;
   s["seconds"] = {{"mesh", mesh},   {"assemble", assemble}, {"factor", factor},
                   {"solve", solve}, {"files", files},       {"total", mesh + assemble + factor + solve + files}};
-  write_file(path, [&](std::ostream& out) { out << s.dump(2) << "\n"; });
+  return s.dump(2) + "\n";
+}
+
+void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
+                   const RunSeconds& seconds, double files, const CertifiedSolution* certified) {
+  const std::string text = summary_text(file, summary, seconds, files, certified);
+  write_file(path, [&](std::ostream& out) { out << text; });
 }
 
 std::string piece_name(int rank) { return fmt::format("solution_{}.vtu", rank); }
