@@ -125,7 +125,7 @@ py::dict certify_scene(const std::string& text, double accuracy, const std::stri
   require_paper_problem(file, "certify");
   const CertifiedSolution found = [&] {
     const Unlocked unlocked;
-    Accuracy asked{accuracy, Quantity::displacement, file.method.most_unknowns, {}, 1};
+    AccuracyGoal asked{accuracy, Quantity::displacement, file.method.most_unknowns, {}, 1};
     asked.follow = not_interrupted;
     return solve_to(file.scene, make_mesh(file), asked);
   }();
