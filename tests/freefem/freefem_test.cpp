@@ -667,6 +667,10 @@ TEST(FreeFemRunner, RefusesBadInputInOneLine) {
   refuses(p1, {"-mesh", "/no/such.msh"}, "mesh /no/such.msh cannot be read");
   refuses(p1, {"-epsilon", "2"}, "option -epsilon 2" + number);
   refuses(p1, {"-epsilon", "small"}, "option -epsilon small" + number);
+  refuses(p1, {"-epsilon", "1-2"}, "option -epsilon 1-2" + number);  // atof reads 1 (facebook/openzl #225)
+  refuses(p1, {"-epsilon", "1.2.3"}, "option -epsilon 1.2.3" + number);
+  refuses(p1, {"-cells", "4.5"}, "option -cells 4.5; accepted: a whole number from 2 to 512");
+  refuses(p1, {"-epsilon", ""}, "option -epsilon needs a value");
   refuses(p1, {"-epsilonn", "1"},
           "option -epsilonn means nothing to this script; accepted: -epsilon -cells -mesh -out -stiff -contact -plot");
   refuses(p1, {"-epsilon"}, "option -epsilon needs a value");
