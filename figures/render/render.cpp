@@ -7,6 +7,7 @@
 
 #include <cstdio>
 
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/detail/standard_output.hpp"
 #include "render/display.hpp"
 #include "render/options.hpp"
@@ -32,6 +33,7 @@ int draw(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(std::string(error.what()) + " (see --help)");
   }
+  for (const std::string& input : request.inputs) check_not_an_input(request.out, {input});
   const DisplayConnection display = connect_display();
   vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said in one line, below
   const Page page = request.draw();

@@ -277,6 +277,7 @@ int judge(int argc, char** argv) {
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
 
   const SceneFile file = read_scene_file(scene);
+  for (const std::filesystem::path& written : {out, where}) check_not_an_input(written, {scene, mesh_file, answer});
   require_paper_problem(file, "judge");
   const TriangleMesh mesh = read_msh(mesh_file.string());
   const Eigen::MatrixXd rows = read_csv(answer.string(), {"x", "y", "u"});

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "antilock/analysis/locking.hpp"
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/problem/bounds.hpp"
@@ -141,6 +142,8 @@ int lockcheck(int argc, char** argv) {
       "Export with scipy: scipy.io.mmwrite(\"A1.mtx\", A1). Keep the stiff form in factors: B and M, never B' M B.");
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
 
+  check_not_an_input(out, {files.a1, files.b, files.m, files.load, files.fixed, files.bounds});
+  check_not_an_input(out, fine);
   const VariationalInequality problem = read_problem(files);
   if (problem.b.rows() == 0) throw Error(files.b.string() + ": no row: nothing becomes stiff; accepted: a B with rows");
   if (files.load.empty() && fine.empty())

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "antilock/core/detail/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/measure/detail/point_values.hpp"
@@ -82,6 +83,7 @@ int sweep(int argc, char** argv) {
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
 
   SceneFile file = read_scene_file(scene);
+  check_not_an_input(out, {scene, file.mesh.file});
   require_paper_problem(file, "sweep");
   if (!std::holds_alternative<StiffLayer>(file.scene.layer()))
     throw Error(file.name + ": layer.model: epsilon does not vary in this scene; accepted: a scaled layer");

@@ -146,7 +146,8 @@ std::vector<int> stress_rows(const TriangleMesh& mesh) {
 }
 
 CertifiedSolution certified(const SceneFile& file, double accuracy) {
-  return solve_to(file.scene, make_mesh(file), AccuracyGoal{accuracy, Quantity::displacement, file.method.most_unknowns});
+  return solve_to(file.scene, make_mesh(file),
+                  AccuracyGoal{accuracy, Quantity::displacement, file.method.most_unknowns});
 }
 
 int truth(int argc, char** argv) {
@@ -172,6 +173,7 @@ int truth(int argc, char** argv) {
       "Example: printf 'x,y\\n0.25,-1\\n' | antilock truth tutorials/scenes/figure8.toml");
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
   const SceneFile file = read_scene_file(scene);
+  check_not_an_input(summary, {scene, file.mesh.file});
   require_paper_problem(file, "truth");
   const Eigen::MatrixXd points = read_csv(std::cin, "standard input", {"x", "y"});
   const bool square = !file.mesh.from_file() || is_unit_square(make_mesh(file));

@@ -149,6 +149,13 @@ void write_file(const fs::path& path, const std::function<void(std::ostream&)>& 
   }
 }
 
+void check_not_an_input(const fs::path& path, const std::vector<fs::path>& inputs) {
+  for (const fs::path& input : inputs)
+    if (std::error_code absent; !path.empty() && !input.empty() && fs::equivalent(path, input, absent))
+      throw Error(fmt::format("{}: would replace {}, which is read; accepted: another file",
+                              printable(path.string(), 1000), printable(input.string(), 1000)));
+}
+
 void check_folder(const fs::path& folder) {
   if (folder.empty())
     throw Error("the results folder has an empty name; accepted: a folder that can be made and written");

@@ -17,6 +17,9 @@ namespace antilock {
 /// Folders are made. Numbers are written with 17 significant digits. Throws Error where the folder cannot be written.
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
 
+/// Throws Error where writing `path` would replace one of the inputs, under whatever name. An empty path names no file.
+void check_not_an_input(const std::filesystem::path& path, const std::vector<std::filesystem::path>& inputs);
+
 /// Throws Error where `folder` could not be made or written: better now than after minutes of work. Touches nothing.
 void check_folder(const std::filesystem::path& folder);
 
