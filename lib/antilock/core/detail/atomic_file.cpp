@@ -36,7 +36,10 @@ namespace fs = std::filesystem;
 /// The folder itself, or the nearest one above it that exists.
 fs::path existing_part(const fs::path& folder) {
   fs::path part = fs::absolute(folder).lexically_normal();
-  while (!fs::exists(part) && part != part.root_path()) part = part.parent_path();
+  while (!fs::exists(part) && part != part.root_path()) {
+    if (fs::is_symlink(part)) refuse_folder(folder, part.string() + " is a link to nothing");
+    part = part.parent_path();
+  }
   return part;
 }
 

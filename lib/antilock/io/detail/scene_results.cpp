@@ -229,6 +229,7 @@ ResultFiles result_files(const std::string& words) {
                               printable(word)));
     asked.insert(word);
   }
+  if (asked.empty()) throw Error("--files: names no file; accepted: summary, csv, mesh, vtu, with commas");
   return asked;
 }
 
