@@ -51,7 +51,8 @@ int help(std::FILE* where, int status) {
 }
 
 int fail(const std::string& message, int status) {
-  fmt::print(stderr, "{}\n", antilock::printable(message, 4000));
+  // fmt::print would throw where standard error is full or closed, and end the program by a signal
+  std::fputs((antilock::printable(message, 4000) + "\n").c_str(), stderr);
   return status;
 }
 

@@ -207,7 +207,8 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
 
 int fail(const std::string& message, int status) {
   if (launched_rank() > 0) return 0;  // rank 0 says it, and its status is that of the run
-  fmt::print(stderr, "{}\n", printable(message, 4000));
+  // fmt::print would throw where standard error is full or closed, and end the program by a signal
+  std::fputs((printable(message, 4000) + "\n").c_str(), stderr);
   return status;
 }
 

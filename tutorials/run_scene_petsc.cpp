@@ -206,7 +206,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
 }
 
 int fail(const std::string& message, int status) {
-  if (dist::rank() == 0) fmt::print(stderr, "{}\n", printable(message, 4000));
+  if (dist::rank() == 0) std::fputs((printable(message, 4000) + "\n").c_str(), stderr);  // it cannot throw
   return status;
 }
 

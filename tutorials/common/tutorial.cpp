@@ -145,7 +145,9 @@ std::string in_shell(const std::string& word) {
 
 std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent) {
   const auto refuse = [&](const std::string& message) {
-    if (!silent) fmt::print(stderr, "{}: {} (see --help)\n", line.get_name(), printable(message, 4000));
+    // fmt::print would throw where standard error is full or closed, and end the program by a signal
+    const std::string said = fmt::format("{}: {} (see --help)\n", line.get_name(), printable(message, 4000));
+    if (!silent) std::fputs(said.c_str(), stderr);
     return 2;
   };
   for (CLI::Option* option : line.get_options())
@@ -206,7 +208,7 @@ int run(int argc, char** argv, const std::string& stem, const std::string& what,
     return delivered(report.all_hold() ? 0 : 1, stem);
   } catch (const std::exception& error) {
     std::fflush(stdout);
-    fmt::print(stderr, "{}: {}\n", stem, error.what());
+    std::fputs(fmt::format("{}: {}\n", stem, error.what()).c_str(), stderr);  // it cannot throw
     return dynamic_cast<const NotConverged*>(&error) != nullptr ? 3 : 2;
   }
 }
