@@ -89,7 +89,7 @@ class Section {
     std::vector<Section> all;
     if (!has(key)) return all;
     const toml::array* array = table_[key].as_array();
-    if (array == nullptr || !array->is_array_of_tables())
+    if (array == nullptr || !(array->empty() || array->is_array_of_tables()))
       refuse(key, fmt::format("{}; accepted: sections [[{}]]", what_stands_there(key), key));
     for (const toml::node& node : *array)
       all.emplace_back(file_, fmt::format("{}[{}]", key, all.size()), *node.as_table());
@@ -259,6 +259,10 @@ Layer read_layer(const Section& section) {
     const double stiffness = section.number("stiffness", "above 0, relative to a body of stiffness 1");
     if (!(stiffness > 0)) section.refuse("stiffness", fmt::format("{}; accepted: above 0", stiffness));
     layer.s = stiffness * epsilon;
+    if (!(layer.s > 0))
+      section.refuse("stiffness", fmt::format("{} times the thickness {} is 0 in double precision; accepted: a product "
+                                              "above 0",
+                                              stiffness, epsilon));
   }
   if (section.has("load")) layer.load = field(section, "load");
   return layer;
@@ -383,7 +387,7 @@ void read_accuracy(const Section& section, MethodRequest& method) {
   if (section.one_of("of", {"displacement", "stress"}, "displacement") == "stress") method.of = Quantity::stress;
   if (section.has("most_unknowns"))
     method.most_unknowns = section.number("most_unknowns", "a whole number of unknowns, 1 to 1e9",
-                                          [](double n) { return n >= 1 && n <= 1e9; });
+                                          [](double n) { return n >= 1 && n <= 1e9 && n == std::floor(n); });
   method.tolerance =
       std::min(MethodRequest::roughest_tolerance, 1e-2 * *method.accuracy);  // unless the scene says less
   if (method.element != "CR" && method.of == Quantity::stress)
