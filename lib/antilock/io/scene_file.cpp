@@ -495,7 +495,13 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   const MethodRequest method = read_method(root.section("method"));
   const Scene scene = [&] {
     try {
-      return Scene(body, layer, contact, edges);
+      Scene made(body, layer, contact, edges);
+      if (contact && unit_square)
+        sample_profile([&](double x) {
+          check_ceiling(*contact, x);
+          return 0.0;
+        });
+      return made;
     } catch (const Error& error) {  // what is left for the scene to refuse: what no clamped end can keep
       const std::string what = error.what();
       throw Error(root.where(what.starts_with("contact: ceiling") ? "contact.ceiling" : "contact.gap") + what);

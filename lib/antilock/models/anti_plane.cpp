@@ -160,7 +160,13 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
     problem.lower = -x.unaryExpr(gap);
     for (Eigen::Index i = 0; i < x.size(); ++i)
       if (!std::isfinite(problem.lower(i))) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
-    if (ceiling) problem.upper = x.unaryExpr(ceiling);
+    if (ceiling) {
+      problem.upper = x.unaryExpr(ceiling);
+      // where two formulas say the same, the round-off of one must not put the ceiling below the obstacle
+      const Eigen::ArrayXd lower = problem.lower.array(), round_off = 1e-12 * lower.abs().max(1);
+      for (Eigen::Index i = 0; i < x.size(); ++i)
+        if (problem.upper(i) >= lower(i) - round_off(i)) problem.upper(i) = std::max(problem.upper(i), lower(i));
+    }
   }
   return problem;
 }

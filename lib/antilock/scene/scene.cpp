@@ -38,6 +38,16 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, s
                                 name, x, (*bound)(x), fmt::join(contact_->held, " and x = ")));
 }
 
+void check_ceiling(const UnilateralContact& contact, double x) {
+  if (!contact.ceiling) return;
+  const double lower = -contact.gap(x), upper = contact.ceiling(x);
+  if (upper < lower - 1e-12 * std::max(1.0, std::abs(lower)))  // the round-off of two formulas
+    throw Error(
+        fmt::format("contact: ceiling({0:.6g}) = {1:.6g} is below the obstacle, -gap({0:.6g}) = {2:.6g}; accepted: "
+                    "ceiling >= -gap",
+                    x, upper, lower));
+}
+
 std::string Scene::beyond_the_paper() const {
   if (!edges_.empty()) return "edges in named groups";
   if (body_.stiffness) return "a stiffness of the body";

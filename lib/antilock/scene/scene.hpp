@@ -51,6 +51,9 @@ struct UnilateralContact {
   Profile ceiling = {};                      ///< u <= ceiling too; empty: none
 };
 
+/// Throws Error where the ceiling is below the obstacle at x: no u satisfies -gap(x) <= u <= ceiling(x).
+void check_ceiling(const UnilateralContact& contact, double x);
+
 /// A question to answer: which body, which layer, contact or not.
 /// Construction throws Error where the combination is meaningless, with the reason.
 class Scene {

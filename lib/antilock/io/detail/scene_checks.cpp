@@ -71,7 +71,15 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
     const double a = mesh.vertices(mesh.edges(e, 0), 0), b = mesh.vertices(mesh.edges(e, 1), 0);
-    for (int i = 0; i <= 32; ++i) largest = std::max(largest, std::abs(gap(a + (b - a) * i / 32)));
+    for (int i = 0; i <= 32; ++i) {
+      const double x = a + (b - a) * i / 32;
+      largest = std::max(largest, std::abs(gap(x)));
+      try {
+        check_ceiling(*file.scene.contact(), x);
+      } catch (const Error& error) {
+        throw Error(file.name + ": contact.ceiling: " + error.what());
+      }
+    }
   }
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
