@@ -65,7 +65,8 @@ SparseMatrix read_matrix(const std::string& path) {
     lines.refuse(fmt::format("symmetric, and {} x {}", rows, columns), "a square matrix");
   if (!coordinate) entries = symmetric ? rows * (rows + 1) / 2 : rows * columns;
   std::vector<Eigen::Triplet<double>> triplets;
-  long i = 0, j = 0;  // of the next entry of an array, column by column
+  bool below = false, above = false;  // the diagonal, entries of a symmetric matrix
+  long i = 0, j = 0;                  // of the next entry of an array, column by column
   for (long k = 0; k < entries; ++k) {
     double value = 0;
     long row = i + 1, column = j + 1;
@@ -74,11 +75,17 @@ SparseMatrix read_matrix(const std::string& path) {
       lines.refuse(fmt::format("the file ends after {} entries of {}", k, entries), "all of them");
     if ((coordinate && !(words >> row >> column)) || !(words >> number))
       lines.refuse("no entry", coordinate ? "ROW COLUMN VALUE" : "VALUE");
+    if (std::string more; words >> more)
+      lines.refuse(fmt::format("\"{:.40}\" behind the entry", more), coordinate ? "ROW COLUMN VALUE" : "VALUE");
     char* end = nullptr;
     value = std::strtod(number.c_str(), &end);
     if (*end != '\0' || !std::isfinite(value)) lines.refuse(fmt::format("\"{:.40}\"", number), "a finite number");
     if (row < 1 || row > rows || column < 1 || column > columns)
       lines.refuse(fmt::format("the entry ({}, {}) of a matrix {} x {}", row, column, rows, columns), "indices from 1");
+    below = below || row > column;
+    above = above || row < column;
+    if (symmetric && below && above)  // an entry and its mirror image would be added up
+      lines.refuse("symmetric, and with entries above the diagonal and below", "those of one triangle");
     triplets.emplace_back(int(row - 1), int(column - 1), value);
     if (symmetric && row != column) triplets.emplace_back(int(column - 1), int(row - 1), value);
     if (++i == rows) i = symmetric ? ++j : (++j, 0);
