@@ -102,6 +102,11 @@ int sweep(int argc, char** argv) {
                   "\"; accepted: whole numbers from 1 to 512, for a scene whose mesh is made");
     file.mesh.cells = static_cast<int>(n);
     OnMesh& on = meshes.emplace_back(OnMesh{file.mesh.cells, {make_mesh(file), element(file.method.element)}, {}});
+    if (on.discretisation.space().free_count() == 0)
+      throw Error(
+          fmt::format("{}: mesh: with {} cells every unknown is clamped, none is left to solve for; accepted: a "
+                      "finer mesh",
+                      file.name, on.cells));
     const PointValues values(on.discretisation.space());
     for (std::size_t i = 0; i < at.size(); i += 2) {
       const auto place = values.locate({at[i], at[i + 1]});
