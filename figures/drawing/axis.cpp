@@ -28,7 +28,13 @@ Axis Axis::widened(double low, double high, double room) {
   if (!(low > 0 && high >= low && std::isfinite(high)))
     throw Error(fmt::format("a logarithmic axis from {} to {} cannot be drawn; accepted: positive values", low, high));
   const double more = room > 0 || high == low ? std::max(room, 0.07) * std::max(std::log10(high / low), 0.3) : 1e-9;
-  return Axis(low * std::pow(10, -more), high * std::pow(10, more), true);
+  const Axis axis(low * std::pow(10, -more), high * std::pow(10, more), true);
+  if (!(axis.low_ > 0 && std::isfinite(axis.high_)))  // its powers of ten would be counted without end
+    throw Error(
+        fmt::format("a logarithmic axis from {} to {} cannot be drawn; accepted: values with room beside them in "
+                    "double precision",
+                    low, high));
+  return axis;
 }
 
 Axis Axis::logarithmic(double low, double high, double room, int most) {

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "antilock/core/error.hpp"
 #include "drawing/styles.hpp"
 
 namespace antilock::figures {
@@ -66,6 +69,8 @@ void add_pictures(CLI::App& app, Request& request) {
       ->check(CLI::Range(1, 256));
   surface->callback([&] {
     request.draw = [&] {
+      if (request.height_factor && std::isnan(*request.height_factor))  // NaN is in any range for CLI11
+        throw Error("--height: nan; accepted: 0.01 to 100");
       SurfaceStyle style{.height_factor = request.height_factor};
       if (!request.range.empty()) style.range = Range{request.range[0], request.range[1]};
       if (request.grid > 0) style.grid = request.grid;
