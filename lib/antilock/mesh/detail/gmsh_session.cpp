@@ -210,7 +210,7 @@ std::pair<Points, Triples> GmshSession::generate() const {
 // gmshMerge tells the kind of a file by its name and its first line, and executes NAME.opt beside a file NAME, whatever
 // its kind. So it is given nothing but the checked script, in a file that has no folder; a .brep file goes to
 // OpenCASCADE, which knows no other kind.
-void GmshSession::read(const Geometry& geometry) const {
+void GmshSession::read(const Geometry& geometry) {
   if (geometry.script.empty()) {
     int* shapes = nullptr;
     std::size_t count = 0;
@@ -236,7 +236,7 @@ void GmshSession::read(const Geometry& geometry) const {
   }
 }
 
-std::vector<int> GmshSession::read_curves(const Geometry& geometry) const {
+std::vector<int> GmshSession::read_curves(const Geometry& geometry) {
   read(geometry);
   int* entities = nullptr;
   std::size_t count = 0;

@@ -54,7 +54,7 @@ class GmshSession {
   std::pair<Points, Triples> generate() const;
 
   /// The tags of a geometry's curves. Throws Error where gmsh cannot read it.
-  std::vector<int> read_curves(const Geometry& geometry) const;
+  std::vector<int> read_curves(const Geometry& geometry);
   /// The points of a curve that are nearest to some points, three coordinates each.
   std::vector<double> nearest(int curve, std::vector<double> xyz) const;
 
@@ -69,7 +69,7 @@ class GmshSession {
     void* locale;
   };
 
-  void read(const Geometry& geometry) const;
+  void read(const Geometry& geometry);
   static void* symbol(const char* name);
   /// The name of gmsh's current model; empty where gmsh is not initialised.
   static std::optional<std::string> current_model();
