@@ -15,7 +15,7 @@ void follow_geometry(const TriangleMesh& mesh, const std::vector<int>& middle, P
   constexpr double slack = 1e-6;  // of the mesh's size: mesh files have from 6 to 16 digits
   const double size = (mesh.vertices.colwise().maxCoeff() - mesh.vertices.colwise().minCoeff()).maxCoeff();
   // a session per call: gmsh has one global model, which the next mesh needs
-  const GmshSession gmsh;
+  GmshSession gmsh;
   const std::vector<int> curves = gmsh.read_curves(mesh.geometry);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const EdgeTag tag = mesh.edge_tag[e];
