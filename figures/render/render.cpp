@@ -33,7 +33,7 @@ int draw(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return fail(std::string(error.what()) + " (see --help)");
   }
-  for (const std::string& input : request.inputs) check_not_an_input(request.out, {input});
+  for (const std::string& input : request.inputs) antilock::check_not_an_input(request.out, {input});
   const DisplayConnection display = connect_display();
   vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said in one line, below
   const Page page = request.draw();
