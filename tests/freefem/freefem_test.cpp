@@ -655,7 +655,7 @@ TEST(FreeFemRunner, NamesTheFormatOfAMeshThatIsNotFreeFemsOwn) {
   };
   is_no_mesh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", "is a MSH file of gmsh");
   is_no_mesh("\xef\xbb\xbf$MeshFormat\r\n4.1 0 8\r\n", "is a MSH file of gmsh");
-  for (const std::string text : {std::string(), std::string("MeshVersionFormatted 2\n"), std::string("4 2\n0 0 1\n")})
+  for (const std::string& text : {std::string(), std::string("MeshVersionFormatted 2\n"), std::string("4 2\n0 0 1\n")})
     is_no_mesh(text, "does not begin with three numbers (of vertices, triangles, edges)");
 }
 

@@ -61,8 +61,9 @@ TEST_F(LostOutput, OfAClosedStreamIsInNoFile) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "results"));
   EXPECT_EQ(status_of("printf 'x,y\\n0.25,-1\\n' | " + antilock_ + " truth s.toml --summary summary.json >&-"), 2);
   expect_one_line("standard output: Bad file descriptor", "truth");
-  if (std::filesystem::exists(folder_ / "summary.json"))
+  if (std::filesystem::exists(folder_ / "summary.json")) {
     EXPECT_EQ(contents(folder_ / "summary.json").find("x,y,u"), std::string::npos);
+  }
 }
 
 // Files that end after 1 or 2 kB stand for a disk that is full half way.

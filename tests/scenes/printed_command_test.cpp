@@ -31,7 +31,9 @@ TEST(PrintedCommand, IsReadByAShellAsItIsMeant) {
     EXPECT_EQ(lines[2], (folder / name / "solution.vtu").string());
     EXPECT_TRUE(std::filesystem::exists(lines[2]));
     EXPECT_EQ(lines[4], (folder / name / "solution.png").string());
-    if (name == "plain") EXPECT_EQ(command.find('\''), std::string::npos) << command;  // nothing to quote
+    if (name == "plain") {  // nothing to quote
+      EXPECT_EQ(command.find('\''), std::string::npos) << command;
+    }
   }
 }
 

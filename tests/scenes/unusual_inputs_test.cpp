@@ -38,7 +38,9 @@ TEST(Load, OfZeroHasTheAnswerZeroForEverySolverAndAccuracy) {
     const nlohmann::json summary = run.summary();
     EXPECT_EQ(summary["u_max"], 0.0) << method;
     EXPECT_EQ(summary["energy"], 0.0) << method;
-    if (summary.contains("certificate")) EXPECT_EQ(summary["certificate"]["relative"], 0.0);
+    if (summary.contains("certificate")) {
+      EXPECT_EQ(summary["certificate"]["relative"], 0.0);
+    }
   }
 }
 
@@ -187,7 +189,9 @@ TEST(Points, OnCornersEdgesAndSigmaHaveTheValueOfTheirVertex) {
   for (const nlohmann::json& point : at) {
     const double x = point["x"], y = point["y"];
     for (Eigen::Index i = 0; i < solution.rows.rows(); ++i)
-      if (solution.rows(i, 0) == x && solution.rows(i, 1) == y) EXPECT_NEAR(point["u"], solution.rows(i, 2), 1e-15);
+      if (solution.rows(i, 0) == x && solution.rows(i, 1) == y) {
+        EXPECT_NEAR(point["u"], solution.rows(i, 2), 1e-15);
+      }
   }
   EXPECT_EQ(at[0]["u"], 0.0);
 }

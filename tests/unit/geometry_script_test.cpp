@@ -245,12 +245,12 @@ std::vector<std::array<double, 6>> boxes(const GmshSession& gmsh, const std::vec
   return all;
 }
 std::vector<std::array<double, 6>> boxes_of(const Geometry& geometry) {
-  const GmshSession gmsh;
+  GmshSession gmsh;
   return boxes(gmsh, gmsh.read_curves(geometry));
 }
 /// Of a file as gmsh itself reads it.
 std::vector<std::array<double, 6>> boxes_by_gmsh(const std::filesystem::path& file) {
-  const GmshSession gmsh;
+  GmshSession gmsh;
   gmsh.call<decltype(gmshMerge)>("gmshMerge", file.c_str());
   return boxes(gmsh, gmsh.read_curves({"nothing", geometry_script("")}));
 }
@@ -317,7 +317,7 @@ TEST(GeometryScript, OfABrepIsNotNeededSinceItIsDataWhateverItHolds) {
   const std::string command = "SystemCall \"touch " + marker + "\";\n";
   std::vector<std::array<double, 6>> drawn;
   {
-    const GmshSession gmsh;
+    GmshSession gmsh;
     drawn = boxes(gmsh, gmsh.read_curves({"plate", geometry_script(plate_with_holes)}));
     gmsh.call<decltype(gmshWrite)>("gmshWrite", file.c_str());
   }
@@ -379,7 +379,7 @@ Traces traces_of(const Work& work) {
 
 void draw(const std::string& script) {
   try {
-    const GmshSession gmsh;
+    GmshSession gmsh;
     gmsh.read_curves({"random.geo", script});
   } catch (const Error&) {  // most of them make no sense
   }
