@@ -59,7 +59,7 @@ print(dict(os.environ) == environment)
 
 
 # arbor #2068, pybind11 #2000, HiGHS #1593, vmecpp #374: Ctrl-C while C++ computes
-@pytest.mark.parametrize("call", ["antilock.certify(scene, 1e-3)", "antilock.run(scene + 'accuracy = 1e-3\\nmost_unknowns = 3e7\\n')"])
+@pytest.mark.parametrize("call", ["antilock.certify(scene, 5e-3)", "antilock.run(scene + 'accuracy = 1e-3\\nmost_unknowns = 3e7\\n')"])
 def test_ctrl_c_ends_an_accuracy_between_two_steps(call):
     ended = python(f'''
 import antilock, os, signal, threading, time
@@ -76,7 +76,7 @@ except KeyboardInterrupt:
 ''')
     assert ended.returncode == 0, ended.stderr
     sent, came = map(float, ended.stdout.split())
-    # 1e-3 takes half a minute or more; a step of a level that is reached after 1.5 s a tenth of a second. Ten times as much
+    # either takes ten seconds or more; a step of a level that is reached after 1.5 s a tenth of a second. Ten times as much
     # for a machine that does other things
     assert came - sent < 1
 
