@@ -76,9 +76,9 @@ except KeyboardInterrupt:
 ''')
     assert ended.returncode == 0, ended.stderr
     sent, came = map(float, ended.stdout.split())
-    # either takes ten seconds or more; a step of a level that is reached after 1.5 s a tenth of a second. Ten times as much
-    # for a machine that does other things
-    assert came - sent < 1
+    # Either takes ten seconds or more, and a step of a level that is reached after 1.5 s some tenths of a second. The
+    # bound tells the two apart on a machine that does other things as well; it is no measure of speed.
+    assert came - sent < 5
 
 
 # OpenBLAS #5289, #4762: it asks without end for a buffer that the limit does not give
