@@ -76,7 +76,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return fail("antilock: out of memory; accepted: fewer cells or points", 3);
   } catch (const std::system_error& error) {  // of standard output: those of files come as Error
-    return fail(std::string("antilock: ") + error.what(), 2);
+    return fail(std::string("antilock: standard output: ") + error.what(), 2);
   } catch (const std::exception& error) {
     return fail(error.what(), 2);
   }

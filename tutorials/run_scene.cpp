@@ -247,7 +247,7 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return failed(scene.string() + ": mesh: out of memory; accepted: fewer cells", 3);
   } catch (const std::system_error& error) {  // of standard output: those of files come as Error
-    return failed(std::string("run_scene: ") + error.what(), 2);
+    return failed(std::string("run_scene: standard output: ") + error.what(), 2);
   } catch (const std::exception& error) {
     return failed(error.what(), 2);
   }

@@ -61,7 +61,7 @@ TEST(Layer, WhoseStiffnessIsLostNamesTheStiffness) {
 TEST(Ceiling, BelowTheObstacleIsRefusedWithItsPlace) {
   const std::string obstacle = "gap = \"-0.1*sin(pi*x)\"\nceiling = ";
   expect_no_answer(SceneRun(effects(obstacle + "\"0.05*sin(pi*x)\"")),
-                   "contact.ceiling: contact: ceiling(0.001) = 0.00015708 is below the obstacle, -gap(0.001) = "
+                   "contact.ceiling: contact: ceiling(0.001) = 0.000157079 is below the obstacle, -gap(0.001) = "
                    "0.000314159; accepted: ceiling >= -gap");
   expect_no_answer(SceneRun(effects("ceiling = \"x < 0.5 ? 0.1 : x < 0.6 ? -0.01 : 0.1\"")), "is below the obstacle");
 }
@@ -213,9 +213,9 @@ TEST(CommandLine, WhoseOutputIsAnInputIsRefusedAndTheInputStays) {
   std::ofstream(folder / "scene.toml") << text;
   std::filesystem::create_hard_link(folder / "scene.toml", folder / "same.toml");
   std::ofstream(folder / "points.csv") << "x,y\n0.5,-1\n";
-  ASSERT_EQ(run_scene(file + " --out " + in_shell(folder / "out"), folder).status, 0);
-  const std::string answer = folder / "out/solution.csv", before = contents(answer);
-  const std::string judge = fmt::format("judge {} {} {}", file, in_shell(folder / "out/mesh.msh"), in_shell(answer));
+  ASSERT_EQ(run_scene(file + " --out " + in_shell(folder / "results"), folder).status, 0);
+  const std::string answer = folder / "results/solution.csv", before = contents(answer);
+  const std::string judge = fmt::format("judge {} {} {}", file, in_shell(folder / "results/mesh.msh"), in_shell(answer));
   for (const std::string& ask :
        {"sweep " + file + " --epsilon 0.1 --out " + file, "sweep " + file + " --out " + in_shell(folder / "same.toml"),
         "truth " + file + " --summary " + file + " <" + in_shell(folder / "points.csv"),
