@@ -21,42 +21,32 @@ using Words = std::set<std::string, std::less<>>;
 // statement begins. A loop keeps its statements, and its end is found by words.
 const Words commands = {
     // shapes, and what they are made of
-    "Point", "Line", "Curve", "Circle", "Ellipse", "Ellipsis", "Spline", "CatmullRom", "BSpline",
-    "Bezier", "Wire", "Loop", "Plane", "Ruled", "Surface", "Rectangle", "Disk", "Volume", "Box",
-    "Block", "Sphere", "Cylinder", "Cone", "Torus", "Wedge",
+    "Point", "Line", "Curve", "Circle", "Ellipse", "Ellipsis", "Spline", "CatmullRom", "BSpline", "Bezier", "Wire",
+    "Plane", "Ruled", "Surface", "Rectangle", "Disk", "Volume", "Box", "Block", "Sphere", "Cylinder", "Cone", "Torus",
+    "Wedge",
     // what is done to them
-    "Translate", "Rotate", "Symmetry", "Dilate", "Affine", "Duplicata", "Extrude", "Layers",
-    "Recombine", "Delete", "Recursive", "Coherence", "BooleanUnion", "BooleanFuse",
-    "BooleanIntersection", "BooleanCommon", "BooleanDifference", "BooleanCut", "BooleanFragments",
-    "BooleanCoherence",
+    "Translate", "Rotate", "Symmetry", "Dilate", "Affine", "Extrude", "Layers", "Recombine", "Delete", "Recursive",
+    "Coherence", "BooleanUnion", "BooleanFuse", "BooleanIntersection", "BooleanCommon", "BooleanDifference",
+    "BooleanCut", "BooleanFragments", "BooleanCoherence",
     // what is asked of them
-    "In", "BoundingBox", "Boundary", "CombinedBoundary", "PointsOf", "newp", "newl", "newc",
-    "newll", "newcl", "news", "newsl", "newv", "newf", "newreg",
+    "In", "BoundingBox", "newp", "newl", "newc", "newll", "news", "newsl", "newv", "newf", "newreg",
     // numbers
-    "Pi", "Exp", "Log", "Log10", "Sqrt", "Sin", "Asin", "ArcSin", "Cos", "Acos", "ArcCos", "Tan",
-    "Atan", "ArcTan", "Atan2", "ArcTan2", "Sinh", "Cosh", "Tanh", "Fabs", "Abs", "Floor", "Ceil",
-    "Round", "Fmod", "Modulo", "Hypot", "Min", "Max", "Rand", "List", "LinSpace", "Unique"};
+    "Pi", "Exp", "Log", "Log10", "Sqrt", "Sin", "Asin", "ArcSin", "Cos", "Acos", "ArcCos", "Tan", "Atan", "ArcTan",
+    "Atan2", "ArcTan2", "Sinh", "Cosh", "Tanh", "Fabs", "Abs", "Floor", "Ceil", "Round", "Fmod", "Modulo", "Hypot",
+    "Min", "Max", "Rand", "List", "LinSpace", "Unique"};
+
+// Commands that are no keywords of gmsh's scanner: it reads them as names, and would take them for
+// variables elsewhere. So each of them is accepted in its own form alone (named_command).
+const Words named_commands = {"Loop", "Duplicata", "Boundary", "CombinedBoundary", "PointsOf"};
 
 // Accepted at the beginning of a statement alone, each in its own form.
 const Words openings = {"For", "EndFor", "DefineConstant", "SetFactory", "Geometry"};
 
 // Statements that begin so concern the mesh or the screen, and are left out.
-const Words mesh_alone = {"Mesh",
-                          "Physical",
-                          "Field",
-                          "Background",
-                          "Characteristic",
-                          "MeshSize",
-                          "Transfinite",
-                          "Recombine",
-                          "Smoother",
-                          "Periodic",
-                          "MeshSizeFromBoundary",
-                          "MeshAlgorithm",
-                          "Reverse",
-                          "ReverseMesh",
-                          "BoundaryLayer",
-                          "Printf"};
+const Words mesh_alone = {
+    "Mesh",        "Physical",    "Field",         "Background", "Characteristic",       "MeshSize",
+    "Transfinite", "Recombine",   "Smoother",      "Periodic",   "MeshSizeFromBoundary", "MeshAlgorithm",
+    "Reverse",     "ReverseMesh", "BoundaryLayer", "Printf"};
 
 // Fields of mesh sizes; those that read files or start programs (Structured, PostView,
 // ExternalProcess) are refused.
@@ -113,9 +103,8 @@ const Words assignments = {"=", "+=", "-=", "*=", "/="};
 
 // Signs that are accepted: all of gmsh's but `.` and `::` (members of structures and options), `%`
 // (by 0 it ends the program), and those of bits, of which `>>` is Printf's, too.
-const Words signs = {
-    "(", ")", "[", "]", "{", "}", ",", ";", ":", "...", "=",  "+=", "-=", "*=", "/=", "++", "--",
-    "+", "-", "*", "/", "^", "?", "!", "<", ">", "<=",  ">=", "==", "!=", "&&", "||", "~",  "#"};
+const Words signs = {"(", ")", "[", "]", "{", "}", ",", ";", ":", "...", "=",  "+=", "-=", "*=", "/=", "++", "--",
+                     "+", "-", "*", "/", "^", "?", "!", "<", ">", "<=",  ">=", "==", "!=", "&&", "||", "~",  "#"};
 
 // Signs that gmsh reads as one, the longest first.
 constexpr std::string_view long_signs[] = {"...", "+=", "-=", "*=", "/=", "::", "||", "&&",
@@ -150,8 +139,7 @@ class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {
     if (const auto nul = text.find('\0'); nul != text.npos)
-      refuse(1 + static_cast<int>(std::count(
-                     text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n')),
+      refuse(1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n')),
              "a byte 0", "is no sign of a script; accepted: text");
   }
 
@@ -170,9 +158,7 @@ class Scanner {
  private:
   using Kind = Token::Kind;
 
-  char sign(std::size_t ahead = 0) const {
-    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
-  }
+  char sign(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
   void advance(std::size_t length) {
     const std::string_view passed = text_.substr(at_, length);
     line_ += static_cast<int>(std::count(passed.begin(), passed.end(), '\n'));
@@ -181,8 +167,7 @@ class Scanner {
   /// Behind `closing`, which is looked for from `from` on. Throws Error where it is missing.
   std::size_t length_to(std::string_view closing, std::size_t from, std::string_view name) const {
     const std::size_t end = text_.find(closing, at_ + from);
-    if (end == text_.npos)
-      refuse(line_, name, fmt::format("has no end; accepted: {} behind it", closing));
+    if (end == text_.npos) refuse(line_, name, fmt::format("has no end; accepted: {} behind it", closing));
     return end + closing.size() - at_;
   }
 
@@ -203,10 +188,8 @@ class Scanner {
 
   std::pair<Kind, std::size_t> next() const {
     if (is_letter(sign())) return {Kind::word, word_length()};
-    if (is_digit(sign()) || (sign() == '.' && is_digit(sign(1))))
-      return {Kind::number, number_length()};
-    if (sign() == '"')
-      return {Kind::text, length_to("\"", 1, "a text")};  // a backslash hides no quotation mark
+    if (is_digit(sign()) || (sign() == '.' && is_digit(sign(1)))) return {Kind::number, number_length()};
+    if (sign() == '"') return {Kind::text, length_to("\"", 1, "a text")};  // a backslash hides no quotation mark
     if (sign() == '\'') return {Kind::text, length_to("'", 1, "a text")};
     for (const std::string_view s : long_signs)
       if (text_.substr(at_, s.size()) == s) return {Kind::sign, s.size()};
@@ -217,8 +200,7 @@ class Scanner {
     std::size_t length = 1;
     while (is_letter(sign(length)) || is_digit(sign(length))) ++length;
     if (length > longest)
-      refuse(line_, text_.substr(at_, length),
-             fmt::format("is too long; accepted: up to {} letters", longest));
+      refuse(line_, text_.substr(at_, length), fmt::format("is too long; accepted: up to {} letters", longest));
     return length;
   }
   std::size_t digits(std::size_t from) const {
@@ -262,8 +244,7 @@ void find_structure(std::vector<Token>& tokens) {
     begins = token.is(";") || token.is("}") || token.is(")") || token.is("EndFor");
   }
   if (!open.empty())
-    refuse(tokens[open.back()].line, tokens[open.back()].text,
-           "is never closed; accepted: brackets in pairs");
+    refuse(tokens[open.back()].line, tokens[open.back()].text, "is never closed; accepted: brackets in pairs");
 }
 
 /// Writes the script anew, token by token.
@@ -297,8 +278,7 @@ class Rewriter {
         i = copy(i);
       }
     }
-    if (!loops.empty())
-      refuse(loops.back(), "For", "is never ended; accepted: a loop with its EndFor");
+    if (!loops.empty()) refuse(loops.back(), "For", "is never ended; accepted: a loop with its EndFor");
     return script_ + "\n";
   }
 
@@ -306,22 +286,18 @@ class Rewriter {
   using Kind = Token::Kind;
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
 
-  bool is(std::size_t i, std::string_view wanted) const {
-    return i < tokens_.size() && tokens_[i].is(wanted);
-  }
+  bool is(std::size_t i, std::string_view wanted) const { return i < tokens_.size() && tokens_[i].is(wanted); }
   bool is_word(std::size_t i) const { return i < tokens_.size() && tokens_[i].is_word(); }
   void expect(std::size_t i, std::string_view wanted, std::size_t statement) const {
     if (!is(i, wanted))
-      refuse(tokens_[statement].line, tokens_[statement].text,
-             fmt::format("accepted: a {} in it here", wanted));
+      refuse(tokens_[statement].line, tokens_[statement].text, fmt::format("accepted: a {} in it here", wanted));
   }
 
   /// The `;` that ends the statement.
   std::size_t end_of(std::size_t statement) const {
     std::size_t i = statement;
     while (i < tokens_.size() && !is(i, ";")) i = std::max(i, tokens_[i].partner) + 1;
-    if (i >= tokens_.size())
-      refuse(tokens_[statement].line, tokens_[statement].text, "has no end; accepted: a ;");
+    if (i >= tokens_.size()) refuse(tokens_[statement].line, tokens_[statement].text, "has no end; accepted: a ;");
     return i;
   }
 
@@ -344,14 +320,14 @@ class Rewriter {
       if (tokens_[i].is("For") && is_word(i + 1)) {
         variables_.insert(tokens_[i + 1].text);
       } else if (tokens_[i].is("DefineConstant") && is(i + 1, "[")) {
-        for (std::size_t k = i + 2; k < tokens_[i + 1].partner;
-             k = std::max(k, tokens_[k].partner) + 1)
+        for (std::size_t k = i + 2; k < tokens_[i + 1].partner; k = std::max(k, tokens_[k].partner) + 1)
           if (is_word(k) && !tokens_[k - 1].is("=")) variables_.insert(tokens_[k].text);
       } else if (is_assigned(i)) {
         variables_.insert(tokens_[i].text);
       }
     }
-    for (const Words* known : {&commands, &openings, &mesh_alone})
+    variables_.erase("newcl");
+    for (const Words* known : {&commands, &named_commands, &openings, &mesh_alone})
       for (const std::string& word : *known) variables_.erase(word);
   }
 
@@ -377,8 +353,7 @@ class Rewriter {
   void guard_index(std::size_t i) {
     if ((!is(i + 1, "[") && !is(i + 1, "(")) || tokens_[i + 1].partner == i + 2) return;
     if (is(i + 2, "{"))
-      refuse(tokens_[i + 1].line, tokens_[i].text,
-             "a list of indices is not accepted; accepted: one index");
+      refuse(tokens_[i + 1].line, tokens_[i].text, "a list of indices is not accepted; accepted: one index");
     guarded_.insert({i + 1, tokens_[i + 1].partner});
   }
 
@@ -393,16 +368,31 @@ class Rewriter {
       copy_sign(i);
     } else if (token.kind == Kind::number || commands.contains(token.text)) {
       put(i, token.text);
+    } else if (named_commands.contains(token.text)) {
+      named_command(i);
+    } else if (token.is("newcl")) {
+      put(i, "newll");  // the same number; gmsh 4.8 knows newll alone
     } else if (variables_.contains(token.text)) {
       put(i, "v_" + token.text);
       guard_index(i);
     } else {
       const bool member = is(i + 1, ".") && is_word(i + 2);
-      refuse(
-          token.line, member ? token.text + "." + tokens_[i + 2].text : token.text,
-          "is neither a command that draws nor a variable of the script; " + std::string(accepted));
+      refuse(token.line, member ? token.text + "." + tokens_[i + 2].text : token.text,
+             "is neither a command that draws nor a variable of the script; " + std::string(accepted));
     }
     return i + 1;
+  }
+  /// Line Loop(...), Curve Loop(...), Wire Loop(...), Surface Loop(...); the others before a {.
+  void named_command(std::size_t i) {
+    const Token& token = tokens_[i];
+    const bool loop = token.is("Loop");
+    const bool behind_its_kind =
+        i > 0 && (is(i - 1, "Line") || is(i - 1, "Curve") || is(i - 1, "Wire") || is(i - 1, "Surface"));
+    if (loop ? !behind_its_kind || !is(i + 1, "(") : !is(i + 1, "{"))
+      refuse(token.line, token.text,
+             loop ? "is no variable; accepted: Line Loop(...), Curve Loop(...), Surface Loop(...)"
+                  : "is no variable; accepted: " + token.text + " { ... }");
+    put(i, token.text);
   }
   void copy_sign(std::size_t i) {
     const Token& token = tokens_[i];
@@ -410,8 +400,7 @@ class Rewriter {
     const bool guarded = guarded_.contains(i);
     put(i, guarded && closes ? ") ) " + token.text : token.text);
     if (guarded && !closes) script_ += " Min ( 1e6 , Fabs (";
-    if (closes && token.partner > 1 && is(token.partner - 1, "~"))
-      guard_index(i);  // name~{...}[...]
+    if (closes && token.partner > 1 && is(token.partner - 1, "~")) guard_index(i);  // name~{...}[...]
   }
   void copy_all(std::size_t from, std::size_t to) {
     while (from < to) from = copy(from);
@@ -427,8 +416,7 @@ class Rewriter {
     const std::size_t behind = tokens_[statement + 1].partner + 1;
     if (is(behind, "=") && (!is_word(behind + 1) || !fields.contains(tokens_[behind + 1].text)))
       refuse(tokens_[statement].line, "Field = " + tokens_[behind + 1].text,
-             fmt::format("is no field that is known to read no file; accepted: {}",
-                         fmt::join(fields, ", ")));
+             fmt::format("is no field that is known to read no file; accepted: {}", fmt::join(fields, ", ")));
     return end + 1;
   }
 
@@ -438,8 +426,7 @@ class Rewriter {
     const std::size_t end = end_of(statement);
     expect(statement + 1, "[", statement);
     const std::size_t last = tokens_[statement + 1].partner;
-    if (last + 1 != end)
-      refuse(tokens_[statement].line, "DefineConstant", "accepted: DefineConstant[...];");
+    if (last + 1 != end) refuse(tokens_[statement].line, "DefineConstant", "accepted: DefineConstant[...];");
     put(statement, "DefineConstant");
     put(statement + 1, "[");
     for (std::size_t i = statement + 2; i < last;) {
@@ -449,8 +436,7 @@ class Rewriter {
       }
       const std::size_t closing = tokens_[i].partner;
       std::size_t comma = i + 1;
-      while (comma < closing && !is(comma, ","))
-        comma = std::max(comma, tokens_[comma].partner) + 1;
+      while (comma < closing && !is(comma, ",")) comma = std::max(comma, tokens_[comma].partner) + 1;
       copy_all(i, comma);
       i = copy(closing);
     }
@@ -465,11 +451,9 @@ class Rewriter {
     expect(i + 3, ")", i);
     expect(i + 4, ";", i);
     const Token& name = tokens_[i + 2];
-    const std::string known =
-        name.kind == Kind::text ? name.text.substr(1, name.text.size() - 2) : "";
+    const std::string known = name.kind == Kind::text ? name.text.substr(1, name.text.size() - 2) : "";
     if (known != "OpenCASCADE" && known != "Built-in")
-      refuse(name.line, name.text,
-             "is no kernel; accepted: SetFactory(\"OpenCASCADE\"), SetFactory(\"Built-in\")");
+      refuse(name.line, name.text, "is no kernel; accepted: SetFactory(\"OpenCASCADE\"), SetFactory(\"Built-in\")");
     put(i, "SetFactory ( \"" + known + "\" ) ;");
     return i + 5;
   }
@@ -479,8 +463,7 @@ class Rewriter {
     expect(i + 1, ".", i);
     if (!is_word(i + 2) || !geometry_options.contains(tokens_[i + 2].text))
       refuse(tokens_[i].line, "Geometry." + (i + 2 < tokens_.size() ? tokens_[i + 2].text : ""),
-             fmt::format("is no option that is accepted; accepted: {}",
-                         fmt::join(geometry_options, ", ")));
+             fmt::format("is no option that is accepted; accepted: {}", fmt::join(geometry_options, ", ")));
     put(i, "Geometry . " + tokens_[i + 2].text);
     return i + 3;
   }
@@ -494,6 +477,14 @@ class Rewriter {
 };
 
 }  // namespace
+
+std::vector<std::string> geometry_script_commands() {
+  std::vector<std::string> all(commands.begin(), commands.end());
+  all.insert(all.end(), named_commands.begin(), named_commands.end());
+  all.insert(all.end(), openings.begin(), openings.end());
+  all.emplace_back("newcl");
+  return all;
+}
 
 std::string geometry_script(const std::string& text) {
   std::vector<Token> tokens = Scanner(text).tokens();

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 namespace antilock {
 
@@ -20,5 +21,8 @@ namespace antilock {
 /// transformations, Boolean operations and numbers of Geometry. Throws Error, `line N: NAME: ...`,
 /// for anything else.
 std::string geometry_script(const std::string& text);
+
+/// The words that geometry_script may leave without the prefix `v_`.
+std::vector<std::string> geometry_script_commands();
 
 }  // namespace antilock
