@@ -119,7 +119,8 @@ Table both_sides(const Method& method, int cells, const std::vector<Exact>& trut
     const Errors errors = exact.errors(on.space(), u_h);
     const Eigen::VectorXd work = contact_work(on.space(), [&](double x) { return exact.truth.pressure(x); });
     const Eigen::VectorXd r =
-        conforming ? work : consistency_residual(on.space(), sweep.problem().load, exact.reference(), {exact.contact_from()});
+        conforming ? work
+                   : consistency_residual(on.space(), sweep.problem().load, exact.reference(), {exact.contact_from()});
     const double first = nearest(on.space(), sweep.problem(), exact.reference(), Within::k_h, r).value,
                  second = -r.dot(u_h.u);
     rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, errors.h1, first + second,

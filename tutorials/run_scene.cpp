@@ -194,8 +194,8 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   const char* const of_one_component = file.mesh.from_file() ? "plan" : "surface";
   const char* const kind = file.elastic ? "deformed" : of_one_component;
   if (asked.files.contains("vtu"))
-    fmt::print("  a picture of it: {} {} {} --out {}\n", tutorial::in_shell(tutorial::beside("render")),
-               kind, tutorial::in_shell(name + ".vtu"), tutorial::in_shell(name + ".png"));
+    fmt::print("  a picture of it: {} {} {} --out {}\n", tutorial::in_shell(tutorial::beside("render")), kind,
+               tutorial::in_shell(name + ".vtu"), tutorial::in_shell(name + ".png"));
   if (found.history.empty())
     fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,
                summary.u_max, summary.contact_steps, summary.corrections, asked.out.string());

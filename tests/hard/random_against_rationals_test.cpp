@@ -134,7 +134,7 @@ TEST(NothingInSilence, TheErrorIsThatOfAllCorrectionsToCome) {
     double to_come = 0, correction = 1e-3;
     for (int k = 0; k < 1000; ++k) to_come += correction *= rate;
     const ForwardError now = accuracy(small_problem(chain(3), Eigen::Vector3d::Ones()), Twice(Eigen::Vector3d(2, 1, 0)),
-                                  rate * 1e-3, {}, rate, 0, {});
+                                      rate * 1e-3, {}, rate, 0, {});
     EXPECT_NEAR(now.error / (to_come / 2), 1, 1e-13) << rate;
   }
 }

@@ -215,7 +215,8 @@ TEST(CommandLine, WhoseOutputIsAnInputIsRefusedAndTheInputStays) {
   std::ofstream(folder / "points.csv") << "x,y\n0.5,-1\n";
   ASSERT_EQ(run_scene(file + " --out " + in_shell(folder / "results"), folder).status, 0);
   const std::string answer = folder / "results/solution.csv", before = contents(answer);
-  const std::string judge = fmt::format("judge {} {} {}", file, in_shell(folder / "results/mesh.msh"), in_shell(answer));
+  const std::string judge =
+      fmt::format("judge {} {} {}", file, in_shell(folder / "results/mesh.msh"), in_shell(answer));
   for (const std::string& ask :
        {"sweep " + file + " --epsilon 0.1 --out " + file, "sweep " + file + " --out " + in_shell(folder / "same.toml"),
         "truth " + file + " --summary " + file + " <" + in_shell(folder / "points.csv"),

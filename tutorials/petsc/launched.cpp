@@ -48,10 +48,9 @@ Table on_ranks(const Asked& asked) {
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   const bool crowded = asked.ranks > static_cast<int>(std::thread::hardware_concurrency());
   // MPI_ENVIRONMENT: lib/cmake/mpi_environment.cmake. Where there are more ranks than cores, one that waits gives way.
-  const std::string command =
-      fmt::format(MPI_ENVIRONMENT " OMPI_MCA_mpi_yield_when_idle={} mpiexec -n {} {} {} {} {} {}", crowded ? 1 : 0,
-                  asked.ranks, tutorial::in_shell(self), flag, tutorial::in_shell(asked.what), asked.cells,
-                  asked.epsilon);
+  const std::string command = fmt::format(
+      MPI_ENVIRONMENT " OMPI_MCA_mpi_yield_when_idle={} mpiexec -n {} {} {} {} {} {}", crowded ? 1 : 0, asked.ranks,
+      tutorial::in_shell(self), flag, tutorial::in_shell(asked.what), asked.cells, asked.epsilon);
   FILE* pipe = ::popen(command.c_str(), "r");
   std::string answer;
   std::array<char, 512> line{};

@@ -48,8 +48,8 @@ Answer conforming_answer(const Scene& scene, const Element& element, const std::
 /// Of an answer that locks: what is told of it, where the unknowns that would be needed are more than the limit. The
 /// error's square is at least twice what is lost, and lost over kept falls like h^2 for P1 and h^4 for P2. `counted`: the
 /// unknowns that the limit is about.
-std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate, const AccuracyGoal& accuracy,
-                   int counted) {
+std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate,
+                   const AccuracyGoal& accuracy, int counted) {
   const auto report = report_layer(scene, answer.space, answer.problem, answer.solution);
   if (!report || report->warning.empty()) return "";
   const double enough = std::pow(accuracy.relative * (certificate.norm + certificate.displacement), 2) / 2;

@@ -154,9 +154,8 @@ class Reader {
   /// The operator that stands here, if it binds at least as tightly as `least`; else null.
   const Operator* operator_here(int least) {
     next();
-    const auto found = std::find_if(operators.begin(), operators.end(), [&](const Operator& o) {
-      return text_.substr(at_, o.sign.size()) == o.sign;
-    });
+    const auto found = std::find_if(operators.begin(), operators.end(),
+                                    [&](const Operator& o) { return text_.substr(at_, o.sign.size()) == o.sign; });
     return found == operators.end() || found->binds < least ? nullptr : &*found;
   }
   /// One comparison, or a chain of them: a < b <= c is a < b && b <= c, as in mathematics. A chain that changes its

@@ -107,7 +107,7 @@ CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow) {
   if (method.accuracy) {
     begin(fmt::format("solve to a relative error of {:g}", *method.accuracy));
     const AccuracyGoal asked{*method.accuracy,         method.of,   method.most_unknowns, {}, method.tolerance,
-                         &element(method.element), follow.solve};
+                             &element(method.element), follow.solve};
     CertifiedSolution found = solved([&] { return solve_to(file.scene, *mesh, asked, follow.level); });
     found.answer.seconds = seconds;
     spent(found.answer);

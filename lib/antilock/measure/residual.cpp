@@ -49,7 +49,7 @@ bool across(const TriangleMesh& mesh, int t, const std::vector<double>& breaks) 
 }  // namespace
 
 Eigen::VectorXd consistency_residual(const Space& space, const Eigen::VectorXd& load, const Reference& exact,
-                               const std::vector<double>& breaks) {
+                                     const std::vector<double>& breaks) {
   static const Quadrature fine = refined(refined(refined(refined(radon_rule()))));
   const TriangleMesh& mesh = space.mesh();
   Eigen::VectorXd residual = -load;

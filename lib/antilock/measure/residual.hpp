@@ -14,7 +14,7 @@ namespace antilock {
 /// `breaks`: the x where that stress jumps (the ends of contact); layer triangles across them are integrated by 1792
 /// points, the others by load_rule.
 Eigen::VectorXd consistency_residual(const Space& space, const Eigen::VectorXd& load, const Reference& exact,
-                               const std::vector<double>& breaks);
+                                     const std::vector<double>& breaks);
 
 /// N values (u, phi_i)_h in the broken H1 product, by the rule that measure_errors uses: for projections of u.
 Eigen::VectorXd h1_products(const Space& space, const Reference& exact);

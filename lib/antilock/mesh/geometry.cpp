@@ -24,8 +24,7 @@ std::string text_of(const std::filesystem::path& file) {
 Geometry read_geometry(const std::filesystem::path& file) {
   const std::filesystem::path kind = file.extension();
   try {
-    if (kind != ".geo" && kind != ".brep")
-      throw Error("is neither .geo nor .brep; accepted: one of the two");
+    if (kind != ".geo" && kind != ".brep") throw Error("is neither .geo nor .brep; accepted: one of the two");
     // the end of a pipe or of a device would never come
     if (std::error_code ignored; !std::filesystem::is_regular_file(file, ignored))
       throw Error("there is no such file; accepted: a .geo or .brep file");

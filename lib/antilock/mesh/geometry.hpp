@@ -7,10 +7,8 @@ namespace antilock {
 /// The curves of the body's boundary, to which every refinement of a mesh returns
 /// (mesh/refine.hpp).
 struct Geometry {
-  std::string file =
-      {};  ///< the .geo or .brep file; empty: there is none, the boundary is the mesh's polygon
-  std::string script =
-      {};  ///< of a .geo file: the text that gmsh reads in its place (mesh/geometry_script.hpp)
+  std::string file = {};    ///< the .geo or .brep file; empty: there is none, the boundary is the mesh's polygon
+  std::string script = {};  ///< of a .geo file: the text that gmsh reads in its place (mesh/geometry_script.hpp)
 
   bool empty() const { return file.empty(); }
 };

@@ -63,7 +63,8 @@ void check_displacement(const Scene& scene, const TriangleMesh& mesh) {
   const double largest = at_vertices.cwiseAbs().maxCoeff();
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const int from = mesh.edges(e, 0), to = mesh.edges(e, 1), k = group_of(mesh.edge_tag[e]);
-    if (!is_dirichlet(mesh.edge_tag[e]) || (k >= 0 && mesh.region[mesh.edge_triangles(e, 0)] == Region::layer)) continue;
+    if (!is_dirichlet(mesh.edge_tag[e]) || (k >= 0 && mesh.region[mesh.edge_triangles(e, 0)] == Region::layer))
+      continue;
     for (int part = 0; part <= 4; ++part) {
       const double s = part / 4.0, affine = (1 - s) * at_vertices(from) + s * at_vertices(to);
       const Eigen::RowVector2d x = (1 - s) * mesh.vertices.row(from) + s * mesh.vertices.row(to);
