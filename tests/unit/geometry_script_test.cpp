@@ -46,15 +46,21 @@ std::string words(const std::string& script) {
   return all;
 }
 
+/// An index as it is written.
+std::string guarded(const std::string& index) {
+  return "Min ( 1e6 , Max ( 0 , 1e6 + 1 - Round ( 1 / ( 1 / Max ( 0 , 1e6 + 2 - Round ( 1 / ( 1 / "
+         "Max ( 0 , 1 + Floor ( " +
+         index + " ) ) ) ) ) ) ) ) )";
+}
+
 // ==== what is kept ====
 
 TEST(GeometryScript, KeepsNumbersSignsAndCommandsAndRenamesVariables) {
   EXPECT_EQ(words(geometry_script("h = 1e-1; Point(1) = {0.5, -.5, 2., h};")),
             "v_h = 1e-1 ; Point ( 1 ) = { 0.5 , - .5 , 2. , v_h } ;");
   EXPECT_EQ(words(geometry_script("a() = {1:3}; a(0) += 2; a() -= 1; b~{1} = #a();b~{1}++;")),
-            "v_a ( ) = { 1 : 3 } ; v_a ( Min ( 1e6 , Fabs ( 0 ) ) ) += 2 ; v_a ( ) -= 1 ; v_b ~ { "
-            "1 } = # v_a ( ) ; "
-            "v_b ~ { 1 } ++ ;");
+            "v_a ( ) = { 1 : 3 } ; v_a ( " + guarded("0") +
+                " ) += 2 ; v_a ( ) -= 1 ; v_b ~ { 1 } = # v_a ( ) ; v_b ~ { 1 } ++ ;");
   EXPECT_EQ(words(geometry_script("Merge = 1; x = Merge;")), "v_Merge = 1 ; v_x = v_Merge ;");
 }
 
@@ -242,17 +248,80 @@ TEST(GeometryScript, RefusesCommandsThatAreNamesOutsideOfTheirForm) {
             "{ 1 } ; } }");
 }
 
-// gmsh checks the upper bound of an index alone. It is kept within 0 and 1e6, wherever the brackets
+// What is left out has no part in the drawing, so that nothing in it may have one.
+TEST(GeometryScript, LeavesOutNoEffect) {
+  for (const auto& [left_out, name] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"Physical Curve(n++) = {1};", "++"},
+           {"Physical Curve(1) = {n--};", "--"},
+           {"Field[n++] = Box;", "++"},
+           {"Field[1].F = Translate{0, 1, 0}{ Curve{1}; };", "Translate"},
+           {"Mesh.Algorithm = n++;", "++"},
+           {"Printf(\"%g\", n++);", "++"},
+           {"Printf(\"%g\", n = 2);", "="},
+           {"Characteristic Length {n++} = 0.1;", "++"},
+           {"Transfinite Curve {n++} = 3;", "++"},
+           {"Periodic Curve {1} = Translate{0, 1, 0}{ Curve{1}; };", "Translate"},
+           {"DefineConstant[ a = {1, Min n++, Name \"a\"} ];", "++"},
+           {"DefineConstant[ a = {1, Name Str(\"a\")} ];", "Name"},
+           {"DefineConstant[ a = {1, Choices{1=\"a\", n++=\"b\"}} ];", "++"},
+           {"Physical Surface(1) = BooleanDifference{ Surface{1}; }{ Surface{2}; };", "BooleanDifference"},
+           {"Physical Curve(1) = ThruSections{1, 2};", "ThruSections"}})
+    expect_refused("n = 1;\n" + left_out, 2, name);
+  for (const std::string word :
+       {"Translate", "Rotate", "Symmetry", "Dilate", "Affine", "Extrude", "BooleanUnion", "BooleanIntersection",
+        "BooleanFragments", "Duplicata", "Boundary", "CombinedBoundary", "PointsOf"})
+    expect_refused("\nPhysical Curve(\"top\") = " + word + "{0, 1, 0}{ Curve{1}; };", 2, word);
+  for (const std::string kept :
+       {"Periodic Curve {1} = {2} Translate {0, 1, 0};", "n = 1; Physical Curve(n + 1) += {n, 3:4};",
+        "Transfinite Surface {1} = {1, 2, 3, 4} AlternateLeft;", "Field[1].F = Sprintf(\"x*%g\", 1);",
+        "DefineConstant[ a = {1, Min 0, Max 2, Step 1, Choices{1=\"a\", 2=\"b\"}, Name \"a\"} ];"})
+    EXPECT_EQ(refusal(kept), "") << kept;
+}
+
+// gmsh counts groups and fields that are left out.
+TEST(GeometryScript, RefusesNumbersThatCountWhatIsLeftOut) {
+  for (const std::string number : {"newreg", "newl", "newc", "newll", "newcl", "news", "newsl", "newv"}) {
+    const std::string use = "p = " + number + ";\n", physical = "Physical Curve(100) = {1};\n";
+    EXPECT_EQ(refusal(use + physical), "");
+    expect_refused(physical + use, 2, number);
+    expect_refused("For i In {1:2}\n" + use + physical + "EndFor\n", 2, number);
+  }
+  expect_refused("Physical Curve(9) = {1};\nExtrude {0, 0, 1} { Curve{1}; }", 2, "Extrude");
+  expect_refused("Physical Curve(9) = {1};\nx() = Translate {0, 0, 1} { Duplicata{ Curve{1}; } };", 2, "Duplicata");
+  EXPECT_EQ(refusal("f = newf; Field[f] = Box; Field[f].VIn = 1; Background Field = f;"), "");
+  expect_refused("f = newf;\nLine(1) = {1, f};", 2, "f");
+  expect_refused("f = newf;\nf += 1;", 2, "f");
+  expect_refused("x = 1 + newf;", 1, "newf");
+  expect_refused("x() = {newf};", 1, "newf");
+}
+
+TEST(GeometryScript, RefusesWhatGmshReadsInItsOwnWay) {
+  expect_refused("Point(1) = {0,0,0};\rLine(1) = {1,2};", 1, "a carriage return");
+  expect_refused("a = 1;\r", 1, "a carriage return");
+  EXPECT_EQ(refusal("a = 1;\r\n// \r b\r\n"), "");
+  expect_refused("x = 0;\nFor i In {1:3} x += 1; EndFor", 2, "For");
+  expect_refused("x = 0;\nFor i In {1:3} x += 1;\nEndFor", 2, "For");
+  expect_refused("x = 0;\nFor (1:3) x += 1;\nEndFor", 2, "For");
+  expect_refused("x = 0;\nFor i In {1:3}\nx += 1;\nEndFor x += 1;", 4, "EndFor");
+  expect_refused("For i\n", 1, "For");
+  EXPECT_EQ(refusal("For i In {1:3} // thrice\nx = i;\nEndFor // done"), "");
+  expect_refused("DefineConstant[ a = {1, Name \"x\"},\nb = {2, Name \"x\"} ];", 2, "\"x\"");
+  expect_refused("DefineConstant[ a = {1, Name \"x\"} ];\nDefineConstant[ b = {2, Name 'x'} ];", 2, "'x'");
+  expect_refused("x = Rand(1);", 1, "Rand");
+  expect_refused("x = 0." + std::string(99, '1') + ";", 1, "0.11111111");
+  EXPECT_EQ(refusal("x = 0." + std::string(98, '1') + ";"), "");
+}
+
+// gmsh checks the upper bound of an index alone. Others are divisions by zero, wherever the brackets
 // stand.
 TEST(GeometryScript, KeepsEveryIndexFromZeroOn) {
-  const std::string before = "l() = {1}; k~{1} = {1}; ", guarded = "Min ( 1e6 , Fabs ( - 3 ) )";
-  for (const auto& [index, kept] :
-       {std::pair<std::string, std::string>{"l[-3] = 1;", "v_l [ " + guarded + " ] = 1 ;"},
-        {"l(-3) = 1;", "v_l ( " + guarded + " ) = 1 ;"},
-        {"x = l /* */ [-3];", "v_x = v_l [ " + guarded + " ] ;"},
-        {"x = k~{1}[-3];", "v_x = v_k ~ { 1 } [ " + guarded + " ] ;"},
-        {"k~{1}~{2}(-3)++;", "v_k ~ { 1 } ~ { 2 } ( " + guarded + " ) ++ ;"},
-        {"x = l[l[-3]];", "v_x = v_l [ Min ( 1e6 , Fabs ( v_l [ " + guarded + " ] ) ) ] ;"}}) {
+  const std::string before = "l() = {1}; k~{1} = {1}; ", three = guarded("- 3");
+  for (const auto& [index, kept] : {std::pair<std::string, std::string>{"l[-3] = 1;", "v_l [ " + three + " ] = 1 ;"},
+                                    {"l(-3) = 1;", "v_l ( " + three + " ) = 1 ;"},
+                                    {"x = l /* */ [-3];", "v_x = v_l [ " + three + " ] ;"},
+                                    {"x = k~{1}[-3];", "v_x = v_k ~ { 1 } [ " + three + " ] ;"},
+                                    {"k~{1}~{2}(-3)++;", "v_k ~ { 1 } ~ { 2 } ( " + three + " ) ++ ;"},
+                                    {"x = l[l[-3]];", "v_x = v_l [ " + guarded("v_l [ " + three + " ]") + " ] ;"}}) {
     const std::string script = words(geometry_script(before + index));
     EXPECT_EQ(script.substr(script.size() - kept.size()), kept) << script;
   }
@@ -309,6 +378,20 @@ TEST(GeometryScript, DrawsWhatTheFileDraws) {
     EXPECT_EQ(drawn, boxes_by_gmsh(folder / "body.geo"));
     EXPECT_GE(drawn.size(), 7U);
   }
+}
+
+TEST(GeometryScript, ReportsAnIndexOutsideOfItsList) {
+  const std::string line = "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; l() = {0:1e6};\n";
+  const auto end = [&](const std::string& index) {
+    const std::string script = line + "x = l(" + index + ");\nPoint(3) = {2 + x, 0, 0}; Line(1) = {1, 3};";
+    return boxes_of({"index.geo", geometry_script(script)}).at(0)[3] - 2;
+  };
+  for (const double index : {0., 1., 3., 49., 999999., 1e6})
+    EXPECT_NEAR(end(std::to_string(index)), index, 1e-3) << index;  // gmsh's boxes are wider by 1e-7
+  for (const std::string index : {"-1", "-1e-3", "-1e8", "1e6 + 1", "3e9", "-3e9", "Sqrt(-1)", "1e999"})
+    EXPECT_THROW(end(index), Error) << index;
+  for (const std::string bad : {"l(-1) = 1;", "l[-1e8]++;", "l(2e6) = 1;", "x = l(-1)++;"})
+    EXPECT_THROW(boxes_of({"index.geo", geometry_script(line + bad)}), Error) << bad;
 }
 
 TEST(GeometryScript, IsReadOnceAndNothingLiesBesideIt) {
@@ -639,7 +722,7 @@ class RandomScripts {
                                            "Fmod",
                                            "Min",
                                            "Max",
-                                           "Rand",
+
                                            "List",
                                            "LinSpace",
                                            "Unique",

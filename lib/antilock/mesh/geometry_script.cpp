@@ -33,11 +33,28 @@ const Words commands = {
     // numbers
     "Pi", "Exp", "Log", "Log10", "Sqrt", "Sin", "Asin", "ArcSin", "Cos", "Acos", "ArcCos", "Tan", "Atan", "ArcTan",
     "Atan2", "ArcTan2", "Sinh", "Cosh", "Tanh", "Fabs", "Abs", "Floor", "Ceil", "Round", "Fmod", "Modulo", "Hypot",
-    "Min", "Max", "Rand", "List", "LinSpace", "Unique"};
+    "Min", "Max", "List", "LinSpace", "Unique"};
 
 // Commands that are no keywords of gmsh's scanner: it reads them as names, and would take them for
 // variables elsewhere. So each of them is accepted in its own form alone (named_command).
 const Words named_commands = {"Loop", "Duplicata", "Boundary", "CombinedBoundary", "PointsOf"};
+
+// Numbers of gmsh's that depend on the Physical statements before them.
+const Words counted_numbers = {"newl",  "newc", "newll",  "newcl",   "news",
+                               "newsl", "newv", "newreg", "Extrude", "Duplicata"};
+
+// Statements that are left out may hold these words beside variables, fields and the names of
+// options. None of them changes the drawing or a variable, so that nothing is missed.
+const Words without_effect = {"Point", "Line", "Curve", "Surface", "Volume", "In", "BoundingBox", "newp", "newl",
+                              "newc", "newll", "newcl", "news", "newsl", "newv", "newf", "newreg", "Pi", "Exp", "Log",
+                              "Log10", "Sqrt", "Sin", "Asin", "ArcSin", "Cos", "Acos", "ArcCos", "Tan", "Atan",
+                              "ArcTan", "Atan2", "ArcTan2", "Sinh", "Cosh", "Tanh", "Fabs", "Abs", "Floor", "Ceil",
+                              "Round", "Fmod", "Modulo", "Hypot", "Min", "Max", "List", "LinSpace", "Unique", "Field",
+                              "Length", "Using", "Progression", "Power", "Bump", "Beta", "Left", "Right", "Alternate",
+                              "AlternateLeft", "AlternateRight", "Sprintf", "Str", "StrCat",
+                              // the menu of a constant
+                              "Name", "Label", "Help", "Units", "Step", "Range", "Choices", "Visible", "ReadOnly",
+                              "ReadOnlyRange", "Highlight", "AutoCheck", "Closed", "NumberFormat"};
 
 // Accepted at the beginning of a statement alone, each in its own form.
 const Words openings = {"For", "EndFor", "DefineConstant", "SetFactory", "Geometry"};
@@ -174,6 +191,8 @@ class Scanner {
   /// Behind blanks and comments; whether anything follows.
   bool skip_blanks() {
     while (at_ < text_.size()) {
+      if (sign() == '\r' && sign(1) != '\n')
+        refuse(line_, "a carriage return", "ends no line for gmsh; accepted: lines that end in a line feed");
       if (std::string_view(" \t\n\r\f").find(sign()) != std::string_view::npos)
         advance(1);
       else if (sign() == '/' && sign(1) == '/')
@@ -209,6 +228,13 @@ class Scanner {
     return count;
   }
   std::size_t number_length() const {
+    constexpr std::size_t longest = 100;
+    const std::size_t length = unbounded_number_length();
+    if (length > longest)
+      refuse(line_, text_.substr(at_, 10), fmt::format("is too long a number; accepted: up to {} signs", longest));
+    return length;
+  }
+  std::size_t unbounded_number_length() const {
     std::size_t length = digits(0);
     if (sign(length) == '.') length += 1 + digits(length + 1);
     if (sign(length) != 'e' && sign(length) != 'E') return length;
@@ -250,7 +276,10 @@ void find_structure(std::vector<Token>& tokens) {
 /// Writes the script anew, token by token.
 class Rewriter {
  public:
-  explicit Rewriter(const std::vector<Token>& tokens) : tokens_(tokens) { find_variables(); }
+  explicit Rewriter(const std::vector<Token>& tokens) : tokens_(tokens) {
+    find_variables();
+    find_numbers();
+  }
 
   std::string script() {
     std::vector<int> loops;  // the lines of those that are open
@@ -273,6 +302,7 @@ class Rewriter {
           loops.push_back(token.line);
         else
           loops.pop_back();
+        nothing_behind(token.is("For") ? end_of_header(i) : i, token);
         put(i++, token.text);
       } else {
         i = copy(i);
@@ -291,6 +321,21 @@ class Rewriter {
   void expect(std::size_t i, std::string_view wanted, std::size_t statement) const {
     if (!is(i, wanted))
       refuse(tokens_[statement].line, tokens_[statement].text, fmt::format("accepted: a {} in it here", wanted));
+  }
+
+  /// The closed bracket of For (...) or For name In {...}.
+  std::size_t end_of_header(std::size_t i) const {
+    const std::size_t bracket = is(i + 1, "(") ? i + 1 : i + 3;
+    if (!is(i + 1, "(") && (!is_word(i + 1) || !is(i + 2, "In") || !is(i + 3, "{")))
+      refuse(tokens_[i].line, "For", "accepted: For name In {...} or For (...)");
+    return tokens_[bracket].partner;
+  }
+
+  /// gmsh reads line by line, and a loop returns to the line behind its header: statements on the
+  /// header's line are run once, and those behind EndFor each time.
+  void nothing_behind(std::size_t last, const Token& word) const {
+    if (last + 1 < tokens_.size() && tokens_[last + 1].line == tokens_[last].line)
+      refuse(tokens_[last].line, word.text, "accepted: a new line behind it");
   }
 
   /// The `;` that ends the statement.
@@ -331,6 +376,36 @@ class Rewriter {
       for (const std::string& word : *known) variables_.erase(word);
   }
 
+  /// Where Physical statements begin to count, and the variables that are numbers of fields.
+  void find_numbers() {
+    std::vector<std::size_t> loops;
+    for (std::size_t i = 0; i < tokens_.size(); ++i) {
+      if (!tokens_[i].first) continue;
+      if (is(i, "For")) loops.push_back(i);
+      if (is(i, "EndFor") && !loops.empty()) loops.pop_back();
+      if (is(i, "Physical") && first_physical_ == none) first_physical_ = loops.empty() ? i : loops.front();
+      if (is_field_number(i)) field_numbers_.insert(tokens_[i].text);
+    }
+  }
+  /// Whether `name = newf;` begins at i.
+  bool is_field_number(std::size_t i) const {
+    return tokens_[i].first && is_word(i) && is(i + 1, "=") && is(i + 2, "newf") && is(i + 3, ";");
+  }
+  /// Physical groups and fields are left out, so that numbers that count them would be others.
+  void refuse_other_numbers(std::size_t i) const {
+    const Token& token = tokens_[i];
+    if (first_physical_ < i && counted_numbers.contains(token.text))
+      refuse(token.line, token.text,
+             "numbers shapes by the Physical groups before it, which are left out; accepted: "
+             "Physical behind all shapes");
+    if (token.is("newf") && (i < 2 || !is_field_number(i - 2)))
+      refuse(token.line, "newf", "counts fields, which are left out; accepted: NAME = newf; for a Field[NAME]");
+    if (token.is_word() && field_numbers_.contains(token.text) && !is_field_number(i))
+      refuse(token.line, token.text,
+             "is the number of a field, and fields are left out; accepted: another name for "
+             "what is drawn");
+  }
+
   /// Writes `text` on the line that token i has in the file. gmsh reads a longer line in parts, and
   /// the end of a loop may return to a place between two of them, in the middle of a word: long
   /// lines are broken.
@@ -346,10 +421,11 @@ class Rewriter {
     line_start_ = script_.size();
   }
 
-  /// The beginning of an index behind a variable whose last token is i. gmsh compares an index with
-  /// the length of the list alone, so that a negative one reads and writes memory before it: each
-  /// index is written as Min(1e6, Fabs(...)), which std::min makes 1e6 for one that is no number,
-  /// too.
+  /// Marks the brackets of an index behind a variable whose last token is i. gmsh compares an index
+  /// with the length of the list alone, so that a negative one reads and writes memory before it.
+  /// Round(1/(1/Max(0, m))) is m for m = 1, 2, ..., and a division by zero, which gmsh reports, for
+  /// other numbers. With m = n + 1, and with 1e6 + 1 - n, it reports an index n outside of 0 to 1e6.
+  /// The outer Min and Max keep it inside whatever a failed division leaves.
   void guard_index(std::size_t i) {
     if ((!is(i + 1, "[") && !is(i + 1, "(")) || tokens_[i + 1].partner == i + 2) return;
     if (is(i + 2, "{"))
@@ -360,6 +436,7 @@ class Rewriter {
   /// Copies token i; the next one. Throws Error where it is not accepted.
   std::size_t copy(std::size_t i) {
     const Token& token = tokens_[i];
+    refuse_other_numbers(i);
     if (token.kind == Kind::text)
       refuse(token.line, token.text, "a text is not accepted here; " + std::string(accepted));
     if (token.kind == Kind::sign) {
@@ -398,17 +475,52 @@ class Rewriter {
     const Token& token = tokens_[i];
     const bool closes = token.is(")") || token.is("]") || token.is("}");
     const bool guarded = guarded_.contains(i);
-    put(i, guarded && closes ? ") ) " + token.text : token.text);
-    if (guarded && !closes) script_ += " Min ( 1e6 , Fabs (";
+    if (guarded && closes) put(i, ") ) ) ) ) ) ) ) )");
+    put(i, token.text);
+    if (guarded && !closes) {
+      put(i, "Min ( 1e6 , Max ( 0 , 1e6 + 1 - Round ( 1 / ( 1 / Max ( 0 , 1e6 + 2 -");
+      put(i, "Round ( 1 / ( 1 / Max ( 0 , 1 + Floor (");
+    }
     if (closes && token.partner > 1 && is(token.partner - 1, "~")) guard_index(i);  // name~{...}[...]
   }
   void copy_all(std::size_t from, std::size_t to) {
     while (from < to) from = copy(from);
   }
 
+  /// Throws Error where tokens that are left out would change the drawing or a variable.
+  void refuse_effects(std::size_t statement, std::size_t from, std::size_t to) const {
+    std::size_t depth_end = from;  // behind the brackets that are open
+    for (std::size_t i = from; i < to; ++i) {
+      const Token& token = tokens_[i];
+      const bool inside = i < depth_end;
+      depth_end = std::max(depth_end, token.partner);
+      const bool choice = is(statement, "DefineConstant") && token.is("=");  // {1 = "a", ...}
+      if (token.is("++") || token.is("--") ||
+          (token.kind == Kind::sign && assignments.contains(token.text) && inside && !choice))
+        refuse(token.line, token.text,
+               "changes a variable in a statement that is left out; accepted: numbers, "
+               "variables, shapes and lists in " +
+                   tokens_[statement].text);
+      if (!token.is_word() || is(i - 1, ".") || without_effect.contains(token.text) ||
+          variables_.contains(token.text) || is_periodic_map(statement, i))
+        continue;
+      if (is(i - 1, "=") && is(i - 2, "]") && is(statement, "Field")) continue;  // its kind
+      refuse(token.line, token.text,
+             "is in a statement that is left out; accepted: numbers, variables, shapes and "
+             "lists in " +
+                 tokens_[statement].text);
+    }
+  }
+  /// Periodic ... = ... Translate {...}; maps meshes, and moves nothing.
+  bool is_periodic_map(std::size_t statement, std::size_t i) const {
+    return is(statement, "Periodic") && is(i + 1, "{") && is(tokens_[i + 1].partner + 1, ";") &&
+           (is(i, "Translate") || is(i, "Rotate") || is(i, "Affine"));
+  }
+
   /// Leaves out a statement that concerns the mesh alone.
   std::size_t behind_what_meshes(std::size_t statement) const {
     const std::size_t end = end_of(statement);
+    refuse_effects(statement, statement + 1, end);
     for (std::size_t i = statement; i < end; ++i)
       if (is(statement, "Printf") && (is(i, ">") || is(i, ">>")))
         refuse(tokens_[i].line, "Printf", "writes a file; accepted: Printf without > and >>");
@@ -438,11 +550,24 @@ class Rewriter {
       std::size_t comma = i + 1;
       while (comma < closing && !is(comma, ",")) comma = std::max(comma, tokens_[comma].partner) + 1;
       copy_all(i, comma);
+      refuse_effects(statement, comma, closing);
+      refuse_shared_names(comma, closing);
       i = copy(closing);
     }
     put(last, "]");
     put(end, ";");
     return end + 1;
+  }
+
+  /// Constants of the same Name are one to gmsh: the second has the value of the first.
+  void refuse_shared_names(std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) {
+      if (!is(i, "Name")) continue;
+      const Token& name = tokens_[i + 1];
+      if (name.kind != Kind::text) refuse(name.line, "Name", "accepted: a text in quotation marks behind it");
+      if (!names_.insert(name.text.substr(1, name.text.size() - 2)).second)
+        refuse(name.line, name.text, "names two constants; accepted: a Name for each");
+    }
   }
 
   /// SetFactory("OpenCASCADE"); or ("Built-in").
@@ -470,6 +595,9 @@ class Rewriter {
 
   const std::vector<Token>& tokens_;
   Words variables_;
+  Words field_numbers_;
+  Words names_;  // texts behind Name
+  std::size_t first_physical_ = none;
   std::set<std::size_t> guarded_;  // the brackets of indices
   std::string script_;
   int line_ = 1;  // of the file

@@ -15,8 +15,12 @@ namespace antilock {
 /// name no file and start no program. Tokens keep their lines, so that gmsh's own messages name the
 /// right one.
 ///
+/// An index outside of 0 to 1e6 becomes a division by zero, which gmsh reports: gmsh itself would
+/// write before its list.
+///
 /// Left out are comments and the statements that concern the mesh alone: Mesh, Physical, Field,
-/// Characteristic Length, Transfinite and the like, and Printf without a file. Accepted beyond
+/// Characteristic Length, Transfinite and the like, and Printf without a file; in them nothing is accepted that
+/// draws or assigns, and no number is accepted that counts them. Accepted beyond
 /// that: variables, lists, For, DefineConstant, arithmetic, points, curves, surfaces, solids,
 /// transformations, Boolean operations and numbers of Geometry. Throws Error, `line N: NAME: ...`,
 /// for anything else.
