@@ -1,5 +1,6 @@
-# antilock_headers: every installed header compiled alone, and all of them in one unit of compilation. A header that a source
-# of its own name includes first is compiled alone with that source, so that it needs no unit here.
+# antilock_headers_together: all installed headers in one unit of compilation, built with everything else.
+# antilock_headers: every installed header compiled alone, built by package/plain_build. A header that a source of its own
+# name includes first is compiled alone with that source, so that it needs no unit here.
 set(lib ${PROJECT_SOURCE_DIR}/lib)
 file(GLOB headers RELATIVE ${lib} CONFIGURE_DEPENDS ${lib}/antilock/*/*.hpp ${lib}/antilock/*/detail/*.hpp)
 if(NOT TARGET antilock_distributed)
@@ -21,6 +22,9 @@ foreach(header ${headers})
   endif()
 endforeach()
 file(CONFIGURE OUTPUT headers/all.cpp CONTENT "${all}")
-add_library(antilock_headers OBJECT EXCLUDE_FROM_ALL ${units} ${CMAKE_CURRENT_BINARY_DIR}/headers/all.cpp)
-target_link_libraries(antilock_headers PRIVATE antilock::antilock $<TARGET_NAME_IF_EXISTS:antilock::distributed>
-                      antilock_warnings)
+add_library(antilock_headers OBJECT EXCLUDE_FROM_ALL ${units})
+add_library(antilock_headers_together OBJECT ${CMAKE_CURRENT_BINARY_DIR}/headers/all.cpp)
+foreach(headers antilock_headers antilock_headers_together)
+  target_link_libraries(${headers} PRIVATE antilock::antilock $<TARGET_NAME_IF_EXISTS:antilock::distributed>
+                        antilock_warnings)
+endforeach()

@@ -271,7 +271,8 @@ TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<
   mesh.triangles = std::move(triangles);
   mesh.region = std::move(region);
   check_indices(mesh, tagged_edges, where);
-  if (!surface.empty() && (surface.size() != mesh.region.size() || *std::min_element(surface.begin(), surface.end()) < 0))
+  if (!surface.empty() &&
+      (surface.size() != mesh.region.size() || *std::min_element(surface.begin(), surface.end()) < 0))
     refuse(where, "{} numbers of surfaces; accepted: none, or one per triangle, from 0 on", surface.size());
   check_vertices(mesh, where);
   check_triangles(mesh, where);
