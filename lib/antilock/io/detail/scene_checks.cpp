@@ -192,11 +192,14 @@ std::string geometry_warning(const SceneFile& file) {
   for (const char* extension : {".geo", ".brep"}) {
     const std::filesystem::path beside = path.parent_path() / (path.stem().string() + extension);
     if (std::error_code ignored; !std::filesystem::exists(beside, ignored)) continue;
-    const auto relative = beside.lexically_relative(std::filesystem::path(file.name).parent_path());
+    // as the scene would name it; lexically_relative is not in the library of the page
+    const std::string folder = std::filesystem::path(file.name).parent_path().string() + "/";
+    const std::string whole = beside.string();
+    const std::string named = folder != "/" && whole.rfind(folder, 0) == 0 ? whole.substr(folder.size()) : whole;
     return fmt::format(
         "mesh.geometry: {} lies beside the mesh file and was not read, since the scene does not name it; with geometry "
         "= \"{}\" in [mesh] refinement returns to its curves",
-        printable(beside.filename().string(), 200), printable((relative.empty() ? beside : relative).string(), 1000));
+        printable(beside.filename().string(), 200), printable(named, 1000));
   }
   return "";
 }
