@@ -568,7 +568,7 @@ class Run(Book):
                     self.press("button[data-run]")  # the first one is the default run
                     found = self.ended()
                     with tempfile.TemporaryDirectory() as out:
-                        native = subprocess.run([BOOK.parent / "tutorials" / page], capture_output=True, text=True, check=True, cwd=out).stdout
+                        native = subprocess.run([BOOK.parent / "bin" / page], capture_output=True, text=True, check=True, cwd=out).stdout
                     self.assertEqual(found["holds"], native.count("\nVERDICT holds: "))
                     self.assertEqual(found["output"].count("VERDICT "), native.count("VERDICT "))
                     self.assertTrue(found["keep"])
