@@ -13,7 +13,6 @@ import sys
 import tempfile
 import time
 import unittest
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from urllib.parse import unquote, urlparse
 
@@ -199,21 +198,18 @@ class EveryPage(Book):
                 self.wait("return document.body.dataset.theme !== arguments[0]", before, seconds=5)
                 self.run_script("localStorage.removeItem('theme')")
 
-    def test_no_task_keeps_a_page_from_drawing(self):
-        """The processor time of the longest task while the page is loaded and its figure answers first: a frame waits for it. Where
-        other programs run beside, it takes longer than its own: the best of at most three."""
-        with ThreadPoolExecutor() as pool:  # the browser takes five seconds to hand over its trace
-            for page, longest in pool.map(self.best_of_three, ("index", "08_crouzeix_raviart")):
-                print(f"{page}: the longest task takes {longest:.0f} ms")
-                self.assertTrue(1 < longest < 100, page)
+    def test_a_page_is_loaded_in_small_tasks(self):
+        """Each of the two surfaces is prepared, solved and drawn in a task of its own, so that the page can be drawn in
+        between. Such a task is started by a timer (antilock.breath in live/library.js). The tasks are counted, since their
+        seconds depend on the machine."""
+        for page in ("index", "08_crouzeix_raviart"):
+            tasks, longest = self.loading_tasks(page)
+            print(f"{page}: {tasks} tasks of its own, the longest task takes {longest:.0f} ms of the processor")
+            self.assertGreaterEqual(tasks, 6, page)
 
-    def best_of_three(self, page):
-        tries = []
-        while len(tries) < 3 and min(tries, default=100) >= 100:
-            tries.append(self.longest_task(page))
-        return page, min(tries)
-
-    def longest_task(self, page):
+    def loading_tasks(self, page):
+        """The number of tasks that the page's timers started while it was loaded and its figure answered first, and the
+        processor time of the longest task in milliseconds."""
         browser = open_browser("toplevel,devtools.timeline")  # a fresh one: nothing is compiled or kept yet
         try:
             browser.get(f"{(BOOK / page).as_uri()}.html")
@@ -227,7 +223,9 @@ class EveryPage(Book):
             browser.quit()
         own = {(one["pid"], one["tid"]) for one in events if one.get("name") == "EvaluateScript" and "live.js" in json.dumps(one["args"])}
         self.assertEqual(len(own), 1)
-        return max(one.get("tdur", 0) for one in events if one.get("name", "").endswith("RunTask") and (one["pid"], one["tid"]) in own) / 1e3
+        page_events = [one for one in events if (one["pid"], one["tid"]) in own]
+        longest = max(one.get("tdur", 0) for one in page_events if one.get("name", "").endswith("RunTask"))
+        return sum(one.get("name") == "TimerFire" for one in page_events), longest / 1e3
 
     def test_every_button_does_something(self):
         """Of each kind of button the first one; something changes in the page when it is pressed."""
