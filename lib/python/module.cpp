@@ -116,6 +116,7 @@ py::tuple run(const std::string& text, const std::string& folder) {
     const NormalContact normal = normal_contact(answer);
     arrays["contact"] = contact_table(answer.space, normal.problem, normal.solution);
   }
+  answer.solution.p.conservativeResize(answer.problem.class_rows());
   arrays["u"] = given(answer.solution.u), arrays["p"] = given(answer.solution.p);
   return py::make_tuple(arrays, summary);
 }
@@ -224,6 +225,7 @@ PYBIND11_MODULE(_antilock, module) {
           },
           "0 or more")
       .def_readonly("m", &P::m, "R")
+      .def_readonly("own_compliances", &P::own_compliances, "of the last rows of b, in place of `compliance`")
       .def_readonly("load", &P::load, "N")
       .def_readonly("fixed", &P::fixed, "the unknowns that are held")
       .def_readonly("contact", &P::contact, "the unknowns that are bounded")

@@ -516,7 +516,7 @@ TEST(ActiveSet, EndsWhereNumbersOverflowAndRefusesATolerance0) {
 TEST(Combinations, LeaveTiedRowsTied) {
   VariationalInequality problem =
       small_problem(Eigen::Matrix2d{{2, -1}, {-1, 2}}, Eigen::Vector2d(1, 0.5), {}, Eigen::RowVector2d(1, 1), 1e-3);
-  problem.ties = 1;
+  problem.own_compliances = Eigen::VectorXd::Zero(1);
   problem.combinations = RowMatrix(Eigen::MatrixXd(Eigen::RowVector2d(1, -3)).sparseView());
   problem.lower = Eigen::VectorXd::Constant(1, -10);
   EXPECT_NEAR(active_set(problem).u.sum(), 0, 1e-15);

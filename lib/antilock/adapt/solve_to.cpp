@@ -228,7 +228,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     Answer answer{mesh, space, std::move(problem), std::move(solution), {}, ""};
     if (conforming) {
       Answer own = conforming_answer(scene, p1(), mesh, step);
-      v = p1_companion(own.solution);
+      v = p1_companion(own_rows_summed(own.problem, own.solution).solution);
       certificate = certify(scene, space, answer.problem, answer.solution, {.factor = &factor, .companion = &v});
       if (accuracy.element->degree() > 1) {
         own = conforming_answer(scene, *accuracy.element, mesh, step);

@@ -77,6 +77,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
+#include "antilock/measure/detail/answer.hpp"
 #include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
@@ -258,6 +259,10 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
 
 double certified_distance(const Certificate& certificate, const Companion& v, const Space& space,
                           const VariationalInequality& problem, const Solution& w) {
+  if ((problem.own_compliances.array() > 0).any()) {
+    const OfTheClass here = own_rows_summed(problem, w);
+    return certified_distance(certificate, v, space, here.problem, here.solution);
+  }
   const TriangleMesh& mesh = space.mesh();
   if (v.layer)
     throw Error(

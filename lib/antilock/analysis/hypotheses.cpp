@@ -22,15 +22,15 @@ Hypotheses check_hypotheses(const VariationalInequality& problem, const SparseMa
 double distance_to_kernel(const VariationalInequality& problem) {
   if (problem.b.rows() == 0) return 0;
   // Without a load, u minimises a1/2 + a0/(2 epsilon) over K_h: as epsilon -> 0, a0 tends to its smallest value there.
-  VariationalInequality unloaded = problem;
+  VariationalInequality unloaded = own_rows_summed(problem);
   unloaded.load.setZero();
   for (double& g : unloaded.force_bound)  // what gives way is no part of K_h
     if (std::isfinite(g)) g = 0;
-  unloaded.compliance = 1e-9 * relative_stiffness(problem).value();
+  unloaded.compliance = 1e-9 * relative_stiffness(unloaded).value();
   const Solution s = active_set(unloaded);
   const double u = s.u.lpNorm<Eigen::Infinity>();
-  const Eigen::VectorXd unit = problem.b.cwiseAbs() * Eigen::VectorXd::Ones(problem.size());  // of a row, for |u| = 1
-  const Eigen::VectorXd strain = (problem.b * s.u).cwiseQuotient(unit.cwiseMax(std::numeric_limits<double>::min()));
+  const Eigen::VectorXd unit = unloaded.b.cwiseAbs() * Eigen::VectorXd::Ones(problem.size());  // of a row, for |u| = 1
+  const Eigen::VectorXd strain = (unloaded.b * s.u).cwiseQuotient(unit.cwiseMax(std::numeric_limits<double>::min()));
   return u > 0 ? strain.lpNorm<Eigen::Infinity>() / u : 0;
 }
 

@@ -10,8 +10,9 @@
 
 namespace antilock {
 
-Eigen::MatrixXd multiplier_gram(const VariationalInequality& problem, const SparseMatrix& norm, int merged) {
-  check(problem);
+Eigen::MatrixXd multiplier_gram(const VariationalInequality& with_own_rows, const SparseMatrix& norm, int merged) {
+  check(with_own_rows);
+  const VariationalInequality problem = own_rows_summed(with_own_rows);
   if (norm.rows() != problem.size() || norm.cols() != problem.size())
     throw Error(fmt::format("inf-sup: the norm is {} x {}; accepted {} x {}", norm.rows(), norm.cols(), problem.size(),
                             problem.size()));

@@ -77,7 +77,8 @@ Verdict LockingDiagnosis::verdict() const {
   return compliance > 0 ? Verdict::locks : Verdict::does_not_lock_for_this_reason;
 }
 
-LockingDiagnosis diagnose_locking(const VariationalInequality& coarse, const VariationalInequality& fine) {
+LockingDiagnosis diagnose_locking(const VariationalInequality& on_coarse, const VariationalInequality& on_fine) {
+  const VariationalInequality coarse = own_rows_summed(on_coarse), fine = own_rows_summed(on_fine);
   for (const auto* problem : {&coarse, &fine})
     if (problem->b.rows() == 0) throw Error("diagnose_locking: B has no rows; accepted: a problem with a stiff form");
   VariationalInequality first = stiff_part(coarse), second = stiff_part(fine);

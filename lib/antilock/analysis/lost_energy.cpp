@@ -29,6 +29,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/form/detail/sparse_assembly.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/measure/detail/answer.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
 
@@ -237,6 +238,10 @@ double LostEnergy::share(double energy) const { return motion > 0 ? std::clamp(e
 
 LostEnergy lost_energy(const Scene& scene, const Space& space, const VariationalInequality& problem,
                        const Solution& solution) {
+  if ((problem.own_compliances.array() > 0).any()) {
+    const OfTheClass here = own_rows_summed(problem, solution);
+    return lost_energy(scene, space, here.problem, here.solution);
+  }
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const auto epsilon = scene.epsilon();

@@ -20,13 +20,14 @@ void minimise_norm(VariationalInequality& problem, const SparseMatrix& norm, boo
   if (kernel) return;
   problem.b.resize(0, problem.size());
   problem.m.resize(0);
-  problem.ties = 0;
+  problem.own_compliances.resize(0);
 }
 
 }  // namespace
 
 Nearest nearest(const Space& space, VariationalInequality problem, const Reference& u, Within within,
                 const Eigen::VectorXd& functional) {
+  problem = own_rows_summed(std::move(problem));
   minimise_norm(problem, h1_norm(space), within == Within::k_0h);
   problem.load = h1_products(space, u);  // |u - v|_h^2 / 2 but for a constant
   if (functional.size() > 0) problem.load -= 0.5 * functional;
@@ -39,6 +40,7 @@ Nearest nearest(const Space& space, VariationalInequality problem, const Referen
 
 double dual_norm(VariationalInequality problem, const SparseMatrix& norm, const Eigen::VectorXd& functional,
                  bool kernel) {
+  problem = own_rows_summed(std::move(problem));
   minimise_norm(problem, norm, kernel);
   clear_bounds(problem);
   problem.fixed_values.setZero();

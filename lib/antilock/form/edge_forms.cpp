@@ -10,7 +10,7 @@
 namespace antilock {
 namespace {
 
-/// act(triangle, weight, values of the basis, value of f) at the Gauss points of each edge with the tag.
+/// act(triangle, weight, value of f, values of the basis) at the Gauss points of each edge with the tag.
 template <class Act>
 void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
   const TriangleMesh& mesh = space.mesh();
@@ -26,7 +26,7 @@ void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
         const double value = f(x(0), x(1));
         if (!std::isfinite(value))
           throw Error(fmt::format("edge: its value at ({:.6g}, {:.6g}) is not finite", x(0), x(1)));
-        act(t, share * weights(q) * mesh.edge_length(e) * value, space.element().basis(lambda));
+        act(t, share * weights(q) * mesh.edge_length(e), value, space.element().basis(lambda));
       }
     }
 }
@@ -35,21 +35,39 @@ void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
 
 Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());
-  at_points(space, tag, g, [&](int t, double weighted, const Eigen::VectorXd& basis) {
-    for (Eigen::Index i = 0; i < basis.size(); ++i) load(space.unknowns()(t, i)) += weighted * basis(i);
+  at_points(space, tag, g, [&](int t, double weight, double value, const Eigen::VectorXd& basis) {
+    for (Eigen::Index i = 0; i < basis.size(); ++i) load(space.unknowns()(t, i)) += weight * value * basis(i);
   });
   return load;
 }
 
 Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Field& k) {
-  Triplets entries;
-  at_points(space, tag, k, [&](int t, double weighted, const Eigen::VectorXd& basis) {
-    if (weighted < 0) throw Error("spring: its stiffness is negative; accepted: 0 or more");
-    for (Eigen::Index i = 0; i < basis.size(); ++i)
-      for (Eigen::Index j = 0; j < basis.size(); ++j)
-        entries.emplace_back(space.unknowns()(t, i), space.unknowns()(t, j), weighted * basis(i) * basis(j));
+  return summed(edge_rows(space, tag, k));
+}
+
+StiffRows edge_rows(const Space& space, EdgeTag tag, const Field& k) {
+  RowsOfB rows;
+  std::vector<double> moduli;
+  at_points(space, tag, k, [&](int t, double weight, double value, const Eigen::VectorXd& basis) {
+    if (value < 0) throw Error("spring: its stiffness is negative; accepted: 0 or more");
+    if (value == 0) return;
+    rows.add(t, weight);
+    moduli.push_back(value);
+    for (Eigen::Index i = 0; i < basis.size(); ++i) rows.put(space.unknowns()(t, i), basis(i));
   });
-  return summed<SparseMatrix>(space.size(), space.size(), entries);
+  return {rows.form(space.size()), Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
+}
+
+Eigen::SparseMatrix<double> summed(const StiffRows& rows) {
+  const auto& [b, m, cell] = rows.form;
+  Triplets entries;
+  for (Eigen::Index row = 0; row < b.rows(); ++row) {
+    const double weight = m(row) * rows.stiffness(row);
+    for (RowMatrix::InnerIterator i(b, row); i; ++i)
+      for (RowMatrix::InnerIterator j(b, row); j; ++j)
+        entries.emplace_back(i.col(), j.col(), weight * i.value() * j.value());
+  }
+  return summed<SparseMatrix>(b.cols(), b.cols(), entries);
 }
 
 Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::VectorXd& given) {

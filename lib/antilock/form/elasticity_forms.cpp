@@ -80,24 +80,64 @@ FactoredForm strain_rows(const VectorSpace& space, const std::vector<StrainRow>&
   return rows.form(space.size());
 }
 
+std::vector<StrainRow> Lame::rows() const {
+  std::vector<StrainRow> all{{{1, 0, 0, 0}, 2 * mu}, {{0, 0, 0, 1}, 2 * mu}, {{0, 1, 1, 0}, mu}};
+  if (lambda > 0) all.push_back({{1, 0, 0, 1}, lambda});
+  return all;
+}
+
+StiffRows stiff_strain_rows(const VectorSpace& space, const std::vector<StrainRow>& strains,
+                            std::optional<Region> region) {
+  std::vector<StrainRow> unweighted = strains;
+  Eigen::VectorXd weights(static_cast<Eigen::Index>(strains.size()));
+  for (std::size_t i = 0; i < strains.size(); ++i) {
+    weights(static_cast<Eigen::Index>(i)) = strains[i].weight;
+    unweighted[i].weight = 1;
+  }
+  FactoredForm form = strain_rows(space, unweighted, region);
+  Eigen::VectorXd stiffness = weights.replicate(form.m.size() / weights.size(), 1);
+  return {std::move(form), std::move(stiffness)};
+}
+
 FactoredForm divergence(const VectorSpace& space) { return strain_rows(space, {{{1, 0, 0, 1}}}); }
 
-Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, bool clamped_in_x) {
+namespace {
+
+/// act(edge, step of a component across it) for the interior edges and those that are held.
+template <class Act>
+void at_steps(const VectorSpace& space, bool clamped_in_x, Act&& act) {
   const TriangleMesh& mesh = space.x.mesh();
-  Triplets entries;
   for (const auto& [part, first] : {std::pair<const Space*, int>{&space.x, 0}, {&space.y, space.x.size()}}) {
     if (part->element().conforming()) continue;  // no steps
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const bool interior = mesh.edge_triangles(e, 1) >= 0;
       const bool held = is_dirichlet(mesh.edge_tag[e]) && (clamped_in_x || part == &space.y);
-      if (!interior && !held) continue;
-      // |e|^-1 int_e of an affine function from s to -s squared: s^2 / 3; times 2 mu
-      const auto step = jump(*part, first, e);
-      for (const auto& [i, a] : step)
-        for (const auto& [j, b] : step) entries.emplace_back(i, j, 2 * weight * a * b / 3);
+      if (interior || held) act(e, jump(*part, first, e));
     }
   }
+}
+
+}  // namespace
+
+// |e|^-1 int_e of an affine function from s to -s squared: s^2 / 3; times 2 mu
+Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, bool clamped_in_x) {
+  Triplets entries;
+  at_steps(space, clamped_in_x, [&](int, const auto& step) {
+    for (const auto& [i, a] : step)
+      for (const auto& [j, b] : step) entries.emplace_back(i, j, 2 * weight * a * b / 3);
+  });
   return summed<SparseMatrix>(space.size(), space.size(), entries);
+}
+
+StiffRows jump_rows(const VectorSpace& space, double weight, bool clamped_in_x) {
+  RowsOfB rows;
+  at_steps(space, clamped_in_x, [&](int e, const auto& step) {
+    rows.add(space.x.mesh().edge_triangles(e, 0), 1.0 / 3);
+    for (const auto& [i, a] : step) rows.put(i, a);
+  });
+  FactoredForm form = rows.form(space.size());
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Constant(form.m.size(), 2 * weight);
+  return {std::move(form), std::move(stiffness)};
 }
 
 }  // namespace antilock

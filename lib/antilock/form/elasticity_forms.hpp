@@ -14,6 +14,7 @@ namespace antilock {
 using OfGradient = Eigen::RowVector4d;
 
 /// Lame's pair of an isotropic material (dimensionless): the energy density is mu eps:eps + lambda (div u)^2 / 2.
+struct StrainRow;
 struct Lame {
   double lambda = 0, mu = 1;
   /// 2 mu eps(u):eps(v) + lambda div u div v as a 4 x 4 matrix between the derivatives of u and those of v.
@@ -21,6 +22,8 @@ struct Lame {
   /// What the form leaves of u_x v_x where nothing pulls in y, v_y = -lambda / (lambda + 2 mu) u_x: the modulus of a thin
   /// sheet in plane strain, 4 mu (lambda + mu) / (lambda + 2 mu).
   double membrane() const { return 4 * mu * (lambda + mu) / (lambda + 2 * mu); }
+  /// The same form as `matrix` as squares: u_x, v_y, u_y + v_x and, where lambda is not 0, u_x + v_y.
+  std::vector<StrainRow> rows() const;
 };
 
 /// N x N matrix of int D u : D v, with the 4 x 4 matrices `body` and `layer` between the derivatives on each region.
@@ -37,6 +40,10 @@ struct StrainRow {
 FactoredForm strain_rows(const VectorSpace& space, const std::vector<StrainRow>& strains,
                          std::optional<Region> region = {});
 
+/// The same with the weights beside M, as moduli.
+StiffRows stiff_strain_rows(const VectorSpace& space, const std::vector<StrainRow>& strains,
+                            std::optional<Region> region = {});
+
 /// The factored form of int div u div v: strain_rows of u_x + v_y. For P1 and CR div is constant on a triangle: one row
 /// each, M its area.
 FactoredForm divergence(const VectorSpace& space);
@@ -49,5 +56,7 @@ const Quadrature& divergence_rule(const VectorSpace& space);
 /// components that are CR. Crouzeix-Raviart needs it with the symmetric gradient: there is no Korn inequality without
 /// (Hansbo and Larson 2003). clamped_in_x = false: the clamped edges hold the component y alone.
 Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, bool clamped_in_x = true);
+/// The same as rows: a step per edge and component, of the modulus 2 mu weight.
+StiffRows jump_rows(const VectorSpace& space, double weight, bool clamped_in_x = true);
 
 }  // namespace antilock

@@ -21,9 +21,11 @@ double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle
 
 /// N x N matrix of the sum over the triangles of  int stiffness.x d/dx u d/dx v + stiffness.y d/dy u d/dy v.
 /// The forms a+ and a_x^- of (23) are {1, 1} on the body and {1, 0} on the layer.
-/// `of_body` is a factor on each triangle of the body, stiffness_on.
-Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer,
-                                          const Field& of_body = {});
+Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer);
+/// The same with a stiffness of each triangle (T).
+Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<Stiffness>& of_triangle);
+/// The same as rows: d/dx and d/dy at each point of strain_rule, where that stiffness is above 0.
+StiffRows gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle);
 
 /// The factored form of a_y^-(u, v) = (B u, M B v), (23): a row of B is d/dy at a quadrature point of a layer triangle,
 /// M its weight. For P1 and CR d/dy is constant on a triangle: one row each, M its area. `direction`: of a triangle, another
@@ -44,6 +46,10 @@ const Quadrature& load_rule(const Element& element);
 Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g);
 /// N x N matrix of int k u v over them. Throws Error where k is negative or not finite.
 Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Field& k);
+/// The same as rows: u at each Gauss point, where k is above 0. Throws as edge_mass does.
+StiffRows edge_rows(const Space& space, EdgeTag tag, const Field& k);
+/// N x N matrix of such a form.
+Eigen::SparseMatrix<double> summed(const StiffRows& rows);
 
 /// N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25), on the contact edges of a mesh of the body alone.
 /// The trace is the continuous piecewise affine function through the unknowns on Sigma and the clamped ends: for P1 the

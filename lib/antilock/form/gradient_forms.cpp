@@ -31,17 +31,17 @@ double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle
 
 const Quadrature& strain_rule(const Element& element) { return triangle_rule(2 * (element.degree() - 1)); }
 
-Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer,
-                                          const Field& of_body) {
+Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer) {
+  std::vector<Stiffness> of_triangle;
+  for (const Region region : space.mesh().region) of_triangle.push_back(region == Region::layer ? layer : body);
+  return gradient_form(space, of_triangle);
+}
+
+Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<Stiffness>& of_triangle) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const Quadrature& rule = strain_rule(element);
   const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
-  const auto stiffness_of = [&](int t) -> Stiffness {
-    if (mesh.region[t] == Region::layer) return layer;
-    const double factor = stiffness_on(of_body, mesh, t);
-    return {factor * body.x, factor * body.y};
-  };
   const auto add = [](auto& matrix, double weight, const Stiffness& stiffness, const auto& gradient) {
     matrix += weight * stiffness.x * gradient.col(0) * gradient.col(0).transpose() +
               weight * stiffness.y * gradient.col(1) * gradient.col(1).transpose();
@@ -51,18 +51,38 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& b
     return sum_element_matrices(space, [&](int t) {
       const Eigen::Matrix<double, 3, 2> gradient = derivative * barycentric_gradients(mesh, t);
       Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-      add(matrix, mesh.area(t), stiffness_of(t), gradient);
+      add(matrix, mesh.area(t), of_triangle[t], gradient);
       return matrix;
     });
   }
   return sum_element_matrices(space, [&](int t) {
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(element.unknowns(), element.unknowns());
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
-    const Stiffness stiffness = stiffness_of(t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
-      add(matrix, rule.weights(q) * mesh.area(t), stiffness, Eigen::MatrixX2d(derivatives[q] * lambda));
+      add(matrix, rule.weights(q) * mesh.area(t), of_triangle[t], Eigen::MatrixX2d(derivatives[q] * lambda));
     return matrix;
   });
+}
+
+StiffRows gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle) {
+  const TriangleMesh& mesh = space.mesh();
+  const Quadrature& rule = strain_rule(space.element());
+  const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(space.element(), rule);
+  RowsOfB rows;
+  std::vector<double> moduli;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
+    for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
+      for (int axis = 0; axis < 2; ++axis) {
+        const double modulus = axis == 0 ? of_triangle[t].x : of_triangle[t].y;
+        if (!(modulus > 0)) continue;
+        rows.add(t, rule.weights(q) * mesh.area(t));
+        moduli.push_back(modulus);
+        const Eigen::VectorXd derivative = derivatives[q] * lambda.col(axis);
+        for (Eigen::Index i = 0; i < derivative.size(); ++i) rows.put(space.unknowns()(t, i), derivative(i));
+      }
+  }
+  return {rows.form(space.size()), Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
 }
 
 FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int)>& direction) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "antilock/form/forms.hpp"
+#include "antilock/models/detail/stiffness_range.hpp"
 
 namespace antilock {
 namespace {
@@ -69,29 +70,73 @@ double given(const EdgeCondition& edge, Region region, const Eigen::RowVector2d&
 }
 
 /// The layer below a curved Sigma: both forms in its own coordinates, as mesh/layered.hpp has them.
-void follow_normals(VariationalInequality& problem, const StiffLayer& layer, const Space& space) {
+void follow_normals(VariationalInequality& problem, const StiffLayer& layer, const Space& space,
+                    const StiffnessRange& range) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = strain_rule(space.element());
   FactoredForm along = layer_strain(space, [&](int t) { return Eigen::Vector2d(1, mesh.bend[t].slope); });
+  Eigen::VectorXd stiffness(along.m.size());
   for (Eigen::Index row = 0; row < along.m.size(); ++row) {
     const int t = along.cell[row];
     const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(row % rule.weights.size()));
     const double j = mesh.bend[t].stretch(x, layer.epsilon), length = std::hypot(1, mesh.bend[t].slope);
     problem.m(row) *= length * j;
-    along.m(row) *= layer.s / (length * j);
+    stiffness(row) = layer.s / (length * j);
   }
+  if (!range.sums(layer.s)) return range.append(problem, {std::move(along), std::move(stiffness)});
+  along.m.array() *= stiffness.array();
   problem.a1 += Eigen::SparseMatrix<double>(along.b.transpose() * along.m.asDiagonal() * along.b);
 }
 
-/// What the named groups of edges add to A1 and to the given values.
-void add_edges(VariationalInequality& problem, const Scene& scene, const Space& space) {
-  using Kind = EdgeCondition::Kind;
+/// T: the stiffness of each triangle in A1, `layer` that of the layer's.
+std::vector<Stiffness> stiffness_of_triangles(const Scene& scene, const TriangleMesh& mesh, const Stiffness& layer) {
+  std::vector<Stiffness> of_triangle;
+  of_triangle.reserve(mesh.triangle_count());
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    const double k = mesh.region[t] == Region::layer ? 0 : stiffness_on(scene.body().stiffness, mesh, t);
+    of_triangle.push_back(mesh.region[t] == Region::layer ? layer : Stiffness{k, k});
+  }
+  return of_triangle;
+}
+
+/// A form for each group of springs.
+std::vector<StiffRows> springs_of(const Scene& scene, const Space& space) {
+  std::vector<StiffRows> springs;
+  for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k)
+    if (const EdgeCondition& edge = scene.edges()[k]; edge.kind == EdgeCondition::Kind::spring)
+      springs.push_back(edge_rows(space, natural_group(k), edge.value));
+  return springs;
+}
+
+/// Springs hold a piece of the mesh that no displacement holds.
+bool springs_alone_hold_a_piece(const TriangleMesh& mesh) {
+  return loose_triangle(mesh, [&](int e) { return is_dirichlet(mesh.edge_tag[e]); }) >= 0;
+}
+
+/// Adds springs to A1, or to B where their entries are far above those of A1. Throws Error where they are 1e20 times the
+/// softest stiffness: the rounding of a row is then no longer small beside it.
+void add_springs(VariationalInequality& problem, const std::vector<StiffRows>& springs, const StiffnessRange& range) {
+  for (const StiffRows& rows : springs) {
+    if (rows.stiffness.size() == 0) continue;
+    const double largest = rows.form.m.cwiseProduct(rows.stiffness).maxCoeff();
+    if (largest > 1e20 * range.softest())
+      throw Error(
+          fmt::format("spring: its stiffness times the length of an edge is {:.3g}, and the softest stiffness is "
+                      "{:.3g}; accepted: up to 1e20 times as much, or a displacement",
+                      largest, range.softest()));
+    if (range.sums(largest))
+      problem.a1 += summed(rows);
+    else
+      range.append(problem, rows);
+  }
+}
+
+/// The values that the named groups of edges prescribe.
+void add_displacements(VariationalInequality& problem, const Scene& scene, const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const Eigen::MatrixX3d nodes = space.element().nodes();
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k) {
-    const auto& [group, kind, value] = scene.edges()[k];
-    if (kind == Kind::spring) problem.a1 += edge_mass(space, natural_group(k), value);
-    if (kind != Kind::displacement) continue;
+    if (scene.edges()[k].kind != EdgeCondition::Kind::displacement) continue;
     for (int t = 0; t < mesh.triangle_count(); ++t)
       for (int i = 0; i < 3; ++i)
         for (Eigen::Index j = 0; j < nodes.rows(); ++j) {
@@ -136,22 +181,42 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   Stiffness layer{0, 0};
   if (stiff != nullptr) layer.x = curved ? 0 : stiff->s;       // a_x^- of (23)
   if (thin != nullptr) layer.x = layer.y = 1 / thin->epsilon;  // mu / epsilon of (22)
+  std::vector<Stiffness> summed = stiffness_of_triangles(scene, space.mesh(), layer), in_rows;
+  const std::vector<StiffRows> springs = springs_of(scene, space);
+  StiffnessRange range(stiff != nullptr ? stiff->s : 1);
+  for (const auto& [x, y] : summed) {
+    range.note(x);
+    range.note(y);
+  }
+  if (stiff != nullptr) range.note(stiff->s);
+  if (std::holds_alternative<VentcelLayer>(scene.layer())) range.note(1);
+  if (!springs.empty() && springs_alone_hold_a_piece(space.mesh()))
+    for (const StiffRows& rows : springs) range.note(rows.form.m.dot(rows.stiffness));
+  range.check("stiffness");
+  for (std::size_t t = 0; t < summed.size(); ++t) {
+    if (range.sums(std::max(summed[t].x, summed[t].y))) continue;
+    in_rows.resize(summed.size(), {0, 0});
+    std::swap(summed[t], in_rows[t]);
+  }
+
   VariationalInequality problem;
   problem.b.resize(0, space.size());
-  gradient_form(space, {1, 1}, layer, scene.body().stiffness).swap(problem.a1);  // an assignment would copy the matrix
+  gradient_form(space, summed).swap(problem.a1);  // an assignment would copy the matrix
   if (std::holds_alternative<VentcelLayer>(scene.layer()))
     problem.a1 += ventcel_form(space, prescribed_values(scene, space.mesh()));
   if (stiff != nullptr) {
     FactoredForm strain = layer_strain(space);  // a_y^-, factored
     problem.b.swap(strain.b);
     problem.m = stiff->s * strain.m;
-    if (curved) follow_normals(problem, *stiff, space);
+    if (curved) follow_normals(problem, *stiff, space, range);
     problem.compliance = compliance(*stiff);
   }
+  if (!in_rows.empty()) range.append(problem, gradient_rows(space, in_rows));
+  add_springs(problem, springs, range);
 
   problem.fixed = space.clamped();
   problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
-  add_edges(problem, scene, space);
+  add_displacements(problem, scene, space);
   problem.load = load_of(scene, space);
   if (scene.contact()) {
     const auto& [gap, held, ceiling] = *scene.contact();

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "antilock/core/error.hpp"
+#include "antilock/models/detail/stiffness_range.hpp"
 
 namespace antilock {
 
@@ -16,10 +17,18 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
       throw Error(
           fmt::format("coating: lambda = {}, mu = {}; accepted lambda >= 0 and mu > 0", material.lambda, material.mu));
   const auto& [lambda, mu] = coating.layer;
-  Eigen::Matrix4d membrane = Eigen::Matrix4d::Zero();
+  Eigen::Matrix4d body = coating.body.matrix(), membrane = Eigen::Matrix4d::Zero();
   membrane(0, 0) = coating.layer.membrane();
+  StiffnessRange range(mu);
+  for (const double stiffness : {coating.body.mu, coating.body.lambda + 2 * coating.body.mu, membrane(0, 0)})
+    range.note(stiffness);
+  if (!space.x.element().conforming() || !space.y.element().conforming()) range.note(2 * coating.jump_weight);
+  range.check("coating");
+  const bool sums_body = range.sums(body.maxCoeff()), sums_membrane = range.sums(membrane(0, 0));
+  if (!sums_body) body.setZero();
+  if (!sums_membrane) membrane.setZero();
   VariationalInequality problem;
-  problem.a1 = strain_form(space, coating.body.matrix(), membrane);
+  problem.a1 = strain_form(space, body, membrane);
   FactoredForm rows = strain_rows(space,
                                   {{{lambda / (lambda + 2 * mu) * t, 0, 0, 1}, lambda + 2 * mu},  // v_Y + nu t u_x
                                    {{0, 1, t, 0}, mu}},                                           // u_Y + t v_x
@@ -28,7 +37,12 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
   problem.b.swap(rows.b);
   problem.m = std::move(rows.m);
   problem.compliance = t * t;
-  add_press(problem, coating, space);
+  const auto append = [&](const std::vector<StrainRow>& strains, Region region) {
+    range.append(problem, stiff_strain_rows(space, strains, region));
+  };
+  if (!sums_membrane) append({{{1, 0, 0, 0}, coating.layer.membrane()}}, Region::layer);
+  if (!sums_body) append(coating.body.rows(), Region::body);
+  add_press(problem, coating, space, &range);
   return problem;
 }
 

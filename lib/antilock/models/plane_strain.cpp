@@ -10,6 +10,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/form/detail/averaged.hpp"
 #include "antilock/form/quadrature.hpp"
+#include "antilock/models/detail/stiffness_range.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {
@@ -56,14 +57,19 @@ void add_friction(VariationalInequality& problem, const Profile& g, const Space&
 
 }  // namespace
 
-void add_press(VariationalInequality& problem, const Press& press, const VectorSpace& space) {
+void add_press(VariationalInequality& problem, const Press& press, const VectorSpace& space,
+               const StiffnessRange* range) {
   if (!std::isfinite(press.push)) throw Error("plane strain: push is not finite");
   if (!(press.jump_weight >= 0))
     throw Error(fmt::format("plane strain: jump weight {}; accepted 0 or more", press.jump_weight));
   if (&space.x.mesh() != &space.y.mesh())
     throw Error("plane strain: the two components live on different meshes; accepted: spaces of one mesh");
   const int shift = space.x.size();
-  if (press.jump_weight > 0) problem.a1 += jump_form(space, press.jump_weight, !press.sliding);
+  const bool steps = press.jump_weight > 0;
+  if (steps && (range == nullptr || range->sums(2 * press.jump_weight)))
+    problem.a1 += jump_form(space, press.jump_weight, !press.sliding);
+  else if (steps)
+    range->append(problem, jump_rows(space, press.jump_weight, !press.sliding));
   problem.a1.makeCompressed();
   problem.load = Eigen::VectorXd::Zero(space.size());
 

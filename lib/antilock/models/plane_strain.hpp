@@ -4,6 +4,8 @@
 
 namespace antilock {
 
+class StiffnessRange;
+
 /// How a block in plane strain is held and what it is pressed on: the clamped edges are moved down by `push`, the bottom
 /// is in unilateral contact, u_y >= -gap(x) on the contact edges, without friction or with a given friction bound g
 /// (Tresca): + int g |u_x|. Bounds: those of u_y by x, then, with friction, those of u_x by x.
@@ -15,9 +17,11 @@ struct Press {
   double jump_weight = 1;  ///< of jump_form; 0: none (CR then has zero modes)
 };
 
-/// Adds jump_form, the prescribed values and the bounds to a problem with A1, whose load becomes 0. Throws Error for
-/// values out of range and for components on two meshes.
-void add_press(VariationalInequality& problem, const Press& press, const VectorSpace& space);
+/// Adds jump_form, the prescribed values and the bounds to a problem with A1, whose load becomes 0. `range`: of the
+/// problem's stiffnesses, where they may lie far apart. Throws Error for values out of range and for components on two
+/// meshes.
+void add_press(VariationalInequality& problem, const Press& press, const VectorSpace& space,
+               const StiffnessRange* range = nullptr);
 
 /// Nearly incompressible elasticity, mu = 1 (the paper's introduction): a1 = 2 int eps(u):eps(v), a0 = int div u div v,
 /// the class parameter epsilon = 1/lambda.

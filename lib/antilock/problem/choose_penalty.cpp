@@ -24,7 +24,8 @@ RelativeStiffness relative_stiffness(const VariationalInequality& problem) {
 double moderate_delta(const VariationalInequality& problem, std::optional<double> penalty) {
   if (penalty && !(*penalty > 0 && std::isfinite(*penalty)))
     throw Error(fmt::format("solve: penalty = {}; accepted: a positive number", *penalty));
-  return std::max(problem.compliance, penalty ? *penalty : choose_penalty(problem));
+  const bool own_rows_alone = problem.class_rows() == 0 && problem.b.rows() > 0;  // no row has the class parameter
+  return std::max(own_rows_alone ? 0 : problem.compliance, penalty ? *penalty : choose_penalty(problem));
 }
 
 }  // namespace antilock

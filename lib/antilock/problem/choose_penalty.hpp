@@ -37,7 +37,8 @@ inline double choose_penalty(const VariationalInequality& problem) {
   return choose_penalty(relative_stiffness(problem));
 }
 
-/// What the factor is made with: max(compliance, penalty), `penalty` chosen by the rule above where none is given.
+/// What the factor is made with: max(compliance, penalty), `penalty` chosen by the rule above where none is given; the
+/// compliance counts where B has a row of the class, or none at all.
 /// Throws Error for a penalty that is not positive.
 double moderate_delta(const VariationalInequality& problem, std::optional<double> penalty = {});
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "antilock/core/error.hpp"
 
@@ -104,7 +105,11 @@ void check_data(const VariationalInequality& problem) {
   require(rows == 0 || problem.m.minCoeff() > 0, "M is not positive");
   require(problem.compliance >= 0 && std::isfinite(problem.compliance),
           fmt::format("compliance = {}; accepted: a finite number, 0 or more", problem.compliance));
-  require(problem.ties >= 0 && problem.ties <= rows, fmt::format("ties = {}; accepted: 0 to {}", problem.ties, rows));
+  const Eigen::VectorXd& own = problem.own_compliances;
+  require(own.size() <= rows,
+          fmt::format("own_compliances has {} entries; accepted: {} at most, one per row of B", own.size(), rows));
+  require(own.size() == 0 || (own.allFinite() && own.minCoeff() >= 0),
+          "an own compliance is negative or not finite; accepted: 0 or more");
   require(problem.fixed_values.size() == static_cast<Eigen::Index>(problem.fixed.size()),
           "one value per fixed unknown is needed");
   std::vector<char> taken(n, 0);
@@ -116,6 +121,47 @@ void check_data(const VariationalInequality& problem) {
     }
   check_bounds(problem);
   require(problem.free_count() > 0, "every unknown is fixed; accepted: one free unknown or more");
+}
+
+void append_rows(VariationalInequality& problem, const RowMatrix& b, const Eigen::VectorXd& m,
+                 const Eigen::VectorXd& own_compliances) {
+  RowMatrix all(problem.b.rows() + b.rows(), b.cols());
+  all.reserve(problem.b.nonZeros() + b.nonZeros());
+  for (const RowMatrix* part : {static_cast<const RowMatrix*>(&problem.b), &b})
+    for (Eigen::Index row = 0; row < part->rows(); ++row) {
+      all.startVec(row + (part == &b ? problem.b.rows() : 0));
+      for (RowMatrix::InnerIterator entry(*part, row); entry; ++entry)
+        all.insertBack(row + (part == &b ? problem.b.rows() : 0), entry.col()) = entry.value();
+    }
+  all.finalize();
+  const auto append = [](Eigen::VectorXd& to, const Eigen::VectorXd& more) {
+    to.conservativeResize(to.size() + more.size());
+    to.tail(more.size()) = more;
+  };
+  problem.b.swap(all);
+  append(problem.m, m);
+  append(problem.own_compliances, own_compliances);
+}
+
+VariationalInequality own_rows_summed(VariationalInequality problem) {
+  if ((problem.own_compliances.array() == 0).all()) return problem;
+  const Eigen::Index first = problem.class_rows();
+  const Eigen::VectorXd own = std::exchange(problem.own_compliances, {}), m = problem.m;
+  const RowMatrix b = problem.b;
+  problem.b = b.topRows(first);
+  problem.m = m.head(first);
+  for (Eigen::Index k = 0; k < own.size(); ++k) {
+    const RowMatrix row = b.middleRows(first + k, 1);
+    if (own(k) == 0) append_rows(problem, row, m.segment(first + k, 1), own.segment(k, 1));
+  }
+  // as a square: the sum is symmetric to the last digit
+  RowMatrix root = b.bottomRows(own.size());
+  for (Eigen::Index k = 0; k < own.size(); ++k)
+    for (RowMatrix::InnerIterator entry(root, k); entry; ++entry)
+      entry.valueRef() *= own(k) > 0 ? std::sqrt(m(first + k) / own(k)) : 0;
+  problem.a1 += SparseMatrix(root.transpose() * root);
+  problem.a1.makeCompressed();
+  return problem;
 }
 
 void check(const VariationalInequality& problem) {

@@ -39,14 +39,18 @@ struct VariationalInequality {
   RowMatrix combinations = {};  ///< a row per bound beyond `contact` x N, or empty: a row c bounds c . u, such as the
                                 ///< normal displacement on a slope or the gap between two bodies
 
-  int ties = 0;  ///< the last rows of B have compliance 0, whatever `compliance` is: B u = 0 there
+  /// The compliances of the last rows of B, 0 or more, whatever `compliance` is: their energy m (B u)^2 / (2 own) belongs
+  /// to a1, in factors because a sum would lose its digits (a part of the body that is far stiffer than the rest). 0: a
+  /// tie, B u = 0. All other rows are those of the class, the first class_rows() ones.
+  Eigen::VectorXd own_compliances = {};
 
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(fixed.size()); }
+  Eigen::Index class_rows() const { return b.rows() - own_compliances.size(); }
   /// R, the compliance of each row of B.
   Eigen::VectorXd compliances() const {
     Eigen::VectorXd rows = Eigen::VectorXd::Constant(b.rows(), compliance);
-    rows.tail(ties).setZero();
+    rows.tail(own_compliances.size()) = own_compliances;
     return rows;
   }
   int bound_count() const { return static_cast<int>(contact.size()) + static_cast<int>(combinations.rows()); }
@@ -60,6 +64,14 @@ void check(const VariationalInequality& problem);
 /// The same but for the symmetry of a1, in one walk over the data: what a solver asks at every call, whoever made the
 /// factor. The factor has asked for the symmetry of its matrix.
 void check_data(const VariationalInequality& problem);
+
+/// Appends rows of B (r x N) with M = m (r) and compliances of their own (r, 0 or more).
+void append_rows(VariationalInequality& problem, const RowMatrix& b, const Eigen::VectorXd& m,
+                 const Eigen::VectorXd& own_compliances);
+
+/// The same problem in the form in which the class is studied: rows with an own compliance above 0 are summed into A1,
+/// which loses the digits that they keep. Rows of the class and ties stay.
+VariationalInequality own_rows_summed(VariationalInequality problem);
 
 /// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of combinations
 /// without a free unknown. Throws Error.

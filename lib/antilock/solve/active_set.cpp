@@ -62,11 +62,15 @@ class IteratedPenalty {
   }
 
  private:
-  /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp = (B du - r2) / delta.
+  /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp = (B du - r2) / delta, delta a row's penalty.
   Eigen::VectorXd correct(SplitResidual r) {
     const std::vector<int>&unknown = factor_.numbering().unknown, &contact = problem_.contact;
-    const double delta = factor_.delta();
-    if (p_.size() > 0) r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2) / delta;
+    const Eigen::VectorXd& delta = factor_.penalties();
+    if (p_.size() > 0) {
+      const Eigen::VectorXd share = Eigen::VectorXd::Constant(delta.size(), factor_.delta())
+                                        .cwiseQuotient(delta);  // 1 but where a row has its own penalty
+      r.r1 += problem_.b.transpose() * problem_.m.cwiseProduct(r.r2).cwiseProduct(share) / factor_.delta();
+    }
     const Eigen::VectorXd u_c = u_.high(contact), low_c = u_.low(contact);
     const Stairs stairs =
         Stairs{problem_.lower, problem_.upper, problem_.force_bound, contact_.lambda}.from(u_c).from(low_c);
@@ -79,9 +83,9 @@ class IteratedPenalty {
       if (const Piece piece = contact_.pieces[i]; is_active(piece) && v(i) == stairs.given(i, piece))
         u_.set(contact[i], piece == Piece::at_lower ? problem_.lower(i) : problem_.upper(i));
     if (p_.size() == 0) return du;
-    const Eigen::VectorXd dp = (problem_.b * du - r.r2) / delta;
+    const Eigen::VectorXd dp = (problem_.b * du - r.r2).cwiseQuotient(delta);
     p_ += dp;
-    left_of_r2_ = (problem_.compliances().array() - delta) * dp.array();
+    left_of_r2_ = (problem_.compliances() - delta).cwiseProduct(dp);
     if (contact_.pieces != before) acceleration_.restart();
     acceleration_.note(p_, dp, u_);
     return du;
@@ -136,7 +140,7 @@ class IteratedPenalty {
 
   /// No smaller than the compliance, and than what leaves a factor digits of A1.
   void take_a_smaller_penalty() {
-    const double before = factor_.delta(), compliance = problem_.b.rows() > problem_.ties ? problem_.compliance : 0;
+    const double before = factor_.delta(), compliance = problem_.class_rows() > 0 ? problem_.compliance : 0;
     const double smallest = tuned::round_off * relative_stiffness(problem_).value();
     const double delta = std::max({before / tuned::next_penalty, compliance, std::min(before, smallest)});
     if (problem_.b.rows() == 0 || delta >= before) return;
@@ -187,7 +191,7 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
     throw Error(fmt::format("{}: tolerance {}; accepted: above 0", name, options.tolerance));
   const Tied tied = factor.tied(problem);
   // corrections diverge where delta is below the compliance; it is 0 where the last factorisation failed
-  if (factor.delta() == 0 || (tied->b.rows() > tied->ties && factor.delta() < problem.compliance))
+  if (factor.delta() == 0 || (tied->class_rows() > 0 && factor.delta() < problem.compliance))
     factor.refactor(moderate_delta(problem));
   Solution answer = IteratedPenalty(*tied, factor, contact, options, name).solve();
   answer.u.conservativeResize(problem.size());

@@ -60,7 +60,9 @@ Tied PenaltyFactor::tied(const VariationalInequality& problem) const {
         fmt::format("solve: the factor is of {} free unknowns, {} of them in contact, the problem has {} and {}; "
                     "accepted: the factor of a problem with the same free and contact unknowns",
                     numbering_.unknown.size(), numbering_.contact(), other.unknown.size(), other.contact()));
-  if (!same(tied->a1, of_.a1) || !same(tied->b, of_.b) || tied->m != of_.m)
+  const Eigen::VectorXd &own = tied->own_compliances, &of_factor = of_.own_compliances;
+  if (!same(tied->a1, of_.a1) || !same(tied->b, of_.b) || tied->m != of_.m || own.size() != of_factor.size() ||
+      own != of_factor)
     throw Error("solve: the factor is of another A1, B or M; accepted: the factor of this problem's matrices");
   return tied;
 }
@@ -68,9 +70,11 @@ Tied PenaltyFactor::tied(const VariationalInequality& problem) const {
 void PenaltyFactor::refactor(double delta) {
   if (!(delta > 0 && std::isfinite(delta)))
     throw Error(fmt::format("solve: delta = {}; accepted: a positive number", delta));
-  for (delta_ = 0; delta_ == 0; delta *= tuned::next_penalty) {
+  double own = of_.own_compliances.size() > 0 ? tuned::own_penalty * std::min(delta, choose_penalty(of_)) : delta;
+  for (delta_ = 0; delta_ == 0; delta *= tuned::next_penalty, own *= tuned::next_penalty) {
+    penalties_ = row_penalties(of_, delta, own);
     const std::optional<int> lost =
-        factor_.factorise(penalised_matrix(of_, numbering_, delta), sparse_ ? 0 : numbering_.contact());
+        factor_.factorise(penalised_matrix(of_, numbering_, penalties_), sparse_ ? 0 : numbering_.contact());
     if (!lost) delta_ = delta;
     // a larger penalty leaves the factor more digits of A1, until nothing is stiff beside it any more
     else if (of_.b.rows() == 0 || !(delta < first_delta_ / usual_penalty))

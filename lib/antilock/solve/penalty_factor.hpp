@@ -45,6 +45,8 @@ class PenaltyFactor {
   void refactor(double delta);
 
   double delta() const { return delta_; }
+  /// R, of the tied problem: delta, and of rows with compliances of their own these or tuned::own_penalty.
+  const Eigen::VectorXd& penalties() const { return penalties_; }
   const FreeNumbering& numbering() const { return numbering_; }
   /// The smallest pivot of K: to about a factor of F its smallest eigenvalue, for next to nothing.
   double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
@@ -67,6 +69,7 @@ class PenaltyFactor {
 
  private:
   double first_delta_, delta_ = 0;
+  Eigen::VectorXd penalties_;
   VariationalInequality of_;  ///< that it was made of, tied
   FreeNumbering numbering_;
   bool sparse_;

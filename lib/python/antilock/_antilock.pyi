@@ -14,6 +14,7 @@ class Problem:
     a1: Any
     b: Any
     m: ndarray
+    own_compliances: ndarray
     load: ndarray
     fixed: list[int]
     contact: list[int]

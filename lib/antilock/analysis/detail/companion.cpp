@@ -133,7 +133,7 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
 
   // the body's vertices off the line and the known values are fixed; the rest is solved for
   const Space p1_space(columns, p1());
-  VariationalInequality strip = assemble(scene, p1_space);
+  VariationalInequality strip = own_rows_summed(assemble(scene, p1_space));  // any v of K will do
   std::vector<char> fixed(columns.vertex_count(), 0);
   Eigen::VectorXd value = prescribed_values(scene, columns);
   for (const int v : p1_space.clamped()) fixed[v] = 1;

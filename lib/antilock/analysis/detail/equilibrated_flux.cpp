@@ -8,6 +8,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/forms.hpp"
+#include "antilock/measure/detail/answer.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/problem/bounds.hpp"
 
@@ -211,6 +212,10 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Ei
 
 EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const VariationalInequality& problem,
                                    const Solution& solution) {
+  if ((problem.own_compliances.array() > 0).any()) {
+    const OfTheClass here = own_rows_summed(problem, solution);
+    return equilibrated_flux(scene, space, here.problem, here.solution);
+  }
   check_request(scene, space, problem, solution);
   check_displacement(scene, space.mesh());
   static const Quadrature& fine_rule = triangle_rule(12);

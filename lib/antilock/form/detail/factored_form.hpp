@@ -13,4 +13,11 @@ struct FactoredForm {
   std::vector<int> cell;  ///< R, the cell (a triangle of the mesh) behind each row
 };
 
+/// The form sum_j stiffness_j m_j (b_j u) (b_j v) as rows: M holds what comes from the mesh and the rule, and the moduli
+/// stand beside it, however far apart they are.
+struct StiffRows {
+  FactoredForm form;          ///< R rows
+  Eigen::VectorXd stiffness;  ///< R, positive
+};
+
 }  // namespace antilock

@@ -240,7 +240,7 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
   const auto write = [&](const std::filesystem::path& draft) {
     if (csv) write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
     VtuFields more;
-    if (!file.elastic) more.p = layer_stress(*answer.mesh, answer.solution.p);
+    if (!file.elastic) more.p = layer_stress(*answer.mesh, answer.solution.p.head(answer.problem.class_rows()));
     if (contact) {
       const NormalContact normal = normal_contact(answer);
       Eigen::MatrixX3d table = contact_table(answer.space, normal.problem, normal.solution);

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/solution.hpp"
@@ -13,6 +14,23 @@ namespace antilock {
 struct RunSeconds {
   double mesh = 0, assemble = 0, factor = 0, solve = 0;
 };
+
+/// A problem and its solution in the form in which the class is studied: own_rows_summed, and p of the rows that are left.
+struct OfTheClass {
+  VariationalInequality problem;
+  Solution solution;
+};
+inline OfTheClass own_rows_summed(const VariationalInequality& problem, Solution solution) {
+  const Eigen::Index first = problem.class_rows();
+  Eigen::Index left = first;
+  for (Eigen::Index k = 0; k < problem.own_compliances.size(); ++k)
+    if (problem.own_compliances(k) == 0) {
+      solution.p(left) = solution.p(first + k);
+      ++left;
+    }
+  solution.p.conservativeResize(left);
+  return {own_rows_summed(problem), std::move(solution)};
+}
 
 /// An answer with the question that it belongs to: what is measured, proved, drawn and written is so of all of it.
 struct Answer {

@@ -29,10 +29,20 @@ struct FreeNumbering {
   }
 };
 
-/// Upper triangle (F x F, in the places of FreeNumbering) of K = A1 + delta^-1 B' M B on the free unknowns.
+/// R, the penalty of each row of B: delta, and of a row with a compliance of its own that, or `least` where it is larger;
+/// delta for a tie.
+inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, double delta, double least) {
+  Eigen::VectorXd penalties = Eigen::VectorXd::Constant(problem.b.rows(), delta);
+  const Eigen::ArrayXd own = problem.own_compliances.array();
+  penalties.tail(own.size()) = (own > 0).select(own.max(least), delta);
+  return penalties;
+}
+
+/// Upper triangle (F x F, in the places of FreeNumbering) of K = A1 + B' M diag(penalty)^-1 B on the free unknowns, from R
+/// penalties.
 /// Only the factorisation may see this sum: in it A1 has lost digits to delta^-1 (tutorial 18: the round-off trap).
 inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering,
-                                     double delta) {
+                                     const Eigen::VectorXd& penalty) {
   const int size = static_cast<int>(numbering.unknown.size());
   const SparseMatrix b_by_column = problem.b;
   SparseMatrix k(size, size);
@@ -53,7 +63,7 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const
     };
     for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) add(a.row(), a.value());
     for (SparseMatrix::InnerIterator r(b_by_column, j); r; ++r) {
-      const double weight = problem.m(r.row()) * r.value() / delta;
+      const double weight = problem.m(r.row()) * r.value() / penalty(r.row());
       for (RowMatrix::InnerIterator b(problem.b, r.row()); b; ++b) add(b.col(), weight * b.value());
     }
     std::sort(touched.begin(), touched.end());
@@ -66,6 +76,12 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const
   }
   k.finalize();
   return k;
+}
+
+/// The same with one penalty for all rows.
+inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering,
+                                     double delta) {
+  return penalised_matrix(problem, numbering, row_penalties(problem, delta, delta));
 }
 
 }  // namespace antilock

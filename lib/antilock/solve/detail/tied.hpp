@@ -44,7 +44,7 @@ class Tied {
             fmt::format("solve: unknown {} is held by nothing: A1 and B' M B are 0 there; accepted: a matrix A1 + "
                         "B' M B that is positive definite on the free unknowns",
                         j));
-    tied.ties += static_cast<int>(ties);
+    tied.own_compliances.conservativeResizeLike(Eigen::VectorXd::Zero(tied.own_compliances.size() + ties));
     tied.combinations.resize(0, 0);
     tied.a1.conservativeResize(n + ties, n + ties);
     tied.a1.makeCompressed();

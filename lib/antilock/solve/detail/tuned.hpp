@@ -40,6 +40,11 @@ constexpr double next_penalty = 64;
 /// by a factor e in all corrections that are made.
 constexpr double slowest = 1 - 1.0 / most_corrections;
 
+/// The penalty of rows with compliances of their own, at least, beside the one of choose_penalty. Where three stiffnesses
+/// lie far apart, two of them in such rows, a correction contracts like penalty / (penalty + the softer one's compliance):
+/// the smaller the penalty, the more of them the factor has as they are. 6e-11 leaves the factor five digits of A1.
+constexpr double own_penalty = 1e-3;
+
 /// A row that ties a bounded combination c . u to its own unknown w is so much stiffer than c . u: a correction leaves
 /// about 1/4096 of the distance between the two, as if it were made with two penalties less.
 constexpr double tie = next_penalty * next_penalty;
