@@ -119,11 +119,11 @@ CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow) {
   if (space.free_count() == 0)
     throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
   Answer answer{mesh, space, solved([&] { return problem_of(file, space); }), {}, seconds, ""};
-  const std::string load = load_warning(file, space, answer.problem);
+  const std::string data = joined(load_warning(file, space, answer.problem), displacement_warning(file, *answer.mesh));
   answer.seconds.assemble = watch.lap();
   begin(fmt::format("solve: {}, {} unknowns", method.solver, answer.problem.free_count()));
   answer.solution = solved([&] { return solve_as_asked(file, space, answer.problem, follow.solve); });
-  answer.warning = joined(joined(answer.solution.warning, load), joined(gap_warning(file, space, answer.solution),
+  answer.warning = joined(joined(answer.solution.warning, data), joined(gap_warning(file, space, answer.solution),
                                                                         range_warning(file, space, answer.solution)));
   answer.warning = joined(answer.warning, geometry_warning(file));
   spent(answer);

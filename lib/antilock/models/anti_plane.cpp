@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "antilock/form/forms.hpp"
 #include "antilock/models/detail/stiffness_range.hpp"
@@ -62,11 +64,6 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
         fmt::format("scene and mesh: the mesh reaches down to y = {:.6g}; accepted: y = {:.6g}, the lower side of the "
                     "layer of this scene",
                     lowest, wanted));
-}
-
-/// The displacement that a group is given; below Sigma that of Sigma's end.
-double given(const EdgeCondition& edge, Region region, const Eigen::RowVector2d& x) {
-  return edge.value(x(0), region == Region::layer ? 0 : x(1));
 }
 
 /// The layer below a curved Sigma: both forms in its own coordinates, as mesh/layered.hpp has them.
@@ -131,34 +128,72 @@ void add_springs(VariationalInequality& problem, const std::vector<StiffRows>& s
   }
 }
 
+/// The values that the held edges at each place, an unknown or a vertex, give to it. A clamped edge gives 0 where no group
+/// with a displacement meets it. Where groups meet with different values, no continuous function has them all. The place
+/// takes their mean, so that the order of the groups does not matter.
+class GivenValues {
+ public:
+  void give(int place, EdgeTag tag, double value) { at_[place][tag] = value; }
+  /// act(place, value)
+  template <class Act>
+  void for_each(Act&& act) const {
+    for (const auto& [place, of_tags] : at_) act(place, mean(of_tags));
+  }
+
+ private:
+  using OfTags = std::map<EdgeTag, double>;
+  static double mean(const OfTags& of_tags) {
+    std::vector<double> values;
+    for (const auto& [tag, value] : of_tags)
+      if (group_of(tag) >= 0) values.push_back(value);
+    if (values.empty()) return 0;             // clamped edges alone
+    std::sort(values.begin(), values.end());  // the sum of three, too, is the same in every order of the sections
+    if (values.front() == values.back()) return values.front();
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+
+  std::map<int, OfTags> at_;
+};
+
 /// The values that the named groups of edges prescribe.
 void add_displacements(VariationalInequality& problem, const Scene& scene, const Space& space) {
+  const auto prescribes = [](const EdgeCondition& e) { return e.kind == EdgeCondition::Kind::displacement; };
+  if (std::none_of(scene.edges().begin(), scene.edges().end(), prescribes)) return;
   const TriangleMesh& mesh = space.mesh();
   const Eigen::MatrixX3d nodes = space.element().nodes();
-  for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k) {
-    if (scene.edges()[k].kind != EdgeCondition::Kind::displacement) continue;
-    for (int t = 0; t < mesh.triangle_count(); ++t)
-      for (int i = 0; i < 3; ++i)
-        for (Eigen::Index j = 0; j < nodes.rows(); ++j) {
-          if (mesh.edge_tag[mesh.triangle_edges(t, i)] != held_group(k) || nodes(j, i) != 0) continue;
-          const int unknown = space.unknowns()(t, j);
-          const auto place = std::lower_bound(problem.fixed.begin(), problem.fixed.end(), unknown);
-          problem.fixed_values(place - problem.fixed.begin()) =
-              given(scene.edges()[k], mesh.region[t], space.points().row(unknown));
-        }
-  }
+  GivenValues values;
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    for (int i = 0; i < 3; ++i) {
+      const int e = mesh.triangle_edges(t, i);
+      if (!is_dirichlet(mesh.edge_tag[e])) continue;
+      for (Eigen::Index j = 0; j < nodes.rows(); ++j)
+        if (const int unknown = space.unknowns()(t, j); nodes(j, i) == 0)
+          values.give(unknown, mesh.edge_tag[e], prescribed_on(scene, mesh, e, space.points().row(unknown)));
+    }
+  values.for_each([&](int unknown, double value) {
+    const auto place = std::lower_bound(problem.fixed.begin(), problem.fixed.end(), unknown);
+    problem.fixed_values(place - problem.fixed.begin()) = value;
+  });
 }
 
 }  // namespace
 
 double compliance(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
 
+double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const Eigen::RowVector2d& x) {
+  const int k = group_of(mesh.edge_tag[e]);
+  if (k < 0) return 0;
+  return scene.edges()[k].value(x(0), mesh.region[mesh.edge_triangles(e, 0)] == Region::layer ? 0 : x(1));
+}
+
 Eigen::VectorXd prescribed_values(const Scene& scene, const TriangleMesh& mesh) {
-  Eigen::VectorXd values = Eigen::VectorXd::Zero(mesh.vertex_count());
+  GivenValues given_values;
   for (int e = 0; e < mesh.edge_count(); ++e)
-    for (int end = 0; end < 2 && mesh.edge_tag[e] >= held_group(0); ++end)
-      values(mesh.edges(e, end)) = given(scene.edges()[group_of(mesh.edge_tag[e])],
-                                         mesh.region[mesh.edge_triangles(e, 0)], mesh.vertices.row(mesh.edges(e, end)));
+    for (int end = 0; end < 2 && is_dirichlet(mesh.edge_tag[e]); ++end)
+      given_values.give(mesh.edges(e, end), mesh.edge_tag[e],
+                        prescribed_on(scene, mesh, e, mesh.vertices.row(mesh.edges(e, end))));
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(mesh.vertex_count());
+  given_values.for_each([&](int vertex, double value) { values(vertex) = value; });
   return values;
 }
 

@@ -29,6 +29,10 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh);
 /// a twentieth of the integral of |f|, they are named. A spike narrower than that remains unseen.
 std::string load_warning(const SceneFile& file, const Space& space, const VariationalInequality& problem);
 
+/// Empty, or a line about displacements that jump: two groups of edges that meet with different values, or a formula.
+/// No function of finite energy has them: with h the energy grows like |log h|.
+std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh);
+
 /// Empty, or a line about a boundary of a mesh from a file that looks like a curve: at six vertices or more it turns by
 /// an angle up to that of a regular octagon. What is proved is proved of the polygon.
 std::string polygon_warning(const SceneFile& file, const TriangleMesh& mesh);
@@ -53,7 +57,7 @@ struct Followers {
 };
 
 /// The answer to a scene file by its [method]: one solve on its mesh, whose history is empty, or with an accuracy as
-/// many as it takes. `warning` is about the solve, the load, the gap and the polygon; the layer's joins it in
+/// many as it takes. `warning` is about the solve, the load, the displacements, the gap and the polygon; the layer's joins it in
 /// summary_of. Throws Error, and NotConverged with how far it came, also where double precision goes no further than
 /// asked.
 CertifiedSolution answer_scene(const SceneFile& file, const Followers& follow);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <tuple>
 
 #include "antilock/core/dense.hpp"
@@ -157,6 +158,63 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
         "load.f: the quadrature of this mesh misses the load: {:.0f} % of the integral of |f| lie between its points, "
         "by {:.0f} samples: a finer mesh is needed where the load lives",
         100 * unseen / fitted, k);
+  return "";
+}
+
+std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh) {
+  if (file.elastic || file.scene.edges().empty()) return "";
+  constexpr int parts = 8;  // of an edge: a formula that jumps twice on one of them is a matter of the mesh
+  constexpr double telling_jump = 1e-6;  // of the largest value: below, the formula's own rounding
+  const auto at = [&](int e, double s) {
+    return Eigen::RowVector2d((1 - s) * mesh.vertices.row(mesh.edges(e, 0)) + s * mesh.vertices.row(mesh.edges(e, 1)));
+  };
+  const auto value = [&](int e, double s) { return prescribed_on(file.scene, mesh, e, at(e, s)); };
+  const auto name = [&](int e) {
+    const int k = group_of(mesh.edge_tag[e]);
+    return k < 0 ? std::string("clamped") : file.scene.edges()[k].group;
+  };
+  const auto line = [](const std::string& what, const Eigen::RowVector2d& x, const std::string& more) {
+    return fmt::format(
+        "edge: {} at ({:.6g}, {:.6g}){}: no function of finite energy has such values, and the energy grows with every "
+        "refinement",
+        what, x(0), x(1), more);
+  };
+  std::vector<int> held;
+  double largest = 0;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (!is_dirichlet(mesh.edge_tag[e])) continue;
+    held.push_back(e);
+    for (int i = 0; i <= parts; ++i) largest = std::max(largest, std::abs(value(e, static_cast<double>(i) / parts)));
+  }
+  const auto apart = [&](double a, double b) { return std::abs(a - b) > telling_jump * largest; };
+
+  std::map<int, std::pair<int, double>> first;  // vertex -> an edge there, and its value
+  for (const int e : held)
+    for (const int end : {0, 1}) {
+      const double here = value(e, end);
+      const auto [other, alone] = first.try_emplace(mesh.edges(e, end), e, here);
+      const auto& [other_edge, there] = other->second;
+      if (!alone && apart(here, there))
+        return line(fmt::format("the group {} gives u = {:.6g}, the group {} gives u = {:.6g}",
+                                printable(name(other_edge)), there, printable(name(e)), here),
+                    at(e, end), ", where they meet");
+    }
+  for (const int e : held)
+    for (int i = 0; i < parts; ++i) {
+      double low = static_cast<double>(i) / parts, high = static_cast<double>(i + 1) / parts;
+      double from = value(e, low), to = value(e, high);
+      while (apart(from, to)) {  // towards a jump, if there is one: the half that holds more of the difference
+        const double middle = (low + high) / 2, between = value(e, middle);
+        if (!(low < middle && middle < high)) {
+          return line(
+              fmt::format("the displacement of the group {} jumps from {:.6g} to {:.6g}", printable(name(e)), from, to),
+              at(e, low), "");
+        }
+        const bool upper = std::abs(to - between) > std::abs(between - from);
+        (upper ? low : high) = middle;
+        (upper ? from : to) = between;
+      }
+    }
   return "";
 }
 
