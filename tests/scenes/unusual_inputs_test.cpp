@@ -96,6 +96,20 @@ TEST(Toml, TakesAnEmptyListOfEdgesAndNoPartOfANumber) {
   expect_no_answer(SceneRun(scene("[at]\npoints = [[9007199254740993, 0]]")), "at.points: ");
 }
 
+// facebook/openzl #225: a text of several lines.
+TEST(Toml, FormulasMayHaveSeveralLines) {
+  const auto with = [](const std::string& f, const std::string& gap) {
+    return SceneRun(
+        fmt::format("[load]\nf = {}\n[contact]\ngap = {}\n[mesh]\nkind = \"structured\"\ncells = 8\n", f, gap));
+  };
+  const nlohmann::json lines = with("\"\"\"\n  10*sin(\r\n\t2*pi*x)\n\"\"\"", "'''0\n+\n0.01'''").summary();
+  const nlohmann::json line = with("\"10*sin(2*pi*x)\"", "\"0 + 0.01\"").summary();
+  EXPECT_EQ(lines["energy"], line["energy"]);
+  EXPECT_LT(double(line["energy"]), 0);
+  expect_no_answer(with("\"\"\"1 +\n 2 x\"\"\"", "\"0\""), "\"x\" is not expected at position 8");
+  expect_no_answer(with("\"\"\"\n \n\"\"\"", "\"0\""), "is empty");
+}
+
 // p-ranav/argparse #369: an option without its value keeps its default. `--files "$unset"` lost all but the summary.
 TEST(CommandLine, WithAnEmptyListOfFilesIsRefused) {
   const TemporaryFolder folder;

@@ -19,6 +19,7 @@ namespace {
 constexpr std::size_t longest_text = 4000;
 constexpr double largest_value = 1e100;  // squared, as an energy is, it still is a double
 constexpr int most_nested = 200;
+constexpr std::string_view blanks = " \t\r\n";  // a formula of a scene may have several lines
 
 /// A formula, or a part of one, as a function of its variables.
 using Value = std::function<double(const double* variables)>;
@@ -98,9 +99,7 @@ class Reader {
 
  private:
   [[noreturn]] void fail(const std::string& why) const { throw Error(fmt::format("{} at position {}", why, at_ + 1)); }
-  void next() {
-    while (at_ < text_.size() && (text_[at_] == ' ' || text_[at_] == '\t')) ++at_;
-  }
+  void next() { at_ = std::min(text_.find_first_not_of(blanks, at_), text_.size()); }
   bool took(std::string_view sign) {
     next();
     if (text_.substr(at_, sign.size()) != sign) return false;
@@ -237,7 +236,7 @@ Expression::Expression(std::string text, std::vector<std::string> variables)
                     "cos, exp, sqrt, abs",
                     printable(text_), why, fmt::join(names_, " and ")));
   };
-  if (text_.find_first_not_of(" \t\r\n") == std::string::npos) refuse("is empty");
+  if (text_.find_first_not_of(blanks) == std::string::npos) refuse("is empty");
   if (text_.size() > longest_text) refuse(fmt::format("is longer than {} characters", longest_text));
   try {
     value_ = Reader(text_, names_).read();
