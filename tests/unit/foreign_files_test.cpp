@@ -209,6 +209,41 @@ TEST(ForeignMesh, LinesInNoGroupArePassedOver) {
   refused(with(two_surfaces, "9 2 2 1 2", "9 2 2 0 2"), "element 9 is in no physical group");
 }
 
+// dolfinx #3332 and MTEX2Gmsh #7: in MSH 2.2 a surface in two groups comes twice. "Three triangles share the edge", it was
+// said.
+TEST(ForeignMesh, ATriangleTwiceIsNamedWithBothGroups) {
+  const std::string more =
+      with(with(two_surfaces, "$Elements\n10\n", "$Elements\n11\n"), "2 1 \"body\"\n", "2 1 \"body\"\n2 3 \"layer\"\n");
+  const std::string three_names = with(more, "$PhysicalNames\n3\n", "$PhysicalNames\n4\n");
+  refused(
+      with(three_names, end, "11 2 2 3 1 6 5 1\n" + end),
+      "element 11, in the group \"layer\", is the same triangle as element 8, in the group \"body\"; accepted: each "
+      "triangle once, in one group");
+}
+
+// PyFR #381 and pygmsh #410: a curve and a surface may have one name, as they may have one number.
+TEST(ForeignMesh, ACurveAndASurfaceMayHaveOneName) {
+  const auto named = [](const std::string& curve, const std::string& surface) {
+    return with(with(two_surfaces, "1 4 \"clamped\"", "1 4 \"" + curve + "\""), "2 1 \"body\"",
+                "2 1 \"" + surface + "\"");
+  };
+  const auto read_with = [&](const std::string& text, const MoreGroups& groups) {
+    std::istringstream in(text);
+    std::vector<int> part;
+    const TriangleMesh mesh = read_msh(in, "test.msh", groups, &part);
+    EXPECT_EQ(part, std::vector<int>(4, 0));
+    return mesh;
+  };
+  const MoreGroups steel{{{"steel", held_group(0)}}, {"steel"}}, curve{{{"steel", held_group(0)}}, {}};
+  const TriangleMesh mesh = read_with(named("steel", "steel"), steel);
+  EXPECT_EQ(mesh.vertices, read(two_surfaces).vertices);
+  EXPECT_EQ(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), held_group(0)), 4);
+  expect_refused([&] { read_with(named("clamped", "steel"), steel); }, "has no curve in the group \"steel\"");
+  expect_refused([&] { read_with(named("steel", "body"), steel); }, "has no surface in the group \"steel\"");
+  expect_refused([&] { read_with(named("steel", "steel"), curve); }, "unknown surface group \"steel\"");
+  refused(with(two_surfaces, "1 5 \"contact\"", "1 5 \"clamped\""), "the curve group \"clamped\" is named twice");
+}
+
 // scnlib #77: what a printf with "%+e" and Fortran's SP write is a number. BALL #166 and
 // ifcplusplus #225: a comma for the point and Fortran's D are none.
 TEST(ForeignMesh, APlusSignIsPartOfANumber) {

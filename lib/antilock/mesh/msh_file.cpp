@@ -141,6 +141,9 @@ struct FileElement {
 /// Dimension and number of a physical group or an entity.
 using Place = std::pair<int, std::int64_t>;
 
+/// Names of physical groups, each with its dimension before it.
+using GroupNames = std::set<std::pair<int, std::string>>;
+
 /// A MSH file as it stands, its tags not yet resolved.
 struct MshFile {
   bool version_4 = false;
@@ -174,8 +177,9 @@ void read_format(MshLines& lines, MshFile& file) {
 }
 
 /// Records: dimension number "name".
-void read_names(MshLines& lines, MshFile& file, std::map<std::string, int> known) {
-  known.insert({{"body", 2}, {"layer", 2}, {"sigma", 1}, {"clamped", 1}, {"contact", 1}});
+/// `known`: names with their dimensions. A curve and a surface may have one name.
+void read_names(MshLines& lines, MshFile& file, GroupNames known) {
+  known.insert({{2, "body"}, {2, "layer"}, {1, "sigma"}, {1, "clamped"}, {1, "contact"}});
   lines.next_record("PhysicalNames", 1, "their number");
   for (std::int64_t left = lines.count(0); left > 0; --left) {
     lines.next_record("PhysicalNames");
@@ -186,16 +190,16 @@ void read_names(MshLines& lines, MshFile& file, std::map<std::string, int> known
     const int dimension = read_dimension(lines, 0);
     if (dimension == 0) continue;  // points carry nothing here
     const std::string name(line.substr(open + 1, close - open - 1));
-    const auto group = known.find(name);
-    if (group == known.end() || group->second != dimension) {
+    if (!known.contains({dimension, name})) {
       std::string accepted;  // the scene's own names stand here, too: a misspelt one is seen
-      for (const auto& [each, of] : known)
+      for (const auto& [of, each] : known)
         if (of == dimension) accepted += each + ", ";
       lines.refuse("unknown {} group {}; accepted: {}and others that a scene names in [[edge]] or in [body] stiffness",
                    dimension_names[dimension], in_quotes(name), accepted);
     }
     for (const auto& [place, other] : file.names)
-      if (other == name) lines.refuse("the group {} is named twice", in_quotes(name));
+      if (other == name && place.first == dimension)
+        lines.refuse("the {} group {} is named twice", dimension_names[dimension], in_quotes(name));
     if (!file.names.emplace(Place{dimension, lines.integer(1)}, name).second)
       lines.refuse("{} group {} has two names", dimension_names[dimension], lines.integer(1));
   }
@@ -321,7 +325,7 @@ void read_elements_4(MshLines& lines, MshFile& file) {
 
 /// Reads and checks every section that a mesh needs, 2.2 or 4.1.
 /// `more`: the names that it may have beside body, layer, sigma, clamped and contact, with their dimensions.
-MshFile read_sections(MshLines& lines, const std::map<std::string, int>& more) {
+MshFile read_sections(MshLines& lines, const GroupNames& more) {
   bool any = lines.next();
   for (; any && lines.fields[0] == "$Comments"; any = lines.next()) lines.skip_section("Comments");
   if (!any || lines.fields[0] != "$MeshFormat")
@@ -447,7 +451,8 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
   std::vector<int> surface;
   std::map<std::pair<std::int64_t, std::int64_t>, int> surfaces;  // of a group and its entity
   std::vector<TaggedEdge> edges;
-  std::set<std::string_view> found;
+  std::map<std::array<int, 3>, const FileElement*> triangles_seen;  // by their nodes in ascending order
+  GroupNames found;
   std::unordered_set<std::int64_t> tags;
   if (part != nullptr) part->clear();
   for (const FileElement& element : file.elements) {
@@ -464,11 +469,19 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
     // Mesh.SaveAll: of the lines within the body nothing is said, and a side in no group is refused with its place
     if (element.dimension() == 1 && group_number(lines, file, element) == 0) continue;
     const std::string& name = group_name(lines, file, element);
-    found.insert(name);
+    found.emplace(element.dimension(), name);
     for (int i = 0; i < element.size; ++i) used.use(vertices[i]);
     if (element.dimension() == 1) {
       edges.push_back({vertices[0], vertices[1], edge_tags.at(name)});
     } else {
+      std::array<int, 3> nodes = vertices;
+      std::sort(nodes.begin(), nodes.end());
+      if (const auto [first, alone] = triangles_seen.emplace(nodes, &element); !alone)
+        lines.refuse_at(element.line,
+                        "element {}, in the group {}, is the same triangle as element {}, in the group {}; accepted: "
+                        "each triangle once, in one group",
+                        element.tag, in_quotes(name), first->second->tag,
+                        in_quotes(group_name(lines, file, *first->second)));
       corners.push_back(vertices);
       const std::pair named(element.group, element.surface);
       surface.push_back(surfaces.emplace(named, static_cast<int>(surfaces.size())).first->second);
@@ -479,16 +492,17 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
       }
     }
   }
-  for (const std::string name : {"body", "clamped", "contact"})
-    if (!found.contains(name) && !(name == "body" && !more.bodies.empty()) &&
+  for (const auto& [dimension, name] : GroupNames{{2, "body"}, {1, "clamped"}, {1, "contact"}})
+    if (!found.contains({dimension, name}) && !(name == "body" && !more.bodies.empty()) &&
         !(name == "clamped" && !more.curves.empty()))
       lines.refuse_file("has nothing in the physical group {}; needed: body, clamped, contact", in_quotes(name));
   for (const auto& [name, tag] : more.curves)
-    if (!found.contains(name)) lines.refuse_file("has no curve in the group {}", in_quotes(name));
+    if (!found.contains({1, name})) lines.refuse_file("has no curve in the group {}", in_quotes(name));
   for (const std::string& name : more.bodies)
-    if (!found.contains(name)) lines.refuse_file("has no surface in the group {}", in_quotes(name));
+    if (!found.contains({2, name})) lines.refuse_file("has no surface in the group {}", in_quotes(name));
   for (const auto& [place, name] : file.names)
-    if (!found.contains(name)) lines.refuse_file("names the physical group {}, but it is empty", in_quotes(name));
+    if (!found.contains({place.first, name}))
+      lines.refuse_file("names the physical group {}, but it is empty", in_quotes(name));
 
   used.number(lines);
   for (auto& triangle : corners)
@@ -506,10 +520,10 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
 
 TriangleMesh read_msh(std::istream& in, const std::string& name, const MoreGroups& more, std::vector<int>* part) {
   MshLines lines(in, name);
-  std::map<std::string, int> dimensions;
-  for (const auto& [curve, tag] : more.curves) dimensions[curve] = 1;
-  for (const std::string& body : more.bodies) dimensions[body] = 2;
-  return resolve(lines, read_sections(lines, dimensions), more, part);
+  GroupNames known;
+  for (const auto& [curve, tag] : more.curves) known.emplace(1, curve);
+  for (const std::string& body : more.bodies) known.emplace(2, body);
+  return resolve(lines, read_sections(lines, known), more, part);
 }
 
 TriangleMesh read_msh(const std::string& path, const MoreGroups& more, std::vector<int>* part) {
