@@ -161,6 +161,22 @@ TEST(Results, IntoALinkToNothingAreRefusedBeforeTheWork) {
   EXPECT_FALSE(std::filesystem::exists(folder / "nowhere"));
 }
 
+// The same: a folder in the place of a result, of one that is written or of one of an earlier run, was found after the solve.
+TEST(Results, InThePlaceOfAFolderAreRefusedBeforeTheWork) {
+  for (const std::string name : {"solution.vtu", "summary.json", "solution.pvtu"}) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / "scene.toml") << scene("");
+    std::filesystem::create_directories(std::filesystem::path(folder / "results") / name / "inside");
+    const Outcome refused =
+        run_scene(in_shell(folder / "scene.toml") + " --files summary --out " + in_shell(folder / "results"), folder);
+    EXPECT_EQ(refused.status, 2) << name;
+    EXPECT_EQ(refused.out, "") << name;
+    EXPECT_NE(refused.err.find(name + " is a folder, where the result " + name + " is to stand"), refused.err.npos)
+        << refused.err;
+    EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(folder / "results") / name / "inside"));
+  }
+}
+
 // firelab/windninja #382: two runs into one folder. Both have answers of different sizes, one has contact.
 TEST(Results, OfTwoRunsAtOnceAreThoseOfOneOfThem) {
   const TemporaryFolder folder;

@@ -117,11 +117,15 @@ void write_through_draft(const fs::path& folder, const std::function<void(const 
   while (placing && ::flock(::dirfd(placing.get()), LOCK_EX) != 0 && errno == EINTR) stop_if_interrupted();
   std::set<std::string> names;
   for (const auto& file : fs::directory_iterator(draft.path)) names.insert(file.path().filename());
-  for (const std::string& name : names)
+  std::set<std::string> touched = names;
+  if (known) touched.insert(known->begin(), known->end());
+  for (const std::string& name : touched)
     if (fs::is_directory(folder / name)) refuse_folder(folder, name + " is a folder there");
-  for (const std::string& name : names) fs::rename(draft.path / name, folder / name);
-  for (const std::string& name : known ? *known : std::vector<std::string>())
-    if (!names.contains(name)) fs::remove(folder / name);
+  for (const std::string& name : touched)
+    if (names.contains(name))
+      fs::rename(draft.path / name, folder / name);
+    else
+      fs::remove(folder / name);
 }
 
 }  // namespace

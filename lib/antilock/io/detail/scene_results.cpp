@@ -213,11 +213,16 @@ std::vector<std::string> result_names(const std::filesystem::path& folder, int r
 
 void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
                        int ranks) {
-  for (const std::string& name : result_names(folder, ranks))
+  for (const std::string& name : result_names(folder, ranks)) {
+    std::error_code unknown;  // a folder that cannot be looked into is refused when it is written to
+    if (std::filesystem::is_directory(folder / name, unknown))
+      throw Error(fmt::format("{}: --out: {} is a folder, where the result {} is to stand; accepted: another folder",
+                              file.name, printable((folder / name).string(), 1000), name));
     for (const std::filesystem::path& input : {scene, file.mesh.file, file.mesh.geometry})
       if (std::error_code absent; !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
         throw Error(fmt::format("{}: --out: the result {} would replace {}; accepted: another folder", file.name, name,
                                 printable(input.string(), 1000)));
+  }
 }
 
 ResultFiles result_files(const std::string& words) {
