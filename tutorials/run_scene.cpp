@@ -10,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -158,6 +159,13 @@ struct Asked {
   bool restart = false, direct = false;
 };
 
+/// s / epsilon^2, as a quotient where it is beyond double precision.
+std::string across(const StiffLayer& layer) {
+  const double square = layer.epsilon * layer.epsilon, stiffness = layer.s / square;
+  return square > 0 && std::isfinite(stiffness) ? fmt::format("{:g}", stiffness)
+                                                : fmt::format("{:g} / {:g}^2", layer.s, layer.epsilon);
+}
+
 void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Report& report, char** argv) {
   const SceneFile file = read_scene_file(scene);
   const MethodRequest& method = file.method;
@@ -184,8 +192,7 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   found.answer.seconds.solve += watch.lap();
   if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
       stiff != nullptr && nlohmann::json::parse(file.words)["layer"].contains("thickness"))
-    fmt::print("  layer: {:g} before a_x^-, {:g} before a_y^-\n", stiff->s,
-               stiff->s / (stiff->epsilon * stiff->epsilon));
+    fmt::print("  layer: {:g} before a_x^-, {} before a_y^-\n", stiff->s, across(*stiff));
   report.stage("files");
   write_scene_results(asked.out, file, found.answer, summary, found.history.empty() ? nullptr : &found, asked.files);
   report.finish();

@@ -57,6 +57,16 @@ TEST(Layer, WhoseStiffnessIsLostNamesTheStiffness) {
   expect_no_answer(SceneRun(scene("[layer]\nthickness = 1e-10\nstiffness = 1e-320")), "layer.stiffness: ");
 }
 
+// The same: a layer of next to no stiffness was answered with conditions that "hold only to 1.0e+00", and the number before
+// the second form of a right one was printed as "inf".
+TEST(Layer, OfNextToNoStiffnessIsRefusedAndAnEnormousOneIsTold) {
+  expect_no_answer(SceneRun(scene("[layer]\nthickness = 1e-200\nstiffness = 1")), "at most 1e16 times the softest", 2);
+  const SceneRun told(scene("[layer]\nthickness = 1e-160\nstiffness = 1e160"));
+  EXPECT_EQ(told.outcome.status, 0) << told.outcome.err;
+  EXPECT_NE(told.outcome.out.find("layer: 1 before a_x^-, 1 / 1e-160^2 before a_y^-"), std::string::npos)
+      << told.outcome.out;
+}
+
 // jkcshea/ivmte #225 and osqp #109: a lower bound above the upper one is found late, and by its number.
 TEST(Ceiling, BelowTheObstacleIsRefusedWithItsPlace) {
   const std::string obstacle = "gap = \"-0.1*sin(pi*x)\"\nceiling = ";
