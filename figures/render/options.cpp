@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 
 #include "antilock/core/error.hpp"
 #include "drawing/styles.hpp"
@@ -10,11 +13,20 @@
 namespace antilock::figures {
 namespace {
 
+/// Why a file cannot be named so, empty where it can: what is written is a PNG whatever it is called.
+std::string png_name(const std::string& name) {
+  std::string ending = std::filesystem::path(name).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".png"
+             ? ""
+             : fmt::format("{}: a PNG file is written; accepted: a name that ends in .png", printable(name));
+}
+
 CLI::App* add_picture(CLI::App& app, Request& request, const std::string& name, const std::string& what,
                       const std::string& input) {
   CLI::App* picture = app.add_subcommand(name, what);
   picture->add_option(input, request.inputs, "the file to read")->required();
-  picture->add_option("--out", request.out, "the PNG file to write")->required();
+  picture->add_option("--out", request.out, "the PNG file to write")->required()->check(png_name);
   picture->add_option("--compression", request.compression, "of the PNG file; less is faster and makes a larger file")
       ->check(CLI::Range(0, 9))
       ->capture_default_str();
