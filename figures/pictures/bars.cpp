@@ -34,7 +34,9 @@ std::vector<Bar> read_bars(const CsvTable& table, const BarStyle& style, const s
     }
     if (bar.total() > 0) bars.push_back(std::move(bar));
   }
-  if (bars.empty()) throw Error(fmt::format("{}: no row to draw", file));
+  if (bars.empty())
+    throw Error(fmt::format("{}: no row to draw: the sum of {} is above 0 in none; accepted: one such row or more",
+                            file, fmt::join(style.parts, " + ")));
   return bars;
 }
 

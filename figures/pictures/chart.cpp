@@ -151,7 +151,10 @@ Page chart_picture(const std::filesystem::path& file, const ChartStyle& style) {
     }
   if (style.linear_y && !style.slopes.empty())
     throw Error("a chart with --linear-y has no lines of a slope; accepted: one of --slope and --linear-y");
-  if (high.y == 0) throw Error(fmt::format("{}: no row to draw: {} against {}", file.string(), style.y, style.x));
+  if (high.y == 0)
+    throw Error(
+        fmt::format("{}: no row to draw: {} and {} are finite and above 0 in none; accepted: one such row or more",
+                    file.string(), style.x, style.y));
 
   const std::size_t count = curves.panels.size(), columns = panel_columns(count), rows = panel_rows(count);
   const Page measure(1);

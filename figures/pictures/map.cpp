@@ -109,7 +109,9 @@ Page map_picture(const std::filesystem::path& file, const MapStyle& style) {
     xs.push_back(x), ys.push_back(y), zs.push_back(std::log10(z));
   }
   if (zs.empty())
-    throw Error(fmt::format("{}: no row to draw: {} over {} and {}", file.string(), style.z, style.x, style.y));
+    throw Error(
+        fmt::format("{}: no row to draw: {}, {} and {} are finite and above 0 in none; accepted: one such row or more",
+                    file.string(), style.x, style.y, style.z));
   const auto [x_low, x_high] = std::minmax_element(xs.begin(), xs.end());
   const auto [y_low, y_high] = std::minmax_element(ys.begin(), ys.end());
   const auto [z_low, z_high] = std::minmax_element(zs.begin(), zs.end());

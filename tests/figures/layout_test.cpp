@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 
+#include "antilock/core/error.hpp"
 #include "drawing/page.hpp"
 #include "drawing/styles.hpp"
+#include "pictures/pictures.hpp"
 
 namespace antilock::figures {
 namespace {
@@ -49,6 +53,45 @@ TEST(Layout, EveryFaultIsSeen) {
     page.text(added.at, added.text, added.look);
     EXPECT_NE(fault(page).find(added.fault), std::string::npos) << added.text << ": " << fault(page);
   }
+}
+
+/// The message with which a picture of the table is refused.
+template <class Picture>
+std::string refusal(const std::string& table, Picture&& picture) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "layout_test.csv";
+  std::ofstream(file) << table;
+  try {
+    picture(file);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+// matplotlib #2872 and #7493 are on axes of values without a logarithm.
+TEST(Chart, OfZerosIsRefusedInATrueSentence) {
+  const std::string zeros = "h,error\n0.5,0\n0.25,0\n";
+  for (const bool linear_y : {false, true}) {
+    ChartStyle style;
+    style.x = "h";
+    style.y = "error";
+    style.linear_y = linear_y;
+    EXPECT_NE(refusal(zeros, [&](const auto& file) { chart_picture(file, style); })
+                  .find("no row to draw: h and error are finite and above 0 in none; accepted: one such row or more"),
+              std::string::npos);
+  }
+  MapStyle map;
+  map.x = map.y = "h";
+  map.z = "error";
+  EXPECT_NE(refusal(zeros, [&](const auto& file) { map_picture(file, map); })
+                .find("no row to draw: h, h and error are finite and above 0 in none"),
+            std::string::npos);
+  BarStyle bars;
+  bars.bar_by = {"h"};
+  bars.parts = {"error", "error"};
+  EXPECT_NE(refusal(zeros, [&](const auto& file) { bar_picture(file, bars); })
+                .find("no row to draw: the sum of error + error is above 0 in none"),
+            std::string::npos);
 }
 
 /// Relative luminance, as in the contrast ratio of WCAG 2.
