@@ -2,11 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "antilock/core/error.hpp"
 #include "drawing/axis.hpp"
 #include "drawing/panel.hpp"
 
 namespace antilock::figures {
+
+constexpr double to_numbers = 24, right_margin = 5;
+
+double colour_bar_room(const Range& range, double before, double least) {
+  const double numbers = widest_number(Page(1), Axis::linear(range.low, range.high));
+  return std::max(least, before + bar_width + to_numbers + numbers + right_margin);
+}
 
 void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name, const Beyond& beyond) {
   constexpr int steps = 256;
@@ -30,7 +40,7 @@ void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::
   for (const Tick& tick : axis.ticks()) {
     const double y = box.y + box.height * (tick.value - range.low) / (range.high - range.low);
     page.line({{box.right(), y}, {box.right() + 12, y}}, {2.5});
-    page.text({box.right() + 24, y}, tick.label, {number_size, {0, Anchor::Height::middle}});
+    page.text({box.right() + to_numbers, y}, tick.label, {number_size, {0, Anchor::Height::middle}});
   }
   page.text({box.centre().x, box.top() + head + 30}, name, {name_size, {0.5}});
 }

@@ -23,6 +23,11 @@ Beyond beyond(const Range& range, const Range& data);
 void draw_colour_bar(Page& page, const Box& box, const Range& range, const std::string& name,
                      const Beyond& beyond = {});
 
+constexpr double bar_width = 56;
+/// The width to leave at the right of a page for a bar that stands `before` from the left end of that strip: `least`, or
+/// more where the numbers of the range need it.
+double colour_bar_room(const Range& range, double before, double least);
+
 /// Throws Error unless the range has two finite ends, the smaller first.
 void check(const Range& range);
 

@@ -118,7 +118,8 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
   for (std::size_t i = 0; obstacle && i < obstacle->rows(); ++i)
     seen.AddPoint(obstacle->number(i, "x"), obstacle->number(i, "y"), 0);
 
-  constexpr double gap = 70, margin = 40, head = 100, foot = 40, bar_room = 280;
+  constexpr double gap = 70, margin = 40, head = 100, foot = 40;
+  const double bar_room = colour_bar_room(range, 80, 280);
   const auto count = static_cast<double>(bodies.size());
   const double body_width = (Page::width - 2 * margin - bar_room - (count - 1) * gap) / count;
   const Frame unit{seen.GetBound(0), seen.GetBound(2), body_width / seen.GetLength(0), {0, 0}};
@@ -138,7 +139,7 @@ Page deformed_picture(const std::vector<Surface>& bodies, const DeformedStyle& s
     page.text({left + 0.5 * body_width, page.height() - 70.0}, bodies[i].title,
               {name_size, {0.5}, 0, palette::ink, body_width});
   }
-  draw_colour_bar(page, {Page::width - bar_room + 80.0, foot + 0.2 * body_height, 56, 0.55 * body_height}, range,
+  draw_colour_bar(page, {Page::width - bar_room + 80.0, foot + 0.2 * body_height, bar_width, 0.55 * body_height}, range,
                   style.name, heads);
   return page;
 }

@@ -28,8 +28,7 @@ Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style) 
   const std::size_t count = surfaces.size(), columns = std::min<std::size_t>(count, 3),
                     rows = (count + columns - 1) / columns;
   const Axis x = Axis::linear(in_x.low, in_x.high, columns == 1 ? 5 : 2), y = Axis::linear(in_y.low, in_y.high, 3);
-  const double numbers = widest_number(Page(1), Axis::linear(range.low, range.high));  // beside the bar
-  const double bar_room = std::max(230.0, 125 + numbers), gap = 90, row_head = style.row_titles.empty() ? 0 : 90,
+  const double bar_room = colour_bar_room(range, 40, 230), gap = 90, row_head = style.row_titles.empty() ? 0 : 90,
                foot = foot_margin;
   const double left = left_margin(Page(1), y);
   const double across = static_cast<double>(columns),
@@ -59,7 +58,7 @@ Page plan_picture(const std::vector<Surface>& surfaces, const PlanStyle& style) 
                 style.row_titles[row], {name_size, {0.5}});
   }
   const double all = page.height() - foot - row_head - head_margin;
-  draw_colour_bar(page, {Page::width - bar_room + 40, foot + 0.2 * all, 56, 0.6 * all}, range, style.name,
+  draw_colour_bar(page, {Page::width - bar_room + 40, foot + 0.2 * all, bar_width, 0.6 * all}, range, style.name,
                   beyond(range, data));
   return page;
 }

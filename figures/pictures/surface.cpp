@@ -12,8 +12,6 @@ namespace antilock::figures {
 namespace {
 
 constexpr double azimuth = 38, elevation = 32;  // of every surface, so that they compare
-constexpr double bar_room = 250;
-
 /// Where the surfaces stand and how much is written around each.
 struct Arrangement {
   std::size_t columns, rows;
@@ -21,7 +19,7 @@ struct Arrangement {
   bool bar_aside;  ///< a strip at the right; otherwise in the empty last cell, or nowhere
   bool bar_in_cell;
 
-  Arrangement(std::size_t count, bool titled, bool own_scale)
+  Arrangement(std::size_t count, bool titled, bool own_scale, double bar_room)
       : columns(count == 1   ? 1
                 : count <= 4 ? 2
                              : 3),
@@ -65,7 +63,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
   check(shared);
   const Beyond marks = beyond(shared, data);
   const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
-  const Arrangement at(count, titled, style.last_range.has_value());
+  const Arrangement at(count, titled, style.last_range.has_value(), colour_bar_room(shared, 20, 250));
   const RoomDetail detail = at.columns == 1 ? RoomDetail::full : at.columns == 2 ? RoomDetail::few : RoomDetail::least;
   Page page(at.height());
 
@@ -95,13 +93,13 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
   }
   if (at.bar_aside) {
     const Box first = at.cell(at.columns - 1);
-    draw_colour_bar(page, {first.right() + 20, first.y + 0.2 * first.height, 56, 0.6 * first.height}, shared, "$u$",
-                    marks);
+    draw_colour_bar(page, {first.right() + 20, first.y + 0.2 * first.height, bar_width, 0.6 * first.height}, shared,
+                    "$u$", marks);
   }
   if (at.bar_in_cell) {
     const Box empty = at.cell(count);
-    draw_colour_bar(page, {empty.centre().x - 60, empty.y + 0.2 * empty.height, 56, 0.6 * empty.height}, shared, "$u$",
-                    marks);
+    draw_colour_bar(page, {empty.centre().x - 60, empty.y + 0.2 * empty.height, bar_width, 0.6 * empty.height}, shared,
+                    "$u$", marks);
   }
   return page;
 }

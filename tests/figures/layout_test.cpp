@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "antilock/core/error.hpp"
+#include "drawing/colour_bar.hpp"
 #include "drawing/page.hpp"
 #include "drawing/styles.hpp"
 #include "pictures/pictures.hpp"
@@ -92,6 +93,16 @@ TEST(Chart, OfZerosIsRefusedInATrueSentence) {
   EXPECT_NE(refusal(zeros, [&](const auto& file) { bar_picture(file, bars); })
                 .find("no row to draw: the sum of error + error is above 0 in none"),
             std::string::npos);
+}
+
+// vedo #212 and Sunny.jl #309: fields of 1e-200, whose numbers have exponents of three digits.
+TEST(ColourBar, OfTinyValuesStaysOnThePage) {
+  for (const Range& range : {Range{0, 1}, {-3.3e-200, 1.7e-200}, {1.25e-300, 1.75e-300}, {0, 2e100}}) {
+    Page page(1000);
+    const double left = Page::width - colour_bar_room(range, 20, 0) + 20;
+    draw_colour_bar(page, {left, 200, bar_width, 600}, range, "$u$");
+    EXPECT_EQ(fault(page), "none") << range.low << " " << range.high;
+  }
 }
 
 /// Relative luminance, as in the contrast ratio of WCAG 2.
