@@ -27,27 +27,45 @@ std::vector<double> numbers(const fs::path& path, const std::string& header = ""
 
 using Rows = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>;
 
-/// Data of the VTU array of this name: raw bytes behind the XML, each array behind its length.
+/// The bytes that a text in base64 stands for.
+std::string from_base64(const std::string& text) {
+  const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  EXPECT_EQ(text.size() % 4, 0U);
+  std::string bytes;
+  for (std::size_t i = 0; i + 3 < text.size(); i += 4) {
+    std::uint32_t group = 0;
+    std::size_t fill = 0;
+    for (std::size_t k = i; k < i + 4; ++k) {
+      const std::size_t value = text[k] == '=' ? 0 : letters.find(text[k]);
+      EXPECT_NE(value, std::string::npos);
+      group = group << 6 | static_cast<std::uint32_t>(value);
+      fill += text[k] == '=';
+    }
+    for (std::size_t k = 0; k < 3 - fill; ++k) bytes += static_cast<char>(group >> (16 - 8 * k) & 255);
+  }
+  return bytes;
+}
+
+/// Data of the VTU array of this name: its length in bytes and its numbers, in base64.
 std::vector<double> vtu_array(const std::string& text, const std::string& name) {
   const std::size_t at = text.find(" Name=\"" + name + "\""), tag = text.rfind('<', at);
-  const auto attribute = [&](const std::string& key) {
-    const std::size_t from = text.find(key + "=\"", tag) + key.size() + 2;
-    return text.substr(from, text.find('"', from) - from);
-  };
-  const char* bytes =
-      text.data() + text.find("<AppendedData encoding=\"raw\">\n_") + 31 + std::stoul(attribute("offset"));
+  const std::size_t from = text.find('>', at) + 1;
+  const std::string bytes = from_base64(text.substr(from, text.find('<', from) - from));
   std::uint64_t length = 0;
-  std::memcpy(&length, bytes, sizeof length);
+  if (bytes.size() >= sizeof length) std::memcpy(&length, bytes.data(), sizeof length);
+  EXPECT_EQ(bytes.size(), sizeof length + length);
   const auto read = [&](auto number) {
     std::vector<double> values(length / sizeof number);
     for (std::size_t i = 0; i < values.size(); ++i) {
-      std::memcpy(&number, bytes + sizeof length + i * sizeof number, sizeof number);
+      std::memcpy(&number, bytes.data() + sizeof length + i * sizeof number, sizeof number);
       values[i] = static_cast<double>(number);
     }
     return values;
   };
-  const std::string type = attribute("type");
-  return type == "Float64" ? read(double{}) : type == "Int32" ? read(std::int32_t{}) : read(std::uint8_t{});
+  const std::string type = text.substr(tag, at - tag);
+  if (type.find("Float64") != std::string::npos) return read(double{});
+  if (type.find("Int32") != std::string::npos) return read(std::int32_t{});
+  return read(std::uint8_t{});
 }
 
 // ==== Meshes.
@@ -185,7 +203,7 @@ TEST(WriteVtu, P1SharesItsVerticesAndCrouzeixRaviartKeepsItsJumps) {
     const Eigen::VectorXd u = Eigen::VectorXd::Random(space.size());
     write_vtu(folder / "u.vtu", space, u);
     const std::string text = contents(folder / "u.vtu");
-    EXPECT_TRUE(well_formed(text.substr(0, text.find("<AppendedData")) + "</VTKFile>"));
+    EXPECT_TRUE(well_formed(text));
     EXPECT_EQ(text.rfind("<?xml version=\"1.0\"?>\n<VTKFile", 0), 0U);
 
     const auto value = vtu_array(text, "u"), region = vtu_array(text, "region"), point = vtu_array(text, "points"),
@@ -224,7 +242,7 @@ TEST(WriteDeformedVtu, MovesEveryTriangleWithItsUnknowns) {
   const Eigen::VectorXd pressure = Eigen::VectorXd::LinSpaced(triangles, 0, 1);
   write_deformed_vtu(folder / "u.vtu", {x, y}, u, pressure);
   const std::string text = contents(folder / "u.vtu");
-  EXPECT_TRUE(well_formed(text.substr(0, text.find("<AppendedData")) + "</VTKFile>"));
+  EXPECT_TRUE(well_formed(text));
   const auto point = vtu_array(text, "points"), moved = vtu_array(text, "displacement"),
              found = vtu_array(text, "pressure");
   ASSERT_EQ(point.size(), 9U * triangles);

@@ -28,7 +28,7 @@ struct VtuFields {
   Eigen::VectorXd p = {};         ///< T, the layer stress, one value per triangle (0 on the body)
   Eigen::VectorXd pressure = {};  ///< C, the contact pressure, a density, one value per contact unknown of the space
 };
-/// VTU (XML, its arrays as raw bytes) for ParaView and the figures: point data `u` and `pressure` (0 off Gamma_C), cell
+/// VTU (XML, its arrays as bytes in base64) for ParaView and the figures: point data `u` and `pressure` (0 off Gamma_C), cell
 /// data `region` (1 and 2: the field data `body` and `layer` name them) and `p`. A vertex per triangle
 /// corner, so that Crouzeix-Raviart fields keep their jumps; P1 and P2 fields share their vertices, and P2 is shown
 /// there alone.

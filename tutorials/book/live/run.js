@@ -73,13 +73,12 @@ antilock.tableChart = (where, name, text) => {
 
 /// The surface of u in a VTU file, which one turns with the mouse, a finger or the arrow keys.
 antilock.vtuSurface = (where, name, bytes) => {
-  // the arrays are raw bytes behind the XML (lib/antilock/io/vtu_writer.cpp), each behind its length in eight bytes
-  const mark = '<AppendedData encoding="raw">\n_', latin = new TextDecoder("latin1").decode(bytes.subarray(0, 1 << 16)), first = latin.indexOf(mark) + mark.length;
+  // an array is its length in eight bytes and its numbers, in base64 (lib/antilock/io/vtu_writer.cpp)
+  const text = new TextDecoder().decode(bytes);
   const array = (named, Numbers) => {
-    const offset = latin.match(new RegExp(`Name="${named}"[^>]*offset="(\\d+)"`))?.[1];
-    if (offset === undefined) return undefined;
-    const at = bytes.byteOffset + first + Number(offset), length = new DataView(bytes.buffer, at).getUint32(0, true);
-    return new Numbers(bytes.buffer.slice(at + 8, at + 8 + length));
+    const base64 = text.match(new RegExp(`Name="${named}"[^>]*>([^<]*)<`))?.[1];
+    if (base64 === undefined) return undefined;
+    return new Numbers(Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0)).buffer.slice(8));
   };
   const points = array("points", Float64Array), u = array("u", Float64Array), corners = array("connectivity", Int32Array);
   if (!points || !u || !corners || 3 * u.length !== points.length) return;
