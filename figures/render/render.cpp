@@ -3,6 +3,7 @@
 // Run: render surface results/05_p1_structured/solution.vtu --out figure5.png
 // Run: render convergence results/09_convergence/results.csv --out figure9.png
 #include <fmt/format.h>
+#include <vtkLogger.h>
 #include <vtkObject.h>
 
 #include <cstdio>
@@ -35,7 +36,8 @@ int draw(int argc, char** argv) {
   }
   for (const std::string& input : request.inputs) antilock::check_not_an_input(request.out, {input});
   const DisplayConnection display = connect_display();
-  vtkObject::GlobalWarningDisplayOff();  // what goes wrong is said in one line, below
+  vtkObject::GlobalWarningDisplayOff();                         // what goes wrong is said in one line, below
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_WARNING);  // VTK 9.3 logs each line that it cuts out of a surface
   const Page page = request.draw();
   if (request.check_layout) {
     if (const auto fault = page.layout_fault()) return fail(*fault);
