@@ -47,8 +47,8 @@ def fault(row, before):
         if key in row and any(other.get(key) == row[key] for other in before):
             return f"a second row of {key} {row[key]}"
     for chapter in row["chapters"]:
-        if not (ROOT / f"tutorials/{chapter}.cpp").is_file():
-            return f"unknown chapter {chapter}: there is no tutorials/{chapter}.cpp"
+        if not (ROOT / f"tutorials/{chapter}/{chapter}.cpp").is_file():
+            return f"unknown chapter {chapter}: there is no tutorials/{chapter}/{chapter}.cpp"
     if "freefem" in row and not (ROOT / f"freefem/{row['freefem']}.edp").is_file():
         return f"unknown script: there is no freefem/{row['freefem']}.edp"
     if not row["caption"].endswith("."):

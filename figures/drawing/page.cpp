@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <ostream>
 
-#include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
 
 namespace antilock::figures {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "antilock/mesh/msh_file.hpp"
+#include "antilock/mesh/read_msh.hpp"
 #include "drawing/panel.hpp"
 #include "pictures/pictures.hpp"
 

@@ -8,8 +8,8 @@
 
 #include <cstdio>
 
-#include "antilock/core/detail/atomic_file.hpp"
-#include "antilock/core/detail/standard_output.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/standard_output.hpp"
 #include "render/display.hpp"
 #include "render/options.hpp"
 

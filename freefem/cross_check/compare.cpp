@@ -15,8 +15,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "antilock/core/detail/standard_output.hpp"
-#include "antilock/io/writers.hpp"
+#include "antilock/core/standard_output.hpp"
+#include "antilock/io/write_freefem_mesh.hpp"
+#include "antilock/io/write_vtu.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/coating.hpp"
@@ -24,13 +25,13 @@
 #include "antilock/models/timoshenko_beam.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
+#include "antilock/solve/summed.hpp"
 #include "antilock/solve/uzawa.hpp"
-#include "backstage/18_summed.hpp"
-#include "common/tutorial.hpp"
 #include "cross_check.hpp"
 #include "lines.hpp"
 #include "model_check.hpp"
 #include "numbers.hpp"
+#include "programs/program.hpp"
 #include "runner.hpp"
 
 using namespace antilock;
@@ -329,7 +330,7 @@ Line uzawa_steps(double epsilon, double rho, const std::filesystem::path& out) {
   UzawaOptions options;
   options.step = rho;
   options.tolerance = 1e-8;
-  const Solution ours = tutorial::uzawa_cg_ilut(problem_on(space, epsilon), options);
+  const Solution ours = uzawa_cg_ilut(problem_on(space, epsilon), options);
   const auto steps = static_cast<Eigen::Index>(ours.history.size());
   const freefem::History theirs = freefem::uzawa_history(space, epsilon, rho, static_cast<int>(steps), out / "freefem");
   if (theirs.change.size() != steps) throw Error("history.csv: other steps than the library's");

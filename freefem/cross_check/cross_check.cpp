@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "antilock/core/error.hpp"
-#include "antilock/io/writers.hpp"
+#include "antilock/io/write_freefem_mesh.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
 #include "runner.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <ostream>
 
-#include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
 #include "model_check.hpp"
 
 namespace antilock::freefem {

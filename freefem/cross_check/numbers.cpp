@@ -7,9 +7,9 @@
 #include <limits>
 #include <sstream>
 
-#include "antilock/analysis/certificate.hpp"
+#include "antilock/certificate/certificate.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/io/writers.hpp"
+#include "antilock/io/write_freefem_mesh.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/graded.hpp"

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "antilock/core/error.hpp"
-#include "common/tutorial.hpp"
+#include "programs/program.hpp"
 
 namespace antilock::freefem {
 namespace {

@@ -32,7 +32,7 @@ else()
   find_package_handle_standard_args(SuiteSparse REQUIRED_VARS ${required})
 endif()
 
-# The OpenMP library of CHOLMOD, whose threads solve/detail/cholmod_cholesky.cpp limits where there is one. Its compiler flag
+# The OpenMP library of CHOLMOD, whose threads solve/cholmod_cholesky.cpp limits where there is one. Its compiler flag
 # is not wanted: with it Eigen would start threads of its own.
 check_library_exists(gomp omp_get_max_active_levels "" SuiteSparse_HAS_GOMP)
 

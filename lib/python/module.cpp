@@ -11,11 +11,13 @@
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/analysis/locking.hpp"
 #include "antilock/exact/sine_load.hpp"
-#include "antilock/io/detail/scene_answer.hpp"
-#include "antilock/io/expression.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/problem/bounds.hpp"
+#include "antilock/runner/expression.hpp"
+#include "antilock/runner/scene_answer.hpp"
+#include "antilock/runner/scene_mesh.hpp"
+#include "antilock/runner/scene_results.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace py = pybind11;

@@ -39,7 +39,7 @@ int main() { return 0; }
 // Run: 07_middle --cells 4
 // Run: 07_middle --exercise 1
 //
-// Needs: [00](00_start.cpp) (all of it).
+// Needs: [00](../00_start/00_start.cpp) (all of it).
 //
 // Words before the figure.
 // :live: mesh=layered cells=8
@@ -65,7 +65,7 @@ int main() {
 //
 // Run: 27_later
 //
-// Needs: [07](07_middle.cpp).
+// Needs: [07](../07_middle/07_middle.cpp).
 //
 // No figure here.
 //
@@ -79,7 +79,7 @@ int main() {
 // :output: two rows
 //
 // Words at the end.
-#include "petsc/launched.hpp"
+#include "antilock/distributed/ranks.hpp"
 int main() {}
 """,
 }
@@ -99,25 +99,26 @@ def small_repository(root):
     for folder in ("freefem", "figures/images", "lib/antilock/core", "build/book-parts/static"):
         (root / folder).mkdir(parents=True)
     for stem, text in CHAPTERS.items():
-        (root / f"tutorials/{stem}.cpp").write_text(text)
+        (root / f"tutorials/{stem}").mkdir()
+        (root / f"tutorials/{stem}/{stem}.cpp").write_text(text)
     (root / "tutorials/book/wasm").mkdir()
     (root / "tutorials/book/wasm/runs.csv").write_text("command,seconds,MiB,meshes\n00_start,0.1,,\n07_middle,1.2,70,\n07_middle --cells 4,0.6,,\n"
                                                        "07_middle --exercise 1,40,,\n")
-    (root / "tutorials/answers").mkdir()
-    (root / "tutorials/answers/07_middle.hpp").write_text(
+    (root / "tutorials/07_middle/answers.hpp").write_text(
         "#pragma once\n// The answers to the exercises.\nint answer();\n\n"
         "// ## Answers on paper\n//\n// **2.** By chapter 00, $x = 1$.\n")
     (root / "freefem/00_start.edp").write_text("// ### Solve\nreal a = 1;\n")
     (root / "lib/antilock/core/error.hpp").write_text("#pragma once\nclass Error {};\n")
     for folder, file, text in (("lib/antilock/adapt", "solve_to.hpp", "#pragma once\nint solve_to();\n"),
-                               ("tests/unit", "adapt_test.cpp", EXAMPLE)):
+                               ("tests/unit/adapt", "solve_to_test.cpp", EXAMPLE)):
         (root / folder).mkdir(parents=True)
         (root / folder / file).write_text(text)
     (root / "tutorials/README.md").write_text("# Tutorials\n\n## The theory as experiments\n\nNone.\n")
-    (root / "tutorials/book/index.md").write_text("# The index\n\nBegin with [a start](00_start.cpp).\n\n:live:\n\n:chapters:\n")
+    (root / "tutorials/book/index.md").write_text("# The index\n\nBegin with [a start](00_start/00_start.cpp).\n\n:live:\n\n:chapters:\n")
+    (root / "tutorials/guides").mkdir()
     for page in EXTRA:
-        (root / f"tutorials/{page}.md").write_text(f"# The {page}\n\nNone.\n")
-    (root / "tutorials/glossary.md").write_text("# Glossary\n\n| term | in one line | chapter |\n|---|---|---|\n| figure | what one *looks* at | 00 |\n"
+        (root / f"tutorials/guides/{page}.md").write_text(f"# The {page}\n\nNone.\n")
+    (root / "tutorials/guides/glossary.md").write_text("# Glossary\n\n| term | in one line | chapter |\n|---|---|---|\n| figure | what one *looks* at | 00 |\n"
                                                 "| words (of a page) | no such link | 00 |\n")
     for still in STILLS.values():
         Image.new("RGB", (4, 4)).save(root / f"figures/images/{still}.png")
@@ -256,7 +257,7 @@ class Pages(unittest.TestCase):
     # ---- the library
 
     def test_a_header_has_its_example(self):
-        self.assertRegex(self.page("library_adapt"), r"(?s)solve_to\.hpp.*adapt_test.cpp`:\n\n```cpp\nTEST\(SolveTo, Takes\w+\) {\n  solve_to\(\);\n}\n```")
+        self.assertRegex(self.page("library_adapt"), r"(?s)solve_to\.hpp.*adapt/solve_to_test.cpp`:\n\n```cpp\nTEST\(SolveTo, Takes\w+\) {\n  solve_to\(\);\n}\n```")
         library = Library(ROOT / "lib")
         for header in EXAMPLES:
             self.assertGreater(len(library.example(ROOT / "lib/antilock" / header)), 0)
@@ -293,7 +294,7 @@ class Pages(unittest.TestCase):
         return (status, said) if status != 0 else self.sphinx()
 
     def test_what_is_wrong_is_named(self):
-        chapter = "tutorials/00_start.cpp"
+        chapter = "tutorials/00_start/00_start.cpp"
         for says, file, line in (
                 ("unknown link", chapter, "// [nowhere](no_such_file.cpp)"),
                 ("chapter 98 does not exist", chapter, "// As chapter 98 says."),
@@ -303,30 +304,30 @@ class Pages(unittest.TestCase):
                  entry("more", "28_more", "Another.")),
                 ("00_start.cpp: :live: tree: tree is unknown; accepted: locking", chapter, "// :live: tree"),
                 ("mesh=round is no setting of locking; accepted: mesh=structured|", chapter, "// :live: mesh=round"),
-                ("cells=9 is no setting of string; accepted: none", "tutorials/27_later.cpp", "// :live: string cells=9"),
+                ("cells=9 is no setting of string; accepted: none", "tutorials/27_later/27_later.cpp", "// :live: string cells=9"),
                 ("a page holds one figure of a kind", chapter, "// :live: string"),
-                ("tutorials: `ε ≥ 0`: a formula stands between dollars", chapter, "// For `ε ≥ 0`."),
+                ("tutorials/00_start: `ε ≥ 0`: a formula stands between dollars", chapter, "// For `ε ≥ 0`."),
                 (":figure: tree: no picture of figures/table.toml", chapter, "// :figure: tree"),
-                ("27_later.cpp: :figure: ties: it stands on the page already", "tutorials/27_later.cpp", "// :figure: ties"),
+                ("27_later.cpp: :figure: ties: it stands on the page already", "tutorials/27_later/27_later.cpp", "// :figure: ties"),
                 ("27_later.cpp: no line places the picture more", "figures/table.toml",
                  entry("more", "27_later", "Another.")),
-                ("27_later.cpp: :output: three: no line of", "tutorials/27_later.cpp", "// :output: three"),
+                ("27_later.cpp: :output: three: no line of", "tutorials/27_later/27_later.cpp", "// :output: three"),
                 ('step "Dance"', "freefem/00_start.edp", "// ### Dance")):
             with self.subTest(line=line):
                 self.refused(says, file, line, self.pages)
         with self.subTest("example"):
-            self.refused("solve_to.hpp: its example, SolveTo", "tests/unit/adapt_test.cpp", "", self.pages, "TakesTheVentcelLayer")
+            self.refused("solve_to.hpp: its example, SolveTo", "tests/unit/adapt/solve_to_test.cpp", "", self.pages, "TakesTheVentcelLayer")
         with self.subTest("seconds"):
-            self.refused("07_middle --cells 8 has no row in wasm/runs.csv", "tutorials/07_middle.cpp", "07_middle --cells 8", self.pages, "07_middle --cells 4")
+            self.refused("07_middle --cells 8 has no row in wasm/runs.csv", "tutorials/07_middle/07_middle.cpp", "07_middle --cells 8", self.pages, "07_middle --cells 4")
         with self.subTest("answer"):
-            self.refused("07_middle.cpp: exercise 2 has no answer", "tutorials/answers/07_middle.hpp", "**3.**", self.pages, "**2.**")
+            self.refused("07_middle.cpp: exercise 2 has no answer", "tutorials/07_middle/answers.hpp", "**3.**", self.pages, "**2.**")
         with self.subTest("title"):
             self.refused("accepted: at most six", chapter, "// # A title of more than six words", self.pages, "// # A first chapter")
 
     def test_what_sphinx_finds_is_named(self):
-        for says, line in (("not found", "// [nowhere](07_middle.cpp#no-such-place)"), ("KaTeX parse error", r"// $\frac{1$")):
+        for says, line in (("not found", "// [nowhere](../07_middle/07_middle.cpp#no-such-place)"), ("KaTeX parse error", r"// $\frac{1$")):
             with self.subTest(line=line):
-                self.refused(says, "tutorials/00_start.cpp", line, self.both)
+                self.refused(says, "tutorials/00_start/00_start.cpp", line, self.both)
 
 
 if __name__ == "__main__":

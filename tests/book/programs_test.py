@@ -23,7 +23,7 @@ ROWS = {row["command"]: row for row in rows()}
 
 def commands():
     """Every `Run:` line of the chapters that run in their pages."""
-    for source in sorted(TUTORIALS.glob("[0-9][0-9]_*.cpp")):
+    for source in sorted(TUTORIALS.glob("[0-9][0-9]_*/[0-9][0-9]_*.cpp")):
         text = source.read_text()
         if not re.search(r'#include "(antilock/distributed|petsc)/', text):
             yield from (found.split() for found in re.findall(r"^// Run: (.*?)(?:  .*)?$", text, re.M))

@@ -7,10 +7,11 @@
 #include <set>
 
 #include "antilock/core/error.hpp"
-#include "antilock/distributed/detail/kkt_report.hpp"
-#include "antilock/distributed/detail/piece.hpp"
+#include "antilock/distributed/kkt_report.hpp"
 #include "antilock/distributed/nested.hpp"
+#include "antilock/distributed/piece.hpp"
 #include "antilock/distributed/ranks.hpp"
+#include "antilock/distributed/snesvi.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/refine.hpp"
@@ -18,7 +19,6 @@
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/residual.hpp"
-#include "petsc/snesvi.hpp"
 
 namespace antilock::distributed {
 namespace {
@@ -213,12 +213,12 @@ TEST(Snesvi, LosesTheSummedMatrixAndSolvesTheSplitForm) {
     if (epsilon > 0) {
       const Inequality summed(question, space, Penalty::compliance);
       State state = zero_state(summed);
-      const tutorial::SnesviEnd end = tutorial::snesvi(summed, state, false);
+      const distributed::SnesviEnd end = distributed::snesvi(summed, state, false);
       EXPECT_EQ(end.converged, epsilon == 1e-2) << end.reason;
     }
     const Inequality problem(question, space, Penalty::rule);
     State state = zero_state(problem);
-    const tutorial::SnesviEnd end = tutorial::snesvi(problem, state, true);
+    const distributed::SnesviEnd end = distributed::snesvi(problem, state, true);
     EXPECT_TRUE(end.converged) << end.reason;
     EXPECT_LE(end.corrections, 6);
     EXPECT_NEAR(largest(state.u.maxCoeff()), serial.u.maxCoeff(), 1e-9 * serial.u.maxCoeff());

@@ -40,8 +40,8 @@ class Table(unittest.TestCase):
         for file in ("figures/table.py", "figures/gallery", "figures/reproduce"):
             (self.root / file).parent.mkdir(exist_ok=True)
             shutil.copy(ROOT / file, self.root / file)
-        for file in ("tutorials/05_teeth.cpp", "tutorials/06_more.cpp", "freefem/05_teeth.edp"):
-            (self.root / file).parent.mkdir(exist_ok=True)
+        for file in ("tutorials/05_teeth/05_teeth.cpp", "tutorials/06_more/06_more.cpp", "freefem/05_teeth.edp"):
+            (self.root / file).parent.mkdir(exist_ok=True, parents=True)
             (self.root / file).touch()
         (self.root / "tutorials/scenes").mkdir()
         (self.root / "tutorials/scenes/drawn.toml").write_text("# render surface\n")
@@ -98,7 +98,7 @@ class Table(unittest.TestCase):
             self.assertEqual(html.unescape(row).count(CAPTION), 2)  # and as the alternative text
         self.assertRegex(top, "(?s)^Before\n.*\n<!-- end of table -->\nafter\n$")
         self.assertIn("**Figure 5.** ", lower)
-        self.assertIn("[05_teeth](../tutorials/05_teeth.cpp), [06_more](../tutorials/06_more.cpp), "
+        self.assertIn("[05_teeth](../tutorials/05_teeth/05_teeth.cpp), [06_more](../tutorials/06_more/06_more.cpp), "
                       "[05_teeth.edp](../freefem/05_teeth.edp) |", lower)
 
     # ---- what is refused
@@ -137,7 +137,7 @@ class Table(unittest.TestCase):
                  'render = ["plan", "results/freefem/compare/more.vtu"]', ""),
                 ("picture 2 (more): unknown key title; accepted: image, chapters",
                  'caption = "More."', 'caption = "More."\ntitle = ""'),
-                ("picture 2 (more): unknown chapter 07_none: there is no tutorials/07_none.cpp",
+                ("picture 2 (more): unknown chapter 07_none: there is no tutorials/07_none/07_none.cpp",
                  '["06_more"]', '["06_more", "07_none"]'),
                 ("picture 2 (more): unknown script: there is no freefem/06_more.edp",
                  'image = "more"', 'image = "more"\nfreefem = "06_more"'),

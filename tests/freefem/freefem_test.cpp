@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <fstream>
 
+#include "antilock/analysis/worst_load.hpp"
 #include "antilock/exact/truth_table.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
+#include "antilock/solve/summed.hpp"
 #include "antilock/study/scene_sweep.hpp"
-#include "backstage/17_worst_load.hpp"
-#include "backstage/18_summed.hpp"
 #include "cross_check.hpp"
 #include "model_check.hpp"
 #include "numbers.hpp"
@@ -23,8 +23,6 @@ namespace antilock {
 namespace {
 
 using namespace test;
-using namespace tutorial;
-
 struct Setting {
   const char* element;
   bool structured;
@@ -226,7 +224,7 @@ TEST(FreeFemUzawa, ThePapersOwnTakesTheSameSteps) {
     UzawaOptions options;
     options.step = rho;
     options.tolerance = 1e-8;  // well above that noise
-    const Solution ours = tutorial::uzawa_cg_ilut(stiff_problem(space, epsilon), options);
+    const Solution ours = uzawa_cg_ilut(stiff_problem(space, epsilon), options);
     ASSERT_GE(ours.history.size(), 30u);
     const TemporaryFolder folder;
     const auto steps = static_cast<Eigen::Index>(ours.history.size());

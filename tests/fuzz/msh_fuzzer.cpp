@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "antilock/core/error.hpp"
-#include "antilock/mesh/msh_file.hpp"
+#include "antilock/mesh/read_msh.hpp"
 
 namespace {
 

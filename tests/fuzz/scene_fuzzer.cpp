@@ -7,7 +7,7 @@
 #include <string>
 
 #include "antilock/core/error.hpp"
-#include "antilock/io/scene_file.hpp"
+#include "antilock/runner/scene_file.hpp"
 
 namespace {
 

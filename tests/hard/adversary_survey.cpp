@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "antilock/core/detail/standard_output.hpp"
+#include "antilock/core/standard_output.hpp"
 #include "hard/adversary.hpp"
 
 using namespace antilock::hard;

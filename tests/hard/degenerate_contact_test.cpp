@@ -1,7 +1,7 @@
 // Degenerate contact: all, none, one, grazing, many zones, every start, every scale; no endless loop.
 #include "antilock/core/dense.hpp"
 #include "antilock/exact/truth.hpp"
-#include "antilock/solve/detail/contact_systems.hpp"
+#include "antilock/solve/contact_systems.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/random_contact.hpp"
 #include "support/scenes.hpp"

@@ -1,7 +1,7 @@
 // Problems that have no solution at epsilon = 0, because K_h and the kernel G_h do not meet, and problems close to
 // them: foretold by the hypotheses' check, refused by the solver, never answered.
 #include "antilock/analysis/hypotheses.hpp"
-#include "antilock/form/forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
 #include "support/platen.hpp"
 #include "support/scenes.hpp"

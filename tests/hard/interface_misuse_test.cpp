@@ -3,15 +3,15 @@
 #include <filesystem>
 #include <fstream>
 
+#include "antilock/analysis/worst_load.hpp"
 #include "antilock/core/eigenvalues.hpp"
-#include "antilock/form/forms.hpp"
+#include "antilock/exact/plate_truth.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/models/plane_strain.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "antilock/study/table.hpp"
-#include "backstage/17_worst_load.hpp"
-#include "backstage/27_truth.hpp"
 #include "hard/adversary.hpp"
 #include "support/scenes.hpp"
 #include "support/small_problem.hpp"
@@ -19,8 +19,6 @@
 namespace antilock::hard::interface_misuse_test {
 
 using namespace test;
-using namespace tutorial;
-
 double down(double, double) { return -10; }
 
 /// A chain of n unknowns, all of them pulled by 1 and held at 0 by a friction of g.

@@ -1,10 +1,8 @@
 // The naive way fails as the tutorial says, and no wrong answer of it gets past the checks.
-#include "backstage/18_summed.hpp"
+#include "antilock/solve/summed.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::naive_test {
-
-using namespace tutorial;
 
 struct Setting {
   TriangleMesh mesh;

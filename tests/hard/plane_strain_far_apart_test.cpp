@@ -5,7 +5,7 @@
 #include <map>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "hard/sixty_digits.hpp"

@@ -3,7 +3,7 @@
 // #7, KoFEM #192.
 #include <cstdlib>
 
-#include "antilock/form/forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/models/coating.hpp"
 #include "hard/sixty_digits.hpp"
 #include "support/bodies.hpp"

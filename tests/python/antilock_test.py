@@ -32,7 +32,7 @@ element = "CR"
 
 
 def test_the_page_prints_what_it_shows():
-    blocks = re.findall(r"```(python|console)\n(.*?)```", (ROOT / "tutorials/howto_python.md").read_text(), re.S)
+    blocks = re.findall(r"```(python|console)\n(.*?)```", (ROOT / "tutorials/guides/howto_python.md").read_text(), re.S)
     assert len([kind for kind, _ in blocks if kind == "console"]) == 7
     names, printed = {}, ""
     for kind, text in blocks:

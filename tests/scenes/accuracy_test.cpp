@@ -3,10 +3,10 @@
 #include <numbers>
 
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/writers.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/layered.hpp"
-#include "antilock/mesh/msh_file.hpp"
+#include "antilock/mesh/read_msh.hpp"
+#include "antilock/mesh/write_msh.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "scenes/runner.hpp"

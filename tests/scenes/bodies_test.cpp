@@ -6,11 +6,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "antilock/form/forms.hpp"
-#include "antilock/io/detail/scene_answer.hpp"
-#include "antilock/io/writers.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/write_msh.hpp"
 #include "antilock/models/coating.hpp"
+#include "antilock/runner/scene_answer.hpp"
 #include "scenes/runner.hpp"
 #include "support/bodies.hpp"
 #include "support/scenes.hpp"

@@ -4,7 +4,7 @@
 
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/io/writers.hpp"
+#include "antilock/mesh/write_msh.hpp"
 #include "scenes/runner.hpp"
 #include "support/scenes.hpp"
 

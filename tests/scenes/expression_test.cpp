@@ -2,7 +2,7 @@
 #include <clocale>
 #include <thread>
 
-#include "antilock/io/expression.hpp"
+#include "antilock/runner/expression.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::expression_test {

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "antilock/io/writers.hpp"
+#include "antilock/mesh/write_msh.hpp"
 #include "scenes/runner.hpp"
 #include "support/scenes.hpp"
 

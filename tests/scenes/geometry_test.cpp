@@ -5,8 +5,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "antilock/io/writers.hpp"
 #include "antilock/mesh/generate.hpp"
+#include "antilock/mesh/write_msh.hpp"
 #include "scenes/runner.hpp"
 #include "support/temporary_folder.hpp"
 

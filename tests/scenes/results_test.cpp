@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "antilock/core/detail/blas.hpp"
+#include "antilock/core/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/exact/truth.hpp"
-#include "antilock/mesh/detail/cut_out.hpp"
+#include "antilock/mesh/cut_out.hpp"
 #include "antilock/mesh/layered.hpp"
-#include "antilock/mesh/msh_file.hpp"
+#include "antilock/mesh/read_msh.hpp"
 #include "antilock/space/space.hpp"
 #include "scenes/runner.hpp"
 #include "support/scenes.hpp"

@@ -2,7 +2,7 @@
 #include <functional>
 #include <vector>
 
-#include "antilock/mesh/detail/cut_out.hpp"
+#include "antilock/mesh/cut_out.hpp"
 #include "antilock/mesh/generate.hpp"
 
 namespace antilock::test {

@@ -1,5 +1,5 @@
 #pragma once
-#include "antilock/form/forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 
 namespace antilock::test {

@@ -1,34 +1,37 @@
-"""The library's headers as pages, one per room, and the names in code that lead there."""
+"""The library's headers as pages, one per module, and the names in code that lead there."""
+import csv
 import re
+from pathlib import Path
 
 from docutils.nodes import make_id
 
 from literate import BookError
 
-ROOMS = "core scene mesh space form problem models solve exact measure analysis adapt study distributed io".split()
+MODULES = "core problem solve scene mesh space io form models exact measure analysis certificate adapt study distributed runner".split()
 TYPE = re.compile(r"^(?:class|struct|enum class) (\w+)[^;]*$")
 FUNCTION = re.compile(r"^(?!return|using|namespace|template|#|//|\})(?:[\w:<>,*&]+ )+[*&]?(\w+)\(")
 # By header, an example: a file of tests/, and of it one test (none: the whole program). The tests run them all.
 EXAMPLES = {
     "scene/scene.hpp": ("package/main.cpp", None),
-    "space/space.hpp": ("unit/space_test.cpp", "Space, CrouzeixRaviartUnknownsAreEdgeMidpoints"),
-    "problem/variational_inequality.hpp": ("unit/problem_test.cpp", "Check, TakesAnA1OfZerosWhereBHoldsEverything"),
-    "solve/active_set.hpp": ("unit/solve_test.cpp", "ActiveSet, LimitProblemOnAStructuredMeshIsVentcels"),
-    "solve/contact.hpp": ("unit/solve_test.cpp", "ContactProblem, AWrongSideCostsAStepPerPiece"),
-    "analysis/locking.hpp": ("unit/analysis_test.cpp", "LockingDiagnosis, FindsThatAHalfIsHeld"),
-    "analysis/certificate.hpp": ("unit/analysis_test.cpp", "Certificate, BoundsTheEnergyOfAScaledSolution"),
-    "analysis/lost_energy.hpp": ("unit/analysis_test.cpp", "LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),
-    "adapt/solve_to.hpp": ("unit/adapt_test.cpp", "SolveTo, TakesTheVentcelLayerForTheRigidLimit"),
+    "space/space.hpp": ("unit/space/space_test.cpp", "Space, CrouzeixRaviartUnknownsAreEdgeMidpoints"),
+    "problem/variational_inequality.hpp": ("unit/problem/variational_inequality_test.cpp", "Check, TakesAnA1OfZerosWhereBHoldsEverything"),
+    "solve/active_set.hpp": ("unit/solve/active_set_test.cpp", "ActiveSet, LimitProblemOnAStructuredMeshIsVentcels"),
+    "solve/contact.hpp": ("unit/solve/contact_test.cpp", "ContactProblem, AWrongSideCostsAStepPerPiece"),
+    "analysis/locking.hpp": ("unit/analysis/locking_test.cpp", "LockingDiagnosis, FindsThatAHalfIsHeld"),
+    "certificate/certificate.hpp": ("unit/certificate/certificate_test.cpp", "Certificate, BoundsTheEnergyOfAScaledSolution"),
+    "analysis/lost_energy.hpp": ("unit/analysis/layer_report_test.cpp", "LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),
+    "adapt/solve_to.hpp": ("unit/adapt/solve_to_test.cpp", "SolveTo, TakesTheVentcelLayerForTheRigidLimit"),
 }
 
 
 class Library:
     def __init__(self, lib):
         self.lib = lib
-        self.rooms = [room for room in ROOMS if list((lib / "antilock" / room).glob("**/*.hpp"))]
+        self.moved = [(row["header"], row["now"]) for row in csv.DictReader((Path(__file__).parent / "moved.csv").read_text().splitlines())]
+        self.modules = [module for module in MODULES if list((lib / "antilock" / module).glob("**/*.hpp"))]
 
-    def headers(self, room):
-        return sorted((self.lib / "antilock" / room).glob("**/*.hpp"))
+    def headers(self, module):
+        return sorted((self.lib / "antilock" / module).glob("**/*.hpp"))
 
     def short(self, header):
         return header.relative_to(self.lib / "antilock").as_posix()
@@ -38,7 +41,7 @@ class Library:
         return f"library_{short.split('/')[0]}{suffix}#{make_id(short)}"
 
     def page_names(self):
-        return [f"library_{room}" for room in self.rooms]
+        return [f"library_{module}" for module in self.modules]
 
     def declared(self, header, patterns=(TYPE, FUNCTION)):
         """The names that a header declares, each once, in its order."""
@@ -48,8 +51,8 @@ class Library:
     def names(self):
         """({type: page}, {function: page}) of what the headers declare; a name of two headers leads to the first."""
         known = {}, {}
-        for room in self.rooms:
-            for header in self.headers(room):
+        for module in self.modules:
+            for header in self.headers(module):
                 for pattern, pages in zip((TYPE, FUNCTION), known):
                     for name in self.declared(header, [pattern]):
                         pages.setdefault(name, self.page(header, ".html"))
@@ -68,21 +71,27 @@ class Library:
         return [f"An example, from `tests/{file}`:", "", "```cpp", code.rstrip(), "```", ""]
 
     def write(self, write, chapters):
-        """A page per room: each header, and the chapters that use what it declares. They are its examples: each is a
+        """A page per module: each header, and the chapters that use what it declares. They are its examples: each is a
         program that the tests run."""
         words = {chapter.stem: set(re.findall(r"\w+", re.sub("//.*|\".*?\"", "", chapter.read_text()))) for chapter in chapters}
-        for room in self.rooms:
-            out = [f"# Room {room}", ""]
-            for header in self.headers(room):
+        for module in self.modules:
+            out = [f"# Module {module}", ""]
+            for header in self.headers(module):
                 out += [f"## {self.short(header)}", "", "```cpp", header.read_text().rstrip(), "```", "", *self.example(header)]
                 used = {name: ", ".join(f"[{stem[:2]}]({stem}.md)" for stem in words if name in words[stem]) for name in self.declared(header)}
                 out += [f"- `{name}`: used in chapter {chapters}" for name, chapters in used.items() if chapters]
                 unused = ", ".join(f"`{name}`" for name, chapters in used.items() if not chapters)
                 out += [f"- no chapter uses {unused} by name", ""] if unused and "/detail/" not in str(header) else [""]
-            write(f"library_{room}", out)
-        write("library", ["# The library's headers", "", "A room includes only rooms before it. Below each header stand the chapters that use it, and",
+            moved = [(old, new) for old, new in self.moved if old.split("/")[0] == module and (self.lib / "antilock" / new).exists()]
+            if moved:
+                out += ["## Headers of 0.2 that moved", ""]
+                out += [f'- <span id="{make_id(old)}"></span>`{old}` is <a href="{self.page(self.lib / "antilock" / new, ".html")}">{new}</a>'
+                        for old, new in moved]
+                out.append("")
+            write(f"library_{module}", out)
+        write("library", ["# The library's headers", "", "A module includes only modules before it. Below each header stand the chapters that use it, and",
                           "below central ones an example: the tests compile and run them all.", "",
-                          "```{toctree}", ":maxdepth: 2", "", *(f"library_{room}" for room in self.rooms), "```"])
+                          "```{toctree}", ":maxdepth: 2", "", *(f"library_{module}" for module in self.modules), "```"])
 
 
 class NameLinks:
@@ -91,7 +100,7 @@ class NameLinks:
     def __init__(self, library):
         self.types, self.functions = library.names()
         self.includes = {f"antilock/{library.short(header)}": library.page(header, ".html")
-                         for room in library.rooms for header in library.headers(room)}
+                         for module in library.modules for header in library.headers(module)}
 
     def block(self, code):
         seen = set()

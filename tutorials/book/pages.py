@@ -35,14 +35,14 @@ WIDTH, HEIGHT = 900, 760  # at most, in pixels; a page shows a picture 740 wide 
 class Book:
     def __init__(self, out, draft=False, without_runs=False):
         self.out, self.draft, self.without_runs = out, draft, without_runs
-        self.sources = sorted(path for path in (ROOT / "tutorials").glob("[0-9][0-9]_*.cpp"))
+        self.sources = sorted(path for path in (ROOT / "tutorials").glob("[0-9][0-9]_*/[0-9][0-9]_*.cpp"))
         self.names = [path.stem for path in self.sources]
         self.table = read_table()
         self.library = Library(ROOT / "lib")
         self.pages, self.equations = {}, {}  # by tag: the chapter that has the equation first
         self.takes = defaultdict(lambda: "seconds", expected())
         # a term with a qualification, as "gap (of an obstacle)", is a word that the course uses in other senses too
-        rows = re.findall(r"^\| ([^|]+?) \| [^|]+ \| [\d, ]+ \|$", (ROOT / "tutorials/glossary.md").read_text(), re.M)
+        rows = re.findall(r"^\| ([^|]+?) \| [^|]+ \| [\d, ]+ \|$", (ROOT / "tutorials/guides/glossary.md").read_text(), re.M)
         self.terms = [term for row in rows for term in [re.sub(r" \([A-Z]+\)$", "", row)] if not re.search(r"[(,/]", term)]
 
     def complain(self, what):
@@ -63,9 +63,9 @@ class Book:
         if not target or re.match(r"[a-z]+:", target):
             return target + anchor
         path = Path(os.path.normpath(where / target))
-        if path.suffix in (".cpp", ".edp") and path.stem in self.names and path.parent.name in ("tutorials", "freefem"):
+        if path.suffix in (".cpp", ".edp") and path.stem in self.names and path.parent.name in (path.stem, "freefem"):
             return path.stem + ".md" + anchor
-        if path.parent.name in ("tutorials", "book") and path.suffix in (".md", ".html") and path.stem in EXTRA + self.names:
+        if path.parent.name in ("guides", "book") and path.suffix in (".md", ".html") and path.stem in EXTRA + self.names:
             return path.stem + ".md" + anchor
         if path == ROOT / "tutorials/README.md":
             return "theory.md"
@@ -192,11 +192,11 @@ class Book:
         page = self.pages[stem]
         leads = [name for name in self.names if stem[:2] in self.pages[name].needed() and name != stem]
         def titled(found):
-            return f"[{found[1]} {self.pages[found[2]].title}]({found[2]}.cpp)" if found[2] in self.pages else found[0]
-        out = [re.sub(r"\[(\d\d)\]\((\w+)\.cpp\)", titled, line) for line in page.needs]
+            return f"[{found[1]} {self.pages[found[3]].title}]({found[2]})" if found[3] in self.pages else found[0]
+        out = [re.sub(r"\[(\d\d)\]\(((?:\.\./)?(\w+)/\3\.cpp)\)", titled, line) for line in page.needs]
         if leads:
-            out.append("Leads to: " + ", ".join(f"[{name[:2]} {self.pages[name].title}]({name}.md)" for name in leads) + ".")
-        return [":::{container} relations", *self.linked(out, ROOT / "tutorials"), ":::", ""] if out else []
+            out.append("Leads to: " + ", ".join(f"[{name[:2]} {self.pages[name].title}](../{name}/{name}.cpp)" for name in leads) + ".")
+        return [":::{container} relations", *self.linked(out, ROOT / "tutorials" / stem), ":::", ""] if out else []
 
     def chapter(self, source):
         """The first picture that no line places stands on top. Where a page places pictures, it places all others of its own."""
@@ -219,9 +219,9 @@ class Book:
             out += ["This program asks for PETSc and several processes: it does not run in a page.", ""]
         out += self.figure(shots[0], eager=True) if shots else []
         out += body
-        answers = answers_on_paper(source.parent / f"answers/{stem}.hpp")
+        answers = answers_on_paper(source.parent / "answers.hpp")
         for number in without_answer(page.body, [command for command, _ in page.runs], answers):
-            self.complain(f"{stem}.cpp: exercise {number} has no answer: no line `Run: {stem} --exercise {number}`, no **{number}.** in answers/{stem}.hpp")
+            self.complain(f"{stem}.cpp: exercise {number} has no answer: no line `Run: {stem} --exercise {number}`, no **{number}.** in answers.hpp")
         if answers:
             out += folded("Answers on paper", self.linked(answers, source.parent), "answers")
         if commands:
@@ -238,7 +238,7 @@ class Book:
             whole = twin.read_text().splitlines()
             out += folded(f"The FreeFEM twin as it is: freefem/{stem}.edp, {len(whole)} lines", fence("freefem", whole), "twin")
         out += ["To keep: {download}`all programs of the course, with their twins <sources.zip>`; this one is "
-                f"`tutorials/{source.name}`" + (f", its twin `freefem/{twin.name}`" if twin.exists() else "") + ".", ""]
+                f"`{source.relative_to(ROOT)}`" + (f", its twin `freefem/{twin.name}`" if twin.exists() else "") + ".", ""]
         self.write(stem, out)
 
     def console(self, stem, command):
@@ -259,7 +259,7 @@ class Book:
     def sources_to_keep(self):
         """What the chapters are made of, in one file for all of them: on every page a copy of its own weighs more."""
         with zipfile.ZipFile(self.out / "sources.zip", "w", zipfile.ZIP_DEFLATED, compresslevel=9) as kept:
-            for pattern in ("tutorials/*.cpp", "tutorials/*/*.[ch]pp", "tutorials/scenes/*.toml", "tutorials/scenes/*.msh", "freefem/*.edp"):
+            for pattern in ("tutorials/[0-9][0-9]_*/*.[ch]pp", "tutorials/course/*.[ch]pp", "lib/programs/**/*.[ch]pp", "tutorials/scenes/*.toml", "tutorials/scenes/*.msh", "freefem/*.edp"):
                 for path in sorted(ROOT.glob(pattern)):
                     kept.writestr(zipfile.ZipInfo(str(path.relative_to(ROOT))), path.read_bytes(), zipfile.ZIP_DEFLATED)
 
@@ -316,10 +316,10 @@ class Book:
         for source in self.sources:
             self.chapter(source)
         for name in EXTRA:
-            lines = (ROOT / f"tutorials/{name}.md").read_text().splitlines()
+            lines = (ROOT / f"tutorials/guides/{name}.md").read_text().splitlines()
             if name == "glossary":
                 lines = list(map(self.glossary_line, lines))
-            self.write(name, self.linked(lines, ROOT / "tutorials", signs))
+            self.write(name, self.linked(lines, ROOT / "tutorials/guides", signs))
         self.sources_to_keep()
         self.theory()
         self.playground()

@@ -8,13 +8,13 @@
 #include <set>
 
 #include "antilock/adapt/bisection.hpp"
-#include "antilock/adapt/detail/marking.hpp"
-#include "antilock/analysis/detail/companion.hpp"
-#include "antilock/analysis/detail/ties.hpp"
-#include "antilock/analysis/lost_energy.hpp"
+#include "antilock/adapt/marking.hpp"
+#include "antilock/analysis/layer_report.hpp"
+#include "antilock/analysis/ties.hpp"
+#include "antilock/certificate/companion.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/mesh/detail/cut_out.hpp"
+#include "antilock/mesh/cut_out.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"

@@ -3,10 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "antilock/adapt/detail/marking.hpp"
-#include "antilock/analysis/certificate.hpp"
-#include "antilock/core/detail/progress.hpp"
-#include "antilock/measure/detail/answer.hpp"
+#include "antilock/adapt/marking.hpp"
+#include "antilock/certificate/certificate.hpp"
+#include "antilock/core/progress.hpp"
+#include "antilock/measure/answer.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/solve/solution.hpp"
 

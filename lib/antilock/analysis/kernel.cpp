@@ -7,8 +7,8 @@
 #include <set>
 
 #include "antilock/core/dense.hpp"
-#include "antilock/core/detail/memory.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/core/memory.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {

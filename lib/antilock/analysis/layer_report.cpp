@@ -1,11 +1,13 @@
 // The sentence on locking that every door says.
+#include "antilock/analysis/layer_report.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/analysis/detail/ties.hpp"
 #include "antilock/analysis/lost_energy.hpp"
+#include "antilock/analysis/ties.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock {

@@ -27,9 +27,10 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/form/detail/sparse_assembly.hpp"
-#include "antilock/form/forms.hpp"
-#include "antilock/measure/detail/answer.hpp"
+#include "antilock/form/edge_forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
+#include "antilock/form/sparse_assembly.hpp"
+#include "antilock/measure/answer.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/solve/active_set.hpp"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <Eigen/Core>
 
-#include "antilock/core/detail/eigen_memory.hpp"
+#include "antilock/core/eigen_memory.hpp"
 
 namespace antilock {
 

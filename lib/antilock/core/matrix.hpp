@@ -2,7 +2,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "antilock/core/detail/eigen_memory.hpp"
+#include "antilock/core/eigen_memory.hpp"
 
 namespace antilock {
 

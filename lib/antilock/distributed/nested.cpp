@@ -9,8 +9,8 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/distributed/detail/kkt_report.hpp"
-#include "antilock/distributed/detail/piece.hpp"
+#include "antilock/distributed/kkt_report.hpp"
+#include "antilock/distributed/piece.hpp"
 #include "antilock/distributed/ranks.hpp"
 
 namespace antilock::distributed {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "antilock/distributed/detail/contact_loop.hpp"
+#include "antilock/distributed/contact_loop.hpp"
 
 namespace antilock::distributed {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "antilock/exact/detail/wave.hpp"
+#include "antilock/exact/wave.hpp"
 
 namespace antilock {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "antilock/core/error.hpp"
-#include "antilock/exact/detail/truth_data.hpp"
+#include "antilock/exact/truth_data.hpp"
 
 namespace antilock {
 namespace {

@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "antilock/core/error.hpp"
-#include "antilock/exact/detail/contact_line.hpp"
-#include "antilock/exact/detail/sine_transform.hpp"
-#include "antilock/exact/detail/truth_data.hpp"
+#include "antilock/exact/contact_line.hpp"
+#include "antilock/exact/sine_transform.hpp"
+#include "antilock/exact/truth_data.hpp"
 
 // Both rectangles hold u = 0 on x = 0 and x = 1, so sines in x diagonalise everything but the contact condition:
 // mode by mode, body and layer are ordinary differential equations in y, solved in closed form (wave.cpp,

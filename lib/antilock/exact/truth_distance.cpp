@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "antilock/exact/detail/truth_data.hpp"
+#include "antilock/exact/truth_data.hpp"
 #include "antilock/form/quadrature.hpp"
 
 namespace antilock {

@@ -26,7 +26,7 @@ double clamped_distance(const Truth& limit);
 /// Squares of second derivatives, by the same rule: |u|_2^2 on the body, the integral of u_xx^2 + 2 u_xy^2 + u_yy^2; on
 /// the layer F^2, that of u_xx^2 + epsilon^-2 u_xy^2; and of p_x^2 on the layer, which grows without a bound as epsilon
 /// tends to 0 where contact ends. For a load in L2 the first plus twice the second is its square
-/// (tutorials/uniform_rate.md).
+/// (tutorials/guides/uniform_rate.md).
 struct Regularity {
   double body, layer, stress_x;
 };

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "antilock/core/error.hpp"
-#include "antilock/exact/detail/sine_transform.hpp"
-#include "antilock/exact/detail/truth_data.hpp"
+#include "antilock/exact/sine_transform.hpp"
+#include "antilock/exact/truth_data.hpp"
 
 // In the coordinates of the true layer (22), Y = y in the body and Y = epsilon y in the layer, the solution is as
 // smooth at a distance d = Y + epsilon from Gamma_C as its worst point there allows: like r^(3/2) around the ends of

@@ -1,11 +1,12 @@
 // Integrals over the edges of a group: what pulls there, springs, and the Ventcel term.
+#include "antilock/form/edge_forms.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/detail/sparse_assembly.hpp"
-#include "antilock/form/forms.hpp"
+#include "antilock/form/sparse_assembly.hpp"
 
 namespace antilock {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "antilock/form/detail/strains.hpp"
+#include "antilock/form/edge_forms.hpp"
 
 namespace antilock {
 namespace {

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "antilock/form/forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/space/detail/vector_space.hpp"
+#include "antilock/space/vector_space.hpp"
 
 namespace antilock {
 

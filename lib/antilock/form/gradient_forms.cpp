@@ -1,13 +1,19 @@
 // The forms of (23), integrals of products of gradients; its load; the norm.
-#include <fmt/format.h>
+#include "antilock/form/gradient_forms.hpp"
 
+#include <fmt/format.h>
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/detail/sparse_assembly.hpp"
-#include "antilock/form/forms.hpp"
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/factored_form.hpp"
+#include "antilock/form/quadrature.hpp"
+#include "antilock/form/sparse_assembly.hpp"
+#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/scene/scene.hpp"
+#include "antilock/space/space.hpp"
 
 namespace antilock {
 namespace {
@@ -137,20 +143,6 @@ Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
     for (Eigen::Index i = 0; i < local.size(); ++i) load(space.unknowns()(t, i)) += local(i);
   }
   return load;
-}
-
-Eigen::SparseMatrix<double> h1_norm(const Space& space) {
-  const Quadrature& rule = triangle_rule(2 * space.element().degree());
-  // int phi_i phi_j is the same on every triangle but for the area
-  const Eigen::Index m = space.element().unknowns();
-  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(m, m);
-  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-    const Eigen::VectorXd basis = space.element().basis(rule.points.row(q));
-    unit += rule.weights(q) * basis * basis.transpose();
-  }
-  const Eigen::SparseMatrix<double> mass =
-      sum_element_matrices(space, [&](int t) -> Eigen::MatrixXd { return space.mesh().area(t) * unit; });
-  return mass + gradient_form(space, {1, 1}, {1, 1});
 }
 
 }  // namespace antilock

@@ -7,7 +7,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/measure/detail/contact_edges.hpp"
+#include "antilock/measure/contact_edges.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {

@@ -8,7 +8,7 @@
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/exact/truth_table.hpp"
-#include "antilock/form/forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {

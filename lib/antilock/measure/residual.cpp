@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/form/forms.hpp"
-#include "antilock/measure/detail/contact_edges.hpp"
+#include "antilock/form/gradient_forms.hpp"
+#include "antilock/measure/contact_edges.hpp"
 
 namespace antilock {
 namespace {

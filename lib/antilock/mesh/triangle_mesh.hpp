@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "antilock/core/detail/eigen_memory.hpp"
+#include "antilock/core/eigen_memory.hpp"
 #include "antilock/mesh/geometry.hpp"
 
 namespace antilock {

@@ -12,7 +12,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "antilock/core/detail/atomic_file.hpp"
+#include "antilock/core/atomic_file.hpp"
 #include "antilock/mesh/detail/gmsh_session.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/mesh/refine.hpp"

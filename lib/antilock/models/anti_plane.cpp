@@ -7,7 +7,8 @@
 #include <map>
 #include <numeric>
 
-#include "antilock/form/forms.hpp"
+#include "antilock/form/edge_forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/models/detail/stiffness_range.hpp"
 
 namespace antilock {

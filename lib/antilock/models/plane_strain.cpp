@@ -8,7 +8,7 @@
 #include <map>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/detail/averaged.hpp"
+#include "antilock/form/averaged.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/models/detail/stiffness_range.hpp"
 #include "antilock/problem/bounds.hpp"

@@ -29,7 +29,7 @@ struct PlaneStrain : Press {
   double epsilon = 1e-8;  ///< 1/lambda, in [0, 1]; 0: incompressible
   /// The pressure is continuous and affine, one value per vertex: the row of B of vertex i is (int phi_i div u) / (int
   /// phi_i). With P2 that is Taylor and Hood's method, with P1 and a bubble MINI (Arnold, Brezzi and Fortin 1984):
-  /// exactly so at epsilon = 0. Above, the pressures' mass matrix is lumped (form/detail/averaged.hpp).
+  /// exactly so at epsilon = 0. Above, the pressures' mass matrix is lumped (form/averaged.hpp).
   bool continuous_pressure = false;
 };
 

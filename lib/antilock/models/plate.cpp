@@ -8,7 +8,7 @@
 #include <map>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/problem/bounds.hpp"
 
 namespace antilock {

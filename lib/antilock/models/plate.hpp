@@ -1,5 +1,5 @@
 #pragma once
-#include "antilock/form/detail/plate_forms.hpp"
+#include "antilock/form/plate_forms.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/scene/scene.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/detail/sparse_assembly.hpp"
+#include "antilock/form/sparse_assembly.hpp"
 
 namespace antilock {
 namespace {

@@ -9,13 +9,13 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
-#include "antilock/solve/detail/anderson.hpp"
-#include "antilock/solve/detail/contact_systems.hpp"
+#include "antilock/solve/anderson.hpp"
+#include "antilock/solve/contact_systems.hpp"
 #include "antilock/solve/detail/tied.hpp"
-#include "antilock/solve/detail/tuned.hpp"
 #include "antilock/solve/judge.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/residual.hpp"
+#include "antilock/solve/tuned.hpp"
 
 namespace antilock {
 namespace {

@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
-#include "antilock/core/detail/progress.hpp"
+#include "antilock/core/progress.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/contact.hpp"
-#include "antilock/solve/detail/tuned.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/penalty_factor.hpp"
+#include "antilock/solve/tuned.hpp"
 
 namespace antilock {
 

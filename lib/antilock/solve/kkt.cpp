@@ -8,7 +8,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/detail/tuned.hpp"
+#include "antilock/solve/tuned.hpp"
 
 namespace antilock {
 namespace {

@@ -10,7 +10,7 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/detail/tied.hpp"
-#include "antilock/solve/detail/tuned.hpp"
+#include "antilock/solve/tuned.hpp"
 
 namespace antilock {
 namespace {

@@ -2,8 +2,8 @@
 #include <optional>
 
 #include "antilock/problem/variational_inequality.hpp"
-#include "antilock/solve/detail/penalised_matrix.hpp"
-#include "antilock/solve/detail/sparse_cholesky.hpp"
+#include "antilock/solve/penalised_matrix.hpp"
+#include "antilock/solve/sparse_cholesky.hpp"
 
 namespace antilock {
 
@@ -17,7 +17,7 @@ class Tied;
 ///
 ///     C > 10 sqrt(F),   F free unknowns
 ///
-/// Measured on a membrane (tests/benchmark/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F):
+/// Measured on a membrane (figures/benchmarks/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F):
 /// dense over sparse seconds are 0.2 to 0.4 at k = 1 to 4, 0.5 to 0.9 at 8, 0.6, 1.1 and 1.4 at 10 and 0.8, 1.4 and 2.5
 /// at 12, for n = 32, 64 and 128: C^3 stands against F^(3/2). Where all unknowns are bounded, the sparse road is taken
 /// from 101 on: at 225 both cost the same, at 529 it takes a fifth. Uzawa asks for a factor of the dense one. (A beam of

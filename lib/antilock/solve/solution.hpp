@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "antilock/core/detail/eigen_memory.hpp"
+#include "antilock/core/eigen_memory.hpp"
 #include "antilock/solve/stairs.hpp"
 
 namespace antilock {

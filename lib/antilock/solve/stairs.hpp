@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "antilock/core/detail/eigen_memory.hpp"
+#include "antilock/core/eigen_memory.hpp"
 #include "antilock/core/error.hpp"
 
 namespace antilock {

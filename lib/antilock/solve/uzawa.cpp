@@ -12,8 +12,8 @@
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"
-#include "antilock/solve/detail/contact_systems.hpp"
-#include "antilock/solve/detail/tuned.hpp"
+#include "antilock/solve/contact_systems.hpp"
+#include "antilock/solve/tuned.hpp"
 
 namespace antilock {
 namespace {

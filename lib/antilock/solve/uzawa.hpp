@@ -2,14 +2,14 @@
 #include <limits>
 #include <optional>
 
-#include "antilock/core/detail/progress.hpp"
+#include "antilock/core/progress.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/penalty_factor.hpp"
 #include "antilock/solve/solution.hpp"
 
 namespace antilock {
 
-/// An algebraic error not worth pushing further down; analysis/accurate_enough.hpp says which.
+/// An algebraic error not worth pushing further down; certificate/accurate_enough.hpp says which.
 struct AccurateEnough {
   double energy = 0;    ///< of J(v) - J(u_h), v = the iterate pushed out of the obstacle, J with the penalty delta in
                         ///< place of a smaller compliance

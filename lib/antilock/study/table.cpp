@@ -9,9 +9,9 @@
 #include <cstdio>
 #include <set>
 
-#include "antilock/core/detail/atomic_file.hpp"
-#include "antilock/core/detail/text.hpp"
+#include "antilock/core/atomic_file.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/core/text.hpp"
 #include "antilock/measure/errors.hpp"
 
 namespace antilock {

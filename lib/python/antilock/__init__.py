@@ -1,7 +1,7 @@
 """Stiff parameters without locking, for who has matrices from numpy and scipy, or a scene as a text.
 
 Everything is dimensionless. N unknowns, R rows of B. Error is a ValueError that says in one line what is wrong and what is
-accepted; NotConverged is an Error of a solve that did not reach its tolerance. tutorials/howto_python.md shows it all.
+accepted; NotConverged is an Error of a solve that did not reach its tolerance. tutorials/guides/howto_python.md shows it all.
 """
 from __future__ import annotations
 

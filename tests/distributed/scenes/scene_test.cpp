@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "antilock/io/writers.hpp"
 #include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/write_msh.hpp"
 #include "scenes/runner.hpp"
 #include "support/bodies.hpp"
 

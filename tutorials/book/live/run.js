@@ -73,7 +73,7 @@ antilock.tableChart = (where, name, text) => {
 
 /// The surface of u in a VTU file, which one turns with the mouse, a finger or the arrow keys.
 antilock.vtuSurface = (where, name, bytes) => {
-  // an array is its length in eight bytes and its numbers, in base64 (lib/antilock/io/vtu_writer.cpp)
+  // an array is its length in eight bytes and its numbers, in base64 (lib/antilock/io/write_vtu.cpp)
   const text = new TextDecoder().decode(bytes);
   const array = (named, Numbers) => {
     const base64 = text.match(new RegExp(`Name="${named}"[^>]*>([^<]*)<`))?.[1];

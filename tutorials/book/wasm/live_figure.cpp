@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/analysis/lost_energy.hpp"
+#include "antilock/analysis/layer_report.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
-#include "backstage/18_summed.hpp"
+#include "antilock/solve/summed.hpp"
 
 namespace antilock::book {
 namespace {
@@ -110,8 +110,8 @@ RoundOff round_off(int cells, double epsilon, const LiveTruth& truth) {
   const VariationalInequality problem = assemble(paper_scene(epsilon), space);
   RoundOff errors;
   errors.split = largest_error(space, active_set(problem).u, truth.table);
-  const tutorial::NaiveAnswer summed = tutorial::naive_summed_solve(problem, tutorial::SummedFactor::cholesky);
-  errors.summed = summed.end == tutorial::NaiveEnd::refused ? 1 : largest_error(space, summed.solution.u, truth.table);
+  const NaiveAnswer summed = naive_summed_solve(problem, SummedFactor::cholesky);
+  errors.summed = summed.end == NaiveEnd::refused ? 1 : largest_error(space, summed.solution.u, truth.table);
   return errors;
 }
 

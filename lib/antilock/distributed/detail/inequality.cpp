@@ -7,10 +7,10 @@
 #include <limits>
 
 #include "antilock/distributed/ranks.hpp"
-#include "antilock/form/forms.hpp"
+#include "antilock/form/gradient_forms.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/problem/choose_penalty.hpp"
-#include "antilock/solve/detail/tuned.hpp"
+#include "antilock/solve/tuned.hpp"
 
 namespace antilock::distributed {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "antilock/core/detail/eigen_memory.hpp"
+#include "antilock/core/eigen_memory.hpp"
 
 namespace antilock::distributed {
 

@@ -1,7 +1,7 @@
 #pragma once
-#include "antilock/form/detail/sparse_assembly.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/space/detail/vector_space.hpp"
+#include "antilock/form/sparse_assembly.hpp"
+#include "antilock/space/vector_space.hpp"
 
 namespace antilock {
 

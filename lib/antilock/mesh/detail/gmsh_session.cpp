@@ -15,7 +15,7 @@
 #include <utility>
 
 #include "antilock/core/error.hpp"
-#include "antilock/mesh/detail/memory_file.hpp"
+#include "antilock/mesh/memory_file.hpp"
 
 namespace antilock {
 namespace {

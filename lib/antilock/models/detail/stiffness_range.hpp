@@ -1,7 +1,7 @@
 #pragma once
 #include <limits>
 
-#include "antilock/form/detail/factored_form.hpp"
+#include "antilock/form/factored_form.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 
 namespace antilock {

@@ -1,5 +1,5 @@
-// core/detail/atomic_file.cpp in a page: one program, no signals, no other process. Files are written in their places.
-#include "antilock/core/detail/atomic_file.hpp"
+// core/atomic_file.cpp in a page: one program, no signals, no other process. Files are written in their places.
+#include "antilock/core/atomic_file.hpp"
 
 #include <fstream>
 #include <limits>

@@ -1,0 +1,31 @@
+#pragma once
+#include <optional>
+#include <string>
+
+#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/scene/scene.hpp"
+#include "antilock/solve/solution.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+/// What an answer to a scene with a layer says of its own locking.
+struct LayerReport {
+  std::string diagnosis;  ///< one line: whether the method follows the layer as epsilon -> 0, and why
+  /// The share of LostEnergy::proved, where the method can lock; empty where it locks and that is not proved.
+  std::optional<double> lost = {};
+  /// Empty, or one sentence with the word "locks", the share, how it is known (proved, or by a second solve with
+  /// columns where `lost` is empty) and the remedies.
+  std::string warning = {};
+  double found = 0;   ///< the share of LostEnergy::found
+  double motion = 0;  ///< LostEnergy::motion, of which both are shares
+
+  /// What a door says in one line: the warning, or the diagnosis where there is none.
+  const std::string& sentence() const { return warning.empty() ? diagnosis : warning; }
+};
+/// Empty for a scene without a layer. On layers in columns and for elements that do not conform no number is made: what
+/// can be told from the mesh costs nothing.
+std::optional<LayerReport> report_layer(const Scene& scene, const Space& space, const VariationalInequality& problem,
+                                        const Solution& solution);
+
+}  // namespace antilock

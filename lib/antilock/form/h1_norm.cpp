@@ -1,0 +1,27 @@
+#include "antilock/form/h1_norm.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "antilock/form/gradient_forms.hpp"
+#include "antilock/form/quadrature.hpp"
+#include "antilock/form/sparse_assembly.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+Eigen::SparseMatrix<double> h1_norm(const Space& space) {
+  const Quadrature& rule = triangle_rule(2 * space.element().degree());
+  // int phi_i phi_j is the same on every triangle but for the area
+  const Eigen::Index m = space.element().unknowns();
+  Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(m, m);
+  for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
+    const Eigen::VectorXd basis = space.element().basis(rule.points.row(q));
+    unit += rule.weights(q) * basis * basis.transpose();
+  }
+  const Eigen::SparseMatrix<double> mass =
+      sum_element_matrices(space, [&](int t) -> Eigen::MatrixXd { return space.mesh().area(t) * unit; });
+  return mass + gradient_form(space, {1, 1}, {1, 1});
+}
+
+}  // namespace antilock

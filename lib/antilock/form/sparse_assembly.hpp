@@ -1,0 +1,99 @@
+#pragma once
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <vector>
+
+#include "antilock/form/factored_form.hpp"
+#include "antilock/space/space.hpp"
+
+namespace antilock {
+
+using Triplets = std::vector<Eigen::Triplet<double>>;
+
+/// The matrix with the sums of the entries at each place.
+template <class Matrix>
+Matrix summed(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
+  Matrix matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+/// A factored form while it is collected row by row.
+class RowsOfB {
+ public:
+  /// A new row, of this cell and with this entry of M.
+  void add(int cell, double weight) {
+    cell_.push_back(cell);
+    m_.push_back(weight);
+  }
+  /// An entry of the newest row of B.
+  void put(int unknown, double value) { b_.emplace_back(static_cast<int>(m_.size()) - 1, unknown, value); }
+  FactoredForm form(int unknowns) const {
+    const auto rows = static_cast<Eigen::Index>(m_.size());
+    return {summed<RowMatrix>(rows, unknowns, b_), Eigen::Map<const Eigen::VectorXd>(m_.data(), rows), cell_};
+  }
+
+ private:
+  Triplets b_;
+  std::vector<double> m_;
+  std::vector<int> cell_;
+};
+
+/// Where each column of a matrix of the space begins, and where the last one ends: its rows are the unknowns that share a
+/// triangle with it. They sit on the vertices, edges and triangles around the column's own, which the mesh counts.
+inline std::vector<int> column_starts(const Space& space) {
+  const TriangleMesh& mesh = space.mesh();
+  const int v = space.element().per_vertex(), e = space.element().per_edge(), t = space.element().per_triangle();
+  std::vector<int> at_vertex(mesh.vertex_count(), v), at_edge(mesh.edge_count(), 2 * v + e);
+  for (const int end : mesh.edges.reshaped<Eigen::RowMajor>()) at_vertex[end] += v + e;
+  for (const int corner : mesh.triangles.reshaped<Eigen::RowMajor>()) at_vertex[corner] += e + t;
+  for (const int edge : mesh.triangle_edges.reshaped<Eigen::RowMajor>()) at_edge[edge] += v + 2 * e + t;
+  std::vector<int> start{0};
+  start.reserve(space.size() + 1);
+  const auto add = [&](int columns, int rows) {
+    for (int k = 0; k < columns; ++k) start.push_back(start.back() + rows);
+  };
+  for (const int rows : at_vertex) add(v, rows);
+  for (const int rows : at_edge) add(e, rows);
+  add(t * mesh.triangle_count(), space.element().unknowns());
+  return start;
+}
+
+/// Sums element matrices into a sparse matrix, in linear time: the mesh says how many entries each column has, and each
+/// element puts its own in place. `local(t)` returns the m x m matrix of triangle t.
+template <class LocalMatrix>
+Eigen::SparseMatrix<double> sum_element_matrices(const Space& space, LocalMatrix&& local) {
+  const auto& unknowns = space.unknowns();
+  const std::vector<int> start = column_starts(space);
+  std::vector<int> end(start.begin(), start.end() - 1);  // behind the rows that a column has so far, in ascending order
+  Eigen::SparseMatrix<double> sum(space.size(), space.size());
+  sum.resizeNonZeros(start.back());
+  std::copy(start.begin(), start.end(), sum.outerIndexPtr());
+  int* const row = sum.innerIndexPtr();
+  double* const value = sum.valuePtr();
+  for (Eigen::Index t = 0; t < unknowns.rows(); ++t) {
+    const auto matrix = local(static_cast<int>(t));
+    for (Eigen::Index j = 0; j < unknowns.cols(); ++j) {
+      const int first = start[unknowns(t, j)];
+      int& last = end[unknowns(t, j)];
+      for (Eigen::Index i = 0; i < unknowns.cols(); ++i) {
+        int k = last;
+        while (k > first && row[k - 1] > unknowns(t, i)) --k;
+        if (k > first && row[k - 1] == unknowns(t, i)) {
+          value[k - 1] += matrix(i, j);
+          continue;
+        }
+        for (int s = last++; s > k; --s) {
+          row[s] = row[s - 1];
+          value[s] = value[s - 1];
+        }
+        row[k] = unknowns(t, i);
+        value[k] = matrix(i, j);
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace antilock

@@ -1,0 +1,31 @@
+#include "antilock/io/write_freefem_mesh.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <vector>
+
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/text.hpp"
+#include "antilock/mesh/labelled_edges.hpp"
+#include "antilock/mesh/triangle_mesh.hpp"
+
+namespace antilock {
+
+void write_freefem_mesh(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  const auto edges = labelled_edges(mesh);
+  std::vector<int> vertex_label(mesh.vertex_count(), 0);  // a corner takes the larger of its two labels; none reads it
+  for (const auto& [from, to, label] : edges)
+    for (const int v : {from, to}) vertex_label[v] = std::max(vertex_label[v], label);
+  write_file(path, [&](std::ostream& out) {
+    Text text(out);
+    text.print("{} {} {}\n", mesh.vertex_count(), mesh.triangle_count(), edges.size());
+    for (int v = 0; v < mesh.vertex_count(); ++v)
+      text.print(FMT_COMPILE("{} {} {}\n"), mesh.vertices(v, 0), mesh.vertices(v, 1), vertex_label[v]);
+    for (int t = 0; t < mesh.triangle_count(); ++t)
+      text.print(FMT_COMPILE("{} {} {} {}\n"), mesh.triangles(t, 0) + 1, mesh.triangles(t, 1) + 1,
+                 mesh.triangles(t, 2) + 1, static_cast<int>(mesh.region[t]));
+    for (const auto& [from, to, label] : edges) text.print("{} {} {}\n", from + 1, to + 1, label);
+  });
+}
+
+}  // namespace antilock

@@ -1,0 +1,15 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "antilock/mesh/triangle_mesh.hpp"
+#include "antilock/scene/scene.hpp"
+
+namespace antilock {
+
+/// MSH 2.2 ASCII with the physical groups of Figure 2 and, with their names, those of `edges`; free edges of no other
+/// group are in "free".
+void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh,
+               const std::vector<EdgeCondition>& edges = {});
+
+}  // namespace antilock

@@ -1,0 +1,26 @@
+#include "antilock/models/bar_on_a_floor.hpp"
+
+#include "antilock/problem/variational_inequality.hpp"
+
+namespace antilock {
+
+VariationalInequality bar_on_a_floor(int n, double pull) {
+  VariationalInequality bar;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < n; ++i)
+    for (const int j : {i, i + 1})
+      for (const int k : {i, i + 1}) entries.emplace_back(j, k, j == k ? n : -n);
+  bar.a1.resize(n + 1, n + 1);
+  bar.a1.setFromTriplets(entries.begin(), entries.end());
+  bar.b.resize(0, n + 1);
+  bar.load = pull * Eigen::VectorXd::Unit(n + 1, n);
+  bar.fixed = {0};
+  bar.fixed_values = Eigen::VectorXd::Zero(1);
+  for (int i = 1; i <= n; ++i) bar.contact.push_back(i);
+  bar.lower = bar.upper = Eigen::VectorXd::Zero(n);
+  bar.force_bound = Eigen::VectorXd::Constant(n, 1.0 / n);
+  bar.force_bound(n - 1) = 0.5 / n;
+  return bar;
+}
+
+}  // namespace antilock

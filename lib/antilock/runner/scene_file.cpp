@@ -1,0 +1,516 @@
+#include "antilock/runner/scene_file.hpp"
+
+#include <fmt/format.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <initializer_list>
+#include <memory>
+#include <sstream>
+
+#include "antilock/core/plain_text.hpp"
+#include "antilock/measure/point_values.hpp"
+#include "antilock/runner/expression.hpp"
+
+namespace antilock {
+namespace {
+
+using Names = std::initializer_list<std::string>;
+
+/// A section of the file: gives its values, each checked, and refuses with the name of the file and of the key.
+class Section {
+ public:
+  Section(std::string file, std::string name, const toml::table& table)
+      : file_(std::move(file)), name_(std::move(name)), table_(table) {}
+
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const { throw Error(where(key) + why); }
+  std::string where(const std::string& key) const {
+    std::string full = name_;
+    if (!full.empty() && !key.empty()) full += '.';
+    return printable(file_, 1000) + ": " + full + printable(key) + ": ";
+  }
+
+  void only(Names accepted) const {
+    for (const auto& [key, value] : table_)
+      if (const std::string name(key.str()); std::find(accepted.begin(), accepted.end(), name) == accepted.end())
+        refuse(name, fmt::format("unknown {}; accepted: {}", name_.empty() ? "key or section" : "key",
+                                 fmt::join(accepted, ", ")));
+  }
+  bool has(const std::string& key) const { return table_.contains(key); }
+  const toml::table& table() const { return table_; }
+
+  /// Here and in one_of: `otherwise`, where it is given and the key is absent.
+  std::string text(const std::string& key, const std::string& accepted, const char* otherwise = nullptr) const {
+    if (otherwise != nullptr && !has(key)) return otherwise;
+    const auto value = table_[key].value_exact<std::string>();
+    if (!value) refuse(key, what_stands_there(key) + "; accepted: " + accepted);
+    return *value;
+  }
+  std::string one_of(const std::string& key, Names accepted, const char* otherwise = nullptr) const {
+    const std::string list = fmt::format("\"{}\"", fmt::join(accepted, "\", \""));
+    std::string value = text(key, list, otherwise);
+    if (std::find(accepted.begin(), accepted.end(), value) == accepted.end())
+      refuse(key, fmt::format("\"{}\" is unknown; accepted: {}", printable(value), list));
+    return value;
+  }
+  /// A number for which `holds` is true.
+  double number(
+      const std::string& key, const std::string& accepted,
+      const std::function<bool(double)>& holds = [](double) { return true; }) const {
+    std::optional<double> value = table_[key].value_exact<double>();
+    if (const auto integer = table_[key].value_exact<std::int64_t>()) value = static_cast<double>(*integer);
+    if (!value) refuse(key, what_stands_there(key) + "; accepted: a number, " + accepted);
+    if (!std::isfinite(*value)) refuse(key, "is not finite; accepted: a number, " + accepted);
+    *value += 0.0;  // -0.0 becomes 0.0
+    if (!holds(*value)) refuse(key, fmt::format("{} is out of range; accepted: {}", *value, accepted));
+    return *value;
+  }
+  int count(const std::string& key, int most) const {
+    const std::string accepted = fmt::format("; accepted: a whole number, 1 to {}", most);
+    const auto value = table_[key].value_exact<std::int64_t>();
+    if (!value) refuse(key, what_stands_there(key) + accepted);
+    if (*value < 1 || *value > most) refuse(key, fmt::format("{} is out of range{}", *value, accepted));
+    return static_cast<int>(*value);
+  }
+
+  /// [key]; empty where it is absent.
+  Section section(const std::string& key) const {
+    static const toml::table absent;
+    if (!has(key)) return {file_, key, absent};
+    const toml::table* table = table_[key].as_table();
+    if (table == nullptr) refuse(key, fmt::format("{}; accepted: a section [{}]", what_stands_there(key), key));
+    return {file_, key, *table};
+  }
+  /// [[key]]: its tables, named key[0], key[1], ...
+  std::vector<Section> sections(const std::string& key) const {
+    std::vector<Section> all;
+    if (!has(key)) return all;
+    const toml::array* array = table_[key].as_array();
+    if (array == nullptr || !(array->empty() || array->is_array_of_tables()))
+      refuse(key, fmt::format("{}; accepted: sections [[{}]]", what_stands_there(key), key));
+    for (const toml::node& node : *array)
+      all.emplace_back(file_, fmt::format("{}[{}]", key, all.size()), *node.as_table());
+    return all;
+  }
+
+ private:
+  std::string what_stands_there(const std::string& key) const {
+    const toml::node* node = table_.get(key);
+    if (node == nullptr) return "is missing";
+    std::ostringstream type;
+    type << node->type();
+    return "is of type " + type.str();
+  }
+
+  std::string file_, name_;
+  const toml::table& table_;
+};
+
+/// The whole file, up to a megabyte: a scene is a page, and some files never end.
+std::string read_text(const std::filesystem::path& path, const std::string& name) {
+  constexpr std::streamsize most = 1 << 20;
+  const std::string accepted = "; accepted: a scene file in TOML";
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+    throw Error(name + ": file: is a folder or a device" + accepted);
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error(name + ": file: cannot be opened" + accepted);
+  std::string text(most + 1, '\0');
+  in.read(text.data(), most + 1);
+  if (in.bad()) throw Error(name + ": file: cannot be read" + accepted);
+  if (in.gcount() > most) throw Error(name + ": file: is larger than 1 MB" + accepted);
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+toml::table parse(const std::string& text, const std::string& name) {
+  plain_text(text, name + ": syntax");  // TOML knows UTF-8 and its byte order mark alone
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    throw Error(fmt::format("{}: syntax: line {}, column {}: {}; accepted: TOML 1.0", name, error.source().begin.line,
+                            error.source().begin.column, printable(std::string(error.description()), 200)));
+  }
+}
+
+const char* const in_x_and_y = "an expression in x and y in quotes, as \"10*sin(2*pi*x)\"";
+const char* const in_x = "an expression in x in quotes, as \"0.01\"";
+
+/// A field or a profile: a text that does not parse, or a value that is not finite, is refused with the file and the
+/// key.
+auto named(const Section& section, const std::string& key, const std::string& text,
+           const std::vector<std::string>& variables) {
+  const auto naming = [where = section.where(key)](const auto& ask) {
+    try {
+      return ask();
+    } catch (const Error& error) {
+      throw Error(where + error.what());
+    }
+  };
+  return [=, f = naming([&] { return Expression(text, variables); })](auto... at) {
+    return naming([&] { return f(at...); });
+  };
+}
+Field field(const Section& section, const std::string& key, const std::string& accepted = in_x_and_y) {
+  return named(section, key, section.text(key, accepted), {"x", "y"});
+}
+Profile profile(const Section& section, const std::string& key, const char* otherwise = nullptr) {
+  return named(section, key, section.text(key, in_x, otherwise), {"x"});
+}
+/// The same where negative values are refused, and 0 unless `zero_too`.
+Field field_above(const Field& f, const std::string& where, bool zero_too) {
+  return [=](double x, double y) {
+    const double value = f(x, y);
+    if (value < 0 || (value == 0 && !zero_too))
+      throw Error(fmt::format("{}is {:g} at ({:g}, {:g}); accepted: {} 0", where, value, x, y,
+                              zero_too ? "at least" : "above"));
+    return value;
+  };
+}
+
+/// Asked on grids of the closed unit square that share few places, with every x and y of one or two decimals or of a
+/// denominator up to 6: there the poles of formulas written by hand are met.
+void sample_load(const Field& f) {
+  for (const int n : {100, 120, 128})
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) f(static_cast<double>(i) / n, static_cast<double>(j) / n);
+}
+void sample_profile(const Profile& gap) {
+  for (const int n : {1000, 3840, 4096})
+    for (int i = 0; i <= n; ++i) gap(static_cast<double>(i) / n);
+}
+
+Body read_body(const Section& root) {
+  const Section load = root.section("load"), body = root.section("body");
+  load.only({"f"});
+  Body read{field(load, "f")};
+  body.only({"stiffness"});
+  if (root.has("body") && !body.table()["stiffness"].is_table())  // a table: read_groups
+    read.stiffness = field_above(field(body, "stiffness", std::string(in_x_and_y) + ", or a table per group"),
+                                 body.where("stiffness"), false);
+  return read;
+}
+
+/// `stiffness = { left = 1, right = 10 }`: the surfaces of the file and their numbers, found by place.
+void read_groups(const Section& body, const std::filesystem::path& mesh, MoreGroups& groups, Body& read) {
+  if (!body.table()["stiffness"].is_table()) return;
+  std::vector<double> numbers;
+  const Section section = body.section("stiffness");
+  for (const auto& [group, value] : section.table()) {
+    const std::string& name = groups.bodies.emplace_back(group.str());
+    numbers.push_back(section.number(name, "the stiffness of that group, above 0"));
+    if (!(numbers.back() > 0))
+      body.refuse("stiffness", "is not above 0 on the group " + name + "; accepted: positive numbers");
+  }
+  struct Parts {
+    TriangleMesh mesh;
+    std::vector<int> part;
+    std::optional<Space> space;
+    std::optional<PointValues> places;
+  };
+  read.stiffness = [=, parts = std::make_shared<Parts>(), where = body.where("stiffness")](double x, double y) {
+    if (!parts->space) {  // asked for the first time
+      parts->mesh = read_msh(mesh.string(), groups, &parts->part);
+      parts->space.emplace(parts->mesh, p1());
+      parts->places.emplace(*parts->space);
+    }
+    auto at = parts->places->locate({x, y}, 1e-9);
+    if (!at) at = parts->places->locate({x, y}, 0.5);  // beside the file's polygon, where refinement follows a curve
+    const int part = at ? parts->part[at->triangle] : -1;
+    if (part < 0)
+      throw Error(fmt::format("{}names no group of the surface at ({:g}, {:g}); accepted: all groups of the body",
+                              where, x, y));
+    return numbers[part];
+  };
+}
+
+UnilateralContact read_contact(const Section& section) {
+  section.only({"gap", "ceiling"});
+  UnilateralContact contact{profile(section, "gap", "0")};
+  if (section.has("ceiling")) contact.ceiling = profile(section, "ceiling");
+  return contact;
+}
+
+Layer read_layer(const Section& section) {
+  section.only({"epsilon", "model", "thickness", "stiffness", "load"});
+  const std::string model = section.one_of("model", {"scaled", "ventcel", "thin"}, "scaled");
+  const bool numbers = section.has("thickness") || section.has("stiffness");
+  for (const char* key : {"thickness", "stiffness", "load"})
+    if (section.has(key) && model != "scaled")
+      section.refuse(key, fmt::format("does not go with model = \"{}\"; accepted: with \"scaled\" only", model));
+  if (numbers && section.has("epsilon"))
+    section.refuse("epsilon", "stands beside thickness or stiffness; accepted: epsilon, or the other two");
+  const std::string key = numbers ? "thickness" : "epsilon";
+  const std::string accepted = model == "scaled"    ? fmt::format("0 < {0} <= 1, or exactly 0 (the rigid limit)", key)
+                               : model == "ventcel" ? "exactly 0 (the model is the limit epsilon = 0)"
+                                                    : "1e-3 <= epsilon <= 1 (below, use the scaled model)";
+  const double epsilon = section.number(key, accepted);
+  const double least = model == "thin" ? 1e-3 : numbers ? 1e-300 : 0, most = model == "ventcel" ? 0 : 1;
+  if (!(epsilon >= least && epsilon <= most))
+    section.refuse(key, fmt::format("{} is out of range for model = \"{}\"; accepted: {}", epsilon, model,
+                                    numbers ? "0 < thickness <= 1" : accepted));
+  if (model == "ventcel") return VentcelLayer{};
+  if (model == "thin") return ThinLayer{epsilon};
+  StiffLayer layer{epsilon};
+  if (numbers) {
+    const double stiffness = section.number("stiffness", "above 0, relative to a body of stiffness 1");
+    if (!(stiffness > 0)) section.refuse("stiffness", fmt::format("{}; accepted: above 0", stiffness));
+    layer.s = stiffness * epsilon;
+    if (!(layer.s > 0))
+      section.refuse("stiffness", fmt::format("{} times the thickness {} is 0 in double precision; accepted: a product "
+                                              "above 0",
+                                              stiffness, epsilon));
+  }
+  if (section.has("load")) layer.load = field(section, "load");
+  return layer;
+}
+
+std::vector<EdgeCondition> read_edges(const std::vector<Section>& sections, MoreGroups& groups) {
+  using Kind = EdgeCondition::Kind;
+  std::vector<EdgeCondition> edges;
+  for (const Section& section : sections) {
+    section.only({"group", "free", "displacement", "traction", "spring"});
+    EdgeCondition edge{section.text("group", "the name of a group of curves of the mesh file")};
+    if (edge.group == "clamped" || edge.group == "contact" || edge.group == "sigma" ||
+        groups.curves.contains(edge.group))
+      section.refuse("group",
+                     fmt::format("\"{}\" has its condition already; accepted: another group", printable(edge.group)));
+    if (section.has("free") && section.table()["free"].value_exact<bool>() != true)
+      section.refuse("free", "is not true; accepted: true, or leave the key out");
+    int conditions = section.has("free") ? 1 : 0;
+    for (const auto& [key, kind] :
+         {std::pair{"displacement", Kind::displacement}, {"traction", Kind::traction}, {"spring", Kind::spring}})
+      if (section.has(key)) {
+        ++conditions;
+        edge.kind = kind;
+        edge.value = field(section, key);
+        if (kind == Kind::spring) edge.value = field_above(edge.value, section.where(key), true);
+      }
+    if (conditions != 1)
+      section.refuse("group", fmt::format("\"{}\" has {} conditions; accepted: exactly one of free, displacement, "
+                                          "traction, spring",
+                                          printable(edge.group), conditions));
+    const auto k = static_cast<int>(edges.size());
+    groups.curves[edge.group] = edge.kind == Kind::displacement ? held_group(k) : natural_group(k);
+    edges.push_back(std::move(edge));
+  }
+  return edges;
+}
+
+std::vector<Eigen::Vector2d> read_points(const Section& section) {
+  section.only({"points"});
+  const std::string accepted = "; accepted: a list of places, as [[0.25, -1.0]]";
+  const toml::array* list = section.table()["points"].as_array();
+  if (list == nullptr) section.refuse("points", "is no list" + accepted);
+  std::vector<Eigen::Vector2d> points;
+  for (const toml::node& node : *list) {
+    const toml::array* pair = node.as_array();
+    const auto x = pair != nullptr && pair->size() == 2 ? (*pair)[0].value<double>() : std::nullopt;
+    const auto y = x ? (*pair)[1].value<double>() : std::nullopt;
+    if (!y || !std::isfinite(*x) || !std::isfinite(*y))
+      section.refuse("points", "has an entry that is no place" + accepted);
+    points.emplace_back(*x, *y);
+  }
+  return points;
+}
+
+/// [model] kind = "plane strain"; empty for "anti-plane".
+std::optional<ElasticRequest> read_model(const Section& section, const Layer& layer) {
+  if (section.one_of("kind", {"anti-plane", "plane strain"}, "anti-plane") == "anti-plane") {
+    section.only({"kind"});
+    return std::nullopt;
+  }
+  const bool coated = !std::holds_alternative<NoLayer>(layer);
+  if (coated && !std::holds_alternative<StiffLayer>(layer))
+    section.refuse("kind", "\"plane strain\" goes with the scaled layer, or none; accepted: model = \"scaled\"");
+  if (coated)
+    section.only({"kind", "push", "friction", "young", "poisson"});
+  else
+    section.only({"kind", "push", "friction", "epsilon"});
+  ElasticRequest elastic;
+  const auto number = [&](const char* key, double fallback, double least, double most) {
+    return !section.has(key) ? fallback
+                             : section.number(key, fmt::format("{:g} to {:g}", least, most),
+                                              [=](double value) { return value >= least && value <= most; });
+  };
+  elastic.push = number("push", elastic.push, -1e6, 1e6);
+  elastic.epsilon = number("epsilon", elastic.epsilon, 0, 1);
+  const double young = number("young", 1, 1e-6, 1e6), nu = number("poisson", 0.3, 0, 0.49);
+  elastic.material = {young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
+  if (section.has("friction"))
+    elastic.friction = [bound = field_above([of = profile(section, "friction")](double x, double) { return of(x); },
+                                            section.where("friction"), true)](double x) { return bound(x, 0); };
+  return elastic;
+}
+
+constexpr int most_structured = 2048, most_unstructured = 512;
+
+MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder) {
+  section.only({"kind", "cells", "file", "geometry", "refinements"});
+  const auto path_of = [&](const std::string& key, const std::string& what) {
+    const std::string accepted = "the path of " + what + ", relative to the scene file";
+    const std::string path = section.text(key, accepted);
+    if (path.empty() || path.find('\0') != path.npos) section.refuse(key, "is no path; accepted: " + accepted);
+    return folder / path;
+  };
+  MeshRequest mesh;
+  mesh.kind = section.one_of("kind", {"structured", "unstructured", "layered", "file"});
+  if (const char* other = mesh.from_file() ? "cells" : "file"; section.has(other))
+    section.refuse(other, fmt::format("does not go with kind = \"{}\"; accepted: {}", mesh.kind,
+                                      mesh.from_file() ? "file alone" : "with kind = \"file\" only"));
+  if (mesh.from_file()) {
+    mesh.file = path_of("file", "a MSH file, 2.2 or 4.1");
+    if (section.has("geometry")) mesh.geometry = path_of("geometry", "a .geo or .brep file");
+  } else {
+    if (section.has("geometry"))
+      section.refuse("geometry", "goes with a mesh file only; accepted: with kind = \"file\"");
+    mesh.cells = section.count("cells", mesh.kind == "structured" ? most_structured : most_unstructured);
+  }
+  if (!section.has("refinements")) return mesh;
+  mesh.refinements = section.count("refinements", 10);
+  if (const int refined = mesh.cells << mesh.refinements; refined > most_structured)
+    section.refuse("refinements", fmt::format("{} refinements of {} cells per unit side make {}; accepted: up to {}",
+                                              mesh.refinements, mesh.cells, refined, most_structured));
+  return mesh;
+}
+
+/// An accuracy and what goes with it: the mesh is found, with the active set.
+void read_accuracy(const Section& section, MethodRequest& method) {
+  for (const char* key : {"of", "most_unknowns"})
+    if (section.has(key) && !section.has("accuracy"))
+      section.refuse(key, "goes with an accuracy only; accepted: a key accuracy beside it, or none of the two");
+  if (!section.has("accuracy")) return;
+  method.accuracy = section.number("accuracy", "above 0 and below 1, as 1e-2", [](double a) { return a > 0 && a < 1; });
+  if (section.one_of("of", {"displacement", "stress"}, "displacement") == "stress") method.of = Quantity::stress;
+  if (section.has("most_unknowns"))
+    method.most_unknowns = section.number("most_unknowns", "a whole number of unknowns, 1 to 1e9",
+                                          [](double n) { return n >= 1 && n <= 1e9 && n == std::floor(n); });
+  method.tolerance =
+      std::min(MethodRequest::roughest_tolerance, 1e-2 * *method.accuracy);  // unless the scene says less
+  if (method.element != "CR" && method.of == Quantity::stress)
+    section.refuse(
+        "of", "\"stress\" is proved of CR alone; accepted with element = \"" + method.element + "\": \"displacement\"");
+  if (method.solver != "active-set")
+    section.refuse("solver", "\"" + method.solver + "\" does not go with accuracy; accepted: \"active-set\"");
+}
+
+MethodRequest read_method(const Section& section) {
+  section.only({"element", "solver", "tolerance", "accuracy", "of", "most_unknowns"});
+  MethodRequest method;
+  method.element = section.one_of("element", {"P1", "CR", "P2", "P3", "P4"}, section.has("accuracy") ? "CR" : "P1");
+  method.solver = section.one_of("solver", {"active-set", "uzawa", "petsc"}, "active-set");
+  read_accuracy(section, method);
+  if (section.has("tolerance"))
+    method.tolerance =
+        section.number("tolerance", fmt::format("0 < tolerance <= {:g}", MethodRequest::roughest_tolerance),
+                       [](double t) { return t > 0 && t <= MethodRequest::roughest_tolerance; });
+  return method;
+}
+
+/// What one section leaves out because of another.
+void check_together(const Section& root, const Scene& scene, const MeshRequest& mesh, const MethodRequest& method) {
+  const bool ventcel = std::holds_alternative<VentcelLayer>(scene.layer()), petsc = method.solver == "petsc";
+  if (mesh.kind == "layered" && !std::holds_alternative<StiffLayer>(scene.layer()))
+    root.refuse("mesh.kind",
+                "\"layered\" is the mesh of the scaled layer, which this scene does not have; "
+                "accepted: a section [layer] with model = \"scaled\", or \"unstructured\"");
+  if (method.accuracy && ventcel)
+    root.refuse("method.accuracy",
+                "does not go with model = \"ventcel\"; accepted: model = \"scaled\" with epsilon = 0, "
+                "which is the same problem");
+  if (method.element != "P1" && method.element != "CR" && (petsc || ventcel))
+    root.refuse("method.element", fmt::format("\"{}\" does not go with {}; accepted: \"P1\", \"CR\"", method.element,
+                                              petsc ? "solver = \"petsc\"" : "model = \"ventcel\""));
+  if (petsc && !mesh.geometry.empty())
+    root.refuse("mesh.geometry", "does not go with solver = \"petsc\"; accepted: \"active-set\", \"uzawa\"");
+  if (!petsc && !method.accuracy) return;
+  const std::string beyond = !petsc           ? scene.beyond_the_certificate()
+                             : root.has("at") ? "points"
+                                              : scene.beyond_the_paper();
+  if (!beyond.empty())
+    root.refuse(petsc ? "method.solver" : "method.accuracy",
+                fmt::format("does not go with {}; accepted: {}", beyond,
+                            petsc ? "\"active-set\", \"uzawa\"" : "a scene without it, or no accuracy"));
+}
+
+/// What plane strain has no use for yet.
+void check_elastic(const Section& root, const Scene& scene, const MethodRequest& method) {
+  const auto refuse = [&](const std::string& what, const std::string& accepted) {
+    root.refuse("model.kind", "\"plane strain\" does not go with " + what + "; accepted: " + accepted);
+  };
+  if (method.accuracy || method.solver != "active-set") refuse("accuracy or another solver", "solver = \"active-set\"");
+  if (!scene.contact() || scene.contact()->ceiling)
+    refuse("a scene without contact, or with a ceiling", "a section [contact]");
+  if (scene.body().stiffness)
+    refuse("a stiffness of the body", "no [body]; with a [layer], young and poisson in [model]");
+  const auto* layer = std::get_if<StiffLayer>(&scene.layer());
+  if (layer != nullptr && layer->load) refuse("a load on the layer", "none");
+  for (const EdgeCondition& edge : scene.edges())
+    if (edge.kind != EdgeCondition::Kind::free) refuse("a condition on the group " + edge.group, "free edges");
+}
+
+}  // namespace
+
+void require_paper_problem(const SceneFile& file, const std::string& who) {
+  const std::string beyond = file.elastic ? "plane strain" : file.scene.beyond_the_paper();
+  if (!beyond.empty())
+    throw Error(fmt::format("{}: {}: does not know {}; accepted: a scene without it", file.name, who, beyond));
+}
+
+SceneFile read_scene_file(const std::filesystem::path& path) {
+  return read_scene(read_text(path, printable(path.string(), 1000)), path);
+}
+
+SceneFile read_scene(const std::string& text, const std::filesystem::path& path) {
+  const std::string name = printable(path.string(), 1000);
+  const toml::table table = parse(text, name);
+  const Section root(name, "", table);
+  root.only({"title", "load", "body", "layer", "contact", "edge", "at", "model", "mesh", "method"});
+  for (const std::string required : {"load", "mesh"})
+    if (!root.has(required)) root.refuse(required, fmt::format("is missing; accepted: a section [{}]", required));
+
+  const std::string title = root.text("title", "any text in quotes", "");
+  std::ostringstream words;
+  words << toml::json_formatter{table};
+  const MeshRequest mesh = read_mesh(root.section("mesh"), path.parent_path());
+  const bool unit_square = !mesh.from_file();  // what a file holds is known when it is read
+  Body body = read_body(root);
+  if (unit_square) sample_load(body.load);
+  MoreGroups groups;
+  const std::vector<EdgeCondition> edges = read_edges(root.sections("edge"), groups);
+  read_groups(root.section("body"), mesh.file, groups, body);
+  if (unit_square && !(groups.curves.empty() && groups.bodies.empty()))
+    root.refuse(groups.bodies.empty() ? "edge" : "body",
+                "names groups of a mesh file; accepted: with kind = \"file\" only");
+  const Layer layer = root.has("layer") ? read_layer(root.section("layer")) : NoLayer{};
+  std::optional<UnilateralContact> contact;
+  if (root.has("contact")) contact = read_contact(root.section("contact"));
+  if (contact && unit_square) sample_profile(contact->gap);
+  if (contact && contact->ceiling && unit_square) sample_profile(contact->ceiling);
+  const auto elastic = root.has("model") ? read_model(root.section("model"), layer) : std::nullopt;
+  if (contact && (!unit_square || elastic)) contact->held.clear();  // of a block the sides are free
+  const MethodRequest method = read_method(root.section("method"));
+  const Scene scene = [&] {
+    try {
+      Scene made(body, layer, contact, edges);
+      if (contact && unit_square)
+        sample_profile([&](double x) {
+          check_ceiling(*contact, x);
+          return 0.0;
+        });
+      return made;
+    } catch (const Error& error) {  // what is left for the scene to refuse: what no clamped end can keep
+      const std::string what = error.what();
+      throw Error(root.where(what.starts_with("contact: ceiling") ? "contact.ceiling" : "contact.gap") + what);
+    }
+  }();
+  check_together(root, scene, mesh, method);
+  if (elastic) check_elastic(root, scene, method);
+  const auto points = root.has("at") ? read_points(root.section("at")) : std::vector<Eigen::Vector2d>();
+  return {name, title, scene, mesh, method, words.str(), groups, points, elastic};
+}
+
+}  // namespace antilock

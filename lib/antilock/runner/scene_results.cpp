@@ -1,0 +1,275 @@
+#include "antilock/runner/scene_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/blas.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/io/write_csv.hpp"
+#include "antilock/io/write_vtu.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/measure/point_values.hpp"
+#include "antilock/mesh/write_msh.hpp"
+#include "antilock/runner/scene_answer.hpp"
+#include "antilock/runner/scene_mesh.hpp"
+
+namespace antilock {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json or_null(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+/// JSON has no infinity: a library would write null and say nothing.
+double finite(const char* what, double value) {
+  if (!std::isfinite(value)) throw NotConverged(std::string(what) + " of the answer is not finite", value, 0);
+  return value;
+}
+
+const char* asked_of(const MethodRequest& method) { return method.of == Quantity::stress ? "stress" : "displacement"; }
+
+/// The question in full: with it and the mesh file anyone can ask it again.
+Json question(const SceneFile& file) {
+  const Json words = Json::parse(file.words);
+  const MethodRequest& method = file.method;
+  Json asked = {{"title", file.title},
+                {"load", words["load"]["f"]},
+                {"layer", nullptr},
+                {"gap", nullptr},
+                {"mesh", words["mesh"]},
+                {"method", {{"element", method.element}, {"solver", method.solver}, {"tolerance", method.tolerance}}},
+                {"version", ANTILOCK_VERSION}};
+  const auto add = [&](const Json& from, const char* key, const std::string& name) {
+    if (from.contains(key)) asked[name] = from[key];
+  };
+  if (words.contains("layer")) {
+    const Json& layer = words["layer"];
+    asked["layer"] = {{"epsilon", or_null(file.scene.epsilon())}, {"model", layer.value("model", "scaled")}};
+    for (const std::string key : {"thickness", "stiffness", "load"}) add(layer, key.c_str(), "layer " + key);
+  }
+  if (words.contains("contact")) {
+    asked["gap"] = words["contact"].value("gap", "0");
+    add(words["contact"], "ceiling", "ceiling");
+  }
+  if (method.accuracy)
+    asked["method"].update(
+        {{"accuracy", *method.accuracy}, {"of", asked_of(method)}, {"most_unknowns", method.most_unknowns}});
+  for (const char* section : {"body", "edge", "at", "model"}) add(words, section, section);
+  return asked;
+}
+
+/// What was asked, what is proved, and the way there.
+Json certificate(const MethodRequest& method, const CertifiedSolution& certified) {
+  const Certificate& proof = certified.certificate;
+  Json levels = Json::array();
+  const std::string& geometry = certified.answer.mesh->geometry.file;
+  const std::string corners =
+      geometry.empty() ? "" : ", its corners on the curves of " + std::filesystem::path(geometry).filename().string();
+  for (const Level& level : certified.history)
+    levels.push_back({{"unknowns", level.unknowns}, {"bound", level.bound}, {"seconds", level.seconds}});
+  return {{"asked", *method.accuracy},
+          {"of", asked_of(method)},
+          {"relative", finite("the certified error", proof.relative(method.of))},
+          {"bound", finite("the certified error", proof.bound(method.of))},
+          {"energy_lower", proof.energy_lower},
+          {"energy_upper", proof.energy_upper},
+          {"proved_of", "the polygon of the last mesh" + corners + ", with load, traction and gap as sampled"},
+          {"levels", levels}};
+}
+
+/// T values of the layer stress: the mean over the rows of B that stand for a triangle, 0 on the body.
+Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p) {
+  const auto triangles = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
+  if (p.size() == 0 || triangles == 0) return {};
+  const Eigen::Index rows = p.size() / triangles;
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(mesh.triangle_count());
+  for (Eigen::Index t = 0, row = 0; t < stress.size(); ++t)
+    if (mesh.region[t] == Region::layer) stress(t) = p.segment(rows * row++, rows).mean();
+  return stress;
+}
+
+/// The table of contact with the tangential force per length behind it; 0 where an unknown is held.
+Eigen::MatrixXd with_friction(const Eigen::MatrixX3d& table, const Answer& answer) {
+  const std::vector<int>& contact = answer.space.contact();
+  const Eigen::VectorXd length = contact_lengths(answer.space);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(table.rows(), 4);
+  all.leftCols<3>() = table;
+  for (std::size_t i = contact.size(); i < answer.problem.contact.size();
+       ++i) {  // the bounds of u_x, in the same order
+    const auto row = std::find(contact.begin(), contact.end(), answer.problem.contact[i]) - contact.begin();
+    all(row, 3) = answer.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
+  }
+  return all;
+}
+
+}  // namespace
+
+SceneSummary summary_of(const SceneFile& file, const Answer& answer) {
+  const Solution& solution = answer.solution;
+  SceneSummary s;
+  s.h = mesh_width(file, *answer.mesh);
+  s.unknowns = solution.counters.unknowns;
+  s.energy = energy(answer.problem, solution);
+  s.u_max = solution.u.maxCoeff();
+  s.u_min = solution.u.minCoeff();
+  if (file.scene.contact()) {
+    const NormalContact normal = normal_contact(answer);
+    s.zone = contact_zone(answer.space, normal.problem, normal.solution);
+  }
+  const Eigen::Index size = answer.space.size(), components = solution.u.size() / size;
+  s.at.resize(static_cast<Eigen::Index>(file.at.size()), 2 + components);
+  if (s.at.rows() > 0) {
+    const PointValues values(answer.space);
+    for (Eigen::Index i = 0; i < s.at.rows(); ++i) {
+      const Eigen::Vector2d& x = file.at[i];
+      const auto place = values.locate(x, 1e-9);
+      if (!place)
+        throw Error(fmt::format("{}: at.points: ({:g}, {:g}) is outside the mesh; accepted: points of body and layer",
+                                file.name, x(0), x(1)));
+      s.at.row(i).head<2>() = x;
+      for (Eigen::Index k = 0; k < components; ++k)
+        s.at(i, 2 + k) = values.value(solution.u.segment(k * size, size), *place);
+    }
+  }
+  s.kkt = solution.kkt;
+  s.contact_steps = solution.counters.contact;
+  s.corrections = solution.counters.corrections;
+  s.layer = layer_report_of(file, answer);
+  s.warning = joined(s.layer ? s.layer->warning : "", answer.warning);
+  return s;
+}
+
+std::string summary_text(const SceneFile& file, const SceneSummary& summary, const RunSeconds& seconds, double files,
+                         const CertifiedSolution* certified) {
+  Json s;
+  s["element"] = file.method.element;
+  s["solver"] = file.method.solver;
+  s["epsilon"] = or_null(file.scene.epsilon());
+  s["h"] = summary.h;
+  s["dofs"] = summary.unknowns;
+  s["effects"] = file.scene.effects();
+  s["energy"] = finite("the energy", summary.energy);
+  s["u_max"] = finite("the maximum", summary.u_max);
+  s["u_min"] = finite("the minimum", summary.u_min);
+  if (file.scene.contact()) {
+    const ContactZone& zone = summary.zone;
+    s["contact"] = {
+        {"points", zone.points}, {"active", zone.active}, {"from", or_null(zone.from)}, {"to", or_null(zone.to)}};
+    s["kkt"] = {{"min_gap", summary.kkt.min_gap},
+                {"min_pressure", summary.kkt.min_pressure},
+                {"complementarity", summary.kkt.complementarity},
+                {"residual", summary.kkt.residual}};
+  } else {
+    s["kkt"] = {{"residual", summary.kkt.residual}};
+  }
+  s["iterations"] = {{"contact", summary.contact_steps}, {"corrections", summary.corrections}};
+  const Blas used = blas();
+  s["blas"] = {{"name", used.name}, {"kernel", used.kernel}, {"threads", used.threads}};
+  if (summary.layer) {
+    const std::optional<double>& lost = summary.layer->lost;
+    s["locking"] = {{"diagnosis", summary.layer->diagnosis},
+                    {"kept", lost ? Json(1 - *lost) : Json(nullptr)},
+                    {"lost_energy", or_null(lost)}};
+  }
+  if (summary.parallel)
+    s["parallel"] = {{"ranks", summary.parallel->ranks},
+                     {"petsc", summary.parallel->petsc},
+                     {"levels", summary.parallel->levels},
+                     {"linear_iterations", summary.parallel->linear_iterations},
+                     {"memory_mb", summary.parallel->memory_mb}};
+  for (Eigen::Index i = 0; i < summary.at.rows(); ++i) {
+    const auto& row = summary.at.row(i);
+    Json here = {{"x", row(0)}, {"y", row(1)}};
+    for (Eigen::Index k = 2; k < row.size(); ++k) here[row.size() == 3 ? "u" : k == 2 ? "u_x" : "u_y"] = row(k);
+    s["at"].push_back(here);
+  }
+  if (certified != nullptr) s["certificate"] = certificate(file.method, *certified);
+  s["warning"] = summary.warning;
+  s["scene"] = question(file);
+  const auto& [mesh, assemble, factor, solve] = seconds;
+  s["seconds"] = {{"mesh", mesh},   {"assemble", assemble}, {"factor", factor},
+                  {"solve", solve}, {"files", files},       {"total", mesh + assemble + factor + solve + files}};
+  return s.dump(2) + "\n";
+}
+
+void write_summary(const std::filesystem::path& path, const SceneFile& file, const SceneSummary& summary,
+                   const RunSeconds& seconds, double files, const CertifiedSolution* certified) {
+  const std::string text = summary_text(file, summary, seconds, files, certified);
+  write_file(path, [&](std::ostream& out) { out << text; });
+}
+
+std::string piece_name(int rank) { return fmt::format("solution_{}.vtu", rank); }
+
+std::vector<std::string> result_names(const std::filesystem::path& folder, int ranks) {
+  std::vector<std::string> names{"summary.json", "solution.csv", "contact.csv",
+                                 "mesh.msh",     "solution.vtu", "solution.pvtu"};
+  std::error_code absent;
+  const bool earlier = ranks > 0 || std::filesystem::exists(folder / "solution.pvtu", absent);
+  for (int r = 0; r < ranks || (earlier && std::filesystem::exists(folder / piece_name(r), absent)); ++r)
+    names.push_back(piece_name(r));
+  return names;
+}
+
+void check_inputs_stay(const std::filesystem::path& folder, const std::filesystem::path& scene, const SceneFile& file,
+                       int ranks) {
+  for (const std::string& name : result_names(folder, ranks)) {
+    std::error_code unknown;  // a folder that cannot be looked into is refused when it is written to
+    if (std::filesystem::is_directory(folder / name, unknown))
+      throw Error(fmt::format("{}: --out: {} is a folder, where the result {} is to stand; accepted: another folder",
+                              file.name, printable((folder / name).string(), 1000), name));
+    for (const std::filesystem::path& input : {scene, file.mesh.file, file.mesh.geometry})
+      if (std::error_code absent; !input.empty() && std::filesystem::equivalent(folder / name, input, absent))
+        throw Error(fmt::format("{}: --out: the result {} would replace {}; accepted: another folder", file.name, name,
+                                printable(input.string(), 1000)));
+  }
+}
+
+ResultFiles result_files(const std::string& words) {
+  ResultFiles asked;
+  std::istringstream in(words);
+  for (std::string word; std::getline(in, word, ',');) {
+    if (word != "summary" && word != "csv" && word != "mesh" && word != "vtu")
+      throw Error(fmt::format("--files: {:?} is none of the files; accepted: summary, csv, mesh, vtu, with commas",
+                              printable(word)));
+    asked.insert(word);
+  }
+  if (asked.empty()) throw Error("--files: names no file; accepted: summary, csv, mesh, vtu, with commas");
+  return asked;
+}
+
+void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
+                         const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked) {
+  const Stopwatch watch;
+  const bool contact = file.scene.contact().has_value(), csv = asked.contains("csv"), vtu = asked.contains("vtu");
+  const auto write = [&](const std::filesystem::path& draft) {
+    if (csv) write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
+    VtuFields more;
+    if (!file.elastic) more.p = layer_stress(*answer.mesh, answer.solution.p.head(answer.problem.class_rows()));
+    if (contact) {
+      const NormalContact normal = normal_contact(answer);
+      Eigen::MatrixX3d table = contact_table(answer.space, normal.problem, normal.solution);
+      if (!file.scene.contact()->ceiling)                           // which presses downwards: a pressure below 0
+        table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
+      if (csv && file.elastic && file.elastic->friction)
+        write_csv(draft / "contact.csv", {"x", "gap", "pressure", "friction"}, with_friction(table, answer));
+      else if (csv)
+        write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
+      more.pressure = table.col(2);
+    }
+    if (asked.contains("mesh")) write_msh(draft / "mesh.msh", *answer.mesh, file.scene.edges());
+    if (vtu && file.elastic)
+      write_deformed_vtu(draft / "solution.vtu", {answer.space, answer.space}, answer.solution.u,
+                         pressure_of(file, answer));
+    else if (vtu)
+      write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
+    write_summary(draft / "summary.json", file, summary, answer.seconds, watch.seconds(), certified);
+  };
+  write_folder(folder, write, result_names(folder));
+}
+
+}  // namespace antilock

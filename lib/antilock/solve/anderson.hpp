@@ -1,0 +1,89 @@
+#pragma once
+#include <algorithm>
+#include <deque>
+#include <limits>
+
+#include "antilock/core/dense.hpp"
+#include "antilock/core/twice.hpp"
+#include "antilock/solve/tuned.hpp"
+
+namespace antilock {
+
+/// Anderson's acceleration of a fixed-point iteration x -> x + g(x): the combination of the last few iterates whose
+/// steps g cancel best (for a linear iteration: GMRES). D. G. Anderson, J. ACM 12 (1965).
+///
+/// What a mix does to the rate: nothing. Near the answer a plain step multiplies the error of x by T, and a mix changes
+/// the error and not T. So what a plain step after a mix leaves is bounded by the contraction of plain steps. A slow
+/// mode with a small share in all noted starts stays unseen. Where what is left of g is round-off, the weights of a mix
+/// are chance; it does no harm as long as the companions that it mixes are all near the answer.
+class Anderson {
+ public:
+  /// Iterates that are kept: as many slow modes less one are gone. Two to five were seen, in locked P1; each costs two
+  /// vectors of u and p.
+  static constexpr std::size_t depth = 6;
+
+  /// Notes a plain step: `reached` = x + g from some x, and `companion`, a vector that depends affinely on x.
+  void note(const Twice& reached, const Eigen::VectorXd& g, const Twice& companion) {
+    past_.push_front({reached, companion, g});
+    if (past_.size() > depth) past_.pop_back();
+    double most = past_.size() < 2 ? tuned::slowest : 1 - tuned::slowest, gain = 0;
+    for (std::size_t i = 1; i < past_.size(); ++i) {
+      const Eigen::VectorXd after = reached - past_[i].reached;
+      const double apart = (after - g + past_[i].g).norm();
+      if (!(apart > 0)) continue;
+      most = std::max(most, after.norm() / apart);
+      gain = std::max(gain, (companion - past_[i].companion).lpNorm<Eigen::Infinity>() / apart);
+    }
+    contraction_ = std::min(most, tuned::slowest);
+    // else the last one: another contact set hardly changes it, a smaller penalty makes it smaller
+    if (gain > 0) gain_ = gain;
+  }
+
+  /// What the next step adds to the companion: |g| of the last step times `gain`, the most that the companion moved, in
+  /// the maximum norm, where a start moved by 1; 0 where no two starts are noted yet. (A step of the companion itself
+  /// does not tell: round-off that a mix leaves in a start is in g, and in the companion, but in no step between two
+  /// companions.)
+  double next_companion_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
+
+  /// By how much a plain step brings two starts closer, at worst over the last start and those before it; within
+  /// tuned::slowest, and that where there is only one. It holds wherever the starts came from. (The ratio of two steps
+  /// |g| does not: a mix makes g smaller, not the error by the same factor.)
+  double contraction() const { return contraction_; }
+
+  /// Mixes the noted iterates: `reached` and, with the same weights, `companion` become the next start.
+  void mix(Twice& reached, Twice& companion) const {
+    const auto others = static_cast<Eigen::Index>(past_.size()) - 1;
+    if (others < 1) return;
+    const Eigen::VectorXd& g = past_[0].g;
+    // min | g_0 - sum gamma_i (g_0 - g_i) |: a handful of columns, by a QR that drops dependent ones. The entries of
+    // the normal matrix are sums of products: a pivot below their round-off tells nothing
+    Eigen::MatrixXd difference(g.size(), others);
+    for (Eigen::Index i = 0; i < others; ++i) difference.col(i) = g - past_[i + 1].g;
+    const Eigen::VectorXd scale = difference.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+    for (Eigen::Index i = 0; i < others; ++i) difference.col(i) /= scale(i);
+    const Eigen::MatrixXd normal = difference.transpose() * difference;
+    const Eigen::VectorXd gamma =
+        least_squares(normal, difference.transpose() * g, tuned::round_off).cwiseQuotient(scale);
+    for (Eigen::Index i = 0; i < others; ++i) {
+      reached += -gamma(i) * (past_[0].reached - past_[i + 1].reached);
+      companion += -gamma(i) * (past_[0].companion - past_[i + 1].companion);
+    }
+  }
+
+  /// Forgets the past: after a change of the iteration itself (another contact set), it would only mislead.
+  void restart() { past_.clear(); }
+  /// Forgets the start noted first of those that are left; after a restart that is the only one.
+  void forget_the_oldest() {
+    if (!past_.empty()) past_.pop_back();
+  }
+
+ private:
+  struct Iterate {
+    Twice reached, companion;
+    Eigen::VectorXd g;
+  };
+  std::deque<Iterate> past_;           ///< the last one first
+  double contraction_ = 0, gain_ = 0;  ///< both measured by `note`
+};
+
+}  // namespace antilock

@@ -1,0 +1,166 @@
+#include "antilock/solve/contact_systems.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "antilock/core/dense.hpp"
+#include "antilock/core/error.hpp"
+#include "antilock/solve/tuned.hpp"
+
+namespace antilock {
+namespace {
+
+Cholesky factor_of(const Eigen::MatrixXd& s) {
+  Cholesky factor(s);
+  if (!factor.positive_definite()) throw Error("contact: the Schur complement is not positive definite");
+  return factor;
+}
+
+std::vector<int> from_zero_to(Eigen::Index count) {
+  std::vector<int> all(count);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// Unknown -> group, by the entries of a symmetric K alone. Neighbours are tied by |k_ij| > 0.08 sqrt(k_ii k_jj). An
+/// unknown none of whose neighbours has a group makes one with all of them; the others join that of a neighbour. P.
+/// Vanek, J. Mandel, M. Brezina, Computing 56 (1996): 0.08 is theirs.
+std::vector<int> groups_of(const SparseMatrix& k) {
+  const int size = static_cast<int>(k.cols());
+  const Eigen::VectorXd root = k.diagonal().cwiseSqrt();
+  const auto neighbours = [&](int i) {  // and i itself
+    std::vector<int> near;
+    for (SparseMatrix::InnerIterator it(k, i); it; ++it)
+      if (std::abs(it.value()) > 0.08 * root(i) * root(it.row())) near.push_back(static_cast<int>(it.row()));
+    return near;
+  };
+  std::vector<int> group(size, -1);
+  int count = 0;
+  for (int i = 0; i < size; ++i) {
+    const std::vector<int> near = neighbours(i);
+    if (std::any_of(near.begin(), near.end(), [&](int j) { return group[j] >= 0; })) continue;
+    for (const int j : near) group[j] = count;
+    ++count;
+  }
+  const std::vector<int> first = group;
+  for (int i = 0; i < size; ++i) {
+    if (first[i] >= 0) continue;
+    for (const int j : neighbours(i)) group[i] = std::max(group[i], first[j]);
+    if (group[i] < 0) group[i] = count++;
+  }
+  return group;
+}
+
+/// Whether a constant costs no energy but near what is fixed, as aggregation supposes: rows of K sum to 0, to
+/// round-off. Beside what is fixed they do not; of a mesh that is a part of all rows that falls like h. In a beam or a
+/// plate the rows of the rotations do not, half of all or more. A quarter tells the two apart.
+bool constants_are_free(const HeldFactor& k) {
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(k.upper().cols());
+  return 4 * (k.times(one).array().abs() > tuned::round_off * k.absolute_times(one).array()).count() < one.size();
+}
+
+}  // namespace
+
+DenseContact::DenseContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q)
+    : ContactSystem(from_zero_to(q.size())), s_(s), q_(q) {}
+
+Equilibrium DenseContact::solve(const std::vector<char>& held, const Eigen::VectorXd& given) {
+  std::vector<int> free, fixed;
+  for (int i = 0; i < static_cast<int>(held.size()); ++i) (held[i] != 0 ? fixed : free).push_back(i);
+  Equilibrium now{given, given, {}};
+  if (!free.empty()) {
+    Eigen::VectorXd rhs = q_(free) + given(free);
+    if (!fixed.empty()) rhs.noalias() -= s_(free, fixed) * given(fixed);
+    const Eigen::VectorXd v = factor_of(s_(free, free)).solve(rhs);
+    now.v(free) = v;
+  }
+  if (!fixed.empty()) now.lambda(fixed) = s_(fixed, Eigen::all) * now.v - q_(fixed);
+  // each force by the terms of its own row: one stiff unknown must not hide the pull on a soft one
+  now.round_off = tuned::round_off * (s_.cwiseAbs() * now.v.cwiseAbs() + q_.cwiseAbs());
+  return now;
+}
+
+Pieces DenseContact::nested_start(const Stairs& stairs, int max_steps) {
+  const int fine = stairs.count(), coarse = fine / 2;
+  if (fine <= 1) return Pieces(fine, Piece::between);
+  const auto kept = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
+  const Cholesky factor = factor_of(s_(others, others));
+  const Eigen::MatrixXd half = factor.half_solve(Eigen::MatrixXd(s_(others, kept)));
+  const Eigen::VectorXd half_q = factor.half_solve(Eigen::VectorXd(q_(others)));
+  const Eigen::MatrixXd s = Eigen::MatrixXd(s_(kept, kept)) - half.transpose() * half;
+  const Eigen::VectorXd q = Eigen::VectorXd(q_(kept)) - half.transpose() * half_q;
+  DenseContact smaller(s, q);
+  return start_by_halves(stairs, smaller, max_steps);
+}
+
+Equilibrium SparseContact::solve(const std::vector<char>& held, const Eigen::VectorXd& given) {
+  std::vector<char> held_places(q_.size(), 0);
+  Eigen::VectorXd q = q_, x = Eigen::VectorXd::Zero(q_.size());
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    held_places[bounded()[i]] = held[i];
+    (held[i] != 0 ? x : q)(bounded()[i]) += given(static_cast<Eigen::Index>(i));
+  }
+  k_.hold(held_places);
+  x += k_.solve(q - k_.times(x));
+  const Eigen::VectorXd force = k_.times(x) - q_;
+  const Eigen::VectorXd noise = tuned::round_off * (k_.absolute_times(x.cwiseAbs()) + q_.cwiseAbs());
+  Equilibrium now{std::move(x), given, noise(bounded())};
+  for (std::size_t i = 0; i < held.size(); ++i)
+    if (held[i] != 0) now.lambda(static_cast<Eigen::Index>(i)) = force(bounded()[i]);
+  return now;
+}
+
+Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
+  Pieces start(bounded().size(), Piece::between);
+  if (bounded().size() <= 1) return start;
+  const SparseMatrix whole = k_.upper().selfadjointView<Eigen::Upper>();
+  const std::vector<int> group = constants_are_free(k_) ? groups_of(whole) : from_zero_to(q_.size());
+  const int groups = 1 + *std::max_element(group.begin(), group.end());
+  if (2 * groups > q_.size()) {  // half of all at most: no start costs more than the finest problem
+    std::vector<int> second;
+    for (std::size_t i = 1; i < bounded().size(); i += 2) second.push_back(bounded()[i]);
+    SparseContact coarse(k_, q_, second);
+    return start_by_halves(stairs, coarse, max_steps);
+  }
+
+  RowMatrix members(q_.size(), groups);
+  for (Eigen::Index i = 0; i < q_.size(); ++i) members.insert(i, group[i]) = 1;
+  const auto sum = [&](const Eigen::VectorXd& of_bounds) {  // by group
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(q_.size());
+    all(bounded()) = of_bounds;
+    return Eigen::VectorXd(members.transpose() * all);
+  };
+  const auto mean = [&](const Eigen::VectorXd& of_bounds, double none) {  // of those that there are
+    const auto known = of_bounds.array().isFinite();
+    const Eigen::ArrayXd count = sum(known.cast<double>()), all = sum(known.select(of_bounds.array(), 0));
+    return Eigen::VectorXd((count > 0).select(all / count, none));
+  };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Stairs fewer{mean(stairs.lower, -infinity)};
+  if (stairs.upper.size() > 0) fewer.upper = mean(stairs.upper, infinity);
+  if (stairs.bears.size() > 0) fewer.bears = sum(stairs.bears);
+  if (stairs.force.size() > 0) fewer.force = sum(stairs.force);
+  // P = (I - 2/3 D^-1 K) P0, P0 = 1 on the members of a group: the weight is Vanek's 4/3 over the largest eigenvalue of
+  // D^-1 K, about 2 for first derivatives
+  const Eigen::VectorXd weight = (2.0 / 3) * whole.diagonal().cwiseInverse();
+  const SparseMatrix p = SparseMatrix(members) - SparseMatrix(weight.asDiagonal() * SparseMatrix(whole * members));
+  const Eigen::VectorXd q = p.transpose() * q_;
+  try {
+    HeldFactor k;
+    if (k.factorise(SparseMatrix(p.transpose() * SparseMatrix(whole * p)).triangularView<Eigen::Upper>())) return start;
+    SparseContact coarse(k, q, from_zero_to(groups));
+    const Pieces pieces = solve_contact(coarse, fewer, std::nullopt, max_steps).pieces;
+    const RowMatrix rows = p;
+    for (std::size_t i = 0; i < bounded().size(); ++i) {
+      start[i] = pieces[group[bounded()[i]]];
+      for (RowMatrix::InnerIterator w(rows, bounded()[i]); w; ++w) start[i] = agreed(start[i], pieces[w.col()]);
+    }
+  } catch (const Error&) {  // a start, no more: the fine problem says what is wrong
+  }
+  return stairs.there_are(std::move(start));
+}
+
+}  // namespace antilock

@@ -1,0 +1,83 @@
+// antilock: doors for other people's answers. One program, one word for what is asked.
+//
+// Run:    antilock truth tutorials/scenes/figure8.toml < points.csv     the exact solution at points
+// Run:    antilock sweep tutorials/scenes/figure7.toml --epsilon 1:1e-6:7
+//
+// Every subcommand ends with status 0, or with one line on standard error and nothing written: status 2 for a question
+// that cannot be asked, 3 for a solve that did not get there.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+#include <functional>
+#include <new>
+#include <system_error>
+
+#include "antilock/core/error.hpp"
+#include "antilock/core/standard_output.hpp"
+#include "programs/program.hpp"
+#include "programs/subcommands/subcommands.hpp"
+
+namespace {
+
+struct Door {
+  const char* name;
+  std::function<int(int, char**)> open;
+  const char* what;
+};
+
+const std::vector<Door>& doors() {
+  using namespace antilock;
+  static const std::vector<Door> all{
+      {"run",
+       [](int, char** argv) -> int {
+         tutorial::become("run_scene", argv);
+         throw Error("antilock run: run_scene is not beside this program; accepted: the folder of both");
+       },
+       "answer a scene: run_scene, the same options"},
+      {"truth", doors::truth, "the exact solution of a scene at given points"},
+      {"judge", doors::judge, "how far another program's answer is from the exact solution"},
+      {"lockcheck", doors::lockcheck, "whether the matrices of another program lock"},
+      {"sweep", doors::sweep, "a scene over epsilons and meshes: one table"}};
+  return all;
+}
+
+int help(std::FILE* where, int status) {
+  antilock::open_standard_streams();
+  fmt::print(where, "antilock SUBCOMMAND ...; each has --help\n");
+  for (const Door& door : doors()) fmt::print(where, "  {:<10} {}\n", door.name, door.what);
+  return antilock::delivered(status, "antilock");
+}
+
+int fail(const std::string& message, int status) {
+  // fmt::print would throw where standard error is full or closed, and end the program by a signal
+  std::fputs((antilock::printable(message, 4000) + "\n").c_str(), stderr);
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    for (const Door& door : doors())
+      for (int k = 0; k < std::min(argc, 2); ++k)  // 0: it started again, as choose_machine does
+        if (!std::strcmp(argv[k], door.name)) {
+          const int status = door.open(argc - k, argv + k);
+          return antilock::delivered(status, std::string("antilock ") + door.name);
+        }
+    if (argc < 2) return help(stderr, 2);
+    if (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h")) return help(stdout, 0);
+    return fail(std::string("antilock: \"") + argv[1] +
+                    "\" is unknown; accepted: run, truth, judge, lockcheck, sweep (see --help)",
+                2);
+  } catch (const antilock::NotConverged& failure) {
+    return fail(failure.what(), 3);
+  } catch (const std::bad_alloc&) {
+    return fail("antilock: out of memory; accepted: fewer cells or points", 3);
+  } catch (const std::system_error& error) {  // of standard output: those of files come as Error
+    return fail(std::string("antilock: standard output: ") + error.what(), 2);
+  } catch (const std::exception& error) {
+    return fail(error.what(), 2);
+  }
+}

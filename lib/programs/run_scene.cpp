@@ -1,0 +1,264 @@
+// run_scene: answers a question asked in a scene file, without a line of C++.
+//
+// Run:    run_scene tutorials/scenes/figure8.toml --out results/figure8
+// Takes:  about a second for 1/h = 64; unstructured meshes of 1/h = 128 take several.
+//
+// The way of the data is that of every tutorial: scene -> mesh -> space -> discrete problem -> solution -> files.
+// What this program promises: an answer with exit status 0, or one line on standard error and no file at all:
+// status 2 for a question that cannot be asked (the line names file and key), 3 for a solve that did not get there.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "antilock/adapt/solve_to.hpp"
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/standard_output.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/runner/scene_answer.hpp"
+#include "antilock/runner/scene_file.hpp"
+#include "antilock/runner/scene_results.hpp"
+#include "programs/program.hpp"
+#include "programs/report.hpp"
+
+using namespace antilock;
+
+namespace {
+
+// clang-format off
+const char* const help = R"help(A scene file is TOML; the text after # is a comment:
+
+  title = "figure 8"            # optional
+  [load]                        # required: the force per area on the body, -div(stiffness grad u) = f; u has one component, upwards
+  f = "10*sin(2*pi*x)"          # in x and y: + - * / ^, sin cos exp sqrt abs, pi, comparisons, x < 0.5 ? 1 : 2
+                                # 0.2 < x < 0.5 holds where both do; -x^2 is -(x^2), 2^3^2 is 2^9, 1/2 is 0.5, log is natural; a
+                                # comparison counts as 1 or 0, and stands on both sides of && and || and before ?
+  [layer]                       # leave out: no layer
+  epsilon = 1e-6                # 0 (the rigid limit) to 1
+                                # or the two numbers of a real layer, relative to a body of stiffness 1:
+                                # thickness = 0.01 and stiffness = 100 (s = 1 before a_x^-, s / thickness^2 before a_y^-)
+  load = "0"                    # optional, scaled layer: a force on the layer as it is stretched
+  model = "scaled"              # "scaled" (default): problem (23) on (0,1) x (-1,0)
+                                # "thin": (22) on (0,1) x (-epsilon,0), epsilon from 1e-3
+                                # "ventcel": the limit (25) on Sigma, no layer mesh, epsilon = 0
+  [contact]                     # leave out: no obstacle
+  gap = "0"                     # how far the obstacle lies below: u >= -gap(x)
+  ceiling = "0.2"               # optional: u <= ceiling(x) too; where it presses down, the pressure is negative
+  [body]                        # optional
+  stiffness = "1 + 9*(x > 0.5)" # on each triangle as at its centroid; or per group of surfaces of a mesh file, which are
+                                # parts of the body: stiffness = { left = 1, right = 10 }
+  [[edge]]                      # one per group of curves of a mesh file beside clamped and contact
+  group = "top"                 # free = true, or one of: displacement = "0.05", traction = "x" (force per length), spring = "2" (-2 u)
+  free = true
+  [at]                          # optional: u there, in the summary
+  points = [[0.25, -1.0]]
+  [model]                       # optional
+  kind = "plane strain"         # a block pressed down on the gap: its clamped edges (of the unit square: the top) sink by
+                                # push = 0.1, the rest is free, f is upwards. Without a layer: rubber, mu = 1, epsilon = 1/lambda
+                                # (default 0: incompressible). With one: a coating of that thickness and of the block's
+                                # material (young = 1, poisson = 0.3) divided by it. friction = "0.1": Tresca's bound
+  [mesh]                        # required
+  kind = "unstructured"         # "structured" (cells up to 2048), "unstructured" (up to 512), "layered" (up to 512: the
+                                # unstructured body over a scaled layer in columns) or "file"
+  cells = 64                    # cells per unit side; with kind = "file" instead: file = "my.msh", beside the scene
+  geometry = "my.geo"           # optional, with a file: the .geo or .brep that the mesh was made from, beside the scene
+  refinements = 2               # optional: every triangle of that mesh is cut into four so many times; with "petsc" each
+                                # rank refines its own strip of a small mesh
+  [method]                      # optional
+  element = "CR"                # "P1" (default), "CR" (Crouzeix-Raviart), "P2", "P3" or "P4"
+  solver = "active-set"         # (default), "uzawa", the paper's, or "petsc": PETSc, alone or under mpiexec
+  tolerance = 1e-10             # relative, on the algebraic error; at most 1e-3
+  accuracy = 1e-2               # refine until the proved relative error in the energy norm is at most this: [mesh] is
+                                # the first mesh then, the element CR unless another is named, the solver active-set
+  of = "displacement"           # with accuracy: of the displacement (default) or of the "stress"
+  most_unknowns = 2000000       # with accuracy: the limit
+
+A mesh from a file has the physical groups body, layer (if the scene has one), clamped and contact. The body may be any
+shape on and above y = 0 with a bottom edge on that line; all of that edge is contact, or has the layer below it. A scaled
+layer that the file does not hold is grown below the contact edges, in columns. In a file with the body alone these edges may be
+curved, each x once, and at any height: the layer grows along their normals, and gap(x) is asked at the x of the edge. accuracy refuses springs, a ceiling, a
+load on the layer, a stiffness that varies on a triangle and a displacement that is not affine on the edges of the mesh;
+"petsc" refuses all of [body], [[edge]], [at], geometry, ceiling and the layer's numbers. With a geometry, accuracy and refinements put
+the new vertices of the body's boundary on its curves.
+Read are the scene and the two files that [mesh] names, no other; nothing is run. A .geo is a script of gmsh, which may run programs
+and read and write files: gmsh gets the commands of it that draw. A script with any other is refused by name and line; statements on
+the mesh alone (Mesh, Physical, Field, ...) are left out. A .brep holds data, which OpenCASCADE reads. A .geo or .brep
+that lies beside the mesh file and is not named is not read: refinements and accuracy warn of it.
+
+Written to the results folder: summary.json; solution.csv (x,y,u; in plane strain x,y,u_x,u_y); contact.csv (x,gap,pressure; with contact only,
+with friction a column of that name: the tangential force per length), where
+gap is the opening u + gap(x) >= 0 and pressure is force per unit length; mesh.msh (gmsh and FreeFEM read it; parts of the body that [body] names are one group there);
+solution.vtu (for ParaView: open it, colour by u; it has p, the layer stress, and pressure, too). A picture of it:
+build/bin/render surface DIR/solution.vtu --out picture.png (of a mesh from a file: render plan, in plane strain: render deformed)
+In summary.json, h is 1/cells of the refined mesh, or the longest edge of a mesh from a file or of the last mesh of an accuracy, the layer of depth 1 included; seconds are wall seconds, which add up to total;
+blas is the library of dense linear algebra, its kernels and threads (where OpenBLAS does not know the CPU and falls
+back to old kernels, the program starts again with wider ones, and with memory in large pages where Linux gives them to
+who asks; ANTILOCK_KEEP_KERNELS=1 leaves both);
+locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the share of the energy released by the layer's
+motion that is lost at least (proved; null where nothing is proved), kept is 1 - lost_energy;
+scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
+polygon of the last mesh, with load, traction and gap as sampled; warning says what to
+doubt: a layer that locks, an answer above the trusted error, a load of the body or
+an obstacle that the mesh misses, u within a layer beyond its values around it, a polygon in place of a curve.
+Exit status: 0 answered; 2 bad input, or what is printed does not arrive; 3 not solved to the tolerance, or out of memory. 2 and
+3 say why in one line and write nothing.
+Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/figure8.toml --out results/figure8
+)help";
+// clang-format on
+
+/// Which of the processes that mpiexec started this is, and how many there are, without MPI: from the environment that
+/// Open MPI, MPICH and Slurm set. 0 of 1 without mpiexec.
+int launched(const char* by_open_mpi, const char* by_others, int alone) {
+  for (const char* name : {by_open_mpi, by_others})
+    if (const char* value = std::getenv(name)) return std::atoi(value);
+  return alone;
+}
+int launched_rank() { return launched("OMPI_COMM_WORLD_RANK", "PMI_RANK", 0); }
+int launched_ranks() { return launched("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1); }
+
+/// Scenes with solver = "petsc" are answered by the program beside this one, alone or on many ranks.
+void check_solver(const SceneFile& file, bool for_petsc, char** argv) {
+  if (file.method.solver == "petsc") {
+    tutorial::become("run_scene_petsc", argv);
+    throw Error(file.name +
+                ": method.solver: \"petsc\" is not built here, since PETSc or MPI was missing; accepted: "
+                "\"active-set\", \"uzawa\"");
+  }
+  if (for_petsc)
+    throw Error(file.name + ": --restart and --direct go with solver = \"petsc\" only; accepted: a run without it");
+  if (launched_ranks() > 1)
+    throw Error(file.name +
+                ": method.solver: was started on several ranks, and PETSc or MPI was missing when this was "
+                "built; accepted: a run without mpiexec");
+}
+
+/// A line on the terminal that follows a long solve, from its second second on, and the end of one that takes longer
+/// than it may.
+ProgressHook follower(double most_seconds) {
+  return [watch = Stopwatch(), shown = 1.0, most_seconds](const Progress& now) mutable {
+    const double seconds = watch.seconds();
+    if (seconds > shown + 1 && ::isatty(STDERR_FILENO) != 0) {
+      shown = seconds;
+      fmt::print(stderr, "\r  {:.0f} s, {} {}: relative error about {:.0e}, asked for {:.0e} ", seconds, now.stage,
+                 now.step, now.reached, now.asked);
+    }
+    return seconds <= most_seconds;
+  };
+}
+
+/// What the command line asks for beside the scene.
+struct Asked {
+  std::filesystem::path out;
+  ResultFiles files;
+  double most_seconds = std::numeric_limits<double>::infinity();
+  bool restart = false, direct = false;
+};
+
+/// s / epsilon^2, as a quotient where it is beyond double precision.
+std::string across(const StiffLayer& layer) {
+  const double square = layer.epsilon * layer.epsilon, stiffness = layer.s / square;
+  return square > 0 && std::isfinite(stiffness) ? fmt::format("{:g}", stiffness)
+                                                : fmt::format("{:g} / {:g}^2", layer.s, layer.epsilon);
+}
+
+void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Report& report, char** argv) {
+  const SceneFile file = read_scene_file(scene);
+  const MethodRequest& method = file.method;
+  check_solver(file, asked.restart || asked.direct, argv);
+  check_folder(asked.out);
+  check_inputs_stay(asked.out, scene, file);
+  fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
+
+  Stopwatch watch;
+  const auto level_done = [&](const Level& level) {
+    const std::string quote = level.quoted_unknowns > 0 ? fmt::format(", about {:.0f} unknowns and {:.2g} s in the end",
+                                                                      level.quoted_unknowns, level.quoted_seconds)
+                                                        : "";
+    fmt::print("\n    {} unknowns: proved {:.3g}{}", level.unknowns, level.relative, quote);
+    if (level.seconds > asked.most_seconds && level.relative > *method.accuracy)
+      throw NotConverged(fmt::format("stopped after {:.1f} s: proved {:.3g} with {} unknowns, asked for {:g}",
+                                     level.seconds, level.relative, level.unknowns, *method.accuracy),
+                         level.relative, 0);
+  };
+  CertifiedSolution found = answer_scene(
+      file, {[&](const std::string& what) { report.stage(what); }, follower(asked.most_seconds), level_done});
+  watch.lap();
+  const SceneSummary summary = summary_of(file, found.answer);
+  found.answer.seconds.solve += watch.lap();
+  if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
+      stiff != nullptr && nlohmann::json::parse(file.words)["layer"].contains("thickness"))
+    fmt::print("  layer: {:g} before a_x^-, {} before a_y^-\n", stiff->s, across(*stiff));
+  report.stage("files");
+  write_scene_results(asked.out, file, found.answer, summary, found.history.empty() ? nullptr : &found, asked.files);
+  report.finish();
+  if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
+  const std::string name = (asked.out / "solution").string();
+  const char* const of_one_component = file.mesh.from_file() ? "plan" : "surface";
+  const char* const kind = file.elastic ? "deformed" : of_one_component;
+  if (asked.files.contains("vtu"))
+    fmt::print("  a picture of it: {} {} {} --out {}\n", tutorial::in_shell(tutorial::beside("render")), kind,
+               tutorial::in_shell(name + ".vtu"), tutorial::in_shell(name + ".png"));
+  if (found.history.empty())
+    fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,
+               summary.u_max, summary.contact_steps, summary.corrections, asked.out.string());
+  else
+    fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
+               found.certificate.relative(method.of), found.history.size(), found.answer.space.free_count(),
+               asked.out.string());
+}
+
+int fail(const std::string& message, int status) {
+  if (launched_rank() > 0) return 0;  // rank 0 says it, and its status is that of the run
+  // fmt::print would throw where standard error is full or closed, and end the program by a signal
+  std::fputs((printable(message, 4000) + "\n").c_str(), stderr);
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (launched_ranks() > 1) tutorial::become("run_scene_petsc", argv);  // which reads the scene on all at once
+  CLI::App line("Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
+                "run_scene");
+  std::filesystem::path scene;
+  Asked asked;
+  std::string files = "summary,csv,mesh,vtu";
+  line.add_option("SCENE", scene, "the scene file, in TOML")->required();
+  const CLI::Option* out = line.add_option(
+      "--out", asked.out, "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.add_option("--files", files, "which files to write: any of summary, csv, mesh, vtu, with commas between them");
+  line.add_flag("--direct", asked.direct,
+                "with solver = \"petsc\": MUMPS in place of multigrid, for layers without columns");
+  line.add_flag("--restart", asked.restart,
+                "with solver = \"petsc\": start from the last level of a run that was ended");
+  line.add_option("--most-seconds", asked.most_seconds, "stop a solve that takes longer: status 3, and how far it came")
+      ->check(CLI::Range(0.0, asked.most_seconds));
+  line.footer(help);
+  if (const auto status = tutorial::parse(line, argc, argv)) return *status;
+  if (out->count() == 0) asked.out = std::filesystem::path("results") / scene.stem();
+  tutorial::Report report;
+  const auto failed = [&](const std::string& message, int status) {
+    if (std::ferror(stdout) == 0) report.finish();  // the line of the stage that did not end
+    return fail(message, status);
+  };
+  try {
+    asked.files = result_files(files);  // a name that is none is refused before the work
+    answer(scene, asked, report, argv);
+  } catch (const NotConverged& failure) {
+    return failed(failure.what(), 3);
+  } catch (const std::bad_alloc&) {
+    return failed(scene.string() + ": mesh: out of memory; accepted: fewer cells", 3);
+  } catch (const std::system_error& error) {  // of standard output: those of files come as Error
+    return failed(std::string("run_scene: standard output: ") + error.what(), 2);
+  } catch (const std::exception& error) {
+    return failed(error.what(), 2);
+  }
+  return delivered(0, "run_scene");
+}

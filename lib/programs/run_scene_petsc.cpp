@@ -1,0 +1,263 @@
+// run_scene_petsc: answers a scene file with solver = "petsc", alone or on many ranks.
+//
+// Run:    run_scene SCENE.toml --out DIR                     hands scenes with solver = "petsc" over to this program
+//         mpiexec -n 4 run_scene SCENE.toml --out DIR
+//         mpiexec -n 4 run_scene SCENE.toml --out DIR --restart     after a run that was ended: from its last level
+//
+// The way of the data: scene -> coarse mesh on every rank -> strips -> refinement, assembly and contact loop, level by
+// level, on each rank's own strip -> files, written by the ranks in turn. It promises what run_scene promises: an
+// answer with exit status 0, or one line on standard error, from rank 0, and no results: status 2 for a question that
+// cannot be asked, 3 for a solve that did not get there.
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <CLI/CLI.hpp>
+#include <new>
+
+#include "antilock/core/atomic_file.hpp"
+#include "antilock/core/standard_output.hpp"
+#include "antilock/core/stopwatch.hpp"
+#include "antilock/distributed/ranks.hpp"
+#include "antilock/mesh/generate.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/runner/scene_checks.hpp"
+#include "antilock/runner/scene_mesh.hpp"
+#include "antilock/runner/scene_results.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "programs/petsc/checkpoint.hpp"
+#include "programs/petsc/scene_files.hpp"
+#include "programs/program.hpp"
+#include "programs/report.hpp"
+
+using namespace antilock;
+namespace dist = antilock::distributed;
+
+namespace {
+
+struct Choices {
+  bool restart = false, direct = false;
+  double most_seconds = std::numeric_limits<double>::infinity();
+};
+
+/// The mesh to begin with, on every rank, and how often it is refined: as often as the scene says. A structured mesh is
+/// one of few cells, refined: the same vertices.
+struct Hierarchy {
+  TriangleMesh coarse;
+  int refinements = 0, coarse_cells = 1;  // per unit side; 1 where a file does not say
+};
+
+Hierarchy hierarchy(const SceneFile& file, int ranks) {
+  Hierarchy h;
+  SceneFile first = file;
+  std::swap(h.refinements, first.mesh.refinements);
+  const bool halves = file.mesh.kind == "structured" &&
+                      !std::holds_alternative<ThinLayer>(file.scene.layer());  // its rows do not halve with the cells
+  const int least = std::max(16, 8 * ranks);
+  while (halves && first.mesh.cells % 2 == 0 && first.mesh.cells / 2 >= least) first.mesh.cells /= 2, ++h.refinements;
+  h.coarse = make_mesh(first);
+  h.coarse_cells = std::max(first.mesh.cells, 1);
+  return h;
+}
+
+/// The contact set of the library's own solver on a coarse structured mesh: where the first level begins to search.
+dist::ContactSet first_guess(const Scene& scene) {
+  const TriangleMesh mesh = structured_mesh(32, Domain{scene.layer_depth()});
+  const Space space(mesh, p1());
+  const VariationalInequality problem = assemble(scene, space);
+  const Solution solution = active_set(problem);
+  dist::ContactSet set;
+  for (std::size_t i = 0; i < problem.contact.size(); ++i) {
+    set.x.push_back(space.points()(problem.contact[i], 0));
+    set.active.push_back(solution.active[i] ? 1 : 0);
+  }
+  return set;
+}
+
+/// Better one line now than a process killed in the middle: about 1.1 kB per unknown of P1 and 2 kB per unknown of CR.
+void check_memory(const SceneFile& file, const Hierarchy& h, int ranks) {
+  const double vertices = h.coarse.vertex_count() * std::pow(4.0, h.refinements);
+  const double needed = 300e6 + vertices * (file.method.element == "CR" ? 4000 : 1150) / ranks;
+  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
+    rlimit limit{};
+    if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) continue;
+    if (needed > static_cast<double>(limit.rlim_cur))
+      throw NotConverged(
+          fmt::format("{}: mesh: about {:.0f} MB per rank are needed, the limit of this process is {:.0f} "
+                      "MB; accepted: fewer cells, more ranks, or a higher limit",
+                      file.name, needed / 1e6, static_cast<double>(limit.rlim_cur) / 1e6),
+          1, 0);
+  }
+}
+
+/// What a failure of the solver says, with the name of the file in front.
+template <class Work>
+void named(const std::string& file, const Work& work) {
+  try {
+    work();
+  } catch (const NotConverged& failure) {
+    throw NotConverged(file + ": solve: " + failure.what(), failure.reached, failure.steps);
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    throw Error(what.rfind(file, 0) == 0 ? what : file + ": " + what);
+  }
+}
+
+void answer(const std::filesystem::path& scene, const std::filesystem::path& out, const Choices& choices,
+            tutorial::Report& report) {
+  const auto say = [&](const std::string& what) {
+    if (dist::rank() == 0) report.stage(what);
+  };
+  Stopwatch watch;
+  std::optional<SceneFile> file;
+  dist::NestedOptions options;
+  Hierarchy h;
+  const std::filesystem::path kept = dist::checkpoint_path(out);
+  std::string question;
+  dist::together([&] {
+    file = read_scene_file(scene);
+    if (file->method.solver != "petsc")
+      throw Error(
+          fmt::format("{}: method.solver: \"{}\" runs without mpiexec, {} ranks were started; accepted: \"petsc\"",
+                      file->name, file->method.solver, dist::ranks()));
+    check_folder(out);
+    check_inputs_stay(out, scene, *file, dist::ranks());
+    question = dist::question_of(scene, file->mesh.file);
+    if (!choices.restart) return;
+    const dist::Checkpoint checkpoint = dist::read_checkpoint(kept, question);
+    options.start = checkpoint.set;
+    options.first_level = checkpoint.cells;  // cells for now; below the level
+  });
+  if (dist::rank() == 0)
+    fmt::print("run_scene: {} (petsc, {} rank{})\n", printable(file->title.empty() ? file->name : file->title, 200),
+               dist::ranks(), dist::ranks() > 1 ? "s" : "");
+
+  say("coarse mesh");
+  dist::together([&] {
+    h = hierarchy(*file, dist::ranks());
+    check_memory(*file, h, dist::ranks());
+    const bool unit_square = !file->mesh.from_file();
+    if (unit_square && !options.start && file->scene.contact()) options.start = first_guess(file->scene);
+  });
+  if (choices.restart) {
+    const int solved = options.first_level;
+    options.first_level = 0;
+    while (options.first_level < h.refinements && (h.coarse_cells << options.first_level) <= solved)
+      ++options.first_level;
+    say(fmt::format("restart from the contact set at 1/h = {}", solved));
+  }
+  options.refinements = h.refinements;
+  options.loop.direct = choices.direct;
+  options.loop.progress = [most = choices.most_seconds, since = Stopwatch()](const Progress&) {
+    return since.seconds() <= most;
+  };
+  options.loop.tolerance = std::max(file->method.tolerance, MethodRequest::finest_tolerance);
+  options.loop.residual = std::max(options.loop.residual, options.loop.tolerance);
+  options.stage = say;
+  options.checkpoint = [&](int level, const dist::ContactSet& set) {
+    dist::together([&] {
+      if (dist::rank() == 0) dist::write_checkpoint(kept, {question, h.coarse_cells << level, set});
+    });
+  };
+  const double before = watch.lap();
+
+  dist::NestedReport solved;
+  std::unique_ptr<dist::NestedLevel> level;
+  const auto forget = [&] {
+    if (std::error_code ignored; dist::rank() == 0) std::filesystem::remove(kept, ignored);
+  };
+  try {
+    named(file->name, [&] {
+      level = dist::solve_nested(file->scene, h.coarse, element(file->method.element), options, solved);
+      if (file->method.tolerance < MethodRequest::finest_tolerance)
+        throw NotConverged(
+            fmt::format("petsc: relative error about {:.0e} reached after {} corrections, asked for {:.1e}; "
+                        "double precision goes no further",
+                        MethodRequest::finest_tolerance, solved.last.corrections, file->method.tolerance),
+            MethodRequest::finest_tolerance, solved.last.corrections);
+    });
+  } catch (const Error&) {
+    forget();
+    throw;
+  }
+  std::string warning;  // of the loads and obstacles that a rank sees on its own strip
+  dist::together([&] {
+    Solution here;
+    here.u = level->state.u;
+    warning = load_warning(*file, level->space, level->problem.part());
+    if (warning.empty() && file->scene.contact()) warning = gap_warning(*file, level->space, here);
+  });
+  warning = solved.warning.empty() ? dist::first_said(warning) : solved.warning;
+  const std::optional<LayerReport> layer = dist::layer_report_of_all(*file, h.coarse, h.refinements, *level);
+  if (layer && !layer->warning.empty()) warning = layer->warning + (warning.empty() ? "" : "; " + warning);
+  // what is left of the wall time belongs to the stages in between: files are counted apart
+  const double rest = watch.lap() - solved.mesh - solved.assemble - solved.setup;
+  const RunSeconds seconds{before + solved.mesh, solved.assemble, solved.setup, rest};
+
+  say("files");
+  dist::write_scene_files(out, *file, *level, solved, h.refinements + 1, layer, warning, seconds);
+  forget();
+  if (dist::rank() > 0) return;
+  report.finish();
+  if (!warning.empty()) fmt::print("  warning: {}\n", warning);
+  fmt::print(
+      "  {} unknowns; {} corrections and {} iterations of conjugate gradients on the last level; results in {}\n",
+      solved.unknowns.back(), solved.last.corrections, solved.last.linear_iterations, out.string());
+  if (dist::ranks() == 1)
+    fmt::print("  a picture of it: {} surface {} --out {}\n", tutorial::in_shell(tutorial::beside("render")),
+               tutorial::in_shell((out / "solution_0.vtu").string()),
+               tutorial::in_shell((out / "solution.png").string()));
+}
+
+int fail(const std::string& message, int status) {
+  if (dist::rank() == 0) std::fputs((printable(message, 4000) + "\n").c_str(), stderr);  // it cannot throw
+  return status;
+}
+
+int run(int argc, char** argv) {
+  CLI::App line("Solves the scene of a file with solver = \"petsc\"; run_scene --help says what a scene file holds.",
+                "run_scene");
+  std::filesystem::path scene, out;
+  Choices choices;
+  line.add_option("SCENE", scene, "the scene file, in TOML")->required();
+  const CLI::Option* folder =
+      line.add_option("--out", out, "folder of the results, made if absent; default: results/NAME of the scene file");
+  line.add_flag("--restart", choices.restart, "start from the last level of a run to the same folder that was ended");
+  line.add_option("--most-seconds", choices.most_seconds, "stop a solve that takes longer: status 3")
+      ->check(CLI::Range(0.0, choices.most_seconds));
+  line.add_flag("--direct", choices.direct, "MUMPS in place of multigrid: for layers without columns");
+  if (const auto status = tutorial::parse(line, argc, argv, dist::rank() > 0)) return *status;
+  if (folder->count() == 0) out = std::filesystem::path("results") / scene.stem();
+  tutorial::Report report;
+  const auto failed = [&](const std::string& message, int status) {
+    if (dist::rank() == 0) report.finish();
+    return fail(message, status);
+  };
+  try {
+    answer(scene, out, choices, report);
+  } catch (const NotConverged& failure) {
+    return failed(failure.what(), 3);
+  } catch (const Error& error) {
+    return failed(error.what(), 2);
+  }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tutorial::choose_machine(argv);
+  try {
+    const dist::Session session;
+    try {
+      return delivered(run(argc, argv), "run_scene");
+    } catch (const std::exception& failure) {  // of this rank alone: the others may wait for it
+      const bool memory = dynamic_cast<const std::bad_alloc*>(&failure) != nullptr;
+      dist::abort(
+          fmt::format("run_scene: {}", memory ? "out of memory; accepted: fewer cells, or more ranks" : failure.what()),
+          3);
+    }
+  } catch (const std::exception& failure) {
+    fmt::print(stderr, "run_scene: {}\n", failure.what());
+  }
+  return 3;
+}

@@ -1,0 +1,183 @@
+// The contact problem on Gamma_C, between two bounds: a linear complementarity problem, solved from any start.
+#include "antilock/solve/contact_systems.hpp"
+#include "support/dense.hpp"
+#include "support/scenes.hpp"
+
+namespace antilock::test::solve_test::contact_test {
+
+struct Box {
+  Eigen::MatrixXd s;
+  Eigen::VectorXd q, lower, upper;
+  ContactAnswer solve(const Pieces& start, int max_steps = 1000) const {
+    DenseContact system(s, q);
+    return solve_contact(system, {lower, upper}, start, max_steps);
+  }
+  Pieces nested() const { return DenseContact(s, q).nested_start({lower, upper}, 1000); }
+};
+
+/// S = A A' + I / 100, dense, no M-matrix: with a `rank` of A below `size` plain active-set exchanges may cycle. A third of
+/// the bounds from below alone, a sixth from above alone, a few equations.
+Box random_box(int size, unsigned seed, int rank = 0) {
+  std::mt19937 engine(seed);
+  std::normal_distribution<double> normal;
+  Box box;
+  const Eigen::MatrixXd a = Eigen::MatrixXd::NullaryExpr(size, rank > 0 ? rank : size, [&] { return normal(engine); });
+  box.s = test::product(a, a.transpose()) + 1e-2 * Eigen::MatrixXd::Identity(size, size);
+  box.q = Eigen::VectorXd::NullaryExpr(size, [&] { return normal(engine); });
+  box.lower = Eigen::VectorXd::NullaryExpr(size, [&] { return 0.3 * normal(engine); });
+  box.upper = box.lower;
+  for (int i = 0; i < size; ++i) {
+    const unsigned kind = engine() % 6;
+    if (kind < 2) box.upper(i) = infinity;
+    if (kind == 2) box.lower(i) = -infinity;
+    if (kind > 2) box.upper(i) += engine() % 5 == 0 ? 0 : 0.3 * std::abs(normal(engine));
+  }
+  return box;
+}
+
+/// The conditions of the box, each with an absolute tolerance.
+void expect_right(const Box& box, const ContactAnswer& answer, double tolerance) {
+  const Eigen::VectorXd lambda = box.s * answer.v - box.q;
+  EXPECT_LT((lambda - answer.lambda).lpNorm<Eigen::Infinity>(), tolerance);
+  for (int i = 0; i < box.q.size(); ++i) {
+    const bool low = answer.pieces[i] == Piece::at_lower, high = answer.pieces[i] == Piece::at_upper;
+    EXPECT_GE(answer.v(i), box.lower(i) - tolerance);
+    EXPECT_LE(answer.v(i), box.upper(i) + tolerance);
+    EXPECT_EQ(low || high ? answer.v(i) : answer.lambda(i), low ? box.lower(i) : high ? box.upper(i) : 0);
+    if (box.lower(i) == box.upper(i)) continue;  // an equation: a force of either sign
+    EXPECT_GE(high ? 0 : lambda(i), -tolerance);
+    EXPECT_LE(low ? 0 : lambda(i), tolerance);
+  }
+}
+
+TEST(ContactProblem, EveryStartLeadsToTheOneAnswer) {
+  for (unsigned seed = 0; seed < 30; ++seed) {
+    const int size = 2 + static_cast<int>(seed % 6);
+    const Box box = random_box(size, seed);
+    Eigen::VectorXd v;
+    for (int start = 0; start < std::pow(3, size); start += 7) {
+      Pieces pieces;
+      for (int i = 0, digits = start; i < size; ++i, digits /= 3) pieces.push_back(static_cast<Piece>(digits % 3 - 1));
+      const ContactAnswer answer = box.solve(pieces);
+      expect_right(box, answer, 1e-11);  // strictly convex: what meets the conditions is the answer
+      if (v.size() > 0) {
+        EXPECT_LT((answer.v - v).lpNorm<Eigen::Infinity>(), 1e-11) << seed;
+      }
+      v = answer.v;
+    }
+  }
+}
+
+TEST(ContactProblem, BadlyConditionedOnesDoNotCycle) {
+  for (unsigned seed = 0; seed < 200; ++seed) {
+    const Box box = random_box(12, seed, 4);
+    expect_right(box, box.solve(Pieces(12, Piece::between), 200), 1e-8);
+    expect_right(box, box.solve(box.nested(), 200), 1e-8);
+  }
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    const Box large = random_box(80, seed);
+    expect_right(large, large.solve(Pieces(80, Piece::between)), 1e-8);
+  }
+}
+
+TEST(ContactProblem, AWrongSideCostsAStepPerPiece) {
+  Box box;
+  box.s = Eigen::MatrixXd::Identity(9, 9);
+  box.q = Eigen::VectorXd::Constant(9, 5);
+  box.lower = Eigen::VectorXd::Constant(9, -1);
+  box.upper = Eigen::VectorXd::Constant(9, 1);
+  const ContactAnswer answer = box.solve(Pieces(9, Piece::at_lower), 10);
+  EXPECT_EQ(answer.steps, 3);  // at_lower, between, at_upper
+  EXPECT_EQ(answer.v, box.upper);
+  EXPECT_EQ(answer.pieces, Pieces(9, Piece::at_upper));
+  EXPECT_EQ(box.solve(answer.pieces, 10).steps, 1);
+}
+
+// Below a bound that gives way, at it, between, at the upper bound, above it: v rises and lambda falls.
+TEST(Stairs, ValuesRiseAndForcesFallFromPieceToPiece) {
+  const Stairs stairs{Eigen::VectorXd{{0}}, Eigen::VectorXd{{1}}, Eigen::VectorXd{{3}}};
+  const Pieces all{Piece::below, Piece::at_lower, Piece::between, Piece::at_upper, Piece::above};
+  double v = -infinity, lambda = infinity;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto [low, high] = stairs.found(0, all[k]);
+    const double given = stairs.given(0, all[k]);
+    EXPECT_GE(is_active(all[k]) ? given : low, v);
+    EXPECT_LE(is_active(all[k]) ? high : given, lambda);
+    v = is_active(all[k]) ? given : high, lambda = is_active(all[k]) ? low : given;
+    if (k > 0) {
+      EXPECT_EQ(stairs.next(0, all[k], false), all[k - 1]);
+      EXPECT_EQ(stairs.next(0, all[k - 1], true), all[k]);
+    }
+  }
+  EXPECT_EQ(v, infinity);
+  EXPECT_EQ(lambda, -3);
+  // what a bound bears so far is left out of the forces that are given and found, and is in the whole force
+  Stairs later = stairs;
+  later.force = Eigen::VectorXd{{0.5}};
+  for (const Piece piece : all) {
+    const Stairs::Interval before = stairs.found(0, piece), now = later.found(0, piece);
+    const double moved = is_active(piece) ? 0.5 : 0, given = stairs.given(0, piece);
+    EXPECT_EQ(now.low, before.low - moved);
+    EXPECT_EQ(now.high, before.high - moved);
+    EXPECT_EQ(later.given(0, piece), given - (0.5 - moved));
+    EXPECT_EQ(later.whole_force(0, piece, 0.25), is_active(piece) ? 0.75 : given);
+  }
+}
+
+TEST(Stairs, AnEquationHasThreePiecesAndNothingBetween) {
+  const Stairs stairs{Eigen::VectorXd{{2}}, Eigen::VectorXd{{2}}, Eigen::VectorXd{{3}}};
+  EXPECT_EQ(stairs.next(0, Piece::below, true), Piece::at_lower);
+  EXPECT_EQ(stairs.next(0, Piece::at_lower, true), Piece::above);
+  EXPECT_EQ(stairs.next(0, Piece::above, false), Piece::at_lower);
+  EXPECT_EQ(stairs.next(0, Piece::at_lower, false), Piece::below);
+  expect_refused([&] { stairs.next(0, Piece::above, true); }, "none beyond");
+  expect_refused([&] { stairs.next(0, Piece::below, false); }, "none beyond");
+  EXPECT_EQ(stairs.found(0, Piece::at_lower).low, -3);
+  EXPECT_EQ(stairs.found(0, Piece::at_lower).high, 3);
+}
+
+TEST(Stairs, AStartAsksForPiecesThatThereAre) {
+  // two-sided, from below, from above, an equation; each bears anything, then each gives way
+  const Eigen::VectorXd lower{{0, 0, -infinity, 1}}, upper{{1, infinity, 1, 1}};
+  using P = Piece;
+  const Stairs none{Eigen::VectorXd{{-infinity}}};  // a coarse start may ask for a bound that is not there
+  for (const P asked : {P::at_lower, P::at_upper, P::above}) EXPECT_EQ(none.there_are({asked}), Pieces{P::between});
+  const Stairs hard{lower, upper, {}}, soft{lower, upper, Eigen::VectorXd::Ones(4)};
+  EXPECT_EQ(hard.there_are(Pieces(4, P::at_upper)), (Pieces{P::at_upper, P::at_lower, P::at_upper, P::at_lower}));
+  EXPECT_EQ(hard.there_are(Pieces(4, P::at_lower)), (Pieces{P::at_lower, P::at_lower, P::at_upper, P::at_lower}));
+  EXPECT_EQ(hard.there_are(Pieces(4, P::between)), (Pieces{P::between, P::between, P::between, P::at_lower}));
+  EXPECT_EQ(hard.there_are(Pieces(4, P::below)), (Pieces{P::between, P::between, P::between, P::at_lower}));
+  EXPECT_EQ(soft.there_are(Pieces(4, P::below)), (Pieces{P::below, P::below, P::between, P::below}));
+  EXPECT_EQ(soft.there_are(Pieces(4, P::above)), (Pieces{P::above, P::between, P::above, P::above}));
+  test::expect_refused([&] { hard.there_are(Pieces(3, P::between)); }, "3 pieces; accepted one per bound, 4");
+}
+
+/// A 1-D obstacle problem on n points, like the limit problem on Sigma: the case where a cold start takes O(n) steps.
+Box obstacle(int n) {
+  Box r{Eigen::MatrixXd::Zero(n, n), {}, Eigen::VectorXd::Zero(n), {}};
+  const double h = 1.0 / (n + 1);
+  for (int i = 0; i < n; ++i) {
+    r.s(i, i) = 2 / h;
+    if (i > 0) r.s(i, i - 1) = r.s(i - 1, i) = -1 / h;
+  }
+  r.q = Eigen::VectorXd::NullaryExpr(
+      n, [&](Eigen::Index i) { return h * 10 * std::sin(2 * std::numbers::pi * static_cast<double>(i + 1) * h); });
+  return r;
+}
+
+TEST(ContactProblem, NestedStartTakesEverySizeAndMakesTheStepsIndependentOfH) {
+  std::vector<int> sizes{63, 64, 127, 255, 256};
+  for (int n = 1; n < 40; ++n) sizes.push_back(n);
+  for (const int n : sizes) {
+    const Box r = obstacle(n);
+    const ContactAnswer cold = r.solve(Pieces(n, Piece::between), 1000);
+    const ContactAnswer nested = r.solve(r.nested());
+    EXPECT_EQ(nested.pieces, cold.pieces) << n;
+    EXPECT_LE(nested.steps, 4) << n;
+    if (n > 100) {
+      EXPECT_GT(cold.steps, 3 * nested.steps) << n;
+    }
+  }
+}
+
+}  // namespace antilock::test::solve_test::contact_test

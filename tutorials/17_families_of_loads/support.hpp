@@ -1,0 +1,78 @@
+#pragma once
+#include <set>
+
+#include "antilock/analysis/load_ascent.hpp"
+#include "antilock/analysis/worst_load.hpp"
+#include "antilock/io/write_vtu.hpp"
+#include "antilock/study/method.hpp"
+#include "course/course.hpp"
+
+namespace antilock::tutorial {
+
+/// Draws a load of the ball on a mesh of the body, out/ELEMENT_FAMILY.vtu, over its largest value, in the place of u.
+/// Of f and -f it takes the one with the larger pull upwards on one arch and two.
+inline void draw_load(const std::filesystem::path& out, const Method& method, const LoadModes& modes,
+                      Eigen::VectorXd f) {
+  if (f.dot(modes.constant_in_y(1, 1) + modes.constant_in_y(2, 1)) < 0) f = -f;
+  const TriangleMesh drawn = structured_mesh(48, Domain{0});
+  const Space space(drawn, p1());
+  Eigen::VectorXd values(space.size());
+  for (int i = 0; i < space.size(); ++i) values(i) = modes.value(f, space.points()(i, 0), space.points()(i, 1));
+  values /= values.cwiseAbs().maxCoeff();
+  write_vtu(out / fmt::format("{}_{}.vtu", method.element->name(), method.family.name), space, values);
+}
+
+/// With contact, epsilon = 0: a climb over loads of four waves, by the error against the exact solution. A lower bound.
+inline double climb_in_contact(const Method& method, int cells) {
+  const Discretisation on = method.on(cells);
+  SceneSweep sweep(paper_scene(0), on.space());
+  const auto error = [&](const Eigen::VectorXd& coefficients) {
+    const SineLoad load = load_of_modes(coefficients);
+    sweep.set_load(load);
+    const TruthTable truth(Truth(load, 0, true, 9), 1 << 8);  // to some thousandths: the climb has to be quick
+    return measure_errors(on.space(), sweep.solve(), 0, reference(truth)).energy;
+  };
+  return ascend(error, {Eigen::Vector4d::Unit(0), Eigen::Vector4d(1, 1, 0, 0)});
+}
+
+/// The unknowns of the body that are not clamped.
+inline int unknowns_of_body(const Space& space) {
+  std::set<int> all;
+  for (int t = 0; t < space.mesh().triangle_count(); ++t)
+    for (int i = 0; space.mesh().region[t] == Region::body && i < space.element().unknowns(); ++i)
+      all.insert(space.unknowns()(t, i));
+  for (const int i : space.clamped()) all.erase(i);
+  return static_cast<int>(all.size());
+}
+
+/// One row per h of the errors under the worst loads, the largest over epsilon: over the width, over that at epsilon =
+/// 1.
+inline Table suprema_over_epsilon(const Table& worst) {
+  Table suprema({"h", "supremum", "over_width", "ratio"});
+  for (const Entry& h : worst.different("h")) {
+    const Table here = worst.where("h", h);
+    suprema.add({h, here.most("error"), here.most("over_width"),
+                 here.most("error") / here.where("epsilon", 1).number("error")});
+  }
+  return suprema;
+}
+
+/// Prints the errors at epsilon = 0 by h. Writes errors.csv (the rows at epsilon = 0) and epsilon.csv (those at this h
+/// with epsilon > 0, in their order).
+inline void show_worst_errors(const std::filesystem::path& out, const Table& results, double h) {
+  const Table rigid = results.where("epsilon", 0);
+  Table errors(results.columns()), by_epsilon({"load", "method", "epsilon", "error"});
+  for (const Entry& load : rigid.different("load")) {
+    rigid.where("load", load).pivot("method", "h", "error").print(load.text() + ", epsilon = 0");
+    if (load.text() != "p arches, no contact") errors.add(rigid.where("load", load));
+  }
+  for (const std::string load : {"our load", "worst load of the ball"})
+    for (const double epsilon : {1.0, 0.3, 0.1, 0.03, 1e-2, 1e-3, 1e-4, 1e-6})
+      for (const Table& row : results.where("h", h).where("epsilon", epsilon).rows())
+        if (row.entry("load").text().starts_with(load))
+          by_epsilon.add({load, row.entry("method"), epsilon, row.entry("error")});
+  errors.write(out / "errors.csv");
+  by_epsilon.write(out / "epsilon.csv");
+}
+
+}  // namespace antilock::tutorial

@@ -1,0 +1,176 @@
+// # A problem of your own
+//
+// Run: 33_your_own_problem                          two strings glued together, ε = 1e-10
+// Run: 33_your_own_problem --epsilon 0 --cells 64   a rigid glue
+// Run: 33_your_own_problem --exercise 1
+//
+// Needs: [00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp) for strings, [07](../07_kernel/07_kernel.cpp) for kernels, [10](../10_limits/10_limits.cpp) for the
+// class (1), [14](../14_estimates/14_estimates.cpp) for coercivity, [28](../28_mixed/28_mixed.cpp) for Theorem 4 with another $a_0$.
+// **Here ε is the parameter of the class itself** ($ε^2$ in (23)).
+//
+// **The picture.** The energy that two glued strings release, against the compliance ε of the glue. *One choice of
+// $B$ locks: as the glue hardens its strings stop moving. The other does not. One number, the dimension of the
+// kernel, says so before anything is solved.*
+//
+// **Predict.** Two strings, one above the other, have corners at different places: one has $n$ cells, the other
+// $n + 1$. (a) How many independent pairs of broken lines are equal everywhere and 0 at the ends? (b) The lower string
+// has $n$ cells. If $u - w$ need only be orthogonal to its $n - 1$ hat functions, how many independent pairs are left?
+//
+// ## Two strings and a glue
+//
+// Nothing here is known to the library. The upper string $u$ is loaded by $q = 32$ downwards. The lower one $w$ lies
+// over an obstacle at $-g = -1/2$. Both have tension 1; a glue bonds them. Test functions: $v$ for $u$, $z$ for $w$.
+//
+// $$ a_1 = ∫ u' v' + ∫ w' z',   a_0 = ∫ (u - w)(v - z),   L = -q ∫ v,   K = \{ w ≥ -g \}. $$
+//
+// $u = w$ at every point leaves no pair: a broken line may bend at its own corners only, and the two share none. The
+// other way is to ask less. A *mortar* asks for mean values only, $∫ (u - w) φ_i = 0$ with the hat functions $φ_i$ of
+// the lower string. These are $n - 1$ conditions for $n + (n - 1)$ values. For each $u$ they fix the $n - 1$ values of
+// $w$, which becomes a projection of $u$. So the $n$ values of $u$ stay free.
+//
+// ## A glue with four conditions
+//
+// The kernel tells of each method whether it must lock. It does not tell that the other one converges: functions may be
+// left free in the wrong place (chapter 07). The mortar changes $a_0$ itself, to $a_{0h}(v, v) = \sum h d_i^2$ with the
+// means $d_i = \frac{1}{h} ∫ (u - w) φ_i$. So [chapter 28](../28_mixed/28_mixed.cpp)'s theorem is the one to ask:
+//
+// - (i) $a_1$ is coercive alone, since both strings are held at their ends;
+// - (ii) let $(u, u)$ with $u ≥ -g$ be given. Interpolate $u$ on the upper string, and let the lower one be its projection,
+// $∫ (I u - w_h) φ_i = 0$. $w_h$ tends to $u$ in $H^1$, and so uniformly: it is below $-g$ by some $δ_h → 0$ at most. Add
+// $δ_h$ times one fixed bump to both strings, and project again: $w_h ≥ -g$ and $a_{0h} = 0$;
+// - (iii), (iv) bounded pairs have a subsequence for which $u_h - w_h$ converges strongly in $L^2$ (compactness). Means over
+// a width of $2h$ then tend to the function itself, and $a_{0h}$ to $a_0$.
+//
+// So the mortar converges uniformly in ε, with the obstacle (*proved*). For a problem of your own these are the four
+// questions to answer. The kernel is the quick test before.
+//
+// **The truth** at ε = 0 is one string of tension 2: it lies on the obstacle over $[c, 1 - c]$ with
+// $c = 2 (g/q)^{1/2}$, presses with $q (1 - 2c)$, and has the energy $q^2 c^3 / 3 - q g$.
+
+#include <cmath>
+
+#include "antilock/analysis/hypotheses.hpp"
+#include "antilock/analysis/kernel.hpp"
+#include "antilock/measure/errors.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "course/chapter.hpp"
+#include "programs/report.hpp"
+#include "support.hpp"
+
+using namespace antilock;
+using tutorial::Strings, tutorial::sum_over_cells;
+
+constexpr double load = 32, gap = 0.5;
+const double free_part = 2 * std::sqrt(gap / load);  // c: contact on [c, 1 - c] where the glue is rigid
+enum class Glue { pointwise, mortar };
+
+// ### Mesh
+// `Strings` numbers the unknowns: those of the upper string ($n + 1$ cells; $n$ in exercise 1), then the lower.
+//
+// ### Forms
+// $B$ and $M$: $a_0(u, v) = (B u)^T M (B v)$. `difference` is $u - w$ at a point, as a row over the unknowns.
+void fill_glue(const Strings& s, Glue glue, VariationalInequality& problem) {
+  const std::vector<tutorial::Place> points = tutorial::gauss_points(s);
+  const Eigen::Index rows = glue == Glue::pointwise ? static_cast<Eigen::Index>(points.size()) : s.cells - 1;
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(rows, s.size());
+  problem.m = Eigen::VectorXd::Constant(rows, 1.0 / s.cells);
+  for (Eigen::Index q = 0; const auto& [x, weight] : points) {
+    const Eigen::RowVectorXd difference = tutorial::difference(s, x);
+    if (glue == Glue::pointwise)  // one row per point: a0 is the integral itself
+      b.row(q) = difference, problem.m(q++) = weight;
+    else  // one row per hat function of the lower string: (1/h) int (u - w) hat
+      for (int i = 1; i < s.cells; ++i) b.row(i - 1) += weight * tutorial::hat(s.cells, i, x) * s.cells * difference;
+  }
+  problem.b = b.sparseView();
+}
+
+// With $A_1$, load, what is held and what is bounded from below, that is all that the solver sees. (Four more fields hold
+// bounds from above, bounds on sums, bounds that bear a given force only ([friction](../30_friction/30_friction.cpp)), and how many rows
+// of $B$ are rigid at every ε.)
+VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) {
+  VariationalInequality problem;
+  problem.a1 = sum_over_cells(s, 1, 0);
+  fill_glue(s, glue, problem);
+  problem.compliance = epsilon;
+  problem.load = Eigen::VectorXd::Zero(s.size());
+  for (int i = 1; i < s.upper_cells(); ++i) problem.load(s.upper(i)) = -load / s.upper_cells();
+  problem.fixed = {s.upper(0), s.upper(s.upper_cells()), s.lower(0), s.lower(s.cells)};
+  problem.fixed_values = Eigen::VectorXd::Zero(4);
+  for (int i = 1; i < s.cells; ++i) problem.contact.push_back(s.lower(i));
+  problem.lower = Eigen::VectorXd::Constant(s.cells - 1, -gap);
+  return problem;
+}
+
+void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Table& rigid, tutorial::Report& report);
+
+void own(const tutorial::Options& options, tutorial::Report& report) {
+  const Strings strings{options.cells}, finer{2 * options.cells};
+  Table released({"glue", "epsilon", "released", "corrections"});
+  for (const Glue glue : {Glue::pointwise, Glue::mortar}) {
+    const std::string name = glue == Glue::pointwise ? "glue at every point" : "glue against hat functions";
+    const VariationalInequality problem = make_problem(strings, glue, options.epsilon);
+    // The hypotheses: coercive, a kernel that grows from mesh to mesh, K and G meet. The energy as the glue hardens.
+    const Hypotheses h = check_hypotheses(problem, sum_over_cells(strings, 1, 1));
+    const int finer_kernel = kernel_dimension(make_problem(finer, glue, options.epsilon));
+    const Table rows = tutorial::energies(problem);
+    for (const Table& row : rows.rows())
+      released.add({name, row.number("epsilon"), -row.number("energy"), row.number("corrections")});
+    // ### Solve
+    // At the ε asked for, with its KKT report ([00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp)): how well the conditions hold.
+    const Solution solution = active_set(problem);
+    tutorial::print_glue(name, h, finer_kernel, rows, solution, load * (1 - 2 * free_part));
+    judge(glue, h, finer_kernel, options.cells, rows.where("epsilon", 0), report);
+  }
+  // ### Output
+  released.write(options.out / "energies.csv");
+  // One end raised: at ε = 0 K and G do not meet, and the problem has no solution.
+  VariationalInequality impossible = make_problem(strings, Glue::pointwise, 0);
+  impossible.fixed_values(0) = 0.1;
+  const double distance = distance_to_kernel(impossible);
+  const std::string refusal = tutorial::refusal(impossible);
+  report.claim(distance > 1e-3 && !refusal.empty(),
+               "(observed) strings held 0.1 apart: K and G are {:.2g} from meeting; the solver says: {}", distance,
+               refusal);
+}
+
+void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Table& rigid, tutorial::Report& report) {
+  const double truth = load * load * std::pow(free_part, 3) / 3 - load * gap, n = cells, found = rigid.number("energy");
+  report.claim(h.coercive() && h.meet(), "(proved) the hypotheses hold: (H1) and K meets G");
+  if (glue == Glue::pointwise)
+    return report.claim(h.kernel == 0 && finer_kernel == 0 && rigid.number("max |u|") < 1e-6,
+                        "(proved) no function is left free on any mesh: it locks, energy {:.1e} in place of {:.3f}",
+                        found, truth);
+  report.claim(h.kernel == cells && finer_kernel == 2 * cells,
+               "(proved) {} functions are left free, {} on the finer mesh", h.kernel, finer_kernel);
+  // P1 on one string of tension 2 misses int (u - u_h)'^2 of the energy, with u'' = q / 2 on its free parts, of length 2c.
+  const double missed = std::pow(load / 2, 2) / (12 * n * n) * 2 * free_part;
+  report.claim_within(
+      (found - truth) / missed, 0.5, 1.5,
+      fmt::format("(observed) energy {:.4f} at epsilon = 0, truth {:.4f}: off, over what one P1 string misses", found,
+                  truth));
+  report.claim(rigid.number("corrections") <= 5, "(observed) and {} corrections are enough",
+               rigid.number("corrections"));
+}
+
+// ## What came out
+//
+// (a) None but 0, on any mesh: the energy is 0 in place of -10.667. (b) $n$, and $2n$ on the finer mesh: the truth is
+// met, up to what P1 misses on one string of tension 2, $q^2 h^2 c/24$. Strings held 0.1 apart have no solution at
+// ε = 0: the solver refuses, and says why.
+//
+// ## Exercises
+//
+// 1. Give both strings $n$ cells. Does the glue at every point still lock?
+// 2. A problem of your own: replace $A_1$, $B$, $M$, load and bounds; the checks need no truth.
+
+#include "answers.hpp"
+
+int main(int argc, char** argv) {
+  return tutorial::run(argc, argv, "33_your_own_problem", "Your own problem in the class: two strings and a stiff glue",
+                       {.epsilon = 1e-10,
+                        .epsilon_is = "the class parameter of (1), the compliance of the glue; 0 is a rigid glue",
+                        .least_cells = 4,
+                        .most_cells = 128,
+                        .exercises = exercises},
+                       own);
+}

@@ -1,0 +1,56 @@
+#pragma once
+#include "antilock/certificate/certificate.hpp"
+#include "antilock/io/write_vtu.hpp"
+#include "antilock/mesh/layered.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/solve/active_set.hpp"
+#include "antilock/study/method.hpp"
+#include "antilock/study/table.hpp"
+#include "course/chapter.hpp"
+#include "course/course.hpp"
+
+namespace antilock::tutorial {
+
+/// The indicator per area, as log10: VTU with one colour per triangle.
+inline void write_density(const std::filesystem::path& file, const TriangleMesh& mesh,
+                          const Eigen::VectorXd& indicator) {
+  Eigen::MatrixX3d corners(mesh.triangle_count(), 3);
+  for (int t = 0; t < mesh.triangle_count(); ++t)
+    corners.row(t).setConstant(std::log10(std::max(indicator(t) / mesh.area(t), 1e-12)));
+  write_vtu(file, mesh, corners);
+}
+
+/// One component of sigma; in the layer the second one is the stress p.
+inline Eigen::MatrixX3d component(const TriangleMesh& mesh, const EquilibratedFlux& flux, int k) {
+  Eigen::MatrixX3d corners(mesh.triangle_count(), 3);
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    corners.row(t).setConstant(flux.cell[t].s(k));
+    if (mesh.region[t] == Region::body)
+      corners.row(t) += flux.tau(mesh, t, Eigen::Matrix3d::Identity()).col(k).transpose();
+  }
+  return corners;
+}
+
+/// A Crouzeix-Raviart solution, what was asked, and room for what an exercise does to it.
+struct Solved {
+  Scene scene;
+  Discretisation on;
+  VariationalInequality problem;
+  Solution solution;
+
+  Solved(const Scene& asked, TriangleMesh mesh)
+      : scene(asked),
+        on(std::move(mesh), crouzeix_raviart()),
+        problem(assemble(scene, on.space())),
+        solution(active_set(problem)) {}
+  Certificate certified(const Companion* v = nullptr) const {
+    return certify(scene, on.space(), problem, solution, {.companion = v});
+  }
+  Certificate p1_certified() const {
+    const Discretisation linear(on, p1());
+    const Companion v = p1_companion(active_set(assemble(scene, linear.space())));
+    return certified(&v);
+  }
+};
+
+}  // namespace antilock::tutorial
