@@ -1,4 +1,4 @@
-// The distributed room gives the serial library's answer, on any number of ranks.
+// The distributed module gives the serial library's answer, on any number of ranks.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 namespace antilock {
 
 /// The exact Timoshenko beam over a flat obstacle, in contact on [c, 1 - c] (closed form but for one scalar root,
-/// derived above). At epsilon = 0 it is the Bernoulli beam: c = (72 gap / load)^(1/4).
+/// derived in beam_truth.cpp). At epsilon = 0 it is the Bernoulli beam: c = (72 gap / load)^(1/4).
 class BeamTruth {
  public:
   /// Throws Error where the beam does not reach the obstacle over an interval (load too small for this gap).

@@ -9,7 +9,7 @@ namespace antilock {
 /// basis of L2(body), cut where k^2 + (m - 1/2)^2 > waves^2. A load is the vector of its n coefficients, its L2 norm
 /// that of the vector.
 ///
-/// And what the exact problem (23) without contact does with them, in closed form (derivation below).
+/// And what the exact problem (23) without contact does with them, in closed form (derivation in load_modes.cpp).
 class LoadModes {
  public:
   /// Throws Error unless 1 <= waves <= 4096. Below, for a load of another number of coefficients than n, and for an

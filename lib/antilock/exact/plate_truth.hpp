@@ -2,7 +2,7 @@
 namespace antilock {
 
 /// The exact clamped plate of radius 1 under the load -load, pressed on a flat obstacle at -gap: it touches on the disc
-/// r <= c. Closed form for every thickness but for one scalar root, derived above; t = 0 is Kirchhoff's.
+/// r <= c. Closed form for every thickness but for one scalar root, derived in plate_truth.cpp; t = 0 is Kirchhoff's.
 class PlateTruth {
  public:
   /// Throws Error where the plate does not touch the obstacle on a disc.

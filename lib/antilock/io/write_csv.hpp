@@ -8,8 +8,8 @@
 
 namespace antilock {
 
-/// A table: one header line, then rows, comma separated. Here and below a number is the shortest text that reads back
-/// as the same double (up to 17 digits). Every writer throws Error, `path` first, and leaves no partial file.
+/// A table: one header line, then rows, comma separated. A number is the shortest text that reads back as the
+/// same double (up to 17 digits). Both throw Error, `path` first, and leave no partial file.
 void write_csv(const std::filesystem::path& path, const std::vector<std::string>& header, const Eigen::MatrixXd& rows);
 /// `x,y,u`, or `x,y,u_x,u_y` for the 2 N values of a displacement: one row per unknown of the space.
 void write_solution_csv(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u);

@@ -16,7 +16,7 @@ struct VtuFields {
 /// VTU (XML, its arrays as bytes in base64) for ParaView and the figures: point data `u` and `pressure` (0 off Gamma_C), cell
 /// data `region` (1 and 2: the field data `body` and `layer` name them) and `p`. A vertex per triangle
 /// corner, so that Crouzeix-Raviart fields keep their jumps; P1 and P2 fields share their vertices, and P2 is shown
-/// there alone.
+/// there alone. Throws Error, `path` first, and leaves no partial file; so do the two below.
 void write_vtu(const std::filesystem::path& path, const Space& space, const Eigen::VectorXd& u,
                const VtuFields& more = {});
 /// VTU of a field that is affine on each triangle and jumps between them: T x 3 values at the corners, point data `u`.

@@ -11,6 +11,7 @@ struct Labelled {
   int from, to, label;
 };
 
+/// The edges of a group, by their numbers.
 std::vector<Labelled> labelled_edges(const TriangleMesh& mesh);
 
 }  // namespace antilock

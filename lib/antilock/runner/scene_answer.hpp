@@ -1,5 +1,5 @@
 #pragma once
-// A scene file answered: its discrete problem and solution, what is to be doubted, the summary and the other files.
+// A scene file answered: its discrete problem and its solution.
 #include <functional>
 #include <optional>
 #include <string>

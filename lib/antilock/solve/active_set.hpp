@@ -50,7 +50,7 @@ struct ActiveSetOptions {
 /// sigma, and Anderson's mix (anderson.hpp) does the rest. After 15 corrections the next 15 are made with delta / 64.
 ///
 /// To read in this order: problem/variational_inequality.hpp, stairs.hpp, contact.hpp, residual.hpp, this, judge.hpp;
-/// the constants with their reasons are in detail/tuned.hpp. The outer loop stands in active_set.cpp,
+/// the constants with their reasons are in tuned.hpp. The outer loop stands in active_set.cpp,
 /// IteratedPenalty::solve. A loop that stops otherwise, after five corrections say, changes the one condition there;
 /// `finished` judges its last correction all the same, and refuses what is not within the tolerance.
 ///

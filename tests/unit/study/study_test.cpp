@@ -1,4 +1,4 @@
-// The room study: tables that are asked by name, methods that make their meshes and spaces, sweeps
+// The module study: tables that are asked by name, methods that make their meshes and spaces, sweeps
 // over any problem.
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/models/timoshenko_beam.hpp"

@@ -1,4 +1,4 @@
-// A live figure that a chapter's own functions answer: tutorials/book/figures holds its program, which runs in a worker. What
+// A live figure that a chapter's own functions answer: its live.hpp is that program, which runs in a worker. What
 // it prints is the figure's sentence, what it writes are the tables that are drawn.
 "use strict";
 /// { said, tables: name -> rows, as objects } of the figure of chapter `stem`; an Error with the program's own line.

@@ -1,4 +1,4 @@
-// The live figures of chapters: an entry each. What they ask is answered by tutorials/book/figures.
+// The live figures of chapters: an entry each. What they ask is answered by the live.hpp of the chapter.
 "use strict";
 antilock.figures.string = (box) => antilock.asked(box, {
   title: "Step by step: the active set, and Uzawa beside it", stem: "00_string_on_an_obstacle",
