@@ -15,6 +15,7 @@
 #include <string_view>
 
 #if defined(__linux__)
+#include <sys/mman.h>
 #include <sys/resource.h>
 #endif
 
@@ -41,30 +42,67 @@ std::string large_pages() {
   return "glibc.malloc.hugetlb=1:glibc.malloc.mmap_threshold=4294967296:glibc.malloc.trim_threshold=4294967296";
 }
 
-/// Whether a limit of the process (ulimit -v, ulimit -d) is too low for the threads that OpenBLAS has. Each maps its
-/// buffer as soon as it is there, and asks without end where it gets none: then the program could not even end.
-bool too_many_threads([[maybe_unused]] int threads) {
 #if defined(__linux__)
-  constexpr double thread = 220e6;  // bytes: a buffer of 134e6, a stack of 8e6, up to 67e6 of malloc's; 209e6 were seen
-  constexpr double program = 250e6;  // bytes: with all of its libraries, and the first thread's buffer
-  for (const auto resource : {RLIMIT_AS, RLIMIT_DATA}) {
-    rlimit limit{};
-    if (threads > 1 && getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
-        double(limit.rlim_cur) < program + (threads - 1) * thread)
-      return true;
-  }
-#endif
-  return false;
+constexpr std::size_t blas_buffer = 134'222'000;  // bytes that OpenBLAS maps for each thread
+constexpr std::size_t blas_thread = 220'000'000;  // with its stack of 8e6, up to 67e6 of malloc's; 209e6 were seen
+
+/// Whether a limit of the process leaves room for so many bytes at once.
+bool can_map(std::size_t bytes) {
+  void* const place = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (place == MAP_FAILED) return false;
+  munmap(place, bytes);
+  return true;
 }
+
+/// The number of threads that OpenBLAS starts with.
+long blas_threads(char** environment) {
+  for (const std::string_view variable : {"OPENBLAS_NUM_THREADS=", "GOTO_NUM_THREADS=", "OMP_NUM_THREADS="})
+    for (char** setting = environment; *setting != nullptr; ++setting)
+      if (std::string_view(*setting).substr(0, variable.size()) == variable)
+        if (const long threads = std::strtol(*setting + variable.size(), nullptr, 10); threads > 0) return threads;
+  return sysconf(_SC_NPROCESSORS_ONLN);
+}
+
+/// Under a limit of the process (ulimit -v, ulimit -d): starts the program again with one thread where there is no room
+/// for those that OpenBLAS would start, and ends it with a line where there is none for one.
+/// OpenBLAS maps a buffer for each of its threads while it is loaded (0.3.29, Debian 13), and asks without end where it
+/// gets none (OpenBLAS #5289), so that no function of the program would be reached. This one is called before the
+/// libraries' own constructors, and so it uses nothing that they prepare: no memory of malloc's, no `environ`.
+void require_room_for_blas(int, char** argv, char** environment) {
+  const auto limited = [](auto resource) {
+    rlimit limit{};
+    return getrlimit(resource, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+  };
+  if (!limited(RLIMIT_AS) && !limited(RLIMIT_DATA)) return;
+  const long threads = blas_threads(environment);
+  if (can_map(blas_buffer + static_cast<std::size_t>(threads - 1) * blas_thread)) return;
+  if (threads > 1) {
+    constexpr int most = 4096;
+    char one_thread[] = "OPENBLAS_NUM_THREADS=1";
+    char* changed[most + 2] = {one_thread};
+    int count = 1;
+    for (char** setting = environment; *setting != nullptr && count < most; ++setting)
+      if (std::string_view(*setting).substr(0, 21) != "OPENBLAS_NUM_THREADS=") changed[count++] = *setting;
+    execve("/proc/self/exe", argv, changed);
+  }
+  if (can_map(blas_buffer)) return;  // no second start was to be had
+  constexpr std::string_view line =
+      ": out of memory: the BLAS needs a buffer of 128 MB, the limit of this process (ulimit -v, ulimit -d) leaves "
+      "less; "
+      "accepted: a higher limit\n";
+  const std::string_view path = argv[0] == nullptr ? "antilock" : argv[0];
+  const std::string_view name = path.substr(path.rfind('/') + 1);
+  [[maybe_unused]] const auto written = write(2, name.data(), name.size()) + write(2, line.data(), line.size());
+  _exit(3);
+}
+[[gnu::section(".preinit_array"), gnu::used]] void (*const before_the_libraries)(int, char**,
+                                                                                 char**) = require_room_for_blas;
+#endif
 
 }  // namespace
 
 void choose_machine(char** argv) {
   const char* const threads = std::getenv("OPENBLAS_NUM_THREADS");
-  if (too_many_threads(blas().threads) && (threads == nullptr || std::string_view(threads) != "1")) {
-    setenv("OPENBLAS_NUM_THREADS", "1", /*overwrite*/ 1);
-    become("", argv);
-  }
   if (threads == nullptr) set_blas_threads(1);
   if (std::getenv("ANTILOCK_KEEP_KERNELS")) return;
   bool again = false;
