@@ -11,7 +11,7 @@ struct Labelled {
   int from, to, label;
 };
 
-/// The edges of a group, by their numbers.
+/// All edges that are not interior, in the order of their numbers.
 std::vector<Labelled> labelled_edges(const TriangleMesh& mesh);
 
 }  // namespace antilock
