@@ -114,7 +114,7 @@ def small_repository(root):
         (root / folder).mkdir(parents=True)
         (root / folder / file).write_text(text)
     (root / "tutorials/README.md").write_text("# Tutorials\n\n## The theory as experiments\n\nNone.\n")
-    (root / "tutorials/book/index.md").write_text("# The index\n\nBegin with [a start](00_start/00_start.cpp).\n\n:live:\n\n:chapters:\n")
+    (root / "tutorials/book/index.md").write_text("# The index\n\nBegin with [a start](../00_start/00_start.cpp).\n\n:live:\n\n:chapters:\n")
     (root / "tutorials/guides").mkdir()
     for page in EXTRA:
         (root / f"tutorials/guides/{page}.md").write_text(f"# The {page}\n\nNone.\n")

@@ -293,7 +293,7 @@ class Book:
         return re.sub(r"\| ([\d, ]+) \|$", numbers, re.sub(r"^\| ([^|]+?)(?= \([A-Z]+\) \|| \|)", place, line))
 
     def index(self):
-        text = "\n".join(self.linked((ROOT / "tutorials/book/index.md").read_text().splitlines(), ROOT / "tutorials"))
+        text = "\n".join(self.linked((ROOT / "tutorials/book/index.md").read_text().splitlines(), ROOT / "tutorials/book"))
         trees = []
         for i, (caption, first, last) in enumerate(PARTS):
             names = [name for name in self.names if first <= int(name[:2]) <= last]
