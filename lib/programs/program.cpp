@@ -15,12 +15,12 @@
 #include <string_view>
 
 #if defined(__linux__)
-#include <sys/mman.h>
 #include <sys/resource.h>
 #endif
 
 #include "antilock/core/blas.hpp"
 #include "antilock/core/error.hpp"
+#include "antilock/core/memory.hpp"
 #include "antilock/core/standard_output.hpp"
 
 namespace antilock::tutorial {
@@ -43,16 +43,8 @@ std::string large_pages() {
 }
 
 #if defined(__linux__)
-constexpr std::size_t blas_buffer = 134'222'000;  // bytes that OpenBLAS maps for each thread
-constexpr std::size_t blas_thread = 220'000'000;  // with its stack of 8e6, up to 67e6 of malloc's; 209e6 were seen
-
-/// Whether a limit of the process leaves room for so many bytes at once.
-bool can_map(std::size_t bytes) {
-  void* const place = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-  if (place == MAP_FAILED) return false;
-  munmap(place, bytes);
-  return true;
-}
+// Bytes of each further thread of OpenBLAS: its buffer, a stack of 8e6, and up to 67e6 of malloc's. 209e6 were seen.
+constexpr std::size_t blas_thread = 220'000'000;
 
 /// The number of threads that OpenBLAS starts with.
 long blas_threads(char** environment) {
@@ -88,8 +80,7 @@ void require_room_for_blas(int, char** argv, char** environment) {
   if (can_map(blas_buffer)) return;  // no second start was to be had
   constexpr std::string_view line =
       ": out of memory: the BLAS needs a buffer of 128 MB, the limit of this process (ulimit -v, ulimit -d) leaves "
-      "less; "
-      "accepted: a higher limit\n";
+      "less; accepted: a higher limit\n";
   const std::string_view path = argv[0] == nullptr ? "antilock" : argv[0];
   const std::string_view name = path.substr(path.rfind('/') + 1);
   [[maybe_unused]] const auto written = write(2, name.data(), name.size()) + write(2, line.data(), line.size());

@@ -35,7 +35,7 @@ std::optional<double> number_in(const std::filesystem::path& path, const std::st
   return std::nullopt;
 }
 
-/// What one control group leaves.
+/// The files that say how much memory one control group leaves.
 struct ControlFiles {
   const char *limit, *used, *cached;
 };
@@ -49,8 +49,13 @@ std::optional<double> left_by(const std::filesystem::path& group, const ControlF
   return *limit - *used + number_in(group / "memory.stat", files.cached).value_or(0);
 }
 
-/// Whether the limits of the process leave room for so many bytes at once.
-bool mapped([[maybe_unused]] std::size_t bytes) {
+std::mutex counting;
+int inside = 0;   // threads in the BLAS now
+int buffers = 0;  // that OpenBLAS is known to have: it keeps them
+
+}  // namespace
+
+bool can_map([[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
   void* const place =
       ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -59,14 +64,6 @@ bool mapped([[maybe_unused]] std::size_t bytes) {
 #endif
   return true;
 }
-
-// OpenBLAS's BUFFER_SIZE on x86-64, where it is largest, and a page.
-constexpr std::size_t blas_buffer = (std::size_t{128} << 20) + (1 << 12);
-std::mutex counting;
-int inside = 0;   // threads in the BLAS now
-int buffers = 0;  // that OpenBLAS is known to have: it keeps them
-
-}  // namespace
 
 std::optional<double> left_by_control_groups(const std::filesystem::path& groups, const std::filesystem::path& own) {
   std::optional<double> least;
@@ -96,7 +93,7 @@ void require_memory(std::size_t bytes, const std::string& what) {
                     what, std::ceil(double(bytes) / 1e6), why),
         1, 0);
   };
-  if (!mapped(bytes)) refuse("the limit of this process (ulimit -v, ulimit -d) leaves less");
+  if (!can_map(bytes)) refuse("the limit of this process (ulimit -v, ulimit -d) leaves less");
   constexpr std::size_t worth_asking = 64 << 20;  // the files of the control groups are read in 0.1 ms
   if (bytes < worth_asking) return;
   const auto left = left_by_control_groups("/sys/fs/cgroup", "/proc/self/cgroup");
@@ -106,7 +103,7 @@ void require_memory(std::size_t bytes, const std::string& what) {
 BlasCalls::BlasCalls() {
   const std::lock_guard lock(counting);
   if (inside + 1 > buffers && blas().threads > 0) {
-    if (!mapped(blas_buffer))
+    if (!can_map(blas_buffer))
       throw NotConverged(fmt::format("out of memory: the BLAS needs a buffer of {} MB, the limit of this process "
                                      "(ulimit -v, ulimit -d) leaves less; accepted: a higher limit",
                                      blas_buffer >> 20),

@@ -6,6 +6,14 @@
 
 namespace antilock {
 
+/// Bytes of the buffer that OpenBLAS maps for each of its threads: its BUFFER_SIZE on x86-64, where it is largest, and a
+/// page.
+constexpr std::size_t blas_buffer = (std::size_t{128} << 20) + (1 << 12);
+
+/// Whether the limits of the process (ulimit -v, ulimit -d) leave room for so many bytes at once; true where the system
+/// is none that is asked (Linux). It needs nothing that a library prepares when it is loaded.
+bool can_map(std::size_t bytes);
+
 /// Throws NotConverged, `what` first, where `bytes` more cannot be had: the limits of the process (ulimit -v, ulimit -d)
 /// are asked by a mapping that is given back at once; the memory of its control groups (a container's limit) is
 /// compared, since the kernel hands out more than they allow and kills the process later. Passes where neither is
