@@ -6,20 +6,10 @@
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 #include "support/temporary_folder.hpp"
+#include "unit/mesh/helpers.hpp"
 
 namespace antilock::test::mesh_test::foreign_files_test {
 
-/// The text with its first `what` replaced; fails the test where there is none.
-std::string with(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, text.npos) << what;
-  return at == text.npos ? text : text.replace(at, what.size(), by);
-}
-
-TriangleMesh read(const std::string& text) {
-  std::istringstream in(text);
-  return read_msh(in, "test.msh");
-}
 void refused(const std::string& text, const std::string& words) {
   expect_refused([&] { read(text); }, words);
 }

@@ -1,7 +1,24 @@
 #pragma once
+#include <sstream>
+#include <string>
+
+#include "antilock/mesh/read_msh.hpp"
 #include "support/measures.hpp"
 
 namespace antilock::test::mesh_test {
+
+/// The text with its first `what` replaced; fails the test where there is none.
+inline std::string with(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.find(what);
+  EXPECT_NE(at, text.npos) << what;
+  return at == text.npos ? text : text.replace(at, what.size(), by);
+}
+
+/// The mesh of a text in the format MSH.
+inline TriangleMesh read(const std::string& text) {
+  std::istringstream in(text);
+  return read_msh(in, "test.msh");
+}
 
 inline int count(const TriangleMesh& mesh, EdgeTag tag) {
   return static_cast<int>(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), tag));

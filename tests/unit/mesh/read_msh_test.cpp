@@ -14,18 +14,6 @@ namespace antilock::test::mesh_test::read_msh_test {
 
 const std::string data = ANTILOCK_TEST_DATA;
 
-/// The text with its first `what` replaced; fails the test where there is none.
-std::string with(std::string text, const std::string& what, const std::string& by) {
-  const std::size_t at = text.find(what);
-  EXPECT_NE(at, text.npos) << what;
-  return at == text.npos ? text : text.replace(at, what.size(), by);
-}
-
-TriangleMesh read(const std::string& text) {
-  std::istringstream in(text);
-  return read_msh(in, "test.msh");
-}
-
 /// The message that a broken file is refused with; empty where it is taken.
 std::string refused(const std::string& text) {
   return test::refusal([&] { read(text); });
