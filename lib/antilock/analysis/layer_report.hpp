@@ -9,7 +9,7 @@
 
 namespace antilock {
 
-/// What an answer to a scene with a layer says of its own locking.
+/// The report on the locking of a solved scene with a layer.
 struct LayerReport {
   std::string diagnosis;  ///< one line: whether the method follows the layer as epsilon -> 0, and why
   /// The share of LostEnergy::proved, where the method can lock; empty where it locks and that is not proved.
@@ -20,7 +20,7 @@ struct LayerReport {
   double found = 0;   ///< the share of LostEnergy::found
   double motion = 0;  ///< LostEnergy::motion, of which both are shares
 
-  /// What a door says in one line: the warning, or the diagnosis where there is none.
+  /// One line for a program to print: the warning, or the diagnosis where there is none.
   const std::string& sentence() const { return warning.empty() ? diagnosis : warning; }
 };
 /// Empty for a scene without a layer. On layers in columns and for elements that do not conform no number is made: what

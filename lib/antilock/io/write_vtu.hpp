@@ -8,7 +8,7 @@
 
 namespace antilock {
 
-/// What a VTU file may hold beside u; an empty vector is left out.
+/// The fields that a VTU file may hold beside u; an empty vector is left out.
 struct VtuFields {
   Eigen::VectorXd p = {};         ///< T, the layer stress, one value per triangle (0 on the body)
   Eigen::VectorXd pressure = {};  ///< C, the contact pressure, a density, one value per contact unknown of the space
