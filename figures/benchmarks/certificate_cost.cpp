@@ -12,7 +12,7 @@
 #include <filesystem>
 
 #include "antilock/adapt/solve_to.hpp"
-#include "antilock/analysis/layer_report.hpp"
+#include "antilock/analysis/locking_report.hpp"
 #include "antilock/core/standard_output.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/generate.hpp"
@@ -45,7 +45,7 @@ struct Seconds {
     solve.push_back(watch.lap());
     equilibrated_flux(scene, space, problem, solution);
     flux.push_back(watch.lap());
-    const Companion v = strip_companion(scene, space, problem, solution);
+    const Companion v = local_companion(scene, space, problem, solution);
     strip.push_back(watch.lap());
     certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});  // makes the flux once more
     rest.push_back(watch.lap());
@@ -88,7 +88,7 @@ void diagnosis_over_solve(Table& table, int cells, int repeats) {
     of_processor();
     const Solution solution = active_set(problem);
     solve.push_back(of_processor());
-    report_layer(scene, space, problem, solution);
+    report_locking(scene, space, problem, solution);
     diagnosis.push_back(of_processor());
   }
   row(table, fmt::format("diagnosis of locking over the P1 solve; 1/h = {}", cells), 0.15,

@@ -64,12 +64,12 @@ void petsc(const Scene& scene, const Element& element, int cells, bool levels) {
   if (distributed::rank() > 0) return;
   fmt::print("petsc,{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{},{:.0f},{:.1e},{:.3g}\n", element.name(),
              distributed::ranks(), report.unknowns.back(), report.mesh, report.assemble, report.setup, report.solve,
-             processor, report.last.linear_iterations, report.last.corrections, report.last.most_iterations,
-             report.last.sets, peak, report.kkt.residual, residual);
+             processor, report.last.linear_iterations, report.last.corrections, report.last.max_iterations,
+             report.last.set_changes, peak, report.kkt.residual, residual);
   for (std::size_t l = 0; levels && l < report.loops.size(); ++l)
     fmt::print("  {} unknowns: {} corrections, {} iterations (most {}), {} setups; setup {:.3f} s, solve {:.3f} s\n",
                report.unknowns[l], report.loops[l].corrections, report.loops[l].linear_iterations,
-               report.loops[l].most_iterations, report.loops[l].setups, report.loops[l].seconds_setup,
+               report.loops[l].max_iterations, report.loops[l].setups, report.loops[l].seconds_setup,
                report.loops[l].seconds_solve);
 }
 

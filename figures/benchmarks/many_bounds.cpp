@@ -1,5 +1,5 @@
 // What bounds on all unknowns cost: a membrane over an obstacle, by the dense road and by the sparse one, and the number
-// of bounds at which the two cost the same (the rule of ContactRoad, solve/penalty_factor.hpp).
+// of bounds at which the two cost the same (the rule of ContactReduction, solve/penalty_factor.hpp).
 //
 // Run: many_bounds --out results/benchmark                 half a minute: the table, to 1/h = 512
 // Run: many_bounds --crossover --out results/benchmark     bounds on k rows of the vertices instead: 20 s
@@ -24,11 +24,11 @@ struct Measured {
   Counters counters;
 };
 
-Measured measure(const VariationalInequality& problem, ContactRoad road) {
+Measured measure(const VariationalInequality& problem, ContactReduction reduction) {
   Measured measured;
   std::vector<double> seconds;
   ActiveSetOptions options;
-  options.road = road;
+  options.reduction = reduction;
   for (int run = 0; run < 3; ++run) {
     const Stopwatch watch;
     measured.counters = active_set(problem, options).counters;
@@ -45,8 +45,9 @@ void table(int finest, const std::filesystem::path& folder) {
   for (const int n : {16, 24, 32, 45, 64, 128, 256, 512}) {
     if (n > finest) break;
     const VariationalInequality problem = test::membrane_over_obstacle(n);
-    const Measured sparse = measure(problem, ContactRoad::sparse);
-    const std::string dense = n > 45 ? "" : fmt::format("{:.3g}", measure(problem, ContactRoad::dense).seconds);
+    const Measured sparse = measure(problem, ContactReduction::sparse);
+    const std::string dense =
+        n > 45 ? "" : fmt::format("{:.3g}", measure(problem, ContactReduction::schur_complement).seconds);
     fmt::print("{:>7} bounds: dense {:>6} s, sparse {:.3g} s in {} steps, {} factorisations\n", problem.size(), dense,
                sparse.seconds, sparse.counters.contact, sparse.counters.factorisations);
     std::fflush(stdout);
@@ -65,8 +66,8 @@ void crossover(const std::filesystem::path& folder) {
       problem.contact.erase(problem.contact.begin() + first + rows * m, problem.contact.end());
       problem.contact.erase(problem.contact.begin(), problem.contact.begin() + first);
       problem.lower = Eigen::VectorXd(problem.lower(problem.contact));
-      const double dense = measure(problem, ContactRoad::dense).seconds;
-      const double sparse = measure(problem, ContactRoad::sparse).seconds;
+      const double dense = measure(problem, ContactReduction::schur_complement).seconds;
+      const double sparse = measure(problem, ContactReduction::sparse).seconds;
       fmt::print(
           "{:>6} unknowns, {:>5} bounds = {:>2} sqrt(F): dense {:.3g} s, sparse {:.3g} s, dense over sparse {:.2f}\n",
           problem.size(), problem.contact.size(), rows, dense, sparse, dense / sparse);

@@ -10,9 +10,9 @@
 namespace antilock {
 
 CholeskySeconds unconstrained_cholesky(const VariationalInequality& problem) {
-  const FreeNumbering numbering(problem);
-  const SparseMatrix k = penalised_matrix(problem, numbering, moderate_delta(problem));
-  const Eigen::VectorXd load = problem.load(numbering.unknown);
+  const DofOrdering ordering(problem);
+  const SparseMatrix k = penalised_matrix(problem, ordering, penalty_parameter(problem));
+  const Eigen::VectorXd load = problem.load(ordering.dof);
   CholeskySeconds seconds;
   Stopwatch watch;
   Eigen::CholmodDecomposition<SparseMatrix, Eigen::Upper> cholesky;

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
+#include "pictures/axes_box.hpp"
 #include "pictures/pictures.hpp"
-#include "pictures/room.hpp"
 #include "pictures/shaded.hpp"
 #include "pictures/solution_file.hpp"
 
@@ -64,7 +64,7 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
   const Beyond marks = beyond(shared, data);
   const bool titled = std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return !s.title.empty(); });
   const Arrangement at(count, titled, style.last_range.has_value(), colour_bar_room(shared, 20, 250));
-  const RoomDetail detail = at.columns == 1 ? RoomDetail::full : at.columns == 2 ? RoomDetail::few : RoomDetail::least;
+  const AxesDetail detail = at.columns == 1 ? AxesDetail::full : at.columns == 2 ? AxesDetail::few : AxesDetail::least;
   Page page(at.height());
 
   const double span = shared.high - shared.low, factor = style.range ? 2 : 1 / span;
@@ -73,21 +73,21 @@ Page surface_picture(const std::vector<Surface>& surfaces, const SurfaceStyle& s
     const bool own = style.last_range && i + 1 == count;
     const Range range = own ? *style.last_range : shared;
     const Box cell = at.cell(i);
-    Room room = make_room(domain_of(*solutions[i]), range, drawn_height, detail);
-    room.parts = parts_at_zero(*solutions[i]);
-    const double left = widest_number(page, room.u) + 65, below = 130;
+    AxesBox axes = make_axes_box(domain_of(*solutions[i]), range, drawn_height, detail);
+    axes.parts = parts_at_zero(*solutions[i]);
+    const double left = widest_number(page, axes.u) + 65, below = 130;
     const Box inside{cell.x + left, cell.y + below, cell.width - left - 85, cell.height - below - 10};
-    Eigen::AlignedBox3d fitted = make_room(all, range, drawn_height, detail).space;
+    Eigen::AlignedBox3d fitted = make_axes_box(all, range, drawn_height, detail).space;
     const Eigen::Vector3d edge = 0.01 * fitted.sizes();  // so that the lines on its border are inside
     fitted = {fitted.min() - edge, fitted.max() + edge};
-    const View view(room.space, fitted, inside, azimuth, elevation);
+    const View view(axes.space, fitted, inside, azimuth, elevation);
 
     auto renderer = vtkSmartPointer<vtkRenderer>::New();
     renderer->SetActiveCamera(view.camera());
-    add_walls(*renderer, room);
-    add_surface(*renderer, lifted(solutions[i], room.factor), range, style.grid, view.towards_eye());
+    add_walls(*renderer, axes);
+    add_surface(*renderer, lifted(solutions[i], axes.factor), range, style.grid, view.towards_eye());
     page.scene(renderer, inside);
-    label_room(page, view, room, own ? style.last_name : "$u$");
+    label_axes(page, view, axes, own ? style.last_name : "$u$");
     page.text({cell.centre().x, cell.top() + 20}, surfaces[i].title,
               {name_size, {0.5}, 0, palette::ink, cell.width - 20});
   }

@@ -13,7 +13,7 @@
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/plane_strain.hpp"
-#include "antilock/models/projected.hpp"
+#include "antilock/models/project_strain.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "cross_check.hpp"
@@ -32,14 +32,14 @@ VariationalInequality strings(const std::vector<int>& cells) {
     for (int i = first; i < first + n; ++i)
       for (const int j : {i, i + 1})
         for (const int k : {i, i + 1}) entries.emplace_back(j, k, j == k ? n : -n);
-    problem.fixed.insert(problem.fixed.end(), {first, first + n});
+    problem.dirichlet_dofs.insert(problem.dirichlet_dofs.end(), {first, first + n});
     first += n + 1;
   }
   problem.a1.resize(first, first);
   problem.a1.setFromTriplets(entries.begin(), entries.end());
   problem.b.resize(0, first);
   problem.load = Eigen::VectorXd::Zero(first);
-  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   return problem;
 }
 
@@ -104,7 +104,7 @@ Numbers by_hand(int cells, double epsilon, const std::filesystem::path& folder) 
   const Solution ours = active_set(problem);
   Points places(solution.rows.rows(), 2);
   places << solution.column("x"), solution.column("y");
-  const Eigen::VectorXd theirs = solution.column("u")(match(space.points(), places));
+  const Eigen::VectorXd theirs = solution.column("u")(match(space.dof_coordinates(), places));
   Numbers numbers;
   numbers.road = "mixed";
   numbers.solved(space, ours);
@@ -166,7 +166,7 @@ Numbers estimates(int cells, const std::filesystem::path& folder) {
     numbers.took(table.names[row]);
     numbers.solved(conforming, locked);
     numbers.solved(broken, free);
-    const double kept = locked.u(conforming.contact()).maxCoeff(), all = free.u(broken.contact()).maxCoeff();
+    const double kept = locked.u(conforming.contact_dofs()).maxCoeff(), all = free.u(broken.contact_dofs()).maxCoeff();
     largest = std::max({largest, kept, all});
     const std::string at = fmt::format("epsilon = {:g}: ", epsilon);
     numbers.relative(at + "epsilon", epsilon, table.column("epsilon")(row));
@@ -215,7 +215,7 @@ void compare_values(Numbers& numbers, const std::string& what, const Space& spac
                     const ScriptTable& theirs) {
   Points places(theirs.rows.rows(), 2);
   places << theirs.column("x"), theirs.column("y");
-  const Eigen::VectorXd u = theirs.column("u")(match(space.points(), places));
+  const Eigen::VectorXd u = theirs.column("u")(match(space.dof_coordinates(), places));
   const double largest = ours.cwiseAbs().maxCoeff();
   for (int i = 0; i < space.size(); ++i)
     numbers.all.push_back({fmt::format("{} at unknown {}", what, i), ours(i), u(i), largest});
@@ -242,9 +242,9 @@ Numbers mixed(int cells, double epsilon, const std::filesystem::path& folder) {
   };
 
   const Space p1_space(squares, p1());
-  const Shares boxes = box_shares(squares, layer_strain(p1_space), 2.0 / cells, 2.0 / cells);
+  const StrainProjection boxes = box_projection(squares, layer_strain(p1_space), 2.0 / cells, 2.0 / cells);
   const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
-  const Solution layer = active_set(projected(antilock::assemble(scene, p1_space), boxes, 0.5));
+  const Solution layer = active_set(project_strain(antilock::assemble(scene, p1_space), boxes, 0.5));
   took(0, layer);
   compare_values(numbers, "boxes: u", p1_space, layer.u, read_table(folder / "boxes.csv"));
 

@@ -59,7 +59,7 @@ VariationalInequality problem_on(const Space& space, double epsilon) {
 
 /// Where P1 locks no contact unknown moves: gaps are 0 to the tolerance, in contact or not, and there is no set to
 /// compare.
-std::string contact_words(const VariationalInequality& problem, const Solution& ours, const freefem::Answer& theirs,
+std::string contact_words(const VariationalInequality& problem, const Solution& ours, const freefem::Result& theirs,
                           int disagree) {
   if (disagree == 0) return "same";
   const double gap = std::max(ours.u(problem.contact).cwiseAbs().maxCoeff(), theirs.gap.cwiseAbs().maxCoeff());
@@ -69,7 +69,7 @@ std::string contact_words(const VariationalInequality& problem, const Solution& 
 struct Both {
   Line line;
   Solution ours;
-  freefem::Answer theirs;
+  freefem::Result theirs;
 };
 Both solve_both(const std::string& tutorial, const std::string& script, const Space& space, double epsilon,
                 const std::filesystem::path& out, const std::vector<std::string>& options = {}, bool by_uzawa = false) {
@@ -139,7 +139,7 @@ std::string same_set(const Solution& ours, const Eigen::VectorXd& force) {
 /// The same with friction: where a force is at its bound, nothing holds.
 std::string same_zones(const VariationalInequality& problem, const Solution& ours, Eigen::VectorXd force) {
   for (Eigen::Index i = 0; i < force.size(); ++i)
-    if (problem.force_bound.size() > 0 && std::abs(force(i)) >= (1 - 1e-9) * problem.force_bound(i)) force(i) = 0;
+    if (problem.force_limit.size() > 0 && std::abs(force(i)) >= (1 - 1e-9) * problem.force_limit(i)) force(i) = 0;
   return same_set(ours, force);
 }
 
@@ -231,7 +231,7 @@ std::vector<Line> plates(int rings, const std::filesystem::path& out) {
     const Eigen::VectorXd deflection = ours.u.head(w.size());
     int disagree = 0, bound = 0;
     for (int i = 0; i < w.size(); ++i) {
-      if (std::binary_search(w.clamped().begin(), w.clamped().end(), i)) continue;
+      if (std::binary_search(w.dirichlet_dofs().begin(), w.dirichlet_dofs().end(), i)) continue;
       disagree += ours.active[bound++] != (theirs.force(i) != 0);
     }
     lines.push_back({"27_plate", fmt::format("{}, {} rings, t = {:g}", what, rings, plate.thickness), theirs.road,

@@ -80,7 +80,7 @@ Discretisation assemble(const Space& space, const std::filesystem::path& folder)
   run("matrices",
       {"-mesh", mesh_in(folder, space), "-element", space.element().name() == "CR" ? "P1nc" : "P1", "-out", folder});
   const ScriptTable unknowns = read_table(folder / "unknowns.csv");
-  const std::vector<int> theirs = match(space.points(), places(unknowns));
+  const std::vector<int> theirs = match(space.dof_coordinates(), places(unknowns));
   std::vector<int> ours(theirs.size());
   for (std::size_t i = 0; i < theirs.size(); ++i) ours[theirs[i]] = static_cast<int>(i);
 
@@ -92,11 +92,11 @@ Discretisation assemble(const Space& space, const std::filesystem::path& folder)
     if (contact(theirs[i]) > 0.5) d.contact.push_back(i);
   }
   std::sort(d.contact.begin(), d.contact.end(),
-            [&](int i, int j) { return space.points()(i, 0) < space.points()(j, 0); });
+            [&](int i, int j) { return space.dof_coordinates()(i, 0) < space.dof_coordinates()(j, 0); });
   return d;
 }
 
-Answer solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
+Result solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
              const std::vector<std::string>& options) {
   std::vector<std::string> all{"-mesh", mesh_in(folder, space), "-epsilon", fmt::format("{}", epsilon), "-out", folder};
   all.insert(all.end(), options.begin(), options.end());
@@ -104,16 +104,16 @@ Answer solve(const std::string& script, const Space& space, double epsilon, cons
 
   const ScriptTable solution = read_table(folder / "solution.csv"), contact = read_table(folder / "contact.csv"),
                     summary = read_table(folder / "summary.csv", 1);
-  Answer answer;
+  Result answer;
   answer.road = summary.names.at(0);
-  answer.u = solution.column("u")(match(space.points(), places(solution)));
+  answer.u = solution.column("u")(match(space.dof_coordinates(), places(solution)));
   const std::vector<int> order = by_x(contact);
   answer.gap = contact.column("gap")(order);
   answer.pressure = contact.column("pressure")(order);
   const Eigen::VectorXd x = contact.column("x")(order);
-  const std::vector<int>& here = space.contact();
+  const std::vector<int>& here = space.contact_dofs();
   const bool as_many = x.size() == static_cast<Eigen::Index>(here.size());
-  if (x.size() > 0 && !(as_many && (x - space.points().col(0)(here)).cwiseAbs().maxCoeff() < same_place))
+  if (x.size() > 0 && !(as_many && (x - space.dof_coordinates().col(0)(here)).cwiseAbs().maxCoeff() < same_place))
     throw Error(script + ": its contact unknowns are others than ours");
   answer.energy = summary.column("energy")(0);
   answer.residual = summary.column("residual")(0);
@@ -145,7 +145,8 @@ ElasticAnswer elastic_answer(const std::filesystem::path& folder, const std::str
                     contact = read_table(folder / (name + "_contact.csv"));
   ElasticAnswer answer;
   answer.u.resize(space.size());
-  answer.u << x.column("u")(match(space.x.points(), places(x))), y.column("u")(match(space.y.points(), places(y)));
+  answer.u << x.column("u")(match(space.x.dof_coordinates(), places(x))),
+      y.column("u")(match(space.y.dof_coordinates(), places(y)));
   answer.road = summary.names.at(0);
   answer.force = contact.column("force")(by_x(contact));
   answer.energy = summary.column("energy")(0);
@@ -176,13 +177,13 @@ void run_plate(const TriangleMesh& mesh, double epsilon, const std::filesystem::
 PlateAnswer plate_answer(const std::filesystem::path& folder, const std::string& name, const Space& deflection) {
   const ScriptTable values = read_table(folder / (name + ".csv")),
                     summary = read_table(folder / (name + "_summary.csv"), 1);
-  const std::vector<int> order = match(deflection.points(), places(values));
+  const std::vector<int> order = match(deflection.dof_coordinates(), places(values));
   return {summary.names.at(0), values.column("u")(order), values.column("force")(order), summary.column("energy")(0),
           summary.column("seconds")(0)};
 }
 
 Comparison compare(const Space& space, const VariationalInequality& problem, const Solution& ours,
-                   const Answer& theirs) {
+                   const Result& theirs) {
   Comparison c;
   c.difference = (ours.u - theirs.u).cwiseAbs().maxCoeff() / ours.u.cwiseAbs().maxCoeff();
   const double j = energy(problem, ours);

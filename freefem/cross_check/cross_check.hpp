@@ -25,7 +25,7 @@ struct Discretisation {
 Discretisation assemble(const Space& space, const std::filesystem::path& folder);
 
 /// The solution that a script computed, renumbered as `space` numbers its unknowns.
-struct Answer {
+struct Result {
   std::string road;          ///< how the stiff part was solved: mixed, penalty or sum
   Eigen::VectorXd u;         ///< N
   Eigen::VectorXd gap;       ///< C, by x
@@ -36,7 +36,7 @@ struct Answer {
   int steps = 0;             ///< of the contact loop
 };
 /// Writes the mesh of `space` into `folder`, runs `script` (04, 05, 06 or 08) on it and reads its files.
-Answer solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
+Result solve(const std::string& script, const Space& space, double epsilon, const std::filesystem::path& folder,
              const std::vector<std::string>& options = {});
 
 /// The paper's Uzawa in FreeFEM, LinearCG in each step: what 04_reference_solution.edp writes with -solver uzawa.
@@ -86,6 +86,6 @@ struct Comparison {
                              ///< both below 1e-10 on both sides
 };
 Comparison compare(const Space& space, const VariationalInequality& problem, const Solution& ours,
-                   const Answer& theirs);
+                   const Result& theirs);
 
 }  // namespace antilock::freefem

@@ -38,7 +38,7 @@ Sample sample(const Scene& scene, int n) {
   Sample s{{}, energy(problem, solution), solution.seconds.total(), space.size()};
   for (std::size_t i = 0; i < places.size(); ++i) {
     Eigen::Index vertex = 0;
-    const double away = (space.points().rowwise() - places[i]).rowwise().norm().minCoeff(&vertex);
+    const double away = (space.dof_coordinates().rowwise() - places[i]).rowwise().norm().minCoeff(&vertex);
     if (away > 1e-9) throw Error("model_check: no vertex at a place of model_check.edp");
     s.u[i] = solution.u(vertex);
   }

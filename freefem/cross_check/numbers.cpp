@@ -197,13 +197,13 @@ std::vector<Numbers> degrees(int cells, const std::filesystem::path& folder) {
     const Space space(mesh, i == 0 ? p1() : p2());
     const VariationalInequality problem = assemble(contact_scene(1e-2), space);
     const Solution solution = active_set(problem);
-    const Eigen::VectorXd w = (2 * std::acos(-1) * space.points().col(0).array()).sin(), slope = problem.b * w;
+    const Eigen::VectorXd w = (2 * std::acos(-1) * space.dof_coordinates().col(0).array()).sin(), slope = problem.b * w;
     const std::string of = space.element().name() + ": ";
     both[i].took(table.names[i]);
     both[i].solved(space, solution);
     both[i].count(of + "unknowns", space.size(), table.column("unknowns")(i));
     both[i].relative(of + "cost", std::sqrt(slope.dot(problem.m.cwiseProduct(slope))), table.column("cost")(i));
-    both[i].relative(of + "ridge", solution.u(space.contact()).maxCoeff(), table.column("ridge")(i));
+    both[i].relative(of + "ridge", solution.u(space.contact_dofs()).maxCoeff(), table.column("ridge")(i));
     both[i].relative(of + "energy", energy(problem, solution), table.column("energy")(i));
     both[i].freefem_seconds = table.column("seconds")(i);
   }
@@ -227,7 +227,8 @@ std::vector<Numbers> graded_layers(int cells, const std::filesystem::path& folde
       both[i].solved(space, solution);
       both[i].count(of + "unknowns", space.size(), table.column("unknowns")(i));
       both[i].count(of + "in contact", static_cast<double>(held), table.column("held")(i));
-      both[i].relative(of + "largest u on Gamma_C", solution.u(space.contact()).maxCoeff(), table.column("largest")(i));
+      both[i].relative(of + "largest u on Gamma_C", solution.u(space.contact_dofs()).maxCoeff(),
+                       table.column("largest")(i));
       both[i].relative(of + "energy", energy(problem, solution), table.column("energy")(i));
       both[i].freefem_seconds += table.column("seconds")(i);
     }

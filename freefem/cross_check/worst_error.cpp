@@ -30,11 +30,11 @@ class ByPlace {
   }
   double value(const Eigen::VectorXd& u, double x, double y) const {
     const auto [t, lambda] = place(x, y);
-    return space_.element().basis(lambda).dot(u(space_.unknowns().row(t)));
+    return space_.element().basis(lambda).dot(u(space_.cell_dofs().row(t)));
   }
   Eigen::Vector2d gradient(const Eigen::VectorXd& u, double x, double y) const {
     const auto [t, lambda] = place(x, y);
-    const Eigen::VectorXd local = u(space_.unknowns().row(t));
+    const Eigen::VectorXd local = u(space_.cell_dofs().row(t));
     return (space_.element().derivative(lambda) * barycentric_gradients(space_.mesh(), t)).transpose() * local;
   }
 
@@ -83,12 +83,12 @@ Numbers errors_at_unknowns(const std::filesystem::path& folder) {
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6}) {
       sweep.set_epsilon(epsilon);
       fine_sweep.set_epsilon(epsilon);
-      const Solution solution = sweep.solve(), truth = fine_sweep.solve();
+      const Solution solution = sweep.solve(), exact = fine_sweep.solve();
       numbers.solved(space, solution);
       double worst = 0;
       for (int i = 0; i < space.size(); ++i)
-        worst = std::max(worst,
-                         std::abs(solution.u(i) - by_place.value(truth.u, space.points()(i, 0), space.points()(i, 1))));
+        worst = std::max(worst, std::abs(solution.u(i) - by_place.value(exact.u, space.dof_coordinates()(i, 0),
+                                                                        space.dof_coordinates()(i, 1))));
       const std::string at = fmt::format(" {} structured", element->name());
       if (!table.names[row].ends_with(at)) throw Error("results.csv: " + table.names[row] + "; accepted" + at);
       numbers.took(table.names[row].substr(0, table.names[row].find(' ')));
@@ -192,8 +192,8 @@ Numbers contact_sets(const std::filesystem::path& folder) {
   Eigen::MatrixXd hats(fine_space.size(), space.size());
   for (int i = 0; i < space.size(); ++i)
     for (int j = 0; j < fine_space.size(); ++j)
-      hats(j, i) =
-          by_place.value(Eigen::VectorXd::Unit(space.size(), i), fine_space.points()(j, 0), fine_space.points()(j, 1));
+      hats(j, i) = by_place.value(Eigen::VectorXd::Unit(space.size(), i), fine_space.dof_coordinates()(j, 0),
+                                  fine_space.dof_coordinates()(j, 1));
   const SparseMatrix norm = h1_norm(fine_space);
   Numbers numbers;
   for (const bool kernel : {false, true}) {
@@ -227,7 +227,7 @@ Numbers worst_loads(int cells, const std::filesystem::path& folder) {
   Eigen::Index column = 0;
   for (int t = 0; t < fine.triangle_count(); ++t) {
     if (fine.region[t] != Region::body) continue;
-    for (int i = 0; i < 3; ++i) work(fine_space.unknowns()(t, i), column) = std::sqrt(fine.area(t)) / 3;
+    for (int i = 0; i < 3; ++i) work(fine_space.cell_dofs()(t, i), column) = std::sqrt(fine.area(t)) / 3;
     ++column;
   }
   const ByPlace by_place(space, cells);
@@ -235,8 +235,8 @@ Numbers worst_loads(int cells, const std::filesystem::path& folder) {
   for (int i = 0; i < space.size(); ++i) {
     Eigen::VectorXd hat(fine_space.size());
     for (int j = 0; j < fine_space.size(); ++j)
-      hat(j) =
-          by_place.value(Eigen::VectorXd::Unit(space.size(), i), fine_space.points()(j, 0), fine_space.points()(j, 1));
+      hat(j) = by_place.value(Eigen::VectorXd::Unit(space.size(), i), fine_space.dof_coordinates()(j, 0),
+                              fine_space.dof_coordinates()(j, 1));
     coarse_work.row(i) = (work.transpose() * hat).transpose();
   }
   Numbers numbers;

@@ -21,32 +21,33 @@
 
 namespace {
 
-struct Door {
+struct Subcommand {
   const char* name;
-  std::function<int(int, char**)> open;
-  const char* what;
+  std::function<int(int, char**)> run;
+  const char* summary;
 };
 
-const std::vector<Door>& doors() {
+const std::vector<Subcommand>& subcommands() {
   using namespace antilock;
-  static const std::vector<Door> all{
+  static const std::vector<Subcommand> all{
       {"run",
        [](int, char** argv) -> int {
-         tutorial::become("run_scene", argv);
+         tutorial::exec_program("run_scene", argv);
          throw Error("antilock run: run_scene is not beside this program; accepted: the folder of both");
        },
        "answer a scene: run_scene, the same options"},
-      {"truth", doors::truth, "the exact solution of a scene at given points"},
-      {"judge", doors::judge, "how far another program's answer is from the exact solution"},
-      {"lockcheck", doors::lockcheck, "whether the matrices of another program lock"},
-      {"sweep", doors::sweep, "a scene over epsilons and meshes: one table"}};
+      {"truth", subcommands::exact, "the exact solution of a scene at given points"},
+      {"judge", subcommands::estimate, "how far another program's answer is from the exact solution"},
+      {"lockcheck", subcommands::lockcheck, "whether the matrices of another program lock"},
+      {"sweep", subcommands::sweep, "a scene over epsilons and meshes: one table"}};
   return all;
 }
 
 int help(std::FILE* where, int status) {
   antilock::open_standard_streams();
   fmt::print(where, "antilock SUBCOMMAND ...; each has --help\n");
-  for (const Door& door : doors()) fmt::print(where, "  {:<10} {}\n", door.name, door.what);
+  for (const Subcommand& subcommand : subcommands())
+    fmt::print(where, "  {:<10} {}\n", subcommand.name, subcommand.summary);
   return antilock::delivered(status, "antilock");
 }
 
@@ -60,11 +61,11 @@ int fail(const std::string& message, int status) {
 
 int main(int argc, char** argv) {
   try {
-    for (const Door& door : doors())
+    for (const Subcommand& subcommand : subcommands())
       for (int k = 0; k < std::min(argc, 2); ++k)  // 0: it started again, as choose_machine does
-        if (!std::strcmp(argv[k], door.name)) {
-          const int status = door.open(argc - k, argv + k);
-          return antilock::delivered(status, std::string("antilock ") + door.name);
+        if (!std::strcmp(argv[k], subcommand.name)) {
+          const int status = subcommand.run(argc - k, argv + k);
+          return antilock::delivered(status, std::string("antilock ") + subcommand.name);
         }
     if (argc < 2) return help(stderr, 2);
     if (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h")) return help(stdout, 0);

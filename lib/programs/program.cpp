@@ -92,7 +92,7 @@ void require_room_for_blas(int, char** argv, char** environment) {
 
 }  // namespace
 
-void choose_machine(char** argv) {
+void reexec_tuned(char** argv) {
   const char* const threads = std::getenv("OPENBLAS_NUM_THREADS");
   if (threads == nullptr) set_blas_threads(1);
   if (std::getenv("ANTILOCK_KEEP_KERNELS")) return;
@@ -104,16 +104,16 @@ void choose_machine(char** argv) {
   };
   ask("OPENBLAS_CORETYPE", blas().wider);
   ask("GLIBC_TUNABLES", large_pages());
-  if (again) become("", argv);
+  if (again) exec_program("", argv);
 }
 
-void become(const std::string& program, char** argv) {
+void exec_program(const std::string& program, char** argv) {
   if (self().empty()) return;
   std::fflush(nullptr);
   execv((program.empty() ? self() : self().parent_path() / program).c_str(), argv);
 }
 
-std::string beside(const std::string& program) {
+std::string sibling_path(const std::string& program) {
   std::error_code ignored;
   const std::filesystem::path path = self().parent_path() / program;
   return std::filesystem::exists(path, ignored) ? path.string() : program;
@@ -149,7 +149,7 @@ std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent) {
   for (const CLI::Option* option : line.get_options())  // NaN is in any range for CLI11
     if (option->count() > 0 && option->get_type_name().rfind("FLOAT", 0) == 0 && std::isnan(option->as<double>()))
       return refuse(option->get_name() + ": nan; accepted: a number");
-  choose_machine(argv);
+  reexec_tuned(argv);
   return std::nullopt;
 }
 

@@ -19,14 +19,14 @@ std::optional<int> parse(CLI::App& line, int argc, char** argv, bool silent = fa
 /// memory in large pages. Both are read where a program starts, so it starts again with what the environment does not
 /// name yet. Returns where there is nothing to gain, and where ANTILOCK_KEEP_KERNELS asks to leave all as it is.
 /// `parse` calls it; a program that starts MPI does so before.
-void choose_machine(char** argv);
+void reexec_tuned(char** argv);
 
 /// Becomes the program of that name beside this one (this one again, where it is empty), with the same arguments.
 /// Returns where there is none.
-void become(const std::string& program, char** argv);
+void exec_program(const std::string& program, char** argv);
 
 /// The path of a program that stands in the folder of this one; its bare name where there is none.
-std::string beside(const std::string& program);
+std::string sibling_path(const std::string& program);
 
 /// A word of a command as a shell takes it: in quotes where a blank, a bracket or another sign would mean something.
 std::string in_shell(const std::string& word);

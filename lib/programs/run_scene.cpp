@@ -22,9 +22,9 @@
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/standard_output.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/runner/scene_answer.hpp"
 #include "antilock/runner/scene_file.hpp"
 #include "antilock/runner/scene_results.hpp"
+#include "antilock/runner/solve_scene.hpp"
 #include "programs/program.hpp"
 #include "programs/report.hpp"
 
@@ -115,25 +115,25 @@ Examples: the folder tutorials/scenes; start with   run_scene tutorials/scenes/f
 
 /// Which of the processes that mpiexec started this is, and how many there are, without MPI: from the environment that
 /// Open MPI, MPICH and Slurm set. 0 of 1 without mpiexec.
-int launched(const char* by_open_mpi, const char* by_others, int alone) {
+int mpi_variable(const char* by_open_mpi, const char* by_others, int alone) {
   for (const char* name : {by_open_mpi, by_others})
     if (const char* value = std::getenv(name)) return std::atoi(value);
   return alone;
 }
-int launched_rank() { return launched("OMPI_COMM_WORLD_RANK", "PMI_RANK", 0); }
-int launched_ranks() { return launched("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1); }
+int mpi_rank() { return mpi_variable("OMPI_COMM_WORLD_RANK", "PMI_RANK", 0); }
+int mpi_size() { return mpi_variable("OMPI_COMM_WORLD_SIZE", "PMI_SIZE", 1); }
 
 /// Scenes with solver = "petsc" are answered by the program beside this one, alone or on many ranks.
 void check_solver(const SceneFile& file, bool for_petsc, char** argv) {
   if (file.method.solver == "petsc") {
-    tutorial::become("run_scene_petsc", argv);
+    tutorial::exec_program("run_scene_petsc", argv);
     throw Error(file.name +
                 ": method.solver: \"petsc\" is not built here, since PETSc or MPI was missing; accepted: "
                 "\"active-set\", \"uzawa\"");
   }
   if (for_petsc)
     throw Error(file.name + ": --restart and --direct go with solver = \"petsc\" only; accepted: a run without it");
-  if (launched_ranks() > 1)
+  if (mpi_size() > 1)
     throw Error(file.name +
                 ": method.solver: was started on several ranks, and PETSc or MPI was missing when this was "
                 "built; accepted: a run without mpiexec");
@@ -147,7 +147,7 @@ ProgressHook follower(double most_seconds) {
     if (seconds > shown + 1 && ::isatty(STDERR_FILENO) != 0) {
       shown = seconds;
       fmt::print(stderr, "\r  {:.0f} s, {} {}: relative error about {:.0e}, asked for {:.0e} ", seconds, now.stage,
-                 now.step, now.reached, now.asked);
+                 now.step, now.error, now.tolerance);
     }
     return seconds <= most_seconds;
   };
@@ -177,45 +177,46 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   fmt::print("run_scene: {}\n", printable(file.title.empty() ? file.name : file.title, 200));
 
   Stopwatch watch;
-  const auto level_done = [&](const Level& level) {
-    const std::string quote = level.quoted_unknowns > 0 ? fmt::format(", about {:.0f} unknowns and {:.2g} s in the end",
-                                                                      level.quoted_unknowns, level.quoted_seconds)
-                                                        : "";
+  const auto level_done = [&](const RefinementLevel& level) {
+    const std::string quote = level.predicted_unknowns > 0
+                                  ? fmt::format(", about {:.0f} unknowns and {:.2g} s in the end",
+                                                level.predicted_unknowns, level.predicted_seconds)
+                                  : "";
     fmt::print("\n    {} unknowns: proved {:.3g}{}", level.unknowns, level.relative, quote);
     if (level.seconds > asked.most_seconds && level.relative > *method.accuracy)
       throw NotConverged(fmt::format("stopped after {:.1f} s: proved {:.3g} with {} unknowns, asked for {:g}",
                                      level.seconds, level.relative, level.unknowns, *method.accuracy),
                          level.relative, 0);
   };
-  CertifiedSolution found = answer_scene(
+  CertifiedSolution found = solve_scene(
       file, {[&](const std::string& what) { report.stage(what); }, follower(asked.most_seconds), level_done});
   watch.lap();
-  const SceneSummary summary = summary_of(file, found.answer);
-  found.answer.seconds.solve += watch.lap();
+  const SceneSummary summary = summary_of(file, found.result);
+  found.result.seconds.solve += watch.lap();
   if (const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
-      stiff != nullptr && nlohmann::json::parse(file.words)["layer"].contains("thickness"))
+      stiff != nullptr && nlohmann::json::parse(file.json)["layer"].contains("thickness"))
     fmt::print("  layer: {:g} before a_x^-, {} before a_y^-\n", stiff->s, across(*stiff));
   report.stage("files");
-  write_scene_results(asked.out, file, found.answer, summary, found.history.empty() ? nullptr : &found, asked.files);
+  write_scene_results(asked.out, file, found.result, summary, found.history.empty() ? nullptr : &found, asked.files);
   report.finish();
   if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
   const std::string name = (asked.out / "solution").string();
   const char* const of_one_component = file.mesh.from_file() ? "plan" : "surface";
   const char* const kind = file.elastic ? "deformed" : of_one_component;
   if (asked.files.contains("vtu"))
-    fmt::print("  a picture of it: {} {} {} --out {}\n", tutorial::in_shell(tutorial::beside("render")), kind,
+    fmt::print("  a picture of it: {} {} {} --out {}\n", tutorial::in_shell(tutorial::sibling_path("render")), kind,
                tutorial::in_shell(name + ".vtu"), tutorial::in_shell(name + ".png"));
   if (found.history.empty())
     fmt::print("  u from {:.6g} to {:.6g}; {} contact steps, {} corrections; results in {}\n", summary.u_min,
                summary.u_max, summary.contact_steps, summary.corrections, asked.out.string());
   else
     fmt::print("  proved relative error {:.3g}, {} levels, {} unknowns; results in {}\n",
-               found.certificate.relative(method.of), found.history.size(), found.answer.space.free_count(),
+               found.certificate.relative(method.of), found.history.size(), found.result.space.free_count(),
                asked.out.string());
 }
 
 int fail(const std::string& message, int status) {
-  if (launched_rank() > 0) return 0;  // rank 0 says it, and its status is that of the run
+  if (mpi_rank() > 0) return 0;  // rank 0 says it, and its status is that of the run
   // fmt::print would throw where standard error is full or closed, and end the program by a signal
   std::fputs((printable(message, 4000) + "\n").c_str(), stderr);
   return status;
@@ -224,7 +225,7 @@ int fail(const std::string& message, int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (launched_ranks() > 1) tutorial::become("run_scene_petsc", argv);  // which reads the scene on all at once
+  if (mpi_size() > 1) tutorial::exec_program("run_scene_petsc", argv);  // which reads the scene on all at once
   CLI::App line("Solves the scene of a file: a loaded body, with or without a stiff layer, with or without contact.",
                 "run_scene");
   std::filesystem::path scene;

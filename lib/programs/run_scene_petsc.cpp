@@ -67,7 +67,7 @@ dist::ContactSet first_guess(const Scene& scene) {
   const Solution solution = active_set(problem);
   dist::ContactSet set;
   for (std::size_t i = 0; i < problem.contact.size(); ++i) {
-    set.x.push_back(space.points()(problem.contact[i], 0));
+    set.x.push_back(space.dof_coordinates()(problem.contact[i], 0));
     set.active.push_back(solution.active[i] ? 1 : 0);
   }
   return set;
@@ -113,7 +113,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   Hierarchy h;
   const std::filesystem::path kept = dist::checkpoint_path(out);
   std::string question;
-  dist::together([&] {
+  dist::collectively([&] {
     file = read_scene_file(scene);
     if (file->method.solver != "petsc")
       throw Error(
@@ -132,7 +132,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
                dist::ranks(), dist::ranks() > 1 ? "s" : "");
 
   say("coarse mesh");
-  dist::together([&] {
+  dist::collectively([&] {
     h = hierarchy(*file, dist::ranks());
     check_memory(*file, h, dist::ranks());
     const bool unit_square = !file->mesh.from_file();
@@ -154,7 +154,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
   options.loop.residual = std::max(options.loop.residual, options.loop.tolerance);
   options.stage = say;
   options.checkpoint = [&](int level, const dist::ContactSet& set) {
-    dist::together([&] {
+    dist::collectively([&] {
       if (dist::rank() == 0) dist::write_checkpoint(kept, {question, h.coarse_cells << level, set});
     });
   };
@@ -180,14 +180,14 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
     throw;
   }
   std::string warning;  // of the loads and obstacles that a rank sees on its own strip
-  dist::together([&] {
+  dist::collectively([&] {
     Solution here;
     here.u = level->state.u;
     warning = load_warning(*file, level->space, level->problem.part());
     if (warning.empty() && file->scene.contact()) warning = gap_warning(*file, level->space, here);
   });
-  warning = solved.warning.empty() ? dist::first_said(warning) : solved.warning;
-  const std::optional<LayerReport> layer = dist::layer_report_of_all(*file, h.coarse, h.refinements, *level);
+  warning = solved.warning.empty() ? dist::first_nonempty(warning) : solved.warning;
+  const std::optional<LockingReport> layer = dist::layer_report_of_all(*file, h.coarse, h.refinements, *level);
   if (layer && !layer->warning.empty()) warning = layer->warning + (warning.empty() ? "" : "; " + warning);
   // what is left of the wall time belongs to the stages in between: files are counted apart
   const double rest = watch.lap() - solved.mesh - solved.assemble - solved.setup;
@@ -203,7 +203,7 @@ void answer(const std::filesystem::path& scene, const std::filesystem::path& out
       "  {} unknowns; {} corrections and {} iterations of conjugate gradients on the last level; results in {}\n",
       solved.unknowns.back(), solved.last.corrections, solved.last.linear_iterations, out.string());
   if (dist::ranks() == 1)
-    fmt::print("  a picture of it: {} surface {} --out {}\n", tutorial::in_shell(tutorial::beside("render")),
+    fmt::print("  a picture of it: {} surface {} --out {}\n", tutorial::in_shell(tutorial::sibling_path("render")),
                tutorial::in_shell((out / "solution_0.vtu").string()),
                tutorial::in_shell((out / "solution.png").string()));
 }
@@ -245,7 +245,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  tutorial::choose_machine(argv);
+  tutorial::reexec_tuned(argv);
   try {
     const dist::Session session;
     try {

@@ -15,9 +15,9 @@
 #include "antilock/measure/errors.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/runner/expression.hpp"
-#include "antilock/runner/scene_answer.hpp"
 #include "antilock/runner/scene_mesh.hpp"
 #include "antilock/runner/scene_results.hpp"
+#include "antilock/runner/solve_scene.hpp"
 #include "antilock/solve/active_set.hpp"
 
 namespace py = pybind11;
@@ -31,7 +31,7 @@ using Unlocked = py::gil_scoped_release;
 
 VariationalInequality problem_from(SparseMatrix a1, RowMatrix b, VectorXd m, VectorXd load, double compliance,
                                    std::vector<int> fixed, VectorXd fixed_values, std::vector<int> contact,
-                                   VectorXd lower, VectorXd upper, VectorXd force_bound) {
+                                   VectorXd lower, VectorXd upper, VectorXd force_limit) {
   VariationalInequality problem{std::move(a1),
                                 std::move(b),
                                 std::move(m),
@@ -42,7 +42,7 @@ VariationalInequality problem_from(SparseMatrix a1, RowMatrix b, VectorXd m, Vec
                                 std::move(contact),
                                 std::move(lower),
                                 std::move(upper),
-                                std::move(force_bound)};
+                                std::move(force_limit)};
   check(problem);
   return problem;
 }
@@ -105,14 +105,14 @@ py::tuple run(const std::string& text, const std::string& folder) {
   std::string summary;
   CertifiedSolution found = [&] {
     const Unlocked unlocked;
-    CertifiedSolution answered = answer_scene(file, {{}, not_interrupted, {}});
-    summary = summary_text(file, summary_of(file, answered.answer), answered.answer.seconds, 0,
+    CertifiedSolution answered = solve_scene(file, {{}, not_interrupted, {}});
+    summary = summary_text(file, summary_of(file, answered.result), answered.result.seconds, 0,
                            answered.history.empty() ? nullptr : &answered);
     return answered;
   }();
-  Answer& answer = found.answer;
+  Result& answer = found.result;
   const auto given = [](auto& owned) { return py::cast(std::move(owned)); };  // moved into the array, not copied
-  py::dict arrays("points"_a = answer.space.points(), "vertices"_a = answer.mesh->vertices,
+  py::dict arrays("points"_a = answer.space.dof_coordinates(), "vertices"_a = answer.mesh->vertices,
                   "triangles"_a = answer.mesh->triangles);
   if (file.scene.contact()) {
     const NormalContact normal = normal_contact(answer);
@@ -136,7 +136,7 @@ py::dict certify_scene(const std::string& text, double accuracy, const std::stri
   return py::dict("energy_lower"_a = proof.energy_lower, "energy_upper"_a = proof.energy_upper,
                   "bound"_a = proof.displacement, "relative"_a = proof.relative(Quantity::displacement),
                   "layer_share"_a = proof.layer_share, "unknowns"_a = found.history.back().unknowns,
-                  "warning"_a = found.answer.warning);
+                  "warning"_a = found.result.warning);
 }
 
 /// The exact solution and its table.
@@ -145,7 +145,7 @@ struct KnownTruth {
       : truth([&] {
           const Scene scene({Expression(load, {"x", "y"})}, StiffLayer{epsilon},
                             contact ? std::optional(UnilateralContact{}) : std::nullopt);
-          std::optional<Truth> known = truth_of(scene);
+          std::optional<ExactSolution> known = exact_solution_of(scene);
           if (!known)
             throw Error("truth: load \"" + printable(load) +
                         "\" is no sum of sines in x with polynomials in y; accepted: such as 10*sin(2*pi*x), or run "
@@ -153,11 +153,11 @@ struct KnownTruth {
           return std::move(*known);
         }()),
         table(truth) {}
-  Truth truth;
-  TruthTable table;
+  ExactSolution truth;
+  ExactTable table;
 };
 
-TruthPoint at(const KnownTruth* known, double x, double y, double top = 1) {
+ExactPoint at(const KnownTruth* known, double x, double y, double top = 1) {
   const double in_x = std::clamp(x, 0.0, 1.0), in_y = std::clamp(y, -1.0, top);
   if (!(std::hypot(x - in_x, y - in_y) <= 1e-9))  // coordinates are rounded; u is right to 1e-8
     throw Error(fmt::format("truth: ({}, {}); accepted: 0 <= x <= 1, -1 <= y <= {}", x, y, top));
@@ -167,7 +167,7 @@ TruthPoint at(const KnownTruth* known, double x, double y, double top = 1) {
 double pressure_at(const KnownTruth& known, double x) {
   const double in_x = std::clamp(x, 0.0, 1.0);
   if (!(std::abs(x - in_x) <= 1e-9)) throw Error(fmt::format("truth: x = {}; accepted: 0 <= x <= 1", x));
-  return known.truth.pressure(in_x);
+  return known.solution.pressure(in_x);
 }
 
 /// f(x, y) at numbers or arrays that broadcast to one shape.
@@ -229,7 +229,7 @@ PYBIND11_MODULE(_antilock, module) {
       .def_readonly("m", &P::m, "R")
       .def_readonly("own_compliances", &P::own_compliances, "of the last rows of b, in place of `compliance`")
       .def_readonly("load", &P::load, "N")
-      .def_readonly("fixed", &P::fixed, "the unknowns that are held")
+      .def_readonly("fixed", &P::dirichlet_dofs, "the unknowns that are held")
       .def_readonly("contact", &P::contact, "the unknowns that are bounded")
       .def_property_readonly(
           "a1", [](const P& p) { return p.a1; }, "N x N, scipy's CSC, a copy")
@@ -300,9 +300,9 @@ PYBIND11_MODULE(_antilock, module) {
           },
           "x"_a, "of contact on y = -1, a density, 0 or more")
       .def_property_readonly(
-          "energy", [](const T& t) { return t.truth.energy(); }, "J(u), to 1e-8")
+          "energy", [](const T& t) { return t.solution.energy(); }, "J(u), to 1e-8")
       .def_property_readonly(
-          "contact", [](const T& t) { return t.truth.contact_zones(); }, "intervals of x, to 1e-5");
+          "contact", [](const T& t) { return t.solution.contact_zones(); }, "intervals of x, to 1e-5");
 
   module.def("without_void_bound", py::vectorize(&without_void_bound), "infinite where |bound| >= 1e40");
   module.def("diagnose", &diagnose_locking, py::call_guard<Unlocked>());

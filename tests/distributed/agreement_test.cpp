@@ -41,10 +41,11 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
   const VariationalInequality problem = assemble(scene, space);
   const Solution serial = active_set(problem);
   std::map<std::tuple<long long, long long>, double> u;
-  for (int i = 0; i < space.size(); ++i) u[key(space.points()(i, 0), space.points()(i, 1))] = serial.u(i);
+  for (int i = 0; i < space.size(); ++i)
+    u[key(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))] = serial.u(i);
   std::map<long long, bool> in_contact;
   for (std::size_t i = 0; i < problem.contact.size(); ++i)
-    in_contact[std::get<0>(key(space.points()(problem.contact[i], 0), 0))] = serial.active[i];
+    in_contact[std::get<0>(key(space.dof_coordinates()(problem.contact[i], 0), 0))] = serial.active[i];
 
   NestedOptions options;
   options.refinements = refinements;
@@ -55,7 +56,7 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
   EXPECT_EQ(report.unknowns.back(), problem.free_count());
   double worst = 0;
   for (int i = 0; i < level->space.size(); ++i) {
-    const auto found = u.find(key(level->space.points()(i, 0), level->space.points()(i, 1)));
+    const auto found = u.find(key(level->space.dof_coordinates()(i, 0), level->space.dof_coordinates()(i, 1)));
     ASSERT_NE(found, u.end());
     worst = std::max(worst, std::abs(level->state.u(i) - found->second));
   }
@@ -71,14 +72,14 @@ void expect_agreement(const Scene& scene, const TriangleMesh& coarse, const Elem
   EXPECT_GE(report.kkt.min_gap, -1e-9);
   EXPECT_GE(report.kkt.min_pressure, -1e-9);
   EXPECT_LE(report.last.corrections, 8);
-  EXPECT_LE(report.last.most_iterations, direct ? 3 : 15);
+  EXPECT_LE(report.last.max_iterations, direct ? 3 : 15);
   if (!scene.contact()) {
-    EXPECT_EQ(report.last.sets, 0);
+    EXPECT_EQ(report.last.set_changes, 0);
   }
   if (rank() == 0)
     std::printf("%s: difference %.1e, residual %.1e, %d corrections, %d iterations (most %d), %d setups\n",
                 name.c_str(), worst, report.kkt.residual, report.last.corrections, report.last.linear_iterations,
-                report.last.most_iterations, report.last.setups);
+                report.last.max_iterations, report.last.setups);
 }
 
 TEST_P(Agreement, WithTheSerialLibrary) {

@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "antilock/analysis/worst_load.hpp"
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "antilock/models/timoshenko_beam.hpp"
@@ -55,7 +55,7 @@ TEST_P(FreeFemForms, MatricesAndLoadAgreeEntryByEntry) {
   EXPECT_LE(largest(SparseMatrix(ours.a1 - theirs.a1)), 1e-12 * largest(ours.a1));
   EXPECT_LE(largest(SparseMatrix(a0 - theirs.a0)), 1e-12 * largest(a0));
   EXPECT_LE((ours.load - theirs.load).cwiseAbs().maxCoeff(), 1e-12 * ours.load.cwiseAbs().maxCoeff());
-  EXPECT_EQ(ours.fixed, theirs.clamped);
+  EXPECT_EQ(ours.dirichlet_dofs, theirs.clamped);
   EXPECT_EQ(ours.contact, theirs.contact);
 }
 INSTANTIATE_TEST_SUITE_P(FreeFem, FreeFemForms, ::testing::ValuesIn(settings),
@@ -301,7 +301,7 @@ TEST_P(Elasticity, AgreesOnTheSameMeshForEveryElementAndWithTaylorHood) {
   const TriangleMesh mesh = with_free_sides(structured_mesh(16, Domain{0}));
   const TemporaryFolder folder;
   freefem::run_elastic("26_elasticity", mesh, GetParam(), folder.path());
-  const double truth = freefem::taylor_hood_force(folder.path());
+  const double exact = freefem::taylor_hood_force(folder.path());
   struct Row {
     const char* name;
     const Element &x, &y;
@@ -317,7 +317,7 @@ TEST_P(Elasticity, AgreesOnTheSameMeshForEveryElementAndWithTaylorHood) {
     expect_same(theirs, ours);
     EXPECT_NEAR(theirs.energy / energy(problem, ours), 1, 1e-8);
     EXPECT_LE(theirs.residual, 1e-10);
-    const double percent = 100 * std::abs(ours.lambda.sum() / truth - 1);
+    const double percent = 100 * std::abs(ours.lambda.sum() / exact - 1);
     if (std::isfinite(row.percent)) {
       EXPECT_LE(percent, row.percent);
     } else if (GetParam() <= 1e-4) {
@@ -555,8 +555,8 @@ TEST(FreeFemScripts, TheWorstErrorOverEpsilonIsTheSame) {
     double worst = 0;
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0}) {
       sweep.set_epsilon(epsilon);
-      const TruthTable truth(Truth(paper_sine_load(), epsilon, true, 12));
-      worst = std::max(worst, measure_errors(space, sweep.solve(), epsilon, reference(truth)).h1);
+      const ExactTable exact(ExactSolution(paper_sine_load(), epsilon, true, 12));
+      worst = std::max(worst, measure_errors(space, sweep.solve(), epsilon, reference(exact)).h1);
     }
     EXPECT_NEAR(errors[i].all.back().theirs / worst, 1, 0.05) << errors[i].all.back().name;
   }

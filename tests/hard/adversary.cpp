@@ -80,15 +80,15 @@ VariationalInequality random_problem(unsigned seed) {
   for (int i = 0; i < n; ++i) {
     const int role = dice.below(6);
     const double value = few_digits(dice.symmetric()) * far * (dice.one_in(2) ? 1.0 : dice.decades(of_bounds));
-    if (role == 0 && static_cast<int>(problem.fixed.size()) < n - 1) {
-      problem.fixed.push_back(i);
+    if (role == 0 && static_cast<int>(problem.dirichlet_dofs.size()) < n - 1) {
+      problem.dirichlet_dofs.push_back(i);
       values.push_back(dice.one_in(2) ? 0 : value);
     } else if (role < 4) {
       problem.contact.push_back(i);
       lower.push_back(dice.one_in(3) ? 0 : dice.one_in(2) ? -std::abs(value) : value);
     }
   }
-  problem.fixed_values = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  problem.dirichlet_values = Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   problem.lower = Eigen::Map<Eigen::VectorXd>(lower.data(), static_cast<Eigen::Index>(lower.size()));
   problem.a1.makeCompressed();
   problem.b.makeCompressed();
@@ -107,14 +107,14 @@ VariationalInequality random_bounds(unsigned seed) {
   const int rows = problem.free_count() > 0 && !dice.one_in(4) ? std::min(most, dice.below(3)) : 0;
   // most rows keep an unknown to themselves
   for (int row = 0; row < rows && !dice.one_in(10); ++row)
-    if (std::ssize(problem.contact) + std::ssize(problem.fixed) + row >= n && !problem.contact.empty()) {
+    if (std::ssize(problem.contact) + std::ssize(problem.dirichlet_dofs) + row >= n && !problem.contact.empty()) {
       problem.contact.pop_back();
       lower.erase(lower.begin() + std::ssize(problem.contact));
       upper.pop_back();
     }
   std::set<int> loose;  // neither fixed nor bounded
   for (int j = 0; j < n; ++j) loose.insert(j);
-  for (const std::vector<int>* list : {&problem.fixed, &problem.contact})
+  for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.contact})
     for (const int j : *list) loose.erase(j);
   std::vector<Eigen::Triplet<double>> entries;
   for (int row = 0; row < rows; ++row) {
@@ -137,8 +137,8 @@ VariationalInequality random_bounds(unsigned seed) {
     lower.push_back(dice.one_in(3) ? 0 : dice.one_in(2) ? -std::abs(value) : value);
     upper.push_back(infinity);
   }
-  problem.combinations.resize(rows, n);
-  problem.combinations.setFromTriplets(entries.begin(), entries.end());
+  problem.constraints.resize(rows, n);
+  problem.constraints.setFromTriplets(entries.begin(), entries.end());
   for (std::size_t i = 0; i < lower.size(); ++i) {
     const double size = lower[i] != 0 ? std::abs(lower[i]) : scale;
     const int kind = dice.below(6);
@@ -159,26 +159,26 @@ VariationalInequality random_friction(unsigned seed) {
   VariationalInequality problem = random_bounds(seed);
   Dice dice(seed ^ 0x2545f491u);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto rows = std::min<Eigen::Index>(problem.combinations.rows(), 4);
+  const auto rows = std::min<Eigen::Index>(problem.constraints.rows(), 4);
   const auto contact = std::min(std::ssize(problem.contact), 4 - rows), before = std::ssize(problem.contact);
   const auto kept = [&](const Eigen::VectorXd& bound) {
     Eigen::VectorXd some(contact + rows);
     some << bound.head(contact), bound.segment(before, rows);
     return some;
   };
-  problem.combinations = RowMatrix(problem.combinations.topRows(rows));
+  problem.constraints = RowMatrix(problem.constraints.topRows(rows));
   if (problem.upper.size() > 0) problem.upper = kept(problem.upper);
   problem.lower = kept(problem.lower);
   problem.contact.resize(contact);
   const Eigen::Index bounds = contact + rows;
   if (problem.upper.size() == 0) problem.upper = Eigen::VectorXd::Constant(bounds, infinity);
-  problem.force_bound = Eigen::VectorXd::Constant(bounds, infinity);
+  problem.force_limit = Eigen::VectorXd::Constant(bounds, infinity);
   const double size = std::max(problem.load.lpNorm<Eigen::Infinity>(), 1e-6);
   for (Eigen::Index i = 0; i < bounds; ++i) {
     if (dice.one_in(4)) continue;
     if (!dice.one_in(3)) problem.lower(i) = problem.upper(i) = dice.one_in(3) ? std::min(problem.lower(i), 1e3) : 0;
     if (std::isinf(problem.lower(i)) && std::isinf(problem.upper(i))) problem.lower(i) = problem.upper(i) = 0;
-    problem.force_bound(i) = dice.one_in(10)  ? 0
+    problem.force_limit(i) = dice.one_in(10)  ? 0
                              : dice.one_in(4) ? std::abs(problem.load(dice.below(problem.size())))
                              : dice.one_in(2) ? few_digits(dice.uniform()) * size
                                               : dice.decades(6) * size;
@@ -194,9 +194,9 @@ VariationalInequality random_corner(unsigned seed) {
   if (rows == 0) return problem;
   Eigen::MatrixXd a1 = problem.a1, b = problem.b;
   if (kind == 0) {  // B u = g
-    for (double& value : problem.fixed_values) value = few_digits(dice.symmetric());
+    for (double& value : problem.dirichlet_values) value = few_digits(dice.symmetric());
     b.row(0).setZero();
-    for (const int i : problem.fixed) b(0, i) = 1 + dice.below(3);
+    for (const int i : problem.dirichlet_dofs) b(0, i) = 1 + dice.below(3);
   } else if (kind == 1 && rows > 1) {
     a1.setIdentity();  // in other units of an unknown, rows that differ may count as equal
     problem.m.setOnes();
@@ -228,7 +228,7 @@ Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& e
       // a locked u tends to 0: then to 1e-15 of its size before it locks; numbers below the smallest normal one are 0
       judgement.error = difference < std::numeric_limits<double>::min()
                             ? 0
-                            : difference / std::max(exact.u.lpNorm<Eigen::Infinity>(), 1e-9 * s.moderate);
+                            : difference / std::max(exact.u.lpNorm<Eigen::Infinity>(), 1e-9 * s.unlocked_size);
       if (judgement.error > 0 && s.warning.empty())
         judgement.over_claim = difference / (s.error * s.u.lpNorm<Eigen::Infinity>());
     }

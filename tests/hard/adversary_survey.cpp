@@ -48,16 +48,16 @@ int main(int argc, char** argv) {
     const antilock::VariationalInequality problem = problem_of(seed);
     const antilock::test::ExactAnswer exact = antilock::test::exact_answer(problem);
     const Judgement judgement = judge(problem, exact, solver);
-    const std::string truth = exact.what == Exactly::solved       ? "has an answer"
-                              : exact.what == Exactly::infeasible ? "infeasible"
-                                                                  : "held by nothing";
+    const std::string exact_solution = exact.what == Exactly::solved       ? "has an answer"
+                                       : exact.what == Exactly::infeasible ? "infeasible"
+                                                                           : "held by nothing";
     const std::string outcome = outcomes[static_cast<int>(judgement.outcome)];
-    ++counts[fmt::format("{}: {}", truth, outcome)];
+    ++counts[fmt::format("{}: {}", exact_solution, outcome)];
     if (judgement.outcome == Outcome::refused || judgement.outcome == Outcome::warned)
       ++reasons[fmt::format("{}: {:.70}", outcome, without_numbers(judgement.reason))];
-    if (judgement.over_claim > 10) ++counts[fmt::format("{}: over 10 times what it claims", truth)];
+    if (judgement.over_claim > 10) ++counts[fmt::format("{}: over 10 times what it claims", exact_solution)];
     if (judgement.outcome == Outcome::quietly_wrong)
-      fmt::print("problem {}: {}, error {:.1e}\n", seed, truth, judgement.error);
+      fmt::print("problem {}: {}, error {:.1e}\n", seed, exact_solution, judgement.error);
   }
   for (const auto& [what, count] : counts) fmt::print("{:>7} {}\n", count, what);
   fmt::print("reasons:\n");

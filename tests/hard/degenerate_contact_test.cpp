@@ -1,6 +1,6 @@
 // Degenerate contact: all, none, one, grazing, many zones, every start, every scale; no endless loop.
 #include "antilock/core/dense.hpp"
-#include "antilock/exact/truth.hpp"
+#include "antilock/exact/exact_solution.hpp"
 #include "antilock/solve/contact_systems.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/random_contact.hpp"
@@ -71,7 +71,7 @@ TEST_P(Degenerate, ContactUpToOneCornerOnly) {
 }
 
 TEST_P(Degenerate, ContactAtOneUnknownOfMany) {
-  const double x = space_.points()(space_.contact()[11], 0);
+  const double x = space_.dof_coordinates()(space_.contact_dofs()[11], 0);
   const Solution s = proved(problem(
       space_, [](double, double) { return -10.0; }, [&](double at) { return at == x ? 0.0 : 10.0; }));
   EXPECT_EQ(count(s.active), 1);
@@ -81,7 +81,7 @@ TEST_P(Degenerate, ContactAtOneUnknownOfMany) {
 
 TEST_P(Degenerate, AProblemWithOneContactUnknown) {
   const test::SpaceOn space(structured_mesh(chosen().name() == "P1" ? 2 : 1), chosen());
-  ASSERT_EQ(space.contact().size(), 1u);
+  ASSERT_EQ(space.contact_dofs().size(), 1u);
   for (const double sign : {-1.0, 1.0}) {
     const Solution s = proved(problem(space, [&](double, double) { return sign; }));
     EXPECT_EQ(s.active[0], sign < 0);
@@ -95,7 +95,7 @@ TEST_P(Degenerate, GrazingContactHasTheFreeSolutionAndNoForce) {
   for (const double nudge : {0.0, 1e-16, -1e-16, 1e-13, -1e-13}) {
     VariationalInequality grazing = problem(space_, paper_load);
     for (Eigen::Index i = 0; i < grazing.lower.size(); ++i) {
-      const double x = space_.points()(grazing.contact[i], 0), u = free.u(grazing.contact[i]);
+      const double x = space_.dof_coordinates()(grazing.contact[i], 0), u = free.u(grazing.contact[i]);
       grazing.lower(i) = x > 0.3 && x < 0.8 ? u + nudge : u - 1;
     }
     const Solution s = proved(grazing);
@@ -111,7 +111,7 @@ TEST_P(Degenerate, SeveralZonesAreThoseOfTheTruth) {
   const Solution s = proved(problem(space_, [](double x, double) { return 10 * std::sin(6 * pi * x); }));
   if (epsilon == 1) return;
   EXPECT_EQ(zones(s.active), 3);
-  EXPECT_EQ(Truth(SineLoad{{{6, {10.0}}}}, epsilon, true, 12).contact_zones().size(), 3u);
+  EXPECT_EQ(ExactSolution(SineLoad{{{6, {10.0}}}}, epsilon, true, 12).contact_zones().size(), 3u);
 }
 
 TEST_P(Degenerate, ARapidLoadHasOneZoneAWave) {
@@ -165,7 +165,7 @@ TEST_P(Degenerate, ObstaclesAwayPressedInAndUneven) {
     const Solution s = proved(problem(space_, paper_load, gap));
     for (std::size_t i = 0; i < s.active.size(); ++i)
       if (s.active[i]) {
-        EXPECT_EQ(s.u(space_.contact()[i]), -gap(space_.points()(space_.contact()[i], 0)));
+        EXPECT_EQ(s.u(space_.contact_dofs()[i]), -gap(space_.dof_coordinates()(space_.contact_dofs()[i], 0)));
       }
   }
 }
@@ -228,8 +228,8 @@ bool plain_settles(const Eigen::MatrixXd& s, const Eigen::VectorXd& q) {
 class Watched : public ContactSystem {
  public:
   explicit Watched(DenseContact& system) : ContactSystem(system.bounded()), system_(system) {}
-  Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override {
-    Equilibrium now = system_.solve(held, given);
+  Equilibrium solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) override {
+    Equilibrium now = system_.solve(active, prescribed);
     w_ = now.v;
     return now;
   }
@@ -238,7 +238,9 @@ class Watched : public ContactSystem {
     w_.resize(0);  // asked again of the same w: how far to go
     return system_.square(way);
   }
-  Pieces nested_start(const Stairs& stairs, int max_steps) override { return system_.nested_start(stairs, max_steps); }
+  BoundStatuses nested_start(const Bounds& bounds, int max_steps) override {
+    return system_.nested_start(bounds, max_steps);
+  }
   mutable std::vector<Eigen::VectorXd> from;
 
  private:
@@ -259,7 +261,7 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
     const Eigen::VectorXd &q = contact.q, &lower = contact.lower;
     DenseContact dense(s, q);
     Watched watched(dense);
-    HeldFactor k;
+    ConstrainedCholesky k;
     ASSERT_FALSE(k.factorise(Eigen::MatrixXd(s.triangularView<Eigen::Upper>()).sparseView()));
     std::vector<int> bounded(n);
     std::iota(bounded.begin(), bounded.end(), 0);
@@ -267,8 +269,8 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
     cycles += !plain_settles(s, q);
     for (const bool start : {false, true})
       for (ContactSystem* system : {static_cast<ContactSystem*>(&watched), static_cast<ContactSystem*>(&sparse)}) {
-        const ContactAnswer answer =
-            solve_contact(*system, {lower}, Pieces(n, start ? Piece::at_lower : Piece::between), 500);
+        const ContactResult answer = solve_contact(
+            *system, {lower}, BoundStatuses(n, start ? BoundStatus::at_lower : BoundStatus::inactive), 500);
         most = std::max(most, answer.steps);
         // relative to the condition number, 1e7 at most: 64 round-offs of S v moved by S^-1
         const double v_scale = answer.v.lpNorm<Eigen::Infinity>(), f_scale = s.cwiseAbs().maxCoeff() * v_scale + 1;
@@ -295,11 +297,11 @@ TEST(Cycling, APullFarBelowTheForcesLetsGo) {
   for (const double off : {1e-6, 1e-10}) {
     const Eigen::VectorXd q = Eigen::Vector2d(off - 1, -5), lower = Eigen::Vector2d(0, 1);
     DenseContact dense(s, q);
-    HeldFactor k;
+    ConstrainedCholesky k;
     ASSERT_FALSE(k.factorise(Eigen::MatrixXd(s.triangularView<Eigen::Upper>()).sparseView()));
     SparseContact sparse(k, q, {0, 1});
     for (ContactSystem* system : {static_cast<ContactSystem*>(&dense), static_cast<ContactSystem*>(&sparse)})
-      EXPECT_NEAR(solve_contact(*system, {lower}, Pieces(2, Piece::at_lower), 10).v(0), off / 2, 1e-15);
+      EXPECT_NEAR(solve_contact(*system, {lower}, BoundStatuses(2, BoundStatus::at_lower), 10).v(0), off / 2, 1e-15);
   }
 }
 
@@ -308,10 +310,10 @@ TEST(Cycling, TheCapIsAFailure) {
   const Eigen::VectorXd q = Eigen::Vector4d(1, -1, 1, -1), lower = Eigen::Vector4d::Zero();
   DenseContact system(s, q);
   const auto failure =
-      test::thrown<NotConverged>([&] { solve_contact(system, {lower}, Pieces(4, Piece::between), 1); });
+      test::thrown<NotConverged>([&] { solve_contact(system, {lower}, BoundStatuses(4, BoundStatus::inactive), 1); });
   EXPECT_EQ(failure.steps, 1);
   EXPECT_DOUBLE_EQ(failure.reached, 0.5);
-  EXPECT_EQ(solve_contact(system, {lower}, Pieces(4, Piece::between), 2).steps, 2);
+  EXPECT_EQ(solve_contact(system, {lower}, BoundStatuses(4, BoundStatus::inactive), 2).steps, 2);
 }
 
 }  // namespace antilock::hard::degenerate_contact_test

@@ -23,7 +23,7 @@ VariationalInequality lifted_beam(ShearIntegration shear) {
 /// The clamps turn both ends the same way, and hold them at one height: theta = w' = 1 cannot be.
 VariationalInequality turned_beam() {
   VariationalInequality problem = beam(ShearIntegration::full);
-  problem.fixed_values(1) = problem.fixed_values(3) = 1;
+  problem.dirichlet_values(1) = problem.dirichlet_values(3) = 1;
   return problem;
 }
 
@@ -118,8 +118,8 @@ TEST(Hypotheses, HoldWhereTheTheorySaysSo) {
     const Hypotheses h = check_hypotheses(test::stiff_problem(space, 1e-6), gradients(space));
     EXPECT_NEAR(h.coercivity, 1, 1e-9) << element->name();  // a1 + a0 is the gradient form itself
     int body = 0;                                           // unknowns that a0 does not see: the kernel's, always
-    for (int i = 0; i < space.size(); ++i) body += space.points()(i, 1) > 0;
-    for (const int i : space.clamped()) body -= space.points()(i, 1) > 0;
+    for (int i = 0; i < space.size(); ++i) body += space.dof_coordinates()(i, 1) > 0;
+    for (const int i : space.dirichlet_dofs()) body -= space.dof_coordinates()(i, 1) > 0;
     if (element == &p1())
       EXPECT_EQ(h.kernel, body);
     else

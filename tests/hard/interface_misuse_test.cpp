@@ -5,7 +5,7 @@
 
 #include "antilock/analysis/worst_load.hpp"
 #include "antilock/core/eigenvalues.hpp"
-#include "antilock/exact/plate_truth.hpp"
+#include "antilock/exact/exact_plate.hpp"
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/models/plane_strain.hpp"
@@ -25,7 +25,7 @@ double down(double, double) { return -10; }
 VariationalInequality rubbing_chain(int n, double g) {
   VariationalInequality problem = small_problem(chain(n), Eigen::VectorXd::Ones(n), Eigen::VectorXd::Zero(n));
   problem.upper = problem.lower;
-  problem.force_bound = Eigen::VectorXd::Constant(n, g);
+  problem.force_limit = Eigen::VectorXd::Constant(n, g);
   return problem;
 }
 
@@ -86,9 +86,9 @@ TEST(InterfaceMisuse, APlateHasALoadAndAnObstacleSomewhere) {
 }
 
 TEST(InterfaceMisuse, ExactSolutionsRefuseWhatTheyAreNotFor) {
-  for (const double t : {nan, -0.1, infinity}) expect_refused([&] { PlateTruth truth(t); }, "thickness");
-  expect_refused([] { PlateTruth(1e-4, infinity); }, "load");
-  expect_refused([] { PlateTruth(1e-4, 256, 1e-300); }, "gap");
+  for (const double t : {nan, -0.1, infinity}) expect_refused([&] { ExactPlate exact(t); }, "thickness");
+  expect_refused([] { ExactPlate(1e-4, infinity); }, "load");
+  expect_refused([] { ExactPlate(1e-4, 256, 1e-300); }, "gap");
   const LoadModes modes(3);
   const Eigen::VectorXd f = Eigen::VectorXd::Ones(modes.size());
   for (const double epsilon : {nan, -1.0, 2.0, infinity})
@@ -150,8 +150,8 @@ TEST(InterfaceMisuse, TablesPassOverNothing) {
   Table table({"h", "e,f"});
   table.add({1, 1});
   table.add({0.5, nan});
-  EXPECT_TRUE(std::isnan(table.most("e,f")));
-  EXPECT_TRUE(std::isnan(table.least("e,f")));
+  EXPECT_TRUE(std::isnan(table.max("e,f")));
+  EXPECT_TRUE(std::isnan(table.min("e,f")));
   expect_refused([] { Table({"a", "b", "a"}); }, "'a' twice");
   Table near({"h", "epsilon", "e"});
   near.add({1, 1.00001e-3, 5});

@@ -26,7 +26,7 @@ TEST(Naive, IsRightWhereEpsilonIsModerateAndNoWrongAnswerGetsPastTheChecks) {
       const double rounded = std::numeric_limits<double>::epsilon() / problem.compliance;
       const Eigen::VectorXd right = active_set(problem).u;
       for (const SummedFactor kind : {SummedFactor::cholesky, SummedFactor::lu}) {
-        NaiveAnswer answer = naive_summed_solve(problem, kind);
+        NaiveResult answer = naive_summed_solve(problem, kind);
         const double off = test::relative_difference(answer.solution.u, right);
         SCOPED_TRACE(answer.solution.solver + " at 1e-" + std::to_string(exponent) + ", off by " + std::to_string(off));
         if (exponent <= 2) {
@@ -58,7 +58,7 @@ TEST(Naive, IsRightWhereEpsilonIsModerateAndNoWrongAnswerGetsPastTheChecks) {
 TEST(Naive, HasNoSumAtEpsilonZeroAndStopsAtItsCap) {
   const SpaceOn space(structured_mesh(4), p1());
   EXPECT_THROW(naive_summed_solve(test::stiff_problem(space, 0), SummedFactor::lu), Error);
-  const NaiveAnswer answer = naive_summed_solve(test::stiff_problem(space, 1), SummedFactor::cholesky, 1);
+  const NaiveResult answer = naive_summed_solve(test::stiff_problem(space, 1), SummedFactor::cholesky, 1);
   EXPECT_EQ(answer.end, NaiveEnd::step_cap);
   EXPECT_EQ(to_string(answer.end), "step cap");
   EXPECT_EQ(to_string(NaiveEnd::settled) + to_string(NaiveEnd::cycled) + to_string(NaiveEnd::refused),

@@ -211,7 +211,8 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
     const Solution straight = active_set(stiff_problem(space, epsilon));
     const double scale = straight.u.lpNorm<Eigen::Infinity>();
     at.clear();
-    for (int i = 0; i < space.size(); ++i) at[{space.points()(i, 0), space.points()(i, 1)}] = straight.u(i);
+    for (int i = 0; i < space.size(); ++i)
+      at[{space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1)}] = straight.u(i);
     for (int trial = 0; trial < 3; ++trial) {
       std::vector<int> vertex(mesh.vertex_count()), triangle(mesh.triangle_count());
       std::iota(vertex.begin(), vertex.end(), 0);
@@ -237,7 +238,7 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
       ASSERT_EQ(other.size(), space.size());
       double worst = 0;
       for (int i = 0; i < other.size(); ++i) {
-        const auto place = at.find({other.points()(i, 0), other.points()(i, 1)});
+        const auto place = at.find({other.dof_coordinates()(i, 0), other.dof_coordinates()(i, 1)});
         ASSERT_NE(place, at.end());
         worst = std::max(worst, std::abs(s.u(i) - place->second));
       }

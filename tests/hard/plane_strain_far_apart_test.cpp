@@ -29,7 +29,7 @@ struct Block {
       problem = assemble(coating, space);
     } else {
       PlaneStrain rubber;
-      static_cast<Press&>(rubber) = coating;
+      static_cast<BlockLoading&>(rubber) = coating;
       rubber.epsilon = epsilon;
       problem = assemble(rubber, space);
     }
@@ -76,7 +76,7 @@ std::vector<Square> squares_of_rubber(double epsilon) {
 class Component {
  public:
   Component(const Space& space, int first) : space_(space), first_(first), name_(space.element().name()) {}
-  int unknown(int t, int i) const { return first_ + space_.unknowns()(t, i); }
+  int unknown(int t, int i) const { return first_ + space_.cell_dofs()(t, i); }
   int count() const { return name_ == "P2" ? 6 : 3; }
   RealMatrix gradients(const RealTriangle& triangle, const Eigen::Matrix<Real, 3, 1>& l) const {
     return derivatives(name_, l) * triangle.gradient;
@@ -153,27 +153,27 @@ RealMatrix assembled(const Block& block, const VectorSpace& space) {
 
 /// u of the block with 60 digits: the pieces of its bounds are exchanged from those of an answer on. Empty where they do not
 /// settle.
-RealVector answer(const VariationalInequality& problem, const RealMatrix& k, Pieces pieces) {
+RealVector answer(const VariationalInequality& problem, const RealMatrix& k, BoundStatuses status) {
   const RealVector load = problem.load.cast<Real>();
-  pieces.resize(problem.contact.size(), Piece::between);
+  status.resize(problem.contact.size(), BoundStatus::inactive);
   const auto most = [&](std::size_t i) {
-    return problem.force_bound.size() > 0 ? problem.force_bound(Eigen::Index(i)) : test::infinity;
+    return problem.force_limit.size() > 0 ? problem.force_limit(Eigen::Index(i)) : test::infinity;
   };
   for (int sets = 0; sets < 200; ++sets) {
     RealVector u = RealVector::Zero(problem.size()), pull = load;
     std::vector<char> held(problem.size(), 0);
-    for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
-      held[problem.fixed[i]] = 1;
-      u(problem.fixed[i]) = problem.fixed_values(Eigen::Index(i));
+    for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i) {
+      held[problem.dirichlet_dofs[i]] = 1;
+      u(problem.dirichlet_dofs[i]) = problem.dirichlet_values(Eigen::Index(i));
     }
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (std::size_t i = 0; i < status.size(); ++i) {
       const int c = problem.contact[i];
-      if (is_active(pieces[i])) {
+      if (is_active(status[i])) {
         held[c] = 1;
         u(c) = problem.lower(Eigen::Index(i));
       }
-      if (pieces[i] == Piece::below) pull(c) += most(i);
-      if (pieces[i] == Piece::above) pull(c) -= most(i);
+      if (status[i] == BoundStatus::slip_below) pull(c) += most(i);
+      if (status[i] == BoundStatus::slip_above) pull(c) -= most(i);
     }
     std::vector<int> free;
     for (int i = 0; i < problem.size(); ++i)
@@ -192,23 +192,23 @@ RealVector answer(const VariationalInequality& problem, const RealMatrix& k, Pie
     }
     const Real near_u = Real("1e-20") * largest_u, near_force = Real("1e-20") * size;
     bool settled = true;
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
+    for (std::size_t i = 0; i < status.size(); ++i) {
       const int c = problem.contact[i];
       const bool sticks = problem.upper.size() > 0 && problem.upper(Eigen::Index(i)) == problem.lower(Eigen::Index(i));
       const Real above = u(c) - Real(problem.lower(Eigen::Index(i)));
-      Piece next = pieces[i];
-      if (is_active(pieces[i])) {
-        if (std::isfinite(most(i)) && force(c) > Real(most(i)) + near_force) next = Piece::below;
-        if (sticks && std::isfinite(most(i)) && force(c) < -Real(most(i)) - near_force) next = Piece::above;
-        if (!sticks && force(c) < -near_force) next = Piece::between;
-      } else if (pieces[i] == Piece::between) {
-        if (sticks || above < -near_u) next = Piece::at_lower;
-      } else if (pieces[i] == Piece::below ? above > near_u : above < -near_u) {
-        next = Piece::at_lower;
+      BoundStatus next = status[i];
+      if (is_active(status[i])) {
+        if (std::isfinite(most(i)) && force(c) > Real(most(i)) + near_force) next = BoundStatus::slip_below;
+        if (sticks && std::isfinite(most(i)) && force(c) < -Real(most(i)) - near_force) next = BoundStatus::slip_above;
+        if (!sticks && force(c) < -near_force) next = BoundStatus::inactive;
+      } else if (status[i] == BoundStatus::inactive) {
+        if (sticks || above < -near_u) next = BoundStatus::at_lower;
+      } else if (status[i] == BoundStatus::slip_below ? above > near_u : above < -near_u) {
+        next = BoundStatus::at_lower;
       }
-      if (next == pieces[i] || (sets > 60 && !settled)) continue;  // in the end one by one
+      if (next == status[i] || (sets > 60 && !settled)) continue;  // in the end one by one
       settled = false;
-      pieces[i] = next;
+      status[i] = next;
     }
     if (settled) return u;
   }
@@ -228,14 +228,14 @@ Judged judge(const Block& block) {
   } catch (const Error& error) {
     return {Finding::refused, 0, error.what()};
   }
-  const RealVector exact = answer(problem, assembled(block, space), s.pieces);
+  const RealVector exact = answer(problem, assembled(block, space), s.status);
   // A u that has locked is the round-off of its size before (Solution::error): rounding the rows of B has moved it. It is
   // compared with that size.
   Judged found = judged(s, exact);
   double largest = 0;
   for (Eigen::Index i = 0; i < exact.size(); ++i) largest = std::max(largest, std::abs(static_cast<double>(exact(i))));
-  const bool is_locked = largest < 1e-5 * s.moderate;
-  if (is_locked && found.error * largest <= 1e-6 * s.moderate) found.finding = Finding::right;
+  const bool is_locked = largest < 1e-5 * s.unlocked_size;
+  if (is_locked && found.error * largest <= 1e-6 * s.unlocked_size) found.finding = Finding::right;
   return found;
 }
 
@@ -277,7 +277,7 @@ Block random_block(unsigned seed) {
   // equal moved u by up to 1.5e-6 in 4 of 5,000 blocks
   coating.thickness = dice.one_of(5) == 0 && block.in_x->name() != "P1" ? 0 : dice.decades(-8, 0);
   block.epsilon = dice.one_of(5) == 0 ? 0 : dice.decades(-16, 0);
-  coating.push = dice.one_of(3) == 0 ? 0 : dice.decades(-6, 2) * (dice.one_of(4) == 0 ? -1 : 1);
+  coating.prescribed_displacement = dice.one_of(3) == 0 ? 0 : dice.decades(-6, 2) * (dice.one_of(4) == 0 ? -1 : 1);
   if (dice.one_of(3) == 0) coating.jump_weight = coating.body.mu;
   const double gap = dice.one_of(2) == 0 ? 0 : dice.decades(-6, 2) * (dice.one_of(4) == 0 ? -1 : 1);
   coating.gap = [gap](double) { return gap; };

@@ -44,13 +44,13 @@ std::pair<QuadVector, QuadVector> quad_residual(const VariationalInequality& pro
 QuadSolution refine(const VariationalInequality& problem, const std::vector<bool>& active, const QuadSolution& start,
                     double delta, const std::vector<int>& unknown,
                     const std::function<QuadVector(const QuadVector&)>& inverse, double tolerance, int most) {
-  const VariationalInequality linear = held_in_contact(problem, active);
+  const VariationalInequality linear = equality_constrained(problem, active);
   QuadSolution s;
   s.active = active;
   s.u = start.u.size() > 0 ? start.u : QuadVector(QuadVector::Zero(problem.size()));
   s.p = start.u.size() > 0 ? start.p : QuadVector(QuadVector::Zero(problem.b.rows()));
-  for (std::size_t i = 0; i < linear.fixed.size(); ++i)
-    s.u(linear.fixed[i]) = linear.fixed_values(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < linear.dirichlet_dofs.size(); ++i)
+    s.u(linear.dirichlet_dofs[i]) = linear.dirichlet_values(static_cast<Eigen::Index>(i));
   const QuadVector weight = problem.m.cast<Quad>() / Quad(delta);
   QuadVector r1, r2;
   while (true) {
@@ -98,7 +98,7 @@ Quad largest(const QuadVector& v) {
 
 QuadSolution RefinedReference::operator()(const VariationalInequality& problem, const std::vector<bool>& active,
                                           const QuadSolution& start) {
-  const VariationalInequality linear = held_in_contact(problem, active);
+  const VariationalInequality linear = equality_constrained(problem, active);
   const double delta = std::max(1e-8, problem.compliance);
   if (factor_ && factor_->delta() == delta && active_ == active)
     factor_->check_fits(linear);
@@ -111,19 +111,19 @@ QuadSolution RefinedReference::operator()(const VariationalInequality& problem, 
     const Eigen::VectorXd rounded = (r / Quad(scale)).cast<double>();
     return QuadVector(factor_->dense().backward(factor_->dense().forward(rounded)).cast<Quad>() * Quad(scale));
   };
-  return refine(problem, active, start, delta, factor_->numbering().unknown, inverse, 1e-22, 200);
+  return refine(problem, active, start, delta, factor_->ordering().dof, inverse, 1e-22, 200);
 }
 
 QuadSolution quad_reference(const VariationalInequality& problem, const std::vector<bool>& active,
                             const QuadSolution& start) {
   const double delta = std::max(problem.compliance, 1e-14);
-  const VariationalInequality linear = held_in_contact(problem, active);
-  const FreeNumbering numbering(linear);
-  const int size = static_cast<int>(numbering.unknown.size());
+  const VariationalInequality linear = equality_constrained(problem, active);
+  const DofOrdering ordering(linear);
+  const int size = static_cast<int>(ordering.dof.size());
   std::vector<Eigen::Triplet<Quad>> entries;
   const auto add = [&](int i, int j, const Quad& value) {
-    if (numbering.place[i] >= 0 && numbering.place[j] >= 0)
-      entries.emplace_back(numbering.place[i], numbering.place[j], value);
+    if (ordering.position[i] >= 0 && ordering.position[j] >= 0)
+      entries.emplace_back(ordering.position[i], ordering.position[j], value);
   };
   for (int j = 0; j < problem.a1.outerSize(); ++j)
     for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a) add(static_cast<int>(a.row()), j, a.value());
@@ -136,8 +136,8 @@ QuadSolution quad_reference(const VariationalInequality& problem, const std::vec
   k.setFromTriplets(entries.begin(), entries.end());
   const Eigen::SimplicialLDLT<QuadMatrix> factor(k);
   return refine(
-      problem, active, start, delta, numbering.unknown,
-      [&](const QuadVector& r) { return QuadVector(factor.solve(r)); }, 1e-26, 60);
+      problem, active, start, delta, ordering.dof, [&](const QuadVector& r) { return QuadVector(factor.solve(r)); },
+      1e-26, 60);
 }
 
 QuadSolution settle(const VariationalInequality& problem, std::vector<bool> active, const Reference& reference,

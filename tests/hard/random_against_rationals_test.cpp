@@ -1,7 +1,7 @@
 // The adversary: problems made by chance over twelve decades, each against rational arithmetic. `adversary` (the program)
 // runs thousands; here is a fixed list.
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/judge.hpp"
+#include "antilock/solve/forward_error.hpp"
 #include "antilock/solve/uzawa.hpp"
 #include "hard/adversary.hpp"
 #include "support/scenes.hpp"
@@ -60,12 +60,12 @@ TEST(AdversaryLists, HaveBoundsOfEveryShape) {
   for (unsigned seed = 0; seed < 250; ++seed) {
     const VariationalInequality shapes = random_bounds(seed), friction = random_friction(seed);
     two_sided += shapes.upper.size() > 0;
-    combined += shapes.combinations.rows() > 0;
+    combined += shapes.constraints.rows() > 0;
     const test::ExactAnswer exact = test::exact_answer(friction);
     if (exact.what != test::Exactly::solved) continue;
     const Eigen::VectorXd values = bounded_values(friction, exact.u);
     for (Eigen::Index i = 0; i < values.size(); ++i)
-      if (std::isfinite(friction.force_bound(i)) && friction.lower(i) == friction.upper(i))
+      if (std::isfinite(friction.force_limit(i)) && friction.lower(i) == friction.upper(i))
         ++(values(i) == friction.lower(i) ? sticks : slips);
   }
   EXPECT_GT(two_sided, 150);
@@ -77,7 +77,7 @@ TEST(AdversaryLists, HaveBoundsOfEveryShape) {
 /// The same problem for -u: what was a lower bound is an upper one.
 VariationalInequality mirrored(VariationalInequality problem) {
   problem.load *= -1;
-  problem.fixed_values *= -1;
+  problem.dirichlet_values *= -1;
   problem.upper = -problem.lower;
   problem.lower.setConstant(-infinity);
   return problem;
@@ -133,9 +133,9 @@ TEST(NothingInSilence, TheErrorIsThatOfAllCorrectionsToCome) {
   for (const double rate : {0.1, 0.5, 0.9}) {
     double to_come = 0, correction = 1e-3;
     for (int k = 0; k < 1000; ++k) to_come += correction *= rate;
-    const ForwardError now = accuracy(small_problem(chain(3), Eigen::Vector3d::Ones()), Twice(Eigen::Vector3d(2, 1, 0)),
-                                      rate * 1e-3, {}, rate, 0, {});
-    EXPECT_NEAR(now.error / (to_come / 2), 1, 1e-13) << rate;
+    const ForwardError now = forward_error(small_problem(chain(3), Eigen::Vector3d::Ones()),
+                                           DoubleDoubleVector(Eigen::Vector3d(2, 1, 0)), rate * 1e-3, {}, rate, 0, {});
+    EXPECT_NEAR(now.relative / (to_come / 2), 1, 1e-13) << rate;
   }
 }
 
@@ -145,7 +145,7 @@ TEST(NothingInSilence, RowsThatAreNearlyDependentAreWarnedOf) {
     Eigen::MatrixXd b(2, 3);
     b << 1, -1, 0, 1, -1 + apart, 0;
     const Solution s = active_set(small_problem(chain(3), Eigen::Vector3d(1, 2, 3), {}, b, 0));
-    const double trusted = TrustLevels{}.trusted;
+    const double trusted = KktTolerances{}.warn;
     const bool held_apart = (s.u - Eigen::Vector3d(0, 0, 1.5)).lpNorm<Eigen::Infinity>() < 1.5 * trusted;
     const bool equal = (s.u - Eigen::Vector3d::Constant(3)).lpNorm<Eigen::Infinity>() < 3 * trusted;
     const bool warned = s.warning.find("nearly dependent") != std::string::npos;
@@ -169,14 +169,14 @@ TEST(NothingInSilence, AContradictionBesideAGreatUIsSeen) {
 TEST(NothingInSilence, AConstantIsAdmissibleBesideGivenValuesAndNothingAboveIt) {
   TriangleMesh mesh = unstructured_mesh(8);
   for (EdgeTag& tag : mesh.edge_tag)
-    if (tag == EdgeTag::clamped) tag = held_group(0);
+    if (tag == EdgeTag::clamped) tag = dirichlet_group(0);
   const Space space(mesh, p1());
   for (double u = 0.3; u < 1e5; u *= 1.7) {
     const auto solve_over = [&](double floor, double load) {
       const Field given = [=](double, double) { return u; };
       const Scene scene({[=](double x, double) { return load * std::sin(5 * x); }}, StiffLayer{0},
                         UnilateralContact{[=](double) { return -floor; }, {}},
-                        {{"sides", EdgeCondition::Kind::displacement, given}});
+                        {{"sides", BoundaryCondition::Kind::displacement, given}});
       return active_set(assemble(scene, space)).u.maxCoeff();
     };
     for (const double floor : {-1e3, u}) EXPECT_NEAR(solve_over(floor, 0), u, 1e-13 * u) << floor;
@@ -185,16 +185,16 @@ TEST(NothingInSilence, AConstantIsAdmissibleBesideGivenValuesAndNothingAboveIt) 
   }
 }
 
-// As far as judge.hpp says: up to 200 rows. u_0 = 0, and 1e-12 u_1 is open by 1e-15.
+// As far as forward_error.hpp says: up to 200 rows. u_0 = 0, and 1e-12 u_1 is open by 1e-15.
 TEST(NothingInSilence, RowsThatAreNearlyDependentAreLookedForAmongTwoHundred) {
   for (const int rows : {2, 200, 201}) {
     Eigen::MatrixXd b = Eigen::MatrixXd::Identity(rows, rows);
     b.row(1) = b.row(0);
     b(1, 1) = 1e-12;
     const double open =
-        left_open(small_problem(Eigen::MatrixXd::Identity(rows, rows), Eigen::VectorXd::Zero(rows), {}, b, 0),
-                  1e-15 * Eigen::VectorXd::Unit(rows, 1), {})
-            .moves;
+        constraint_defect(small_problem(Eigen::MatrixXd::Identity(rows, rows), Eigen::VectorXd::Zero(rows), {}, b, 0),
+                          1e-15 * Eigen::VectorXd::Unit(rows, 1), {})
+            .displacement;
     EXPECT_NEAR(open, rows <= 200 ? 1e-3 : 0, 1e-6) << rows;  // the rows are 1e-12 apart: known to eps / 1e-12
   }
 }

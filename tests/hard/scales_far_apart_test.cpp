@@ -108,8 +108,8 @@ TEST(ScalesFarApart, WhatDoesNotMoveHasSettled) {
     if (!in_contact) a1 = Eigen::Matrix3d::Identity();
     VariationalInequality v = small_problem(a1, Eigen::Vector3d::Zero(), Eigen::VectorXd::Zero(in_contact ? 1 : 0),
                                             Eigen::RowVector3d(1, -1, 0), 1e-2);
-    v.fixed = {2};
-    v.fixed_values = Eigen::VectorXd::Constant(1, -1);
+    v.dirichlet_dofs = {2};
+    v.dirichlet_values = Eigen::VectorXd::Constant(1, -1);
     for (const Solution& s : {active_set(v), uzawa(v)}) {
       EXPECT_LT((s.u - Eigen::Vector3d(0, 0, -1)).lpNorm<Eigen::Infinity>(), 1e-15);
       if (in_contact) {
@@ -209,8 +209,8 @@ TEST(ScalesFarApart, AGreatUHidesNoRowThatIsNotClosed) {
       b(i, 2 * i + 1) = -1;
     }
     VariationalInequality v = small_problem(a1, load, {}, b, 0);
-    v.fixed = {n - 1};
-    v.fixed_values = Eigen::VectorXd::Constant(1, great);
+    v.dirichlet_dofs = {n - 1};
+    v.dirichlet_values = Eigen::VectorXd::Constant(1, great);
     ActiveSetOptions options;
     options.penalty = 0.1;
     const Eigen::VectorXd u = active_set(v, options).u;
@@ -234,7 +234,7 @@ TEST(ScalesFarApart, ALockedUStopsAtItsRoundOff) {
         const Solution s = active_set(
             small_problem(a1, Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return std::cos(i); }), {}, b, 0),
             options);
-        EXPECT_LE(s.u.lpNorm<Eigen::Infinity>(), 1e-14 * s.moderate) << n << " " << penalty << " " << beside;
+        EXPECT_LE(s.u.lpNorm<Eigen::Infinity>(), 1e-14 * s.unlocked_size) << n << " " << penalty << " " << beside;
         EXPECT_EQ(s.warning, "") << n << " " << penalty << " " << beside;
         if (penalty == 1e-4) {
           EXPECT_LE(s.counters.corrections, 12) << n << " " << beside;  // measured: 5 to 8

@@ -17,7 +17,7 @@ struct Question {
   const Element* element = nullptr;
   std::vector<double> stiffness;  ///< T
   std::optional<StiffLayer> layer;
-  std::vector<EdgeCondition> edges;
+  std::vector<BoundaryCondition> edges;
   std::vector<double> springs;  ///< by group, 0 where it is none
   std::optional<double> gap;
   Field load;
@@ -52,7 +52,7 @@ RealMatrix assembled(const Question& q, const Space& space) {
   const auto add = [&](int t, const RealVector& row, const Real& weight) {
     for (Eigen::Index i = 0; i < row.size(); ++i)
       for (Eigen::Index j = 0; j < row.size(); ++j)
-        k(space.unknowns()(t, i), space.unknowns()(t, j)) += weight * row(i) * row(j);
+        k(space.cell_dofs()(t, i), space.cell_dofs()(t, j)) += weight * row(i) * row(j);
   };
   const auto [at, weights] = gauss_rule(q.element->degree() + 2);
   for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -92,9 +92,9 @@ RealVector answer(const VariationalInequality& problem, const RealMatrix& k, std
   for (int sets = 0; sets < 200; ++sets) {
     RealVector u = RealVector::Zero(problem.size());
     std::vector<char> held(problem.size(), 0);
-    for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
-      held[problem.fixed[i]] = 1;
-      u(problem.fixed[i]) = problem.fixed_values(Eigen::Index(i));
+    for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i) {
+      held[problem.dirichlet_dofs[i]] = 1;
+      u(problem.dirichlet_dofs[i]) = problem.dirichlet_values(Eigen::Index(i));
     }
     for (std::size_t i = 0; i < active.size(); ++i)
       if (active[i]) {
@@ -147,10 +147,10 @@ Judged judge(const Question& q) {
 
 /// Top, right and left, each with a condition of its own; the side `holds` is given a displacement or a spring.
 void add_sides(Question& q, Dice& dice) {
-  using Kind = EdgeCondition::Kind;
+  using Kind = BoundaryCondition::Kind;
   const int holds = dice.one_of(3);
   for (int side = 0; side < 3; ++side) {
-    EdgeCondition edge{"side" + std::to_string(side)};
+    BoundaryCondition edge{"side" + std::to_string(side)};
     double spring = 0;
     const int kind = side == holds ? dice.one_of(2) : dice.one_of(5);
     if (kind == 0) {
@@ -189,7 +189,7 @@ Question random_question(unsigned seed) {
   const double top = mesh.vertices.col(1).maxCoeff(), right = mesh.vertices.col(0).maxCoeff();
   q.mesh = test::retagged(std::move(mesh), [&](double x, double y) {
     const int side = y > top * (1 - 1e-9) ? 0 : x > right / 2 ? 1 : 2;
-    return q.edges[side].kind == EdgeCondition::Kind::displacement ? held_group(side) : natural_group(side);
+    return q.edges[side].kind == BoundaryCondition::Kind::displacement ? dirichlet_group(side) : natural_group(side);
   });
   const int where = dice.one_of(3);
   const double hard = dice.decades(0, 16), soft = dice.one_of(4) == 0 ? dice.decades(-6, 0) : 1;
@@ -286,7 +286,7 @@ TEST(StiffnessFarApart, ACoatedBodyIsPressed) {
       const double sigma = 0.1 / (1 + s / (coating.thickness * coating.thickness));
       Eigen::VectorXd exact = Eigen::VectorXd::Zero(2 * space.size());
       for (int i = 0; i < space.size(); ++i) {
-        const double y = space.points()(i, 1);
+        const double y = space.dof_coordinates()(i, 1);
         exact(space.size() + i) = y > 0 ? -sigma - (0.1 - sigma) * y : -sigma * (1 + y);
       }
       const auto found = solved(coating, space, assemble(coating, {space, space}));
@@ -311,7 +311,7 @@ TEST(StiffnessFarApart, ACoatedBodyMovesAsAWhole) {
       VariationalInequality problem = assemble(coating, {space, space});
       Eigen::VectorXd exact(problem.size());
       exact << Eigen::VectorXd::Constant(space.size(), 0.05), Eigen::VectorXd::Constant(space.size(), -0.1);
-      problem.fixed_values = exact(problem.fixed);
+      problem.dirichlet_values = exact(problem.dirichlet_dofs);
       const auto found = solved(coating, space, problem);
       EXPECT_TRUE(!found || test::relative_difference(found->u, exact) <= 1e-6 || !found->warning.empty())
           << element->name() << s;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 
 #include "antilock/core/dense.hpp"
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "hard/quad_reference.hpp"
 #include "support/dense.hpp"
@@ -99,17 +99,17 @@ INSTANTIATE_TEST_SUITE_P(Paper, SmallUniformity,
 /// u with the contact set held, from the saddle-point form [A1 B'M; MB -compliance M] by UMFPACK: another formulation,
 /// another library, no penalty and no correction.
 Eigen::VectorXd saddle_point(const VariationalInequality& problem, const std::vector<bool>& active) {
-  const VariationalInequality linear = held_in_contact(problem, active);
-  const FreeNumbering numbering(linear);
-  const int size = static_cast<int>(numbering.unknown.size()), rows = static_cast<int>(problem.b.rows());
+  const VariationalInequality linear = equality_constrained(problem, active);
+  const DofOrdering ordering(linear);
+  const int size = static_cast<int>(ordering.dof.size()), rows = static_cast<int>(problem.b.rows());
   std::vector<Eigen::Triplet<double>> entries;
   for (int j = 0; j < problem.a1.outerSize(); ++j)
     for (SparseMatrix::InnerIterator a(problem.a1, j); a; ++a)
-      if (numbering.place[a.row()] >= 0 && numbering.place[j] >= 0)
-        entries.emplace_back(numbering.place[a.row()], numbering.place[j], a.value());
+      if (ordering.position[a.row()] >= 0 && ordering.position[j] >= 0)
+        entries.emplace_back(ordering.position[a.row()], ordering.position[j], a.value());
   for (int r = 0; r < rows; ++r) {
     for (RowMatrix::InnerIterator b(problem.b, r); b; ++b)
-      if (const int place = numbering.place[b.col()]; place >= 0) {
+      if (const int place = ordering.position[b.col()]; place >= 0) {
         entries.emplace_back(place, size + r, b.value() * problem.m(r));
         entries.emplace_back(size + r, place, b.value() * problem.m(r));
       }
@@ -118,12 +118,12 @@ Eigen::VectorXd saddle_point(const VariationalInequality& problem, const std::ve
   SparseMatrix k(size + rows, size + rows);
   k.setFromTriplets(entries.begin(), entries.end());
   Eigen::VectorXd rhs = Eigen::VectorXd::Zero(size + rows);
-  rhs.head(size) = problem.load(numbering.unknown);
+  rhs.head(size) = problem.load(ordering.dof);
   const Eigen::UmfPackLU<SparseMatrix> factor(k);
   EXPECT_EQ(factor.info(), Eigen::Success);
   const Eigen::VectorXd both = factor.solve(rhs);
   Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.size());
-  u(numbering.unknown) = both.head(size);
+  u(ordering.dof) = both.head(size);
   return u;
 }
 
@@ -142,12 +142,12 @@ TEST(Formulations, SaddlePointByUmfpackAgreesForCrouzeixRaviart) {
 }
 
 /// Columns that span the kernel of B on the free unknowns, from the rank-revealing QR of B'.
-Eigen::MatrixXd kernel_basis(const VariationalInequality& linear, const FreeNumbering& numbering) {
-  const int size = static_cast<int>(numbering.unknown.size());
+Eigen::MatrixXd kernel_basis(const VariationalInequality& linear, const DofOrdering& ordering) {
+  const int size = static_cast<int>(ordering.dof.size());
   std::vector<Eigen::Triplet<double>> entries;
   for (int r = 0; r < linear.b.rows(); ++r)
     for (RowMatrix::InnerIterator b(linear.b, r); b; ++b)
-      if (const int place = numbering.place[b.col()]; place >= 0) entries.emplace_back(place, r, b.value());
+      if (const int place = ordering.position[b.col()]; place >= 0) entries.emplace_back(place, r, b.value());
   SparseMatrix b_transposed(size, linear.b.rows());
   b_transposed.setFromTriplets(entries.begin(), entries.end());
   Eigen::SPQR<SparseMatrix> qr;
@@ -168,15 +168,15 @@ TEST(Formulations, EpsilonZeroIsTheProblemOnTheKernelOfA0) {
     const Space space(mesh, element(c.element));
     const VariationalInequality problem = test::stiff_problem(space, 0);
     const Solution solution = active_set(problem);
-    const VariationalInequality linear = held_in_contact(problem, solution.active);
-    const FreeNumbering numbering(linear);
-    const Eigen::MatrixXd z = kernel_basis(linear, numbering);
-    const Eigen::MatrixXd a1 = Eigen::MatrixXd(problem.a1)(numbering.unknown, numbering.unknown);
-    const Eigen::VectorXd load = problem.load(numbering.unknown);
+    const VariationalInequality linear = equality_constrained(problem, solution.active);
+    const DofOrdering ordering(linear);
+    const Eigen::MatrixXd z = kernel_basis(linear, ordering);
+    const Eigen::MatrixXd a1 = Eigen::MatrixXd(problem.a1)(ordering.dof, ordering.dof);
+    const Eigen::VectorXd load = problem.load(ordering.dof);
     const Eigen::MatrixXd projected = test::product(z.transpose(), test::product(a1, z));
     const Eigen::VectorXd y = Cholesky(projected).solve(Eigen::VectorXd(z.transpose() * load));
     Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.size());
-    u(numbering.unknown) = z * y;
+    u(ordering.dof) = z * y;
     // 1e-10 is the solver's tolerance; the projected problem itself carries about 1e-13
     EXPECT_LT((solution.u - u).lpNorm<Eigen::Infinity>() / u.lpNorm<Eigen::Infinity>(), 1e-9);
     EXPECT_GE(u(problem.contact).minCoeff(), -1e-12);
@@ -195,13 +195,14 @@ TEST(UniformError, IsFlatInEpsilonWhereNothingLocks) {
   };
   std::array rows{Row{&structured, "P1"}, Row{&structured, "CR"}, Row{&unstructured, "CR"}};
   for (const double epsilon : {0.0, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-16, 1e-20}) {
-    const TruthTable truth{Truth(paper_sine_load(), epsilon)};
+    const ExactTable exact_solution{ExactSolution(paper_sine_load(), epsilon)};
     for (Row& row : rows) {
       const Space space(*row.mesh, element(row.element));
       const Solution solution = active_set(test::stiff_problem(space, epsilon));
       double error = 0;
       for (int i = 0; i < space.size(); ++i)
-        error = std::max(error, std::abs(solution.u(i) - truth.value(space.points()(i, 0), space.points()(i, 1))));
+        error = std::max(error, std::abs(solution.u(i) - exact_solution.value(space.dof_coordinates()(i, 0),
+                                                                              space.dof_coordinates()(i, 1))));
       if (epsilon == 0) row.limit = error;
       EXPECT_NEAR(error / row.limit, 1, 0.01) << row.element << " at epsilon = " << epsilon;
       EXPECT_LT(error, 2e-3) << "an absolute cap: half the locked error would be 2e-2";

@@ -41,7 +41,7 @@ TEST_P(WrongAnswers, EveryKindOfWrongAnswerIsRefused) {
       {"a locked layer",
        [&](Solution& s) {
          for (int i = 0; i < space_.size(); ++i)
-           if (space_.points()(i, 1) <= 0) s.u(i) = 0;
+           if (space_.dof_coordinates()(i, 1) <= 0) s.u(i) = 0;
        }},
       {"the layer stress forgotten", [](Solution& s) { s.p.setZero(); }},
       {"the layer stress scaled", [](Solution& s) { s.p *= 1.01; }},
@@ -52,7 +52,7 @@ TEST_P(WrongAnswers, EveryKindOfWrongAnswerIsRefused) {
       {"a contact that pulls", [&](Solution& s) { s.lambda(first(true)) = -0.1 * f_scale; }},
       {"a force across a gap", [&](Solution& s) { s.lambda(first(false)) = 0.1 * f_scale; }},
       {"through the obstacle", [&](Solution& s) { s.u(problem_.contact[first(true)]) = -0.01 * u_scale; }},
-      {"a clamp that slips", [&](Solution& s) { s.u(problem_.fixed[3]) = 1e-12; }},
+      {"a clamp that slips", [&](Solution& s) { s.u(problem_.dirichlet_dofs[3]) = 1e-12; }},
       {"not a number in u", [&](Solution& s) { s.u(7) = nan; }},
       {"not a number in p", [&](Solution& s) { s.p(7) = nan; }},
       {"not a number in lambda", [&](Solution& s) { s.lambda(1) = nan; }},
@@ -108,7 +108,7 @@ TEST_P(WrongAnswers, TheReportDoesNotSeeTheScaleOfTheLoad) {
       problem.load *= factor;
       problem.lower *= factor;
       Solution scaled = answer;
-      scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor, scaled.moderate *= factor;
+      scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor, scaled.unlocked_size *= factor;
       const Kkt other = kkt_report(problem, scaled);
       EXPECT_EQ(kkt.residual, other.residual);
       EXPECT_EQ(kkt.min_gap, other.min_gap);
@@ -157,8 +157,8 @@ VariationalInequality impossible(double far, double unit) {
   problem.m = Eigen::Vector2d(1, 1 / (unit * unit));
   problem.compliance = 0;
   problem.load = Eigen::VectorXd::Constant(6, 0.01);
-  problem.fixed = {0};
-  problem.fixed_values = Eigen::VectorXd::Zero(1);
+  problem.dirichlet_dofs = {0};
+  problem.dirichlet_values = Eigen::VectorXd::Zero(1);
   problem.contact = {1, 3};
   problem.lower = Eigen::Vector2d(0.1, far);
   return problem;

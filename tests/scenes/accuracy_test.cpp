@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/read_msh.hpp"
@@ -32,7 +32,7 @@ TEST(Accuracy, OfASceneIsProvedInItsSummary) {
       EXPECT_EQ(proof["of"], of);
       EXPECT_LE(proof["relative"], 0.1);
       EXPECT_GE(proof["relative"], 0.05);
-      const double exact = Truth(paper_sine_load(), epsilon, true, 14).energy();
+      const double exact = ExactSolution(paper_sine_load(), epsilon, true, 14).energy();
       EXPECT_LE(proof["energy_lower"], exact);
       EXPECT_GE(proof["energy_upper"], exact);
       ASSERT_FALSE(proof["levels"].empty());
@@ -65,13 +65,13 @@ TEST(Accuracy, IsProvedOfP1AndP2Answers) {
       const auto summary = run.summary();
       EXPECT_EQ(summary["element"], element);
       EXPECT_LE(summary["certificate"]["relative"], 0.2);
-      const Truth truth(paper_sine_load(), epsilon, true, 14);
+      const ExactSolution exact_solution(paper_sine_load(), epsilon, true, 14);
       const SpaceOn space(read_msh((run.results / "mesh.msh").string()), antilock::element(element));
       const VariationalInequality problem = stiff_problem(space, epsilon);
       const Solution same = active_set(problem);  // the gap is 0: the same problem
       EXPECT_NEAR(summary["energy"], energy(problem, same), 1e-9);
       EXPECT_GE(summary["certificate"]["bound"],
-                measure_errors(space, same, epsilon, reference(TruthTable(truth))).energy);
+                measure_errors(space, same, epsilon, reference(ExactTable(exact_solution))).energy);
     }
 }
 

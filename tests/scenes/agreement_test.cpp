@@ -1,20 +1,20 @@
 // One question, several models: the change of variable between (22) and (23), the limit (24) against (25), and the body
 // alone against a reference of its own. Loads and obstacles are those of the figures.
-#include "antilock/exact/truth.hpp"
+#include "antilock/exact/exact_solution.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
 
 namespace antilock::test::agreement_test {
 
-struct Answer {
+struct Result {
   Eigen::MatrixX3d table;  ///< x, gap, pressure
   Eigen::VectorXd u;
   std::vector<bool> active;
   double energy, from;
 };
 
-Answer answer(const Layer& layer, const TriangleMesh& mesh, const Element& element) {
+Result answer(const Layer& layer, const TriangleMesh& mesh, const Element& element) {
   const Space space(mesh, element);
   const VariationalInequality problem = assemble(Scene({paper_load}, layer, UnilateralContact{}), space);
   const Solution s = active_set(problem);
@@ -49,8 +49,8 @@ TEST_P(Models, TheChangeOfVariableIsExactOnCorrespondingMeshes) {
   // An affine map of the layer takes (22) to (23) term by term, P1 to P1 and CR to CR: not an approximation.
   const TriangleMesh mesh = mesh_of(regular(), 16, 1);
   for (const double epsilon : {1e-1, 1e-2, 1e-3}) {
-    const Answer scaled = answer(StiffLayer{epsilon}, mesh, element());
-    const Answer thin = answer(ThinLayer{epsilon}, squashed(mesh, epsilon), element());
+    const Result scaled = answer(StiffLayer{epsilon}, mesh, element());
+    const Result thin = answer(ThinLayer{epsilon}, squashed(mesh, epsilon), element());
     // measured 6e-10 at most: (22) is one Cholesky solve of a matrix of condition epsilon^-2 h^-2 = 3e8, (23) stops at
     // 1e-10
     EXPECT_LE((thin.u - scaled.u).cwiseAbs().maxCoeff(), 1e-8 * scaled.u.cwiseAbs().maxCoeff()) << epsilon;
@@ -70,17 +70,17 @@ TEST_P(OwnMeshes, ThinAndScaledAgreeOnTheirOwnMeshesUpToDiscretisation) {
   constexpr double h = 1.0 / cells;
   const TriangleMesh scaled_mesh = mesh_of(regular, cells, 1);
   for (const double epsilon : {1e-1, 1e-2, 1e-3}) {
-    const Truth truth(paper_sine_load(), epsilon, true, 12);
-    const double exact_from = truth.contact_zones().front().first;
+    const ExactSolution exact(paper_sine_load(), epsilon, true, 12);
+    const double exact_from = exact.contact_zones().front().first;
     const TriangleMesh thin_mesh = mesh_of(regular, cells, epsilon);
     for (const Element* element : {&p1(), &crouzeix_raviart()}) {
       SCOPED_TRACE(fmt::format("{} at epsilon = {:g}", element->name(), epsilon));
-      const Answer thin = answer(ThinLayer{epsilon}, thin_mesh, *element);
+      const Result thin = answer(ThinLayer{epsilon}, thin_mesh, *element);
       // energies miss the exact one by 2.6 h^2 (P1), 0.75 h^2 (CR) on structured meshes, less on the others
-      EXPECT_NEAR(thin.energy, truth.energy(), 3 * h * h);
+      EXPECT_NEAR(thin.energy, exact.energy(), 3 * h * h);
       EXPECT_NEAR(thin.from, exact_from, 1.5 * h);
       if (!regular && element == &p1()) continue;  // scaled P1 locks on such meshes, thin P1 need not
-      const Answer scaled = answer(StiffLayer{epsilon}, scaled_mesh, *element);
+      const Result scaled = answer(StiffLayer{epsilon}, scaled_mesh, *element);
       EXPECT_NEAR(thin.energy, scaled.energy, 0.5 * h * h);  // the layer holds a small part of the error
       EXPECT_NEAR(thin.from, scaled.from, 1.5 * h);
     }
@@ -88,16 +88,16 @@ TEST_P(OwnMeshes, ThinAndScaledAgreeOnTheirOwnMeshesUpToDiscretisation) {
 }
 
 TEST_P(Models, VentcelConvergesWithOrderTwo) {
-  const Truth truth(paper_sine_load(), 0, true, 12);
+  const ExactSolution exact(paper_sine_load(), 0, true, 12);
   std::vector<double> h, error, energy_error;
   for (const int cells : {8, 16, 32, 64}) {
-    const Answer a = answer(VentcelLayer{}, mesh_of(regular(), cells, 0), element());
+    const Result a = answer(VentcelLayer{}, mesh_of(regular(), cells, 0), element());
     double worst = 0;
     for (Eigen::Index i = 0; i < a.table.rows(); ++i)
-      worst = std::max(worst, std::abs(a.table(i, 1) - truth.value(a.table(i, 0), 0)));
+      worst = std::max(worst, std::abs(a.table(i, 1) - exact.value(a.table(i, 0), 0)));
     h.push_back(1.0 / cells);
     error.push_back(worst);
-    energy_error.push_back(std::abs(a.energy - truth.energy()));
+    energy_error.push_back(std::abs(a.energy - exact.energy()));
   }
   EXPECT_NEAR(slope(h, energy_error), 2, 0.1);
   // pointwise on Sigma; the end of the contact zone falls differently into its cell on every mesh, hence the margin
@@ -109,8 +109,8 @@ TEST_P(Models, VentcelConvergesWithOrderTwo) {
 TEST(RigidLimit, OfCrouzeixRaviartAgreesWithVentcelOnAnyMesh) {
   // without columns the two differ by their discretisation errors: energies 1.1 h^2 each
   constexpr int cells = 32;
-  const Answer ventcel = answer(VentcelLayer{}, unstructured_mesh(cells, {0}), crouzeix_raviart());
-  const Answer limit = answer(StiffLayer{0}, unstructured_mesh(cells), crouzeix_raviart());
+  const Result ventcel = answer(VentcelLayer{}, unstructured_mesh(cells, {0}), crouzeix_raviart());
+  const Result limit = answer(StiffLayer{0}, unstructured_mesh(cells), crouzeix_raviart());
   EXPECT_NEAR(ventcel.energy, limit.energy, 0.1 / (cells * cells));
   EXPECT_NEAR(ventcel.from, limit.from, 2.0 / cells);
 }
@@ -144,7 +144,7 @@ TEST(BodyAlone, OnAnObstacleConvergesToItsReference) {
   const Eigen::VectorXd fine = obstacle_reference(255);
   for (const Element* element : {&p1(), &crouzeix_raviart()})
     for (const bool regular : {true, false}) {
-      const Answer a = answer(NoLayer{}, mesh_of(regular, 64, 0), *element);
+      const Result a = answer(NoLayer{}, mesh_of(regular, 64, 0), *element);
       double worst = 0;
       for (Eigen::Index i = 0; i < a.table.rows(); ++i) {
         const double at = a.table(i, 0) * 256 - 1;  // unknowns at multiples of 1/128, points of the reference of 1/256

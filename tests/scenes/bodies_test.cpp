@@ -10,7 +10,7 @@
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/write_msh.hpp"
 #include "antilock/models/coating.hpp"
-#include "antilock/runner/scene_answer.hpp"
+#include "antilock/runner/solve_scene.hpp"
 #include "scenes/runner.hpp"
 #include "support/bodies.hpp"
 #include "support/scenes.hpp"
@@ -83,7 +83,7 @@ TEST(Bodies, OfAnyShapeAreWhatTheLibrarySolves) {
 /// The unit square with its sides in the groups left, right and top; contact below. `halves`: the body in two surfaces.
 std::string named_square(const TemporaryFolder& folder, int cells, bool halves = false) {
   TriangleMesh mesh = structured_mesh(cells, {0});
-  const std::vector<EdgeCondition> edges{{"left"}, {"right"}, {"top"}};
+  const std::vector<BoundaryCondition> edges{{"left"}, {"right"}, {"top"}};
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
     const Eigen::RowVector2d middle = (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1))) / 2;
@@ -205,14 +205,14 @@ TEST(Bodies, InPlaneStrainAreWhatTheLibrarySolves) {
   Coating coating;
   coating.gap = gap;
   coating.thickness = 1e-3;
-  coating.push = 0.05;
+  coating.prescribed_displacement = 0.05;
   const std::string less = "[model]\nkind = \"plane strain\"\npush = 0.05\n[layer]\n";
   expect(less + "epsilon = 1e-3\n", assemble(coating, {on_coated, on_coated}), on_coated);
   coating.layer = {2 * coating.body.lambda, 2 * coating.body.mu};
   expect(less + "thickness = 1e-3\nstiffness = 2e3\n", assemble(coating, {on_coated, on_coated}), on_coated);
 
   const SceneFile file = read_scene(pressed + "[model]\nkind = \"plane strain\"\n", "scene.toml");
-  EXPECT_GT(pressure_of(file, answer_scene(file, {}).answer).mean(), 0) << "rubber that is pressed";
+  EXPECT_GT(pressure_of(file, solve_scene(file, {}).result).mean(), 0) << "rubber that is pressed";
 }
 
 TEST(Bodies, ThatLockInPlaneStrainSaySo) {

@@ -197,8 +197,8 @@ TEST_F(ForeignFiles, TablesOfSixDigitsAreJudgedOrTheirDigitsNamed) {
     const auto judge = [&](int digits) {
       std::string table = "x,y,u\n";
       for (int i = 0; i < space.size(); ++i)
-        table +=
-            fmt::format("{0:.{3}g},{1:.{3}g},{2:.{3}g}\n", space.points()(i, 0), space.points()(i, 1), u(i), digits);
+        table += fmt::format("{0:.{3}g},{1:.{3}g},{2:.{3}g}\n", space.dof_coordinates()(i, 0),
+                             space.dof_coordinates()(i, 1), u(i), digits);
       return run_antilock("judge " + scene + " " + in_shell(path("mesh.msh")) + " " + file("u.csv", table) +
                               " --accuracy 0.3 --json " + in_shell(path("judged.json")),
                           log);

@@ -6,10 +6,10 @@
 
 #include "antilock/core/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/exact/truth.hpp"
-#include "antilock/mesh/cut_out.hpp"
+#include "antilock/exact/exact_solution.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/read_msh.hpp"
+#include "antilock/mesh/submesh.hpp"
 #include "antilock/space/space.hpp"
 #include "scenes/runner.hpp"
 #include "support/scenes.hpp"
@@ -86,21 +86,21 @@ void expect_interface(const std::filesystem::path& results) {
   EXPECT_LE(s["kkt"]["residual"].get<double>(), 1e-9);
 
   // one row an unknown, the clamped ones too; the mesh file is the mesh that was used
-  MoreGroups groups;
+  ExtraGroups groups;
   const std::string mesh_text = contents(results / "mesh.msh");
   if (mesh_text.find("\"free\"") != mesh_text.npos) groups.curves["free"] = EdgeTag::free;
   for (int k = 0; const auto& edge : s["scene"].value("edge", nlohmann::json::array()))
-    groups.curves[edge["group"]] = edge.contains("displacement") ? held_group(k++) : natural_group(k++);
+    groups.curves[edge["group"]] = edge.contains("displacement") ? dirichlet_group(k++) : natural_group(k++);
   const TriangleMesh mesh = read_msh((results / "mesh.msh").string(), groups);
   const Space space(mesh, element(s["element"]));
   const Csv solution = read_csv(results / "solution.csv");
   EXPECT_EQ(solution.header, vector ? "x,y,u_x,u_y" : "x,y,u");
   ASSERT_EQ(solution.rows.rows(), space.size());
   // positions and values survive the way through text bit by bit (gmsh's own coordinates may be halved once more)
-  EXPECT_LE((solution.rows.leftCols(2) - space.points()).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_LE((solution.rows.leftCols(2) - space.dof_coordinates()).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_EQ(solution.rows.rightCols(vector ? 2 : 1).maxCoeff(), s["u_max"].get<double>());
   EXPECT_EQ(solution.rows.rightCols(vector ? 2 : 1).minCoeff(), s["u_min"].get<double>());
-  for (const int i : space.clamped()) EXPECT_EQ(solution.rows(i, 2), 0.0);
+  for (const int i : space.dirichlet_dofs()) EXPECT_EQ(solution.rows(i, 2), 0.0);
   EXPECT_EQ(s["dofs"].get<int>(), (vector ? 2 : 1) * space.free_count());
 
   const std::string vtu = contents(results / "solution.vtu");
@@ -127,7 +127,7 @@ void expect_interface(const std::filesystem::path& results) {
   const Csv table = read_csv(results / "contact.csv");
   const bool rubs = s["scene"].value("model", nlohmann::json::object()).contains("friction");
   EXPECT_EQ(table.header, rubs ? "x,gap,pressure,friction" : "x,gap,pressure");
-  const auto points_on = static_cast<Eigen::Index>(space.contact().size());
+  const auto points_on = static_cast<Eigen::Index>(space.contact_dofs().size());
   ASSERT_EQ(table.rows.rows(), points_on);
   EXPECT_EQ(s["contact"]["points"].get<Eigen::Index>(), points_on);
   EXPECT_GE(table.rows.col(1).minCoeff(), 0.0);
@@ -315,7 +315,7 @@ TEST(Warnings, ALayerSoSoftAlongXThatCrouzeixRaviartIsWrongInItIsNamed) {
 /// The share of the energy that the layer's motion releases which P1 loses on an unstructured mesh, by two more solves: on
 /// the same body with a layer in columns, and at epsilon = 0, where P1 holds the layer still. 31 % by gmsh 4.8.
 double lost_by_p1(int cells, double epsilon) {
-  const TriangleMesh mesh = unstructured_mesh(cells), columns = extruded(body_of(mesh), epsilon);
+  const TriangleMesh mesh = unstructured_mesh(cells), columns = extruded(body_submesh(mesh), epsilon);
   const auto energy_on = [](const TriangleMesh& on, double eps) {
     const Space space(on, p1());
     const VariationalInequality problem = assemble(stiff_scene(eps), space);
@@ -370,10 +370,10 @@ TEST(Results, TheContactForceBalancesTheExactOne) {
   const SceneRun run(scene(layer("1e-2") + contact, structured(64), cr));
   ASSERT_EQ(run.outcome.status, 0) << run.outcome.err;
   const Csv table = read_csv(run.results / "contact.csv");
-  const Truth truth(paper_sine_load(), 1e-2);
+  const ExactSolution exact_solution(paper_sine_load(), 1e-2);
   double exact = 0;
   constexpr int n = 4096;
-  for (int i = 0; i < n; ++i) exact += truth.pressure((i + 0.5) / n) / n;
+  for (int i = 0; i < n; ++i) exact += exact_solution.pressure((i + 0.5) / n) / n;
   EXPECT_NEAR(table.rows.col(2).sum() / 64, exact, 0.02 * exact);
   EXPECT_NEAR(run.summary()["contact"]["from"].get<double>(), 0.69753, 1.5 / 64);
   EXPECT_NEAR(run.summary()["energy"].get<double>(), -0.44157558, 3e-4);  // 1.8e-4 off at 1/h = 64, falling like h^2

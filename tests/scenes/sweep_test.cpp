@@ -14,7 +14,7 @@ TEST(OnlyWhatIsNeeded, AnAbsentEffectCostsNothing) {
     const auto cost = [](const Scene& scene, const Space& on) { return active_set(assemble(scene, on)).counters; };
     for (const Layer& layer : {Layer(NoLayer{}), Layer(VentcelLayer{})}) {
       const Counters c = cost(Scene({paper_load}, layer), on_body);
-      EXPECT_EQ(c.unknowns, on_body.size() - static_cast<int>(on_body.clamped().size()));
+      EXPECT_EQ(c.unknowns, on_body.size() - static_cast<int>(on_body.dirichlet_dofs().size()));
       EXPECT_EQ(c.factorisations, 1);
       EXPECT_EQ(c.solves, 1) << "no stiff part: a linear solve";
       EXPECT_EQ(c.corrections + c.contact, 0);
@@ -29,7 +29,7 @@ TEST(OnlyWhatIsNeeded, AnAbsentEffectCostsNothing) {
     }
     for (const double epsilon : {1e-6, 0.0}) {
       const Counters c = cost(Scene({paper_load}, StiffLayer{epsilon}), on_both);
-      EXPECT_EQ(c.unknowns, on_both.size() - static_cast<int>(on_both.clamped().size()));
+      EXPECT_EQ(c.unknowns, on_both.size() - static_cast<int>(on_both.dirichlet_dofs().size()));
       EXPECT_EQ(c.factorisations, 1);
       EXPECT_EQ(c.contact, 0);
       EXPECT_GT(c.corrections, 0);
@@ -45,18 +45,18 @@ TEST(OnlyWhatIsNeeded, EdgesAndStiffnessAreIntegratedWhereTheyAre) {
   struct Calls {
     int load = 0, stiffness = 0, traction = 0, spring = 0, displacement = 0;
   } calls;
-  using Kind = EdgeCondition::Kind;
+  using Kind = BoundaryCondition::Kind;
   const auto counted = [](int& count) { return [&count](double, double) { return 1.0 + 0 * ++count; }; };
   const Body bare{counted(calls.load)}, stiff{counted(calls.load), counted(calls.stiffness)};
-  const std::vector<EdgeCondition> held{{"left", Kind::displacement, counted(calls.displacement)},
-                                        {"right", Kind::traction, counted(calls.traction)},
-                                        {"top", Kind::spring, counted(calls.spring)}};
+  const std::vector<BoundaryCondition> held{{"left", Kind::displacement, counted(calls.displacement)},
+                                            {"right", Kind::traction, counted(calls.traction)},
+                                            {"top", Kind::spring, counted(calls.spring)}};
   for (const Layer& layer : {Layer(NoLayer{}), Layer(StiffLayer{1e-3})}) {
     TriangleMesh mesh = structured_mesh(n, {std::holds_alternative<NoLayer>(layer) ? 0.0 : 1.0});
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const auto x = mesh.vertices(mesh.edges.row(e), Eigen::all).colwise().mean().eval();
       if (mesh.edge_tag[e] == EdgeTag::clamped && x(1) > 0)
-        mesh.edge_tag[e] = x(0) == 0 ? held_group(0) : natural_group(x(0) == 1 ? 1 : 2);
+        mesh.edge_tag[e] = x(0) == 0 ? dirichlet_group(0) : natural_group(x(0) == 1 ? 1 : 2);
     }
     const Space space(mesh, crouzeix_raviart());
     calls = {};

@@ -44,7 +44,7 @@ bool next_set(std::vector<int>& set, const LongVector& lower, const LongVector& 
 
 BruteForce brute_force(const VariationalInequality& problem) {
   std::vector<bool> fixed(problem.size(), false);
-  for (const int i : problem.fixed) fixed[i] = true;
+  for (const int i : problem.dirichlet_dofs) fixed[i] = true;
   std::vector<int> free;
   for (int i = 0; i < problem.size(); ++i)
     if (!fixed[i]) free.push_back(i);
@@ -52,8 +52,8 @@ BruteForce brute_force(const VariationalInequality& problem) {
   const LongVector m = problem.m.cast<long double>();
   LongMatrix k = Eigen::MatrixXd(problem.a1).cast<long double>();
   LongVector u_fixed = LongVector::Zero(problem.size());
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    u_fixed(problem.fixed[i]) = problem.fixed_values(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
+    u_fixed(problem.dirichlet_dofs[i]) = problem.dirichlet_values(static_cast<Eigen::Index>(i));
   const auto n = static_cast<Eigen::Index>(free.size());
   LongMatrix basis = LongMatrix::Identity(n, n);  // of the displacements allowed
   if (b.rows() > 0 && problem.compliance > 0)
@@ -71,7 +71,7 @@ BruteForce brute_force(const VariationalInequality& problem) {
   const int c = problem.bound_count(), contact = static_cast<int>(problem.contact.size());
   LongMatrix rows = LongMatrix::Zero(c, problem.size());  // what is bounded
   for (int i = 0; i < contact; ++i) rows(i, problem.contact[i]) = 1;
-  if (c > contact) rows.bottomRows(c - contact) = Eigen::MatrixXd(problem.combinations).cast<long double>();
+  if (c > contact) rows.bottomRows(c - contact) = Eigen::MatrixXd(problem.constraints).cast<long double>();
   const LongMatrix on_free = rows(Eigen::all, free);
   const LongVector unloaded = rows * u_fixed + on_free * (response * force);
   const LongMatrix compliance = on_free * response * on_free.transpose();
@@ -79,8 +79,8 @@ BruteForce brute_force(const VariationalInequality& problem) {
   const LongVector upper = problem.upper.size() > 0
                                ? LongVector(problem.upper.cast<long double>())
                                : LongVector(LongVector::Constant(c, std::numeric_limits<long double>::infinity()));
-  const LongVector most = problem.force_bound.size() > 0
-                              ? LongVector(problem.force_bound.cast<long double>())
+  const LongVector most = problem.force_limit.size() > 0
+                              ? LongVector(problem.force_limit.cast<long double>())
                               : LongVector(LongVector::Constant(c, std::numeric_limits<long double>::infinity()));
   constexpr long double slack = 1e-14L;  // of a sign: far above the round-off of 64-bit mantissas, far below any gap
   BruteForce best;

@@ -180,7 +180,7 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
   const auto size = static_cast<std::size_t>(problem.size());
   const Eigen::MatrixXd a1 = problem.a1, b = problem.b;
   std::vector<int> place(size, 0);
-  for (const int i : problem.fixed) place[i] = -1;
+  for (const int i : problem.dirichlet_dofs) place[i] = -1;
   std::vector<int> free;
   for (std::size_t i = 0; i < size; ++i)
     if (place[i] == 0) {
@@ -189,8 +189,8 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
     }
   const std::size_t n = free.size(), rows = b.rows();
   Vector u(size, Number(0));
-  for (std::size_t k = 0; k < problem.fixed.size(); ++k)
-    u[problem.fixed[k]] = Number(problem.fixed_values(static_cast<Eigen::Index>(k)));
+  for (std::size_t k = 0; k < problem.dirichlet_dofs.size(); ++k)
+    u[problem.dirichlet_dofs[k]] = Number(problem.dirichlet_values(static_cast<Eigen::Index>(k)));
 
   // a = A1 + weight B' M B of all unknowns
   const auto sum = [&](const Number& weight) {
@@ -220,7 +220,7 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
     Matrix equations = zeros(rows, n + 1);
     for (std::size_t r = 0; r < rows; ++r) {
       for (std::size_t i = 0; i < n; ++i) equations[r][i] = Number(b(r, free[i]));
-      for (const int i : problem.fixed) equations[r][n] -= Number(b(r, i)) * u[i];
+      for (const int i : problem.dirichlet_dofs) equations[r][n] -= Number(b(r, i)) * u[i];
     }
     const std::vector<std::size_t> pivots = reduce(equations, n);
     for (std::size_t r = pivots.size(); r < rows; ++r)
@@ -259,7 +259,7 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
     }
   }
   std::vector<Side> sides;
-  const Eigen::MatrixXd combinations = problem.combinations;
+  const Eigen::MatrixXd combinations = problem.constraints;
   for (int k = 0; k < problem.bound_count(); ++k) {
     const int contact = static_cast<int>(problem.contact.size());
     Vector row(dimension, Number(0));
@@ -276,8 +276,8 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
       if (std::isinf(value)) return;
       Side side{row, sign * (Number(value) - start_value), k, std::nullopt};
       for (Number& entry : side.c) entry *= sign;
-      if (problem.force_bound.size() > 0 && std::isfinite(problem.force_bound(k)))
-        side.most = Number(problem.force_bound(k));
+      if (problem.force_limit.size() > 0 && std::isfinite(problem.force_limit(k)))
+        side.most = Number(problem.force_limit(k));
       sides.push_back(side);
     };
     add(1, problem.lower(k));

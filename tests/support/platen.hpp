@@ -9,7 +9,7 @@ inline double parabola(double x) { return (x - 0.5) * (x - 0.5); }
 
 /// The block over that gap.
 inline PlaneStrain platen(double epsilon, double jump_weight = 0) {
-  return {Press{.gap = parabola, .jump_weight = jump_weight}, epsilon};
+  return {BlockLoading{.gap = parabola, .jump_weight = jump_weight}, epsilon};
 }
 
 /// The block on squares cut along /.

@@ -105,15 +105,15 @@ void expect_refused(Act&& act, const std::string& words) {
 }
 
 /// Largest difference, relative to the largest entry of `truth`.
-inline double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& truth) {
-  return (a - truth).cwiseAbs().maxCoeff() / truth.cwiseAbs().maxCoeff();
+inline double relative_difference(const Eigen::VectorXd& a, const Eigen::VectorXd& exact) {
+  return (a - exact).cwiseAbs().maxCoeff() / exact.cwiseAbs().maxCoeff();
 }
 
 /// at_lower where `active`, else between: a start for bounds from below.
-inline Pieces held_at_lower(const std::vector<bool>& active) {
-  Pieces pieces;
-  for (const bool held : active) pieces.push_back(held ? Piece::at_lower : Piece::between);
-  return pieces;
+inline BoundStatuses held_at_lower(const std::vector<bool>& active) {
+  BoundStatuses status;
+  for (const bool held : active) status.push_back(held ? BoundStatus::at_lower : BoundStatus::inactive);
+  return status;
 }
 
 }  // namespace antilock::test

@@ -95,7 +95,7 @@ String hang(int cells, double load = 10, double floor = 0) {
   return s;
 }
 
-struct Answer {
+struct Result {
   VectorXd u, lambda;  // at the inner nodes
   int solves = 0;      // linear systems solved
 };
@@ -108,28 +108,28 @@ struct Answer {
 // It does repeat itself. A force upwards at one node lowers no other: $A$ is an *M-matrix* (no entry off its diagonal
 // is positive, none of its inverse negative). From the second guess on, each shape is the one before without the pull
 // of the nodes that were let go, and so above it: no node comes back, the set shrinks. Other matrices may cycle.
-Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
+Result active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
   const int n = static_cast<int>(s.b.size());
-  Answer answer;
+  Result result;
   std::vector<bool> touches(n, false), guess;
-  for (; guess != touches; ++answer.solves) {
+  for (; guess != touches; ++result.solves) {
     guess = touches;
     MatrixXd a = s.a;
     VectorXd right = s.b;
     for (int i = 0; i < n; ++i)
       if (guess[i]) a(i, i) = 1e30, right(i) = 1e30 * s.floor;  // row i now says u_i = floor
-    answer.u = Cholesky(a).solve(right);
+    result.u = Cholesky(a).solve(right);
     for (int i = 0; i < n; ++i)
-      if (guess[i]) answer.u(i) = s.floor;  // without the round-off of 1e30
-    guesses.push_back(answer.u);
-    const VectorXd missing = s.a * answer.u - s.b;
-    answer.lambda = VectorXd::Zero(n);
+      if (guess[i]) result.u(i) = s.floor;  // without the round-off of 1e30
+    guesses.push_back(result.u);
+    const VectorXd missing = s.a * result.u - s.b;
+    result.lambda = VectorXd::Zero(n);
     for (int i = 0; i < n; ++i) {
-      if (guess[i]) answer.lambda(i) = missing(i);
-      touches[i] = guess[i] ? missing(i) > 0 : answer.u(i) < s.floor;
+      if (guess[i]) result.lambda(i) = missing(i);
+      touches[i] = guess[i] ? missing(i) > 0 : result.u(i) < s.floor;
     }
   }
-  return answer;
+  return result;
 }
 
 // **Uzawa.** Guess the forces of the floor instead. They give a shape, $A u = b + λ$. Where it is below the floor, push
@@ -147,17 +147,17 @@ Answer active_set_by_hand(const String& s, std::vector<VectorXd>& guesses) {
 // largest, $ρ < 2π² h$, is safe. The part with the smallest is the slowest: its factor is $1 - ρ h/4$, at best about
 // $1 - π² h²/2$. So halve $h$, and a digit takes four times as many steps. The *condition number* $κ$ = largest /
 // smallest eigenvalue, here $4/(π² h²)$, says it in one number: the factor is $1 - 2/κ$.
-Answer uzawa_by_hand(const String& s, double rho, double tolerance, std::vector<VectorXd>* shapes = nullptr) {
+Result uzawa_by_hand(const String& s, double rho, double tolerance, std::vector<VectorXd>* shapes = nullptr) {
   const Cholesky factor(s.a);
-  Answer answer{s.b, 0 * s.b};
-  for (double change = 1; change > tolerance; ++answer.solves) {
-    answer.u = factor.solve(VectorXd(s.b + answer.lambda));
-    if (shapes) shapes->push_back(answer.u);
-    const VectorXd next = (answer.lambda.array() - rho * (answer.u.array() - s.floor)).max(0).matrix();
-    change = (next - answer.lambda).lpNorm<Eigen::Infinity>() / rho;
-    answer.lambda = next;
+  Result result{s.b, 0 * s.b};
+  for (double change = 1; change > tolerance; ++result.solves) {
+    result.u = factor.solve(VectorXd(s.b + result.lambda));
+    if (shapes) shapes->push_back(result.u);
+    const VectorXd next = (result.lambda.array() - rho * (result.u.array() - s.floor)).max(0).matrix();
+    change = (next - result.lambda).lpNorm<Eigen::Infinity>() / rho;
+    result.lambda = next;
   }
-  return answer;
+  return result;
 }
 
 // **The truth.** Where the string is free it is $U(x) = α \sin 2πx + s x$, $α = 10/(4π²)$, since $-u'' = f$. Contact
@@ -173,7 +173,7 @@ void string_on_an_obstacle(const tutorial::Options& options, tutorial::Report& r
   const String s = hang(options.cells);
   const double rho = 1.9 * pi * pi * s.h;
   std::vector<VectorXd> guesses;
-  const Answer active = active_set_by_hand(s, guesses), uzawa = uzawa_by_hand(s, rho, 1e-10);
+  const Result active = active_set_by_hand(s, guesses), uzawa = uzawa_by_hand(s, rho, 1e-10);
   fmt::print("  linear solves: active set {}, Uzawa {}\n", active.solves, uzawa.solves);
   // ### Output
   const double from = tutorial::contact_starts(active.lambda), c = tutorial::touches_from(0);

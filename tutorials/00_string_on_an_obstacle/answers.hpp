@@ -13,7 +13,7 @@ std::vector<tutorial::Exercise> exercises() {
       {"Double the load. What happens to u, to the forces, to the contact set?",
        "u and the forces double, the set stays: K is a cone, and with u it holds 2 u",
        [=](const tutorial::Options& options, tutorial::Report& report) {
-         const Answer once = solve(hang(options.cells)), twice = solve(hang(options.cells, 20));
+         const Result once = solve(hang(options.cells)), twice = solve(hang(options.cells, 20));
          report.claim_within((twice.u - 2 * once.u).norm() / once.u.norm(), 0, 1e-13, "u(2 f) - 2 u(f), relative:");
          report.claim((twice.lambda.array() > 0).matrix() == (once.lambda.array() > 0).matrix(), "same contact set");
        }},
@@ -21,7 +21,7 @@ std::vector<tutorial::Exercise> exercises() {
        "later, at c with sin z - z cos z = -0.05/alpha, z = 2 pi c; and it ends before x = 1, where the string is held",
        [=](const tutorial::Options& options, tutorial::Report& report) {
          const String s = hang(options.cells, 10, -0.05);
-         const Answer low = solve(s);
+         const Result low = solve(s);
          report.claim_within(tutorial::contact_starts(low.lambda) - tutorial::touches_from(0.05), -s.h, s.h,
                              "start - c:");
          report.claim(low.lambda(low.lambda.size() - 1) == 0, "the last node is free");

@@ -3,7 +3,7 @@ void step_by_step(const tutorial::Options& options, tutorial::Report&) {
   const String s = hang(options.cells);
   std::vector<VectorXd> guesses, shapes;
   active_set_by_hand(s, guesses);
-  const Answer uzawa = uzawa_by_hand(s, 1.9 * pi * pi * s.h, 1e-10, &shapes);
+  const Result uzawa = uzawa_by_hand(s, 1.9 * pi * pi * s.h, 1e-10, &shapes);
   Table steps({"step", "x", "u", "pressure", "held", "uzawa"}), counts({"active set", "Uzawa"});
   for (std::size_t k = 0; k < guesses.size(); ++k) {
     const VectorXd &u = guesses[k], &beside = shapes[std::min(k, shapes.size() - 1)], missing = s.a * u - s.b;

@@ -64,7 +64,7 @@ inline void write_string(const std::filesystem::path& out, const std::vector<Eig
     const auto at = [&](const Eigen::VectorXd& v) { return i < 0 || i == n ? 0.0 : v(i); };
     const double x = static_cast<double>(i + 1) * h;
     shapes.add({x, at(guesses.front()), at(guesses.back()), at(exact), at(lambda) / h});
-    std::vector<Entry> row{x};
+    std::vector<TableEntry> row{x};
     for (std::size_t k = 0; k < 8; ++k) row.emplace_back(at(guesses[std::min(k, guesses.size() - 1)]));
     row.emplace_back(at(guesses.back()));
     steps.add(row);

@@ -156,6 +156,6 @@ double energy_form(const VariationalInequality& problem, const Eigen::VectorXd& 
 
 // Some function that is not constant along any direction: sin(3x) e^y + xy.
 Eigen::VectorXd test_function(const Space& space) {
-  const auto x = space.points().col(0).array(), y = space.points().col(1).array();
+  const auto x = space.dof_coordinates().col(0).array(), y = space.dof_coordinates().col(1).array();
   return (3 * x).sin() * y.exp() + x * y;
 }

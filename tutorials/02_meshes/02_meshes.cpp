@@ -140,8 +140,8 @@ void meshes(const tutorial::Options& options, tutorial::Report& report) {
   tutorial::draw_ties(options.out / "ties.csv", layers);
 
   // atan(1/2) = 26.57 degrees: the corner of the staggered mesh, where half a cell meets a cell
-  report.claim(table.least("smallest angle") > 26.5, "all four are regular: no angle below {:.2f} degrees (observed)",
-               table.least("smallest angle"));
+  report.claim(table.min("smallest angle") > 26.5, "all four are regular: no angle below {:.2f} degrees (observed)",
+               table.min("smallest angle"));
   report.claim(table.numbers("groups") == std::vector<double>{1.0 * n, 1, 1, 1.0 * n},
                "groups: one per column where there are columns, else one in all (proved for this mesh by counting)");
   bool one_less = true;

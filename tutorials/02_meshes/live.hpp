@@ -22,7 +22,7 @@ void move(const tutorial::Options& options, tutorial::Report&) {
     const double x = mesh.vertices(v, 0), y = mesh.vertices(v, 1);
     vertices.add({x, y, x > 0 && x < 1 && y > -1 && y < 0});  // those on lines of the domain stay there
   }
-  triangles.where_number("group", [](double group) { return group >= 0; }).write(options.out / "triangles.csv");
+  triangles.filter_number("group", [](double group) { return group >= 0; }).write(options.out / "triangles.csv");
   vertices.write(options.out / "vertices.csv");
   const int left = kernel_on_layer(mesh);
   fmt::print("{} of triangles; G_h has {} on the layer{}\n",

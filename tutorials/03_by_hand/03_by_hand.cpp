@@ -114,10 +114,10 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
 //     lambda = A_delta du - r where it touches, new guess by the signs of lambda and u + du
 //   u += du,  p += (B du - r2) / delta
 // ```
-struct Answer {
+struct Result {
   VectorXd u, stress;
 };
-Answer solve_by_hand(const ByHand& p, double epsilon, double delta, Table& history) {
+Result solve_by_hand(const ByHand& p, double epsilon, double delta, Table& history) {
   delta = std::max(epsilon * epsilon, delta);  // never below epsilon^2, which is stiff enough
   const MatrixXd a_delta = p.a1 + p.b.transpose() * p.m.asDiagonal() * p.b / delta;
   VectorXd u = VectorXd::Zero(p.load.size()), stress = VectorXd::Zero(p.m.size()), du = u;
@@ -152,9 +152,9 @@ Table layer_stress(const ByHand& problem) {
   Table stresses({"epsilon", "largest B u", "largest p", "p - p at 0"}), unread({"correction", "contact steps", "du"});
   const VectorXd rigid = solve_by_hand(problem, 0, 1e-4, unread).stress;
   for (const double epsilon : {1e-1, 1e-2, 3e-3, 1e-3, 3e-4, 0.0}) {
-    const Answer answer = solve_by_hand(problem, epsilon, 1e-4, unread);
-    stresses.add({epsilon, (problem.b * answer.u).cwiseAbs().maxCoeff(), answer.stress.cwiseAbs().maxCoeff(),
-                  (answer.stress - rigid).cwiseAbs().maxCoeff()});
+    const Result result = solve_by_hand(problem, epsilon, 1e-4, unread);
+    stresses.add({epsilon, (problem.b * result.u).cwiseAbs().maxCoeff(), result.stress.cwiseAbs().maxCoeff(),
+                  (result.stress - rigid).cwiseAbs().maxCoeff()});
   }
   return stresses;
 }
@@ -179,7 +179,7 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
   report.claim(matrices <= 1e-13 && rows <= 1e-12, "A1 and B are the library's, to {:.0e} and {:.0e} (proved)",
                matrices, rows);
   report.claim(apart <= 1e-12, "u is the library's to {:.0e}, relative (proved: (26) has one solution)", apart);
-  const Table small = stresses.where_number("epsilon", [](double epsilon) { return 0 < epsilon && epsilon < 0.05; });
+  const Table small = stresses.filter_number("epsilon", [](double epsilon) { return 0 < epsilon && epsilon < 0.05; });
   report.claim_order(small, "p - p at 0", "epsilon", 1.9, 2.1, "p tends to the stress of the rigid layer (observed)");
 }
 
@@ -198,12 +198,12 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 //
 // | here | in `lib/antilock/solve` | what is added there |
 // |---|---|---|
-// | `touches` | `stairs.hpp` | `touches` has two states; with bounds on both sides, or friction, there are up to five |
+// | `touches` | `bounds.hpp` | `touches` has two states; with bounds on both sides, or friction, there are up to five |
 // | the inner loop | `contact.hpp` | from guess to guess the energy falls: what leaves its piece stops there, and so it ends (proof there) |
 // | `r2` and `r` | `residual.hpp` | $u$ and $p$ are pairs of doubles: no digit of a residual is lost |
 // | `Cholesky`, one per guess | `penalty_factor.hpp` | one sparse factor, the vertices of $Γ_C$ last |
 // | the outer loop | `active_set.cpp` | the next start is mixed from the last few (Anderson) |
-// | `du > 1e-14` | `judge.hpp`, `kkt.hpp` | the last $du$ says how right $u$ is, a report afterwards whether all holds |
+// | `du > 1e-14` | `forward_error.hpp`, `kkt.hpp` | the last $du$ says how right $u$ is, a report afterwards whether all holds |
 //
 // ## Exercises
 //

@@ -19,7 +19,7 @@ inline Table modes(const std::vector<double>& epsilons, const std::function<doub
   Table table(columns);
   for (int j = -100; j <= 100; ++j) {
     const double y = j / 100.0;
-    std::vector<Entry> row{y};
+    std::vector<TableEntry> row{y};
     for (const double epsilon : epsilons)
       for (const int k : {1, 2, 4, 8}) {
         const double a = k * std::numbers::pi, kappa = epsilon * a, s = symbol(k, epsilon) * epsilon / a;

@@ -78,21 +78,21 @@ Table sweep_epsilon(const Space& space) {
 // How far is the middle value off this line, the line off $-λ$ at $y = -1$, and the line off the exact stress at
 // $y = 0$? Each answer is divided by the largest stress. The values belong to the middles of cells, so the line must be
 // continued by half a cell at either end.
-Table off_the_line(const Table& stress, const Eigen::VectorXd& force, const Truth& truth, double h) {
+Table off_the_line(const Table& stress, const Eigen::VectorXd& force, const ExactSolution& exact_solution, double h) {
   Table off({"x", "line", "bottom", "top"});
-  const double size = std::max(stress.most("top"), -stress.least("bottom")), half = 0.5 * h / (1 - h);
+  const double size = std::max(stress.max("top"), -stress.min("bottom")), half = 0.5 * h / (1 - h);
   for (int i = 0; const Table& row : stress.rows()) {
     const double top = row.number("top"), bottom = row.number("bottom"), x = row.number("x");
     off.add({x, std::abs(row.number("middle") - (top + bottom) / 2) / size,
              std::abs(bottom + half * (bottom - top) + force(i++) / h) / size,
-             std::abs(top + half * (top - bottom) - truth.layer_stress(x, 0)) / size});
+             std::abs(top + half * (top - bottom) - exact_solution.layer_stress(x, 0)) / size});
   }
   return off;
 }
 
 void structured_study(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
-  const Discretisation discrete = Method{&p1(), structured({}, Diagonal::right)}.on(options.cells);
+  const Discretisation discrete = Method{&p1(), structured({}, Diagonal::right)}.discretise(options.cells);
   const Space& space = discrete.space();
   // ### Forms
   // The load is `paper_load`; any other goes here, as `SineLoad{{{2, {10}}}}` ($10 \sin 2πx$), and into the truth below.
@@ -104,13 +104,13 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   const Errors errors = exact.errors(space, solution);
   const Table sweep = sweep_epsilon(space), stress = tutorial::stress_by_depth(space, solution);
   const double h = 1.0 / options.cells;
-  const Table off = off_the_line(stress, solution.lambda, exact.truth, h);
+  const Table off = off_the_line(stress, solution.lambda, exact.solution, h);
 
   // ### Output
   tutorial::present(options.out, exact.scene, space, problem, solution, "P1, structured", errors);
   sweep.print("error at the unknowns against epsilon");
-  fmt::print("  stress: off the line {:.0e}, off -lambda {:.0e}, off the exact one on Sigma {:.3f}\n", off.most("line"),
-             off.most("bottom"), off.most("top"));
+  fmt::print("  stress: off the line {:.0e}, off -lambda {:.0e}, off the exact one on Sigma {:.3f}\n", off.max("line"),
+             off.max("bottom"), off.max("top"));
   sweep.write(options.out / "sweep.csv");
   stress.write(options.out / "stress.csv");
   tutorial::on_contact({1.0, 1e-1, 1e-2, 0.0}, space).write(options.out / "contact_by_epsilon.csv");
@@ -119,10 +119,10 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   // Both constants are seen. What is proved is that they exist, the second one for all epsilons together.
   report.claim_within(errors.max_at_unknowns / (h * h), 0.16, 0.64,
                       "Figure 5: error at the unknowns / h^2 (observed):");
-  report.claim_within(sweep.most("error") / (h * h), 0.26, 1.05, "Theorem 5: worst of nine epsilons / h^2 (observed):");
+  report.claim_within(sweep.max("error") / (h * h), 0.26, 1.05, "Theorem 5: worst of nine epsilons / h^2 (observed):");
   // u^epsilon differs from u^0 by O(epsilon^(3/2)) (chapter 10): below 1e-2 that is 1e-3 of u, and 1 % of an error.
-  const Table small = sweep.where_number("epsilon", [](double epsilon) { return epsilon <= 1e-2; });
-  report.claim_within(small.most("error") / small.least("error") - 1, 0, 0.01,
+  const Table small = sweep.filter_number("epsilon", [](double epsilon) { return epsilon <= 1e-2; });
+  report.claim_within(small.max("error") / small.min("error") - 1, 0, 0.01,
                       "spread of the errors below 1e-2 (observed):");
   const double from = contact_zone(space, problem, solution).from.value_or(1);
   report.claim_within((from - exact.contact_from()) / h, -1, 1, "start of contact - truth, in cells (observed):");
@@ -130,11 +130,11 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
     return report.not_judged("the stress as a straight line in y: it is one for small epsilon");
   // d_yy p = -d_xx (d_y u) = -epsilon^2 d_xx p, and p jumps in a cell: bent by (epsilon / h)^2 / 8 and 6e-9 of round-off.
   const double round_off = 6e-9 + std::pow(options.epsilon / h, 2) / 8;
-  report.claim(off.most("line") <= round_off, "the stress is a straight line in y, up to {:.0e} (proved)",
-               off.most("line"));
-  report.claim(off.most("bottom") <= round_off, "which ends at -lambda on Gamma_C, up to {:.0e} (proved)",
-               off.most("bottom"));
-  report.claim_within(off.most("top") / h, 0, 0.5,
+  report.claim(off.max("line") <= round_off, "the stress is a straight line in y, up to {:.0e} (proved)",
+               off.max("line"));
+  report.claim(off.max("bottom") <= round_off, "which ends at -lambda on Gamma_C, up to {:.0e} (proved)",
+               off.max("bottom"));
+  report.claim_within(off.max("top") / h, 0, 0.5,
                       "and begins at the pull of the body on Sigma, up to h times (observed)");
 }
 

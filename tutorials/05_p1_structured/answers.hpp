@@ -7,7 +7,7 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options& options, tutorial::Report& report) {
        const tutorial::Exact exact(tutorial::paper_scene(1e-6));
        const auto error = [&](Diagonal diagonal) {
-         const Discretisation on = Method{&p1(), structured({}, diagonal)}.on(options.cells);
+         const Discretisation on = Method{&p1(), structured({}, diagonal)}.discretise(options.cells);
          return exact.errors(on.space(), active_set(assemble(exact.scene, on.space()))).max_at_unknowns;
        };
        report.claim_within(error(Diagonal::left) / error(Diagonal::right), 0.5, 1.5, "error left / error right:");
@@ -15,7 +15,7 @@ const std::vector<tutorial::Exercise> exercises{
     {"Double the load. Does the contact zone grow? Does the pressure double?",
      "the zone stays, u and the pressure double: K is a cone (chapter 00); so does the truth, and with it the error",
      [](const tutorial::Options& options, tutorial::Report& report) {
-       const Discretisation on = Method{&p1(), structured()}.on(options.cells);
+       const Discretisation on = Method{&p1(), structured()}.discretise(options.cells);
        const tutorial::Exact one(tutorial::paper_scene(1e-6));
        const tutorial::Exact two(Scene(Body{SineLoad{{{2, {20}}}}}, StiffLayer{1e-6}, UnilateralContact{}));
        const Solution once = active_set(assemble(one.scene, on.space()));

@@ -27,7 +27,7 @@ inline Table on_contact(const std::vector<double>& epsilons, const Space& space)
   }
   Table table(columns);
   for (Eigen::Index i = 0; i < found[0].rows(); ++i) {
-    std::vector<Entry> row{found[0](i, 0)};
+    std::vector<TableEntry> row{found[0](i, 0)};
     for (const int column : {1, 2})
       for (const auto& one : found) row.emplace_back(one(i, column));
     table.add(row);

@@ -104,12 +104,13 @@ double lost_to_kept(const TriangleMesh& mesh, double epsilon) {
 // The share of the ridge that is kept, the law's, and their ratio.
 Table follow(const MeshFamily& family, int cells, const std::vector<double>& epsilons,
              const std::filesystem::path& film = {}) {
-  const Discretisation on = Method{&p1(), family}.on(cells);
+  const Discretisation on = Method{&p1(), family}.discretise(cells);
   Table table({"mesh", "k / h", "epsilon", "lost / kept, law", "kept, law", "kept", "kept / law"});
   for (const double epsilon : epsilons) {
     const Scene scene = tutorial::paper_scene(epsilon);
     const Solution solution = active_set(assemble(scene, on.space()));
-    const double kept = solution.u(on.space().contact()).maxCoeff() / tutorial::Exact(scene).truth.max_on_contact();
+    const double kept =
+        solution.u(on.space().contact_dofs()).maxCoeff() / tutorial::Exact(scene).solution.max_on_contact();
     const double x = lost_to_kept(on.mesh(), epsilon);
     table.add({family.name, bending_length(on.mesh()) * cells, epsilon, x, 1 / (1 + x), kept, kept * (1 + x)});
     if (!film.empty()) write_vtu(film / fmt::format("film_{:g}.vtu", epsilon), on.space(), solution.u);
@@ -120,12 +121,12 @@ Table follow(const MeshFamily& family, int cells, const std::vector<double>& eps
 // The problem that the paper says the locked solution solves, with the same matrices: every unknown of the layer is
 // fixed to zero, and nothing is left to touch the obstacle.
 VariationalInequality dirichlet_laplace(VariationalInequality problem, const Space& space) {
-  problem.fixed.clear();
+  problem.dirichlet_dofs.clear();
   for (int i = 0; i < space.size(); ++i) {
-    const double x = space.points()(i, 0), y = space.points()(i, 1), round = 1e-12;
-    if (!(y > round && y < 1 - round && x > round && x < 1 - round)) problem.fixed.push_back(i);
+    const double x = space.dof_coordinates()(i, 0), y = space.dof_coordinates()(i, 1), round = 1e-12;
+    if (!(y > round && y < 1 - round && x > round && x < 1 - round)) problem.dirichlet_dofs.push_back(i);
   }
-  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   problem.contact.clear();
   problem.lower.resize(0);
   problem.b.resize(0, problem.size());  // the layer is at rest: no stress to carry
@@ -135,12 +136,12 @@ VariationalInequality dirichlet_laplace(VariationalInequality problem, const Spa
 
 // Largest |u| over the unknowns of the layer, Σ included.
 double largest_on_layer(const Space& space, const Eigen::VectorXd& u) {
-  return (space.points().col(1).array() <= 0).select(u.array().abs(), 0).maxCoeff();
+  return (space.dof_coordinates().col(1).array() <= 0).select(u.array().abs(), 0).maxCoeff();
 }
 
 void lock(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
-  const Discretisation discrete = Method{&p1(), unstructured()}.on(options.cells);
+  const Discretisation discrete = Method{&p1(), unstructured()}.discretise(options.cells);
   const Space& space = discrete.space();
   // ### Forms
   VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), space);
@@ -158,7 +159,7 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   tutorial::present(options.out, exact.scene, space, problem, solution, "P1, unstructured", errors);
   Table table({"", "value"});
   table.add({"largest |u| on the layer", on_layer});
-  table.add({"the same of the truth", exact.truth.max_on_contact()});
+  table.add({"the same of the truth", exact.solution.max_on_contact()});
   table.add({"largest difference from the Dirichlet-Laplace solution", difference});
   table.print();
   const Table law = follow(unstructured(), options.cells, {1e-1, 1e-2, 1e-3, 1e-4}, options.out);
@@ -168,15 +169,16 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   // The law is made without contact. Where nearly all is lost, contact leaves twice as much of the little that is kept.
   // A tenth less than 1 is what the body's interpolation may take on 1/16 and finer.
   if (options.cells >= 16)
-    report.claim(law.least("kept / law") > 0.9 && law.most("kept / law") < 2.2,
+    report.claim(law.min("kept / law") > 0.9 && law.max("kept / law") < 2.2,
                  "kept of the ridge, times 1 + (5.84 k / epsilon)^2: {:.2f} to {:.2f} from epsilon = 0.1 to 1e-4 "
                  "(observed; accepted 0.9 to 2.2)",
-                 law.least("kept / law"), law.most("kept / law"));
+                 law.min("kept / law"), law.max("kept / law"));
   const double x = options.epsilon > 0 ? lost_to_kept(discrete.mesh(), options.epsilon) : 1e30;
   if (x < 1e4) return report.not_judged("whether the layer is clamped: it is where the law leaves less than 1e-4");
   // What the solver leaves of u is 1e-10.
   double tallest = 0;
-  for (const int i : space.contact()) tallest = std::max(tallest, exact.table.value(space.points()(i, 0), -1));
+  for (const int i : space.contact_dofs())
+    tallest = std::max(tallest, exact.table.value(space.dof_coordinates()(i, 0), -1));
   report.claim_within(std::abs(errors.max_at_unknowns - tallest), 0, on_layer + 1e-10,
                       "Figure 7: the error less the ridge at its tallest unknown, against what is kept (proved):");
   // Both solve the same equations on the body and differ on its boundary by what is left on the layer: a maximum

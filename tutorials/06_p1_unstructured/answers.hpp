@@ -9,10 +9,10 @@ const std::vector<tutorial::Exercise> exercises{
        const tutorial::Exact exact(tutorial::paper_scene(1e-6));
        double error[2], rest[2], k[2];
        for (const int i : {0, 1}) {
-         const Discretisation on = Method{&p1(), unstructured()}.on(32 << i);
+         const Discretisation on = Method{&p1(), unstructured()}.discretise(32 << i);
          const Solution solution = active_set(assemble(tutorial::paper_scene(1e-6), on.space()));
          error[i] = exact.errors(on.space(), solution).max_at_unknowns,
-         rest[i] = solution.u(on.space().contact()).maxCoeff(), k[i] = bending_length(on.mesh());
+         rest[i] = solution.u(on.space().contact_dofs()).maxCoeff(), k[i] = bending_length(on.mesh());
        }
        report.claim_within(error[1] / error[0], 0.99, 1.01, "error on 1/64 / error on 1/32:");
        report.claim_within(rest[1] / rest[0] / std::pow(k[0] / k[1], 2), 0.8, 1.25, "growth of the rest / law:");
@@ -20,7 +20,7 @@ const std::vector<tutorial::Exercise> exercises{
     {"Keep the body's triangles, and put the layer into columns (the layered mesh of chapter 02). Does it lock?",
      "no: each of its triangles has a vertical edge, so k = 0; the error is about h^2/3",
      [](const tutorial::Options& options, tutorial::Report& report) {
-       const Discretisation on = Method{&p1(), mesh_family("layered")}.on(options.cells);
+       const Discretisation on = Method{&p1(), mesh_family("layered")}.discretise(options.cells);
        const Scene scene = tutorial::paper_scene(1e-6);
        const double h = 1.0 / options.cells, error = tutorial::Exact(scene)
                                                          .errors(on.space(), active_set(assemble(scene, on.space())))
@@ -36,12 +36,12 @@ const std::vector<tutorial::Exercise> exercises{
        for (const char* name : {"unstructured", "delaunay", "staggered"})
          all.add(follow(mesh_family(name), 64, {0.5 / 64}));
        all.print("epsilon = h/2, 1/h = 64", 3);
-       const auto kept = [&](const char* name) { return all.where("mesh", name).number("kept"); };
+       const auto kept = [&](const char* name) { return all.filter("mesh", name).number("kept"); };
        report.claim(kept("unstructured") > kept("delaunay") && kept("delaunay") > kept("staggered"),
                     "unstructured {:.2f}, Delaunay {:.2f}, staggered {:.2f}", kept("unstructured"), kept("delaunay"),
                     kept("staggered"));
-       report.claim_within(all.least("kept / law"), 1, 1.5, "kept / law, least:");
-       report.claim_within(all.most("kept / law"), 1, 1.5, "kept / law, most:");
+       report.claim_within(all.min("kept / law"), 1, 1.5, "kept / law, least:");
+       report.claim_within(all.max("kept / law"), 1, 1.5, "kept / law, most:");
      }}};
 
 // ## Answers on paper

@@ -52,8 +52,8 @@
 // :live: kernel
 
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/analysis/layer_report.hpp"
 #include "antilock/analysis/locking.hpp"
+#include "antilock/analysis/locking_report.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
@@ -71,7 +71,7 @@ Table count_kernels(int finest) {
   Table counts({"cells", "method", "kernel", "predicted"});
   for (int n = 4; n <= finest; n *= 2)
     for (const Method& method : all) {
-      const Discretisation on = method.on(n);
+      const Discretisation on = method.discretise(n);
       const auto triangles = std::count(on.mesh().region.begin(), on.mesh().region.end(), Region::layer);
       const int p = method.element->degree();
       const double predicted = !method.element->conforming()        ? 0.5 * static_cast<double>(triangles)
@@ -84,15 +84,15 @@ Table count_kernels(int finest) {
 
 // The library's diagnosis: it counts on two meshes how many independent motions of $Γ_C$ the kernel allows.
 LockingDiagnosis diagnose(const Method& method) {
-  return diagnose_locking(assemble(scene, method.on(4).space()), assemble(scene, method.on(8).space()));
+  return diagnose_locking(assemble(scene, method.discretise(4).space()), assemble(scene, method.discretise(8).space()));
 }
 
 // A count that does not grow says that a method locks, and none says what that costs. The answer itself does, with the
 // same line that `run_scene` prints and chapters [05](../05_p1_structured/05_p1_structured.cpp) and [06](../06_p1_unstructured/06_p1_unstructured.cpp) do.
-LayerReport cost(const Method& method) {
-  const Discretisation on = method.on(8);
+LockingReport cost(const Method& method) {
+  const Discretisation on = method.discretise(8);
   const VariationalInequality problem = assemble(scene, on.space());
-  return *report_layer(scene, on.space(), problem, active_set(problem));
+  return *report_locking(scene, on.space(), problem, active_set(problem));
 }
 
 // From Figure 3 to Figure 6: every inner vertex is moved by up to $t h$, at random. The kernel on the layer is 0 at
@@ -109,7 +109,8 @@ Table jitter_study(int n) {
       const Discretisation on(jittered_mesh(n, t), p1());
       SceneSweep sweep(scene, on.space());
       sweep.set_epsilon(epsilon);
-      const double lost = exact.errors(on.space(), sweep.solve(patient)).max_at_unknowns / exact.truth.max_on_contact();
+      const double lost =
+          exact.errors(on.space(), sweep.solve(patient)).max_at_unknowns / exact.solution.max_on_contact();
       table.add({t, epsilon, layer_kernel_dimension(sweep.problem()), lost, lost / (1 - lost),
                  std::pow(5.836 * bending_length(on.mesh()) / epsilon, 2)});
     }
@@ -121,7 +122,7 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
   const Table counts = count_kernels(options.cells), jitter = jitter_study(16);
   // ### Output
   for (const Method& method : {p1_columns, p1_any, cr_any})
-    tutorial::draw_kernel(options.out, method.on(8).space(), method.name());
+    tutorial::draw_kernel(options.out, method.discretise(8).space(), method.name());
   counts.pivot("cells", "method", "kernel").print("dimension of the kernel on the layer");
   jitter.pivot("t", "epsilon", "lost")
       .print("moved by t h: share of the layer's displacement that is lost, by epsilon");
@@ -130,8 +131,8 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
   bool same = true;
   for (const Method& method : all) {
     const LockingDiagnosis counted = diagnose(method);
-    const LayerReport layer = cost(method);
-    fmt::print("  {:<16} {}\n  layer: {}\n", method.name(), counted.text(), layer.sentence());
+    const LockingReport layer = cost(method);
+    fmt::print("  {:<16} {}\n  layer: {}\n", method.name(), counted.text(), layer.text());
     same = same && counted.locks() == !layer.warning.empty();
   }
   fmt::print("\n");
@@ -141,15 +142,15 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
                    !diagnose(cr_columns).locks() && !diagnose(cr_any).locks(),
                "the kernel on the layer does not grow for P1 and P2 unstructured, and grows for the others (proved)");
   report.claim(same, "warned of what they cost are the answers of those that do not grow, and no other (observed)");
-  report.claim(jitter.most("kernel") == 0, "the kernel on the layer is 0 at the first t = 1e-6 (proved)");
+  report.claim(jitter.max("kernel") == 0, "the kernel on the layer is 0 at the first t = 1e-6 (proved)");
   // The law is that of chapter 06, made without contact, which leaves up to twice as much where most is lost. Where less
   // than a tenth is lost, or all but a tenth, the usual error of P1 hides it.
   Table some({"t", "epsilon", "off"});
-  for (const Table& row : jitter.where_number("lost_to_kept", [](double x) { return x > 0.1 && x < 12; }).rows())
+  for (const Table& row : jitter.filter_number("lost_to_kept", [](double x) { return x > 0.1 && x < 12; }).rows())
     some.add({row.number("t"), row.number("epsilon"), row.number("lost_to_kept") / row.number("law")});
-  report.claim(some.size() >= 12 && some.least("off") > 0.4 && some.most("off") < 1.2,
+  report.claim(some.size() >= 12 && some.min("off") > 0.4 && some.max("off") < 1.2,
                "lost / kept over (5.84 k / epsilon)^2: {:.2f} to {:.2f} at {} places (observed; accepted 0.4 to 1.2)",
-               some.least("off"), some.most("off"), some.size());
+               some.min("off"), some.max("off"), some.size());
 }
 
 // ## What came out

@@ -19,7 +19,8 @@ const std::vector<tutorial::Exercise> exercises{
        ActiveSetOptions patient;
        patient.corrections.max_corrections = 100000;
        const Solution solution = active_set(assemble(scene, on.space()), patient);
-       report.claim_within(solution.u(on.space().contact()).maxCoeff() / 0.0457160, 0, 1e-3, "share that is kept:");
+       report.claim_within(solution.u(on.space().contact_dofs()).maxCoeff() / 0.0457160, 0, 1e-3,
+                           "share that is kept:");
      }}};
 
 // ## Answers on paper

@@ -82,14 +82,14 @@ Table interpolate(const std::vector<int>& cells, const Element& element) {
   const tutorial::Exact limit(tutorial::paper_scene(0));
   Table table({"cells", "h", "strain", "smallest", "distance"});
   for (const int n : cells) {
-    const Discretisation on = Method{&element, unstructured()}.on(n);
+    const Discretisation on = Method{&element, unstructured()}.discretise(n);
     const VariationalInequality problem = assemble(tutorial::paper_scene(0), on.space());
     Solution interpolated;
     const Field u0 = [&](double x, double y) { return limit.table.value(x, y); };
     interpolated.u = element.conforming() ? interpolant(on.space(), u0) : edge_means(on.space(), u0);
     interpolated.p = Eigen::VectorXd::Zero(problem.b.rows());
     table.add({n, 1.0 / n, (problem.b * interpolated.u).lpNorm<Eigen::Infinity>(),
-               interpolated.u(on.space().contact()).minCoeff(), limit.errors(on.space(), interpolated).h1});
+               interpolated.u(on.space().contact_dofs()).minCoeff(), limit.errors(on.space(), interpolated).h1});
   }
   return table;
 }
@@ -97,7 +97,7 @@ Table interpolate(const std::vector<int>& cells, const Element& element) {
 void robust(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
   // The very mesh of chapter 06, and two spaces on it.
-  const Discretisation conforming = Method{&p1(), unstructured()}.on(options.cells);
+  const Discretisation conforming = Method{&p1(), unstructured()}.discretise(options.cells);
   const Discretisation nonconforming(conforming, crouzeix_raviart());
   const Space& space = nonconforming.space();
   // ### Forms
@@ -119,16 +119,16 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
 
   const double h = 1.0 / options.cells, jump = tutorial::largest_jump(space, solution.u);
   // 6e-9 of the truth's table and (h/16)^3 of Gauss's rule where u'' jumps, both over an edge h = 1/8 ... 1/64: 1e-7
-  report.claim_within(lemma.most("strain"), 0, 1e-6, "Lemma 2 (proved): largest |B I_h u^0|:");
-  report.claim(lemma.least("smallest") >= -1e-8,
-               "Lemma 2 (proved): I_h u^0 >= 0 at the midpoints on Gamma_C (smallest {:.1e})", lemma.least("smallest"));
+  report.claim_within(lemma.max("strain"), 0, 1e-6, "Lemma 2 (proved): largest |B I_h u^0|:");
+  report.claim(lemma.min("smallest") >= -1e-8,
+               "Lemma 2 (proved): I_h u^0 >= 0 at the midpoints on Gamma_C (smallest {:.1e})", lemma.min("smallest"));
   report.claim_order(lemma, "distance", "h", 0.9, 1.05, "(32): |u^0 - I_h u^0|, order 1 proved");
   // h^2 / 8 |u''| with |u''| <= 10 would be 1.25 h^2 for P1's interpolant
   report.claim_within(errors.max_at_unknowns / (h * h), 0.4, 2, "Figure 8 matches the truth; error / h^2 (observed):");
   // A step is h/2 times a jump of the gradient: like h^2, and at the end of contact like h^(3/2) where h << epsilon.
   report.claim_within(jump / (h * std::sqrt(h)), 0, 1.5, "largest step between triangles / h^(3/2) (observed):");
   // P1 keeps 1/(1 + (5.84 k / epsilon)^2) of the ridge (chapter 06), and its top lies between two unknowns.
-  const double ridge = exact.truth.max_on_contact();
+  const double ridge = exact.solution.max_on_contact();
   if (options.epsilon <= 0.01 * h && options.cells >= 16)
     report.claim_within(p1_errors.max_at_unknowns / ridge, 0.97, 1.01,
                         fmt::format("Crouzeix-Raviart misses {:.3f} of the ridge, and P1 all of it (observed):",

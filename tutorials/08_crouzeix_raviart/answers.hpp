@@ -7,7 +7,7 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options&, tutorial::Report& report) {
        const Table lemma = interpolate({8, 16, 32, 64}, p1());
        lemma.print("P1");
-       report.claim(lemma.least("strain") > 1e-3, "the strain is not 0: {:.1e} at least", lemma.least("strain"));
+       report.claim(lemma.min("strain") > 1e-3, "the strain is not 0: {:.1e} at least", lemma.min("strain"));
        report.claim_order(lemma, "strain", "h", 0.6, 1.2, "the largest strain");
      }},
     {"Structured: predict the error on 1/h = 64 at epsilon = 1e-6 from that on 32. Then at 0, and at 1e-2.",
@@ -15,7 +15,7 @@ const std::vector<tutorial::Exercise> exercises{
      "%",
      [](const tutorial::Options&, tutorial::Report& report) {
        const auto error = [](int cells, double epsilon) {
-         const Discretisation on = Method{&crouzeix_raviart(), structured()}.on(cells);
+         const Discretisation on = Method{&crouzeix_raviart(), structured()}.discretise(cells);
          const Solution solution = active_set(assemble(tutorial::paper_scene(epsilon), on.space()));
          return tutorial::Exact(tutorial::paper_scene(epsilon)).errors(on.space(), solution).max_at_unknowns;
        };

@@ -33,7 +33,7 @@ inline double largest_jump(const Space& space, const Eigen::VectorXd& u) {
   const auto value_at = [&](int t, int vertex) {
     int corner = 0;
     while (mesh.triangles(t, corner) != vertex) ++corner;
-    return space.element().basis(Eigen::Vector3d::Unit(corner)).dot(Eigen::VectorXd(u(space.unknowns().row(t))));
+    return space.element().basis(Eigen::Vector3d::Unit(corner)).dot(Eigen::VectorXd(u(space.cell_dofs().row(t))));
   };
   double jump = 0;
   for (int e = 0; e < mesh.edge_count(); ++e) {

@@ -53,15 +53,16 @@ using namespace antilock;
 const std::vector<std::string> columns{"element",         "mesh", "epsilon", "cells", "h",      "unknowns",
                                        "max_at_unknowns", "max",  "l2",      "h1",    "energy", "seconds",
                                        "contact_from"};
-void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, tutorial::Report& report);
+void verdicts(const Table& results, const std::vector<tutorial::Exact>& exact_solution, tutorial::Report& report);
 
 // ### Forms
 // One mesh, one element, five epsilons: epsilon^2 in front of a0 is the only thing that changes.
-Table solve_all(const Method& method, const TriangleMesh& mesh, int cells, const std::vector<tutorial::Exact>& truth) {
+Table solve_all(const Method& method, const TriangleMesh& mesh, int cells,
+                const std::vector<tutorial::Exact>& exact_solution) {
   const Space space = method.space(mesh);
   SceneSweep sweep(tutorial::paper_scene(1), space);
   Table rows(columns);
-  for (const tutorial::Exact& exact : truth) {
+  for (const tutorial::Exact& exact : exact_solution) {
     const Stopwatch watch;
     sweep.set_epsilon(exact.epsilon);
     const Solution solution = sweep.solve();
@@ -77,7 +78,7 @@ Table solve_all(const Method& method, const TriangleMesh& mesh, int cells, const
 // ### Solve
 void study(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("truth for five epsilons");
-  const std::vector<tutorial::Exact> truth = tutorial::exact_solutions(
+  const std::vector<tutorial::Exact> exact_solution = tutorial::exact_solutions(
       {1, 1e-1, 1e-2, 1e-4, 1e-6}, 15);  // 2^15 points: with 2^17 every digit printed is the same
   Table results(columns);
   for (int n = 8; n <= options.cells; n *= 2)
@@ -85,12 +86,12 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       report.stage(fmt::format("1/h = {}, {} mesh", n, family.name));
       const TriangleMesh mesh = family.mesh(n);
       for (const Element* element : {&p1(), &crouzeix_raviart()})
-        results.add(solve_all({element, family}, mesh, n, truth));
+        results.add(solve_all({element, family}, mesh, n, exact_solution));
     }
   // ### Output
   report.finish();
   results.write(options.out / "results.csv");
-  verdicts(results, truth, report);
+  verdicts(results, exact_solution, report);
 }
 
 // The error of the gradient alone, from those of the norm and of the values: CR over P1.
@@ -100,35 +101,36 @@ Table gradient_ratios(const Table& one, const Table& other) {
   };
   Table ratios({"cells", "epsilon", "ratio"});
   for (const Table& row : one.rows()) {
-    const Table there = other.where("cells", row.entry("cells")).where("epsilon", row.entry("epsilon"));
+    const Table there = other.filter("cells", row.entry("cells")).filter("epsilon", row.entry("epsilon"));
     ratios.add({row.entry("cells"), row.entry("epsilon"), gradient(there) / gradient(row)});
   }
   return ratios;
 }
 
-void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, tutorial::Report& report) {
+void verdicts(const Table& results, const std::vector<tutorial::Exact>& exact_solution, tutorial::Report& report) {
   const auto of = [&](const Method& method) {
-    return results.where("element", method.element->name()).where("mesh", method.family.name);
+    return results.filter("element", method.element->name()).filter("mesh", method.family.name);
   };
   for (const Method& method : methods())
     of(method).pivot("cells", "epsilon", "max").print(method.name() + ": L-infinity error against 1/h and epsilon");
   // The order at the paper's epsilon, from 1/16 on: 2; rough for CR off the mesh lines; 0 where it locks. Observed.
   const std::vector<std::pair<double, double>> orders{{1.85, 2.1}, {-0.02, 0.02}, {1.7, 2.2}, {1.4, 2.1}};
   const std::vector<std::string> said{"Theorem 5", "Section 4.1, locks", "Theorem 7", "Theorem 7"};
-  const double finest = results.most("cells");
+  const double finest = results.max("cells");
   for (std::size_t i = 0; const Method& method : methods()) {
-    const Table own = of(method), last = own.where("cells", finest);
-    const Table paper = own.where("epsilon", 1e-6).where_number("cells", [](double cells) { return cells >= 16; });
+    const Table own = of(method), last = own.filter("cells", finest);
+    const Table paper = own.filter("epsilon", 1e-6).filter_number("cells", [](double cells) { return cells >= 16; });
     report.claim_order(paper, "max", "h", orders[i].first, orders[i].second,
                        fmt::format("{}, {}, epsilon = 1e-6", said[i], method.name()));
     // On the finest mesh the error hardly depends on epsilon. 1.5: CR on an unstructured mesh settles
     // 40 % above its value at epsilon = 1e-1, and stays. Locked, it is h^2 against the ridge: hundreds.
-    const double ratio = last.most("max") / last.least("max");
+    const double ratio = last.max("max") / last.min("max");
     const bool locks = method.name() == "P1 unstructured";
     report.claim(locks ? ratio > 20 : ratio < 1.5, "{}: worst over epsilon / best = {:.3g} at 1/h = {} ({})",
                  method.name(), ratio, finest, locks ? "not uniform" : "uniform");
     // Within h on structured meshes; on the other ones midpoints near the end touch and lift in turn over two cells.
-    const double from = last.where("epsilon", 1e-6).number("contact_from"), exact = truth.back().contact_from();
+    const double from = last.filter("epsilon", 1e-6).number("contact_from"),
+                 exact = exact_solution.back().contact_from();
     if (!locks)
       report.claim(std::abs(from - exact) <= (method.family.name == "structured" ? 1 : 2) / finest,
                    "{}: contact starts at x = {:.4f}, truth {:.4f} (h = {:.4f})", method.name(), from, exact,
@@ -138,7 +140,7 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& truth, t
   const Table gradients = gradient_ratios(of({&p1(), structured()}), of({&crouzeix_raviart(), structured()}));
   gradients.pivot("cells", "epsilon", "ratio").print("structured meshes: error of the gradient, CR / P1");
   // 1: the paper's words; CR's gradient is the better one.
-  report.claim_within(gradients.most("ratio"), 0.85, 1, "Section 4.2, in the H1 seminorm (observed): CR / P1 at most");
+  report.claim_within(gradients.max("ratio"), 0.85, 1, "Section 4.2, in the H1 seminorm (observed): CR / P1 at most");
 }
 
 // ## What came out

@@ -5,7 +5,7 @@
 
 std::vector<tutorial::Exercise> exercises() {
   const auto largest_error = [](const Method& method, int cells, double epsilon) {
-    const Discretisation on = method.on(cells);
+    const Discretisation on = method.discretise(cells);
     return tutorial::Exact(tutorial::paper_scene(epsilon))
         .errors(on.space(), active_set(assemble(tutorial::paper_scene(epsilon), on.space())))
         .max;
@@ -27,7 +27,7 @@ std::vector<tutorial::Exercise> exercises() {
              Table errors({"epsilon", "error"});
              for (const double epsilon : {1.0, 1e-2, 1e-6}) errors.add({epsilon, largest_error(layered, 32, epsilon)});
              errors.print("P1 layered, 1/h = 32");
-             report.claim_within(errors.most("error") / errors.least("error"), 1, 1.2, "worst / best:");
+             report.claim_within(errors.max("error") / errors.min("error"), 1, 1.2, "worst / best:");
            }}};
 }
 

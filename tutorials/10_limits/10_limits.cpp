@@ -74,7 +74,7 @@
 //
 // up to $k = 1/ε$ each of $1/ε$ waves adds $ε^4$. The order is 3/2.
 
-#include "antilock/exact/truth_distance.hpp"
+#include "antilock/exact/exact_norms.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -85,9 +85,10 @@ Table exact_way(const Exact& limit) {  // of the exact solution, no mesh
   Table rows({"epsilon", "distance", "stiff", "stiff / (epsilon |p^0|)^2"});
   for (int k = 0; k <= 8; ++k) {
     const double epsilon = std::pow(10.0, -0.5 * k);
-    const Truth u(paper_sine_load(), epsilon, true, 15);
+    const ExactSolution u(paper_sine_load(), epsilon, true, 15);
     const double stiff = std::pow(epsilon * stress_norm(u), 2);
-    rows.add({epsilon, h1_distance(u, limit.truth), stiff, stiff / std::pow(epsilon * stress_norm(limit.truth), 2)});
+    rows.add(
+        {epsilon, h1_distance(u, limit.solution), stiff, stiff / std::pow(epsilon * stress_norm(limit.solution), 2)});
   }
   return rows;
 }
@@ -106,7 +107,7 @@ Table exact_way(const Exact& limit) {  // of the exact solution, no mesh
 //
 // This is the *Ventcel–Signorini problem*: $u_{xx}$ is a string on $Σ$, $∂_n u$ the body that pulls at it, and $r$ the
 // push of the obstacle. So there are three models. (22) has a thin layer, (23) the same one stretched, (25) none.
-Table on_sigma(const Truth& limit) {
+Table on_sigma(const ExactSolution& limit) {
   Table table({"x", "u", "r", "pressure"});
   for (int j = 0; j <= 400; ++j) {
     const double x = j / 400.0, normal = -limit.gradient(x, 0).y();
@@ -120,15 +121,15 @@ void judge_ventcel(const Table& sigma, const Exact& limit, int cells, tutorial::
   // and u r = 0 is 1e-12, 4e-8 and 2e-9: ten times that.
   const double end = limit.contact_from();
   double product = 0, pressure = 0, free = 0;
-  for (const Table& point : sigma.where_number("x", [&](double x) { return std::abs(x - end) > 0.005; }).rows()) {
+  for (const Table& point : sigma.filter_number("x", [&](double x) { return std::abs(x - end) > 0.005; }).rows()) {
     const double u = point.number("u"), r = point.number("r");
     product = std::max(product, std::abs(u * r));
     pressure = std::max(pressure, std::abs(r - point.number("pressure")));
     if (point.number("x") < end) free = std::max(free, std::abs(r));
   }
-  report.claim(sigma.least("u") > -1e-11 && sigma.least("r") > -4e-7 && product < 2e-8,
-               "(25): u >= {:.0e}, r >= {:.0e} (largest {:.2f}), |u r| <= {:.0e} (proved)", sigma.least("u"),
-               sigma.least("r"), sigma.most("r"), product);
+  report.claim(sigma.min("u") > -1e-11 && sigma.min("r") > -4e-7 && product < 2e-8,
+               "(25): u >= {:.0e}, r >= {:.0e} (largest {:.2f}), |u r| <= {:.0e} (proved)", sigma.min("u"),
+               sigma.min("r"), sigma.max("r"), product);
   report.claim(free < 4e-7 && pressure < 1e-5,
                "(25): |r| <= {:.0e} where u > 0; r is the contact pressure to {:.0e} (proved)", free, pressure);
   const double apart = tutorial::against_ventcel(cells);
@@ -141,13 +142,13 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
   // ### Forms
   // ### Solve
   const Exact limit(tutorial::paper_scene(0), 15), thick(tutorial::paper_scene(0.1), 15);
-  const Table way = exact_way(limit), sigma = on_sigma(limit.truth);
+  const Table way = exact_way(limit), sigma = on_sigma(limit.solution);
   const Table models = tutorial::three_models(0.1, options.cells);
   // ### Output
   way.print("the exact solution on its way to the limit");
   tutorial::write_limits(options.out, way, sigma, models);
 
-  const Table small = way.where_number("epsilon", [](double epsilon) { return epsilon < 4e-3; });
+  const Table small = way.filter_number("epsilon", [](double epsilon) { return epsilon < 4e-3; });
   report.claim_order(small, "distance", "epsilon", 1.45, 1.65, "Theorem 1 (proved), the order 3/2 (observed)");
   report.claim_within(small.pairwise_orders("distance", "epsilon").back(), 1.48, 1.53, "its last step (observed):");
   // p tends to p^0 like epsilon^(1/2): it jumps on Gamma_C
@@ -165,7 +166,7 @@ void limits(const tutorial::Options& options, tutorial::Report& report) {
   double exact = 0;  // |u^0.1 - u^0| on Gamma_C
   for (int i = 1; i < options.cells; ++i) {
     const double x = static_cast<double>(i) / options.cells;
-    exact = std::max(exact, std::abs(thick.truth.value(x, -1) - limit.truth.value(x, -1)));
+    exact = std::max(exact, std::abs(thick.solution.value(x, -1) - limit.solution.value(x, -1)));
   }
   report.claim_within(tutorial::most_apart(models, "scaled", "limit") / exact, 0.9, 1.1,
                       "(25) is as far from them as u^0 from u^0.1 (proved): times");

@@ -4,10 +4,10 @@
 const std::vector<tutorial::Exercise> exercises{
     {"Take the obstacle away. Which order has |u^epsilon - u^0| now?", "2: no end of contact, no jump of the pressure",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const Truth limit(paper_sine_load(), 0, false, 15);
+       const ExactSolution limit(paper_sine_load(), 0, false, 15);
        Table curve({"epsilon", "distance"});
        for (const double epsilon : {1e-1, 1e-2, 1e-3, 1e-4})
-         curve.add({epsilon, h1_distance(Truth(paper_sine_load(), epsilon, false, 15), limit)});
+         curve.add({epsilon, h1_distance(ExactSolution(paper_sine_load(), epsilon, false, 15), limit)});
        report.claim_order(curve, "distance", "epsilon", 1.95, 2.05, "without an obstacle");
      }}};
 

@@ -36,7 +36,7 @@ inline Table three_models(double epsilon, int cells) {
   for (const Layer& layer : {Layer(ThinLayer{epsilon}), Layer(StiffLayer{epsilon}), Layer(VentcelLayer{})}) {
     const Scene scene = with_layer(layer);
     const Discretisation on = p1_for(scene, cells);
-    u.push_back(active_set(assemble(scene, on.space())).u(on.space().contact()));
+    u.push_back(active_set(assemble(scene, on.space())).u(on.space().contact_dofs()));
   }
   Table table({"x", "thin", "scaled", "limit"});
   table.add({0, 0, 0, 0});  // clamped

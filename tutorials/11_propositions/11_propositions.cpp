@@ -60,7 +60,7 @@
 // a number that the sine series gives: 0.138, most of it the 0.126 of $u^0$ on the layer. The third step of locked P1
 // does tend to 0 along $ε = h^2$, because both of its discrete solutions go to the same place. It is the wrong place.
 
-#include "antilock/exact/truth_distance.hpp"
+#include "antilock/exact/exact_norms.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "course/course.hpp"
 
@@ -84,7 +84,7 @@ struct Discrete {
 
 // Proposition 1, one method on one mesh: the distance to its own limit, and the stiff part of (5), $ε^2 ‖p‖^2$.
 Table to_the_limit(const Method& method, int cells) {
-  Discrete discrete{method.on(cells)};
+  Discrete discrete{method.discretise(cells)};
   const Solution limit = discrete.at(0);
   Table rows({"method", "epsilon", "distance", "stiff", "stiff / (epsilon |p_h^0|)^2"});
   for (int k = 0; k <= 10; ++k) {
@@ -98,11 +98,11 @@ Table to_the_limit(const Method& method, int cells) {
 
 Table exact_to_the_limit(const Table& epsilons, const Exact& limit) {
   Table rows({"method", "epsilon", "distance", "stiff", "stiff / (epsilon |p_h^0|)^2"});
-  for (const Entry& epsilon : epsilons.different("epsilon")) {
-    const Truth u(paper_sine_load(), epsilon.number(), true, 15);
+  for (const TableEntry& epsilon : epsilons.unique("epsilon")) {
+    const ExactSolution u(paper_sine_load(), epsilon.number(), true, 15);
     const double p = stress_norm(u);
-    rows.add({"exact", epsilon, h1_distance(u, limit.truth), std::pow(epsilon.number() * p, 2),
-              std::pow(p / stress_norm(limit.truth), 2)});
+    rows.add({"exact", epsilon, h1_distance(u, limit.solution), std::pow(epsilon.number() * p, 2),
+              std::pow(p / stress_norm(limit.solution), 2)});
   }
   return rows;
 }
@@ -118,7 +118,7 @@ std::vector<OnPath> path(double k, int finest, const Exact& limit) {
   std::vector<OnPath> all;
   for (int n = 8; n <= finest; n *= 2) {
     Exact exact(tutorial::paper_scene(std::pow(n, -k)), 15);
-    const double first_term = h1_distance(exact.truth, limit.truth);
+    const double first_term = h1_distance(exact.solution, limit.solution);
     all.push_back({n, std::move(exact), first_term});
   }
   return all;
@@ -127,7 +127,7 @@ std::vector<OnPath> path(double k, int finest, const Exact& limit) {
 Table three_terms(const Method& method, const std::vector<OnPath>& path, const Exact& limit) {
   Table rows({"method", "h", "term", "value"});
   for (const auto& [n, exact, first_term] : path) {
-    Discrete discrete{method.on(n)};
+    Discrete discrete{method.discretise(n)};
     const Solution u = discrete.at(exact.epsilon), u0 = discrete.at(0);
     rows.add({method.name(), 1.0 / n, "first term", first_term});
     rows.add({method.name(), 1.0 / n, "second term", limit.errors(discrete.on.space(), u0).h1});
@@ -139,7 +139,7 @@ Table three_terms(const Method& method, const std::vector<OnPath>& path, const E
 
 // Proposition 1: from 10^-3.5 on all methods are below h and below their own wall.
 void judge_fixed_mesh(const std::string& name, const Table& own, tutorial::Report& report) {
-  const Table small = own.where_number("epsilon", [](double epsilon) { return epsilon < 4e-4; });
+  const Table small = own.filter_number("epsilon", [](double epsilon) { return epsilon < 4e-4; });
   report.claim_order(small, "distance", "epsilon", 1.95, 2.05, name + ", Proposition 1 (proved), order 2 (observed)");
   report.claim_within(small.last("stiff / (epsilon |p_h^0|)^2"), 0.99, 1.01,
                       name + ", (5): stiff part / (epsilon |p_h^0|)^2 (proved):");
@@ -147,7 +147,7 @@ void judge_fixed_mesh(const std::string& name, const Table& own, tutorial::Repor
 
 // Propositions 2 and 3, in h along $ε = h^2$. Where nothing locks: $ε^2 = h^4$ for the third term; h for the others.
 void judge_path(const std::string& name, const Table& own, double lost, tutorial::Report& report) {
-  const auto term = [&](const char* which) { return own.where("term", which); };
+  const auto term = [&](const char* which) { return own.filter("term", which); };
   if (name != "P1 unstructured") {
     report.claim_order(term("second term"), "value", "h", 0.9, 1.1,
                        name + ", Proposition 2 (proved), order 1 (observed)");
@@ -180,14 +180,14 @@ void propositions(const tutorial::Options& options, tutorial::Report& report) {
   curves.add(exact_to_the_limit(curves, limit));
   // ### Output
   curves.pivot("epsilon", "method", "distance").print("distance to the limit, H1");
-  terms.where("method", "P1 unstructured").pivot("h", "term", "value").print("(18) for locked P1, epsilon = h^2");
-  fmt::print("  |u^0 - u^c| = {:.4f}; |u^0| on the layer {:.4f}\n", clamped_distance(limit.truth),
-             layer_norm(limit.truth));
+  terms.filter("method", "P1 unstructured").pivot("h", "term", "value").print("(18) for locked P1, epsilon = h^2");
+  fmt::print("  |u^0 - u^c| = {:.4f}; |u^0| on the layer {:.4f}\n", clamped_distance(limit.solution),
+             layer_norm(limit.solution));
   terms.write(options.out / "terms.csv");
   curves.write(options.out / "limits.csv");
   for (const Method& method : methods()) {
-    judge_fixed_mesh(method.name(), curves.where("method", method.name()), report);
-    judge_path(method.name(), terms.where("method", method.name()), clamped_distance(limit.truth), report);
+    judge_fixed_mesh(method.name(), curves.filter("method", method.name()), report);
+    judge_path(method.name(), terms.filter("method", method.name()), clamped_distance(limit.solution), report);
   }
 }
 

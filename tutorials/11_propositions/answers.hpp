@@ -8,7 +8,7 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options& options, tutorial::Report& report) {
        const Exact limit(tutorial::paper_scene(0), 15);
        const Table terms = three_terms({&p1(), unstructured()}, path(1, options.cells, limit), limit);
-       const auto of = [&](const char* term) { return terms.where("term", term); };
+       const auto of = [&](const char* term) { return terms.filter("term", term); };
        terms.pivot("h", "term", "value").print();
        report.claim(of("left side").order("value", "h") > 0.5, "the error falls");
        report.claim(of("third term").last("value") > 0.5 * of("second term").last("value"), "the third term stays");

@@ -74,9 +74,9 @@
 // It tends to 0, so $v$ is in $K_0$. A CR function may be a staircase, but only by a height like $h$. The run computes
 // the largest such sum over all $v_h$ of $G_h$ with norm 1, for this one $φ$, and calls it $k_h$.
 
-#include "antilock/analysis/nearest.hpp"
+#include "antilock/analysis/best_approximation.hpp"
 #include "antilock/analysis/negative_part.hpp"
-#include "antilock/exact/truth_distance.hpp"
+#include "antilock/exact/exact_norms.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
@@ -93,7 +93,7 @@ double below(const Eigen::MatrixX3d& trace) {  // in L2 of Γ_C; the columns are
 // One method on one mesh: the four numbers, and of $u_h$ itself the part below 0 (`dip`) and its norm.
 Table measure(const Method& method, int cells, const Exact& u, const Exact& u0) {
   // ### Mesh
-  const Discretisation on = method.on(cells);
+  const Discretisation on = method.discretise(cells);
   // ### Forms
   const VariationalInequality problem = assemble(u.scene, on.space());
   const SparseMatrix norm = h1_norm(on.space());
@@ -103,8 +103,8 @@ Table measure(const Method& method, int cells, const Exact& u, const Exact& u0) 
   const Eigen::VectorXd u_h = active_set(problem).u;
   Table row(columns);
   row.add({method.element->name(), method.family.name, cells, 1.0 / cells,
-           nearest(on.space(), problem, u.reference(), Within::k_h).distance,
-           nearest(on.space(), problem, u0.reference(), Within::k_0h).distance,
+           best_approximation(on.space(), problem, u.reference(), AdmissibleSet::k_h).distance,
+           best_approximation(on.space(), problem, u0.reference(), AdmissibleSet::k_0h).distance,
            negative_part(on.space(), problem, norm).constant, dual_norm(problem, norm, slope_of_phi, true),
            below(contact_trace(on.space(), u_h)), std::sqrt(u_h.dot(norm * u_h))});
   return row;
@@ -117,13 +117,13 @@ struct Worst {
 };
 Worst worst_dip(const Discretisation& on) {
   VariationalInequality problem = assemble(tutorial::paper_scene(0), on.space());
-  for (const int unknown : problem.contact) problem.fixed.push_back(unknown);
-  std::sort(problem.fixed.begin(), problem.fixed.end());
-  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  for (const int unknown : problem.contact) problem.dirichlet_dofs.push_back(unknown);
+  std::sort(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end());
+  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   problem.contact.clear(), problem.lower.resize(0);
   const NegativePart part = negative_part(on.space(), problem, h1_norm(on.space()));
   const Eigen::MatrixX3d trace = contact_trace(on.space(), part.worst);
-  return {trace, part.constant, below(trace), part.worst(on.space().contact()).cwiseAbs().maxCoeff()};
+  return {trace, part.constant, below(trace), part.worst(on.space().contact_dofs()).cwiseAbs().maxCoeff()};
 }
 
 void judge(const Method& method, const Table& own, double lost, tutorial::Report& report) {
@@ -139,13 +139,13 @@ void judge(const Method& method, const Table& own, double lost, tutorial::Report
     report.claim_order(own, "to_k0", "h", low, high, name + ", (8) for K_0 (proved), its order (observed)");
   }
   if (method.element->name() == "P1")  // 1e-15: the values of a P1 function at its vertices
-    report.claim(own.most("dip") <= 1e-15, "{}, (9) for K: nothing lies below 0 (proved)", name);
+    report.claim(own.max("dip") <= 1e-15, "{}, (9) for K: nothing lies below 0 (proved)", name);
   else
     report.claim_order(own, "c_h", "h", 0.45, 0.55, name + ", (9) for K: c_h ~ h^(1/2) (proved)");
   if (!jumps)  // quadrature of the load: its error, not that of the method; 6e-12 for P2
     report.claim(own.last("k_h") < 1e-10, "{}, (9) for K_0: no hidden slope, {:.0e} (proved)", name, own.last("k_h"));
   else
-    report.claim_within(own.last("k_h") * own.most("cells"), 0.2, 0.3,
+    report.claim_within(own.last("k_h") * own.max("cells"), 0.2, 0.3,
                         name + ", (9) for K_0: at most 0.632 h (proved on right triangles), k_h / h (observed)");
 }
 
@@ -156,14 +156,14 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   Table results(columns);
   for (const Method& method : all)
     for (int n = 8; n <= options.cells; n *= 2) results.add(measure(method, n, u, u0));
-  const Worst dip = worst_dip(Method{&crouzeix_raviart(), structured()}.on(16));
+  const Worst dip = worst_dip(Method{&crouzeix_raviart(), structured()}.discretise(16));
   // ### Output
   results.print("distances to K_h and K_0h, c_h, k_h, the part of u_h below 0, its norm", 3);
   tutorial::write_contact_sets(options.out, results, u, dip.trace);
   for (const Method& method : all)
-    judge(method, results.where("element", method.element->name()).where("mesh", method.family.name),
-          clamped_distance(u0.truth), report);
-  const double c_h = results.where("element", "CR").where("mesh", "structured").where("cells", 16).number("c_h");
+    judge(method, results.filter("element", method.element->name()).filter("mesh", method.family.name),
+          clamped_distance(u0.solution), report);
+  const double c_h = results.filter("element", "CR").filter("mesh", "structured").filter("cells", 16).number("c_h");
   report.claim_within(c_h / dip.c_h, 1, 1.2,
                       "c_h of CR on 1/h = 16, over that of the v_h of the picture (at least 1: proved)");
   report.claim(dip.at_midpoints <= 1e-14, "the v_h of the picture is in K_h: at the midpoints 0 to {:.0e} (proved)",

@@ -1,11 +1,12 @@
 #pragma once
 // The answers to the exercises of 12_contact_sets, whose page includes this one: to be read after predicting.
 
-const auto distances = [](const Method& method, const Reference& v, Within within) {
+const auto distances = [](const Method& method, const Reference& v, AdmissibleSet within) {
   Table table({"h", "distance"});
   for (const int n : {8, 16, 32}) {
-    const Discretisation on = method.on(n);
-    table.add({1.0 / n, nearest(on.space(), assemble(tutorial::paper_scene(0), on.space()), v, within).distance});
+    const Discretisation on = method.discretise(n);
+    table.add(
+        {1.0 / n, best_approximation(on.space(), assemble(tutorial::paper_scene(0), on.space()), v, within).distance});
   }
   return table;
 };
@@ -20,7 +21,7 @@ const std::vector<tutorial::Exercise> exercises{
                          },
                          [](double, double) { return 0.0; }};
        const auto order = [&](const MeshFamily& mesh) {
-         return distances({&p1(), mesh}, v, Within::k_h).order("distance", "h");
+         return distances({&p1(), mesh}, v, AdmissibleSet::k_h).order("distance", "h");
        };
        report.claim_within(order(structured()), 0.9, 1.1, "structured: order");
        report.claim_within(order(unstructured()), 0.35, 0.65, "unstructured: order");
@@ -31,9 +32,9 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options&, tutorial::Report& report) {
        const Exact u0(tutorial::paper_scene(0), 15);
        const MeshFamily jittered{"jittered", [](int cells) { return jittered_mesh(cells, 0.1); }};
-       const Table table = distances({&p1(), jittered}, u0.reference(), Within::k_0h);
+       const Table table = distances({&p1(), jittered}, u0.reference(), AdmissibleSet::k_0h);
        table.print();
-       report.claim_within(table.last("distance") / clamped_distance(u0.truth), 1, 1.15,
+       report.claim_within(table.last("distance") / clamped_distance(u0.solution), 1, 1.15,
                            "distance / that of u^0 from the solution clamped on Sigma");
      }}};
 

@@ -31,7 +31,7 @@ inline Table traces(const Exact& u, int cells) {
   std::vector<Eigen::MatrixX3d> trace;
   for (const Method& method :
        {Method{&p1(), structured()}, {&crouzeix_raviart(), unstructured()}, {&p2(), structured()}}) {
-    const Discretisation on = method.on(cells);
+    const Discretisation on = method.discretise(cells);
     trace.push_back(contact_trace(on.space(), active_set(assemble(paper_scene(u.epsilon), on.space())).u));
   }
   Table table({"x", "truth", "p1", "cr", "p2"});

@@ -70,8 +70,8 @@
 // $u_h^ε$ are at their limits, up to what [chapter 10](../10_limits/10_limits.cpp) says of $u^ε$, and
 // [chapter 11](../11_propositions/11_propositions.cpp) of $u_h^ε$.
 
-#include "antilock/analysis/nearest.hpp"
-#include "antilock/exact/truth_distance.hpp"
+#include "antilock/analysis/best_approximation.hpp"
+#include "antilock/exact/exact_norms.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -82,18 +82,18 @@ const std::vector<std::string> columns{"element", "mesh",     "epsilon", "cells"
                                        "h1",      "unknowns", "energy",  "lost_to_kept"};
 
 // The map: one method on one mesh at every ε. Forms and contact sets are handed on from ε to ε.
-Table solve_all(const Method& method, int cells, const std::vector<Exact>& truth, const Field& load) {
+Table solve_all(const Method& method, int cells, const std::vector<Exact>& exact_solution, const Field& load) {
   // ### Mesh
-  const Discretisation on = method.on(cells);
+  const Discretisation on = method.discretise(cells);
   // ### Forms
   SceneSweep sweep(Scene(Body{load}, StiffLayer{1}, UnilateralContact{}), on.space());
   // ### Solve
   Table rows(columns);
-  for (const Exact& exact : truth) {
+  for (const Exact& exact : exact_solution) {
     sweep.set_epsilon(exact.epsilon);
     const Solution solution = sweep.solve();
     const Errors errors = exact.errors(on.space(), solution);
-    const double kept = solution.u(on.space().contact()).maxCoeff() / exact.truth.max_on_contact();
+    const double kept = solution.u(on.space().contact_dofs()).maxCoeff() / exact.solution.max_on_contact();
     rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, errors.h1,
               on.space().free_count(), errors.energy, 1 / kept - 1});
   }
@@ -103,11 +103,11 @@ Table solve_all(const Method& method, int cells, const std::vector<Exact>& truth
 // The supremum over ε ≥ ε_0 on each mesh, and the locking ratio.
 Table worst_from(double epsilon_0, const Table& map) {
   Table rows({"cells", "h", "unknowns", "h1", "energy", "ratio"});
-  for (const Entry& cells : map.different("cells")) {
+  for (const TableEntry& cells : map.unique("cells")) {
     const Table own =
-        map.where("cells", cells).where_number("epsilon", [=](double e) { return e >= 0.99 * epsilon_0; });
-    rows.add({cells, own.first("h"), own.first("unknowns"), own.most("h1"), own.most("energy"),
-              own.most("h1") / own.where("epsilon", 1).number("h1")});
+        map.filter("cells", cells).filter_number("epsilon", [=](double e) { return e >= 0.99 * epsilon_0; });
+    rows.add({cells, own.first("h"), own.first("unknowns"), own.max("h1"), own.max("energy"),
+              own.max("h1") / own.filter("epsilon", 1).number("h1")});
   }
   return rows;
 }
@@ -115,10 +115,11 @@ Table worst_from(double epsilon_0, const Table& map) {
 // The hypothesis of Theorem 4: the distance from $u^0$ to $K_{0h}$.
 Table distances(const Method& method, const Table& worst, const Exact& u0) {
   Table rows({"h", "distance"});
-  for (const Entry& cells : worst.different("cells")) {
-    const Discretisation on = method.on(static_cast<int>(cells.number()));
+  for (const TableEntry& cells : worst.unique("cells")) {
+    const Discretisation on = method.discretise(static_cast<int>(cells.number()));
     const VariationalInequality problem = assemble(tutorial::paper_scene(0), on.space());
-    rows.add({1 / cells.number(), nearest(on.space(), problem, u0.reference(), Within::k_0h).distance});
+    rows.add(
+        {1 / cells.number(), best_approximation(on.space(), problem, u0.reference(), AdmissibleSet::k_0h).distance});
   }
   return rows;
 }
@@ -127,11 +128,11 @@ void judge(const Method& method, const Table& own, const Table& worst, double lo
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
   report.stage("truth");
-  const std::vector<Exact> truth =
+  const std::vector<Exact> exact_solution =
       tutorial::exact_solutions(tutorial::quarter_decades(), 14);  // gradients to 1e-6, errors are 1e-2
   Table map(columns), restricted({"from", "h", "worst"});
   Table side_by_side({"method", "dist(u^0, K_0h)", "order", "sup error", "order in h", "in N", "locking ratio"});
-  const double lost = layer_norm(truth.back().truth);
+  const double lost = layer_norm(exact_solution.back().solution);
   std::vector<Method> all = methods({&crouzeix_raviart(), &p1()});
   for (const char* family : {"delaunay", "staggered"}) all.push_back({&p1(), mesh_family(family)});
   std::vector<std::pair<Method, Table>> found;
@@ -139,8 +140,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
     report.stage(method.name());
     Table own(columns);
     for (int n = 8; n <= options.cells; n += n % 3 == 0 ? n / 3 : n / 2)  // 8, 12, 16, 24, 32, ...
-      own.add(solve_all(method, n, truth, paper_load));
-    const Table worst = worst_from(0, own), near = distances(method, worst, truth.back());
+      own.add(solve_all(method, n, exact_solution, paper_load));
+    const Table worst = worst_from(0, own), near = distances(method, worst, exact_solution.back());
     side_by_side.add({method.name(), near.last("distance"), near.order("distance", "h"), worst.last("h1"),
                       worst.order("h1", "h"), worst.order("h1", "unknowns"), worst.last("ratio")});
     if (method.name() == "P1 unstructured")
@@ -157,7 +158,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   tutorial::write_uniform(options.out, found);
   restricted.write(options.out / "restricted.csv");
   for (const auto& [method, worst] : found)
-    judge(method, map.where("element", method.element->name()).where("mesh", method.family.name), worst, lost, report);
+    judge(method, map.filter("element", method.element->name()).filter("mesh", method.family.name), worst, lost,
+          report);
 }
 
 void judge(const Method& method, const Table& own, const Table& worst, double lost, tutorial::Report& report) {
@@ -170,11 +172,11 @@ void judge(const Method& method, const Table& own, const Table& worst, double lo
     report.claim_order(worst, "h1", "h", 0.95, 1.05,
                        name + theorem + ": worst H1 error (it falls: proved; order observed)");
     report.claim_order(worst, "energy", "h", 0.95, 1.05, name + ", Remark 4: worst energy error");
-    report.claim(worst.most("ratio") < 1.05, "{} is robust: locking ratio {:.3f} on all meshes (observed)", name,
-                 worst.most("ratio"));
+    report.claim(worst.max("ratio") < 1.05, "{} is robust: locking ratio {:.3f} on all meshes (observed)", name,
+                 worst.max("ratio"));
     return;
   }
-  report.claim(worst.least("h1") > lost,
+  report.claim(worst.min("h1") > lost,
                "{} locks: worst error {:.3f}, never below |u^0| on the layer, {:.3f} (proved: its kernel there is 0)",
                name, worst.last("h1"), lost);
   // The worst error stays and the error at ε = 1 has order 1: so has 1/L in the end.

@@ -21,7 +21,7 @@ inline void write_map(const std::filesystem::path& out, const Table& all) {
   all.write(out / "results.csv");
   Table map({"mesh", "epsilon", "h", "lost_to_kept"});
   const auto drawn = [](double epsilon) { return epsilon > 1.5e-4 && epsilon < 0.11; };
-  for (const Table& row : all.where("element", "P1").where_number("epsilon", drawn).rows())
+  for (const Table& row : all.filter("element", "P1").filter_number("epsilon", drawn).rows())
     map.add({row.entry("mesh"), row.number("epsilon"), row.number("h"),
              std::clamp(row.number("lost_to_kept"), 0.01, 100.0)});
   map.write(out / "map.csv");

@@ -89,8 +89,8 @@
 // the one between can only lose (chapter 10), so $a(w, v) ≥ a(w, w) + f(v - w)$. There is one solution, so $w = u$.
 // Then $R(u_h)$, the work of fixed forces, tends to $R(u) = 0$, and with it the second infimum.
 
+#include "antilock/analysis/best_approximation.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/analysis/nearest.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/residual.hpp"
 #include "course/course.hpp"
@@ -104,36 +104,37 @@ const std::vector<std::string> columns{"element", "mesh",  "epsilon",  "cells", 
 // Both sides of (13), one method on one mesh. `right`: the two infima; `second`: the second of them; `jumps`: what of it
 // comes from the jumps of $u_h$; `constant`: the $C$ that (13) needs at least; `consistency`: the worst work of the flux
 // on jumps; `excess`: $J(u_h) - J(u)$; `identity`: the other side of its identity.
-Table both_sides(const Method& method, int cells, const std::vector<Exact>& truth) {
+Table both_sides(const Method& method, int cells, const std::vector<Exact>& exact_solution) {
   // ### Mesh
-  const Discretisation on = method.on(cells);
+  const Discretisation on = method.discretise(cells);
   // ### Forms
   SceneSweep sweep(tutorial::paper_scene(1), on.space());
   const SparseMatrix norm = h1_norm(on.space());
   const bool conforming = method.element->conforming();
   Table rows(columns);
-  for (const Exact& exact : truth) {
+  for (const Exact& exact : exact_solution) {
     // ### Solve
     sweep.set_epsilon(exact.epsilon);
     const Solution u_h = sweep.solve();
     const Errors errors = exact.errors(on.space(), u_h);
-    const Eigen::VectorXd work = contact_work(on.space(), [&](double x) { return exact.truth.pressure(x); });
+    const Eigen::VectorXd work = contact_work(on.space(), [&](double x) { return exact.solution.pressure(x); });
     const Eigen::VectorXd r =
         conforming ? work
                    : consistency_residual(on.space(), sweep.problem().load, exact.reference(), {exact.contact_from()});
-    const double first = nearest(on.space(), sweep.problem(), exact.reference(), Within::k_h, r).value,
+    const double first =
+                     best_approximation(on.space(), sweep.problem(), exact.reference(), AdmissibleSet::k_h, r).value,
                  second = -r.dot(u_h.u);
     rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, errors.h1, first + second,
               second, -(r - work).dot(u_h.u), errors.h1 * errors.h1 / (first + second),
               conforming ? 0 : dual_norm(sweep.problem(), norm, r - work),
-              energy(sweep.problem(), u_h) - exact.truth.energy(), 0.5 * errors.energy * errors.energy - second});
+              energy(sweep.problem(), u_h) - exact.solution.energy(), 0.5 * errors.energy * errors.energy - second});
   }
   return rows;
 }
 
 void judge(const Method& method, const Table& own, tutorial::Report& report) {
   const std::string name = method.name();
-  const Table small = own.where("epsilon", 1e-6), fine = own.where_number("cells", [](double n) { return n >= 8; });
+  const Table small = own.filter("epsilon", 1e-6), fine = own.filter_number("cells", [](double n) { return n >= 8; });
   // The identity: what is left is the quadrature of the error, by a rule that does not see where contact ends.
   double off = 0;
   for (const Table& row : fine.rows()) off = std::max(off, std::abs(row.number("identity") / row.number("excess") - 1));
@@ -143,23 +144,23 @@ void judge(const Method& method, const Table& own, tutorial::Report& report) {
   // P1 is a part of V: its alpha is that of V or more, and falls to it like h^2. CR's may lie on either side.
   double alphas[2], away = 0;
   for (int i = 0; i < 2; ++i) {
-    const Discretisation coarse = method.on(8 + 4 * i);
+    const Discretisation coarse = method.discretise(8 + 4 * i);
     alphas[i] = coercivity(assemble(tutorial::paper_scene(1), coarse.space()), h1_norm(coarse.space()));
     away = std::max(away, std::abs(alphas[i] - alpha) * coarse.mesh().triangle_count());
   }
   report.claim(away < 0.5 && (std::min(alphas[0], alphas[1]) > alpha - 1e-9 || !method.element->conforming()),
                "{}, (H1nc): coercive with {:.4f} at 1/h = 8, {:.4f} at 12, on V {:.4f} (P1: proved to be no less)",
                name, alphas[0], alphas[1], alpha);
-  report.claim_order(own.where("epsilon", 1), "h1", "h", 0.9, 1.05, name + ", Theorem 3 at epsilon = 1 (observed)");
+  report.claim_order(own.filter("epsilon", 1), "h1", "h", 0.9, 1.05, name + ", Theorem 3 at epsilon = 1 (observed)");
   report.claim_order(small, "right", "h", 1.75, 2.1, name + ", the right side of (13) at epsilon = 1e-6 (observed)");
   if (method.element->conforming()) {  // 1e-9: the digits of the solver
-    report.claim(own.most("second") < 1e-9 * own.least("right"),
-                 "{}, Falk: the second infimum is not positive (proved)", name);
+    report.claim(own.max("second") < 1e-9 * own.min("right"), "{}, Falk: the second infimum is not positive (proved)",
+                 name);
   } else {
     double share = 1, slowest = 9;
     for (const Table& row : own.rows()) share = std::min(share, row.number("jumps") / row.number("second"));
-    for (const Entry& epsilon : own.different("epsilon"))
-      slowest = std::min(slowest, own.where("epsilon", epsilon).order("consistency", "h"));
+    for (const TableEntry& epsilon : own.unique("epsilon"))
+      slowest = std::min(slowest, own.filter("epsilon", epsilon).order("consistency", "h"));
     report.claim(
         share > 0.95 && slowest > 0.8 && slowest < 1.1,
         "{}, consistency: the flux of u on the worst jumps falls like h^{:.2f} at the slowest; jumps are {:.0f} % of "
@@ -167,33 +168,33 @@ void judge(const Method& method, const Table& own, tutorial::Report& report) {
         name, slowest, 100 * share);
   }
   if (name != "P1 unstructured") {
-    report.claim(fine.most("constant") < 1.5, "{}: (13) holds with C = {:.2f} at every epsilon (observed)", name,
-                 fine.most("constant"));
+    report.claim(fine.max("constant") < 1.5, "{}: (13) holds with C = {:.2f} at every epsilon (observed)", name,
+                 fine.max("constant"));
   } else {
     // The error stays, and the right side falls by 4 at each step in the end.
-    const double growth = small.last("constant") / small.where("cells", own.most("cells") / 2).number("constant");
+    const double growth = small.last("constant") / small.filter("cells", own.max("cells") / 2).number("constant");
     report.claim(
         growth > 2 && growth < 4.2,
         "{}: C must be {:.1f} at 1/h = {}, {:.1f} times that of the mesh before: no constant will do (observed)", name,
-        small.last("constant"), own.most("cells"), growth);
+        small.last("constant"), own.max("cells"), growth);
   }
 }
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
-  const std::vector<Exact> truth = tutorial::exact_solutions({1, 0.1, 0.03, 1e-2, 1e-3, 1e-4, 1e-6}, 14);
+  const std::vector<Exact> exact_solution = tutorial::exact_solutions({1, 0.1, 0.03, 1e-2, 1e-3, 1e-4, 1e-6}, 14);
   Table results(columns);
   for (const Method& method : methods()) {
     report.stage(method.name());
-    for (int n = 4; n <= options.cells; n *= 2) results.add(both_sides(method, n, truth));
+    for (int n = 4; n <= options.cells; n *= 2) results.add(both_sides(method, n, exact_solution));
   }
   report.finish();
   // ### Output
   results.write(options.out / "results.csv");
-  results.where("cells", results.most("cells"))
+  results.filter("cells", results.max("cells"))
       .select({"element", "mesh", "epsilon", "h1", "right", "second", "jumps", "constant", "consistency"})
       .print("both sides of (13) on the finest mesh", 3);
   for (const Method& method : methods())
-    judge(method, results.where("element", method.element->name()).where("mesh", method.family.name), report);
+    judge(method, results.filter("element", method.element->name()).filter("mesh", method.family.name), report);
 }
 
 // ## What came out

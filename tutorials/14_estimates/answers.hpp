@@ -13,12 +13,12 @@ const std::vector<tutorial::Exercise> exercises{
          for (int n = 4; n <= options.cells; n *= 2) {
            const Discretisation on(family.mesh(n), p1());
            const VariationalInequality problem = assemble(scene, on.space());
-           rows.add({family.name, 1.0 / n, energy(problem, active_set(problem)) - exact.truth.energy()});
+           rows.add({family.name, 1.0 / n, energy(problem, active_set(problem)) - exact.solution.energy()});
          }
        rows.pivot("h", "mesh", "excess").print("J(u_h) - J(u)");
-       report.claim_order(rows.where("mesh", "structured"), "excess", "h", 1.8, 2.1, "structured (observed)");
+       report.claim_order(rows.filter("mesh", "structured"), "excess", "h", 1.8, 2.1, "structured (observed)");
        // What is left is E / 2 of chapter 06, half the energy that the layer sets free by giving.
-       report.claim_within(rows.where("mesh", "unstructured").last("excess"), 8e-3, 12e-3, "unstructured, finest:");
+       report.claim_within(rows.filter("mesh", "unstructured").last("excess"), 8e-3, 12e-3, "unstructured, finest:");
      }}};
 
 // ## Answers on paper

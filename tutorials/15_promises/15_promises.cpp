@@ -87,11 +87,11 @@ Table keep(const MeshFamily& family, const TriangleMesh& mesh, int cells, const 
     sweep.set_epsilon(epsilon);
     const Eigen::VectorXd u = sweep.solve(patient).u;
     double with_sine = 0, sine_squared = 0;
-    for (const int i : space.contact()) {
-      const double s = std::sin(2 * pi * space.points()(i, 0));
+    for (const int i : space.contact_dofs()) {
+      const double s = std::sin(2 * pi * space.dof_coordinates()(i, 0));
       with_sine += s * u(i), sine_squared += s * s;
     }
-    const double kept = with_sine / sine_squared / Truth(paper_sine_load(), epsilon, false).max_on_contact(),
+    const double kept = with_sine / sine_squared / ExactSolution(paper_sine_load(), epsilon, false).max_on_contact(),
                  at_wall = kappa * k / epsilon;
     rows.add(
         {family.name, cells, 1.0 / cells, k, epsilon, at_wall, 1 / kept - 1, kept, kept * (1 + at_wall * at_wall)});
@@ -136,16 +136,16 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   // ### Output
   walls.print("where half of the ridge is lost");
   flat.select({"family", "h", "epsilon", "kept"}).print("columns: share of the ridge that is kept");
-  errors.where("cells", errors.most("cells"))
-      .where_number("epsilon", [](double e) { return std::abs(std::log10(e) - std::round(std::log10(e))) < 0.1; })
+  errors.filter("cells", errors.max("cells"))
+      .filter_number("epsilon", [](double e) { return std::abs(std::log10(e) - std::round(std::log10(e))) < 0.1; })
       .select({"method", "epsilon", "h1", "bound"})
       .print("with contact: H1 error, and (28) or (31) with C = 1", 3);
   tutorial::write_lost(options.out, lost);
   judge(lost, walls, flat, report);
   for (const Method& method : methods()) {
-    const Table own = errors.where("method", method.name()).where("cells", errors.most("cells"));
+    const Table own = errors.filter("method", method.name()).filter("cells", errors.max("cells"));
     const double power =
-        std::log(own.where("epsilon", 1e-6).number("h1") / own.where("epsilon", 1).number("h1")) / std::log(1e-6);
+        std::log(own.filter("epsilon", 1e-6).number("h1") / own.filter("epsilon", 1).number("h1")) / std::log(1e-6);
     if (method.name() != "P1 unstructured")
       report.claim(std::abs(power) < 0.005,
                    "{}: from epsilon = 1 to 1e-6 the error goes like epsilon^{:.4f} (observed)", method.name(), power);
@@ -158,30 +158,30 @@ void judge(const Table& lost, const Table& walls, const Table& flat, tutorial::R
   for (const Table& row : flat.rows())
     worst = std::max(worst, std::abs(row.number("kept") - 1) / std::pow(row.number("h") * pi, 2));
   report.claim(worst < 1, "in columns the ridge is kept but for {:.2f} (pi h)^2 at every epsilon (observed)", worst);
-  const Table fine = lost.where_number("h", [](double h) { return h < 0.1; });
-  report.claim(fine.least("kept / law") > 0.95 && fine.most("kept / law") < 1.55,
+  const Table fine = lost.filter_number("h", [](double h) { return h < 0.1; });
+  report.claim(fine.min("kept / law") > 0.95 && fine.max("kept / law") < 1.55,
                "all others: share kept / the law's is {:.2f} to {:.2f} from 1/16 on (observed; accepted 0.95 to 1.55)",
-               fine.least("kept / law"), fine.most("kept / law"));
-  for (const Entry& family : walls.different("family")) {
-    const Table own = walls.where("family", family);
+               fine.min("kept / law"), fine.max("kept / law"));
+  for (const TableEntry& family : walls.unique("family")) {
+    const Table own = walls.filter("family", family);
     if (own.size() < 4) {
       report.not_judged(family.text() + ": the order of the wall needs four meshes");
       continue;
     }
     const double order = own.order("wall", "h"), of_k = own.order("k", "h");
-    report.claim(std::abs(order - of_k) < 0.1 && own.least("wall / 5.84 k") > 0.75 && own.most("wall / 5.84 k") < 1.1,
+    report.claim(std::abs(order - of_k) < 0.1 && own.min("wall / 5.84 k") > 0.75 && own.max("wall / 5.84 k") < 1.1,
                  "{}: the wall is at h^{:.2f}, k at h^{:.2f}; wall / 5.84 k = {:.2f} to {:.2f} (observed)",
-                 family.text(), order, of_k, own.least("wall / 5.84 k"), own.most("wall / 5.84 k"));
+                 family.text(), order, of_k, own.min("wall / 5.84 k"), own.max("wall / 5.84 k"));
   }
   // Rows of congruent triangles: k = h^2 / (8 H) but for the halves at their ends, where sin 2 pi x has no curvature.
   double off = 0;
-  for (const Table& row : lost.where("family", "staggered").where("h", walls.least("h")).rows()) {
+  for (const Table& row : lost.filter("family", "staggered").filter("h", walls.min("h")).rows()) {
     const double x = std::pow(kappa * row.number("h") / 8 / row.number("epsilon"), 2);
     off = std::max(off, std::abs(row.number("kept") * (1 + x) - 1));
   }
-  report.claim(off < 3 * std::pow(walls.least("h"), 2),
+  report.claim(off < 3 * std::pow(walls.min("h"), 2),
                "staggered, k = h/8: share kept = the law's to {:.1e} on 1/h = {} (proved as h -> 0)", off,
-               1 / walls.least("h"));
+               1 / walls.min("h"));
 }
 
 // ## What came out

@@ -67,12 +67,12 @@ const std::vector<std::string> columns{"element", "degree", "mesh", "cells", "h"
 
 Table solve(const Method& method, int cells, double epsilon, const Field& load, const Exact& exact) {
   // ### Mesh
-  const Discretisation on = method.on(cells);
+  const Discretisation on = method.discretise(cells);
   // ### Forms
   // The same lines for every degree. $B$ has one row per point of a quadrature that is exact for $(∂_y v)^2$.
   const Scene scene(Body{load}, StiffLayer{epsilon}, UnilateralContact{});
   const VariationalInequality problem = assemble(scene, on.space());
-  const Eigen::VectorXd slope = problem.b * (2 * pi * on.space().points().col(0).array()).sin().matrix();
+  const Eigen::VectorXd slope = problem.b * (2 * pi * on.space().dof_coordinates().col(0).array()).sin().matrix();
   // ### Solve
   // Factored at the true ε: functions that $B$ nearly misses would need hundreds of corrections with a larger penalty
   // ([chapter 18](../18_roundoff/18_roundoff.cpp)). Below ε = 1e-4 that costs too many digits; the solver says so, and refuses.
@@ -81,12 +81,13 @@ Table solve(const Method& method, int cells, double epsilon, const Field& load, 
   const double a = 2 * pi, ridge = 0.5 * (a / std::tanh(a) + a * a);  // E, chapter 06
   const double squared = slope.dot(problem.m.cwiseProduct(slope));
   Table row(columns);
-  row.add({method.element->name(), method.element->degree(), method.family.name, cells, 1.0 / cells,
-           on.space().free_count(),
-           cells <= 4 && method.family.name != "delaunay" ? Entry(layer_kernel_dimension(problem)) : Entry(""),
-           std::sqrt(squared), exact.errors(on.space(), solution).h1,
-           solution.u(on.space().contact()).maxCoeff() / exact.truth.max_on_contact(),
-           1 / (1 + squared / (epsilon * epsilon * ridge))});
+  row.add(
+      {method.element->name(), method.element->degree(), method.family.name, cells, 1.0 / cells,
+       on.space().free_count(),
+       cells <= 4 && method.family.name != "delaunay" ? TableEntry(layer_kernel_dimension(problem)) : TableEntry(""),
+       std::sqrt(squared), exact.errors(on.space(), solution).h1,
+       solution.u(on.space().contact_dofs()).maxCoeff() / exact.solution.max_on_contact(),
+       1 / (1 + squared / (epsilon * epsilon * ridge))});
   return row;
 }
 
@@ -105,25 +106,25 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 void judge(const Table& results, tutorial::Report& report) {
-  for (const Table& row : results.where("cells", 4).rows()) {
+  for (const Table& row : results.filter("cells", 4).rows()) {
     if (row.entry("mesh") == "delaunay") continue;
     const double p = row.number("degree"), expected = row.entry("mesh") == "structured" ? 4 * p - 1 : p - 1;
     report.claim(row.number("kernel") == expected, "{} {}, 1/h = 4: dim G_h = {} ({}, proved)",
                  row.entry("element").text(), row.entry("mesh").text(), row.number("kernel"), expected);
   }
-  report.claim(results.where("mesh", "structured").most("cost") < 1e-9,
+  report.claim(results.filter("mesh", "structured").max("cost") < 1e-9,
                "structured: d/dy I_h w = 0 for every degree, up to round-off (proved)");
-  for (const Entry& element : results.different("element")) {
-    const Table all = results.where("element", element);
+  for (const TableEntry& element : results.unique("element")) {
+    const Table all = results.filter("element", element);
     const double p = all.first("degree");
     // h^p at least is proved. The half more is that of the one generator.
-    report.claim_order(all.where("mesh", "delaunay"), "cost", "h", p - 0.2, p + 0.25,
+    report.claim_order(all.filter("mesh", "delaunay"), "cost", "h", p - 0.2, p + 0.25,
                        element.text() + " delaunay: cost (observed)");
-    report.claim_order(all.where("mesh", "unstructured"), "cost", "h", p + 0.3, p + 0.6,
+    report.claim_order(all.filter("mesh", "unstructured"), "cost", "h", p + 0.3, p + 0.6,
                        element.text() + " unstructured: cost (observed)");
     // From 1/8 on, where the interpolant is near the ridge. A twentieth: what the body's error may take.
     double least = 9, most = 0, locked = 0;
-    for (const Table& row : all.where_number("h", [](double h) { return h < 0.13; }).rows()) {
+    for (const Table& row : all.filter_number("h", [](double h) { return h < 0.13; }).rows()) {
       if (row.entry("mesh") == "structured") continue;
       const double kept = row.number("kept"), law = row.number("law");
       least = std::min(least, kept / law), most = std::max(most, kept / law);

@@ -106,7 +106,7 @@ struct Ball {
   Discretisation on;
   // ### Forms
   ErrorForm form;
-  Ball(const Method& method, int cells) : on(method.on(cells)), form(on.space(), LoadModes(2 * cells)) {}
+  Ball(const Method& method, int cells) : on(method.discretise(cells)), form(on.space(), LoadModes(2 * cells)) {}
   // ### Solve
   WorstLoad worst(double epsilon) { return form.set_epsilon(epsilon), form.worst(); }
   double ours(double epsilon, int wave = 2) {  // the load 10 sin 2πx, scaled to norm 1
@@ -119,30 +119,31 @@ struct Ball {
 void judge(const Method& method, const Table& own, tutorial::Report& report) {
   const std::string name = method.name();
   const int p = method.element->degree();
-  const Table rigid = own.where("epsilon", 0), worst = rigid.where("load", ball), climbs = own.where("load", contact);
+  const Table rigid = own.filter("epsilon", 0), worst = rigid.filter("load", ball),
+              climbs = own.filter("load", contact);
   const double last = worst.last("error"), limit = loss_of_degree(p);
   if (p < 3)  // both from Lanczos iterations to 1e-4
-    report.claim(std::abs(own.where("load", ball).where("epsilon", 1e-20).last("error") / last - 1) < 1e-3,
+    report.claim(std::abs(own.filter("load", ball).filter("epsilon", 1e-20).last("error") / last - 1) < 1e-3,
                  "{}: epsilon = 1e-20 is epsilon = 0 (observed)", name);
   if (method.element->conforming() && method.family.name == "unstructured") {  // it locks
-    report.claim(worst.least("all_waves") >= limit && std::abs(last / limit - 1) < 0.01,
+    report.claim(worst.min("all_waves") >= limit && std::abs(last / limit - 1) < 0.01,
                  "{} loses {:.4f} on the ball: with all waves no less than {:.4f} (proved), to 1 % that (observed)",
                  name, last, limit);
-    const double ours = rigid.where("load", one_load).last("error");
+    const double ours = rigid.filter("load", one_load).last("error");
     if (p > 2) return report.claim(ours < 0.4 * limit, "{} looks robust under our load: {:.4f} (observed)", name, ours);
-    report.claim_orders(own.where("load", ball).where("epsilon", 1), "error", 0.8, 1.1, name + " at epsilon = 1");
+    report.claim_orders(own.filter("load", ball).filter("epsilon", 1), "error", 0.8, 1.1, name + " at epsilon = 1");
     // one arch is the worst of these loads; two arches press down, too, and what touches is not lost
-    return report.claim_within(climbs.last("error") / rigid.where("load", arches).number("error"), p == 1 ? 0.99 : 0.9,
+    return report.claim_within(climbs.last("error") / rigid.filter("load", arches).number("error"), p == 1 ? 0.99 : 0.9,
                                p == 1 ? 1.01 : 1, fmt::format("{}: contact over no contact (observed)", name));
   }
-  const Table suprema = tutorial::suprema_over_epsilon(own.where("load", ball));  // then the order in h
-  report.claim(suprema.most("ratio") < 1.02, "{}: locking ratio {:.4f} (observed)", name, suprema.most("ratio"));
-  const Table denser = own.where("load", "worst load of the ball, between");
-  report.claim(denser.most("error") < 1.001 * suprema.where("h", denser.first("h")).number("supremum"),
+  const Table suprema = tutorial::suprema_over_epsilon(own.filter("load", ball));  // then the order in h
+  report.claim(suprema.max("ratio") < 1.02, "{}: locking ratio {:.4f} (observed)", name, suprema.max("ratio"));
+  const Table denser = own.filter("load", "worst load of the ball, between");
+  report.claim(denser.max("error") < 1.001 * suprema.filter("h", denser.first("h")).number("supremum"),
                "{}: twice as many epsilons leave the supremum as it is (observed)", name);
   report.claim_orders(suprema, "supremum", 0.85, 1.1, name + " on the ball");
   report.claim_orders(climbs, "error", 0.85, 1.1, name + " with contact, climbed");
-  const double least = suprema.least("over_width"), most = suprema.most("over_width");
+  const double least = suprema.min("over_width"), most = suprema.max("over_width");
   report.claim(least >= 1 && most <= (method.element->conforming() ? 2 : 2.5),
                "{}: {:.2f} to {:.2f} times the width of its unknowns ({}; at most: observed)", name, least, most,
                method.element->conforming() ? "not below 1: proved" : "nonconforming");
@@ -178,7 +179,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   }
   // ### Output
   tutorial::show_worst_errors(options.out, results, 2.0 / options.cells);
-  for (const Method& method : methods) judge(method, results.where("method", method.name()), report);
+  for (const Method& method : methods) judge(method, results.filter("method", method.name()), report);
 }
 
 // ## What came out

@@ -17,20 +17,21 @@ inline void draw_load(const std::filesystem::path& out, const Method& method, co
   const TriangleMesh drawn = structured_mesh(48, Domain{0});
   const Space space(drawn, p1());
   Eigen::VectorXd values(space.size());
-  for (int i = 0; i < space.size(); ++i) values(i) = modes.value(f, space.points()(i, 0), space.points()(i, 1));
+  for (int i = 0; i < space.size(); ++i)
+    values(i) = modes.value(f, space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1));
   values /= values.cwiseAbs().maxCoeff();
   write_vtu(out / fmt::format("{}_{}.vtu", method.element->name(), method.family.name), space, values);
 }
 
 /// With contact, epsilon = 0: a climb over loads of four waves, by the error against the exact solution. A lower bound.
 inline double climb_in_contact(const Method& method, int cells) {
-  const Discretisation on = method.on(cells);
+  const Discretisation on = method.discretise(cells);
   SceneSweep sweep(paper_scene(0), on.space());
   const auto error = [&](const Eigen::VectorXd& coefficients) {
     const SineLoad load = load_of_modes(coefficients);
     sweep.set_load(load);
-    const TruthTable truth(Truth(load, 0, true, 9), 1 << 8);  // to some thousandths: the climb has to be quick
-    return measure_errors(on.space(), sweep.solve(), 0, reference(truth)).energy;
+    const ExactTable exact(ExactSolution(load, 0, true, 9), 1 << 8);  // to some thousandths: the climb has to be quick
+    return measure_errors(on.space(), sweep.solve(), 0, reference(exact)).energy;
   };
   return ascend(error, {Eigen::Vector4d::Unit(0), Eigen::Vector4d(1, 1, 0, 0)});
 }
@@ -39,9 +40,9 @@ inline double climb_in_contact(const Method& method, int cells) {
 inline int unknowns_of_body(const Space& space) {
   std::set<int> all;
   for (int t = 0; t < space.mesh().triangle_count(); ++t)
-    for (int i = 0; space.mesh().region[t] == Region::body && i < space.element().unknowns(); ++i)
-      all.insert(space.unknowns()(t, i));
-  for (const int i : space.clamped()) all.erase(i);
+    for (int i = 0; space.mesh().region[t] == Region::body && i < space.element().dofs(); ++i)
+      all.insert(space.cell_dofs()(t, i));
+  for (const int i : space.dirichlet_dofs()) all.erase(i);
   return static_cast<int>(all.size());
 }
 
@@ -49,10 +50,10 @@ inline int unknowns_of_body(const Space& space) {
 /// 1.
 inline Table suprema_over_epsilon(const Table& worst) {
   Table suprema({"h", "supremum", "over_width", "ratio"});
-  for (const Entry& h : worst.different("h")) {
-    const Table here = worst.where("h", h);
-    suprema.add({h, here.most("error"), here.most("over_width"),
-                 here.most("error") / here.where("epsilon", 1).number("error")});
+  for (const TableEntry& h : worst.unique("h")) {
+    const Table here = worst.filter("h", h);
+    suprema.add(
+        {h, here.max("error"), here.max("over_width"), here.max("error") / here.filter("epsilon", 1).number("error")});
   }
   return suprema;
 }
@@ -60,15 +61,15 @@ inline Table suprema_over_epsilon(const Table& worst) {
 /// Prints the errors at epsilon = 0 by h. Writes errors.csv (the rows at epsilon = 0) and epsilon.csv (those at this h
 /// with epsilon > 0, in their order).
 inline void show_worst_errors(const std::filesystem::path& out, const Table& results, double h) {
-  const Table rigid = results.where("epsilon", 0);
+  const Table rigid = results.filter("epsilon", 0);
   Table errors(results.columns()), by_epsilon({"load", "method", "epsilon", "error"});
-  for (const Entry& load : rigid.different("load")) {
-    rigid.where("load", load).pivot("method", "h", "error").print(load.text() + ", epsilon = 0");
-    if (load.text() != "p arches, no contact") errors.add(rigid.where("load", load));
+  for (const TableEntry& load : rigid.unique("load")) {
+    rigid.filter("load", load).pivot("method", "h", "error").print(load.text() + ", epsilon = 0");
+    if (load.text() != "p arches, no contact") errors.add(rigid.filter("load", load));
   }
   for (const std::string load : {"our load", "worst load of the ball"})
     for (const double epsilon : {1.0, 0.3, 0.1, 0.03, 1e-2, 1e-3, 1e-4, 1e-6})
-      for (const Table& row : results.where("h", h).where("epsilon", epsilon).rows())
+      for (const Table& row : results.filter("h", h).filter("epsilon", epsilon).rows())
         if (row.entry("load").text().starts_with(load))
           by_epsilon.add({load, row.entry("method"), epsilon, row.entry("error")});
   errors.write(out / "errors.csv");

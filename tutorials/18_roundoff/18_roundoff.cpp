@@ -80,9 +80,9 @@ using Eigen::VectorXd;
 // true but in the exercise.
 VectorXd cure(VariationalInequality problem, const std::vector<bool>& active, double delta, bool split = true) {
   for (std::size_t i = 0; i < active.size(); ++i)
-    if (active[i]) problem.fixed.push_back(problem.contact[i]);
+    if (active[i]) problem.dirichlet_dofs.push_back(problem.contact[i]);
   problem.contact.clear();
-  const FreeNumbering free(problem);  // numbers what is neither clamped nor in contact
+  const DofOrdering free(problem);  // numbers what is neither clamped nor in contact
   const Eigen::CholmodSupernodalLLT<SparseMatrix, Eigen::Upper> factor(penalised_matrix(problem, free, delta));
   const SparseMatrix sum =
       problem.a1 + SparseMatrix(problem.b.transpose() * (problem.m / problem.compliance).asDiagonal() * problem.b);
@@ -93,8 +93,8 @@ VectorXd cure(VariationalInequality problem, const std::vector<bool>& active, do
     VectorXd r2 = problem.compliance * p - problem.b * u;
     if (!split) r1 = problem.load - sum * u, r2.setZero();
     const VectorXd r = r1 + problem.b.transpose() * problem.m.cwiseProduct(r2) / delta;
-    const VectorXd r_free = r(free.unknown), du_free = factor.solve(r_free);  // a vector of its own, then its places
-    du(free.unknown) = du_free;
+    const VectorXd r_free = r(free.dof), du_free = factor.solve(r_free);  // a vector of its own, then its places
+    du(free.dof) = du_free;
     u += du;
     p += (problem.b * du - r2) / delta;
   }
@@ -110,7 +110,7 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
       {&p1(), structured()}, {&crouzeix_raviart(), structured()}, {&crouzeix_raviart(), unstructured()}};
   std::vector<Discretisation> on;  // the same mesh at every ε
   on.reserve(settings.size());
-  for (const Method& method : settings) on.push_back(method.on(options.cells));
+  for (const Method& method : settings) on.push_back(method.discretise(options.cells));
   // ### Forms
   // `compare_solvers` assembles (23) at each $ε$ and hands it to every solver.
   Table results(tutorial::solver_columns);
@@ -126,7 +126,7 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   // Without contact, at the penalty that the library would choose: the deepest $u$ on Σ at each ε (our load presses the
   // right half down), and how far $u$ is from the method's own limit, which it reaches with order 2 (chapter 11).
   const Table lines = tutorial::turn_the_lines(
-      options.cells, [](const auto& problem) { return cure(problem, {}, moderate_delta(problem)); });
+      options.cells, [](const auto& problem) { return cure(problem, {}, penalty_parameter(problem)); });
   // ### Output
   tutorial::show_round_off(options.out, results, conditions);
   lines.pivot("epsilon", "method", "u").print("stiff lines of slope 2: the deepest u on Sigma", 3);
@@ -135,55 +135,56 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 void judge(const Table& results, const Table& conditions, const Table& lines, tutorial::Report& report) {
-  report.claim(results.where("solver", "cure in 20 lines").most("apart") < 1e-8,
+  report.claim(results.filter("solver", "cure in 20 lines").max("apart") < 1e-8,
                "the cure in twenty lines agrees with the library (observed)");
   // From 1e-3 on the truth changes by less than a percent of the error: (epsilon / h)^2 of it.
-  const Table small = results.where("solver", "split form").where_number("epsilon", [](double e) { return e <= 1e-3; });
-  for (const Entry& element : small.different("element"))
-    for (const Entry& mesh : small.where("element", element).different("mesh")) {
-      const Table own = small.where("element", element).where("mesh", mesh);
-      report.claim(own.most("error") < 1.01 * own.least("error"),
+  const Table small =
+      results.filter("solver", "split form").filter_number("epsilon", [](double e) { return e <= 1e-3; });
+  for (const TableEntry& element : small.unique("element"))
+    for (const TableEntry& mesh : small.filter("element", element).unique("mesh")) {
+      const Table own = small.filter("element", element).filter("mesh", mesh);
+      report.claim(own.max("error") < 1.01 * own.min("error"),
                    "{} {}: split form, error {:.2e} to {:.2e} below epsilon = 1e-3 (observed)", element.text(),
-                   mesh.text(), own.least("error"), own.most("error"));
+                   mesh.text(), own.min("error"), own.max("error"));
     }
   // What the condition number foretells: 1.1e-16 of it bounds the relative error, up to a factor of 10 each way.
-  Table naive = results.where("solver", "sum: Cholesky");
-  naive.add(results.where("solver", "sum: LU"));
+  Table naive = results.filter("solver", "sum: Cholesky");
+  naive.add(results.filter("solver", "sum: LU"));
   for (const Table& row : conditions.rows()) {
     const double lost = 1.1e-16 * row.number("summed");
-    const Table here = naive.where("element", "P1").where("epsilon", row.entry("epsilon"));
+    const Table here = naive.filter("element", "P1").filter("epsilon", row.entry("epsilon"));
     if (lost > 10 || lost < 0.05)
-      report.claim(here.where("wrong", lost > 10 ? 0 : 1).size() == 0,
+      report.claim(here.filter("wrong", lost > 10 ? 0 : 1).size() == 0,
                    "epsilon = {:g}: round-off times condition is {:.0e}, the sum is {} (observed)",
                    row.number("epsilon"), lost, lost > 10 ? "wrong" : "right");
   }
-  const Table stiff = conditions.where_number("epsilon", [](double epsilon) { return epsilon <= 1e-4; });
-  report.claim(stiff.most("factored") < 1.01 * stiff.least("factored"),
-               "condition number of A_delta: {:.0e} from epsilon = 1e-4 on (observed)", stiff.most("factored"));
+  const Table stiff = conditions.filter_number("epsilon", [](double epsilon) { return epsilon <= 1e-4; });
+  report.claim(stiff.max("factored") < 1.01 * stiff.min("factored"),
+               "condition number of A_delta: {:.0e} from epsilon = 1e-4 on (observed)", stiff.max("factored"));
   // Round-off imitates Figure 7: what Cholesky answers it answers without a complaint, at last a flat zero.
-  const Table answers = naive.where("solver", "sum: Cholesky").where("wrong", 1);
-  const Table silent = answers.where("ended", "settled; refused"), loud = answers.where("ended", "cycled; refused");
-  const Table flat = silent.where_number("epsilon", [](double epsilon) { return epsilon < 0.9e-9; });
+  const Table answers = naive.filter("solver", "sum: Cholesky").filter("wrong", 1);
+  const Table silent = answers.filter("ended", "settled; refused"), loud = answers.filter("ended", "cycled; refused");
+  const Table flat = silent.filter_number("epsilon", [](double epsilon) { return epsilon < 0.9e-9; });
   report.claim(
-      silent.size() >= 3 && silent.size() >= 4 * loud.size() && (flat.size() == 0 || flat.most("flat") < 0.1),
+      silent.size() >= 3 && silent.size() >= 4 * loud.size() && (flat.size() == 0 || flat.max("flat") < 0.1),
       "Cholesky of the sum: {} wrong answers settled without a complaint, {} did not settle; below 1e-9 at most "
       "{:.3f} of the ridge is left (observed)",
-      silent.size(), loud.size(), flat.size() == 0 ? 0 : flat.most("flat"));
-  report.claim(naive.where("wrong", 1).where("refused", 0).size() == 0,
+      silent.size(), loud.size(), flat.size() == 0 ? 0 : flat.max("flat"));
+  report.claim(naive.filter("wrong", 1).filter("refused", 0).size() == 0,
                "every wrong answer is refused by the checks in split form (observed)");
-  const Table at = lines.where("epsilon", 1e-6),
-              limit = lines.where_number("epsilon", [](double e) { return e < 2e-3 && e > 2e-5; });
-  const double truth = at.where("method", "P1 along, 4 times finer").number("u");
+  const Table at = lines.filter("epsilon", 1e-6),
+              limit = lines.filter_number("epsilon", [](double e) { return e < 2e-3 && e > 2e-5; });
+  const double exact_solution = at.filter("method", "P1 along, 4 times finer").number("u");
   for (const Table& row : at.rows()) {
     const std::string name = row.entry("method").text();
-    const Table two = limit.where("method", name);
+    const Table two = limit.filter("method", name);
     report.claim_within(two.order("from_limit", "epsilon"), 1.8, 2.1,
                         name + ": asymptotic-preserving, order in epsilon to its own limit (proved: 2)");
     if (name == "P1 structured" || name == "P1 unstructured")  // what is kept falls like epsilon^2 (chapter 06)
       report.claim_within(two.order("u", "epsilon"), 1.95, 2.01,
                           name + ": and locked, u itself falls with order (proved: 2)");
     else
-      report.claim_within(row.number("u") / truth, 0.95, name.starts_with("CR") ? 1.4 : 1.05,
+      report.claim_within(row.number("u") / exact_solution, 0.95, name.starts_with("CR") ? 1.4 : 1.05,
                           name + ": and free, of the true u (observed)");
   }
 }

@@ -18,7 +18,7 @@ inline VariationalInequality turned(const Space& space, double epsilon) {
     if (space.mesh().region[t] != Region::layer) continue;
     const Eigen::VectorXd slopes =
         space.element().derivative(Eigen::Vector3d::Constant(1.0 / 3)) * barycentric_gradients(space.mesh(), t).col(0);
-    for (int i = 0; i < slopes.size(); ++i) entries.emplace_back(row, space.unknowns()(t, i), slopes(i));
+    for (int i = 0; i < slopes.size(); ++i) entries.emplace_back(row, space.cell_dofs()(t, i), slopes(i));
     ++row;
   }
   RowMatrix d_x(problem.b.rows(), problem.b.cols());
@@ -38,7 +38,7 @@ inline Table turn_the_lines(int cells, const std::function<Eigen::VectorXd(const
   const auto largest = [](const Discretisation& on, const Eigen::VectorXd& u) {
     double most = 0;
     for (int i = 0; i < u.size(); ++i)
-      if (std::abs(on.space().points()(i, 1)) < 1e-12) most = std::max(most, -u(i));
+      if (std::abs(on.space().dof_coordinates()(i, 1)) < 1e-12) most = std::max(most, -u(i));
     return most;
   };
   const auto add = [&](const std::string& name, const Discretisation& on) {
@@ -70,7 +70,7 @@ inline Table condition_numbers(const Space& space) {
   Table conditions({"epsilon", "summed", "factored"});
   for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-16}) {
     const VariationalInequality problem = assemble(paper_scene(epsilon), space);
-    const FreeNumbering free(problem);
+    const DofOrdering free(problem);
     const PenaltyFactor factor(problem);
     const SparseMatrix k = penalised_matrix(problem, free, factor.delta());
     const auto inverse = [&](const Eigen::VectorXd& x) { return factor.solve(x); };
@@ -87,7 +87,7 @@ inline Table layer_stress_curves() {
   Table curves({"x", "p_1", "p_01", "p_001", "p_0"});
   for (int j = 0; j <= 200; ++j) {
     const double x = j / 200.0;
-    std::vector<Entry> row{x};
+    std::vector<TableEntry> row{x};
     for (const Exact& one : exact) row.emplace_back(one.table.layer_stress(x, -0.5));
     curves.add(row);
   }
@@ -97,8 +97,8 @@ inline Table layer_stress_curves() {
 /// Prints P1's errors, how its solvers ended, and the condition numbers; writes results.csv, and layer_stress_curves as
 /// stress.csv.
 inline void show_round_off(const std::filesystem::path& out, const Table& results, const Table& conditions) {
-  results.where("element", "P1").pivot("epsilon", "solver", "error").print("P1 structured: error at the unknowns", 3);
-  results.where("element", "P1")
+  results.filter("element", "P1").pivot("epsilon", "solver", "error").print("P1 structured: error at the unknowns", 3);
+  results.filter("element", "P1")
       .pivot("epsilon", "solver", "ended")
       .print("how they ended, and what the checks in split form say");
   conditions.print("condition number of the sum, and of the A_delta that is factored", 2);
@@ -126,13 +126,15 @@ inline Table compare_solvers(const Method& method, const Space& space, const Exa
   const auto add = [&](const std::string& solver, const Eigen::VectorXd& u, const std::string& ended, double seconds) {
     double error = u.size() == 0 ? std::nan("") : 0;
     for (int i = 0; i < u.size(); ++i)
-      error = std::max(error, std::abs(u(i) - exact.table.value(space.points()(i, 0), space.points()(i, 1))));
+      error = std::max(
+          error, std::abs(u(i) - exact.table.value(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))));
     if (solver == "split form") right = error, split = u;
     const double apart = u.size() == 0 ? std::nan("") : (u - split).lpNorm<Eigen::Infinity>();
-    rows.add({solver, method.element->name(), method.family.name, exact.epsilon, error, ended, !(error <= 2 * right),
-              ended == "no answer" || ended.ends_with("refused"),
-              u.size() == 0 ? std::nan("") : u(space.contact()).maxCoeff() / split(space.contact()).maxCoeff(), seconds,
-              apart / split.lpNorm<Eigen::Infinity>()});
+    rows.add(
+        {solver, method.element->name(), method.family.name, exact.epsilon, error, ended, !(error <= 2 * right),
+         ended == "no answer" || ended.ends_with("refused"),
+         u.size() == 0 ? std::nan("") : u(space.contact_dofs()).maxCoeff() / split(space.contact_dofs()).maxCoeff(),
+         seconds, apart / split.lpNorm<Eigen::Infinity>()});
   };
   const auto checked = [&](Solution solution) {
     try {
@@ -151,7 +153,7 @@ inline Table compare_solvers(const Method& method, const Space& space, const Exa
   add("cure in 20 lines", cured, "", watch.lap());
   for (const auto& [kind, name] : {std::pair{SummedFactor::cholesky, "sum: Cholesky"}, {SummedFactor::lu, "sum: LU"}}) {
     watch.lap();
-    const NaiveAnswer naive = naive_summed_solve(problem, kind);
+    const NaiveResult naive = naive_summed_solve(problem, kind);
     const double seconds = watch.lap();
     const bool answered = naive.end != NaiveEnd::refused;  // else the factorisation itself gave up
     add(name, answered ? naive.solution.u : Eigen::VectorXd(),

@@ -92,29 +92,29 @@ const std::vector<std::string> columns{
     "layer_share", "displacement", "stress",  "works", "ratio", "inside", "width_ratio", "cr_below", "shift"};
 
 // ### Mesh
-Table certify_both(const MeshFamily& family, int cells, const std::vector<Exact>& truth) {
+Table certify_both(const MeshFamily& family, int cells, const std::vector<Exact>& exact_solution) {
   const Discretisation cr(family.mesh(cells), crouzeix_raviart()), linear(cr, p1());
   // ### Forms
   SceneSweep below(paper_scene(1), cr.space()), above(paper_scene(1), linear.space());
   Table rows(columns);
-  for (const Exact& exact : truth) {
+  for (const Exact& exact : exact_solution) {
     below.set_epsilon(exact.epsilon);
     above.set_epsilon(exact.epsilon);
     // ### Solve
     const Solution u_h = below.solve(), p1_solution = above.solve();
     // One flux, two functions v: the strip, which certify() makes, and P1's own solution. Nothing here knows u.
     const Companion v = p1_companion(p1_solution),
-                    strip = strip_companion(exact.scene, cr.space(), below.problem(), u_h);
+                    strip = local_companion(exact.scene, cr.space(), below.problem(), u_h);
     const Certificate of_cr = certify(exact.scene, cr.space(), below.problem(), u_h, {.companion = &strip}),
                       of_p1 = certify(exact.scene, cr.space(), below.problem(), u_h, {.companion = &v});
     // The errors, J(CR) and the right side of the identity (`works`: ∫ λ_u v + ∫ λ_h u - (f - f_1, u)), for the verdicts alone.
     const EquilibratedFlux flux = equilibrated_flux(exact.scene, cr.space(), below.problem(), u_h);
-    const double j_cr = energy(below.problem(), u_h), j = exact.truth.energy();
+    const double j_cr = energy(below.problem(), u_h), j = exact.solution.energy();
     const auto add = [&](const char* element, const Certificate& found, const Companion& companion) {
       const ExactErrors errors = exact_errors(cr.mesh(), flux, companion, exact.table);
       const double error = element == std::string("CR") ? errors.gradient : errors.displacement,
                    bound = found.displacement, width = found.energy_upper - found.energy_lower,
-                   w = std::pow(found.mismatch, 2) / 2 + found.contact_work;  // without oscillation
+                   w = std::pow(found.constitutive_error, 2) / 2 + found.contact_work;  // without oscillation
       rows.add({element, family.name, exact.epsilon, cells, 1.0 / cells, found.energy_lower, found.energy_upper, width,
                 bound, error, found.layer_share, std::pow(errors.displacement, 2) / (2 * w),
                 std::pow(errors.flux, 2) / (2 * w), tutorial::works(cr.space(), flux, companion, exact) / w,
@@ -129,38 +129,38 @@ Table certify_both(const MeshFamily& family, int cells, const std::vector<Exact>
 
 // ### Output
 void judge(const Table& all, const Table& uzawa, tutorial::Report& report) {
-  report.claim(all.least("ratio") >= 1, "no bound lies below its error, in {} runs (proved)", all.size());
-  report.claim(all.least("inside") >= 0, "every bracket holds the exact energy (proved)");
-  report.claim(all.least("width_ratio") >= 1, "(2 width)^(1/2), too, is never below the error (proved)");
-  report.claim(all.least("cr_below") >= 0, "the energy of Crouzeix-Raviart lies below J(u) (observed)");
+  report.claim(all.min("ratio") >= 1, "no bound lies below its error, in {} runs (proved)", all.size());
+  report.claim(all.min("inside") >= 0, "every bracket holds the exact energy (proved)");
+  report.claim(all.min("width_ratio") >= 1, "(2 width)^(1/2), too, is never below the error (proved)");
+  report.claim(all.min("cr_below") >= 0, "the energy of Crouzeix-Raviart lies below J(u) (observed)");
   double apart = 0;
   for (const Table& row : all.rows())
     apart = std::max(apart, std::abs(row.number("displacement") + row.number("stress") + row.number("works") - 1));
   report.claim_within(apart, 0, 1.2e-3, "width = displacement + stress + works (proved); off by");
-  const double finest = all.most("cells");
-  const Table shift = all.where("element", "CR").where("mesh", "unstructured").where("cells", finest);
-  report.claim(shift.most("shift") < 1.001 * shift.least("shift"),  // ½ |τ|², which the load alone decides
-               "the proved bound lies {:.2f} h^2 below J(CR), at every epsilon (proved)", shift.most("shift"));
-  const Table bounds = uzawa.where("quantity", "bound");
-  const double late = bounds.where("steps", 16).number("value") / bounds.last("value");
+  const double finest = all.max("cells");
+  const Table shift = all.filter("element", "CR").filter("mesh", "unstructured").filter("cells", finest);
+  report.claim(shift.max("shift") < 1.001 * shift.min("shift"),  // ½ |τ|², which the load alone decides
+               "the proved bound lies {:.2f} h^2 below J(CR), at every epsilon (proved)", shift.max("shift"));
+  const Table bounds = uzawa.filter("quantity", "bound");
+  const double late = bounds.filter("steps", 16).number("value") / bounds.last("value");
   report.claim_within(late, 0.999, 1.05, "Uzawa: the bound after 16 steps over that after 512 (observed)");
   if (finest < 64) return report.not_judged("what is sharp and what closes: that takes meshes to 1/64");
   // At epsilon = 0 locked P1 is the body clamped on Sigma; its energy in closed form. The bracket cannot be narrower.
   const double a = 2 * std::numbers::pi, clamped = -25 / (a * a) * (1 - 2 / a * std::tanh(a / 2));
   for (const std::string mesh : {"structured", "unstructured", "layered"}) {
-    const Table cr = all.where("element", "CR").where("mesh", mesh),
-                p1 = all.where("element", "P1").where("mesh", mesh);
-    const Table thin = cr.where("cells", finest).where_number("epsilon", [](double e) { return e <= 0.1; });
-    const double varies = thin.most("ratio") / thin.least("ratio") - 1;
-    report.claim(cr.most("ratio") <= 1.5 && varies <= 0.02,
+    const Table cr = all.filter("element", "CR").filter("mesh", mesh),
+                p1 = all.filter("element", "P1").filter("mesh", mesh);
+    const Table thin = cr.filter("cells", finest).filter_number("epsilon", [](double e) { return e <= 0.1; });
+    const double varies = thin.max("ratio") / thin.min("ratio") - 1;
+    report.claim(cr.max("ratio") <= 1.5 && varies <= 0.02,
                  "CR {}: bound / error {:.2f} to {:.2f}; for epsilon <= 0.1 it varies by {:.1f} % (observed)", mesh,
-                 cr.least("ratio"), cr.most("ratio"), 100 * varies);
+                 cr.min("ratio"), cr.max("ratio"), 100 * varies);
     for (const double epsilon : {1.0, 1e-4, 0.0}) {
-      const Table own = p1.where("epsilon", epsilon);
+      const Table own = p1.filter("epsilon", epsilon);
       const double share = own.last("layer_share");
       if (mesh == "unstructured" && epsilon < 1e-2) {
         const double j =
-            0.5 * (all.where("epsilon", epsilon).most("lower") + all.where("epsilon", epsilon).least("upper"));
+            0.5 * (all.filter("epsilon", epsilon).max("lower") + all.filter("epsilon", epsilon).min("upper"));
         report.claim_within(
             own.last("width") / (clamped - j), 1, 1.15,
             fmt::format("P1 locked, epsilon = {:g}: {:.0f} % of the bound in the layer, its width over what "
@@ -174,15 +174,15 @@ void judge(const Table& all, const Table& uzawa, tutorial::Report& report) {
 }
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
-  const std::vector<Exact> truth = tutorial::exact_solutions({1, 1e-1, 1e-2, 1e-4, 1e-6, 0}, 14);
+  const std::vector<Exact> exact_solution = tutorial::exact_solutions({1, 1e-1, 1e-2, 1e-4, 1e-6, 0}, 14);
   Table results(columns);
   for (const MeshFamily& family : families)
     for (int cells = 8; cells <= options.cells; cells *= 2) {
       report.stage(fmt::format("{} mesh, 1/h = {}: P1 and CR, certified", family.name, cells));
-      results.add(certify_both(family, cells, truth));
+      results.add(certify_both(family, cells, exact_solution));
     }
   report.finish();
-  const Table uzawa = tutorial::certify_uzawa(truth[2]);
+  const Table uzawa = tutorial::certify_uzawa(exact_solution[2]);
   tutorial::show_certificates(options.out, results, uzawa);
   judge(results, uzawa, report);
 }

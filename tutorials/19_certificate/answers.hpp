@@ -43,7 +43,7 @@ void parabola(const tutorial::Options&, tutorial::Report& report) {
         Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
         lambda((i + 1) % 3) = k / 32.0;
         lambda((i + 2) % 3) = 1 - k / 32.0;
-        lowest = std::min(lowest, on.space().element().basis(lambda).dot(solution.u(on.space().unknowns().row(t))));
+        lowest = std::min(lowest, on.space().element().basis(lambda).dot(solution.u(on.space().cell_dofs().row(t))));
       }
     }
   report.claim(lowest < 0, "P2 is nowhere negative at its unknowns on Gamma_C, and {:.1e} between them: not in K",

@@ -14,7 +14,7 @@ inline Table certify_uzawa(const Exact& exact) {
   const Scene scene = paper_scene(exact.epsilon);
   const VariationalInequality problem = assemble(scene, on.space());
   PenaltyFactor factor(problem, problem.compliance);  // K is the problem's own: one solve gives u exactly
-  const auto& free = factor.numbering().unknown;
+  const auto& free = factor.ordering().dof;
   const Eigen::MatrixXd& block = factor.contact_block();  // L, the compliance on Gamma_C is (L L')^-1
   const auto compliance = [&](const Eigen::VectorXd& force) -> Eigen::VectorXd {
     const Eigen::VectorXd half = block.triangularView<Eigen::Lower>().solve(force);
@@ -58,13 +58,13 @@ inline void write_pictures(const std::filesystem::path& out) {
 
 /// Prints the finest meshes' results, writes results.csv, effectivity.csv and uzawa.csv, and the pictures' fields.
 inline void show_certificates(const std::filesystem::path& out, const Table& results, const Table& uzawa) {
-  const Table finest = results.where("cells", results.most("cells"));
+  const Table finest = results.filter("cells", results.max("cells"));
   finest.select({"element", "mesh", "epsilon", "lower", "upper", "bound", "error", "ratio", "layer_share"})
       .print("the energy bracket; bound and error in the energy norm; the layer's share of the bound");
   finest.select({"element", "mesh", "epsilon", "displacement", "stress", "works"})
       .print("what the width consists of, in parts of it (finest mesh)", 3);
   results.write(out / "results.csv");
-  finest.where_number("epsilon", [](double epsilon) { return epsilon > 0; }).write(out / "effectivity.csv");
+  finest.filter_number("epsilon", [](double epsilon) { return epsilon > 0; }).write(out / "effectivity.csv");
   uzawa.write(out / "uzawa.csv");
   write_pictures(out);
 }
@@ -75,13 +75,13 @@ inline double works(const Space& cr, const EquilibratedFlux& flux, const Compani
   const TriangleMesh& mesh = cr.mesh();
   const auto [points, weights] = gauss_rule(4);
   double work = 0;
-  for (std::size_t place = 0; place < cr.contact().size(); ++place) {
-    const int edge = cr.contact()[place], from = mesh.edges(edge, 0),
+  for (std::size_t place = 0; place < cr.contact_dofs().size(); ++place) {
+    const int edge = cr.contact_dofs()[place], from = mesh.edges(edge, 0),
               to = mesh.edges(edge, 1);  // an unknown is an edge
     for (Eigen::Index q = 0; q < points.size(); ++q) {
       const double s = points(q), x = (1 - s) * mesh.vertices(from, 0) + s * mesh.vertices(to, 0);
       const double v_there = v.layer ? v.layer->value({x, -1}) : (1 - s) * v.at_vertices(from) + s * v.at_vertices(to);
-      work += weights(q) * mesh.edge_length(edge) * exact.truth.pressure(x) * v_there;
+      work += weights(q) * mesh.edge_length(edge) * exact.solution.pressure(x) * v_there;
       work += weights(q) * flux.lambda(static_cast<Eigen::Index>(place)) * exact.table.value(x, -1);
     }
   }

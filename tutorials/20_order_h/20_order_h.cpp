@@ -97,13 +97,13 @@ const double load_norm = 10 / std::sqrt(2);  // ‖f‖ of f = 10 sin(2 pi x)
 const std::vector<std::string> columns{"mesh",          "epsilon",  "cells", "h",    "CR",      "P1",
                                        "interpolation", "discrete", "layer", "flux", "contact", "product"};
 
-Table solve_both(const std::string& family, int cells, const std::vector<Exact>& truth) {
+Table solve_both(const std::string& family, int cells, const std::vector<Exact>& exact_solution) {
   // ### Mesh
   const Discretisation cr(mesh_family(family).mesh(cells), crouzeix_raviart()), linear(cr, p1());
   // ### Forms
-  SceneSweep below(truth[0].scene, cr.space()), above(truth[0].scene, linear.space());
+  SceneSweep below(exact_solution[0].scene, cr.space()), above(exact_solution[0].scene, linear.space());
   Table rows(columns);
-  for (const Exact& exact : truth) {
+  for (const Exact& exact : exact_solution) {
     // ### Solve
     below.set_epsilon(exact.epsilon);
     above.set_epsilon(exact.epsilon);
@@ -123,29 +123,29 @@ Table solve_both(const std::string& family, int cells, const std::vector<Exact>&
 
 // ### Output
 void judge_theorems(const Table& norms, const Table& units, const Table& all, tutorial::Report& report) {
-  const double low = norms.least("(|u|^2 + 2 F^2) / |f|^2"), high = norms.most("(|u|^2 + 2 F^2) / |f|^2");
+  const double low = norms.min("(|u|^2 + 2 F^2) / |f|^2"), high = norms.max("(|u|^2 + 2 F^2) / |f|^2");
   report.claim(low >= 1 - 1e-5 && high <= 1 + 1e-5, "Theorem A is an equality: {:.6f} to {:.6f} (both)", low, high);
-  const Table resolved = norms.where_number("epsilon", [](double e) { return e <= 0.1 && e >= 1e-3; });
-  report.claim(resolved.least("epsilon^1/2 |d/dx p|") > 0.6 && resolved.most("epsilon^1/2 |d/dx p|") < 1.6,
+  const Table resolved = norms.filter_number("epsilon", [](double e) { return e <= 0.1 && e >= 1e-3; });
+  report.claim(resolved.min("epsilon^1/2 |d/dx p|") > 0.6 && resolved.max("epsilon^1/2 |d/dx p|") < 1.6,
                "|d/dx p| grows like epsilon^-1/2 (observed): no bound of it holds for all epsilon");
-  report.claim(units.most("half") <= 1, "|u - I_h u|_a <= {:.2f} (h/pi) |f| on four meshes (proved on every mesh: 1)",
-               units.most("half"));
-  report.claim(units.most("T_C") <= units.most("Lemma B") && units.most("Lemma B") <= 0.56,
+  report.claim(units.max("half") <= 1, "|u - I_h u|_a <= {:.2f} (h/pi) |f| on four meshes (proved on every mesh: 1)",
+               units.max("half"));
+  report.claim(units.max("T_C") <= units.max("Lemma B") && units.max("Lemma B") <= 0.56,
                "T_C <= Lemma B's sum <= {:.1e} (h |f|)^2 on four meshes (proved on every mesh: 0.56)",
-               units.most("Lemma B"));
-  const Table own = units.where("mesh", "structured"), structured = all.where("mesh", "structured");
-  report.claim(own.most("CR") <= 1.7 && own.most("P1") <= 1.3 && own.most("eta") <= 0.601,
+               units.max("Lemma B"));
+  const Table own = units.filter("mesh", "structured"), structured = all.filter("mesh", "structured");
+  report.claim(own.max("CR") <= 1.7 && own.max("P1") <= 1.3 && own.max("eta") <= 0.601,
                "Theorem C: error / (h |f|) <= {:.3f} (CR), {:.3f} (P1), eta {:.3f} (proved: 1.7, 1.3, 0.601)",
-               own.most("CR"), own.most("P1"), own.most("eta"));
+               own.max("CR"), own.max("P1"), own.max("eta"));
   for (const std::string element : {"CR", "P1"}) {  // the worst over epsilon first, then the order
     Table sup({"h", "error"});
-    for (const Entry& h : structured.different("h")) sup.add({h, structured.where("h", h).most(element)});
+    for (const TableEntry& h : structured.unique("h")) sup.add({h, structured.filter("h", h).max(element)});
     report.claim_order(sup, "error", "h", 0.95, 1.05, element + " structured, worst over epsilon (both)");
   }
 }
 
 void judge_rows(const Table& limit, const Exact& exact, tutorial::Report& report) {
-  const Table rows = limit.where("mesh", "rows"), upright = limit.where("mesh", "structured");
+  const Table rows = limit.filter("mesh", "rows"), upright = limit.filter("mesh", "structured");
   report.claim_order(upright, "layer", "h", 0.95, 1.05, "S^- on columns (observed)");
   report.claim_order(rows, "layer", "h", 0.70, 0.90, "S^- on rows (observed)");
   double quotient = 0;
@@ -153,12 +153,12 @@ void judge_rows(const Table& limit, const Exact& exact, tutorial::Report& report
     const int n = static_cast<int>(row.number("cells"));
     const double unit = std::abs(exact.table.layer_stress(exact.contact_from(), 0)) * std::pow(k_of_rows(n), 0.75),
                  bound = tutorial::lower_bound(exact, mesh_family("rows").mesh(n), n), before = quotient;
-    quotient = row.number("layer") / upright.where("cells", n).number("layer");
+    quotient = row.number("layer") / upright.filter("cells", n).number("layer");
     report.claim(row.number("layer") >= bound && quotient > before,
                  "rows, 1/h = {}: S^- = {:.2f} J k^3/4, at least {:.2f} (proved); {:.2f} times columns' (observed)", n,
                  row.number("layer") / unit, bound / unit, quotient);
   }
-  const int n = static_cast<int>(rows.most("cells"));
+  const int n = static_cast<int>(rows.max("cells"));
   for (const double rho : {0.1, 1.0, 3.0}) {
     const double law = tutorial::kept_over_law(rho, n), ah = 2 * std::numbers::pi / n;  // the law is that of a h = 0
     report.claim(std::abs(law - 1) <= ah * ah / 2, "P1 on rows, k = {} epsilon: kept / law = {:.4f} (both)", rho, law);
@@ -166,22 +166,22 @@ void judge_rows(const Table& limit, const Exact& exact, tutorial::Report& report
 }
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
-  const std::vector<Exact> truth = tutorial::exact_solutions({1, 1e-1, 1e-2, 1e-3, 1e-4, 0}, 14);
+  const std::vector<Exact> exact_solution = tutorial::exact_solutions({1, 1e-1, 1e-2, 1e-3, 1e-4, 0}, 14);
   Table all(columns), limit(columns);
   for (const std::string family : {"structured", "columns", "rows", "unstructured"}) {
     report.stage(family + " mesh, six values of epsilon");
-    for (int n = 8; n <= options.cells; n *= 2) all.add(solve_both(family, n, truth));
+    for (int n = 8; n <= options.cells; n *= 2) all.add(solve_both(family, n, exact_solution));
     if (family == "unstructured") break;
-    limit.add(all.where("mesh", family).where("epsilon", 0));
+    limit.add(all.filter("mesh", family).filter("epsilon", 0));
     limit.add(solve_both(family, 2 * options.cells, tutorial::exact_solutions({0}, 14)));
   }
   report.finish();
-  const Table norms = tutorial::theorem_a(truth, load_norm), units = tutorial::in_units(all, load_norm);
+  const Table norms = tutorial::theorem_a(exact_solution, load_norm), units = tutorial::in_units(all, load_norm);
   norms.print("the exact solution (proved: 1, at most 0.5, at most 1.36, no bound)", 6);
   tutorial::show_orders(options.out, all, units, limit);
   tutorial::draw_triangles(options.out / "triangles.csv");
   judge_theorems(norms, units, all, report);
-  judge_rows(limit, truth.back(), report);
+  judge_rows(limit, exact_solution.back(), report);
 }
 
 // ## What came out

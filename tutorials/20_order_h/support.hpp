@@ -1,6 +1,6 @@
 #pragma once
 #include "antilock/certificate/equilibrated_flux.hpp"
-#include "antilock/exact/truth_distance.hpp"
+#include "antilock/exact/exact_norms.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/measure/contact_edges.hpp"
 #include "course/course.hpp"
@@ -11,7 +11,7 @@ namespace antilock::tutorial {
 
 /// The flux of u: its gradient in the body, (d/dx u, p) in the layer.
 inline Eigen::Vector2d flux_at(const Exact& exact, const Eigen::Vector2d& x, bool in_layer) {
-  const TruthPoint u = exact.table.at(x(0), x(1));
+  const ExactPoint u = exact.table.at(x(0), x(1));
   return in_layer ? Eigen::Vector2d(u.gradient(0), u.layer_stress) : u.gradient;
 }
 
@@ -66,8 +66,8 @@ inline Parts take_apart(const Exact& exact, const Space& space, const Variationa
     double pressure = 0, height = 0, slope = 0;
     for (int i = 0; i < points; ++i) {
       const double x = point_in(mesh, edge.triangle, on_edge(edge.opposite, (i + 0.5) / points))(0);
-      const TruthPoint u = exact.table.at(x, -1);
-      pressure += exact.truth.pressure(x) / points;
+      const ExactPoint u = exact.table.at(x, -1);
+      pressure += exact.solution.pressure(x) / points;
       height += u.value / points;
       slope += std::abs(u.gradient(0)) / points;
     }
@@ -80,12 +80,12 @@ inline Parts take_apart(const Exact& exact, const Space& space, const Variationa
 // Chapter 20: its tables and its drawing.
 
 /// Theorem A at each epsilon, |.| in units of |f|; the last column in units of 1.
-inline Table theorem_a(const std::vector<Exact>& truth, double load_norm) {
+inline Table theorem_a(const std::vector<Exact>& exact_solution, double load_norm) {
   Table norms({"epsilon", "(|u|^2 + 2 F^2) / |f|^2", "F / |f|", "|p| / |f|", "epsilon^1/2 |d/dx p|"});
-  for (const Exact& exact : truth) {
-    const Regularity u = regularity(exact.truth);
+  for (const Exact& exact : exact_solution) {
+    const Regularity u = regularity(exact.solution);
     norms.add({exact.epsilon, (u.body + 2 * u.layer) / (load_norm * load_norm), std::sqrt(u.layer) / load_norm,
-               stress_norm(exact.truth) / load_norm, std::sqrt(exact.epsilon * u.stress_x)});
+               stress_norm(exact.solution) / load_norm, std::sqrt(exact.epsilon * u.stress_x)});
   }
   return norms;
 }
@@ -105,14 +105,14 @@ inline Table in_units(const Table& all, double load_norm) {
 
 /// Prints the finest mesh in units; writes results.csv, errors.csv (of the structured mesh) and layer.csv.
 inline void show_orders(const std::filesystem::path& out, const Table& all, const Table& units, const Table& limit) {
-  units.where("cells", all.most("cells"))
+  units.filter("cells", all.max("cells"))
       .print(
           "the finest mesh, T_C and Lemma B in (h |f|)^2, the rest in h |f|, half in (h/pi) |f| (proved on the "
           "structured "
           "mesh: 1.7, 1.3, 1, 0.601, 0.56, 0.56)",
           3);
   Table errors({"element", "mesh", "epsilon", "cells", "h", "error"});
-  for (const Table& row : all.where("mesh", "structured").rows())
+  for (const Table& row : all.filter("mesh", "structured").rows())
     for (const char* element : {"CR", "P1"})
       errors.add({element, "structured", row.entry("epsilon"), row.entry("cells"), row.entry("h"), row.entry(element)});
   all.write(out / "results.csv");
@@ -183,7 +183,7 @@ inline double kept_over_law(double rho, int cells) {
   const Scene free(Body{paper_load}, StiffLayer{k_of_rows(cells) / rho});
   const auto ridge = [&](const std::string& family) {
     const Discretisation on(mesh_family(family).mesh(cells), p1());
-    return active_set(assemble(free, on.space())).u(on.space().contact()).maxCoeff();
+    return active_set(assemble(free, on.space())).u(on.space().contact_dofs()).maxCoeff();
   };
   return ridge("rows") / ridge("structured") * (1 + rho * rho * std::pow(a, 4) / stiffness);
 }

@@ -55,7 +55,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "antilock/certificate/accurate_enough.hpp"
+#include "antilock/certificate/balanced_tolerance.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/solve/summed.hpp"
 #include "support.hpp"
@@ -65,12 +65,12 @@ using tutorial::Exact, tutorial::TimedRun;
 
 // **Work and precision**: every solver at every ε, for one method on one mesh.
 void add(tutorial::Timing& study, const Method& method, const TriangleMesh& mesh, TimedRun run,
-         const std::vector<Exact>& truth) {
+         const std::vector<Exact>& exact_solution) {
   run.element = method.element->name();
   run.mesh = method.family.name;
   // ### Forms
   const Space space = method.space(mesh);
-  for (const Exact& exact : truth) {
+  for (const Exact& exact : exact_solution) {
     const VariationalInequality problem = assemble(tutorial::paper_scene(exact.epsilon), space);
     run.epsilon = exact.epsilon;
     run.unknowns = problem.free_count();
@@ -105,13 +105,13 @@ Table count_steps(int finest) {
 // **Stop when it is accurate enough**: Uzawa's two errors step by step, and where the bracket stops it.
 Table stop_early(const Method& method, int cells, const Exact& exact, tutorial::Report& report) {
   const Scene scene = tutorial::paper_scene(exact.epsilon);
-  const Discretisation on = method.on(cells);
+  const Discretisation on = method.discretise(cells);
   const VariationalInequality problem = assemble(scene, on.space());
   const auto error = [&](const Solution& u_h) { return exact.errors(on.space(), u_h).max; };
   UzawaOptions options;
-  const EnergyBracket coarse = energy_bracket(scene, method.mesh(cells / 2)), own = energy_bracket(scene, on.mesh());
-  options.enough = accurate_enough(coarse, 2);
-  const double extrapolated = options.enough->relative / accurate_enough(own).relative;
+  const EnergyBounds coarse = energy_bounds(scene, method.mesh(cells / 2)), own = energy_bounds(scene, on.mesh());
+  options.stop_at = balanced_tolerance(coarse, 2);
+  const double extrapolated = options.stop_at->relative / balanced_tolerance(own).relative;
   const Solution full = uzawa(problem), early = uzawa(problem, options);
   const double of_full = error(full), of_early = error(early);
   report.claim(of_early < 1.01 * of_full && 2 * early.counters.contact < full.counters.contact,
@@ -146,7 +146,7 @@ void judge_runs(const tutorial::Timing& study, double ridge, tutorial::Report& r
 }
 
 void work_precision(const tutorial::Options& options, tutorial::Report& report, tutorial::Timing study) {
-  const std::vector<Exact> truth = tutorial::exact_solutions({1, 1e-2, 1e-6});
+  const std::vector<Exact> exact_solution = tutorial::exact_solutions({1, 1e-2, 1e-6});
   for (int n = 8; n <= options.cells; n *= 2)
     for (const MeshFamily& family : {structured(), unstructured()}) {
       // ### Mesh
@@ -154,7 +154,8 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
       const Stopwatch watch;
       const TriangleMesh mesh = family.mesh(n);
       const TimedRun run{.cells = n, .mesh_seconds = watch.seconds()};
-      for (const Element* element : {&p1(), &crouzeix_raviart()}) add(study, {element, family}, mesh, run, truth);
+      for (const Element* element : {&p1(), &crouzeix_raviart()})
+        add(study, {element, family}, mesh, run, exact_solution);
     }
   // ### Output
   report.stage("where the time goes");
@@ -162,17 +163,17 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
   tutorial::write_runs(options.out / "work_precision.csv", study.runs);
   tutorial::write_price_list(options.out, study.runs);
   tutorial::write_machine(options.out / "machine.csv");
-  judge_runs(study, truth.back().truth.max_on_contact(), report);
+  judge_runs(study, exact_solution.back().solution.max_on_contact(), report);
   const Table steps = count_steps(std::min(2 * options.cells, 128));
   steps.pivot("h", "epsilon", "steps").print("Uzawa's steps to 12 digits, by h and epsilon", 6);
   steps.write(options.out / "steps.csv");
   // κ ∼ h^-1 and h^-2. The logarithm takes up to 0.4 off the second: the slowest wave is as long as a cell, and its share
   // of the error falls itself, like h^(7/2), so that fewer digits of it are left to gain. A finer mesh may take one
   // correction more, whose steps count too: 0.1.
-  report.claim_orders(steps.where("epsilon", 1.0), "steps", -1.2, -0.75, "Uzawa at epsilon = 1: steps");
-  report.claim_orders(steps.where("epsilon", 1e-6), "steps", -2.1, -1.6, "Uzawa at epsilon = 1e-6: steps");
+  report.claim_orders(steps.filter("epsilon", 1.0), "steps", -1.2, -0.75, "Uzawa at epsilon = 1: steps");
+  report.claim_orders(steps.filter("epsilon", 1e-6), "steps", -2.1, -1.6, "Uzawa at epsilon = 1e-6: steps");
   Table stopping({"method", "quantity", "steps", "error"});
-  const Exact& exact = truth[1];                       // ε = 1e-2
+  const Exact& exact = exact_solution[1];              // ε = 1e-2
   const int most_cells = std::min(options.cells, 64);  // finer, the last steps are minutes
   for (const Method& method : methods())
     if (method.name() != "CR structured") stopping.add(stop_early(method, most_cells, exact, report));

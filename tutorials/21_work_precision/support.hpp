@@ -155,7 +155,7 @@ struct Timing {
 
 /// FreeFEM's active set on the same mesh, where its command is given, the stiff part summed as a plain script does. The
 /// clock is the script's own, the last number of its summary, without start-up and reading the mesh.
-inline void add_freefem(Timing& study, TimedRun run, const Space& space, const TruthTable& truth) {
+inline void add_freefem(Timing& study, TimedRun run, const Space& space, const ExactTable& exact) {
   if (study.freefem.empty()) return;
   run.solver = "FreeFEM";
   if (study.given_up(run)) return study.runs.push_back(std::move(run));
@@ -185,7 +185,7 @@ inline void add_freefem(Timing& study, TimedRun run, const Space& space, const T
     std::getline(solution, header);
     double x = 0, y = 0, u = 0;
     for (char comma = 0; solution >> x >> comma >> y >> comma >> u; run.scale = std::max(run.scale, std::abs(u)))
-      run.errors.max_at_unknowns = std::max(run.errors.max_at_unknowns, std::abs(u - truth.value(x, y)));
+      run.errors.max_at_unknowns = std::max(run.errors.max_at_unknowns, std::abs(u - exact.value(x, y)));
   }
   study.runs.push_back(std::move(run));
 }
@@ -207,12 +207,12 @@ inline Table uzawa_on_its_way(const std::string& method, const VariationalInequa
                               const Solution& full, const std::function<double(const Solution&)>& error) {
   Table table({"method", "quantity", "steps", "error"});
   table.add({method, "accurate enough: stop", early.counters.contact, error(early)});
-  PenaltyFactor factor(problem, {}, ContactRoad::dense);  // one for every stop
+  PenaltyFactor factor(problem, {}, ContactReduction::schur_complement);  // one for every stop
   Solution u;
   double error_of_u = 0;
   for (double energy = 1e-3; energy > 1e-17; energy /= 4) {
     UzawaOptions options;
-    options.enough = {energy, 1e-3};
+    options.stop_at = {energy, 1e-3};
     const int before = u.counters.contact;
     if (before < full.counters.contact) u = uzawa(problem, factor, options);  // else it has come to its end
     if (u.counters.contact != before) error_of_u = error(u);                  // else it is the same u

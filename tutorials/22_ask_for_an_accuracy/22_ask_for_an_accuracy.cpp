@@ -53,14 +53,15 @@ double smallest_asked = 0.02;
 
 // ### Mesh
 // The first mesh: 1/h = 8, with a layer where everything is bisected, the body alone where columns are extruded.
-TriangleMesh first_mesh(Growth growth) {
-  return longest_edge_first(unstructured_mesh(8, {growth == Growth::bisect ? 1.0 : 0.0}));
+TriangleMesh first_mesh(RefinementStrategy growth) {
+  return longest_edge_first(unstructured_mesh(8, {growth == RefinementStrategy::bisect ? 1.0 : 0.0}));
 }
 
 // ### Solve
 Table ask(const std::string& load, const Exact& exact, const std::string& way) {
   const Quantity of = way == "midpoint" ? Quantity::stress : Quantity::displacement;
-  const Growth growth = way == "bisected" || exact.epsilon > 0.1 ? Growth::bisect : Growth::extrude;
+  const RefinementStrategy growth =
+      way == "bisected" || exact.epsilon > 0.1 ? RefinementStrategy::bisect : RefinementStrategy::extrude;
   Table rows(tutorial::accuracy_columns);
   for (const double asked : {0.2, 0.1, 0.05, 0.02, 0.01, 0.005}) {
     if (asked < smallest_asked) break;
@@ -72,18 +73,18 @@ Table ask(const std::string& load, const Exact& exact, const std::string& way) {
 }
 
 // Adaptivity on P1's own bound: the flux as ever, v the P1 solution on the mesh.
-Table refine_p1(Growth growth, const std::filesystem::path& picture) {
+Table refine_p1(RefinementStrategy growth, const std::filesystem::path& picture) {
   const Scene scene = tutorial::paper_scene(1e-6);
   Table rows({"method", "unknowns", "bound", "layer_share"});
-  GrowingMesh now{first_mesh(growth), first_mesh(growth)};
-  if (growth == Growth::extrude) now.mesh = extruded(now.body, 1e-6);
-  for (Certificate found;; now = grown(now, growth, 1e-6, found.indicator, {.spread = 1})) {
+  AdaptiveMesh now{first_mesh(growth), first_mesh(growth)};
+  if (growth == RefinementStrategy::extrude) now.mesh = extruded(now.body, 1e-6);
+  for (Certificate found;; now = refine_marked(now, growth, 1e-6, found.indicator, {.uniform_above = 1})) {
     const Space nonconforming(now.mesh, crouzeix_raviart()), linear(now.mesh, p1());
     const VariationalInequality problem = assemble(scene, nonconforming);
     const Companion v = p1_companion(active_set(assemble(scene, linear)));
     found = certify(scene, nonconforming, problem, active_set(problem), {.companion = &v});
-    rows.add({growth == Growth::bisect ? "P1 bisected" : "P1 extruded", linear.free_count(), found.displacement,
-              found.layer_share});
+    rows.add({growth == RefinementStrategy::bisect ? "P1 bisected" : "P1 extruded", linear.free_count(),
+              found.displacement, found.layer_share});
     if (linear.free_count() < 1500) tutorial::write_density(picture, now.mesh, found.indicator);
     if (linear.free_count() > 6000) return rows;
   }
@@ -91,18 +92,19 @@ Table refine_p1(Growth growth, const std::filesystem::path& picture) {
 
 // ### Output
 void verdicts(const Table& answers, const Table& uniform, const Table& p1, tutorial::Report& report) {
-  const Table bounds = answers.where("quantity", "bound");
-  report.claim(bounds.least("of_asked") >= 0.5 && bounds.most("of_asked") <= 1,
+  const Table bounds = answers.filter("quantity", "bound");
+  report.claim(bounds.min("of_asked") >= 0.5 && bounds.max("of_asked") <= 1,
                "all {} answers are proved to between half of what was asked (observed) and all of it (proved)",
                bounds.size());
-  report.claim(answers.where("quantity", "error").most("of_bound") <= 1,
+  report.claim(answers.filter("quantity", "error").max("of_bound") <= 1,
                "and no true error is above its bound (proved)");
-  const Table quoted = bounds.where_number("quoted", [](double q) { return q > 0; });
-  report.claim(quoted.least("of_quoted") >= 0.7 && quoted.most("of_quoted") <= 1.3,
+  const Table quoted = bounds.filter_number("quoted", [](double q) { return q > 0; });
+  report.claim(quoted.min("of_quoted") >= 0.7 && quoted.max("of_quoted") <= 1.3,
                "{} quotes were within 30 % of the unknowns in the end (observed)", quoted.size());
   // N times the square of the bound: the price of a family of meshes, whatever is asked of it
   const auto price = [&](const Table& of, const char* load, const char* way) {
-    const Table rows = of.where("load", load).where("epsilon", 1e-6).where("method", way).where("quantity", "bound");
+    const Table rows =
+        of.filter("load", load).filter("epsilon", 1e-6).filter("method", way).filter("quantity", "bound");
     return rows.last("unknowns") * rows.last("value") * rows.last("value");
   };
   const double bump = price(uniform, "bump", "uniform"), smooth = price(uniform, "paper", "uniform");
@@ -113,7 +115,7 @@ void verdicts(const Table& answers, const Table& uniform, const Table& p1, tutor
                       "smooth: times fewer, extruded (observed)");
   report.claim_within(price(answers, "paper", "midpoint") / price(answers, "paper", "extruded"), 0.2, 0.35,
                       "stresses cost, in parts of displacements (theory: 1/4; observed)");
-  const Table locked = p1.where("method", "P1 bisected"), free = p1.where("method", "P1 extruded");
+  const Table locked = p1.filter("method", "P1 bisected"), free = p1.filter("method", "P1 extruded");
   report.claim(locked.last("bound") > 0.1 && locked.last("layer_share") > 0.6 && free.last("bound") < 0.06,
                "P1 bisected: the bound is {:.3f} with {:.0f} unknowns, {:.0f} % of it in the layer; in columns {:.3f}",
                locked.last("bound"), locked.last("unknowns"), 100 * locked.last("layer_share"), free.last("bound"));
@@ -130,8 +132,8 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
         if (way != "extruded" || exact.epsilon <= 0.1) answers.add(ask(load, exact, way));
     }
   }
-  Table p1 = refine_p1(Growth::bisect, options.out / "p1_bisected.vtu");
-  p1.add(refine_p1(Growth::extrude, options.out / "p1_extruded.vtu"));
+  Table p1 = refine_p1(RefinementStrategy::bisect, options.out / "p1_bisected.vtu");
+  p1.add(refine_p1(RefinementStrategy::extrude, options.out / "p1_extruded.vtu"));
   report.finish();
   tutorial::show_accuracies(options.out, answers, uniform, p1);
   verdicts(answers, uniform, p1, report);

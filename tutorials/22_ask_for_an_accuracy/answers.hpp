@@ -8,7 +8,7 @@ void doubled_load(const tutorial::Options&, tutorial::Report& report) {
                       UnilateralContact{});
     return solve_to(scene, unstructured_mesh(8, {0}), {0.05}).history.back();
   };
-  const Level once = ask(1), twice = ask(2);
+  const RefinementLevel once = ask(1), twice = ask(2);
   report.claim(once.unknowns == twice.unknowns, "{} unknowns for the load, {} for twice the load", once.unknowns,
                twice.unknowns);
   report.claim_within(twice.relative / once.relative - 1, -1e-8, 1e-8, "the relative bounds are the same, up to");
@@ -39,8 +39,8 @@ void spike(const tutorial::Options&, tutorial::Report& report) {
                "the first mesh has {} unknowns, not {}: 64 x 64 samples per triangle found the spike",
                found.history.front().unknowns, asked_for);
   double least = 1;
-  for (int t = 0; t < found.answer.mesh->triangle_count(); ++t) least = std::min(least, found.answer.mesh->area(t));
-  report.claim(found.answer.warning.empty() && least < 0.002 * 0.002,
+  for (int t = 0; t < found.result.mesh->triangle_count(); ++t) least = std::min(least, found.result.mesh->area(t));
+  report.claim(found.result.warning.empty() && least < 0.002 * 0.002,
                "no warning is left, and the smallest triangle has the area {:.1e}", least);
 }
 

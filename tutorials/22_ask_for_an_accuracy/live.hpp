@@ -5,17 +5,18 @@ double asked = 0.1;
 std::string load = "bump", quantity = "displacement";
 
 void ask_once(const tutorial::Options& options, tutorial::Report&) {
-  const Growth growth = options.epsilon > 0.1 ? Growth::bisect : Growth::extrude;
+  const RefinementStrategy growth = options.epsilon > 0.1 ? RefinementStrategy::bisect : RefinementStrategy::extrude;
   Table levels({"unknowns", "bound"}), triangles({"x0", "y0", "x1", "y1", "x2", "y2", "colour"});
-  const CertifiedSolution found = solve_to(
-      load_scene(load, options.epsilon), first_mesh(growth),
-      {asked, quantity == "stress" ? Quantity::stress : Quantity::displacement, 2e6, growth}, [&](const Level& level) {
-        levels.add({level.unknowns, level.relative});
-      });
+  const CertifiedSolution found =
+      solve_to(load_scene(load, options.epsilon), first_mesh(growth),
+               {asked, quantity == "stress" ? Quantity::stress : Quantity::displacement, 2e6, growth},
+               [&](const RefinementLevel& level) {
+                 levels.add({level.unknowns, level.relative});
+               });
   levels.write(options.out / "levels.csv");
-  const TriangleMesh& mesh = *found.answer.mesh;
+  const TriangleMesh& mesh = *found.result.mesh;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    std::vector<Entry> row;
+    std::vector<TableEntry> row;
     for (const int v : mesh.triangles.row(t)) row.insert(row.end(), {mesh.vertices(v, 0), mesh.vertices(v, 1)});
     row.emplace_back(std::log10(std::max(found.certificate.indicator(t) / mesh.area(t), 1e-12)));
     triangles.add(row);

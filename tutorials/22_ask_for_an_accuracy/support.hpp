@@ -26,7 +26,7 @@ inline const std::vector<std::string> accuracy_columns{"load",     "epsilon",  "
                                                        "unknowns", "quoted",   "seconds",   "quantity", "value",
                                                        "levels",   "of_asked", "of_quoted", "of_bound"};
 
-struct Answer {
+struct Result {
   std::string load, method;
   double epsilon, asked = 0;
   Quantity of = Quantity::displacement;
@@ -34,7 +34,7 @@ struct Answer {
   double quoted = 0, seconds = 0, bound = 0;
 };
 
-inline std::vector<Entry> row(const Answer& a, const std::string& quantity, double value) {
+inline std::vector<TableEntry> row(const Result& a, const std::string& quantity, double value) {
   return {a.load,
           a.epsilon,
           a.method,
@@ -54,7 +54,7 @@ inline std::vector<Entry> row(const Answer& a, const std::string& quantity, doub
 /// Of |u|_a: on a cone K, |u|_a^2 = -2 J(u).
 inline double relative_error(const Exact& exact, const Scene& scene, const Space& space, const Solution& cr,
                              const Companion& v, Quantity of) {
-  const double norm = std::sqrt(-2 * exact.truth.energy());
+  const double norm = std::sqrt(-2 * exact.solution.energy());
   if (of == Quantity::displacement)
     return exact.errors(space, cr).energy / norm;  // of Crouzeix-Raviart: the same bound
   const VariationalInequality problem = assemble(scene, space);
@@ -64,40 +64,40 @@ inline double relative_error(const Exact& exact, const Scene& scene, const Space
 /// The bound of an answer, and for the paper's load its error.
 inline Table accuracy_rows(const std::string& load, const Exact& exact, const std::string& method, double asked,
                            Quantity of, const CertifiedSolution& found) {
-  const Level& last = found.history.back();
-  Answer answer{load, method, exact.epsilon, asked, of, last.unknowns, static_cast<int>(found.history.size())};
-  if (found.history.size() > 3) answer.quoted = found.history[found.history.size() - 2].quoted_unknowns;
-  answer.seconds = last.seconds;
-  answer.bound = last.relative;
+  const RefinementLevel& last = found.history.back();
+  Result result{load, method, exact.epsilon, asked, of, last.unknowns, static_cast<int>(found.history.size())};
+  if (found.history.size() > 3) result.quoted = found.history[found.history.size() - 2].predicted_unknowns;
+  result.seconds = last.seconds;
+  result.bound = last.relative;
   Table rows(accuracy_columns);
-  rows.add(row(answer, "bound", answer.bound));
+  rows.add(row(result, "bound", result.bound));
   if (load != "paper") return rows;
   const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
   rows.add(
-      row(answer, "error",
-          relative_error(exact, load_scene(load, exact.epsilon), found.answer.space, found.answer.solution, v, of)));
+      row(result, "error",
+          relative_error(exact, load_scene(load, exact.epsilon), found.result.space, found.result.solution, v, of)));
   return rows;
 }
 
 /// The price list as Markdown: one row per load, epsilon and accuracy, one column per way.
 inline void write_price_list(const std::filesystem::path& file, const Table& answers, const Table& uniform) {
   Table page({"load", "epsilon", "asked", "uniform", "bisected", "extruded", "midpoint stress"});
-  const auto cell = [](const Table& rows) -> Entry {
+  const auto cell = [](const Table& rows) -> TableEntry {
     if (rows.size() == 0) return "-";
     const Table row = rows.rows().front();
     return fmt::format("{:.0f}: {:.2g} s, {:.2g}", row.number("unknowns"), row.number("seconds"), row.number("value"));
   };
-  for (const Entry& load : answers.different("load"))
-    for (const Entry& epsilon : answers.different("epsilon"))
-      for (const Entry& asked : answers.different("asked")) {
+  for (const TableEntry& load : answers.unique("load"))
+    for (const TableEntry& epsilon : answers.unique("epsilon"))
+      for (const TableEntry& asked : answers.unique("asked")) {
         const auto here = [&](const Table& all) {
-          return all.where("load", load).where("epsilon", epsilon).where("quantity", "bound");
+          return all.filter("load", load).filter("epsilon", epsilon).filter("quantity", "bound");
         };
         const auto good = [&](double value) { return value <= asked.number(); };
         const auto way = [&](const char* name) {
-          return cell(here(answers).where("asked", asked).where("method", name));
+          return cell(here(answers).filter("asked", asked).filter("method", name));
         };
-        page.add({load, epsilon, asked, cell(here(uniform).where_number("value", good)), way("bisected"),
+        page.add({load, epsilon, asked, cell(here(uniform).filter_number("value", good)), way("bisected"),
                   way("extruded"), way("midpoint")});
       }
   write_markdown(
@@ -120,7 +120,7 @@ inline Certificate certified(const Scene& scene, const TriangleMesh& mesh) {
 inline void show_accuracies(const std::filesystem::path& out, const Table& answers, const Table& uniform,
                             const Table& p1) {
   Table prices({"load", "epsilon", "method", "asked", "unknowns", "quoted", "seconds", "certified", "levels"});
-  for (const Table& row : answers.where("quantity", "bound").rows())
+  for (const Table& row : answers.filter("quantity", "bound").rows())
     prices.add({row.entry("load"), row.entry("epsilon"), row.entry("method"), row.entry("asked"), row.entry("unknowns"),
                 row.entry("quoted"), row.entry("seconds"), row.entry("value"), row.entry("levels")});
   prices.print("asked -> unknowns, seconds, certified");
@@ -135,11 +135,11 @@ inline void show_accuracies(const std::filesystem::path& out, const Table& answe
   const Scene scene = load_scene("bump", 1e-6);
   const TriangleMesh coarse = unstructured_mesh(16);
   write_density(out / "uniform.vtu", coarse, certified(scene, coarse).indicator);
-  for (const Growth growth : {Growth::bisect, Growth::extrude}) {
-    const bool bisect = growth == Growth::bisect;
+  for (const RefinementStrategy growth : {RefinementStrategy::bisect, RefinementStrategy::extrude}) {
+    const bool bisect = growth == RefinementStrategy::bisect;
     const CertifiedSolution found =
         solve_to(scene, unstructured_mesh(8, {bisect ? 1.0 : 0.0}), {0.15, Quantity::displacement, 2e6, growth});
-    write_density(out / (bisect ? "bisected.vtu" : "extruded.vtu"), *found.answer.mesh, found.certificate.indicator);
+    write_density(out / (bisect ? "bisected.vtu" : "extruded.vtu"), *found.result.mesh, found.certificate.indicator);
   }
 }
 
@@ -148,7 +148,7 @@ inline Table on_uniform_meshes(const std::string& load, const Exact& exact, int 
   static std::map<int, TriangleMesh> meshes;  // gmsh's time is not counted, nor spent twice
   const Scene scene = load_scene(load, exact.epsilon);
   Table rows(accuracy_columns);
-  Answer answer{load, "uniform", exact.epsilon};
+  Result result{load, "uniform", exact.epsilon};
   for (int cells = 8; cells <= finest; cells *= 2) {
     if (!meshes.contains(cells)) meshes.emplace(cells, unstructured_mesh(cells));
     const TriangleMesh& mesh = meshes.at(cells);
@@ -157,12 +157,12 @@ inline Table on_uniform_meshes(const std::string& load, const Exact& exact, int 
     const VariationalInequality problem = assemble(scene, space);
     PenaltyFactor factor(problem);
     const Solution solution = active_set(problem, factor);
-    answer.bound = certify(scene, space, problem, solution, {.factor = &factor}).relative(Quantity::displacement);
-    answer.seconds += watch.lap();
-    answer.unknowns = space.free_count();
-    rows.add(row(answer, "bound", answer.bound));
+    result.bound = certify(scene, space, problem, solution, {.factor = &factor}).relative(Quantity::displacement);
+    result.seconds += watch.lap();
+    result.unknowns = space.free_count();
+    rows.add(row(result, "bound", result.bound));
     if (load == "paper")
-      rows.add(row(answer, "error", relative_error(exact, scene, space, solution, {}, Quantity::displacement)));
+      rows.add(row(result, "error", relative_error(exact, scene, space, solution, {}, Quantity::displacement)));
   }
   return rows;
 }

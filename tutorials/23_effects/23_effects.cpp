@@ -60,7 +60,7 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
   // ### Output
   table.print("what each scene costs", 3);
   table.write(options.out / "results.csv");
-  const Table alone = table.where("scene", "1_body"), ventcel = table.where("scene", "3_ventcel");
+  const Table alone = table.filter("scene", "1_body"), ventcel = table.filter("scene", "3_ventcel");
   report.claim(alone.number("solves") == 1 && alone.number("contact") == 0 && alone.number("corrections") == 0,
                "the body alone is one linear solve (observed)");
   bool same = true;
@@ -76,33 +76,34 @@ void three_models(const tutorial::Options& options, tutorial::Report& report) {
   const Exact exact(tutorial::paper_scene(options.epsilon), 14), limit(tutorial::paper_scene(0), 14);
   double model_error = 0;  // how far the limit is from the truth on Gamma_C
   for (int i = 1; i < 64; ++i)
-    model_error = std::max(model_error, std::abs(exact.truth.value(i / 64.0, -1) - limit.truth.value(i / 64.0, -1)));
-  const double energy_error = std::abs(exact.truth.energy() - limit.truth.energy());
+    model_error =
+        std::max(model_error, std::abs(exact.solution.value(i / 64.0, -1) - limit.solution.value(i / 64.0, -1)));
+  const double energy_error = std::abs(exact.solution.energy() - limit.solution.energy());
   Table table({"model", "h", "unknowns", "error_on_contact", "off_in_energy", "off_in_contact", "seconds"});
   for (const int cells : {options.cells, 2 * options.cells})
     for (const auto& [name, layer] : std::vector<std::pair<std::string, Layer>>{
              {"scaled", StiffLayer{options.epsilon}}, {"limit", StiffLayer{0}}, {"ventcel", VentcelLayer{}}}) {
       const Scene scene(body, layer, obstacle);
       const Run run(scene, unstructured_mesh(cells, {scene.layer_depth()}));
-      table.add({name, 1.0 / cells, run.solution.counters.unknowns, run.error_on_contact(exact.truth),
-                 std::abs(run.energy - exact.truth.energy()), std::abs(run.contact_from - exact.contact_from()),
+      table.add({name, 1.0 / cells, run.solution.counters.unknowns, run.error_on_contact(exact.solution),
+                 std::abs(run.energy - exact.solution.energy()), std::abs(run.contact_from - exact.contact_from()),
                  run.assemble_seconds + run.solve_seconds});
     }
   table.print(fmt::format("truth: contact from x = {:.4f}, J = {:.6f}; the limit differs by {:.1e} in u on Gamma_C",
-                          exact.contact_from(), exact.truth.energy(), model_error));
+                          exact.contact_from(), exact.solution.energy(), model_error));
   table.write(options.out / "models.csv");
-  for (const Entry& h : table.different("h")) {
-    const Table on = table.where("h", h);
+  for (const TableEntry& h : table.unique("h")) {
+    const Table on = table.filter("h", h);
     const double square = h.number() * h.number();
     // h^2 / 2 in energy and up to 1.6 h^2 in u on Gamma_C were measured; the end of contact falls into a cell or the next
-    report.claim(on.most("error_on_contact") <= 2 * square + model_error &&
-                     on.most("off_in_energy") <= square + energy_error &&
-                     on.most("off_in_contact") <= 2 * h.number() + model_error,
+    report.claim(on.max("error_on_contact") <= 2 * square + model_error &&
+                     on.max("off_in_energy") <= square + energy_error &&
+                     on.max("off_in_contact") <= 2 * h.number() + model_error,
                  "h = {:.4f}: three models, one answer, each within 2 h^2 + {:.1e} of the truth on Gamma_C, the second "
                  "number the model's own error (observed)",
                  h.number(), model_error);
-    const double ventcel = on.where("model", "ventcel").number("error_on_contact"),
-                 scaled = on.where("model", "scaled").number("error_on_contact");
+    const double ventcel = on.filter("model", "ventcel").number("error_on_contact"),
+                 scaled = on.filter("model", "scaled").number("error_on_contact");
     report.claim(ventcel <= scaled + model_error,
                  "Ventcel loses nothing without a mesh of the layer: error {:.1e}, with one {:.1e} (observed)", ventcel,
                  scaled);
@@ -127,7 +128,7 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
     for (const Table& row : table.rows()) most = std::max(most, std::abs(row.number(one) - row.number(other)));
     return most;
   };
-  const double h = 1.0 / options.cells, pressed = table.most("difference_on_pressed_mesh"),
+  const double h = 1.0 / options.cells, pressed = table.max("difference_on_pressed_mesh"),
                energy = apart("energy_thin", "energy_scaled"), from = apart("from_thin", "from_scaled");
   report.claim(pressed <= 1e-16 / (1e-6 * h * h),  // round-off times the condition of (22), epsilon^-2 h^-2
                "(22) is (23), term by term: u differs by {:.1e} on corresponding meshes (proved)", pressed);
@@ -140,7 +141,7 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
 // same factorisation.
 void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
-  const Discretisation on = Method{&crouzeix_raviart(), unstructured()}.on(options.cells);
+  const Discretisation on = Method{&crouzeix_raviart(), unstructured()}.discretise(options.cells);
   SceneSweep sweep(tutorial::paper_scene(epsilons.front()), on.space());
   for (const double epsilon : epsilons) {
     sweep.set_epsilon(epsilon);

@@ -22,10 +22,10 @@ struct Run {
   double energy = 0, contact_from = 1, assemble_seconds = 0, solve_seconds = 0;
 
   /// The largest |u - truth| at the contact unknowns.
-  double error_on_contact(const Truth& truth) const {
+  double error_on_contact(const ExactSolution& exact) const {
     double error = 0;  // gap = u where the obstacle is flat
     const Eigen::MatrixX3d points = contact_table(on.space(), problem, solution);
-    for (const auto& point : points.rowwise()) error = std::max(error, std::abs(point(1) - truth.value(point(0), -1)));
+    for (const auto& point : points.rowwise()) error = std::max(error, std::abs(point(1) - exact.value(point(0), -1)));
     return error;
   }
 };
@@ -35,7 +35,7 @@ struct Run {
 inline const std::vector<std::string> cost_columns{"scene",   "triangles", "unknowns",    "factorisations",
                                                    "solves",  "contact",   "corrections", "assemble_s",
                                                    "solve_s", "u_min",     "u_max"};
-inline std::vector<Entry> costs(const std::string& name, const Run& run) {
+inline std::vector<TableEntry> costs(const std::string& name, const Run& run) {
   const Counters& c = run.solution.counters;
   return {name,
           run.on.mesh().triangle_count(),

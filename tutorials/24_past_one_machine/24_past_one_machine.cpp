@@ -84,8 +84,8 @@ Ended on_each_rank(const Asked& ask) {
   int coarse = ask.cells;
   while (columns && coarse % 2 == 0 && coarse / 2 >= std::max(16, 4 * ask.ranks)) coarse /= 2, ++options.refinements;
   const TriangleMesh mesh = columns ? structured_mesh(coarse) : unstructured_mesh(coarse);
-  if (ask.what == "chessboard") options.share = tutorial::chessboard;
-  if (!columns) options.share = tutorial::all_on_the_first;
+  if (ask.what == "chessboard") options.partition = tutorial::chessboard;
+  if (!columns) options.partition = tutorial::all_on_the_first;
   // ### Solve
   options.loop.direct = ask.what == "MUMPS";
   dist::NestedReport report;
@@ -94,7 +94,7 @@ Ended on_each_rank(const Asked& ask) {
   return {report.unknowns.back(),
           report.last.corrections,
           report.last.linear_iterations,
-          report.last.most_iterations,
+          report.last.max_iterations,
           watch.seconds(),
           0,
           dist::largest(level->state.u.maxCoeff()),
@@ -130,9 +130,9 @@ void past_one_machine(const tutorial::Options& options, tutorial::Report& report
   report.finish();
   for (const Table& runs : {strong, weak, cut, without, split, coarse, summed}) tutorial::print_runs(runs);
 
-  report.claim_within(std::abs(strong.most("u_max") / u.u.maxCoeff() - 1), 0, 1e-9,
+  report.claim_within(std::abs(strong.max("u_max") / u.u.maxCoeff() - 1), 0, 1e-9,
                       "any ranks: away from the serial u by (observed)");
-  report.claim_within(std::max(strong.most("most"), weak.most("most")), 1, 10,
+  report.claim_within(std::max(strong.max("most"), weak.max("most")), 1, 10,
                       "iterations per correction, at most (observed)");
   report.claim_within(cut.last("iterations") / strong.last("iterations"), 1.5, 4,
                       "cut columns: iterations times (observed)");

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "antilock/core/error.hpp"
-#include "antilock/distributed/piece.hpp"
+#include "antilock/distributed/partition.hpp"
 #include "antilock/distributed/ranks.hpp"
 #include "antilock/distributed/snesvi.hpp"
 #include "antilock/form/edge_forms.hpp"
@@ -81,11 +81,13 @@ Table on_ranks(const std::string& what, const std::vector<int>& ranks, const std
 
 Ended by_snesvi(const Asked& asked) {
   const TriangleMesh mesh = structured_mesh(asked.cells);
-  const TriangleMesh piece = distributed::piece_of(mesh, distributed::strips(mesh, asked.ranks), distributed::rank());
-  const Space space(piece, p1());
+  const TriangleMesh subdomain =
+      distributed::subdomain_of(mesh, distributed::strip_partition(mesh, asked.ranks), distributed::rank());
+  const Space space(subdomain, p1());
   const bool summed = asked.what == "SNESVI, summed";
-  const distributed::Inequality problem(paper_scene(asked.epsilon), space,
-                                        summed ? distributed::Penalty::compliance : distributed::Penalty::rule);
+  const distributed::DistributedProblem problem(
+      paper_scene(asked.epsilon), space,
+      summed ? distributed::PenaltyChoice::none : distributed::PenaltyChoice::serial_default);
   distributed::State state = distributed::zero_state(problem);
   const distributed::SnesviEnd end = distributed::snesvi(problem, state, !summed);
   return {problem.rows().total(), end.corrections, end.linear, 0, 0, 0, end.largest, 0, end.reason};
@@ -118,11 +120,11 @@ std::vector<int> all_on_the_first(const TriangleMesh& mesh, int) { return std::v
 void write_scaling(const std::filesystem::path& folder, const Table& strong, const Table& weak, const Table& cut) {
   Table scaling({"ranks", "strong", "weak", "cut", "strong_memory", "weak_memory", "cut_memory"});
   for (const Table& run : strong.rows()) {
-    const Entry ranks = run.entry("ranks");
-    std::vector<Entry> row{ranks};
-    for (const Table* runs : {&strong, &weak, &cut}) row.push_back(runs->where("ranks", ranks).entry("iterations"));
+    const TableEntry ranks = run.entry("ranks");
+    std::vector<TableEntry> row{ranks};
+    for (const Table* runs : {&strong, &weak, &cut}) row.push_back(runs->filter("ranks", ranks).entry("iterations"));
     for (const Table* runs : {&strong, &weak, &cut})
-      row.emplace_back(runs->where("ranks", ranks).number("megabytes") / runs->first("megabytes"));
+      row.emplace_back(runs->filter("ranks", ranks).number("megabytes") / runs->first("megabytes"));
     scaling.add(row);
   }
   scaling.write(folder / "scaling.csv");

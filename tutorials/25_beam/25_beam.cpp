@@ -67,7 +67,8 @@
 // ends of the cell. Then $(w + b)' - θ = w' - \bar θ$: the reduced form of $(w, θ)$ is the exact form of $(w + b, θ)$.
 // So this *is* another $V_h$, as long as the load does not see $b$ (exercise 3).
 //
-// The truth is a closed form (`lib/antilock/exact/beam_truth.hpp`): contact on $[c, 1 - c]$, at ε = 0 with $c = (72 / q)^{1/4}$.
+// The truth is a closed form (`lib/antilock/exact/exact_beam.hpp`): contact on $[c, 1 - c]$, at ε = 0 with $c = (72 /
+// q)^{1/4}$.
 
 #include <cmath>
 
@@ -84,14 +85,14 @@ using namespace antilock;
 // The error of $w$ in $L^2$, between the nodes too. (At the nodes alone the largest error has narrow peaks, where the end
 // of contact passes a node: a list of ε misses them.)
 double error_of_w(const Beam& beam, const Eigen::VectorXd& u) {
-  const BeamTruth truth(beam);
+  const ExactBeam exact(beam);
   const auto [points, weights] = gauss_rule(4);
   const double h = 1.0 / beam.cells;
   double square = 0;
   for (int i = 0; i < beam.cells; ++i)
     for (Eigen::Index q = 0; q < points.size(); ++q) {
       const double w = (1 - points(q)) * u(2 * i) + points(q) * u(2 * i + 2);
-      square += h * weights(q) * std::pow(w - truth.deflection((i + points(q)) * h), 2);
+      square += h * weights(q) * std::pow(w - exact.deflection((i + points(q)) * h), 2);
     }
   return std::sqrt(square);
 }
@@ -133,14 +134,14 @@ void bend(const tutorial::Options& options, tutorial::Report& report) {
   const double difference = (active_set(stiffer).u - locked.u).cwiseAbs().maxCoeff();
 
   // ### Output
-  const BeamTruth truth(reduced_beam);
+  const ExactBeam exact(reduced_beam);
   Table table({"", "kernel", "error of w", "contact force", "energy"});
   table.add(
       {"full integration", full_kernel, error_of_w(full_beam, locked.u), locked.lambda.sum(), energy(full, locked)});
   table.add({"reduced integration", reduced_kernel, error_of_w(reduced_beam, good.u), good.lambda.sum(),
              energy(reduced, good)});
-  table.add({"truth", "", "", truth.contact_force(), truth.energy()});
-  table.print(fmt::format("contact on [c, 1 - c], c = {:.5f}", truth.contact_start()), 6);
+  table.add({"truth", "", "", exact.contact_force(), exact.energy()});
+  table.print(fmt::format("contact on [c, 1 - c], c = {:.5f}", exact.contact_start()), 6);
   tutorial::draw_beam(reduced_beam, locked, good).write(options.out / "beam.csv");
 
   report.claim(full_kernel == 0 && reduced_kernel == options.cells - 2,
@@ -159,7 +160,7 @@ void bend(const tutorial::Options& options, tutorial::Report& report) {
   judge_uniform(every_full, every_reduced, report);
   Table both = every_full;
   both.add(every_reduced);
-  both.where_number("cells", [](double n) { return n <= 64; }).write(options.out / "errors.csv");
+  both.filter_number("cells", [](double n) { return n <= 64; }).write(options.out / "errors.csv");
 }
 
 // The supremum over ε first, then the order. At ε = 0 the curvature on $(0, c)$ is $-\frac{q}{2} (x - c)(x - c/3)$, so
@@ -181,7 +182,7 @@ void judge_uniform(const Table& full, const Table& reduced, tutorial::Report& re
   const double whole = error_of_w({.cells = 1024, .epsilon = 0}, Eigen::VectorXd::Zero(2050));
   const tutorial::Supremum locked = tutorial::supremum(full, "error", "epsilon");
   report.claim(
-      std::abs(locked.rows.least("worst") / whole - 1) < 1e-3 && std::abs(locked.rows.most("worst") / whole - 1) < 1e-3,
+      std::abs(locked.rows.min("worst") / whole - 1) < 1e-3 && std::abs(locked.rows.max("worst") / whole - 1) < 1e-3,
       "(proved) full integration locks: its sup over epsilon is |w| = {:.4f} on every mesh", whole);
 }
 

@@ -99,7 +99,7 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
     checks.add({rubber.name, problem.free_count(), kernel_dimension(problem),
                 std::max(tutorial::patch_error(rubber, 1), tutorial::patch_error(rubber, options.epsilon)),
                 tutorial::zero_modes(problem),
-                rubber.jumps ? Entry(tutorial::zero_modes(pushed(rubber, space, 0))) : Entry(""),
+                rubber.jumps ? TableEntry(tutorial::zero_modes(pushed(rubber, space, 0))) : TableEntry(""),
                 tutorial::bulge(x, solution.u, 0), tutorial::bulge(x, solution.u, 1)});
   }
   report.finish();
@@ -108,27 +108,28 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 void judge(const Table& checks, const Table& forces, int cells, tutorial::Report& report) {
-  const Table jumping = checks.where("element", "Crouzeix-Raviart with jumps");
-  report.claim(checks.most("patch") < 1e-12, "(proved) patch test: every method has the uniform strain to {:.0e}",
-               checks.most("patch"));
-  report.claim(jumping.number("without_jumps") == 2 * cells && checks.most("zero_modes") == 0,
+  const Table jumping = checks.filter("element", "Crouzeix-Raviart with jumps");
+  report.claim(checks.max("patch") < 1e-12, "(proved) patch test: every method has the uniform strain to {:.0e}",
+               checks.max("patch"));
+  report.claim(jumping.number("without_jumps") == 2 * cells && checks.max("zero_modes") == 0,
                "(observed) motions of no energy: {} = 2n without jumps, {} in every method here",
-               jumping.number("without_jumps"), checks.most("zero_modes"));
-  const auto kernel = [&](const char* element) { return checks.where("element", element).number("kernel"); };
+               jumping.number("without_jumps"), checks.max("zero_modes"));
+  const auto kernel = [&](const char* element) { return checks.filter("element", element).number("kernel"); };
   report.claim(
       kernel("P1 right diagonals") == 2 * cells && kernel("P1 crossed triangles") == cells * (cells + 2),
       "(observed) dim G_h of P1: {} = 2n on parallel triangles, {} on arbitrary ones, {} = n^2 + 2n on crossed ones",
       kernel("P1 right diagonals"), kernel("P1 unstructured"), kernel("P1 crossed triangles"));
-  const Table free = forces.where("locks", 0), known = free.where("known", 1);
-  const double corrections = free.most("corrections"), worst = std::max(known.most("percent"), -known.least("percent"));
+  const Table free = forces.filter("locks", 0), known = free.filter("known", 1);
+  const double corrections = free.max("corrections"), worst = std::max(known.max("percent"), -known.min("percent"));
   report.claim(corrections <= 4, "(observed) {} corrections at most at any lambda where nothing locks", corrections);
   if (cells < 8) return report.not_judged("the contact force: fewer than 8 cells do not tell locked from inexact");
-  const Table limit = forces.where("locks", 1).where("epsilon", 0), soft = forces.where("locks", 1).where("epsilon", 1);
+  const Table limit = forces.filter("locks", 1).filter("epsilon", 0),
+              soft = forces.filter("locks", 1).filter("epsilon", 1);
   report.claim(
-      limit.least("percent") > 150 && soft.most("percent") < 100 * std::pow(cells, -1.5),  // 51 to 86 on 8 to 64 cells
+      limit.min("percent") > 150 && soft.max("percent") < 100 * std::pow(cells, -1.5),  // 51 to 86 on 8 to 64 cells
       "(observed) P1 on parallel or arbitrary triangles locks: force {:.0f} % too large or more in the limit, right "
       "to {:.2f} % at lambda = 1",
-      limit.least("percent"), soft.most("percent"));
+      limit.min("percent"), soft.max("percent"));
   // The end of contact is known to a cell: a multiple of $h$ that jumps from mesh to mesh.
   report.claim(worst < 22.0 / cells,
                "(observed) the other three are off by {:.0f} h per cent, at any lambda of the table", worst * cells);

@@ -28,7 +28,7 @@ inline void write_block(const std::filesystem::path& out, const Rubber& rubber, 
 inline void show_rubber(const std::filesystem::path& out, const Table& checks, const Table& forces,
                         const Profile& gap) {
   checks.print("", 2);
-  forces.where("known", 1).pivot("element", "lambda", "percent").print("error of the contact force in %, by lambda");
+  forces.filter("known", 1).pivot("element", "lambda", "percent").print("error of the contact force in %, by lambda");
   forces.pivot("element", "lambda", "corrections").print("corrections, by lambda");
   forces.select({"element", "lambda", "epsilon", "force", "corrections"}).write(out / "force.csv");
   Table obstacle({"x", "y"});

@@ -74,8 +74,9 @@
 // $h^2 ‖Δw‖ / 14.6$ in $L^2$. (On a triangle its error is $-½ \sum λ_i λ_j\, w''_{ij}$, with the second differences along the
 // three edges. Its mean square is $\frac{h^4}{720} (\frac{21}{8} (Δw)^2 + \frac{3}{4} |∇^2 w|^2)$, and $∫ |∇^2 w|^2 = ∫ (Δw)^2$.)
 // So $h^2$ is the most to expect, and this number is the unit of a verdict. The truth is a closed form for every $t$
-// (`lib/antilock/exact/plate_truth.hpp`): contact on the disc $r ≤ c$. Its energy gives $‖Δw‖^2 = -q ∫ w - F$ with the contact force $F$.
-// *Patch test:* a plate that its rim bends to a constant curvature must have its exact rotation at the vertices.
+// (`lib/antilock/exact/exact_plate.hpp`): contact on the disc $r ≤ c$. Its energy gives $‖Δw‖^2 = -q ∫ w - F$ with the
+// contact force $F$. *Patch test:* a plate that its rim bends to a constant curvature must have its exact rotation at
+// the vertices.
 
 #include <cmath>
 #include <numbers>
@@ -118,7 +119,7 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
       for (const double t : thicknesses()) {
         sweep.set_compliance(t * t);
         const Solution solution = sweep.solve();
-        errors.add({method.name, n, 1.0 / n, t, error_of_w(on.w, solution, PlateTruth(t)),
+        errors.add({method.name, n, 1.0 / n, t, error_of_w(on.w, solution, ExactPlate(t)),
                     solution.counters.corrections, method.locks});
       }
       const double seconds = watch.seconds() / static_cast<double>(thicknesses().size());
@@ -144,22 +145,22 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
   for (const Table& row : checks.rows())
     report.claim(row.number("kernel") == row.number("expected"), "(proved) {}: dim G_h = {} of {}",
                  row.entry("element").text(), row.number("kernel"), row.number("unknowns"));
-  const Table good = checks.where("locks", 0), bad = checks.where("locks", 1);
-  report.claim(good.most("patch") < 1e-12 && bad.least("patch") > 0.1,
+  const Table good = checks.filter("locks", 0), bad = checks.filter("locks", 1);
+  report.claim(good.max("patch") < 1e-12 && bad.min("patch") > 0.1,
                "(proved) patch test, t = 1 and 1e-3: the cures bend exactly ({:.0e}), P1 does not ({:.2f})",
-               good.most("patch"), bad.least("patch"));
+               good.max("patch"), bad.min("patch"));
   // the unit of the derivation above
-  const PlateTruth kirchhoff(0);
+  const ExactPlate kirchhoff(0);
   double volume = 0;
   for (int i = 0; i < 4000; ++i)
     volume += 2 * std::numbers::pi * kirchhoff.deflection((i + 0.5) / 4000) * (i + 0.5) / 16e6;
   const double unit = std::sqrt((-256 * volume - kirchhoff.contact_force()) / (720 / (27.0 / 8)));
   if (cells < 16) return report.not_judged("what is lost, and the orders: fewer than 16 rings");
-  const Table lost = errors.where("locks", 1).where("t", 0);
-  report.claim(lost.most("error") / lost.least("error") < 1.02,
-               "(proved) P1, both shears: at t = 0 all of w is lost, {:.3f} on every mesh", lost.most("error"));
-  for (const Entry& element : good.entries("element")) {
-    const Table own = errors.where("element", element);
+  const Table lost = errors.filter("locks", 1).filter("t", 0);
+  report.claim(lost.max("error") / lost.min("error") < 1.02,
+               "(proved) P1, both shears: at t = 0 all of w is lost, {:.3f} on every mesh", lost.max("error"));
+  for (const TableEntry& element : good.entries("element")) {
+    const Table own = errors.filter("element", element);
     const tutorial::Supremum worst = tutorial::supremum(own, "error", "t");
     worst.rows.print(element.text() + ": the largest error of w in L2 over t <= 0.1, and its order");
     report.claim(worst.denser < 1.02, "{}: every second t would do, the suprema grow by {:.2f} % with the others",
@@ -170,11 +171,11 @@ void judge(const Table& checks, const Table& errors, int cells, tutorial::Report
       most = std::max(most, row.number("worst") / (unit * std::pow(row.number("h"), 2)));
     report.claim(most > 0.5 && most < 2, "(observed) {}: it is at most {:.2f} of what interpolation misses",
                  element.text(), most);
-    const Table finest = own.where("h", own.least("h"));
-    const double limit = finest.where("t", 1e-20).number("error") / finest.where("t", 0).number("error") - 1;
-    report.claim(own.most("corrections") <= 4 && std::abs(limit) < 1e-9,
+    const Table finest = own.filter("h", own.min("h"));
+    const double limit = finest.filter("t", 1e-20).number("error") / finest.filter("t", 0).number("error") - 1;
+    report.claim(own.max("corrections") <= 4 && std::abs(limit) < 1e-9,
                  "(observed) {}: {} corrections at most, and t = 1e-20 is t = 0 to {:.0e}", element.text(),
-                 own.most("corrections"), std::abs(limit));
+                 own.max("corrections"), std::abs(limit));
   }
 }
 

@@ -19,8 +19,8 @@ const std::vector<tutorial::Exercise> exercises{
          const TriangleMesh mesh = disc_mesh(n);
          const Space w(mesh, crouzeix_raviart());
          const auto [solution, kernel] = pressed(bare, n, Plate{.thickness = 0});
-         without.push_back(error_of_w(w, solution, PlateTruth(0)));
-         with.push_back(error_of_w(w, pressed(plate_elements.back(), n, Plate{.thickness = 0}).first, PlateTruth(0)));
+         without.push_back(error_of_w(w, solution, ExactPlate(0)));
+         with.push_back(error_of_w(w, pressed(plate_elements.back(), n, Plate{.thickness = 0}).first, ExactPlate(0)));
          report.claim(kernel >= 3 * n * n - 9 * n + 2, "{} rings: {} functions, at least {}", n, kernel,
                       3 * n * n - 9 * n + 2);
        }

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/exact/plate_truth.hpp"
+#include "antilock/exact/exact_plate.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/io/write_freefem_mesh.hpp"
 #include "antilock/io/write_vtu.hpp"
@@ -37,9 +37,9 @@ inline double patch_error(const PlateElement& method, const TriangleMesh& mesh, 
   const Discrete on(method, mesh);
   Plate bent{.thickness = thickness, .load = [](double, double) { return 0.0; }};
   bent.gap = [](double, double) { return std::numeric_limits<double>::infinity(); };
-  bent.rim = [](double x, double y) { return x * x + x * y - y * y / 2; };
-  bent.rim_slope_x = [](double x, double y) { return 2 * x + y; };
-  bent.rim_slope_y = [](double x, double y) { return x - y; };
+  bent.boundary_deflection = [](double x, double y) { return x * x + x * y - y * y / 2; };
+  bent.boundary_rotation_x = [](double x, double y) { return 2 * x + y; };
+  bent.boundary_rotation_y = [](double x, double y) { return x - y; };
   const Eigen::VectorXd u = active_set(assemble(bent, on.space)).u;
   double worst = 0;
   for (int i = 0; i < mesh.vertex_count(); ++i) {
@@ -51,15 +51,15 @@ inline double patch_error(const PlateElement& method, const TriangleMesh& mesh, 
 }
 
 /// The error of w in L2: the same for an element with unknowns at vertices and for one with unknowns at midpoints.
-inline double error_of_w(const Space& w, const Solution& solution, const PlateTruth& truth) {
+inline double error_of_w(const Space& w, const Solution& solution, const ExactPlate& exact) {
   const Quadrature& rule = triangle_rule(4);
   double square = 0;
   for (int t = 0; t < w.mesh().triangle_count(); ++t) {
-    const Eigen::VectorXi unknowns = w.unknowns().row(t);
+    const Eigen::VectorXi unknowns = w.cell_dofs().row(t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const double here = w.element().basis(rule.points.row(q)).dot(solution.u(unknowns));
       const double r = point_in(w.mesh(), t, rule.points.row(q)).norm();
-      square += w.mesh().area(t) * rule.weights(q) * std::pow(here - truth.deflection(r), 2);
+      square += w.mesh().area(t) * rule.weights(q) * std::pow(here - exact.deflection(r), 2);
     }
   }
   return std::sqrt(square);
@@ -77,7 +77,7 @@ inline std::vector<double> thicknesses() {
 inline void draw(const Options& options, const PlateElement& method, const Space& w, const Solution& solution,
                  Table& profile) {
   const TriangleMesh& mesh = w.mesh();
-  const PlateTruth truth(std::sqrt(options.epsilon));
+  const ExactPlate exact(std::sqrt(options.epsilon));
   std::vector<std::pair<double, int>> edges;  // x of the midpoint, edge
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const int a = mesh.edges(e, 0), b = mesh.edges(e, 1);
@@ -88,7 +88,7 @@ inline void draw(const Options& options, const PlateElement& method, const Space
   for (const auto& [x, e] : edges) {
     const double mean = (solution.u(mesh.edges(e, 0)) + solution.u(mesh.edges(e, 1))) / 2;
     profile.add({x, method.file, method.deflection.conforming() ? mean : solution.u(e)});
-    if (method.file == "p1") profile.add({x, "exact", truth.deflection(std::abs(x))});
+    if (method.file == "p1") profile.add({x, "exact", exact.deflection(std::abs(x))});
   }
   write_freefem_mesh(options.out / "mesh.freefem.msh", mesh);
   write_vtu(options.out / (method.file + ".vtu"), w, solution.u.head(w.size()));
@@ -97,8 +97,8 @@ inline void draw(const Options& options, const PlateElement& method, const Space
 /// Prints the checks, one row per element; writes errors.csv (three meshes) and profile.csv.
 inline void print_plate(const Options& options, const Table& checks, const Table& errors, const Table& profile) {
   checks.print("", 3);
-  errors.where_number("t", [](double t) { return t >= 1e-6; })
-      .where_number("rings", [&](double n) { return n <= options.cells; })
+  errors.filter_number("t", [](double t) { return t >= 1e-6; })
+      .filter_number("rings", [&](double n) { return n <= options.cells; })
       .write(options.out / "errors.csv");
   profile.pivot("x", "element", "w").write(options.out / "profile.csv");
 }

@@ -69,11 +69,11 @@
 // plates) keeps half of $a_0$: $a_1 + ½ a_0 + (ε_c^{-1} - ½) a_{0h}$. Then (i) holds with half the α. (The parameter
 // $1/(ε_c^{-1} - ½)$ is up to 2 now. The bound of step 1 holds, as $a_1 + ½ a_0$ alone is coercive.)
 
+#include "antilock/analysis/best_approximation.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/analysis/nearest.hpp"
-#include "antilock/exact/truth_distance.hpp"
+#include "antilock/exact/exact_norms.hpp"
 #include "antilock/form/h1_norm.hpp"
-#include "antilock/models/projected.hpp"
+#include "antilock/models/project_strain.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -82,16 +82,18 @@ using tutorial::Exact;
 
 // ### Forms
 // How the strain is averaged on a mesh of width $h$ (empty: not at all), and the part of $a_0$ that is kept.
-using Means = std::function<Shares(const TriangleMesh& mesh, const FactoredForm& strain, double h)>;
+using Means = std::function<StrainProjection(const TriangleMesh& mesh, const FactoredForm& strain, double h)>;
 struct Projection {
   std::string name;
   Method method;
   Means means;
   double kept;
 };
-const Means patches = [](auto& mesh, auto& strain, double) { return vertex_shares(mesh, strain, strain_rule(p1())); };
-const Means columns = [](auto& mesh, auto& strain, double h) { return box_shares(mesh, strain, h, 2); };
-const Means boxes = [](auto& mesh, auto& strain, double h) { return box_shares(mesh, strain, 2 * h, 2 * h); };
+const Means patches = [](auto& mesh, auto& strain, double) {
+  return vertex_projection(mesh, strain, strain_rule(p1()));
+};
+const Means columns = [](auto& mesh, auto& strain, double h) { return box_projection(mesh, strain, h, 2); };
+const Means boxes = [](auto& mesh, auto& strain, double h) { return box_projection(mesh, strain, 2 * h, 2 * h); };
 const Method any{&p1(), unstructured()}, regular{&p1(), structured()}, cr{&crouzeix_raviart(), unstructured()};
 const std::vector<Projection> projections{{"P1 as it is", any, {}, 0},
                                           {"patches (half kept)", any, patches, 0.5},
@@ -102,26 +104,28 @@ const std::vector<Projection> projections{{"P1 as it is", any, {}, 0},
 
 VariationalInequality layer_problem(const Projection& way, const Space& space, int cells) {
   VariationalInequality problem = assemble(tutorial::paper_scene(1), space);
-  return way.means ? projected(problem, way.means(space.mesh(), layer_strain(space), 1.0 / cells), way.kept) : problem;
+  return way.means ? project_strain(problem, way.means(space.mesh(), layer_strain(space), 1.0 / cells), way.kept)
+                   : problem;
 }
 
 // One mesh: (i) to (iii) in numbers, then the error at each ε. α needs dense eigenvalues, on small meshes. For (ii) the
 // distance from $u^0$ to $K_{0h}$. For (iii) what one slope can be while the form sees nothing: the largest
 // $∫ ∂_y v\, φ$ over such $v$ of norm 1, with $φ = \sin πx \sin πy$ (chapter 12's $k_h$).
-Table measure(const Projection& way, int cells, const std::vector<Exact>& truth) {
+Table measure(const Projection& way, int cells, const std::vector<Exact>& exact_solution) {
   // ### Mesh
-  const Discretisation on = way.method.on(cells);
+  const Discretisation on = way.method.discretise(cells);
   // ### Solve
   Sweep sweep(layer_problem(way, on.space(), cells));
   const SparseMatrix norm = h1_norm(on.space());
   const double alpha = on.space().free_count() < 1000 ? coercivity(sweep.problem(), norm) : std::nan("");
-  const double near = nearest(on.space(), sweep.problem(), truth.back().reference(), Within::k_0h).distance;
+  const double near =
+      best_approximation(on.space(), sweep.problem(), exact_solution.back().reference(), AdmissibleSet::k_0h).distance;
   using std::numbers::pi;
   const Field slope_of_phi = [](double x, double y) { return pi * std::sin(pi * x) * std::cos(pi * y); };
   const double hidden = dual_norm(sweep.problem(), norm, load_vector(on.space(), slope_of_phi, Region::layer), true);
   Table rows(tutorial::projection_columns);
-  for (const Exact& exact : truth) {
-    sweep.set_compliance(projected_compliance(exact.epsilon * exact.epsilon, way.kept));
+  for (const Exact& exact : exact_solution) {
+    sweep.set_compliance(projected_class_parameter(exact.epsilon * exact.epsilon, way.kept));
     Solution solution = sweep.solve();
     solution.p.resize(0);  // means, not one stress per triangle: the errors of u alone
     rows.add({way.name, 1.0 / cells, exact.epsilon, exact.errors(on.space(), solution).h1, alpha, near, hidden,
@@ -130,25 +134,25 @@ Table measure(const Projection& way, int cells, const std::vector<Exact>& truth)
   return rows;
 }
 
-void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
-  const auto of = [&](const char* name) { return layer.where("name", name).where("epsilon", 0); };
-  const auto sup = [&](const char* name) { return tutorial::supremum(layer.where("name", name), "h1", "epsilon"); };
+void judge(const Table& layer, const ExactSolution& limit, tutorial::Report& report) {
+  const auto of = [&](const char* name) { return layer.filter("name", name).filter("epsilon", 0); };
+  const auto sup = [&](const char* name) { return tutorial::supremum(layer.filter("name", name), "h1", "epsilon"); };
   // What has no function on the layer loses all of $u^0$ there.
   const double lost = layer_norm(limit);
   for (const char* name : {"P1 as it is", "patches (half kept)"})
-    report.claim(of(name).least("near") > lost && of(name).least("h1") > lost && of(name).last("h1") < 1.25 * lost,
+    report.claim(of(name).min("near") > lost && of(name).min("h1") > lost && of(name).last("h1") < 1.25 * lost,
                  "(observed) {}: (ii) fails, u^0 stays {:.3f} away; so does the worst error, {:.3f}: |u^0| on the "
                  "layer is {:.3f}",
                  name, of(name).last("near"), of(name).last("h1"), lost);
   const double slope = tutorial::slope_hidden_by_columns();
   const Table columns_h = of("columns (half kept)");
-  report.claim(columns_h.least("hidden") > 0.85 * slope && columns_h.most("hidden") < 1.02 * slope,
+  report.claim(columns_h.min("hidden") > 0.85 * slope && columns_h.max("hidden") < 1.02 * slope,
                "(proved) columns (half kept): (iii) fails, K_0h hides a slope of {:.3f}, in the limit {:.3f}",
                columns_h.last("hidden"), slope);
   const double stays = sup("columns (half kept)").rows.rows().back().number("order");
   report.claim(stays < 0.1, "(observed) and the worst error stays, {:.3f}, order {:.2f}", columns_h.last("h1"), stays);
   // A zigzag across the layer, of a wave length of some $h$, has energy from $∂_x$ alone: α ~ $h^2$.
-  const Table alone = of("boxes (nothing kept)").where_number("alpha", [](double a) { return std::isfinite(a); });
+  const Table alone = of("boxes (nothing kept)").filter_number("alpha", [](double a) { return std::isfinite(a); });
   report.claim_orders(alone, "alpha", 1.8, 2.1, "boxes (nothing kept): (i) fails, alpha");
   const Table grows = sup("boxes (nothing kept)").rows;
   const std::vector<double> orders = grows.pairwise_orders("worst", "h");
@@ -156,39 +160,39 @@ void judge(const Table& layer, const Truth& limit, tutorial::Report& report) {
                "(observed) and the worst error grows on every mesh, {:.2f} to {:.2f}", grows.first("worst"),
                grows.last("worst"));
   const Table half = of("boxes (half kept)");
-  report.claim(half.where_number("alpha", [](double a) { return std::isfinite(a); }).least("alpha") > 0.5 * 0.9129,
+  report.claim(half.filter_number("alpha", [](double a) { return std::isfinite(a); }).min("alpha") > 0.5 * 0.9129,
                "(proved) boxes (half kept): (i), alpha is at least half of that on V, 0.9129");
   // $∫ ∂_y v\, φ = ∫ ∂_y v\, (φ - P_h φ)$, and of φ the means over squares of side $s$ miss $s π / 24^{1/2}$.
   for (const Table& row : half.rows()) {
     const double share = row.number("hidden") / (2 * row.number("h") * std::numbers::pi / std::sqrt(24.0));
-    if (row.number("h") == half.least("h") || share > 1 || share < 0.4)
+    if (row.number("h") == half.min("h") || share > 1 || share < 0.4)
       report.claim(share < 1 && share > 0.4,
                    "(proved) and (iii): the slope hidden is {:.3f}, {:.2f} of what means miss", row.number("hidden"),
                    share);
   }
   for (const char* name : {"boxes (half kept)", "Crouzeix-Raviart"}) {
     const tutorial::Supremum worst = sup(name);
-    const double ratio = worst.rows.last("worst") / layer.where("name", name).where("epsilon", 1).last("h1");
+    const double ratio = worst.rows.last("worst") / layer.filter("name", name).filter("epsilon", 1).last("h1");
     report.claim_orders(of(name), "near", 0.9, 1.1, fmt::format("{}: (ii), from u^0 to K_0h", name));
     report.claim_orders(worst.rows, "worst", 0.9, 1.15, fmt::format("{}: sup over epsilon", name));
     report.claim(worst.denser < 1.02 && ratio < 1.1,
                  "(observed) {}: locking ratio {:.2f}; every second epsilon would do to {:.2f} %", name, ratio,
                  100 * (worst.denser - 1));
-    report.claim(layer.where("name", name).most("corrections") <= 4, "(observed) {}: {} corrections at most", name,
-                 layer.where("name", name).most("corrections"));
+    report.claim(layer.filter("name", name).max("corrections") <= 4, "(observed) {}: {} corrections at most", name,
+                 layer.filter("name", name).max("corrections"));
   }
 }
 
 void study(const tutorial::Options& options, tutorial::Report& report) {
-  const std::vector<Exact> truth =
+  const std::vector<Exact> exact_solution =
       tutorial::exact_solutions({1, 0.3, 0.1, 3e-2, 1e-2, 3e-3, 1e-3, 1e-4, 1e-6, 1e-10, 1e-20, 0}, 14);
   Table layer(tutorial::projection_columns);
   for (const Projection& way : projections)
     for (const int n : {8, 12, 16, 24, 32})
-      if (n <= options.cells) layer.add(measure(way, n, truth));
+      if (n <= options.cells) layer.add(measure(way, n, exact_solution));
   // ### Output
   tutorial::show_projections(options.out, layer);
-  judge(layer, truth.back().truth, report);
+  judge(layer, exact_solution.back().solution, report);
 }
 
 // ## What came out

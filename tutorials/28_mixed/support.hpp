@@ -22,19 +22,19 @@ inline void show_projections(const std::filesystem::path& out, const Table& laye
   Table rows(
       {"strain", "h", "alpha", "dist(u^0, K_0h)", "slope hidden", "sup error", "order", "locking ratio", "seconds"});
   Table picture({"name", "h", "worst"});
-  for (const Entry& name : layer.different("name")) {
-    const Table own = layer.where("name", name);
+  for (const TableEntry& name : layer.unique("name")) {
+    const Table own = layer.filter("name", name);
     for (const Table& worst : supremum(own, "h1", "epsilon").rows.rows()) {
-      const Table mesh = own.where("h", worst.entry("h"));
+      const Table mesh = own.filter("h", worst.entry("h"));
       const double alpha = mesh.first("alpha");
-      rows.add({name, worst.entry("h"), std::isfinite(alpha) ? Entry(alpha) : Entry(""), mesh.first("near"),
+      rows.add({name, worst.entry("h"), std::isfinite(alpha) ? TableEntry(alpha) : TableEntry(""), mesh.first("near"),
                 mesh.first("hidden"), worst.entry("worst"), worst.entry("order"),
-                worst.number("worst") / mesh.where("epsilon", 1).number("h1"), mesh.most("seconds")});
+                worst.number("worst") / mesh.filter("epsilon", 1).number("h1"), mesh.max("seconds")});
       picture.add({name, worst.entry("h"), worst.entry("worst")});
     }
   }
   rows.print("Theorem 4 for another a0: (i), (ii), (iii), and the conclusion", 3);
-  layer.where("h", layer.least("h")).pivot("name", "epsilon", "h1").print("H1 error on the finest mesh, by epsilon", 3);
+  layer.filter("h", layer.min("h")).pivot("name", "epsilon", "h1").print("H1 error on the finest mesh, by epsilon", 3);
   picture.write(out / "projections.csv");
   layer.write(out / "layer.csv");
 }

@@ -96,7 +96,7 @@ void move_by_gradients(const Mixed& way, bool on_fluxes, Table& worst, Table& by
     const TriangleMesh mesh = tutorial::block(n);
     const Space space(mesh, way.element);
     const VariationalInequality pressed = tutorial::rubber(way, space, 0);
-    Sweep sweep(held_in_contact(pressed, std::vector<bool>(pressed.contact.size())));
+    Sweep sweep(equality_constrained(pressed, std::vector<bool>(pressed.contact.size())));
     const Eigen::MatrixXd loads = tutorial::gradient_loads(space, n / 2, on_fluxes);
     const auto answer = [&](const Eigen::VectorXd& f) {
       sweep.set_load(loads * f);
@@ -142,41 +142,41 @@ void judge(const Table& beta, const Table& forces, const Table& worst, const Tab
   // Not less than 0.9 of the coarsest mesh's on four meshes: a number that settles.
   for (const char* name : {"MINI", "Taylor-Hood", "CR with jumps"})
     for (const char* held : {"contact set", "all of Gamma_C"}) {
-      const Table own = beta.where("name", name).where("held", held);
-      report.claim(own.least("beta") > 0.9 * own.first("beta"),
+      const Table own = beta.filter("name", name).filter("held", held);
+      report.claim(own.min("beta") > 0.9 * own.first("beta"),
                    "(observed) {}, {} held: beta loses less than a tenth, {:.3f} to {:.3f}", name, held,
                    own.first("beta"), own.last("beta"));
     }
-  const Table locked = beta.where("name", "P1 (pressure per triangle)");
-  report.claim_orders(locked.where("held", "nothing"), "beta", 0.95, 1.1, "P1 (pressure per triangle), beta");
-  report.claim(beta.where("name", "P1 (pressure per vertex)").most("beta") == 0 &&
-                   locked.where("held", "all of Gamma_C").most("beta") == 0,
+  const Table locked = beta.filter("name", "P1 (pressure per triangle)");
+  report.claim_orders(locked.filter("held", "nothing"), "beta", 0.95, 1.1, "P1 (pressure per triangle), beta");
+  report.claim(beta.filter("name", "P1 (pressure per vertex)").max("beta") == 0 &&
+                   locked.filter("held", "all of Gamma_C").max("beta") == 0,
                "(observed) P1 (pressure per vertex), and per triangle with all of Gamma_C held: beta is 0");
   // The end of contact is known to a cell: an error of first order, that jumps from mesh to mesh. Its largest multiple of
   // $h$ over three meshes and six λ, in per cent:
   for (const auto& [name, most] : {std::pair{"MINI", 40.0}, {"Taylor-Hood", 15.0}, {"CR with jumps", 20.0}}) {
     double multiple = 0;
-    for (const Table& row : forces.where("name", name).rows())
+    for (const Table& row : forces.filter("name", name).rows())
       multiple = std::max(multiple, std::abs(row.number("percent")) / row.number("h"));
     report.claim(multiple < most && multiple > most / 4,
                  "(observed) {}: the contact force is right to {:.0f} h per cent at every lambda, in {} corrections",
-                 name, multiple, forces.where("name", name).most("corrections"));
+                 name, multiple, forces.filter("name", name).max("corrections"));
   }
-  report.claim(forces.where("name", "P1 (pressure per triangle)").where("epsilon", 0).least("percent") > 150,
+  report.claim(forces.filter("name", "P1 (pressure per triangle)").filter("epsilon", 0).min("percent") > 150,
                "(observed) P1 (pressure per triangle): it locks, force {:.0f} % too large at 1/h = 8, {:.0f} % at 1/32",
-               forces.where("name", "P1 (pressure per triangle)").where("epsilon", 0).first("percent"),
-               forces.where("name", "P1 (pressure per triangle)").where("epsilon", 0).last("percent"));
-  const Table on_fluxes = worst.where("name", "CR with jumps, load on fluxes");
-  report.claim(on_fluxes.most("moved") < 1e-9, "(proved) gradient loads do not move CR with the load on fluxes: {:.0e}",
-               on_fluxes.most("moved"));
+               forces.filter("name", "P1 (pressure per triangle)").filter("epsilon", 0).first("percent"),
+               forces.filter("name", "P1 (pressure per triangle)").filter("epsilon", 0).last("percent"));
+  const Table on_fluxes = worst.filter("name", "CR with jumps, load on fluxes");
+  report.claim(on_fluxes.max("moved") < 1e-9, "(proved) gradient loads do not move CR with the load on fluxes: {:.0e}",
+               on_fluxes.max("moved"));
   for (const char* name : {"MINI", "Taylor-Hood", "CR with jumps"}) {
-    report.claim_orders(worst.where("name", name), "moved", 0.6, 1.05, fmt::format("gradient loads move {}", name));
-    const Table own = by_lambda.where("name", name);
-    const double stays = own.last("moved") / own.where("lambda", 1e6).number("moved");
+    report.claim_orders(worst.filter("name", name), "moved", 0.6, 1.05, fmt::format("gradient loads move {}", name));
+    const Table own = by_lambda.filter("name", name);
+    const double stays = own.last("moved") / own.filter("lambda", 1e6).number("moved");
     report.claim(std::abs(stays - 1) < 0.01, "(observed) and by the same at lambda = 1e6 and 1e8: ratio {:.4f}", stays);
   }
-  const Table robust = by_lambda.where("name", "CR with jumps, load on fluxes");
-  report.claim_within(100 * robust.last("moved") / robust.where("lambda", 1e6).number("moved"), 0.999, 1.001,
+  const Table robust = by_lambda.filter("name", "CR with jumps, load on fluxes");
+  report.claim_within(100 * robust.last("moved") / robust.filter("lambda", 1e6).number("moved"), 0.999, 1.001,
                       "(observed) with the load on fluxes it moves like 1/lambda: 100 times the ratio");
 }
 

@@ -16,17 +16,19 @@ const std::vector<tutorial::Exercise> exercises{
        // The mean of div u is 0, so that the bottom sinks by the push on average. It can sink by the groove:
        const double groove = -problem.lower.sum() / (n - 1);
        const auto push = [&](double share) {
-         for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-           if (problem.fixed[i] >= space.size()) problem.fixed_values(static_cast<Eigen::Index>(i)) = -share * groove;
+         for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
+           if (problem.dirichlet_dofs[i] >= space.size())
+             problem.dirichlet_values(static_cast<Eigen::Index>(i)) = -share * groove;
          return active_set(problem);
        };
        std::vector<double> beta;
        for (const double share : {0.1, 0.5, 0.9, 0.99}) {
-         const VariationalInequality held = held_in_contact(problem, push(share).active);
+         const VariationalInequality held = equality_constrained(problem, push(share).active);
          beta.push_back(inf_sup(multiplier_gram(held, held.a1), Eigen::MatrixXd(held.m.asDiagonal())));
          fmt::print("pushed by {:.0f} % of the groove: beta = {:.4f}\n", 100 * share, beta.back());
        }
-       const VariationalInequality full = held_in_contact(problem, std::vector<bool>(problem.contact.size(), true));
+       const VariationalInequality full =
+           equality_constrained(problem, std::vector<bool>(problem.contact.size(), true));
        const double last = inf_sup(multiplier_gram(full, full.a1), Eigen::MatrixXd(full.m.asDiagonal()));
        report.claim(beta[3] < 0.5 * beta[0] && last == 0, "beta falls from {:.3f} to {:.3f}, with all held {:.0f}",
                     beta[0], beta[3], last);

@@ -21,9 +21,9 @@ inline TriangleMesh block(int cells) { return with_free_sides(structured_mesh(ce
 
 /// The block of chapter 26 at 1/lambda = 0, pushed down on its obstacle.
 inline VariationalInequality rubber(const Mixed& way, const Space& space, double push = 0.1) {
-  const Press press{.push = push,
-                    .gap = [](double x) { return (x - 0.5) * (x - 0.5); },
-                    .jump_weight = way.element.conforming() ? 0.0 : 1.0};
+  const BlockLoading press{.prescribed_displacement = push,
+                           .gap = [](double x) { return (x - 0.5) * (x - 0.5); },
+                           .jump_weight = way.element.conforming() ? 0.0 : 1.0};
   return assemble(PlaneStrain{press, 0, way.pressure_per_vertex}, {space, space});
 }
 
@@ -32,7 +32,7 @@ inline double layer_inf_sup(const Method& method, int n) {
   const auto gram = [](const Space& space, int merged) {
     return multiplier_gram(assemble(paper_scene(0), space), gradient_form(space, {1, 1}, {1, 1}), merged);
   };
-  const Discretisation on = method.on(n), almost_all(refined(refined(on.mesh())), p1());
+  const Discretisation on = method.discretise(n), almost_all(refined(refined(on.mesh())), p1());
   return inf_sup(gram(on.space(), 1), gram(almost_all.space(), 16));
 }
 
@@ -62,14 +62,16 @@ inline Table push(const Mixed& way, int cells, const Options& options) {
 /// Prints the tables; writes inf_sup.csv, forces.csv, gradients.csv, obstacle.csv.
 inline void show_pressure(const std::filesystem::path& out, const Table& beta, const Table& forces, const Table& worst,
                           const Table& by_lambda) {
-  for (const Entry& held : beta.different("held"))
-    beta.where("held", held).pivot("name", "h", "beta").print("inf-sup constant, held: " + held.text() + ", by h", 3);
-  const Table finest = forces.where("h", forces.least("h"));
+  for (const TableEntry& held : beta.unique("held"))
+    beta.filter("held", held).pivot("name", "h", "beta").print("inf-sup constant, held: " + held.text() + ", by h", 3);
+  const Table finest = forces.filter("h", forces.min("h"));
   finest.pivot("name", "epsilon", "percent").print("error of the contact force in %, by 1/lambda", 2);
-  finest.where("epsilon", 0).select({"name", "unknowns", "pressure", "corrections", "seconds"}).print("incompressible");
+  finest.filter("epsilon", 0)
+      .select({"name", "unknowns", "pressure", "corrections", "seconds"})
+      .print("incompressible");
   worst.pivot("name", "h", "moved").print("moved by the worst gradient of norm 1, by h", 3);
   by_lambda.pivot("name", "lambda", "moved").print("moved by one gradient, 1/h = 16, by lambda", 3);
-  beta.where_number("beta", [](double value) { return value > 0; }).write(out / "inf_sup.csv");  // to be drawn
+  beta.filter_number("beta", [](double value) { return value > 0; }).write(out / "inf_sup.csv");  // to be drawn
   forces.write(out / "forces.csv");
   by_lambda.write(out / "gradients.csv");
   Table obstacle({"x", "y"});
@@ -97,7 +99,7 @@ inline Eigen::MatrixXd gradient_loads(const Space& space, int waves, bool on_flu
             Eigen::Vector2d(a * std::cos(a * x(0)) * std::sin(b * x(1)), b * std::sin(a * x(0)) * std::cos(b * x(1)));
         for (int i = 0; i < phi.size(); ++i)
           for (const int c : {0, 1})
-            loads(space.unknowns()(t, i) + c * space.size(), j) +=
+            loads(space.cell_dofs()(t, i) + c * space.size(), j) +=
                 on_fluxes ? normals(i, c) * f.dot(x - mesh.vertices.row(mesh.triangles(t, i)).transpose())
                           : f(c) * phi(i);
       }
@@ -116,7 +118,7 @@ inline Table inf_sup_constants(const Mixed& way) {
     for (const auto& [held, marks] : {std::pair{"nothing", std::vector<bool>(bounds)},
                                       {"contact set", active_set(problem).active},
                                       {"all of Gamma_C", std::vector<bool>(bounds, true)}}) {
-      const VariationalInequality linear = held_in_contact(problem, marks);
+      const VariationalInequality linear = equality_constrained(problem, marks);
       rows.add({way.name, 1.0 / n, held,
                 inf_sup(multiplier_gram(linear, linear.a1), Eigen::MatrixXd(linear.m.asDiagonal()))});
     }

@@ -37,7 +37,7 @@
 //
 // Contact has a bound on the displacement and a sign of the force. Friction has two bounds on the force and a sign of
 // the displacement. In the library it is the bound $lower = upper = 0$ on $u_x$, which gives way to a force beyond
-// `force_bound`, $g_i = ∫ g φ_i$ for unknown $i$. Both solvers of chapter 00 go on:
+// `force_limit`, $g_i = ∫ g φ_i$ for unknown $i$. Both solvers of chapter 00 go on:
 //
 // - *Active set*: guess the case of every unknown. Where it sticks $u_i = 0$ is known and $T_i$ is found; where it
 // slips $T_i = ±g_i$ is known and $u_i$ is found. An unknown that violates its case changes it.
@@ -104,20 +104,20 @@ void press_all(const Rubber& rubber, int cells, Table& forces) {
 }
 
 void judge(const Table& checks, const Table& forces, tutorial::Report& report) {
-  report.claim(checks.most("patch") < 1e-12,
+  report.claim(checks.max("patch") < 1e-12,
                "(proved) patch test: a block that slips as a whole has its uniform strain to {:.0e}",
-               checks.most("patch"));
-  report.claim(std::max(checks.most("g = 0"), checks.most("g = 1e6")) < 1e-12,
+               checks.max("patch"));
+  report.claim(std::max(checks.max("g = 0"), checks.max("g = 1e6")) < 1e-12,
                "(proved) g = 0 is the block without friction to {:.0e}, g = 1e6 the bonded one to {:.0e}",
-               checks.most("g = 0"), checks.most("g = 1e6"));
-  report.claim(checks.most("apart") < 1e-9, "(observed) active set and Uzawa agree to {:.0e}", checks.most("apart"));
-  const Table robust = forces.where("locks", 0);
-  for (const Entry& element : robust.different("element")) {
-    const Table own = robust.where("element", element);
-    const auto at = [&](double lambda) { return own.where_number("lambda", [=](double l) { return l == lambda; }); };
-    const Table limit = own.where("epsilon", 0);
+               checks.max("g = 0"), checks.max("g = 1e6"));
+  report.claim(checks.max("apart") < 1e-9, "(observed) active set and Uzawa agree to {:.0e}", checks.max("apart"));
+  const Table robust = forces.filter("locks", 0);
+  for (const TableEntry& element : robust.unique("element")) {
+    const Table own = robust.filter("element", element);
+    const auto at = [&](double lambda) { return own.filter_number("lambda", [=](double l) { return l == lambda; }); };
+    const Table limit = own.filter("epsilon", 0);
     report.claim(
-        at(1).most("T") < 0 && at(1).least("slip") > 0 && limit.least("T") > 0 && limit.most("slip") < 0,
+        at(1).max("T") < 0 && at(1).min("slip") > 0 && limit.min("T") > 0 && limit.max("slip") < 0,
         "(observed) {}: at lambda = 1 the left half slips inwards, T = {:.4f}; in the limit outwards, T = {:.4f}",
         element.text(), at(1).last("T"), limit.last("T"));
     report.claim(
@@ -129,7 +129,7 @@ void judge(const Table& checks, const Table& forces, tutorial::Report& report) {
         limit.last("sticks"));
     // $|T|$ meets $g$ continuously. An end of the stick zone that is off by a part of $h$ costs $h$ times a density of
     // size $h$. The end of contact costs $N$ one cell less evenly: a multiple of $h$.
-    const tutorial::Supremum t = tutorial::supremum(own.where("known", 1), "T off", "lambda");
+    const tutorial::Supremum t = tutorial::supremum(own.filter("known", 1), "T off", "lambda");
     t.rows.print(element.text() + ": T is off by so many per cent, the largest over lambda");
     const auto [of_t, of_n] = tutorial::off_by(own);
     const double order = t.rows.order("worst", "h"), most = element == "Kouhia-Stenberg" ? 120 : 60;
@@ -140,9 +140,9 @@ void judge(const Table& checks, const Table& forces, tutorial::Report& report) {
         element.text(), of_t, order);
     report.claim(of_n < 20 && of_n > 5,
                  "(observed) {}: N is off by at most {:.0f} h per cent at every lambda, in {} corrections",
-                 element.text(), of_n, own.most("corrections"));
+                 element.text(), of_n, own.max("corrections"));
   }
-  const Table locked = forces.where("locks", 1).where("epsilon", 0);
+  const Table locked = forces.filter("locks", 1).filter("epsilon", 0);
   report.claim(locked.number("N off") > 150 && std::abs(locked.number("T")) < 1e-6 && locked.number("sticks") == 0,
                "(observed) P1 on parallel triangles locks: N is {:.0f} % too large, and all slides to one side, T = -g",
                locked.number("N off"));

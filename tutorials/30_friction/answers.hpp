@@ -11,12 +11,12 @@ const std::vector<tutorial::Exercise> exercises{
        const Space x(cr.mesh, cr.in_x), y(cr.mesh, cr.in_y);
        Sweep sweep(pressed(
            cr, {x, y}, [](double) { return 0; }, 1e-8));
-       const auto count = static_cast<Eigen::Index>(y.contact().size());
-       Eigen::VectorXd normal = sweep.solve().lambda.head(count), bound = sweep.problem().force_bound;
+       const auto count = static_cast<Eigen::Index>(y.contact_dofs().size());
+       Eigen::VectorXd normal = sweep.solve().lambda.head(count), bound = sweep.problem().force_limit;
        std::vector<double> changes;
        while (changes.size() < 6) {
          bound.tail(count) = 0.25 * normal;
-         sweep.set_force_bound(bound);
+         sweep.set_force_limit(bound);
          const Solution solution = sweep.solve();
          changes.push_back((solution.lambda.head(count) - normal).lpNorm<Eigen::Infinity>());
          normal = solution.lambda.head(count);

@@ -21,19 +21,19 @@ namespace antilock::tutorial {
 /// graded meshes (`freefem/30_friction.edp`).
 inline const std::vector<std::string> floor_columns{"element", "h",      "lambda",      "epsilon", "locks", "N",    "T",
                                                     "slip",    "sticks", "corrections", "known",   "N off", "T off"};
-inline std::vector<Entry> floor_row(const Rubber& rubber, int cells, const Space& x,
-                                    const VariationalInequality& problem, const Solution& solution) {
+inline std::vector<TableEntry> floor_row(const Rubber& rubber, int cells, const Space& x,
+                                         const VariationalInequality& problem, const Solution& solution) {
   static const std::map<double, std::pair<double, double>> reference{
       {1, {0.16034, -0.01627}}, {1e-4, {0.26073, 0.01222}}, {1e-8, {0.26077, 0.01223}}, {0, {0.26077, 0.01223}}};
   double normal = 0, tangential = 0, sticks = 0, slip = 0;
   for (Eigen::Index i = 0; i < solution.lambda.size(); ++i) {
-    if (!std::isfinite(problem.force_bound(i))) {
+    if (!std::isfinite(problem.force_limit(i))) {
       normal += solution.lambda(i);
       continue;
     }
-    const double place = x.points()(problem.contact[i], 0), moved = solution.u(problem.contact[i]);
+    const double place = x.dof_coordinates()(problem.contact[i], 0), moved = solution.u(problem.contact[i]);
     tangential += place == 0.5 ? 0 : (place < 0.5 ? 0.5 : -0.5) * solution.lambda(i);
-    if (problem.force_bound(i) == 0) continue;
+    if (problem.force_limit(i) == 0) continue;
     if (solution.active[i]) sticks += 1.0 / cells;
     if (place < 0.5 && std::abs(moved) > std::abs(slip)) slip = moved;
   }
@@ -76,7 +76,7 @@ inline Extremes extremes_of_friction(const std::function<VariationalInequality(c
   const auto zero = [](double) { return 0.0; };
   VariationalInequality bonded = pressed(great);
   const Eigen::VectorXd holds = active_set(bonded).u;
-  bonded.force_bound.resize(0);
+  bonded.force_limit.resize(0);
   return {(active_set(pressed(zero)).u - active_set(pressed({})).u).cwiseAbs().maxCoeff(),
           (holds - active_set(bonded).u).cwiseAbs().maxCoeff()};
 }
@@ -85,7 +85,7 @@ inline Extremes extremes_of_friction(const std::function<VariationalInequality(c
 inline Eigen::MatrixX3d on_floor(const Space& in_x, const VariationalInequality& problem, const Solution& solution) {
   const Eigen::VectorXd lengths = contact_lengths(in_x);
   Eigen::MatrixX3d curves(lengths.size(), 3);
-  curves.col(0) = in_x.points().col(0)(in_x.contact());
+  curves.col(0) = in_x.dof_coordinates().col(0)(in_x.contact_dofs());
   curves.col(1) = solution.lambda.tail(lengths.size()).cwiseQuotient(lengths);
   curves.col(2) = solution.u(problem.contact).tail(lengths.size());
   return curves;
@@ -96,10 +96,10 @@ inline Eigen::MatrixX3d on_floor(const Space& in_x, const VariationalInequality&
 inline void show_friction(const std::filesystem::path& out, const Table& checks, const Table& forces, int cells,
                           const Profile& g, const Eigen::MatrixX3d& locked, const Eigen::MatrixX3d& crossed) {
   checks.print("active set and Uzawa", 2);
-  const Table here = forces.where("h", 1.0 / cells);
-  here.where("known", 1).pivot("element", "lambda", "N off").print("error of the normal force in %, by lambda");
+  const Table here = forces.filter("h", 1.0 / cells);
+  here.filter("known", 1).pivot("element", "lambda", "N off").print("error of the normal force in %, by lambda");
   for (const char* what : {"T", "sticks"})
-    here.where_number("lambda", [](double l) { return l <= 100 || std::isinf(l); })
+    here.filter_number("lambda", [](double l) { return l <= 100 || std::isinf(l); })
         .pivot("element", "lambda", what)
         .print(std::string(what) + ", by lambda");
   Table zones({"x", "g", "minus_g", "T_locked", "T", "u_locked", "u"}),
@@ -109,12 +109,12 @@ inline void show_friction(const std::filesystem::path& out, const Table& checks,
     zones.add({x, g(x), -g(x), locked(i, 1), crossed(i, 1), locked(i, 2), crossed(i, 2)});
   }
   zones.write(out / "zones.csv");
-  const Table drawn = here.where_number("lambda", [](double l) { return l <= 1e4; });
-  for (const Entry& lambda : drawn.different("lambda")) {
-    std::vector<Entry> row{std::log10(lambda.number())};
+  const Table drawn = here.filter_number("lambda", [](double l) { return l <= 1e4; });
+  for (const TableEntry& lambda : drawn.unique("lambda")) {
+    std::vector<TableEntry> row{std::log10(lambda.number())};
     for (const char* what : {"T", "sticks"})
       for (const char* element : {"P1 crossed triangles", "Crouzeix-Raviart with jumps", "Kouhia-Stenberg"})
-        row.push_back(drawn.where("lambda", lambda).where("element", element).entry(what));
+        row.push_back(drawn.filter("lambda", lambda).filter("element", element).entry(what));
     by_lambda.add(row);
   }
   by_lambda.write(out / "lambda.csv");
@@ -129,7 +129,7 @@ inline Eigen::VectorXd boundary_load(const Space& space, const std::function<dou
       const int e = mesh.triangle_edges(t, i);
       if (mesh.edge_triangles(e, 1) >= 0) continue;
       const Eigen::Vector3d midpoint = 0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(i));
-      const Eigen::VectorXi unknowns = space.unknowns().row(t);
+      const Eigen::VectorXi unknowns = space.cell_dofs().row(t);
       load(unknowns) += mesh.edge_length(e) * force(point_in(mesh, t, midpoint)) * space.element().basis(midpoint);
     }
   return load;
@@ -148,26 +148,27 @@ inline double slipping_patch_error(const VectorSpace& space, double jump_weight,
   scene.jump_weight = jump_weight;
   VariationalInequality problem = assemble(scene, space);
   const Eigen::VectorXd exact =
-      slip + 0.1 / (1 + 2 * epsilon) * x.points().col(0).array() + rubs * x.points().col(1).array();
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    if (problem.fixed[i] < x.size()) problem.fixed_values(static_cast<Eigen::Index>(i)) = exact(problem.fixed[i]);
+      slip + 0.1 / (1 + 2 * epsilon) * x.dof_coordinates().col(0).array() + rubs * x.dof_coordinates().col(1).array();
+  for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
+    if (problem.dirichlet_dofs[i] < x.size())
+      problem.dirichlet_values(static_cast<Eigen::Index>(i)) = exact(problem.dirichlet_dofs[i]);
   problem.load.head(x.size()) = boundary_load(x, [](const auto& at) { return at(1) == 1 ? rubs : 0; });
   problem.load.tail(y.size()) = boundary_load(y, [](const auto& at) {
     return at(0) == 1 ? rubs : at(0) == 0 ? -rubs : 0;
   });
   const Eigen::VectorXd u = active_set(problem).u;
   return std::max((u.head(x.size()) - exact).cwiseAbs().maxCoeff(),
-                  (u.tail(y.size()) + 0.1 * y.points().col(1)).cwiseAbs().maxCoeff());
+                  (u.tail(y.size()) + 0.1 * y.dof_coordinates().col(1)).cwiseAbs().maxCoeff());
 }
 
 /// One row per element that does not lock: patch, g = 0 and g = 1e6 as above; steps and seconds of the active set, then of
 /// Uzawa, and the largest difference of their displacements.
 inline const std::vector<std::string> check_columns{"element", "unknowns",    "patch",   "g = 0",   "g = 1e6",
                                                     "steps",   "Uzawa steps", "seconds", "Uzawa s", "apart"};
-inline std::vector<Entry> check_row(const Rubber& rubber, const VectorSpace& space,
-                                    const std::function<VariationalInequality(const Profile& g)>& pressed,
-                                    double epsilon, const Solution& solution, double seconds, const Solution& same,
-                                    double seconds_of_uzawa) {
+inline std::vector<TableEntry> check_row(const Rubber& rubber, const VectorSpace& space,
+                                         const std::function<VariationalInequality(const Profile& g)>& pressed,
+                                         double epsilon, const Solution& solution, double seconds, const Solution& same,
+                                         double seconds_of_uzawa) {
   const auto [none, bonded] = extremes_of_friction(pressed);
   return {rubber.name,
           solution.counters.unknowns,

@@ -87,7 +87,7 @@ Table solve(const std::string& series, const Grading& level, double end, const E
   // ### Solve
   const Solution solution = active_set(problem);
   const double seconds = watch.seconds(), found = contact_zone(on.space(), problem, solution).from.value_or(end);
-  const auto [contact, below] = tutorial::on_contact(on.space(), solution.u, exact.truth);
+  const auto [contact, below] = tutorial::on_contact(on.space(), solution.u, exact.solution);
   Table row(hp_columns);
   row.add({level.layers == none ? "equal cells" : "graded", series, exact.epsilon, level.degree, 1.0 / level.cells,
            on.space().free_count(), exact.errors(on.space(), solution).h1, contact, below, found, seconds});
@@ -157,8 +157,8 @@ void judge_shifted(const Table& rows, const std::string& norm, double order, dou
 
 void judge(const Table& results, const Exact& exact, tutorial::Report& report) {
   const std::string here = fmt::format("epsilon = {:g}, ", exact.epsilon);
-  const Table rows = results.where("epsilon", exact.epsilon), own = rows.where("series", "hp");
-  const auto at = [&](int p, const char* column) { return own.where("degree", p).number(column); };
+  const Table rows = results.filter("epsilon", exact.epsilon), own = rows.filter("series", "hp");
+  const auto at = [&](int p, const char* column) { return own.filter("degree", p).number(column); };
   // No power of $N$: its order, from one level to the next, grows at every level. At last it is above 3.
   std::vector<double> orders, factors;
   for (int p = 1; p < 6; ++p) {
@@ -172,15 +172,15 @@ void judge(const Table& results, const Exact& exact, tutorial::Report& report) {
                "(observed) {}hp: from P2 on the H1 error is divided by {:.1f}, {:.1f}, {:.1f}, {:.1f} per level", here,
                factors[1], factors[2], factors[3], factors[4]);
   if (exact.epsilon == 1e-20)
-    return report.claim_within(at(6, "h1") / results.where("epsilon", 0).where("series", "hp").last("h1"), 0.999, 1.001,
-                               "(observed) " + here + "hp: H1 error over that at epsilon = 0");
+    return report.claim_within(at(6, "h1") / results.filter("epsilon", 0).filter("series", "hp").last("h1"), 0.999,
+                               1.001, "(observed) " + here + "hp: H1 error over that at epsilon = 0");
   report.claim_within(at(6, "end") - exact.contact_from(), -2e-5, 2e-5,
                       "(observed) " + here + "hp: end of contact, less the truth's");
   for (int p = 1; p <= 4; ++p) {
-    const double h1 = rows.where("mesh", "graded").where("series", lagrange(p).name()).order("h1", "h");
+    const double h1 = rows.filter("mesh", "graded").filter("series", lagrange(p).name()).order("h1", "h");
     report.claim(h1 > p - 0.25 && h1 < p + 0.5, "(observed) {}graded P{}: h^{:.2f} in H1", here, p, h1);
   }
-  const Table p4 = rows.where("mesh", "equal cells").where("series", "P4");
+  const Table p4 = rows.filter("mesh", "equal cells").filter("series", "P4");
   const double gain = p4.last("contact") / at(6, "contact"), fewer = p4.last("unknowns") / at(6, "unknowns");
   report.claim(gain > 50 && fewer > 1,
                "(observed) {}on Gamma_C hp has 1/{:.0f} of P4's error, 1/{:.1f} of the unknowns", here, gain, fewer);

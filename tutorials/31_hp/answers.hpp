@@ -33,10 +33,10 @@ const std::vector<tutorial::Exercise> exercises{
          }
        rows.print();
        // where the end lies in its cell decides from d to d: the envelope has the order
-       report.claim_within(rows.most("multiple of d^(3/2)"), 0.35, 1.3,
+       report.claim_within(rows.max("multiple of d^(3/2)"), 0.35, 1.3,
                            "the error is at most this multiple of d^(3/2):");
-       const Table near = rows.where_number("d", [](double d) { return std::abs(d) <= 0.01; });
-       report.claim_within(near.most("multiple of d^(3/2)"), 0.2, 0.8, "and for d <= 0.01:");
+       const Table near = rows.filter_number("d", [](double d) { return std::abs(d) <= 0.01; });
+       report.claim_within(near.max("multiple of d^(3/2)"), 0.2, 0.8, "and for d <= 0.01:");
      }},
     {"Degrees 1 to 6 on 8 layers, then P6 on 0 to 6 layers, epsilon = 1. Does hp's error follow degree or layers?",
      "in H1 the degree: with 8 layers from the start it is the same. On Gamma_C the first four layers take factors "
@@ -52,7 +52,7 @@ const std::vector<tutorial::Exercise> exercises{
          rows->select({"series", "degree", "unknowns", "h1", "contact"}).print();
        double apart = 0;
        for (int p = 1; p <= 6; ++p) {
-         const double ratio = both.where("degree", p).number("h1") / degree.where("degree", p).number("h1");
+         const double ratio = both.filter("degree", p).number("h1") / degree.filter("degree", p).number("h1");
          apart = std::max(apart, std::abs(ratio - 1));
        }
        report.claim(apart < 0.02, "hp and the degrees on 8 layers: H1 errors differ by {:.2g} % at most", 100 * apart);

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/exact/truth.hpp"
+#include "antilock/exact/exact_solution.hpp"
 #include "antilock/measure/contact_edges.hpp"
 #include "antilock/mesh/write_msh.hpp"
 #include "antilock/study/table.hpp"
@@ -21,12 +21,12 @@ inline const std::vector<std::string> hp_columns{"mesh", "series",  "epsilon", "
 struct OnContact {
   double error, below;
 };
-inline OnContact on_contact(const Space& space, const Eigen::VectorXd& u, const Truth& truth) {
+inline OnContact on_contact(const Space& space, const Eigen::VectorXd& u, const ExactSolution& exact) {
   const Eigen::MatrixX3d trace = contact_trace(space, u);
   double error = 0;
   for (Eigen::Index i = 0; i < trace.rows(); ++i)
-    error = std::max(error, std::abs(trace(i, 1) - truth.value(trace(i, 0), -1)));
-  const double largest = truth.max_on_contact();
+    error = std::max(error, std::abs(trace(i, 1) - exact.value(trace(i, 0), -1)));
+  const double largest = exact.max_on_contact();
   return {error / largest, std::max(0.0, -trace.col(1).minCoeff()) / largest};
 }
 
@@ -34,7 +34,7 @@ inline OnContact on_contact(const Space& space, const Eigen::VectorXd& u, const 
 /// graded.msh. `results` has the columns above.
 inline void write_hp(const std::filesystem::path& out, const Table& results, const TriangleMesh& drawn) {
   for (const double epsilon : {1.0, 0.0})
-    results.where("epsilon", epsilon).where("series", "hp").print(fmt::format("hp, epsilon = {}", epsilon), 3);
+    results.filter("epsilon", epsilon).filter("series", "hp").print(fmt::format("hp, epsilon = {}", epsilon), 3);
   Table picture({"panel", "series", "epsilon", "unknowns", "h1", "contact"});
   for (const Table& row : results.rows())
     for (const char* panel : {"equal cells", "graded"})

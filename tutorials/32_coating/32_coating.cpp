@@ -82,8 +82,8 @@ double gap(double x) { return (x - 0.5) * (x - 0.5); }  // of the round punch be
 // A `CoatedBlock` is one of six discretisations: triangles in columns or arbitrary ones, an element per component.
 //
 // ### Forms
-// `models/coating.cpp` is those two formulas: `strain_form` for the block and for $E_m u_x^2$, `strain_rows` for $B$. The top
-// is moved down by 0.1, the sides are free.
+// `models/coating.cpp` is those two formulas: `strain_form` for the block and for $E_m u_x^2$, `strain_form_factored`
+// for $B$. The top is moved down by 0.1, the sides are free.
 Coating coating(double thickness) {
   Coating scene;
   scene.thickness = thickness;
@@ -138,18 +138,18 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
   for (const Table& method : diagnoses.rows())
     report.claim(method.number("found") == method.number("locks"), "(observed) {}: {}", method.entry("method").text(),
                  method.entry("says").text());
-  const Table thick = forces.where_number("t", [](double t) { return t > 0; });
+  const Table thick = forces.filter_number("t", [](double t) { return t > 0; });
   double most = 0;
   for (const Table& run : thick.rows())
     if (run.entry("method").text() != "P2 / P2") most = std::max(most, run.number("corrections"));
-  report.claim(most <= 10 && thick.most("corrections") <= 20,
-               "(observed) {} corrections at most where B depends on t, {} with P2", most, thick.most("corrections"));
+  report.claim(most <= 10 && thick.max("corrections") <= 20,
+               "(observed) {} corrections at most where B depends on t, {} with P2", most, thick.max("corrections"));
   if (cells < 32) return report.not_judged("the contact force: fewer than 32 cells do not tell locked from inexact");
-  for (const Entry& name : forces.different("method")) {
-    const Table own = forces.where("method", name);
+  for (const TableEntry& name : forces.unique("method")) {
+    const Table own = forces.filter("method", name);
     const tutorial::Supremum worst = tutorial::supremum(own, "percent", "t");
     worst.rows.print(name.text() + ": the force is off by so many per cent, the largest over t");
-    if (own.most("locks") == 0) {
+    if (own.max("locks") == 0) {
       // The end of contact is known to a cell: a multiple of $h$ that jumps from mesh to mesh.
       const double per_h = worst.rows.last("worst") * cells;
       const double most_per_h = tutorial::percent_per_h(name.text());
@@ -165,8 +165,8 @@ void judge(const Table& forces, const Table& diagnoses, int cells, tutorial::Rep
           name.text(), worst.rows.last("worst"), worst.rows.first("worst"));
     }
   }
-  const Table cr = forces.where("method", "CR / CR").where("h", 1.0 / cells);
-  const double last = cr.where("t", 1e-6).number("force"), limit = cr.where("t", 0.0).number("force");
+  const Table cr = forces.filter("method", "CR / CR").filter("h", 1.0 / cells);
+  const double last = cr.filter("t", 1e-6).number("force"), limit = cr.filter("t", 0.0).number("force");
   report.claim(std::abs(last / limit - 1) < 1e-5,
                "(observed) CR tends to its own limit: force {:.7f} at t = 1e-6, {:.7f} at 0", last, limit);
 }

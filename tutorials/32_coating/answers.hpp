@@ -5,7 +5,7 @@
 
 /// By how much the coating becomes longer: the mean of u_x over it.
 double stretch(const VectorSpace& space, const Solution& solution) {
-  const FactoredForm along = strain_rows(space, {{{1, 0, 0, 0}}}, Region::layer);
+  const FactoredForm along = strain_form_factored(space, {{{1, 0, 0, 0}}}, Region::layer);
   return along.m.dot(along.b * solution.u);
 }
 
@@ -26,9 +26,9 @@ const std::vector<tutorial::Exercise> exercises{
          Eigen::Matrix4d soft = Eigen::Matrix4d::Zero();
          soft(0, 0) = 2 * layer.mu;
          problem.a1 = strain_form(space, coating(t).body.matrix(), soft) + jump_form(space, 1);
-         const FactoredForm rows =
-             strain_rows(space, {{{t, 0, 0, 1}, layer.lambda}, {{0, 0, 0, 1}, 2 * layer.mu}, {{0, 1, t, 0}, layer.mu}},
-                         Region::layer);
+         const FactoredForm rows = strain_form_factored(
+             space, {{{t, 0, 0, 1}, layer.lambda}, {{0, 0, 0, 1}, 2 * layer.mu}, {{0, 1, t, 0}, layer.mu}},
+             Region::layer);
          problem.b = rows.b;
          problem.m = rows.m;
          return stretch(space, active_set(problem));

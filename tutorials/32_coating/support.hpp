@@ -54,11 +54,11 @@ inline void write_coating(const std::filesystem::path& out, const CoatedBlock& m
 /// Prints the tables of the chapter; writes force.csv, and punch.csv of the picture.
 inline void show_coating(const std::filesystem::path& out, const Table& forces, const Table& diagnoses, int cells,
                          const Profile& gap) {
-  const Table finest = forces.where("h", 1.0 / cells);
+  const Table finest = forces.filter("h", 1.0 / cells);
   finest.pivot("method", "t", "force").print("contact force, by t");
   finest.pivot("method", "t", "corrections").print("corrections, by t");
   diagnoses.select({"method", "says"}).print("diagnosis");
-  finest.where_number("t", [](double t) { return t > 0; }).select({"method", "t", "force"}).write(out / "force.csv");
+  finest.filter_number("t", [](double t) { return t > 0; }).select({"method", "t", "force"}).write(out / "force.csv");
   Table punch({"x", "y"});
   for (int i = 0; i <= 40; ++i) punch.add({-0.1 + 0.03 * i, -1 - gap(-0.1 + 0.03 * i)});
   punch.write(out / "punch.csv");

@@ -94,8 +94,8 @@ VariationalInequality make_problem(const Strings& s, Glue glue, double epsilon) 
   problem.compliance = epsilon;
   problem.load = Eigen::VectorXd::Zero(s.size());
   for (int i = 1; i < s.upper_cells(); ++i) problem.load(s.upper(i)) = -load / s.upper_cells();
-  problem.fixed = {s.upper(0), s.upper(s.upper_cells()), s.lower(0), s.lower(s.cells)};
-  problem.fixed_values = Eigen::VectorXd::Zero(4);
+  problem.dirichlet_dofs = {s.upper(0), s.upper(s.upper_cells()), s.lower(0), s.lower(s.cells)};
+  problem.dirichlet_values = Eigen::VectorXd::Zero(4);
   for (int i = 1; i < s.cells; ++i) problem.contact.push_back(s.lower(i));
   problem.lower = Eigen::VectorXd::Constant(s.cells - 1, -gap);
   return problem;
@@ -119,13 +119,13 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
     // At the ε asked for, with its KKT report ([00](../00_string_on_an_obstacle/00_string_on_an_obstacle.cpp)): how well the conditions hold.
     const Solution solution = active_set(problem);
     tutorial::print_glue(name, h, finer_kernel, rows, solution, load * (1 - 2 * free_part));
-    judge(glue, h, finer_kernel, options.cells, rows.where("epsilon", 0), report);
+    judge(glue, h, finer_kernel, options.cells, rows.filter("epsilon", 0), report);
   }
   // ### Output
   released.write(options.out / "energies.csv");
   // One end raised: at ε = 0 K and G do not meet, and the problem has no solution.
   VariationalInequality impossible = make_problem(strings, Glue::pointwise, 0);
-  impossible.fixed_values(0) = 0.1;
+  impossible.dirichlet_values(0) = 0.1;
   const double distance = distance_to_kernel(impossible);
   const std::string refusal = tutorial::refusal(impossible);
   report.claim(distance > 1e-3 && !refusal.empty(),
@@ -134,20 +134,20 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
 }
 
 void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Table& rigid, tutorial::Report& report) {
-  const double truth = load * load * std::pow(free_part, 3) / 3 - load * gap, n = cells, found = rigid.number("energy");
+  const double exact = load * load * std::pow(free_part, 3) / 3 - load * gap, n = cells, found = rigid.number("energy");
   report.claim(h.coercive() && h.meet(), "(proved) the hypotheses hold: (H1) and K meets G");
   if (glue == Glue::pointwise)
     return report.claim(h.kernel == 0 && finer_kernel == 0 && rigid.number("max |u|") < 1e-6,
                         "(proved) no function is left free on any mesh: it locks, energy {:.1e} in place of {:.3f}",
-                        found, truth);
+                        found, exact);
   report.claim(h.kernel == cells && finer_kernel == 2 * cells,
                "(proved) {} functions are left free, {} on the finer mesh", h.kernel, finer_kernel);
   // P1 on one string of tension 2 misses int (u - u_h)'^2 of the energy, with u'' = q / 2 on its free parts, of length 2c.
   const double missed = std::pow(load / 2, 2) / (12 * n * n) * 2 * free_part;
   report.claim_within(
-      (found - truth) / missed, 0.5, 1.5,
+      (found - exact) / missed, 0.5, 1.5,
       fmt::format("(observed) energy {:.4f} at epsilon = 0, truth {:.4f}: off, over what one P1 string misses", found,
-                  truth));
+                  exact));
   report.claim(rigid.number("corrections") <= 5, "(observed) and {} corrections are enough",
                rigid.number("corrections"));
 }

@@ -7,10 +7,10 @@ const std::vector<tutorial::Exercise> exercises{
      "what P1 misses",
      [](const tutorial::Options& options, tutorial::Report& report) {
        const VariationalInequality problem = make_problem({options.cells, 0}, Glue::pointwise, 0);
-       const double truth = load * load * std::pow(free_part, 3) / 3 - load * gap, n = options.cells;
+       const double exact = load * load * std::pow(free_part, 3) / 3 - load * gap, n = options.cells;
        report.claim(kernel_dimension(problem) == options.cells - 1, "kernel {}", kernel_dimension(problem));
        const double missed = load * load * free_part / (24 * n * n);
-       report.claim_within((energy(problem, active_set(problem)) - truth) / missed, 0.5, 1.5,
+       report.claim_within((energy(problem, active_set(problem)) - exact) / missed, 0.5, 1.5,
                            "energy - truth, over what P1 misses");
      }}};
 

@@ -19,7 +19,7 @@ EXAMPLES = {
     "solve/contact.hpp": ("unit/solve/contact_test.cpp", "ContactProblem, AWrongSideCostsAStepPerPiece"),
     "analysis/locking.hpp": ("unit/analysis/locking_test.cpp", "LockingDiagnosis, FindsThatAHalfIsHeld"),
     "certificate/certificate.hpp": ("unit/certificate/certificate_test.cpp", "Certificate, BoundsTheEnergyOfAScaledSolution"),
-    "analysis/lost_energy.hpp": ("unit/analysis/layer_report_test.cpp", "LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),
+    "analysis/locking_loss.hpp": ("unit/analysis/locking_report_test.cpp", "LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),
     "adapt/solve_to.hpp": ("unit/adapt/solve_to_test.cpp", "SolveTo, TakesTheVentcelLayerForTheRigidLimit"),
 }
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "antilock/analysis/layer_report.hpp"
+#include "antilock/analysis/locking_report.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/exact/sine_load.hpp"
 #include "antilock/io/write_csv.hpp"
@@ -15,13 +15,13 @@
 namespace antilock::tutorial {
 namespace {
 
-Truth known_truth(const Scene& scene, int log2_points) {
-  std::optional<Truth> truth = truth_of(scene, log2_points);
-  if (!truth)
+ExactSolution known_truth(const Scene& scene, int log2_points) {
+  std::optional<ExactSolution> solution = exact_solution_of(scene, log2_points);
+  if (!solution)
     throw Error(
         "exact: the truth of this scene is not known; accepted: a StiffLayer, a load that is a sum of sines, and "
         "the obstacle, if any, at the distance 0, and nothing beyond the paper");
-  return std::move(*truth);
+  return std::move(*solution);
 }
 
 void print_solution(const Space& space, const VariationalInequality& problem, const Solution& solution) {
@@ -49,15 +49,15 @@ Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{ep
 Exact::Exact(Scene scene, int log2_points)
     : scene(std::move(scene)),
       epsilon(this->scene.epsilon().value_or(0)),
-      truth(known_truth(this->scene, log2_points)),
-      table(truth, 1 << std::clamp(log2_points - 3, 10, 14)) {}
+      solution(known_truth(this->scene, log2_points)),
+      table(solution, 1 << std::clamp(log2_points - 3, 10, 14)) {}
 
 Errors Exact::errors(const Space& space, const Solution& solution) const {
   return measure_errors(space, solution, epsilon, reference());
 }
 
 double Exact::contact_from() const {
-  const auto zones = truth.contact_zones();
+  const auto zones = solution.contact_zones();
   return zones.empty() ? 1 : zones.front().first;
 }
 
@@ -88,7 +88,7 @@ void present(const std::filesystem::path& out, const Scene& scene, const Space& 
              const VariationalInequality& problem, const Solution& solution, const std::string& what,
              const Errors& errors) {
   print_solution(space, problem, solution);
-  if (const auto layer = report_layer(scene, space, problem, solution)) fmt::print("  layer: {}\n", layer->sentence());
+  if (const auto layer = report_locking(scene, space, problem, solution)) fmt::print("  layer: {}\n", layer->text());
   print_errors(what, errors);
   write_results(out, space, problem, solution);
 }
@@ -96,10 +96,11 @@ void present(const std::filesystem::path& out, const Scene& scene, const Space& 
 Supremum supremum(const Table& runs, const std::string& value, const std::string& parameter) {
   Supremum found{Table({"h", "worst", "at", "order"}), 1};
   double h_before = 0, before = 0;
-  for (const Entry& h : runs.different("h")) {
-    const Table mesh = runs.where("h", h);
-    const double worst = mesh.most(value), order = std::log(before / worst) / std::log(h_before / h.number());
-    found.rows.add({h, worst, mesh.where(value, worst).first(parameter), h_before > 0 ? Entry(order) : Entry("")});
+  for (const TableEntry& h : runs.unique("h")) {
+    const Table mesh = runs.filter("h", h);
+    const double worst = mesh.max(value), order = std::log(before / worst) / std::log(h_before / h.number());
+    found.rows.add(
+        {h, worst, mesh.filter(value, worst).first(parameter), h_before > 0 ? TableEntry(order) : TableEntry("")});
     double half = 0;
     for (int i = 0; const double here : mesh.numbers(value))
       if (i++ % 2 == 0) half = std::max(half, here);

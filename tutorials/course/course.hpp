@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/errors.hpp"
@@ -44,8 +44,8 @@ struct Exact {
 
   Scene scene;
   double epsilon;
-  Truth truth;
-  TruthTable table;
+  ExactSolution solution;
+  ExactTable table;
 };
 /// Those of `paper_scene` for each epsilon.
 std::vector<Exact> exact_solutions(const std::vector<double>& epsilons, int log2_points = 17);

@@ -52,8 +52,9 @@ inline double patch_error(const Rubber& rubber, double epsilon) {
   scene.sliding = true;
   scene.jump_weight = rubber.jumps ? 1 : 0;
   const Eigen::VectorXd u = active_set(assemble(scene, {x, y})).u;
-  const Eigen::VectorXd in_x = u.head(x.size()) - 0.1 / (1 + 2 * epsilon) * x.points().col(0);
-  return std::max(in_x.cwiseAbs().maxCoeff(), (u.tail(y.size()) + 0.1 * y.points().col(1)).cwiseAbs().maxCoeff());
+  const Eigen::VectorXd in_x = u.head(x.size()) - 0.1 / (1 + 2 * epsilon) * x.dof_coordinates().col(0);
+  return std::max(in_x.cwiseAbs().maxCoeff(),
+                  (u.tail(y.size()) + 0.1 * y.dof_coordinates().col(1)).cwiseAbs().maxCoeff());
 }
 
 /// Dimension of the kernel of a1 on the free unknowns: the motions that cost no energy.
@@ -73,7 +74,7 @@ inline double bulge(const Space& space, const Eigen::VectorXd& u, double side) {
       if (mesh.vertices(mesh.edges(e, 0), 0) != side || mesh.vertices(mesh.edges(e, 1), 0) != side) continue;
       const Eigen::VectorXd at_midpoint =
           space.element().basis(0.5 * (Eigen::Vector3d::Ones() - Eigen::Vector3d::Unit(i)));
-      const Eigen::VectorXi unknowns = space.unknowns().row(t);
+      const Eigen::VectorXi unknowns = space.cell_dofs().row(t);
       mean += mesh.edge_length(e) * at_midpoint.dot(u(unknowns));
     }
   return side == 0 ? -mean : mean;

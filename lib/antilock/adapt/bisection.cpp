@@ -63,11 +63,11 @@ TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangl
 
   Triples corners(4 * mesh.triangle_count(), 3);
   std::vector<Region> region;
-  std::vector<Bend> bend;
+  std::vector<CurvedColumn> column;
   const auto add = [&](int t, int a, int b, int c) {
     corners.row(static_cast<Eigen::Index>(region.size())) << a, b, c;
     region.push_back(mesh.region[t]);
-    if (mesh.curved()) bend.push_back(mesh.bend[t]);
+    if (mesh.curved()) column.push_back(mesh.curved_columns[t]);
   };
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const auto v = mesh.triangles.row(t);
@@ -99,7 +99,7 @@ TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangl
   TriangleMesh finer = make_triangle_mesh(std::move(vertices), std::move(corners), std::move(region), tagged,
                                           refinement_name(mesh, "bisected mesh"));
   finer.geometry = mesh.geometry;
-  finer.bend = std::move(bend);
+  finer.curved_columns = std::move(column);
   return finer;
 }
 

@@ -15,31 +15,32 @@
 
 namespace antilock {
 
-std::vector<bool> marked(const Eigen::VectorXd& indicator, const Marking& marking) {
+std::vector<bool> dorfler_mark(const Eigen::VectorXd& indicator, const Marking& marking) {
   std::vector<Eigen::Index> order(indicator.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](auto a, auto b) { return indicator(a) > indicator(b); });
-  const double enough = marking.share * indicator.sum();
-  const auto least = static_cast<std::size_t>(std::ceil(marking.fewest * static_cast<double>(order.size())));
-  const std::size_t most = marking.most > 0 ? static_cast<std::size_t>(marking.most) : order.size() + 1;
+  const double enough = marking.theta * indicator.sum();
+  const auto least = static_cast<std::size_t>(std::ceil(marking.min_fraction * static_cast<double>(order.size())));
+  const std::size_t max_marked =
+      marking.max_marked > 0 ? static_cast<std::size_t>(marking.max_marked) : order.size() + 1;
   std::vector<bool> marks(indicator.size(), false);
   double sum = 0;
   std::size_t k = 0;
-  for (; k < std::min(most, order.size()) && (sum < enough || k < least); ++k) {
+  for (; k < std::min(max_marked, order.size()) && (sum < enough || k < least); ++k) {
     marks[order[k]] = true;
     sum += indicator(order[k]);
   }
-  if (most > order.size() && static_cast<double>(k) > marking.spread * static_cast<double>(order.size()))
+  if (max_marked > order.size() && static_cast<double>(k) > marking.uniform_above * static_cast<double>(order.size()))
     marks.assign(order.size(), true);
   return marks;
 }
 
-GrowingMesh grown(const GrowingMesh& last, Growth growth, double epsilon, const Eigen::VectorXd& indicator,
-                  const Marking& marking) {
+AdaptiveMesh refine_marked(const AdaptiveMesh& last, RefinementStrategy growth, double epsilon,
+                           const Eigen::VectorXd& indicator, const Marking& marking) {
   const TriangleMesh &mesh = last.mesh, &body = last.body;
-  GrowingMesh next;
-  if (growth == Growth::bisect) {
-    const std::vector<bool> all = marked(indicator, marking);
+  AdaptiveMesh next;
+  if (growth == RefinementStrategy::bisect) {
+    const std::vector<bool> all = dorfler_mark(indicator, marking);
     next.marks = static_cast<int>(std::count(all.begin(), all.end(), true));
     next.mesh = bisected(mesh, all);
     return next;
@@ -54,7 +55,7 @@ GrowingMesh grown(const GrowingMesh& last, Growth growth, double epsilon, const 
   together.head(in_body) = indicator.head(in_body);
   for (int c = 0; c < columns; ++c)
     together(in_body + c) = indicator.segment(in_body + c * per_column, per_column).sum();
-  const std::vector<bool> all = marked(together, marking);
+  const std::vector<bool> all = dorfler_mark(together, marking);
   std::vector<bool> edges(body.edge_count(), false);
   for (int c = 0; c < columns; ++c) edges[sigma[c]] = all[in_body + c];
   next.marks = static_cast<int>(std::count(all.begin(), all.end(), true));

@@ -9,30 +9,30 @@ namespace antilock {
 
 /// How a mesh grows: everything is bisected, or the body alone, with the layer's columns extruded anew below it. A
 /// feature of a thin layer crosses all of it, so that columns are the cheaper mesh for epsilon <= 0.1.
-enum class Growth { bisect, extrude };
+enum class RefinementStrategy { bisect, extrude };
 
-/// How much to mark: the largest indicators that make up `share` of the sum, at least the part `fewest` of their number
-/// (without that, an obstacle of one needle takes twenty levels), and no more than `most` (0: no limit).
+/// How much to mark: the largest indicators that make up `theta` of the sum, at least the part `min_fraction` of their
+/// number (without that, an obstacle of one needle takes twenty levels), and no more than `max_marked` (0: no limit).
 struct Marking {
-  double share = 0.5, fewest = 0.05;
-  int most = 0;
-  double spread =
+  double theta = 0.5, min_fraction = 0.05;
+  int max_marked = 0;
+  double uniform_above =
       0.2;  ///< where more than this part of them is needed, the error is spread evenly: all are marked, and
-            ///< the triangles keep their shapes (only where `most` leaves room for all)
+            ///< the triangles keep their shapes (only where `max_marked` leaves room for all)
 };
 
 /// Doerfler's marking (1996): true for those to refine.
-std::vector<bool> marked(const Eigen::VectorXd& indicator, const Marking& marking = {});
+std::vector<bool> dorfler_mark(const Eigen::VectorXd& indicator, const Marking& marking = {});
 
 /// A mesh and, for Growth::extrude, the body that its layer stands under.
-struct GrowingMesh {
+struct AdaptiveMesh {
   TriangleMesh mesh, body;
   int marks = 0;  ///< triangles and columns marked on the way to it
 };
 /// The next mesh: refined where the indicators (T) of the last one say so. A column's indicators count together, for
 /// its edge of Sigma.
-GrowingMesh grown(const GrowingMesh& last, Growth growth, double epsilon, const Eigen::VectorXd& indicator,
-                  const Marking& marking = {});
+AdaptiveMesh refine_marked(const AdaptiveMesh& last, RefinementStrategy growth, double epsilon,
+                           const Eigen::VectorXd& indicator, const Marking& marking = {});
 
 /// Refines the body's triangles where the load varies between the points of the quadrature rule. The integrals of f^2 and
 /// of f |f| by up to 2,080 samples per triangle, a million in all, are held against those by the rule. A triangle misses

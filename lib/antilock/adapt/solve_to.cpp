@@ -9,13 +9,13 @@
 
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/adapt/marking.hpp"
-#include "antilock/analysis/layer_report.hpp"
-#include "antilock/analysis/ties.hpp"
+#include "antilock/analysis/layer_components.hpp"
+#include "antilock/analysis/locking_report.hpp"
 #include "antilock/certificate/companion.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/mesh/cut_out.hpp"
 #include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/submesh.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 
@@ -29,37 +29,37 @@ Scene with_layer_to_solve(const Scene& scene) {
   return Scene(scene.body(), StiffLayer{0}, scene.contact(), scene.edges());
 }
 
-Growth growth_of(const Scene& scene) {
+RefinementStrategy growth_of(const Scene& scene) {
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
-  return stiff != nullptr && stiff->epsilon <= thin ? Growth::extrude : Growth::bisect;
+  return stiff != nullptr && stiff->epsilon <= thin ? RefinementStrategy::extrude : RefinementStrategy::bisect;
 }
 
 /// The answer of a conforming element; that of P1 in K between the vertices, too.
-Answer conforming_answer(const Scene& scene, const Element& element, const std::shared_ptr<const TriangleMesh>& mesh,
+Result conforming_answer(const Scene& scene, const Element& element, const std::shared_ptr<const TriangleMesh>& mesh,
                          const ProgressHook& follow) {
-  Answer answer{mesh, Space(*mesh, element), {}, {}, {}, ""};
-  answer.problem = element.degree() == 1 ? assemble_in_k(scene, answer.space) : assemble(scene, answer.space);
+  Result result{mesh, Space(*mesh, element), {}, {}, {}, ""};
+  result.problem = element.degree() == 1 ? assemble_in_k(scene, result.space) : assemble(scene, result.space);
   ActiveSetOptions options;
   options.corrections.progress = follow;
-  answer.solution = active_set(answer.problem, options);
-  return answer;
+  result.solution = active_set(result.problem, options);
+  return result;
 }
 
 /// Of an answer that locks: what is told of it, where the unknowns that would be needed are more than the limit. The
 /// error's square is at least twice what is lost, and lost over kept falls like h^2 for P1 and h^4 for P2. `counted`: the
 /// unknowns that the limit is about.
-std::string locked(const Scene& scene, const Answer& answer, const Certificate& certificate,
-                   const AccuracyGoal& accuracy, int counted) {
-  const auto report = report_layer(scene, answer.space, answer.problem, answer.solution);
+std::string locking_warning(const Scene& scene, const Result& result, const Certificate& certificate,
+                            const AccuracyGoal& accuracy, int counted) {
+  const auto report = report_locking(scene, result.space, result.problem, result.solution);
   if (!report || report->warning.empty()) return "";
   const double enough = std::pow(accuracy.relative * (certificate.norm + certificate.displacement), 2) / 2;
-  const double now = report->found / (1 - report->found), then = enough / report->motion;  // lost over kept
-  const double times = std::pow(now / then, 1.0 / accuracy.element->degree());             // the unknowns, as h^-2
+  const double now = report->estimate / (1 - report->estimate), then = enough / report->reference;  // lost over kept
+  const double times = std::pow(now / then, 1.0 / accuracy.element->degree());  // the unknowns, as h^-2
   return counted * times > accuracy.most_unknowns ? report->warning : "";
 }
 
 void check_request(const AccuracyGoal& accuracy) {
-  if (accuracy.element->degree() > (accuracy.element->conforming() ? 2 : 1) || accuracy.element->per_triangle() > 0)
+  if (accuracy.element->degree() > (accuracy.element->conforming() ? 2 : 1) || accuracy.element->dofs_per_cell() > 0)
     throw Error("accuracy: element " + accuracy.element->name() + " is not accepted; accepted: CR, P1, P2");
   if (accuracy.element->conforming() && accuracy.of != Quantity::displacement)
     throw Error("accuracy: the stress is that of CR; accepted with element " + accuracy.element->name() +
@@ -73,56 +73,60 @@ void check_request(const AccuracyGoal& accuracy) {
 
 /// A contact set from one mesh to the next, by x: on the piece of the nearest unknowns on both sides, where they agree.
 /// Nothing where the last mesh has no contact unknown, or is none.
-std::optional<Pieces> carried(const Eigen::VectorXd& x, const Pieces& pieces, const Space& space) {
+std::optional<BoundStatuses> transfer_status(const Eigen::VectorXd& x, const BoundStatuses& status,
+                                             const Space& space) {
   if (x.size() == 0) return std::nullopt;
-  Pieces start;
-  for (const int i : space.contact()) {
-    const auto right = std::lower_bound(x.begin(), x.end(), space.points()(i, 0)) - x.begin();
-    start.push_back(agreed(pieces[std::min(right, x.size() - 1)], pieces[std::max<std::ptrdiff_t>(right - 1, 0)]));
+  BoundStatuses start;
+  for (const int i : space.contact_dofs()) {
+    const auto right = std::lower_bound(x.begin(), x.end(), space.dof_coordinates()(i, 0)) - x.begin();
+    start.push_back(
+        common_status(status[std::min(right, x.size() - 1)], status[std::max<std::ptrdiff_t>(right - 1, 0)]));
   }
   return start;
 }
 
 /// The bound relative to |v|_a, which falls like a power of N; a bound relative to what it leaves of |v|_a does not, where
 /// both are of one size.
-double of_norm(double relative) { return std::isfinite(relative) ? relative / (1 + relative) : 1; }
+double relative_to_companion(double relative) { return std::isfinite(relative) ? relative / (1 + relative) : 1; }
 
 /// What the levels so far say of the one that will be the last: N grows like of_norm(relative)^(-1/rate), rate 1/2 for a
 /// mesh that is adapted, more while it is still on its way there.
-void quote(std::vector<Level>& history, double asked) {
+void predict(std::vector<RefinementLevel>& history, double asked) {
   if (history.size() < 3) return;
-  Level& last = history.back();
-  const Level& before = history[history.size() - 2];
+  RefinementLevel& last = history.back();
+  const RefinementLevel& before = history[history.size() - 2];
   if (last.relative <= asked) return;
   // a bound that rose, since the mesh has only now met kinks of the gap, tells nothing, nor does the first fall after
   // it
   if (!(last.relative < before.relative && before.relative < history[history.size() - 3].relative)) return;
   const double growth = std::log(double(last.unknowns) / before.unknowns);
-  const double rate = std::clamp(std::log(of_norm(before.relative) / of_norm(last.relative)) / growth, 0.5, 1.5);
-  const double factor = std::pow(of_norm(last.relative) / of_norm(asked), 1 / rate);
-  last.quoted_unknowns = last.unknowns * (std::isfinite(factor) ? factor : 1e300);
+  const double rate = std::clamp(
+      std::log(relative_to_companion(before.relative) / relative_to_companion(last.relative)) / growth, 0.5, 1.5);
+  const double factor = std::pow(relative_to_companion(last.relative) / relative_to_companion(asked), 1 / rate);
+  last.predicted_unknowns = last.unknowns * (std::isfinite(factor) ? factor : 1e300);
   const double own =
       last.seconds - before.seconds;  // a level costs like its unknowns to the power 1.2, all before less
-  last.quoted_seconds = last.seconds + own * std::pow(factor, 1.2) * 2;
+  last.predicted_seconds = last.seconds + own * std::pow(factor, 1.2) * 2;
 }
 
 /// Doerfler's marking; towards the last level only what the quote asks for, at what a mark has brought so far.
-Marking marking(const std::vector<Level>& history, int marks) {
+Marking marking(const std::vector<RefinementLevel>& history, int marks) {
   Marking marking;
-  const Level& last = history.back();
-  if (last.quoted_unknowns == 0 || marks == 0) return marking;
+  const RefinementLevel& last = history.back();
+  if (last.predicted_unknowns == 0 || marks == 0) return marking;
   const double per_mark = double(last.unknowns - history[history.size() - 2].unknowns) / marks;
-  const double missing = 1.1 * last.quoted_unknowns - last.unknowns;    // a tenth more than too little
-  if (4 * last.unknowns <= 1.1 * last.quoted_unknowns) return marking;  // room for all
-  marking.most = std::max(1, static_cast<int>(std::min(missing / per_mark, 1e9)));
+  const double missing = 1.1 * last.predicted_unknowns - last.unknowns;    // a tenth more than too little
+  if (4 * last.unknowns <= 1.1 * last.predicted_unknowns) return marking;  // room for all
+  marking.max_marked = std::max(1, static_cast<int>(std::min(missing / per_mark, 1e9)));
   return marking;
 }
 
 /// `per_unknown`: unknowns of Crouzeix-Raviart, which the limit counts, per one of the element that was asked for.
-[[noreturn]] void refuse(const AccuracyGoal& accuracy, const std::vector<Level>& history, double per_unknown,
-                         const std::string& why, bool converges = true) {
-  const Level& last = history.back();
-  const double reachable = of_norm(last.relative) * std::sqrt(per_unknown * last.unknowns / accuracy.most_unknowns);
+[[noreturn]] void give_up(const AccuracyGoal& accuracy, const std::vector<RefinementLevel>& history, double per_unknown,
+                          const std::string& why, bool converges = true) {
+  const RefinementLevel& last = history.back();
+  const double reachable =
+      relative_to_companion(last.relative) * std::sqrt(per_unknown * last.unknowns / accuracy.most_unknowns);
   throw NotConverged(
       fmt::format(
           "accuracy: {:.3g} is not reached within {:.0f} unknowns{}: {}; proved so far: {:.3g} with {} unknowns in "
@@ -137,7 +141,7 @@ Marking marking(const std::vector<Level>& history, int marks) {
 
 /// What the layer is held by: the tags of its outer edges, those of the lower side at -infinity, those of the sides at
 /// their x, to nine digits of the body's size.
-std::set<std::pair<double, EdgeTag>> held_by(const TriangleMesh& mesh) {
+std::set<std::pair<double, EdgeTag>> layer_edge_tags(const TriangleMesh& mesh) {
   std::set<std::pair<double, EdgeTag>> tags;
   const double digits = 1e9 / body_size(mesh);
   for (int e = 0; e < mesh.edge_count(); ++e) {
@@ -152,7 +156,7 @@ std::set<std::pair<double, EdgeTag>> held_by(const TriangleMesh& mesh) {
 }  // namespace
 
 CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const AccuracyGoal& accuracy,
-                           const std::function<void(const Level&)>& progress) {
+                           const std::function<void(const RefinementLevel&)>& progress) {
   check_request(accuracy);
   if (first.curved())
     throw Error("accuracy: has no flux for a layer along the normals of a curved edge; accepted: a layer below y = 0");
@@ -160,34 +164,34 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   double seconds = 0;
   const Scene scene = with_layer_to_solve(asked);
   const bool conforming = accuracy.element->conforming();
-  const Growth growth =
-      accuracy.growth.value_or(conforming && !find_ties(first).in_columns ? Growth::bisect : growth_of(scene));
+  const RefinementStrategy growth = accuracy.growth.value_or(
+      conforming && !layer_components(first).is_aligned ? RefinementStrategy::bisect : growth_of(scene));
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
-  if (growth == Growth::extrude && stiff == nullptr)
+  if (growth == RefinementStrategy::extrude && stiff == nullptr)
     throw Error("accuracy: there is no scaled layer to extrude; accepted: growth by bisection");
   const bool layer_may_lock = stiff != nullptr && stiff->epsilon <= thin;
   const double epsilon = scene.epsilon().value_or(1);
-  std::vector<Level> history;
-  TriangleMesh body = longest_edge_first(growth == Growth::extrude ? body_of(first) : first);
-  if (const auto held = held_by(first);
-      growth == Growth::extrude && !held.empty() && held != held_by(extruded(body, epsilon)))
+  std::vector<RefinementLevel> history;
+  TriangleMesh body = longest_edge_first(growth == RefinementStrategy::extrude ? body_submesh(first) : first);
+  if (const auto held = layer_edge_tags(first);
+      growth == RefinementStrategy::extrude && !held.empty() && held != layer_edge_tags(extruded(body, epsilon)))
     throw Error(
         "accuracy: the layer of the mesh is not that of columns below its body; accepted: sides that are upright, and "
         "held where the body is beside them, and contact all along the lower side");
   // 3/2 edges per triangle, and as much again for the levels that follow
   const int most_triangles = static_cast<int>(std::min(accuracy.most_unknowns / 3, 1e9));
   const std::string warning = resolve_load(body, scene.body().load, most_triangles);
-  GrowingMesh now;
-  now.mesh = growth == Growth::extrude ? extruded(body, epsilon) : body;
+  AdaptiveMesh now;
+  now.mesh = growth == RefinementStrategy::extrude ? extruded(body, epsilon) : body;
   now.body = std::move(body);
 
   double per_unknown = 1;
   Eigen::VectorXd contact_x;  // of the last mesh, and what its unknowns do
-  Pieces contact_set;
+  BoundStatuses contact_set;
   const auto step = [&](const Progress& = {}) {
     const int level = static_cast<int>(history.size()) + 1;
     const double reached = history.empty() ? 1 : history.back().relative;
-    report(accuracy.follow, {"refinement, level", level, reached, accuracy.relative}, "accuracy");
+    notify_or_throw(accuracy.follow, {"refinement, level", level, reached, accuracy.relative}, "accuracy");
     return true;
   };
   while (true) {
@@ -200,7 +204,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
             fmt::format("accuracy: most_unknowns = {:.0f} cannot hold the first mesh, which has {} unknowns; "
                         "accepted: at least as many, or a coarser first mesh",
                         accuracy.most_unknowns, space.free_count()));
-      refuse(accuracy, history, per_unknown, fmt::format("the next mesh has {}", space.free_count()));
+      give_up(accuracy, history, per_unknown, fmt::format("the next mesh has {}", space.free_count()));
     }
     VariationalInequality problem = assemble(scene, space);
     step();
@@ -208,41 +212,41 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     step();
     ActiveSetOptions options;
     options.corrections.progress = step;
-    if (scene.contact()) options.start = carried(contact_x, contact_set, space);
+    if (scene.contact()) options.start = transfer_status(contact_x, contact_set, space);
     Solution solution;
     Companion v;
     Certificate certificate;
     for (double tolerance = std::min(1e-2 * accuracy.relative, accuracy.tolerance);; tolerance *= 1e-2) {
       options.corrections.tolerance = std::max(tolerance, CorrectionOptions{}.tolerance);
       solution = active_set(problem, factor, options);
-      options.start = solution.pieces;
+      options.start = solution.status;
       step();
-      v = strip_companion(scene, space, problem, solution, !layer_may_lock);
+      v = local_companion(scene, space, problem, solution, !layer_may_lock);
       step();
       certificate = certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});
-      const bool enough = certificate.imbalance <= 0.1 * certificate.mismatch;
+      const bool enough = certificate.imbalance <= 0.1 * certificate.constitutive_error;
       if (enough || tolerance <= CorrectionOptions{}.tolerance) break;
     }
-    contact_x = space.points().col(0)(space.contact());
-    contact_set = solution.pieces;
-    Answer answer{mesh, space, std::move(problem), std::move(solution), {}, ""};
+    contact_x = space.dof_coordinates().col(0)(space.contact_dofs());
+    contact_set = solution.status;
+    Result result{mesh, space, std::move(problem), std::move(solution), {}, ""};
     if (conforming) {
-      Answer own = conforming_answer(scene, p1(), mesh, step);
+      Result own = conforming_answer(scene, p1(), mesh, step);
       v = p1_companion(own_rows_summed(own.problem, own.solution).solution);
-      certificate = certify(scene, space, answer.problem, answer.solution, {.factor = &factor, .companion = &v});
+      certificate = certify(scene, space, result.problem, result.solution, {.factor = &factor, .companion = &v});
       if (accuracy.element->degree() > 1) {
         own = conforming_answer(scene, *accuracy.element, mesh, step);
         certificate.displacement = certified_distance(certificate, v, own.space, own.problem, own.solution);
       }
-      answer = std::move(own);
+      result = std::move(own);
     }
-    answer.warning = warning;
-    answer.solution.warning.clear();  // the certificate counts what the corrections left
+    result.warning = warning;
+    result.solution.warning.clear();  // the certificate counts what the corrections left
     seconds += watch.lap();
-    per_unknown = double(space.free_count()) / answer.space.free_count();
+    per_unknown = double(space.free_count()) / result.space.free_count();
     const double relative = certificate.relative(accuracy.of);
-    history.push_back({answer.space.free_count(), certificate.bound(accuracy.of), relative, seconds});
-    quote(history, accuracy.relative);
+    history.push_back({result.space.free_count(), certificate.bound(accuracy.of), relative, seconds});
+    predict(history, accuracy.relative);
     if (progress) progress(history.back());
     if (relative <= accuracy.relative) {
       Solution companion;
@@ -252,15 +256,16 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       if (v.layer)
         for (int i = 0; i < mesh->vertex_count(); ++i)
           if (mesh->vertices(i, 1) < 0) companion.u(i) = v.layer->value(mesh->vertices.row(i).transpose());
-      return {std::move(answer), std::move(companion), std::move(certificate), std::move(history)};
+      return {std::move(result), std::move(companion), std::move(certificate), std::move(history)};
     }
     if (conforming)
-      if (const std::string why = locked(scene, answer, certificate, accuracy, space.free_count()); !why.empty())
-        refuse(accuracy, history, per_unknown, why, false);
-    if (const double needed = per_unknown * history.back().quoted_unknowns; needed > accuracy.most_unknowns)
-      refuse(accuracy, history, per_unknown, fmt::format("about {:.2g} are needed", needed));
+      if (const std::string why = locking_warning(scene, result, certificate, accuracy, space.free_count());
+          !why.empty())
+        give_up(accuracy, history, per_unknown, why, false);
+    if (const double needed = per_unknown * history.back().predicted_unknowns; needed > accuracy.most_unknowns)
+      give_up(accuracy, history, per_unknown, fmt::format("about {:.2g} are needed", needed));
     step();
-    now = grown(now, growth, epsilon, certificate.indicator, marking(history, now.marks));
+    now = refine_marked(now, growth, epsilon, certificate.indicator, marking(history, now.marks));
   }
 }
 

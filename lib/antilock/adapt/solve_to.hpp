@@ -6,7 +6,7 @@
 #include "antilock/adapt/marking.hpp"
 #include "antilock/certificate/certificate.hpp"
 #include "antilock/core/progress.hpp"
-#include "antilock/measure/answer.hpp"
+#include "antilock/measure/result.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/solve/solution.hpp"
 
@@ -18,7 +18,7 @@ struct AccuracyGoal {
   Quantity of =
       Quantity::displacement;  ///< or the stress field in the middle of the two fluxes: a quarter of the unknowns
   double most_unknowns = 2e6;  ///< of Crouzeix-Raviart, on the last mesh
-  std::optional<Growth> growth =
+  std::optional<RefinementStrategy> growth =
       {};                ///< empty: columns for epsilon <= 0.1 (P1, P2: where the first mesh has them), else
                          ///< everything is bisected
   double tolerance = 1;  ///< relative, on the algebraic error; no less than the certificate needs
@@ -27,21 +27,21 @@ struct AccuracyGoal {
 };
 
 /// One mesh on the way.
-struct Level {
+struct RefinementLevel {
   int unknowns = 0;
-  double bound = 0, relative = 0;                  ///< certified
-  double seconds = 0;                              ///< wall clock since the start, everything in
-  double quoted_unknowns = 0, quoted_seconds = 0;  ///< for the accuracy asked, from the third level on; else 0
+  double bound = 0, relative = 0;                        ///< certified
+  double seconds = 0;                                    ///< wall clock since the start, everything in
+  double predicted_unknowns = 0, predicted_seconds = 0;  ///< for the accuracy asked, from the third level on; else 0
 };
 
 /// The answer and its proof.
 struct CertifiedSolution {
-  Answer answer;  ///< of the element asked for, on the last mesh; its warning is empty, or what the certificate cannot
+  Result result;  ///< of the element asked for, on the last mesh; its warning is empty, or what the certificate cannot
                   ///< see of the load
   Solution companion;  ///< the displacement that is certified: u at the vertices, p per layer triangle; where the layer
                        ///< is bisected at small epsilon it lives on columns there, u interpolates it and p is empty
   Certificate certificate;
-  std::vector<Level> history;
+  std::vector<RefinementLevel> history;
 };
 
 /// Refines until the certificate says that the accuracy asked is reached, the algebraic error stopped at a tenth of the
@@ -58,6 +58,6 @@ struct CertifiedSolution {
 /// mesh that do not fit; NotConverged where the accuracy is not to be reached within the limit, with what is; Stopped
 /// where accuracy.follow says so.
 CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const AccuracyGoal& accuracy,
-                           const std::function<void(const Level&)>& progress = {});
+                           const std::function<void(const RefinementLevel&)>& progress = {});
 
 }  // namespace antilock

@@ -18,7 +18,7 @@ Eigen::MatrixXd multiplier_gram(const VariationalInequality& with_own_rows, cons
                             problem.size()));
   if (merged < 1 || problem.b.rows() % merged != 0)
     throw Error(fmt::format("inf-sup: {} rows of B, {} a multiplier; accepted: a divisor", problem.b.rows(), merged));
-  const SparseMatrix places = free_unknowns(problem);
+  const SparseMatrix places = free_prolongation(problem);
   const RowMatrix b = problem.b * places;
   Eigen::MatrixXd right =
       Eigen::MatrixXd::Zero(places.cols(), b.rows() / merged);  // B' M, the rows of a multiplier added up

@@ -13,9 +13,9 @@
 
 namespace antilock {
 
-SparseMatrix free_unknowns(const VariationalInequality& problem) {
+SparseMatrix free_prolongation(const VariationalInequality& problem) {
   std::vector<char> fixed(problem.size(), 0);
-  for (const int i : problem.fixed) fixed[i] = 1;
+  for (const int i : problem.dirichlet_dofs) fixed[i] = 1;
   SparseMatrix places(problem.size(), problem.free_count());
   for (int i = 0, column = 0; i < problem.size(); ++i)
     if (!fixed[i]) places.insert(i, column++) = 1;
@@ -44,7 +44,7 @@ void factorise(Factors& qr, const SparseMatrix& b, double threshold) {
 
 int kernel_dimension(const VariationalInequality& problem) {
   check(problem);
-  const SparseMatrix b = own_rows_summed(problem).b * free_unknowns(problem);
+  const SparseMatrix b = own_rows_summed(problem).b * free_prolongation(problem);
   if (b.nonZeros() == 0) return problem.free_count();
   const BlasCalls blas;
   Factors qr;
@@ -58,14 +58,14 @@ VariationalInequality stiff_part(VariationalInequality problem) {
   std::vector<char> held(problem.size(), 1);
   for (Eigen::Index row = 0; row < problem.b.rows(); ++row)
     for (RowMatrix::InnerIterator entry(problem.b, row); entry; ++entry) held[entry.col()] = 0;
-  for (const int i : problem.fixed) held[i] = 1;
-  problem.fixed.clear();
+  for (const int i : problem.dirichlet_dofs) held[i] = 1;
+  problem.dirichlet_dofs.clear();
   for (int i = 0; i < problem.size(); ++i)
-    if (held[i]) problem.fixed.push_back(i);
-  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+    if (held[i]) problem.dirichlet_dofs.push_back(i);
+  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   std::set<int> bounded(problem.contact.begin(), problem.contact.end());
-  for (Eigen::Index row = 0; row < problem.combinations.rows(); ++row)  // what they combine counts as bounded
-    for (RowMatrix::InnerIterator entry(problem.combinations, row); entry; ++entry)
+  for (Eigen::Index row = 0; row < problem.constraints.rows(); ++row)  // what they combine counts as bounded
+    for (RowMatrix::InnerIterator entry(problem.constraints, row); entry; ++entry)
       bounded.insert(static_cast<int>(entry.col()));
   std::erase_if(bounded, [&](int i) { return held[i] != 0; });
   clear_bounds(problem);  // no bound has a part in the kernel of B
@@ -77,13 +77,13 @@ VariationalInequality stiff_part(VariationalInequality problem) {
 int layer_kernel_dimension(const VariationalInequality& problem) { return kernel_dimension(stiff_part(problem)); }
 
 int trace_dimension(const VariationalInequality& stiff) {
-  const VariationalInequality held = held_in_contact(stiff, std::vector<bool>(stiff.contact.size(), true));
+  const VariationalInequality held = equality_constrained(stiff, std::vector<bool>(stiff.contact.size(), true));
   return kernel_dimension(stiff) - (held.free_count() > 0 ? kernel_dimension(held) : 0);
 }
 
 Eigen::MatrixXd kernel_basis(const VariationalInequality& problem) {
   check(problem);
-  const SparseMatrix places = free_unknowns(problem);
+  const SparseMatrix places = free_prolongation(problem);
   const int n = problem.free_count();
   const SparseMatrix b = own_rows_summed(problem).b * places;
   if (b.nonZeros() == 0) return places.toDense();
@@ -106,7 +106,7 @@ double coercivity(const VariationalInequality& with_own_rows, const SparseMatrix
                             problem.size(), problem.size()));
   if (problem.free_count() > most)
     throw Error(fmt::format("coercivity: {} free unknowns; accepted at most {}", problem.free_count(), most));
-  const SparseMatrix places = free_unknowns(problem);
+  const SparseMatrix places = free_prolongation(problem);
   const SparseMatrix b = problem.b * places;
   const Eigen::MatrixXd form = SparseMatrix(places.transpose() * problem.a1 * places).toDense() +
                                SparseMatrix(b.transpose() * problem.m.asDiagonal() * b).toDense();

@@ -4,7 +4,7 @@
 namespace antilock {
 
 /// N x F: puts the free unknowns in their places.
-SparseMatrix free_unknowns(const VariationalInequality& problem);
+SparseMatrix free_prolongation(const VariationalInequality& problem);
 
 /// dim G_h, G_h = { v : B v = 0, v = 0 on the fixed unknowns } (Section 2, (H2)): by rank-revealing sparse QR. Zero:
 /// u_h -> 0 as epsilon -> 0 (Proposition 1), complete locking. Values below 1e-10 of B's largest column count as zero. Throws Error for a

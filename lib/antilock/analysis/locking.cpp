@@ -36,7 +36,7 @@ std::optional<double> flexibility(VariationalInequality problem, const std::vect
   problem.load.setZero();
   for (const int i : bounds) problem.load(i) = 1.0 / static_cast<double>(bounds.size());
   clear_bounds(problem);
-  problem.fixed_values.setZero();
+  problem.dirichlet_values.setZero();
   problem.compliance = compliance;
   try {
     return active_set(problem).u.dot(problem.load);
@@ -58,12 +58,13 @@ std::string LockingDiagnosis::text() const {
     case Verdict::locks:
       if (fine > coarse)
         return counts +
-               fmt::format(": they grow, but refinement softens the answer by {:.0f} %: it locks", 100 * softening) +
+               fmt::format(": they grow, but refinement softens the answer by {:.0f} %: it locks",
+                           100 * refinement_softening) +
                range;
       return counts + ": they do not grow, it locks" + range;
     case Verdict::locks_in_part:
       return counts + ": more and more bounds cannot move, it locks in part" + range;
-    case Verdict::does_not_lock_for_this_reason:
+    case Verdict::not_detected:
       break;
   }
   return counts + ": they grow, it does not lock for this reason";
@@ -73,8 +74,8 @@ Verdict LockingDiagnosis::verdict() const {
   if (fine == 0) return Verdict::locks_completely;
   if (fine <= coarse) return Verdict::locks;
   const int more_dead = (fine_bounds - fine) - (coarse_bounds - coarse);
-  if (bounded && more_dead > telling * (fine_bounds - coarse_bounds)) return Verdict::locks_in_part;
-  return compliance > 0 ? Verdict::locks : Verdict::does_not_lock_for_this_reason;
+  if (bounded && more_dead > significance * (fine_bounds - coarse_bounds)) return Verdict::locks_in_part;
+  return compliance > 0 ? Verdict::locks : Verdict::not_detected;
 }
 
 LockingDiagnosis diagnose_locking(const VariationalInequality& on_coarse, const VariationalInequality& on_fine) {
@@ -88,7 +89,8 @@ LockingDiagnosis diagnose_locking(const VariationalInequality& on_coarse, const 
     for (VariationalInequality* stiff : {&first, &second}) {
       stiff->contact.clear();
       for (int i = 0; i < stiff->size(); ++i)
-        if (!std::binary_search(stiff->fixed.begin(), stiff->fixed.end(), i)) stiff->contact.push_back(i);
+        if (!std::binary_search(stiff->dirichlet_dofs.begin(), stiff->dirichlet_dofs.end(), i))
+          stiff->contact.push_back(i);
       stiff->lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(stiff->contact.size()));
     }
   found.coarse_bounds = static_cast<int>(first.contact.size());
@@ -105,12 +107,12 @@ LockingDiagnosis diagnose_locking(const VariationalInequality& on_coarse, const 
     return *on_fine / *on_coarse;
   };
   // No unit of the forms is better than another: in that in which both are as stiff, rounded to a decade.
-  const double unit = std::pow(10, std::round(std::log10(relative_stiffness(fine).value())));
+  const double unit = std::pow(10, std::round(std::log10(stiffness_ratio(fine).value())));
   const std::optional<double> soft = ratio(unit);
   for (int decade = 1; soft && decade <= 6 && found.compliance == 0; ++decade) {
     const double compliance = unit * std::pow(10, -decade);
-    found.softening = ratio(compliance).value_or(0) / *soft - 1;
-    if (found.softening > std::max(LockingDiagnosis::telling, std::abs(*soft - 1))) found.compliance = compliance;
+    found.refinement_softening = ratio(compliance).value_or(0) / *soft - 1;
+    if (found.refinement_softening > std::max(significance, std::abs(*soft - 1))) found.compliance = compliance;
   }
   return found;
 }

@@ -14,7 +14,10 @@ double bending_length(const TriangleMesh& mesh, int triangle);
 /// layer bent alike. 0 for a mesh without a layer.
 double bending_length(const TriangleMesh& mesh);
 
-enum class Verdict { locks_completely, locks, locks_in_part, does_not_lock_for_this_reason };
+/// A relative effect up to a twentieth is put down to the mesh width, and not to locking.
+inline constexpr double significance = 0.05;
+
+enum class Verdict { locks_completely, locks, locks_in_part, not_detected };
 
 /// Whether a discretisation can follow the limit compliance -> 0, before anything is solved. The dimension of the kernel
 /// G_h of B does not decide: in (23) the body's unknowns are in it on every mesh, and in a coating of plane strain u_x has
@@ -33,16 +36,16 @@ enum class Verdict { locks_completely, locks, locks_in_part, does_not_lock_for_t
 struct LockingDiagnosis {
   int coarse = 0, fine = 0;                ///< dimension of the trace on the bounds, on a mesh and on a finer one
   int coarse_bounds = 0, fine_bounds = 0;  ///< bounded unknowns of the stiff part
-  bool bounded = true;   ///< false: nothing stiff is bounded, and all of the stiff part stands for the bounds
-  double softening = 0;  ///< flexibility under a force on the bounds, on the finer mesh over the coarser one, over the
-                         ///< same at compliance 1, less 1: of `compliance`, else of 1e-6
+  bool bounded = true;  ///< false: nothing stiff is bounded, and all of the stiff part stands for the bounds
+  double refinement_softening =
+      0;  ///< flexibility under a force on the bounds, on the finer mesh over the coarser one, over the
+          ///< same at compliance 1, less 1: of `compliance`, else of 1e-6
   double compliance =
       0;  ///< which compliances locking concerns: the first of 1e-1 to 1e-6 where the softening is above
           ///< a twentieth and above what refinement changes at compliance 1; 0: none
-  static constexpr double telling = 0.05;  ///< a twentieth is no matter of the mesh width
 
   Verdict verdict() const;
-  bool locks() const { return verdict() != Verdict::does_not_lock_for_this_reason; }
+  bool locks() const { return verdict() != Verdict::not_detected; }
   std::string text() const;  ///< one line: both counts, and what they mean
 };
 

@@ -28,7 +28,7 @@ NegativePart negative_part(const Space& space, VariationalInequality problem, co
     Eigen::VectorXd hidden = std::sqrt(edge.length / 12) * (at(1) - at(0));
     if (quadratic) hidden = std::sqrt(edge.length / 120) * (at(0) - 2 * at(0.5) + at(1));
     for (Eigen::Index i = 0; i < hidden.size(); ++i)
-      entries.emplace_back(row, space.unknowns()(edge.triangle, i), hidden(i));
+      entries.emplace_back(row, space.cell_dofs()(edge.triangle, i), hidden(i));
   }
   problem.b.resize(static_cast<Eigen::Index>(edges.size()), space.size());
   problem.b.setFromTriplets(entries.begin(), entries.end());
@@ -41,7 +41,7 @@ NegativePart negative_part(const Space& space, VariationalInequality problem, co
   problem.b.resize(0, problem.size());
   problem.m.resize(0);
   const std::vector<bool> none(problem.contact.size());
-  return {std::sqrt(largest), active_set(held_in_contact(problem, none)).u / std::sqrt(largest)};
+  return {std::sqrt(largest), active_set(equality_constrained(problem, none)).u / std::sqrt(largest)};
 }
 
 }  // namespace antilock

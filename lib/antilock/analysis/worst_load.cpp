@@ -87,8 +87,8 @@ ErrorForm::ErrorForm(const Space& space, LoadModes modes) : space_(space), modes
 void ErrorForm::set_epsilon(double epsilon) {
   if (!(epsilon >= 0 && epsilon <= 1)) throw Error(fmt::format("error form: epsilon = {}; accepted 0 to 1", epsilon));
   epsilon_ = epsilon;
-  problem_.compliance = compliance(StiffLayer{epsilon});
-  const double delta = moderate_delta(problem_);
+  problem_.compliance = class_parameter(StiffLayer{epsilon});
+  const double delta = penalty_parameter(problem_);
   if (factor_ && factor_->delta() != delta) factor_->refactor(delta);
 }
 
@@ -97,13 +97,13 @@ void ErrorForm::integrate_loads() {
   const Element& element = space_.element();
   const Quadrature& rule = triangle_rule(12);
   const Eigen::Index points = rule.weights.size();
-  Eigen::MatrixXd weighted(points, element.unknowns()), values(modes_.size(), points);
+  Eigen::MatrixXd weighted(points, element.dofs()), values(modes_.size(), points);
   for (Eigen::Index q = 0; q < points; ++q)
     weighted.row(q) = rule.weights(q) * element.basis(rule.points.row(q)).transpose();
   std::vector<int> place(space_.size(), -1);
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; mesh.region[t] == Region::body && i < element.unknowns(); ++i) place[space_.unknowns()(t, i)] = 0;
-  for (const int i : space_.clamped()) place[i] = -1;
+    for (int i = 0; mesh.region[t] == Region::body && i < element.dofs(); ++i) place[space_.cell_dofs()(t, i)] = 0;
+  for (const int i : space_.dirichlet_dofs()) place[i] = -1;
   for (int i = 0; i < space_.size(); ++i)
     if (place[i] == 0) {
       place[i] = static_cast<int>(active_.size());
@@ -115,8 +115,8 @@ void ErrorForm::integrate_loads() {
     for (Eigen::Index q = 0; q < points; ++q)
       values.col(q) = basis_loads(modes_, point_in(mesh, t, rule.points.row(q)));
     const Eigen::MatrixXd local = mesh.area(t) * values * weighted;
-    for (int i = 0; i < element.unknowns(); ++i)
-      if (const int p = place[space_.unknowns()(t, i)]; p >= 0) loads_.col(p) += local.col(i);
+    for (int i = 0; i < element.dofs(); ++i)
+      if (const int p = place[space_.cell_dofs()(t, i)]; p >= 0) loads_.col(p) += local.col(i);
   }
 }
 

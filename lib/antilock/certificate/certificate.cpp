@@ -77,7 +77,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/measure/answer.hpp"
+#include "antilock/measure/result.hpp"
 #include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
@@ -103,25 +103,25 @@ double mean_on(const TriangleMesh& mesh, int e, const Companion& v) {
 void check_prescribed(const Scene& scene, const Space& space, const VariationalInequality& problem,
                       const Companion& v) {
   const TriangleMesh& mesh = space.mesh();
-  const Eigen::VectorXd prescribed = prescribed_values(scene, mesh);
+  const Eigen::VectorXd prescribed = dirichlet_vertex_values(scene, mesh);
   const double scale = std::max(prescribed.cwiseAbs().maxCoeff(), v.at_vertices.cwiseAbs().maxCoeff());
   const auto differs = [&](double value, double asked) { return !(std::abs(value - asked) <= 1e-11 * scale); };
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
-    const auto ends = mesh.edges.row(problem.fixed[i]);
+  for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i) {
+    const auto ends = mesh.edges.row(problem.dirichlet_dofs[i]);
     for (const int vertex : {ends(0), ends(1)}) {
       const double found = v.layer && mesh.vertices(vertex, 1) < 0
                                ? v.layer->value(mesh.vertices.row(vertex).transpose())
                                : v.at_vertices(vertex);
       if (differs(found, prescribed(vertex)))
         throw Error(fmt::format("certificate: the companion is {} at {}, where {} is prescribed", found,
-                                mesh.place(vertex), prescribed(vertex)));
+                                mesh.location_text(vertex), prescribed(vertex)));
     }
-    const double value = problem.fixed_values(static_cast<Eigen::Index>(i)), mean = prescribed(ends).mean();
+    const double value = problem.dirichlet_values(static_cast<Eigen::Index>(i)), mean = prescribed(ends).mean();
     if (differs(value, mean))
       throw Error(fmt::format(
           "certificate: {} is fixed between {} and {}, where the scene prescribes the mean {}; accepted: the "
           "scene's values",
-          value, mesh.place(ends(0)), mesh.place(ends(1)), mean));
+          value, mesh.location_text(ends(0)), mesh.location_text(ends(1)), mean));
   }
 }
 
@@ -151,14 +151,15 @@ double Certificate::relative(Quantity of) const {
   return norm_of_u > 0 ? bound(of) / norm_of_u : std::numeric_limits<double>::infinity();
 }
 
-double unbalanced(const VariationalInequality& problem, const EquilibratedFlux& flux, PenaltyFactor* factor) {
+double residual_norm(const VariationalInequality& problem, const EquilibratedFlux& flux, PenaltyFactor* factor) {
   std::optional<PenaltyFactor> own;
   if (factor == nullptr) factor = &own.emplace(problem);
   factor->check_fits(problem);
   if (factor->delta() < problem.compliance)
     throw Error("certificate: the factor has a smaller penalty than the compliance; accepted: at least as large");
-  const Eigen::VectorXd r1 = flux.imbalance(factor->numbering().unknown);
-  if (HeldFactor* const held = factor->held()) held->hold(std::vector<char>(r1.size(), 0));  // the whole K
+  const Eigen::VectorXd r1 = flux.imbalance(factor->ordering().dof);
+  if (ConstrainedCholesky* const held = factor->sparse_factor())
+    held->eliminate(std::vector<char>(r1.size(), 0));  // the whole K
   return std::sqrt(std::max(0.0, r1.dot(factor->solve(r1))));
 }
 
@@ -166,7 +167,7 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
                     const Solution& solution, const CertificateOptions& options) {
   const EquilibratedFlux flux = equilibrated_flux(scene, space, problem, solution);
   Companion made;
-  if (options.companion == nullptr) made = strip_companion(scene, space, problem, solution);
+  if (options.companion == nullptr) made = local_companion(scene, space, problem, solution);
   const Companion& v = options.companion != nullptr ? *options.companion : made;
   const TriangleMesh& mesh = space.mesh();
   check_sizes(mesh, flux.law, v);
@@ -174,7 +175,7 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
 
   Certificate certificate;
   certificate.oscillation = std::sqrt(flux.oscillation2);
-  certificate.imbalance = unbalanced(problem, flux, options.factor);
+  certificate.imbalance = residual_norm(problem, flux, options.factor);
   certificate.indicator = Eigen::VectorXd::Zero(mesh.triangle_count());
   double norm2 = 0, work = flux.pull.dot(v.at_vertices);  // |v|_a^2, the work of f and of the traction on v
   double mismatch2 = 0;                                   // m^2 of the triangles that v shares
@@ -240,10 +241,10 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
                     "differ by {:.1e} of the energy",
                     std::abs(by_identity - mismatch2) / scale));
   }
-  certificate.mismatch = std::sqrt(mismatch2);
+  certificate.constitutive_error = std::sqrt(mismatch2);
   certificate.midpoint_norm = std::sqrt(std::max(2 * norm2 + 2 * flux.norm2 - mismatch2, 0.0)) / 2;
 
-  const double q = certificate.oscillation + certificate.imbalance, m = certificate.mismatch;
+  const double q = certificate.oscillation + certificate.imbalance, m = certificate.constitutive_error;
   const double root = std::sqrt((m + q) * (m + q) / 4 + certificate.contact_work);
   certificate.displacement = (m + q) / 2 + root;
   certificate.stress = q / 2 + root;
@@ -266,7 +267,7 @@ double certified_distance(const Certificate& certificate, const Companion& v, co
   const TriangleMesh& mesh = space.mesh();
   if (v.layer)
     throw Error(
-        "certificate: the companion has columns of its own; accepted: one on the mesh, as strip_companion with "
+        "certificate: the companion has columns of its own; accepted: one on the mesh, as local_companion with "
         "on_mesh, "
         "p1_companion or an extruded mesh make it");
   const Eigen::Index per_triangle = v.stress.size() > 0 ? problem.b.rows() / v.stress.size() : 0;
@@ -276,12 +277,12 @@ double certified_distance(const Certificate& certificate, const Companion& v, co
         "certificate: the companion has {} values and {} stresses, the solution {} and {}; accepted: both on one mesh",
         v.at_vertices.size(), v.stress.size(), w.u.size(), w.p.size()));
 
-  const Eigen::MatrixX3d nodes = space.element().nodes();
+  const Eigen::MatrixX3d nodes = space.element().support_points();
   Eigen::VectorXd u = w.u, p = w.p;  // w - v
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Vector3d corners = v.at_vertices(mesh.triangles.row(t));
     for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
-      const int unknown = space.unknowns()(t, i);
+      const int unknown = space.cell_dofs()(t, i);
       u(unknown) = w.u(unknown) - nodes.row(i).dot(corners);
     }
   }

@@ -18,7 +18,7 @@ struct Certificate {
   double stress = 0;        ///< >= |A grad u - (sigma + A grad v) / 2|
 
   double energy_lower = 0, energy_upper = 0;  ///< J(u) lies between: J = a(u, u) / 2 - L(u)
-  double mismatch = 0;                        ///< m = |A grad v - sigma|
+  double constitutive_error = 0;              ///< m = |A grad v - sigma|
   double contact_work = 0;                    ///< C >= 0, the contact forces on the gap that v leaves
   double oscillation = 0;                     ///< osc: what f varies beyond affine on the triangles
   double imbalance = 0;                       ///< rho: what an early stop left of the residual
@@ -34,23 +34,24 @@ struct Certificate {
 
 struct CertificateOptions {
   PenaltyFactor* factor = nullptr;       ///< of the problem, where there is one: rho costs one half of a solve with it
-  const Companion* companion = nullptr;  ///< v; none: strip_companion makes it
+  const Companion* companion = nullptr;  ///< v; none: local_companion makes it
 };
 
 /// Derivation in certificate.cpp. u and p may come from anywhere: a solve stopped early, with another contact set, or
 /// from Uzawa after a few steps; only what they leave of the balance of forces counts, and it is counted. Throws Error
-/// where equilibrated_flux or strip_companion do, for a companion that does not fit or is not in K, and where round-off
+/// where equilibrated_flux or local_companion do, for a companion that does not fit or is not in K, and where round-off
 /// has eaten the mismatch.
 Certificate certify(const Scene& scene, const Space& space, const VariationalInequality& problem,
                     const Solution& solution, const CertificateOptions& options = {});
 
 /// rho of the solution: >= |R(v)| / |v|_a for the forces r1 that it leaves unbalanced. Without a factor one is made.
-double unbalanced(const VariationalInequality& problem, const EquilibratedFlux& flux, PenaltyFactor* factor = nullptr);
+double residual_norm(const VariationalInequality& problem, const EquilibratedFlux& flux,
+                     PenaltyFactor* factor = nullptr);
 
 /// >= |u - w|_a (broken where w jumps), u the exact solution, w any other solution of the certified scene on the same
 /// mesh, P2 or P1 say: |u - v|_a, proved by the certificate of v, plus |v - w|_a, computed exactly. Honest and blunt:
 /// not below the certificate, however good w is. `space` and `problem` are those of w. Throws Error for a companion v
-/// with columns of its own (accepted: strip_companion with on_mesh, p1_companion, an extruded mesh) and for sizes that
+/// with columns of its own (accepted: local_companion with on_mesh, p1_companion, an extruded mesh) and for sizes that
 /// do not fit.
 double certified_distance(const Certificate& certificate, const Companion& v, const Space& space,
                           const VariationalInequality& problem, const Solution& w);

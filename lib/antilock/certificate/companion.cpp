@@ -9,8 +9,8 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/gradient_forms.hpp"
-#include "antilock/mesh/cut_out.hpp"
 #include "antilock/mesh/layered.hpp"
+#include "antilock/mesh/submesh.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/solve/active_set.hpp"
 
@@ -21,7 +21,7 @@ namespace {
 std::vector<char> held_vertices(const Space& space, const VariationalInequality& problem) {
   const TriangleMesh& mesh = space.mesh();
   std::vector<char> held(mesh.vertex_count(), 0);
-  for (const std::vector<int>* list : {&problem.fixed, &space.clamped()})
+  for (const std::vector<int>* list : {&problem.dirichlet_dofs, &space.dirichlet_dofs()})
     for (const int e : *list) held[mesh.edges(e, 0)] = held[mesh.edges(e, 1)] = 1;
   return held;
 }
@@ -33,14 +33,14 @@ Eigen::VectorXd averages(const Scene& scene, const Space& space, const Solution&
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh.vertex_count()), count = sum;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != Region::body) continue;
-    const Eigen::Vector3d u = solution.u(space.unknowns().row(t));
+    const Eigen::Vector3d u = solution.u(space.cell_dofs().row(t));
     const double stiffness = stiffness_on(scene.body().stiffness, mesh, t);
     for (int i = 0; i < 3; ++i) {
       sum(mesh.triangles(t, i)) += stiffness * (u.sum() - 2 * u(i));  // phi_i = 1 - 2 lambda_i
       count(mesh.triangles(t, i)) += stiffness;
     }
   }
-  const Eigen::VectorXd known = prescribed_values(scene, mesh);
+  const Eigen::VectorXd known = dirichlet_vertex_values(scene, mesh);
   for (int v = 0; v < mesh.vertex_count(); ++v) {
     if (held[v])
       sum(v) = known(v);
@@ -70,8 +70,8 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
   const Eigen::ArrayXd s = Eigen::ArrayXd::LinSpaced(samples + 1, 0, 1), rest = 1 - s;
   const TriangleMesh& mesh = space.mesh();
   std::vector<int> bound_of(mesh.vertex_count(), -1);  // -1: v is prescribed there
-  for (std::size_t i = 0; i < space.contact().size(); ++i) bound_of[space.contact()[i]] = static_cast<int>(i);
-  Eigen::VectorXd lower = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(space.contact().size()),
+  for (std::size_t i = 0; i < space.contact_dofs().size(); ++i) bound_of[space.contact_dofs()[i]] = static_cast<int>(i);
+  Eigen::VectorXd lower = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(space.contact_dofs().size()),
                                                     -std::numeric_limits<double>::infinity());
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (mesh.edge_tag[e] != EdgeTag::contact) continue;
@@ -107,11 +107,11 @@ Eigen::VectorXd admissible_bounds(const UnilateralContact& contact, const Space&
 VariationalInequality assemble_in_k(const Scene& scene, const Space& space) {
   VariationalInequality problem = assemble(scene, space);
   if (scene.contact())
-    problem.lower = admissible_bounds(*scene.contact(), space, prescribed_values(scene, space.mesh()));
+    problem.lower = admissible_bounds(*scene.contact(), space, dirichlet_vertex_values(scene, space.mesh()));
   return problem;
 }
 
-Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
+Companion local_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
                           const Solution& solution, bool on_mesh) {
   const TriangleMesh& mesh = space.mesh();
   const auto* stiff = on_mesh ? nullptr : std::get_if<StiffLayer>(&scene.layer());
@@ -124,7 +124,7 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_tag[e] == line_tag) on_line[mesh.edges(e, 0)] = on_line[mesh.edges(e, 1)] = 1;
   // the body's triangles with a vertex on the line, and the layer's where it stays
-  const CutOut piece = cut_out(mesh, [&](int t) {
+  const Submesh piece = submesh(mesh, [&](int t) {
     const auto v = mesh.triangles.row(t);
     return mesh.region[t] == Region::layer ? stiff == nullptr : on_line[v(0)] || on_line[v(1)] || on_line[v(2)];
   });
@@ -135,8 +135,8 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
   const Space p1_space(columns, p1());
   VariationalInequality strip = own_rows_summed(assemble(scene, p1_space));  // any v of K will do
   std::vector<char> fixed(columns.vertex_count(), 0);
-  Eigen::VectorXd value = prescribed_values(scene, columns);
-  for (const int v : p1_space.clamped()) fixed[v] = 1;
+  Eigen::VectorXd value = dirichlet_vertex_values(scene, columns);
+  for (const int v : p1_space.dirichlet_dofs()) fixed[v] = 1;
   for (int t = 0; t < columns.triangle_count(); ++t) {
     if (columns.region[t] != Region::body) continue;
     for (int i = 0; i < 3; ++i) {
@@ -152,10 +152,10 @@ Companion strip_companion(const Scene& scene, const Space& space, const Variatio
   for (int v = 0; v < columns.vertex_count(); ++v)
     if (const auto found = above.find(columns.vertices(v, 0)); found != above.end()) near(v) = found->second;
   if (scene.contact()) strip.lower = admissible_bounds(*scene.contact(), p1_space, near);
-  strip.fixed.clear();
+  strip.dirichlet_dofs.clear();
   for (int v = 0; v < columns.vertex_count(); ++v)
-    if (fixed[v]) strip.fixed.push_back(v);
-  strip.fixed_values = value(strip.fixed);
+    if (fixed[v]) strip.dirichlet_dofs.push_back(v);
+  strip.dirichlet_values = value(strip.dirichlet_dofs);
   std::vector<Eigen::Index> bounded;
   for (Eigen::Index i = 0; i < strip.lower.size(); ++i)
     if (!fixed[strip.contact[i]]) bounded.push_back(i);

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "antilock/certificate/detail/column_function.hpp"
+#include "antilock/certificate/detail/extruded_p1_function.hpp"
 #include "antilock/certificate/equilibrated_flux.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/scene/scene.hpp"
@@ -12,10 +12,10 @@ namespace antilock {
 
 /// A conforming function v of K, P1 in the body on the mesh of the Crouzeix-Raviart solution that it accompanies.
 struct Companion {
-  Eigen::VectorXd at_vertices;          ///< V values; those of the layer's vertices only without `columns`
-  Eigen::VectorXd stress;               ///< epsilon^-2 d_y v per layer triangle (scaled layer, without `columns`)
-  std::optional<ColumnFunction> layer;  ///< v in the layer where that has columns of its own
-  int unknowns = 0;                     ///< solved for
+  Eigen::VectorXd at_vertices;              ///< V values; those of the layer's vertices only without `columns`
+  Eigen::VectorXd stress;                   ///< epsilon^-2 d_y v per layer triangle (scaled layer, without `columns`)
+  std::optional<ExtrudedP1Function> layer;  ///< v in the layer where that has columns of its own
+  int unknowns = 0;                         ///< solved for
 
   /// A grad v on triangle t of the mesh, `row` of its layer's, under its law.
   Eigen::Vector2d flux(const TriangleMesh& mesh, int t, int row, const FluxLaw& law) const;
@@ -35,7 +35,7 @@ VariationalInequality assemble_in_k(const Scene& scene, const Space& space);
 /// the mesh's own where it is extruded already: P1 cannot lock on them. A handful of unknowns per column, whatever the
 /// body has. Throws what active_set throws.
 /// `on_mesh`: no columns of its own, P1 on the layer's triangles as they are, which lock unless epsilon is large.
-Companion strip_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
+Companion local_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
                           const Solution& solution, bool on_mesh = false);
 
 /// A P1 solution on the mesh itself as the companion.

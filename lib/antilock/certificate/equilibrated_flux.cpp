@@ -9,7 +9,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/form/edge_forms.hpp"
 #include "antilock/form/gradient_forms.hpp"
-#include "antilock/measure/answer.hpp"
+#include "antilock/measure/result.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/problem/bounds.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 /// The traction on the edges with a tag; null where there is none.
 const Field* traction_on(const Scene& scene, EdgeTag tag) {
   const int k = group_of(tag);
-  return k < 0 || scene.edges()[k].kind != EdgeCondition::Kind::traction ? nullptr : &scene.edges()[k].value;
+  return k < 0 || scene.edges()[k].kind != BoundaryCondition::Kind::traction ? nullptr : &scene.edges()[k].value;
 }
 
 void check_request(const Scene& scene, const Space& space, const VariationalInequality& problem,
@@ -45,13 +45,13 @@ void check_request(const Scene& scene, const Space& space, const VariationalIneq
         problem.size(), solution.u.size(), problem.b.rows(), solution.p.size(), space.size(), split ? layer : 0));
   if (!solution.u.allFinite() || !solution.p.allFinite())
     throw Error("certificate: the solution is not finite; accepted: finite numbers");
-  if (problem.contact.empty() == scene.contact().has_value() && !space.contact().empty())
+  if (problem.contact.empty() == scene.contact().has_value() && !space.contact_dofs().empty())
     throw Error("certificate: scene and problem do not agree whether there is contact");
   for (int e = 0; e < space.mesh().edge_count(); ++e)
     if (traction_on(scene, space.mesh().edge_tag[e]) != nullptr &&
         region[space.mesh().edge_triangles(e, 0)] == Region::layer)
       throw Error("certificate: has no flux for a traction on the layer; accepted: on the body");
-  for (const int e : problem.fixed)
+  for (const int e : problem.dirichlet_dofs)
     if (space.mesh().edge_triangles(e, 1) >= 0)
       throw Error("certificate: a value is fixed inside the domain; accepted: on the boundary");
   for (const int e : problem.contact)
@@ -61,7 +61,7 @@ void check_request(const Scene& scene, const Space& space, const VariationalIneq
 
 /// The conforming v takes the displacement given on an edge as it is: affine, and the same at a vertex from either side.
 void check_displacement(const Scene& scene, const TriangleMesh& mesh) {
-  const Eigen::VectorXd at_vertices = prescribed_values(scene, mesh);
+  const Eigen::VectorXd at_vertices = dirichlet_vertex_values(scene, mesh);
   const double largest = at_vertices.cwiseAbs().maxCoeff();
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const int from = mesh.edges(e, 0), to = mesh.edges(e, 1), k = group_of(mesh.edge_tag[e]);
@@ -180,7 +180,7 @@ void check_same_question(const VariationalInequality& problem, const Solution& s
 
 FluxLaw layer_law(const Scene& scene) {
   if (const auto* stiff = std::get_if<StiffLayer>(&scene.layer()))
-    return {true, stiff->s, 1 / stiff->s, compliance(*stiff) / stiff->s};
+    return {true, stiff->s, 1 / stiff->s, class_parameter(*stiff) / stiff->s};
   if (const auto* thin = std::get_if<ThinLayer>(&scene.layer()))
     return {false, 1 / thin->epsilon, thin->epsilon, thin->epsilon};
   return {};
@@ -233,7 +233,7 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     FluxCell& here = flux.cell[t];
     const double area = mesh.area(t);
-    const auto unknown = space.unknowns().row(t);
+    const auto unknown = space.cell_dofs().row(t);
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     const Eigen::Vector2d gradient = -2 * lambda.transpose() * Eigen::Vector3d(solution.u(unknown));
     if (mesh.region[t] == Region::layer) {
@@ -288,7 +288,7 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const
   flux.residual = assembled - finer;
 
   flux.imbalance = flux.residual;
-  for (const int e : problem.fixed) flux.imbalance(e) = 0;
+  for (const int e : problem.dirichlet_dofs) flux.imbalance(e) = 0;
   const auto contact = static_cast<Eigen::Index>(problem.contact.size());
   flux.lambda.resize(contact);
   flux.gap.resize(contact);
@@ -300,8 +300,8 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const
         mean_gap(scene.contact()->gap, mesh.vertices(mesh.edges(e, 0), 0), mesh.vertices(mesh.edges(e, 1), 0));
   }
   flux.dual = -flux.norm2 / 2 - flux.lambda.dot(flux.gap);
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    flux.dual += flux.residual(problem.fixed[i]) * problem.fixed_values(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
+    flux.dual += flux.residual(problem.dirichlet_dofs[i]) * problem.dirichlet_values(static_cast<Eigen::Index>(i));
   return flux;
 }
 

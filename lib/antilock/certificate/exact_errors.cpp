@@ -7,11 +7,11 @@
 namespace antilock {
 
 ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const Companion& v,
-                         const TruthTable& truth) {
+                         const ExactTable& exact_solution) {
   const Quadrature& rule = triangle_rule(8);
   double cr = 0, balanced = 0, conforming = 0, middle = 0;
   const auto exact = [&](const Eigen::Vector2d& x, bool layer) {
-    const TruthPoint found = truth.at(x(0), x(1));
+    const ExactPoint found = exact_solution.at(x(0), x(1));
     return layer ? Eigen::Vector2d(found.gradient(0), found.layer_stress) : found.gradient;
   };
   int row = 0;

@@ -1,7 +1,7 @@
 #pragma once
 #include "antilock/certificate/companion.hpp"
 #include "antilock/certificate/equilibrated_flux.hpp"
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 
 namespace antilock {
 
@@ -15,6 +15,6 @@ struct ExactErrors {
 };
 
 ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const Companion& v,
-                         const TruthTable& truth);
+                         const ExactTable& exact);
 
 }  // namespace antilock

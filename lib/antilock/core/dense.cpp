@@ -16,22 +16,22 @@ Cholesky::Cholesky(MatrixXd s) : l_(std::move(s)) {
   positive_definite_ = in_place.info() == Eigen::Success && l_.diagonal().allFinite();
 }
 
-VectorXd Cholesky::half_solve(const VectorXd& right) const { return l_.triangularView<Eigen::Lower>().solve(right); }
-MatrixXd Cholesky::half_solve(const MatrixXd& right) const {
+VectorXd Cholesky::forward(const VectorXd& right) const { return l_.triangularView<Eigen::Lower>().solve(right); }
+MatrixXd Cholesky::forward(const MatrixXd& right) const {
   if (right.cols() == 0)
     return right;  // Eigen refers to the first entry, here and in solve, whether there is one or not
   return l_.triangularView<Eigen::Lower>().solve(right);
 }
 
 VectorXd Cholesky::solve(const VectorXd& right) const {
-  VectorXd x = half_solve(right);
+  VectorXd x = forward(right);
   l_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
   return x;
 }
 
 MatrixXd Cholesky::solve(const MatrixXd& right) const {
   if (right.cols() == 0) return right;
-  MatrixXd x = half_solve(right);
+  MatrixXd x = forward(right);
   l_.transpose().triangularView<Eigen::Upper>().solveInPlace(x);
   return x;
 }
@@ -48,8 +48,8 @@ VectorXd symmetric_eigenvalues(const MatrixXd& matrix) {
 VectorXd generalised_eigenvalues(const MatrixXd& a, const MatrixXd& b) {
   const Cholesky factor(b);  // L^-1 A L^-T has them
   if (!factor.positive_definite()) throw Error("eigenvalues of A x = s B x: B is not positive definite");
-  const MatrixXd half = factor.half_solve(MatrixXd(a.selfadjointView<Eigen::Lower>()));
-  return symmetric_eigenvalues(factor.half_solve(MatrixXd(half.transpose())));
+  const MatrixXd half = factor.forward(MatrixXd(a.selfadjointView<Eigen::Lower>()));
+  return symmetric_eigenvalues(factor.forward(MatrixXd(half.transpose())));
 }
 
 VectorXd least_squares(const MatrixXd& matrix, const VectorXd& right, double threshold) {

@@ -14,10 +14,10 @@ class Cholesky {
   explicit Cholesky(Eigen::MatrixXd s);
   /// False where a pivot was not positive or not finite; every solution is meaningless then.
   bool positive_definite() const { return positive_definite_; }
-  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;       ///< S^-1 right (n)
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;       ///< S^-1 right (n x any)
-  Eigen::VectorXd half_solve(const Eigen::VectorXd& right) const;  ///< L^-1 right (n)
-  Eigen::MatrixXd half_solve(const Eigen::MatrixXd& right) const;  ///< L^-1 right (n x any)
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const;    ///< S^-1 right (n)
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right) const;    ///< S^-1 right (n x any)
+  Eigen::VectorXd forward(const Eigen::VectorXd& right) const;  ///< L^-1 right (n)
+  Eigen::MatrixXd forward(const Eigen::MatrixXd& right) const;  ///< L^-1 right (n x any)
 
  private:
   Eigen::MatrixXd l_;

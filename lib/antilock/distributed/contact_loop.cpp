@@ -24,7 +24,7 @@ double largest_entry(Vec v) {
 /// K with the rows and columns of the contact set replaced by delta^-1 times the identity, and its multigrid.
 class HeldSystem {
  public:
-  HeldSystem(const Inequality& problem, bool direct) : problem_(problem) {
+  HeldSystem(const DistributedProblem& problem, bool direct) : problem_(problem) {
     ok(MatDuplicate(problem.k(), MAT_DO_NOT_COPY_VALUES, &held_));
     ok(KSPCreate(PETSC_COMM_WORLD, &solver_)), ok(KSPSetFromOptions(solver_));
     if (!direct) return;
@@ -69,20 +69,20 @@ class HeldSystem {
   }
 
  private:
-  const Inequality& problem_;
+  const DistributedProblem& problem_;
   Matrix held_;
   LinearSolver solver_;
 };
 
 }  // namespace
 
-State zero_state(const Inequality& problem) {
+State zero_state(const DistributedProblem& problem) {
   return {Eigen::VectorXd::Zero(problem.part().size()), Eigen::VectorXd::Zero(problem.part().m.size()),
           std::vector<char>(problem.rows().owned(), 0)};
 }
 
-LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptions& options) {
-  const Rows& rows = problem.rows();
+LoopReport contact_loop(const DistributedProblem& problem, State& state, const LoopOptions& options) {
+  const DofMap& rows = problem.rows();
   const Eigen::VectorXd& lower = problem.lower();
   const Vector u = rows.vector(), r1 = rows.vector(), rhs = rows.vector(), du = rows.vector(), jump = rows.vector();
   rows.owned_part(state.u, u);
@@ -120,17 +120,17 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     changed = sum(changed);
     const Progress now{"corrections", step, step > 0 ? report.change : 1, options.tolerance};
     const bool stop = options.progress && !options.progress(now);
-    if (largest(stop ? 1 : 0) > 0) antilock::report([](const Progress&) { return false; }, now, "petsc");
+    if (largest(stop ? 1 : 0) > 0) antilock::notify_or_throw([](const Progress&) { return false; }, now, "petsc");
     scale = largest(scale), force = largest(force), unbalanced = largest(unbalanced);
     if (force > 0) unbalanced /= force;
-    if (changed > 0) ++report.sets, since_change = 0;
+    if (changed > 0) ++report.set_changes, since_change = 0;
     const bool settled = report.change <= options.tolerance && unbalanced <= options.residual;
     if (step > 0 && changed == 0 && settled) break;
-    if (!std::isfinite(scale + unbalanced) || since_change > options.most_corrections || report.sets > most_sets)
+    if (!std::isfinite(scale + unbalanced) || since_change > options.max_corrections || report.set_changes > most_sets)
       throw NotConverged(
           fmt::format("petsc: relative change {:.1e} and residual {:.1e} after {} corrections and {} contact "
                       "sets, asked for {:.1e} and {:.1e}",
-                      report.change, unbalanced, step, report.sets, options.tolerance, options.residual),
+                      report.change, unbalanced, step, report.set_changes, options.tolerance, options.residual),
           std::max(report.change, unbalanced), step);
 
     watch.lap();
@@ -145,9 +145,9 @@ LoopReport contact_loop(const Inequality& problem, State& state, const LoopOptio
     report.setups += due;
     report.seconds_setup += watch.lap();
     if (smooth) system.smooth(rhs, du, options.smoothings);
-    const int iterations = smooth ? 0 : system.solve(rhs, du, options.most_iterations);
+    const int iterations = smooth ? 0 : system.solve(rhs, du, options.max_iterations);
     report.linear_iterations += iterations;
-    report.most_iterations = std::max(report.most_iterations, iterations);
+    report.max_iterations = std::max(report.max_iterations, iterations);
     ++report.corrections;
     ok(VecAXPY(du, 1, jump)), ok(VecAXPY(u, 1, du));
     const Eigen::VectorXd step_here = rows.local(du);

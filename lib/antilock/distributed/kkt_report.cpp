@@ -12,7 +12,7 @@ namespace antilock::distributed {
 namespace {
 
 /// Per owned row: the sum over the ranks of what each has at its unknowns.
-Eigen::VectorXd summed(const Rows& rows, const Eigen::VectorXd& part) {
+Eigen::VectorXd summed(const DofMap& rows, const Eigen::VectorXd& part) {
   const Vector v = rows.vector();
   rows.summed(part, v);
   return Entries(v);
@@ -20,15 +20,15 @@ Eigen::VectorXd summed(const Rows& rows, const Eigen::VectorXd& part) {
 
 }  // namespace
 
-Eigen::VectorXd contact_forces(const Inequality& problem, const State& state) {
+Eigen::VectorXd contact_forces(const DistributedProblem& problem, const State& state) {
   Eigen::VectorXd lambda = -summed(problem.rows(), problem.equilibrium(state.u, state.p));
   for (Eigen::Index i = 0; i < lambda.size(); ++i)
     if (state.active[i] == 0) lambda(i) = 0;
   return lambda;
 }
 
-Kkt kkt_report(const Inequality& problem, const State& state) {
-  const Rows& rows = problem.rows();
+Kkt kkt_report(const DistributedProblem& problem, const State& state) {
+  const DofMap& rows = problem.rows();
   const Eigen::VectorXd &u = state.u, &p = state.p, &lower = problem.lower();
   Kkt kkt;
   const bool broken = !u.allFinite() || !p.allFinite();
@@ -42,7 +42,7 @@ Kkt kkt_report(const Inequality& problem, const State& state) {
   double force = 0, reaction = 0;
   std::vector<char> clamped;
   for (int i = 0; i < rows.owned(); ++i) {
-    parts.push(i, lambda(i));
+    parts.add_force(i, lambda(i));
     force = std::max({force, std::abs(load(i)), std::abs(lambda(i))});
     clamped.push_back(rows.clamped(rows.unknown(i)) ? 1 : 0);
     if (clamped.back() != 0) reaction = std::max(reaction, std::abs(parts.r1(i)));
@@ -50,25 +50,25 @@ Kkt kkt_report(const Inequality& problem, const State& state) {
   force = largest(force);
   const double largest_u = largest(u.size() > 0 ? u.lpNorm<Eigen::Infinity>() : 0);
   const Eigen::VectorXd forces =
-      note_equations(kkt, parts, clamped, largest_u, force, std::max(force, largest(reaction)));
+      add_equations(kkt, parts, clamped, largest_u, force, std::max(force, largest(reaction)));
   kkt.residual = largest(kkt.residual);
   kkt.min_gap = kkt.min_pressure = std::numeric_limits<double>::infinity();
-  const Stairs stairs{lower};
+  const Bounds bounds{lower};
   for (int i = 0; i < rows.owned(); ++i)
-    if (std::isfinite(lower(i))) note_bound(kkt, stairs, i, u(rows.unknown(i)), lambda(i), largest_u, forces(i));
+    if (std::isfinite(lower(i))) add_bound(kkt, bounds, i, u(rows.unknown(i)), lambda(i), largest_u, forces(i));
   kkt.complementarity = largest(kkt.complementarity);
   kkt.min_gap = -largest(-kkt.min_gap), kkt.min_pressure = -largest(-kkt.min_pressure);
   if (std::isinf(kkt.min_gap)) kkt.min_gap = kkt.min_pressure = 0;  // nothing is bounded
   return kkt;
 }
 
-Kkt certified(const Inequality& problem, const State& state, double tolerance, std::string& warning) {
-  Solution answer;
-  answer.solver = "petsc";
-  answer.kkt = kkt_report(problem, state);
-  require_trusted(answer, TrustLevels{.refused = CorrectionOptions{tolerance}.refused()});
-  warning = answer.warning;
-  return answer.kkt;
+Kkt certified(const DistributedProblem& problem, const State& state, double tolerance, std::string& warning) {
+  Solution result;
+  result.solver = "petsc";
+  result.kkt = kkt_report(problem, state);
+  apply_tolerances(result, KktTolerances{.fail = CorrectionOptions{tolerance}.kkt_fail()});
+  warning = result.warning;
+  return result.kkt;
 }
 
 }  // namespace antilock::distributed

@@ -10,7 +10,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/kkt_report.hpp"
-#include "antilock/distributed/piece.hpp"
+#include "antilock/distributed/partition.hpp"
 #include "antilock/distributed/ranks.hpp"
 
 namespace antilock::distributed {
@@ -26,8 +26,8 @@ void check_question(const Scene& scene, const Element& element) {
     throw Error("layer.model: \"ventcel\" is not accepted by petsc; accepted \"scaled\" and \"thin\"");
 }
 
-/// The corners of child i of a triangle in the barycentric coordinates of its father (piece.hpp's order): the midpoints
-/// of the edges, or corner i and the midpoints beside it.
+/// The corners of child i of a triangle in the barycentric coordinates of its father (partition.hpp's order): the
+/// midpoints of the edges, or corner i and the midpoints beside it.
 Eigen::Matrix3d corners_of_child(int i) {
   Eigen::Matrix3d corners = 0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity());
   for (int k = 0; k < 3 && i < 3; ++k)
@@ -46,14 +46,14 @@ bool ContactSet::at(double where) const {
 }
 
 NestedLevel::NestedLevel(const Scene& scene, TriangleMesh piece_in, const Element& element)
-    : piece(std::move(piece_in)), space(piece, element), problem(scene, space), state(zero_state(problem)) {}
+    : subdomain(std::move(piece_in)), space(subdomain, element), problem(scene, space), state(zero_state(problem)) {}
 
 ContactSet NestedLevel::contact_set() const {
   std::vector<double> mine;  // x, whether active
   for (int place = 0; place < problem.rows().owned(); ++place)
     if (std::isfinite(problem.lower()(place)))
-      mine.insert(mine.end(), {space.points()(problem.rows().unknown(place), 0), double(state.active[place])});
-  const std::vector<double> all = gathered(mine);
+      mine.insert(mine.end(), {space.dof_coordinates()(problem.rows().unknown(place), 0), double(state.active[place])});
+  const std::vector<double> all = all_gather(mine);
   std::map<double, char> by_x;
   for (std::size_t i = 0; i < all.size(); i += 2) by_x[all[i]] = all[i + 1] != 0 ? 1 : 0;
   ContactSet set;
@@ -64,18 +64,19 @@ ContactSet NestedLevel::contact_set() const {
 void NestedLevel::start_from(const ContactSet& set) {
   for (int place = 0; place < problem.rows().owned(); ++place)
     state.active[place] =
-        std::isfinite(problem.lower()(place)) && set.at(space.points()(problem.rows().unknown(place), 0)) ? 1 : 0;
+        std::isfinite(problem.lower()(place)) && set.at(space.dof_coordinates()(problem.rows().unknown(place), 0)) ? 1
+                                                                                                                   : 0;
 }
 
 void NestedLevel::start_from(const NestedLevel& coarse) {
   const Element& element = space.element();
   std::array<Eigen::Matrix3d, 4> values;  // the father's basis at the unknowns of child i
   for (int i = 0; i < 4; ++i) {
-    const Eigen::Matrix3d nodes = element.nodes() * corners_of_child(i);
+    const Eigen::Matrix3d nodes = element.support_points() * corners_of_child(i);
     for (int k = 0; k < 3; ++k) values[i].row(k) = element.basis(nodes.row(k)).transpose();
   }
-  for (Eigen::Index t = 0; t < space.unknowns().rows(); ++t) {
-    const Eigen::RowVector3i father = coarse.space.unknowns().row(t / 4), child = space.unknowns().row(t);
+  for (Eigen::Index t = 0; t < space.cell_dofs().rows(); ++t) {
+    const Eigen::RowVector3i father = coarse.space.cell_dofs().row(t / 4), child = space.cell_dofs().row(t);
     const Eigen::Vector3d u(coarse.state.u(father(0)), coarse.state.u(father(1)), coarse.state.u(father(2)));
     const Eigen::Vector3d here = values[t % 4] * u;
     for (int k = 0; k < 3; ++k) state.u(child(k)) = here(k);
@@ -87,23 +88,25 @@ void NestedLevel::start_from(const NestedLevel& coarse) {
 std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh& coarse, const Element& element,
                                           const NestedOptions& options, NestedReport& report) {
   Stopwatch watch;
-  TriangleMesh piece;
-  together([&] {
+  TriangleMesh subdomain;
+  collectively([&] {
     check_question(scene, element);
-    piece = piece_of(
-        coarse, options.share ? options.share(coarse, ranks()) : strips(coarse, ranks(), options.loop.direct), rank());
+    subdomain = subdomain_of(
+        coarse,
+        options.partition ? options.partition(coarse, ranks()) : strip_partition(coarse, ranks(), options.loop.direct),
+        rank());
   });
   watch.lap();
   const int first = std::max(0, std::min(options.first_level, options.refinements));
-  for (int l = 0; l < first; ++l) together([&] { piece = refined_piece(piece); });
+  for (int l = 0; l < first; ++l) collectively([&] { subdomain = refined_subdomain(subdomain); });
   report.mesh += watch.lap();
   std::unique_ptr<NestedLevel> level;
   for (int l = first;; ++l) {
     const bool last = l >= options.refinements;
     options.stage(fmt::format("level {} of {}: {} triangles", l, options.refinements,
-                              sum(static_cast<long long>(piece.triangle_count()))));
+                              sum(static_cast<long long>(subdomain.triangle_count()))));
     watch.lap();
-    auto finer = std::make_unique<NestedLevel>(scene, std::exchange(piece, {}), element);
+    auto finer = std::make_unique<NestedLevel>(scene, std::exchange(subdomain, {}), element);
     if (level) {
       finer->start_from(*level);
       finer->start_from(level->contact_set());
@@ -125,7 +128,7 @@ std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh
     if (last) break;
     options.checkpoint(l, level->contact_set());
     watch.lap();
-    together([&] { piece = refined_piece(level->piece); });
+    collectively([&] { subdomain = refined_subdomain(level->subdomain); });
     report.mesh += watch.lap();
   }
   watch.lap();

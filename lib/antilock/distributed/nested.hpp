@@ -20,10 +20,10 @@ struct ContactSet {
 
 /// One mesh of the hierarchy with everything that this rank has on it.
 struct NestedLevel {
-  NestedLevel(const Scene& scene, TriangleMesh piece, const Element& element);
-  TriangleMesh piece;
+  NestedLevel(const Scene& scene, TriangleMesh subdomain, const Element& element);
+  TriangleMesh subdomain;
   Space space;
-  Inequality problem;
+  DistributedProblem problem;
   State state;
   ContactSet contact_set() const;  ///< of all ranks; every rank must call it
   void start_from(const ContactSet& set);
@@ -34,7 +34,7 @@ struct NestedLevel {
 struct NestedOptions {
   int refinements = 0;  ///< of the coarse mesh
   /// The rank of every triangle of the coarse mesh; empty: strips. For exhibits of what another share costs.
-  std::function<std::vector<int>(const TriangleMesh&, int ranks)> share;
+  std::function<std::vector<int>(const TriangleMesh&, int ranks)> partition;
   LoopOptions loop;                 ///< of the last level
   int first_level = 0;              ///< where to begin to solve: a checkpoint holds the set of the level before
   std::optional<ContactSet> start;  ///< of the first level; empty: no contact

@@ -73,7 +73,7 @@ std::string petsc_version() {
   return fmt::format("{}.{}.{}", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR);
 }
 
-void together(const std::function<void()>& work) {
+void collectively(const std::function<void()>& work) {
   std::string message;
   Failure failure;
   int failed = rank();
@@ -107,8 +107,8 @@ double sum(double value) { return over_ranks(value, MPI_DOUBLE, MPI_SUM); }
 double largest(double value) { return over_ranks(value, MPI_DOUBLE, MPI_MAX); }
 long long sum(long long value) { return over_ranks(value, MPI_LONG_LONG, MPI_SUM); }
 
-std::vector<double> gathered(const std::vector<double>& values) {
-  const std::vector<long long> sizes = each(static_cast<long long>(values.size()));
+std::vector<double> all_gather(const std::vector<double>& values) {
+  const std::vector<long long> sizes = all_gather(static_cast<long long>(values.size()));
   const std::vector<int> counts(sizes.begin(), sizes.end());
   std::vector<int> starts(ranks() + 1, 0);
   std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
@@ -118,15 +118,15 @@ std::vector<double> gathered(const std::vector<double>& values) {
   return all;
 }
 
-std::vector<long long> each(long long value) {
+std::vector<long long> all_gather(long long value) {
   std::vector<long long> all(ranks());
   MPI_Allgather(&value, 1, MPI_LONG_LONG, all.data(), 1, MPI_LONG_LONG, PETSC_COMM_WORLD);
   return all;
 }
 
-std::string from_first(std::string text) { return said_by(0, std::move(text)); }
+std::string broadcast(std::string text) { return said_by(0, std::move(text)); }
 
-std::string first_said(const std::string& text) {
+std::string first_nonempty(const std::string& text) {
   const int first = over_ranks(text.empty() ? ranks() : rank(), MPI_INT, MPI_MIN);
   return first == ranks() ? std::string() : said_by(first, text);
 }

@@ -22,20 +22,20 @@ std::string petsc_version();
 
 /// Runs `work` on this rank. Where it throws Error, NotConverged or bad_alloc on any rank, every rank throws what the
 /// first of them threw: no rank goes on and waits for one that has given up. `work` itself must not communicate.
-void together(const std::function<void()>& work);
+void collectively(const std::function<void()>& work);
 
 /// Ends the run of all ranks with that status, after one line on standard error: for a failure of this rank that the
 /// others do not know of.
 [[noreturn]] void abort(const std::string& message, int status);
 
-double sum(double value);                                         ///< over the ranks
-double largest(double value);                                     ///< over the ranks
-long long sum(long long value);                                   ///< over the ranks
-std::vector<double> gathered(const std::vector<double>& values);  ///< of all ranks, rank by rank, on every rank
-std::vector<long long> each(long long value);                     ///< one value per rank, on every rank
-std::string from_first(std::string text);                         ///< the text of rank 0, on every rank
+double sum(double value);                                           ///< over the ranks
+double largest(double value);                                       ///< over the ranks
+long long sum(long long value);                                     ///< over the ranks
+std::vector<double> all_gather(const std::vector<double>& values);  ///< of all ranks, rank by rank, on every rank
+std::vector<long long> all_gather(long long value);                 ///< one value per rank, on every rank
+std::string broadcast(std::string text);                            ///< the text of rank 0, on every rank
 
-std::string first_said(const std::string& text);  ///< of the first rank whose text is not empty
+std::string first_nonempty(const std::string& text);  ///< of the first rank whose text is not empty
 
 double peak_megabytes();  ///< largest resident memory so far, of the rank that has most
 

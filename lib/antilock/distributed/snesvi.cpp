@@ -24,7 +24,7 @@ PetscErrorCode jacobian(SNES, Vec, Mat, Mat, void*) { return 0; }  // K itself, 
 
 /// v >= bound (per owned row), K v = rhs off the contact set, from v = 0. Counts in `end`. A solver of its own: PETSc
 /// keeps the sizes of the last contact set.
-Vector solved(const Inequality& problem, Vec rhs, const Eigen::VectorXd& bound, bool split, double load,
+Vector solved(const DistributedProblem& problem, Vec rhs, const Eigen::VectorXd& bound, bool split, double load,
               SnesviEnd& end) {
   Vector v = problem.rows().vector();
   const Vector r = problem.rows().vector(), low = problem.rows().vector(), high = problem.rows().vector();
@@ -54,16 +54,16 @@ Vector solved(const Inequality& problem, Vec rhs, const Eigen::VectorXd& bound, 
 
 }  // namespace
 
-SnesviEnd snesvi(const Inequality& problem, State& state, bool split) {
-  const int most_corrections = split ? 20 : 1;
+SnesviEnd snesvi(const DistributedProblem& problem, State& state, bool split) {
+  const int max_corrections = split ? 20 : 1;
   constexpr double tolerance = 1e-10;
-  const Rows& rows = problem.rows();
+  const DofMap& rows = problem.rows();
   const Vector u = rows.vector(), rhs = rows.vector();
   rows.owned_part(state.u, u);
   PetscReal load = 0, moved = 0, size = 0;
   rows.summed(rows.unclamped(problem.part().load), rhs), ok(VecNorm(rhs, NORM_2, &load));
   SnesviEnd end;
-  for (bool settled = false; !settled && end.converged && end.corrections < most_corrections; ++end.corrections) {
+  for (bool settled = false; !settled && end.converged && end.corrections < max_corrections; ++end.corrections) {
     const Eigen::VectorXd r2 = problem.compatibility(state.u, state.p);
     rows.summed(problem.right_side(problem.equilibrium(state.u, state.p), r2), rhs);
     const Eigen::VectorXd bound = problem.lower() - Entries(u);

@@ -17,10 +17,10 @@ struct SnesviEnd {
 /// matrix of `problem`, with 200 Newton steps at most, in place of the linear solver of contact_loop.hpp. Each du
 /// solves the inequality of K with the bound lower - u and the right-hand side r1 + delta^-1 B' M r2.
 ///
-/// `split` false: one correction from u = 0, as PETSc's solver comes. With Penalty::compliance the matrix is A1 +
+/// `split` false: one correction from u = 0, as PETSc's solver comes. With PenaltyChoice::none the matrix is A1 +
 /// compliance^-1 B' M B, in which A1 has lost its digits. `split` true: corrections until du is below 1e-10 of u, 20 at
 /// most. PETSc's default line search gives up on fine meshes, since it compares residuals that are round-off: full
 /// steps are taken. Every rank must call it.
-SnesviEnd snesvi(const distributed::Inequality& problem, distributed::State& state, bool split);
+SnesviEnd snesvi(const distributed::DistributedProblem& problem, distributed::State& state, bool split);
 
 }  // namespace antilock::distributed

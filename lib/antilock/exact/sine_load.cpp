@@ -52,7 +52,7 @@ std::optional<SineLoad> as_sine_load(const Field& f) {
   return load;
 }
 
-std::optional<Truth> truth_of(const Scene& scene, int log2_points) {
+std::optional<ExactSolution> exact_solution_of(const Scene& scene, int log2_points) {
   if (!std::holds_alternative<StiffLayer>(scene.layer()) && !std::holds_alternative<VentcelLayer>(scene.layer()))
     return {};
   if (!scene.beyond_the_paper().empty()) return {};
@@ -60,7 +60,7 @@ std::optional<Truth> truth_of(const Scene& scene, int log2_points) {
     if (scene.contact()->gap(double(j) / checks) != 0) return {};
   const std::optional<SineLoad> load = as_sine_load(scene.body().load);
   if (!load) return {};
-  return Truth(*load, *scene.epsilon(), scene.contact().has_value(), log2_points);
+  return ExactSolution(*load, *scene.epsilon(), scene.contact().has_value(), log2_points);
 }
 
 }  // namespace antilock

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "antilock/core/error.hpp"
-#include "antilock/exact/truth_data.hpp"
+#include "antilock/exact/exact_solution_data.hpp"
 
 namespace antilock {
 namespace {
@@ -53,8 +53,8 @@ void resize(SineRow& row, Eigen::Index size) {
 double SineRow::a(Eigen::Index k) const { return double(k) * std::numbers::pi; }
 
 // Body: u_k = w_k sinh(a(1-y)) / sinh(a) + G_k(y), with the sinh ratio (e^{-ay} - e^{-a(2-y)}) / (1 - e^{-2a}).
-SineRow body_row(const Truth::Data& truth, double y) {
-  const Eigen::VectorXd& w = truth.on_sigma;
+SineRow body_row(const ExactSolution::Data& exact, double y) {
+  const Eigen::VectorXd& w = exact.on_sigma;
   SineRow row = empty_row(std::numbers::pi * y, w.size());
   Powers near{std::exp(-std::numbers::pi * y)}, far{std::exp(-std::numbers::pi * (2 - y))};
   Powers twice{std::exp(-2 * std::numbers::pi)};
@@ -63,11 +63,11 @@ SineRow body_row(const Truth::Data& truth, double y) {
     const double e = near.next(), back = far.next(), scale = 1 / (1 - twice.next());
     row.u(k) = w(k) * (e - back) * scale;
     row.p(k) = -row.a(k) * w(k) * (e + back) * scale;
-    row.p_y(k) = row.a(k) * row.a(k) * truth.filter(k) * row.u(k);
+    row.p_y(k) = row.a(k) * row.a(k) * exact.filter(k) * row.u(k);
   }
-  const Eigen::Index load_end = truth.load.empty() ? 1 : truth.load.back().k() + 1;
+  const Eigen::Index load_end = exact.load.empty() ? 1 : exact.load.back().k() + 1;
   resize(row, std::max(k, load_end));
-  for (const LoadResponse& load : truth.load) {
+  for (const LoadResponse& load : exact.load) {
     const double a = row.a(load.k());
     row.u(load.k()) += load.value(y);
     row.p(load.k()) += load.slope(y);
@@ -79,9 +79,9 @@ SineRow body_row(const Truth::Data& truth, double y) {
 // Layer: u and p both solve v'' = kappa^2 v, so each is its value on Sigma times sinh(kappa eta) / sinh(kappa) plus its
 // value on Gamma_C times sinh(kappa (1-eta)) / sinh(kappa), eta = 1 + y. Nothing divides by epsilon: at 0 both are
 // linear in y.
-SineRow layer_row(const Truth::Data& truth, double y) {
-  const double eta = 1 + y, step = truth.epsilon * std::numbers::pi;
-  SineRow row = empty_row(step * std::min(eta, -y), truth.on_sigma.size());
+SineRow layer_row(const ExactSolution::Data& exact, double y) {
+  const double eta = 1 + y, step = exact.epsilon * std::numbers::pi;
+  SineRow row = empty_row(step * std::min(eta, -y), exact.on_sigma.size());
   Powers from_gamma_c{std::exp(-step * eta)}, from_sigma{std::exp(step * y)};
   Eigen::Index k = 1;
   for (; k < row.u.size(); ++k) {
@@ -90,9 +90,9 @@ SineRow layer_row(const Truth::Data& truth, double y) {
     const double both = down * up;  // e^{-kappa}
     const double sigma = kappa < 1 ? small_ratio(kappa, eta) : (up - down * both) / (1 - both * both);
     const double gamma_c = kappa < 1 ? small_ratio(kappa, -y) : (down - up * both) / (1 - both * both);
-    row.u(k) = truth.on_sigma(k) * sigma + truth.on_gamma_c(k) * gamma_c;
-    row.p(k) = truth.stress_sigma(k) * sigma + truth.stress_gamma_c(k) * gamma_c;
-    row.p_y(k) = row.a(k) * row.a(k) * truth.filter(k) * row.u(k);
+    row.u(k) = exact.on_sigma(k) * sigma + exact.on_gamma_c(k) * gamma_c;
+    row.p(k) = exact.stress_sigma(k) * sigma + exact.stress_gamma_c(k) * gamma_c;
+    row.p_y(k) = row.a(k) * row.a(k) * exact.filter(k) * row.u(k);
   }
   resize(row, k);
   return row;

@@ -37,29 +37,29 @@ void at_points(const Space& space, EdgeTag tag, const Field& f, Act&& act) {
 Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g) {
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size());
   at_points(space, tag, g, [&](int t, double weight, double value, const Eigen::VectorXd& basis) {
-    for (Eigen::Index i = 0; i < basis.size(); ++i) load(space.unknowns()(t, i)) += weight * value * basis(i);
+    for (Eigen::Index i = 0; i < basis.size(); ++i) load(space.cell_dofs()(t, i)) += weight * value * basis(i);
   });
   return load;
 }
 
 Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Field& k) {
-  return summed(edge_rows(space, tag, k));
+  return gram_matrix(edge_rows(space, tag, k));
 }
 
 StiffRows edge_rows(const Space& space, EdgeTag tag, const Field& k) {
-  RowsOfB rows;
+  FactoredFormBuilder rows;
   std::vector<double> moduli;
   at_points(space, tag, k, [&](int t, double weight, double value, const Eigen::VectorXd& basis) {
     if (value < 0) throw Error("spring: its stiffness is negative; accepted: 0 or more");
     if (value == 0) return;
     rows.add(t, weight);
     moduli.push_back(value);
-    for (Eigen::Index i = 0; i < basis.size(); ++i) rows.put(space.unknowns()(t, i), basis(i));
+    for (Eigen::Index i = 0; i < basis.size(); ++i) rows.put(space.cell_dofs()(t, i), basis(i));
   });
   return {rows.form(space.size()), Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
 }
 
-Eigen::SparseMatrix<double> summed(const StiffRows& rows) {
+Eigen::SparseMatrix<double> gram_matrix(const StiffRows& rows) {
   const auto& [b, m, cell] = rows.form;
   Triplets entries;
   for (Eigen::Index row = 0; row < b.rows(); ++row) {
@@ -68,7 +68,7 @@ Eigen::SparseMatrix<double> summed(const StiffRows& rows) {
       for (RowMatrix::InnerIterator j(b, row); j; ++j)
         entries.emplace_back(i.col(), j.col(), weight * i.value() * j.value());
   }
-  return summed<SparseMatrix>(b.cols(), b.cols(), entries);
+  return from_triplets<SparseMatrix>(b.cols(), b.cols(), entries);
 }
 
 Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::VectorXd& given) {
@@ -88,27 +88,27 @@ Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::Vector
     if (on_sigma[v] == 0) continue;
     if (std::isnan(height)) height = mesh.vertices(v, 1);
     if (std::abs(mesh.vertices(v, 1) - height) > off)
-      throw Error("Ventcel term: Sigma leaves its line at " + mesh.place(v) +
+      throw Error("Ventcel term: Sigma leaves its line at " + mesh.location_text(v) +
                   "; accepted: a piece of a line y = const");
     if (on_sigma[v] != 1) continue;
     ends.push_back(mesh.vertices(v, 0));
     if (held[v] == 0 || given(v) != 0 || ends.size() > 2)
       throw Error(
-          "Ventcel term: Sigma has an end at " + mesh.place(v) + (given(v) != 0 ? " with u not 0" : "") +
+          "Ventcel term: Sigma has an end at " + mesh.location_text(v) + (given(v) != 0 ? " with u not 0" : "") +
           "; accepted: u = 0 at both of its ends, or a scaled layer with epsilon = 0, which is the same problem");
   }
   if (ends.size() != 2) throw Error("Ventcel term: Sigma has no ends; accepted: a piece of a line y = const");
   const auto [left, right] = std::minmax(ends[0], ends[1]);
   // x and unknown along Sigma; at the clamped ends u = 0, they have none
   std::vector<std::pair<double, int>> line{{left, -1}};
-  for (const int i : space.contact()) line.emplace_back(space.points()(i, 0), i);
+  for (const int i : space.contact_dofs()) line.emplace_back(space.dof_coordinates()(i, 0), i);
   line.emplace_back(right, -1);
   Triplets entries;
   for (std::size_t k = 1; k < line.size(); ++k)
     for (const int i : {line[k - 1].second, line[k].second})
       for (const int j : {line[k - 1].second, line[k].second})
         if (i >= 0 && j >= 0) entries.emplace_back(i, j, (i == j ? 1 : -1) / (line[k].first - line[k - 1].first));
-  return summed<SparseMatrix>(space.size(), space.size(), entries);
+  return from_triplets<SparseMatrix>(space.size(), space.size(), entries);
 }
 
 }  // namespace antilock

@@ -24,19 +24,19 @@ std::vector<std::pair<int, double>> jump(const Space& space, int first, int e) {
     }
     const Eigen::VectorXd basis = space.element().basis(end) - space.element().basis(middle);
     for (int i = 0; i < 3; ++i)
-      coefficients.emplace_back(first + space.unknowns()(t, i), side == 0 ? basis(i) : -basis(i));
+      coefficients.emplace_back(first + space.cell_dofs()(t, i), side == 0 ? basis(i) : -basis(i));
   }
   return coefficients;
 }
 
 }  // namespace
 
-const Quadrature& divergence_rule(const VectorSpace& space) {
+const Quadrature& strain_quadrature(const VectorSpace& space) {
   return triangle_rule(2 * (std::max(space.x.element().degree(), space.y.element().degree()) - 1));
 }
 
 Eigen::Matrix4d Lame::matrix() const {
-  const OfGradient div(1, 0, 0, 1), shear(0, 1, 1, 0);
+  const GradientCoefficients div(1, 0, 0, 1), shear(0, 1, 1, 0);
   return 2 * mu * Eigen::Vector4d(1, 0, 0, 1).asDiagonal().toDenseMatrix() + mu * shear.transpose() * shear +
          lambda * div.transpose() * div;
 }
@@ -44,7 +44,7 @@ Eigen::Matrix4d Lame::matrix() const {
 Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::Matrix4d& body,
                                         const Eigen::Matrix4d& layer) {
   const TriangleMesh& mesh = space.x.mesh();
-  const Quadrature& rule = divergence_rule(space);
+  const Quadrature& rule = strain_quadrature(space);
   const Gradients gradients(space, rule);
   return sum_strains(space.size(), mesh.triangle_count(), [&](int t) {
     const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
@@ -58,19 +58,19 @@ Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::M
   });
 }
 
-FactoredForm strain_rows(const VectorSpace& space, const std::vector<StrainRow>& strains,
-                         std::optional<Region> region) {
+FactoredForm strain_form_factored(const VectorSpace& space, const std::vector<StrainTerm>& strains,
+                                  std::optional<Region> region) {
   const TriangleMesh& mesh = space.x.mesh();
-  const Quadrature& rule = divergence_rule(space);
+  const Quadrature& rule = strain_quadrature(space);
   const Gradients gradients(space, rule);
-  RowsOfB rows;
+  FactoredFormBuilder rows;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (region && mesh.region[t] != *region) continue;
     const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
     const Eigen::VectorXi unknown = gradients.unknowns(t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::Matrix4Xd d = gradients.at(q, barycentric);
-      for (const StrainRow& row : strains) {
+      for (const StrainTerm& row : strains) {
         const Eigen::RowVectorXd strain = row.strain * d;
         rows.add(t, row.weight * rule.weights(q) * mesh.area(t));
         for (Eigen::Index i = 0; i < unknown.size(); ++i)
@@ -81,26 +81,26 @@ FactoredForm strain_rows(const VectorSpace& space, const std::vector<StrainRow>&
   return rows.form(space.size());
 }
 
-std::vector<StrainRow> Lame::rows() const {
-  std::vector<StrainRow> all{{{1, 0, 0, 0}, 2 * mu}, {{0, 0, 0, 1}, 2 * mu}, {{0, 1, 1, 0}, mu}};
+std::vector<StrainTerm> Lame::rows() const {
+  std::vector<StrainTerm> all{{{1, 0, 0, 0}, 2 * mu}, {{0, 0, 0, 1}, 2 * mu}, {{0, 1, 1, 0}, mu}};
   if (lambda > 0) all.push_back({{1, 0, 0, 1}, lambda});
   return all;
 }
 
-StiffRows stiff_strain_rows(const VectorSpace& space, const std::vector<StrainRow>& strains,
+StiffRows stiff_strain_rows(const VectorSpace& space, const std::vector<StrainTerm>& strains,
                             std::optional<Region> region) {
-  std::vector<StrainRow> unweighted = strains;
+  std::vector<StrainTerm> unweighted = strains;
   Eigen::VectorXd weights(static_cast<Eigen::Index>(strains.size()));
   for (std::size_t i = 0; i < strains.size(); ++i) {
     weights(static_cast<Eigen::Index>(i)) = strains[i].weight;
     unweighted[i].weight = 1;
   }
-  FactoredForm form = strain_rows(space, unweighted, region);
+  FactoredForm form = strain_form_factored(space, unweighted, region);
   Eigen::VectorXd stiffness = weights.replicate(form.m.size() / weights.size(), 1);
   return {std::move(form), std::move(stiffness)};
 }
 
-FactoredForm divergence(const VectorSpace& space) { return strain_rows(space, {{{1, 0, 0, 1}}}); }
+FactoredForm divergence(const VectorSpace& space) { return strain_form_factored(space, {{{1, 0, 0, 1}}}); }
 
 namespace {
 
@@ -127,11 +127,11 @@ Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, b
     for (const auto& [i, a] : step)
       for (const auto& [j, b] : step) entries.emplace_back(i, j, 2 * weight * a * b / 3);
   });
-  return summed<SparseMatrix>(space.size(), space.size(), entries);
+  return from_triplets<SparseMatrix>(space.size(), space.size(), entries);
 }
 
 StiffRows jump_rows(const VectorSpace& space, double weight, bool clamped_in_x) {
-  RowsOfB rows;
+  FactoredFormBuilder rows;
   at_steps(space, clamped_in_x, [&](int e, const auto& step) {
     rows.add(space.x.mesh().edge_triangles(e, 0), 1.0 / 3);
     for (const auto& [i, a] : step) rows.put(i, a);

@@ -54,15 +54,15 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<
   };
   if (element.degree() == 1) {  // one point, matrices of a fixed size
     const Eigen::Matrix3d derivative = derivatives[0];
-    return sum_element_matrices(space, [&](int t) {
+    return assemble_cells(space, [&](int t) {
       const Eigen::Matrix<double, 3, 2> gradient = derivative * barycentric_gradients(mesh, t);
       Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
       add(matrix, mesh.area(t), of_triangle[t], gradient);
       return matrix;
     });
   }
-  return sum_element_matrices(space, [&](int t) {
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(element.unknowns(), element.unknowns());
+  return assemble_cells(space, [&](int t) {
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(element.dofs(), element.dofs());
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
       add(matrix, rule.weights(q) * mesh.area(t), of_triangle[t], Eigen::MatrixX2d(derivatives[q] * lambda));
@@ -74,7 +74,7 @@ StiffRows gradient_rows(const Space& space, const std::vector<Stiffness>& of_tri
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = strain_rule(space.element());
   const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(space.element(), rule);
-  RowsOfB rows;
+  FactoredFormBuilder rows;
   std::vector<double> moduli;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
@@ -85,7 +85,7 @@ StiffRows gradient_rows(const Space& space, const std::vector<Stiffness>& of_tri
         rows.add(t, rule.weights(q) * mesh.area(t));
         moduli.push_back(modulus);
         const Eigen::VectorXd derivative = derivatives[q] * lambda.col(axis);
-        for (Eigen::Index i = 0; i < derivative.size(); ++i) rows.put(space.unknowns()(t, i), derivative(i));
+        for (Eigen::Index i = 0; i < derivative.size(); ++i) rows.put(space.cell_dofs()(t, i), derivative(i));
       }
   }
   return {rows.form(space.size()), Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
@@ -97,14 +97,14 @@ FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2
   const Quadrature& rule = strain_rule(element);
   const auto points = rule.weights.size();
   const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
-  Eigen::VectorXd dy(element.unknowns());
+  Eigen::VectorXd dy(element.dofs());
   FactoredForm strain;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     if (mesh.region[t] == Region::layer) strain.cell.insert(strain.cell.end(), points, t);
   const auto rows = static_cast<Eigen::Index>(strain.cell.size());
   strain.m.resize(rows);
   strain.b.resize(rows, space.size());
-  strain.b.reserve(Eigen::VectorXi::Constant(rows, element.unknowns()));
+  strain.b.reserve(Eigen::VectorXi::Constant(rows, element.dofs()));
   for (Eigen::Index r = 0; r < rows; ++r) {
     const int t = strain.cell[r];
     const Eigen::Index q = r % points;
@@ -112,7 +112,7 @@ FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2
     const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
     const Eigen::Vector3d slope = direction ? Eigen::Vector3d(lambda * direction(t)) : Eigen::Vector3d(lambda.col(1));
     dy.noalias() = derivatives[q] * slope;
-    for (Eigen::Index i = 0; i < dy.size(); ++i) strain.b.insert(r, space.unknowns()(t, i)) = dy(i);
+    for (Eigen::Index i = 0; i < dy.size(); ++i) strain.b.insert(r, space.cell_dofs()(t, i)) = dy(i);
   }
   strain.b.makeCompressed();
   return strain;
@@ -124,7 +124,7 @@ Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = load_rule(space.element());
   const Eigen::Matrix3Xd points = rule.points.transpose();
-  Eigen::MatrixXd weighted(space.element().unknowns(), points.cols());  // the basis at the points, times their weights
+  Eigen::MatrixXd weighted(space.element().dofs(), points.cols());  // the basis at the points, times their weights
   for (Eigen::Index q = 0; q < points.cols(); ++q)
     weighted.col(q) = rule.weights(q) * space.element().basis(points.col(q));
   Eigen::VectorXd load = Eigen::VectorXd::Zero(space.size()), values(points.cols()), local(weighted.rows());
@@ -140,7 +140,7 @@ Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region) {
         throw Error(fmt::format("load: f({:.6g}, {:.6g}) is not finite", x(0, q), x(1, q)));
     }
     local.noalias() = mesh.area(t) * weighted.lazyProduct(values);
-    for (Eigen::Index i = 0; i < local.size(); ++i) load(space.unknowns()(t, i)) += local(i);
+    for (Eigen::Index i = 0; i < local.size(); ++i) load(space.cell_dofs()(t, i)) += local(i);
   }
   return load;
 }

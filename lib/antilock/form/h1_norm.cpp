@@ -13,14 +13,14 @@ namespace antilock {
 Eigen::SparseMatrix<double> h1_norm(const Space& space) {
   const Quadrature& rule = triangle_rule(2 * space.element().degree());
   // int phi_i phi_j is the same on every triangle but for the area
-  const Eigen::Index m = space.element().unknowns();
+  const Eigen::Index m = space.element().dofs();
   Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(m, m);
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
     const Eigen::VectorXd basis = space.element().basis(rule.points.row(q));
     unit += rule.weights(q) * basis * basis.transpose();
   }
   const Eigen::SparseMatrix<double> mass =
-      sum_element_matrices(space, [&](int t) -> Eigen::MatrixXd { return space.mesh().area(t) * unit; });
+      assemble_cells(space, [&](int t) -> Eigen::MatrixXd { return space.mesh().area(t) * unit; });
   return mass + gradient_form(space, {1, 1}, {1, 1});
 }
 

@@ -15,24 +15,24 @@ Eigen::RowVector2d tangent(const TriangleMesh& mesh, int e) {
 }
 
 /// Both components of grad w - theta, theta averaged with a rule.
-void add_strain(RowsOfB& rows, const PlateSpace& space, int t, const Quadrature& rule, double weight) {
+void add_strain(FactoredFormBuilder& rows, const PlateSpace& space, int t, const Quadrature& rule, double weight) {
   const Eigen::MatrixX2d slope = space.deflection.element().derivative(Eigen::Vector3d::Constant(1.0 / 3)) *
                                  barycentric_gradients(space.mesh(), t);
   const Space& rotation = space.rotation.x;
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(rotation.element().unknowns());  // of the basis of the rotation
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(rotation.element().dofs());  // of the basis of the rotation
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q)
     mean += rule.weights(q) * rotation.element().basis(rule.points.row(q));
   for (const int c : {0, 1}) {
     rows.add(t, weight);
-    for (int i = 0; i < 3; ++i) rows.put(space.deflection.unknowns()(t, i), slope(i, c));
+    for (int i = 0; i < 3; ++i) rows.put(space.deflection.cell_dofs()(t, i), slope(i, c));
     for (Eigen::Index i = 0; i < mean.size(); ++i)
-      if (mean(i) != 0) rows.put((c == 0 ? space.theta_x() : space.theta_y()) + rotation.unknowns()(t, i), -mean(i));
+      if (mean(i) != 0) rows.put((c == 0 ? space.theta_x() : space.theta_y()) + rotation.cell_dofs()(t, i), -mean(i));
   }
 }
 
 /// The Nedelec field of the edge integrals g_i of the strain: at the centroid sum g_i (grad lambda_k - grad lambda_j)/3,
 /// b = circulation / (2 area).
-void add_edge_field(RowsOfB& rows, const PlateSpace& space, int t) {
+void add_edge_field(FactoredFormBuilder& rows, const PlateSpace& space, int t) {
   const TriangleMesh& mesh = space.mesh();
   const Eigen::Matrix<double, 3, 2> gradient = barycentric_gradients(mesh, t);
   const double area = mesh.area(t);
@@ -108,7 +108,7 @@ SparseMatrix bending_form(const PlateSpace& space, double poisson) {
 FactoredForm shear_form(const PlateSpace& space) {
   check_elements(space);
   const TriangleMesh& mesh = space.mesh();
-  RowsOfB rows;
+  FactoredFormBuilder rows;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (space.shear == ShearRule::edges) add_edge_field(rows, space, t);
     if (space.shear == ShearRule::mean)

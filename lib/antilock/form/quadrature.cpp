@@ -72,7 +72,7 @@ Eigen::Vector3d on_edge(int i, double s) {
 
 Eigen::VectorXd means_on_edge(const Element& element, int i) {
   const auto [places, weights] = gauss_rule(element.degree() / 2 + 1);
-  Eigen::VectorXd means = Eigen::VectorXd::Zero(element.unknowns());
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(element.dofs());
   for (Eigen::Index q = 0; q < places.size(); ++q) means += weights(q) * element.basis(on_edge(i, places(q)));
   return means;
 }

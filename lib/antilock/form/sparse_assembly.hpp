@@ -13,14 +13,14 @@ using Triplets = std::vector<Eigen::Triplet<double>>;
 
 /// The matrix with the sums of the entries at each place.
 template <class Matrix>
-Matrix summed(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
+Matrix from_triplets(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
   Matrix matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 
 /// A factored form while it is collected row by row.
-class RowsOfB {
+class FactoredFormBuilder {
  public:
   /// A new row, of this cell and with this entry of M.
   void add(int cell, double weight) {
@@ -31,7 +31,7 @@ class RowsOfB {
   void put(int unknown, double value) { b_.emplace_back(static_cast<int>(m_.size()) - 1, unknown, value); }
   FactoredForm form(int unknowns) const {
     const auto rows = static_cast<Eigen::Index>(m_.size());
-    return {summed<RowMatrix>(rows, unknowns, b_), Eigen::Map<const Eigen::VectorXd>(m_.data(), rows), cell_};
+    return {from_triplets<RowMatrix>(rows, unknowns, b_), Eigen::Map<const Eigen::VectorXd>(m_.data(), rows), cell_};
   }
 
  private:
@@ -42,9 +42,10 @@ class RowsOfB {
 
 /// Where each column of a matrix of the space begins, and where the last one ends: its rows are the unknowns that share a
 /// triangle with it. They sit on the vertices, edges and triangles around the column's own, which the mesh counts.
-inline std::vector<int> column_starts(const Space& space) {
+inline std::vector<int> sparsity_pattern(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
-  const int v = space.element().per_vertex(), e = space.element().per_edge(), t = space.element().per_triangle();
+  const int v = space.element().dofs_per_vertex(), e = space.element().dofs_per_edge(),
+            t = space.element().dofs_per_cell();
   std::vector<int> at_vertex(mesh.vertex_count(), v), at_edge(mesh.edge_count(), 2 * v + e);
   for (const int end : mesh.edges.reshaped<Eigen::RowMajor>()) at_vertex[end] += v + e;
   for (const int corner : mesh.triangles.reshaped<Eigen::RowMajor>()) at_vertex[corner] += e + t;
@@ -56,16 +57,16 @@ inline std::vector<int> column_starts(const Space& space) {
   };
   for (const int rows : at_vertex) add(v, rows);
   for (const int rows : at_edge) add(e, rows);
-  add(t * mesh.triangle_count(), space.element().unknowns());
+  add(t * mesh.triangle_count(), space.element().dofs());
   return start;
 }
 
 /// Sums element matrices into a sparse matrix, in linear time: the mesh says how many entries each column has, and each
 /// element puts its own in place. `local(t)` returns the m x m matrix of triangle t.
 template <class LocalMatrix>
-Eigen::SparseMatrix<double> sum_element_matrices(const Space& space, LocalMatrix&& local) {
-  const auto& unknowns = space.unknowns();
-  const std::vector<int> start = column_starts(space);
+Eigen::SparseMatrix<double> assemble_cells(const Space& space, LocalMatrix&& local) {
+  const auto& unknowns = space.cell_dofs();
+  const std::vector<int> start = sparsity_pattern(space);
   std::vector<int> end(start.begin(), start.end() - 1);  // behind the rows that a column has so far, in ascending order
   Eigen::SparseMatrix<double> sum(space.size(), space.size());
   sum.resizeNonZeros(start.back());

@@ -36,7 +36,7 @@ void write_solution_csv(const std::filesystem::path& path, const Space& space, c
                             path.string(), space.size(), u.size(), u.array().isFinite().count()));
   const Eigen::Index components = u.size() / space.size();
   Eigen::MatrixXd rows(space.size(), 2 + components);
-  rows << space.points(), u.reshaped(space.size(), components);
+  rows << space.dof_coordinates(), u.reshaped(space.size(), components);
   std::vector<std::string> header{"x", "y", "u"};
   if (components == 2) header = {"x", "y", "u_x", "u_y"};
   write_csv(path, header, rows);

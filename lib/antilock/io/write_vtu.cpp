@@ -127,11 +127,11 @@ void add_regions(Grid& grid, const TriangleMesh& mesh) {
 /// The values of u at the corners of the triangles (for CR they are m_j + m_k - m_i).
 Eigen::VectorXd corner_values(const Space& space, const Eigen::VectorXd& u) {
   const Element& element = space.element();
-  Eigen::MatrixXd basis(3, element.unknowns());  // a row per corner
+  Eigen::MatrixXd basis(3, element.dofs());  // a row per corner
   for (int i = 0; i < 3; ++i) basis.row(i) = element.basis(Eigen::Vector3d::Unit(i)).transpose();
   Eigen::VectorXd values(3 * space.mesh().triangle_count());
   for (int t = 0; t < space.mesh().triangle_count(); ++t) {
-    const Eigen::VectorXi unknowns = space.unknowns().row(t);
+    const Eigen::VectorXi unknowns = space.cell_dofs().row(t);
     values.segment<3>(3 * t) = basis * u(unknowns);
   }
   return values;
@@ -141,10 +141,10 @@ Eigen::VectorXd corner_values(const Space& space, const Eigen::VectorXd& u) {
 Eigen::VectorXd point_pressure(const Space& space, const Eigen::VectorXd& pressure, bool shared) {
   const TriangleMesh& mesh = space.mesh();
   Eigen::VectorXd of_unknown = Eigen::VectorXd::Zero(space.size());
-  of_unknown(space.contact()) = pressure;
+  of_unknown(space.contact_dofs()) = pressure;
   if (shared) return of_unknown.head(mesh.vertex_count());
   Eigen::VectorXd values = Eigen::VectorXd::Zero(3 * static_cast<Eigen::Index>(mesh.triangle_count()));
-  for (const int edge : space.contact()) {
+  for (const int edge : space.contact_dofs()) {
     const int triangle = mesh.edge_triangles(edge, 0);
     for (int i = 0; i < 3; ++i)
       if (mesh.triangle_edges(triangle, i) == edge)
@@ -167,9 +167,9 @@ void write_vtu(const std::filesystem::path& path, const Space& space, const Eige
   const TriangleMesh& mesh = space.mesh();
   if (more.p.size() > 0) check_values(path, "p", "per triangle", more.p, mesh.triangle_count());
   if (more.pressure.size() > 0)
-    check_values(path, "pressure", "per contact unknown", more.pressure, static_cast<int>(space.contact().size()));
+    check_values(path, "pressure", "per contact unknown", more.pressure, static_cast<int>(space.contact_dofs().size()));
   // elements with unknowns at the vertices share them; the others jump there
-  const bool shared = space.element().per_vertex() > 0;
+  const bool shared = space.element().dofs_per_vertex() > 0;
   Grid grid = grid_of(mesh, shared);
   grid.point_data.push_back({"u", shared ? Eigen::VectorXd(u.head(mesh.vertex_count())) : corner_values(space, u)});
   if (more.pressure.size() > 0) grid.point_data.push_back({"pressure", point_pressure(space, more.pressure, shared)});

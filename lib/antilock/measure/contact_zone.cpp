@@ -17,11 +17,11 @@ namespace {
 /// Throws Error unless the space has one unknown on Gamma_C per bound.
 void require_space_of_bounds(const Space& space, const VariationalInequality& problem, const std::string& who) {
   require_bounds_on_unknowns(problem, who);
-  require_firm_bounds(problem, who);
-  if (space.contact().size() != problem.contact.size())
+  require_hard_bounds(problem, who);
+  if (space.contact_dofs().size() != problem.contact.size())
     throw Error(fmt::format(
         "{}: {} bounds and a space with {} unknowns on Gamma_C; accepted: that of the component with bounds", who,
-        problem.contact.size(), space.contact().size()));
+        problem.contact.size(), space.contact_dofs().size()));
 }
 
 }  // namespace
@@ -29,12 +29,12 @@ void require_space_of_bounds(const Space& space, const VariationalInequality& pr
 ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution) {
   if (problem.bound_count() == 0) return {};
   require_space_of_bounds(space, problem, "contact zone");
-  const std::vector<int>& places = space.contact();
+  const std::vector<int>& places = space.contact_dofs();
   ContactZone zone;
   zone.points = static_cast<int>(problem.contact.size());
   for (int i = 0; i < zone.points; ++i) {
     if (!solution.active[i]) continue;
-    const double x = space.points()(places[i], 0);
+    const double x = space.dof_coordinates()(places[i], 0);
     ++zone.active;
     zone.from = std::min(zone.from.value_or(x), x);
     zone.to = std::max(zone.to.value_or(x), x);
@@ -46,16 +46,16 @@ Eigen::VectorXd contact_lengths(const Space& space) {
   // int phi_i over the edge: shared by its unknowns as the element's basis says (midpoint: 1; ends: 1/2 each)
   Eigen::VectorXd length = Eigen::VectorXd::Zero(space.size());
   for (const ContactEdge& edge : contact_edges(space.mesh()))
-    length(space.unknowns().row(edge.triangle)) += edge.length * means_on_edge(space.element(), edge.opposite);
-  return length(space.contact());
+    length(space.cell_dofs().row(edge.triangle)) += edge.length * means_on_edge(space.element(), edge.opposite);
+  return length(space.contact_dofs());
 }
 
 Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& problem, const Solution& solution) {
   require_space_of_bounds(space, problem, "contact table");
-  const std::vector<int>& places = space.contact();
+  const std::vector<int>& places = space.contact_dofs();
   const auto count = static_cast<Eigen::Index>(problem.contact.size());
   Eigen::MatrixX3d table(count, 3);
-  table.col(0) = space.points().col(0)(places);
+  table.col(0) = space.dof_coordinates().col(0)(places);
   table.col(1) = slack(problem, solution.u);
   table.col(2) = solution.lambda.cwiseQuotient(contact_lengths(space));
   return table;

@@ -7,7 +7,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/problem/bounds.hpp"
 
@@ -58,12 +58,12 @@ void check_solution(const Space& space, const Solution& solution) {
 
 }  // namespace
 
-TruthPoint Reference::known(const Eigen::Vector2d& x, bool in_layer) const {
+ExactPoint Reference::known(const Eigen::Vector2d& x, bool in_layer) const {
   if (at) return at(x(0), x(1));
   return {value(x(0), x(1)), gradient(x(0), x(1)), in_layer ? layer_stress(x(0), x(1)) : 0};
 }
 
-Reference reference(const TruthTable& table) {
+Reference reference(const ExactTable& table) {
   return {[&table](double x, double y) { return table.value(x, y); },
           {},
           {},
@@ -86,16 +86,17 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
 
   Errors errors;
   for (int i = 0; i < space.size(); ++i)
-    errors.max_at_unknowns = larger(
-        errors.max_at_unknowns, std::abs(solution.u(i) - reference.value(space.points()(i, 0), space.points()(i, 1))));
+    errors.max_at_unknowns =
+        larger(errors.max_at_unknowns,
+               std::abs(solution.u(i) - reference.value(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))));
   double l2 = 0, gradient2 = 0;
   errors.by_triangle.setZero(mesh.triangle_count());
   Eigen::Index row = 0;
   const Eigen::MatrixXd stress = layer_stress_values(element, rule.points);
-  Eigen::VectorXd u(space.unknowns().cols());
+  Eigen::VectorXd u(space.cell_dofs().cols());
   Eigen::MatrixX2d slopes(u.size(), 2);  // of the basis; here, since both would be allocated per triangle and point
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    u = solution.u(space.unknowns().row(t));
+    u = solution.u(space.cell_dofs().row(t));
     for (std::size_t k = 0; k < sample_basis.size(); ++k) {
       const Eigen::Vector2d x = point_in(mesh, t, sample_points()[k]);
       errors.max = larger(errors.max, std::abs(u.dot(sample_basis[k]) - reference.value(x(0), x(1))));
@@ -106,7 +107,7 @@ Errors measure_errors(const Space& space, const Solution& solution, double epsil
     for (Eigen::Index q = 0; q < points; ++q) {
       const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(q));
       const double weight = rule.weights(q) * mesh.area(t);
-      const TruthPoint exact = reference.known(x, stiff);
+      const ExactPoint exact = reference.known(x, stiff);
       const double e = u.dot(basis[q]) - exact.value;
       slopes.noalias() = derivative[q] * lambda;
       const Eigen::Vector2d de = slopes.transpose() * u - exact.gradient;

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/solution.hpp"
 #include "antilock/space/space.hpp"
@@ -16,13 +16,13 @@ struct Reference {
   std::function<Eigen::Vector2d(double x, double y)> gradient;
   std::function<double(double x, double y)> layer_stress;  ///< epsilon^-2 d/dy u in the layer, its limit at epsilon = 0
   /// All three at once, where that is faster than one by one; layer_stress means nothing above the layer. May be empty.
-  std::function<TruthPoint(double x, double y)> at = {};
+  std::function<ExactPoint(double x, double y)> at = {};
   /// What is known of x; the stress in the layer alone.
-  TruthPoint known(const Eigen::Vector2d& x, bool in_layer) const;
+  ExactPoint known(const Eigen::Vector2d& x, bool in_layer) const;
 };
 
 /// The tabulated truth as a reference; the table must outlive it.
-Reference reference(const TruthTable& table);
+Reference reference(const ExactTable& table);
 
 /// Absolute errors u_h - u; the names say the norm.
 struct Errors {

@@ -13,7 +13,7 @@ struct Search {
   const TriangleMesh& mesh;
   Eigen::Vector2d x;
   double outside, beyond;  ///< of a triangle's size, and of its box
-  PointValues::Place found{-1, {}};
+  PointValues::Location found{-1, {}};
 
   /// The rounding of the coordinates, which far from the origin is more than `outside`.
   double ulp() const { return std::numeric_limits<double>::epsilon() * x.lpNorm<1>(); }
@@ -46,21 +46,21 @@ PointValues::PointValues(const Space& space) : space_(&space) {
   tree_.init(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
 }
 
-std::optional<PointValues::Place> PointValues::locate(const Eigen::Vector2d& x, double outside) const {
+std::optional<PointValues::Location> PointValues::locate(const Eigen::Vector2d& x, double outside) const {
   // a point with lambda >= -outside lies at most 2 outside diameters beyond the triangle, and lambda is rounded
   Search search{space_->mesh(), x, outside, 2 * outside + 1e-9};
   Eigen::BVIntersect(tree_, search);
   return search.found.triangle >= 0 ? std::optional(search.found) : std::nullopt;
 }
 
-double PointValues::value(const Eigen::VectorXd& u, const Place& at) const {
-  return space_->element().basis(at.lambda).dot(u(space_->unknowns().row(at.triangle)));
+double PointValues::value(const Eigen::VectorXd& u, const Location& at) const {
+  return space_->element().basis(at.lambda).dot(u(space_->cell_dofs().row(at.triangle)));
 }
 
-Eigen::Vector2d PointValues::gradient(const Eigen::VectorXd& u, const Place& at) const {
+Eigen::Vector2d PointValues::gradient(const Eigen::VectorXd& u, const Location& at) const {
   const Eigen::MatrixX2d slopes =
       space_->element().derivative(at.lambda) * barycentric_gradients(space_->mesh(), at.triangle);
-  return slopes.transpose() * u(space_->unknowns().row(at.triangle));
+  return slopes.transpose() * u(space_->cell_dofs().row(at.triangle));
 }
 
 }  // namespace antilock

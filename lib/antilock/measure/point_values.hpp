@@ -14,15 +14,15 @@ class PointValues {
 
   /// The triangle that holds x (up to `outside` of its size beyond its edges counts as in it) and its barycentric coordinates there;
   /// empty outside the mesh. On an edge: the triangle of the smallest number.
-  struct Place {
+  struct Location {
     int triangle;
     Eigen::Vector3d lambda;
   };
-  std::optional<Place> locate(const Eigen::Vector2d& x, double outside = 1e-12) const;
+  std::optional<Location> locate(const Eigen::Vector2d& x, double outside = 1e-12) const;
 
   /// u: N values, one per unknown. Crouzeix-Raviart is the value in the located triangle.
-  double value(const Eigen::VectorXd& u, const Place& at) const;
-  Eigen::Vector2d gradient(const Eigen::VectorXd& u, const Place& at) const;
+  double value(const Eigen::VectorXd& u, const Location& at) const;
+  Eigen::Vector2d gradient(const Eigen::VectorXd& u, const Location& at) const;
 
  private:
   const Space* space_;

@@ -25,14 +25,14 @@ Quadrature refined(const Quadrature& rule) {
 
 /// Adds int w phi_i + q . grad phi_i to each sum(i), where `known` holds w as the value and q as the gradient.
 void add_products(const Space& space, int t, const Quadrature& rule,
-                  const std::function<TruthPoint(const Eigen::Vector2d&)>& known, Eigen::VectorXd& sum) {
+                  const std::function<ExactPoint(const Eigen::Vector2d&)>& known, Eigen::VectorXd& sum) {
   const TriangleMesh& mesh = space.mesh();
   const Eigen::Matrix<double, 3, 2> lambda = barycentric_gradients(mesh, t);
   for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-    const TruthPoint here = known(point_in(mesh, t, rule.points.row(q)));
+    const ExactPoint here = known(point_in(mesh, t, rule.points.row(q)));
     const Eigen::VectorXd product = space.element().basis(rule.points.row(q)) * here.value +
                                     space.element().derivative(rule.points.row(q)) * (lambda * here.gradient);
-    sum(space.unknowns().row(t)) += rule.weights(q) * mesh.area(t) * product;
+    sum(space.cell_dofs().row(t)) += rule.weights(q) * mesh.area(t) * product;
   }
 }
 
@@ -56,7 +56,7 @@ Eigen::VectorXd consistency_residual(const Space& space, const Eigen::VectorXd& 
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const bool in_layer = mesh.region[t] == Region::layer;
     const auto flux = [&](const Eigen::Vector2d& x) {
-      TruthPoint known = exact.known(x, in_layer);
+      ExactPoint known = exact.known(x, in_layer);
       known.value = 0;
       if (in_layer) known.gradient(1) = known.layer_stress;
       return known;
@@ -82,15 +82,15 @@ Eigen::VectorXd contact_work(const Space& space, const Profile& g) {
     for (int k = 0; k < points; ++k) {
       const Eigen::Vector3d lambda = on_edge(edge.opposite, (k + 0.5) / points);
       const double weighted = edge.length / points * g(point_in(mesh, edge.triangle, lambda)(0));
-      work(space.unknowns().row(edge.triangle)) += weighted * space.element().basis(lambda);
+      work(space.cell_dofs().row(edge.triangle)) += weighted * space.element().basis(lambda);
     }
   return work;
 }
 
 Eigen::VectorXd interpolant(const Space& space, const Field& u) {
   Eigen::VectorXd values(space.size());
-  if (space.element().per_vertex() > 0) {
-    for (int i = 0; i < space.size(); ++i) values(i) = u(space.points()(i, 0), space.points()(i, 1));
+  if (space.element().dofs_per_vertex() > 0) {
+    for (int i = 0; i < space.size(); ++i) values(i) = u(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1));
     return values;
   }
   const TriangleMesh& mesh = space.mesh();  // the unknowns of Crouzeix-Raviart are the edges

@@ -65,7 +65,7 @@ TriangleMesh tensor_mesh(const std::vector<double>& x, const std::vector<double>
         triangles.row(t++) << low + 1, up + 1, up;
       }
     }
-  return placed_mesh(std::move(vertices), std::move(triangles));
+  return tag_by_position(std::move(vertices), std::move(triangles));
 }
 
 TriangleMesh graded_mesh(double end, double width, int layers, double ratio, double epsilon) {

@@ -46,8 +46,8 @@ TriangleMesh lattice(int cells, int strips, bool upright) {
       ours ? ++l : ++u;
     }
   }
-  return placed_mesh(Eigen::Map<Points>(vertices[0].data(), static_cast<Eigen::Index>(vertices.size()), 2),
-                     Eigen::Map<Triples>(triangles[0].data(), static_cast<Eigen::Index>(triangles.size()), 3));
+  return tag_by_position(Eigen::Map<Points>(vertices[0].data(), static_cast<Eigen::Index>(vertices.size()), 2),
+                         Eigen::Map<Triples>(triangles[0].data(), static_cast<Eigen::Index>(triangles.size()), 3));
 }
 
 }  // namespace

@@ -25,12 +25,13 @@ std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh, bool along
     if (mesh.vertices(ends[0], 0) > mesh.vertices(ends[1], 0)) std::swap(ends[0], ends[1]);
     for (const int v : ends)
       if (!along_normals && std::abs(mesh.vertices(v, 1)) > off)
-        throw Error("extruded layer: Sigma has a vertex at " + mesh.place(v) + "; accepted: Sigma on the line y = 0");
+        throw Error("extruded layer: Sigma has a vertex at " + mesh.location_text(v) +
+                    "; accepted: Sigma on the line y = 0");
     const auto corners = mesh.triangles.row(mesh.edge_triangles(e, 0));
     const Eigen::RowVector2d from = mesh.vertices.row(ends[0]), along = mesh.vertices.row(ends[1]) - from,
                              up = mesh.vertices(corners, Eigen::all).colwise().mean() - from;
     if (along_normals && along(0) * up(1) <= along(1) * up(0))
-      throw Error("extruded layer: the body is not above its contact edge at " + mesh.place(ends[0]) +
+      throw Error("extruded layer: the body is not above its contact edge at " + mesh.location_text(ends[0]) +
                   "; accepted: edges with the body above them");
     edges.push_back(ends);
   }
@@ -48,7 +49,7 @@ Eigen::VectorXd curvatures(const TriangleMesh& mesh, std::vector<std::array<int,
   for (const auto& [left, right] : edges) {
     const Eigen::RowVector2d along = mesh.vertices.row(right) - mesh.vertices.row(left);
     if (x(left) < end - off || !(along(0) > 1e-6 * along.norm()))
-      throw Error("extruded layer: Sigma has an edge at " + mesh.place(left) +
+      throw Error("extruded layer: Sigma has an edge at " + mesh.location_text(left) +
                   " that is vertical or above another; accepted: every x once");
     end = x(right);
     for (const int v : {left, right}) {
@@ -63,7 +64,7 @@ Eigen::VectorXd curvatures(const TriangleMesh& mesh, std::vector<std::array<int,
       throw Error(
           fmt::format("extruded layer: the layer, {:g} thick, meets itself at {}, where Sigma is a hollow of radius "
                       "{:.3g}; accepted: a thickness below that",
-                      thickness, mesh.place(v), -1 / turn(v)));
+                      thickness, mesh.location_text(v), -1 / turn(v)));
   }
   return turn;
 }
@@ -79,7 +80,8 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
   std::vector<Eigen::RowVector2d> vertices;
   for (int v = 0; v < body.vertex_count(); ++v) {
     if (!along_normals && body.vertices(v, 1) < -off)
-      throw Error("extruded layer: the body has a vertex at " + body.place(v) + "; accepted: a body above y = 0");
+      throw Error("extruded layer: the body has a vertex at " + body.location_text(v) +
+                  "; accepted: a body above y = 0");
     vertices.emplace_back(body.vertices.row(v));
   }
   const auto columns = sigma_edges(body, along_normals);
@@ -113,17 +115,17 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
     tagged.push_back({from, to, tag});
     if (is_dirichlet(tag)) side[from] = side[to] = tag;
   }
-  std::vector<Bend> bend(along_normals ? triangles.size() : 0);
+  std::vector<CurvedColumn> column(along_normals ? triangles.size() : 0);
   for (const auto& [left, right] : columns) {
     if (along_normals) {
       const Eigen::RowVector2d along = body.vertices.row(right) - body.vertices.row(left);
       const double slope = along(1) / along(0), ends = (degree[left] == 2 ? 1 : 0) + (degree[right] == 2 ? 1 : 0);
-      bend.insert(bend.end(), 2 * rows,
-                  {body.vertices(left, 1) - slope * body.vertices(left, 0), slope,
-                   (curvature(left) + curvature(right)) / std::max(ends, 1.0)});
+      column.insert(column.end(), 2 * rows,
+                    {body.vertices(left, 1) - slope * body.vertices(left, 0), slope,
+                     (curvature(left) + curvature(right)) / std::max(ends, 1.0)});
       for (const int v : {left, right})
-        if (degree[v] == 1 && side[v] >= held_group(0))
-          throw Error("extruded layer: a displacement is given at " + body.place(v) +
+        if (degree[v] == 1 && side[v] >= dirichlet_group(0))
+          throw Error("extruded layer: a displacement is given at " + body.location_text(v) +
                       ", where a curved Sigma ends; accepted: clamped or free there");
     }
     for (int j = 0; j < rows; ++j) {
@@ -142,7 +144,7 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
                          Eigen::Map<Triples>(triangles[0].data(), static_cast<Eigen::Index>(triangles.size()), 3),
                          region, tagged, "extruded layer");
   mesh.geometry = body.geometry;
-  mesh.bend = std::move(bend);
+  mesh.curved_columns = std::move(column);
   return mesh;
 }
 
@@ -150,13 +152,13 @@ Points drawn_along_normals(const TriangleMesh& mesh) {
   Points points = mesh.vertices, normal = Points::Zero(mesh.vertex_count(), 2);
   Eigen::VectorXd depth = Eigen::VectorXd::Zero(mesh.vertex_count());
   double thickness = (points.col(0).maxCoeff() - points.col(0).minCoeff()) / 10;
-  for (std::size_t t = 0; t < mesh.bend.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.curved_columns.size(); ++t) {
     if (mesh.region[t] != Region::layer) continue;
-    const Bend& bend = mesh.bend[t];
-    if (bend.curvature < 0) thickness = std::min(thickness, -0.5 / bend.curvature);
+    const CurvedColumn& column = mesh.curved_columns[t];
+    if (column.curvature < 0) thickness = std::min(thickness, -0.5 / column.curvature);
     for (const int v : mesh.triangles.row(static_cast<Eigen::Index>(t))) {
-      depth(v) = bend.foot + bend.slope * points(v, 0) - points(v, 1);
-      normal.row(v) += Eigen::RowVector2d(bend.slope, -1).normalized();
+      depth(v) = column.intercept + column.slope * points(v, 0) - points(v, 1);
+      normal.row(v) += Eigen::RowVector2d(column.slope, -1).normalized();
     }
   }
   for (int v = 0; v < mesh.vertex_count(); ++v)

@@ -441,7 +441,7 @@ class Vertices {
   std::vector<int> number_;  ///< by place in the file
 };
 
-TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroups& more, std::vector<int>* part) {
+TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGroups& more, std::vector<int>* part) {
   std::map<std::string, EdgeTag> edge_tags = more.curves;
   edge_tags.insert({{"sigma", EdgeTag::sigma}, {"clamped", EdgeTag::clamped}, {"contact", EdgeTag::contact}});
   const auto place_of = number_nodes(lines, file.nodes);
@@ -518,7 +518,7 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const MoreGroup
 
 }  // namespace
 
-TriangleMesh read_msh(std::istream& in, const std::string& name, const MoreGroups& more, std::vector<int>* part) {
+TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGroups& more, std::vector<int>* part) {
   MshLines lines(in, name);
   GroupNames known;
   for (const auto& [curve, tag] : more.curves) known.emplace(1, curve);
@@ -526,7 +526,7 @@ TriangleMesh read_msh(std::istream& in, const std::string& name, const MoreGroup
   return resolve(lines, read_sections(lines, known), more, part);
 }
 
-TriangleMesh read_msh(const std::string& path, const MoreGroups& more, std::vector<int>* part) {
+TriangleMesh read_msh(const std::string& path, const ExtraGroups& more, std::vector<int>* part) {
   std::error_code ignored;  // a folder, or a device that never ends
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
     throw Error(path + ": is a folder or a device; accepted: a MSH file");

@@ -14,12 +14,12 @@ namespace antilock {
 /// missing groups, or that make_triangle_mesh refuses.
 /// `more` groups are accepted beside these: curves with their tags, after which no edge need be clamped, and surfaces,
 /// which are parts of the body; `part` is filled with the place in `bodies` of each triangle, -1 for none.
-struct MoreGroups {
+struct ExtraGroups {
   std::map<std::string, EdgeTag> curves = {};
   std::vector<std::string> bodies = {};
 };
-TriangleMesh read_msh(const std::string& path, const MoreGroups& more = {}, std::vector<int>* part = nullptr);
-TriangleMesh read_msh(std::istream& in, const std::string& name, const MoreGroups& more = {},
+TriangleMesh read_msh(const std::string& path, const ExtraGroups& more = {}, std::vector<int>* part = nullptr);
+TriangleMesh read_msh(std::istream& in, const std::string& name, const ExtraGroups& more = {},
                       std::vector<int>* part = nullptr);
 
 }  // namespace antilock

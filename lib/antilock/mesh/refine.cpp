@@ -40,7 +40,7 @@ void follow_geometry(const TriangleMesh& mesh, const std::vector<int>& middle, P
       throw Error(
           fmt::format("{}: no curve of it holds the edge of the boundary from {} to {}; accepted: the geometry "
                       "that the mesh was made from, or none",
-                      mesh.geometry.file, mesh.place(mesh.edges(e, 0)), mesh.place(mesh.edges(e, 1))));
+                      mesh.geometry.file, mesh.location_text(mesh.edges(e, 0)), mesh.location_text(mesh.edges(e, 1))));
   }
 }
 
@@ -78,7 +78,8 @@ TriangleMesh refined(const TriangleMesh& mesh) {
   TriangleMesh finer = make_triangle_mesh(std::move(vertices), std::move(triangles), std::move(region), tagged,
                                           refinement_name(mesh, "refined mesh"));
   finer.geometry = mesh.geometry;
-  for (const Bend& bend : mesh.bend) finer.bend.insert(finer.bend.end(), 4, bend);
+  for (const CurvedColumn& column : mesh.curved_columns)
+    finer.curved_columns.insert(finer.curved_columns.end(), 4, column);
   return finer;
 }
 

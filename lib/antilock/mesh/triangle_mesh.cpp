@@ -21,7 +21,8 @@ template <class... Values>
 
 std::string triangle_at(const TriangleMesh& mesh, int t) {
   const auto& v = mesh.triangles;
-  return fmt::format("triangle {} {} {}", mesh.place(v(t, 0)), mesh.place(v(t, 1)), mesh.place(v(t, 2)));
+  return fmt::format("triangle {} {} {}", mesh.location_text(v(t, 0)), mesh.location_text(v(t, 1)),
+                     mesh.location_text(v(t, 2)));
 }
 
 void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
@@ -45,7 +46,7 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
   const auto unused = std::find(used.begin(), used.end(), 0);
   if (unused != used.end())
     refuse(where, "the vertex at {} is dangling: it belongs to no triangle",
-           mesh.place(static_cast<int>(unused - used.begin())));
+           mesh.location_text(static_cast<int>(unused - used.begin())));
   // Duplicates are neighbours once sorted by x then y.
   std::vector<int> order(mesh.vertex_count());
   std::iota(order.begin(), order.end(), 0);
@@ -54,7 +55,8 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
             [&](int a, int b) { return p(a, 0) != p(b, 0) ? p(a, 0) < p(b, 0) : p(a, 1) < p(b, 1); });
   for (std::size_t i = 1; i < order.size(); ++i)
     if (p.row(order[i]) == p.row(order[i - 1]))
-      refuse(where, "two vertices share the place {}: a crack; accepted: one vertex a place", mesh.place(order[i]));
+      refuse(where, "two vertices share the place {}: a crack; accepted: one vertex a place",
+             mesh.location_text(order[i]));
 }
 
 /// A surface that gmsh oriented downwards is turned round as a whole; a single inverted triangle is an error.
@@ -113,11 +115,11 @@ void tag_edges(TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, 
       refuse(where,
              "the tagged edge from {} to {} is dangling or misplaced; accepted: clamped and contact on the "
              "boundary, sigma between body and layer",
-             mesh.place(tagged.from), mesh.place(tagged.to));
+             mesh.location_text(tagged.from), mesh.location_text(tagged.to));
     EdgeTag& tag = mesh.edge_tag[found->second];
     if (tag != EdgeTag::interior && tag != tagged.tag)
       refuse(where, "the edge from {} to {} is in two groups; accepted: one of clamped, contact",
-             mesh.place(tagged.from), mesh.place(tagged.to));
+             mesh.location_text(tagged.from), mesh.location_text(tagged.to));
     tag = tagged.tag;
   }
 }
@@ -150,8 +152,8 @@ void check_boundary(const TriangleMesh& mesh, const std::string& where) {
   const int first = untagged.front();
   const auto refuse_hanging = [&](int v, int e) {
     if (hangs(mesh, v, e))
-      refuse(where, "the vertex at {} hangs on the edge from {} to {}", mesh.place(v), mesh.place(mesh.edges(e, 0)),
-             mesh.place(mesh.edges(e, 1)));
+      refuse(where, "the vertex at {} hangs on the edge from {} to {}", mesh.location_text(v),
+             mesh.location_text(mesh.edges(e, 0)), mesh.location_text(mesh.edges(e, 1)));
   };
   // the likely reason: the first of them is the long side of a hanging vertex, or one of the short ones
   for (int v = 0; v < mesh.vertex_count(); ++v) refuse_hanging(v, first);
@@ -159,7 +161,7 @@ void check_boundary(const TriangleMesh& mesh, const std::string& where) {
     for (int end = 0; end < 2; ++end) refuse_hanging(mesh.edges(first, end), e);
   refuse(where,
          "the boundary edge from {} to {} is in no group; accepted: clamped, contact, or one that an [[edge]] names",
-         mesh.place(mesh.edges(first, 0)), mesh.place(mesh.edges(first, 1)));
+         mesh.location_text(mesh.edges(first, 0)), mesh.location_text(mesh.edges(first, 1)));
 }
 
 /// A piece that no clamped edge holds could move freely: the problem would be singular.
@@ -168,13 +170,13 @@ void check_held(const TriangleMesh& mesh, const std::string& where) {
   bool any = false;
   for (int e = 0; e < mesh.edge_count() && !any; ++e) any = held(e);
   if (!any) refuse(where, "no edge is in the group clamped, which is needed");
-  if (const int t = loose_triangle(mesh, held); t >= 0)
+  if (const int t = find_floating_component(mesh, held); t >= 0)
     refuse(where, "dangling {}: no clamped edge holds its piece of the mesh", triangle_at(mesh, t));
 }
 
 }  // namespace
 
-int loose_triangle(const TriangleMesh& mesh, const std::function<bool(int edge)>& held) {
+int find_floating_component(const TriangleMesh& mesh, const std::function<bool(int edge)>& held) {
   std::vector<char> reached(mesh.triangle_count(), 0);
   std::vector<int> stack;
   const auto reach = [&](int t) {
@@ -213,8 +215,8 @@ void number_edges(TriangleMesh& mesh, const std::string& where) {
         mesh.edge_triangles.row(e) << t, -1;
       } else {
         if (mesh.edge_triangles(e, 1) != -1)
-          refuse(where, "three triangles share the edge from {} to {}; accepted: two at most", mesh.place(from),
-                 mesh.place(to));
+          refuse(where, "three triangles share the edge from {} to {}; accepted: two at most", mesh.location_text(from),
+                 mesh.location_text(to));
         mesh.edge_triangles(e, 1) = t;
       }
       mesh.triangle_edges(t, i) = e;
@@ -236,7 +238,7 @@ double TriangleMesh::twice_area(int t) const {
 
 double TriangleMesh::edge_length(int e) const { return (vertices.row(edges(e, 0)) - vertices.row(edges(e, 1))).norm(); }
 
-std::string TriangleMesh::place(int vertex) const {
+std::string TriangleMesh::location_text(int vertex) const {
   return fmt::format("({:.6g}, {:.6g})", vertices(vertex, 0), vertices(vertex, 1));
 }
 
@@ -287,7 +289,7 @@ TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<
   return mesh;
 }
 
-TriangleMesh placed_mesh(Points vertices, Triples triangles) {
+TriangleMesh tag_by_position(Points vertices, Triples triangles) {
   TriangleMesh mesh;
   mesh.vertices = std::move(vertices);
   mesh.triangles = std::move(triangles);

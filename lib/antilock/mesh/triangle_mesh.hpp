@@ -15,8 +15,8 @@ enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5, free = 6
 /// The tags of named groups of edges, k = 0, 1, ...: those where u is given, and all others. Whoever moves tags from
 /// mesh to mesh moves them along.
 constexpr EdgeTag natural_group(int k) { return static_cast<EdgeTag>(10 + k); }
-constexpr EdgeTag held_group(int k) { return static_cast<EdgeTag>(1000 + k); }
-constexpr bool is_dirichlet(EdgeTag tag) { return tag == EdgeTag::clamped || tag >= held_group(0); }
+constexpr EdgeTag dirichlet_group(int k) { return static_cast<EdgeTag>(1000 + k); }
+constexpr bool is_dirichlet(EdgeTag tag) { return tag == EdgeTag::clamped || tag >= dirichlet_group(0); }
 /// k, or -1 for a tag of no named group.
 constexpr int group_of(EdgeTag tag) {
   const int number = static_cast<int>(tag);
@@ -28,13 +28,13 @@ using Triples = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;    ///< 
 using Pairs = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;      ///< n x 2, indices from 0
 
 /// How a column of a layer hangs below an edge of a curved Sigma, y = foot + slope x (mesh/layered.hpp).
-struct Bend {
-  double foot = 0, slope = 0;
+struct CurvedColumn {
+  double intercept = 0, slope = 0;
   double curvature = 0;  ///< of Sigma: above 0 where the normals out of the body spread
 
   /// J = 1 + thickness * curvature * depth, of a point.
-  double stretch(const Eigen::Vector2d& x, double thickness) const {
-    return 1 + thickness * curvature * (foot + slope * x(0) - x(1));
+  double jacobian(const Eigen::Vector2d& x, double thickness) const {
+    return 1 + thickness * curvature * (intercept + slope * x(0) - x(1));
   }
 };
 
@@ -50,9 +50,9 @@ struct TriangleMesh {
   std::vector<EdgeTag> edge_tag;  ///< E; sigma where body meets layer; never interior on the boundary
   Geometry geometry = {};         ///< on whose curves the body's boundary has its vertices
 
-  std::vector<Bend> bend = {};  ///< T, where the layer follows a curved Sigma; else empty
+  std::vector<CurvedColumn> curved_columns = {};  ///< T, where the layer follows a curved Sigma; else empty
 
-  bool curved() const { return !bend.empty(); }
+  bool curved() const { return !curved_columns.empty(); }
   int vertex_count() const { return static_cast<int>(vertices.rows()); }
   int triangle_count() const { return static_cast<int>(triangles.rows()); }
   int edge_count() const { return static_cast<int>(edges.rows()); }
@@ -61,7 +61,7 @@ struct TriangleMesh {
   double area(int triangle) const { return 0.5 * twice_area(triangle); }
   double edge_length(int edge) const;
   /// Where a vertex is, "(x, y)", for messages.
-  std::string place(int vertex) const;
+  std::string location_text(int vertex) const;
   /// The longest edge: the paper's h (1/cells times sqrt(2) on a structured mesh).
   double diameter() const;
 };
@@ -88,7 +88,7 @@ TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<
                                 const std::vector<int>& surface = {});
 
 /// A triangle of a piece without an edge that is held; -1: there is none. Pieces hang together by edges, not by vertices.
-int loose_triangle(const TriangleMesh& mesh, const std::function<bool(int edge)>& held);
+int find_floating_component(const TriangleMesh& mesh, const std::function<bool(int edge)>& held);
 
 /// Fills edges, triangle_edges and edge_triangles from vertices and triangles, in linear time where no vertex has many
 /// neighbours; every edge_tag becomes interior, or sigma where body meets layer. `where` opens the message of the
@@ -97,6 +97,6 @@ void number_edges(TriangleMesh& mesh, const std::string& where);
 
 /// The mesh of a generator, whose triangles are counterclockwise and need no check. Its parts are told by their places
 /// (Figure 2): the layer lies below y = 0, the lowest line is Gamma_C, all other sides are clamped.
-TriangleMesh placed_mesh(Points vertices, Triples triangles);
+TriangleMesh tag_by_position(Points vertices, Triples triangles);
 
 }  // namespace antilock

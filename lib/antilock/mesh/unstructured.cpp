@@ -98,7 +98,7 @@ TriangleMesh unstructured_mesh(int cells, const Domain& domain, Mesher mesher) {
   auto [vertices, triangles] =
       kept_mesh(fmt::format("unstructured{}_{:a}_{:a}_{:a}", static_cast<int>(mesher), depth, h_made, h_layer_made),
                 [&] { return by_gmsh(depth, h_made, h_layer_made, mesher); });
-  TriangleMesh mesh = placed_mesh(std::move(vertices), std::move(triangles));
+  TriangleMesh mesh = tag_by_position(std::move(vertices), std::move(triangles));
   for (int i = 0; i < halvings; ++i) mesh = refined(mesh);
   return mesh;
 }

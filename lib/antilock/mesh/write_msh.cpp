@@ -21,7 +21,7 @@ struct Group {
 };
 
 /// The groups that the mesh has elements of, those of `named` last.
-std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<EdgeCondition>& named) {
+std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<BoundaryCondition>& named) {
   std::vector<Group> groups;
   const auto add = [&](int dimension, const auto& all, auto tag, const std::string& name) {
     if (std::find(all.begin(), all.end(), tag) != all.end()) groups.push_back({dimension, static_cast<int>(tag), name});
@@ -33,13 +33,14 @@ std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<EdgeCon
   add(2, mesh.region, Region::body, "body");
   add(2, mesh.region, Region::layer, "layer");
   for (int k = 0; k < static_cast<int>(named.size()); ++k)
-    for (const EdgeTag tag : {natural_group(k), held_group(k)}) add(1, mesh.edge_tag, tag, named[k].group);
+    for (const EdgeTag tag : {natural_group(k), dirichlet_group(k)}) add(1, mesh.edge_tag, tag, named[k].group);
   return groups;
 }
 
 }  // namespace
 
-void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh, const std::vector<EdgeCondition>& named) {
+void write_msh(const std::filesystem::path& path, const TriangleMesh& mesh,
+               const std::vector<BoundaryCondition>& named) {
   const auto edges = labelled_edges(mesh);
   write_file(path, [&](std::ostream& out) {
     Text text(out);

@@ -22,7 +22,7 @@ bool is_whole(const TriangleMesh& mesh) {
 }
 
 void check_fit(const Scene& scene, const TriangleMesh& mesh) {
-  using Kind = EdgeCondition::Kind;
+  using Kind = BoundaryCondition::Kind;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const EdgeTag tag = mesh.edge_tag[e];
     const int k = group_of(tag);
@@ -30,17 +30,18 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
       throw Error(
           fmt::format("scene and mesh: the edge at {} is in the group {}, of which the scene says nothing; "
                       "accepted: a condition per group",
-                      mesh.place(mesh.edges(e, 0)), k));
+                      mesh.location_text(mesh.edges(e, 0)), k));
     if (k >= 0 && is_dirichlet(tag) != (scene.edges()[k].kind == Kind::displacement))
       throw Error("scene and mesh: the group " + scene.edges()[k].group +
-                  " is held in one of the two alone; accepted: held_group for a displacement, natural_group else");
+                  " is held in one of the two alone; accepted: dirichlet_group for a displacement, natural_group else");
   }
-  const int loose = loose_triangle(mesh, [&](int e) {
+  const int loose = find_floating_component(mesh, [&](int e) {
     const int k = group_of(mesh.edge_tag[e]);
     return is_dirichlet(mesh.edge_tag[e]) || (k >= 0 && scene.edges()[k].kind == Kind::spring);
   });
   if (loose >= 0 && is_whole(mesh))
-    throw Error("scene and mesh: nothing holds the piece of the mesh at " + mesh.place(mesh.triangles(loose, 0)) +
+    throw Error("scene and mesh: nothing holds the piece of the mesh at " +
+                mesh.location_text(mesh.triangles(loose, 0)) +
                 "; accepted: a displacement or a spring on one of its edges");
   const auto& region = mesh.region;
   const bool mesh_has_layer = std::find(region.begin(), region.end(), Region::layer) != region.end();
@@ -55,7 +56,7 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
   for (int e = 0; mesh_has_layer && e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
       if (mesh.edge_tag[e] == EdgeTag::sigma && std::abs(mesh.vertices(v, 1)) > slack * size)
-        throw Error("scene and mesh: Sigma has a vertex at " + mesh.place(v) +
+        throw Error("scene and mesh: Sigma has a vertex at " + mesh.location_text(v) +
                     "; accepted: Sigma on the line y = 0, or a layer that is grown along its normals");
   // (22) and (23) differ by the depth of their meshes
   const double lowest = mesh.vertices.col(1).minCoeff(), wanted = -scene.layer_depth();
@@ -72,12 +73,13 @@ void follow_normals(VariationalInequality& problem, const StiffLayer& layer, con
                     const StiffnessRange& range) {
   const TriangleMesh& mesh = space.mesh();
   const Quadrature& rule = strain_rule(space.element());
-  FactoredForm along = layer_strain(space, [&](int t) { return Eigen::Vector2d(1, mesh.bend[t].slope); });
+  FactoredForm along = layer_strain(space, [&](int t) { return Eigen::Vector2d(1, mesh.curved_columns[t].slope); });
   Eigen::VectorXd stiffness(along.m.size());
   for (Eigen::Index row = 0; row < along.m.size(); ++row) {
     const int t = along.cell[row];
     const Eigen::Vector2d x = point_in(mesh, t, rule.points.row(row % rule.weights.size()));
-    const double j = mesh.bend[t].stretch(x, layer.epsilon), length = std::hypot(1, mesh.bend[t].slope);
+    const double j = mesh.curved_columns[t].jacobian(x, layer.epsilon),
+                 length = std::hypot(1, mesh.curved_columns[t].slope);
     problem.m(row) *= length * j;
     stiffness(row) = layer.s / (length * j);
   }
@@ -101,14 +103,14 @@ std::vector<Stiffness> stiffness_of_triangles(const Scene& scene, const Triangle
 std::vector<StiffRows> springs_of(const Scene& scene, const Space& space) {
   std::vector<StiffRows> springs;
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k)
-    if (const EdgeCondition& edge = scene.edges()[k]; edge.kind == EdgeCondition::Kind::spring)
+    if (const BoundaryCondition& edge = scene.edges()[k]; edge.kind == BoundaryCondition::Kind::spring)
       springs.push_back(edge_rows(space, natural_group(k), edge.value));
   return springs;
 }
 
 /// Springs hold a piece of the mesh that no displacement holds.
 bool springs_alone_hold_a_piece(const TriangleMesh& mesh) {
-  return loose_triangle(mesh, [&](int e) { return is_dirichlet(mesh.edge_tag[e]); }) >= 0;
+  return find_floating_component(mesh, [&](int e) { return is_dirichlet(mesh.edge_tag[e]); }) >= 0;
 }
 
 /// Adds springs to A1, or to B where their entries are far above those of A1. Throws Error where they are 1e20 times the
@@ -123,7 +125,7 @@ void add_springs(VariationalInequality& problem, const std::vector<StiffRows>& s
                       "{:.3g}; accepted: up to 1e20 times as much, or a displacement",
                       largest, range.softest()));
     if (range.sums(largest))
-      problem.a1 += summed(rows);
+      problem.a1 += gram_matrix(rows);
     else
       range.append(problem, rows);
   }
@@ -158,28 +160,28 @@ class GivenValues {
 
 /// The values that the named groups of edges prescribe.
 void add_displacements(VariationalInequality& problem, const Scene& scene, const Space& space) {
-  const auto prescribes = [](const EdgeCondition& e) { return e.kind == EdgeCondition::Kind::displacement; };
+  const auto prescribes = [](const BoundaryCondition& e) { return e.kind == BoundaryCondition::Kind::displacement; };
   if (std::none_of(scene.edges().begin(), scene.edges().end(), prescribes)) return;
   const TriangleMesh& mesh = space.mesh();
-  const Eigen::MatrixX3d nodes = space.element().nodes();
+  const Eigen::MatrixX3d nodes = space.element().support_points();
   GivenValues values;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
       if (!is_dirichlet(mesh.edge_tag[e])) continue;
       for (Eigen::Index j = 0; j < nodes.rows(); ++j)
-        if (const int unknown = space.unknowns()(t, j); nodes(j, i) == 0)
-          values.give(unknown, mesh.edge_tag[e], prescribed_on(scene, mesh, e, space.points().row(unknown)));
+        if (const int unknown = space.cell_dofs()(t, j); nodes(j, i) == 0)
+          values.give(unknown, mesh.edge_tag[e], prescribed_on(scene, mesh, e, space.dof_coordinates().row(unknown)));
     }
   values.for_each([&](int unknown, double value) {
-    const auto place = std::lower_bound(problem.fixed.begin(), problem.fixed.end(), unknown);
-    problem.fixed_values(place - problem.fixed.begin()) = value;
+    const auto place = std::lower_bound(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end(), unknown);
+    problem.dirichlet_values(place - problem.dirichlet_dofs.begin()) = value;
   });
 }
 
 }  // namespace
 
-double compliance(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
+double class_parameter(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
 
 double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const Eigen::RowVector2d& x) {
   const int k = group_of(mesh.edge_tag[e]);
@@ -187,7 +189,7 @@ double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const 
   return scene.edges()[k].value(x(0), mesh.region[mesh.edge_triangles(e, 0)] == Region::layer ? 0 : x(1));
 }
 
-Eigen::VectorXd prescribed_values(const Scene& scene, const TriangleMesh& mesh) {
+Eigen::VectorXd dirichlet_vertex_values(const Scene& scene, const TriangleMesh& mesh) {
   GivenValues given_values;
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (int end = 0; end < 2 && is_dirichlet(mesh.edge_tag[e]); ++end)
@@ -203,7 +205,7 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space) {
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
   if (stiff != nullptr && stiff->load) load += load_vector(space, stiff->load, Region::layer);
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k)
-    if (const EdgeCondition& edge = scene.edges()[k]; edge.kind == EdgeCondition::Kind::traction)
+    if (const BoundaryCondition& edge = scene.edges()[k]; edge.kind == BoundaryCondition::Kind::traction)
       load += edge_load(space, natural_group(k), edge.value);
   return load;
 }
@@ -217,10 +219,10 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   Stiffness layer{0, 0};
   if (stiff != nullptr) layer.x = curved ? 0 : stiff->s;       // a_x^- of (23)
   if (thin != nullptr) layer.x = layer.y = 1 / thin->epsilon;  // mu / epsilon of (22)
-  std::vector<Stiffness> summed = stiffness_of_triangles(scene, space.mesh(), layer), in_rows;
+  std::vector<Stiffness> from_triplets = stiffness_of_triangles(scene, space.mesh(), layer), in_rows;
   const std::vector<StiffRows> springs = springs_of(scene, space);
   StiffnessRange range(stiff != nullptr ? stiff->s : 1);
-  for (const auto& [x, y] : summed) {
+  for (const auto& [x, y] : from_triplets) {
     range.note(x);
     range.note(y);
   }
@@ -229,40 +231,40 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   if (!springs.empty() && springs_alone_hold_a_piece(space.mesh()))
     for (const StiffRows& rows : springs) range.note(rows.form.m.dot(rows.stiffness));
   range.check("stiffness");
-  for (std::size_t t = 0; t < summed.size(); ++t) {
-    if (range.sums(std::max(summed[t].x, summed[t].y))) continue;
-    in_rows.resize(summed.size(), {0, 0});
-    std::swap(summed[t], in_rows[t]);
+  for (std::size_t t = 0; t < from_triplets.size(); ++t) {
+    if (range.sums(std::max(from_triplets[t].x, from_triplets[t].y))) continue;
+    in_rows.resize(from_triplets.size(), {0, 0});
+    std::swap(from_triplets[t], in_rows[t]);
   }
 
   VariationalInequality problem;
   problem.b.resize(0, space.size());
-  gradient_form(space, summed).swap(problem.a1);  // an assignment would copy the matrix
+  gradient_form(space, from_triplets).swap(problem.a1);  // an assignment would copy the matrix
   if (std::holds_alternative<VentcelLayer>(scene.layer()))
-    problem.a1 += ventcel_form(space, prescribed_values(scene, space.mesh()));
+    problem.a1 += ventcel_form(space, dirichlet_vertex_values(scene, space.mesh()));
   if (stiff != nullptr) {
     FactoredForm strain = layer_strain(space);  // a_y^-, factored
     problem.b.swap(strain.b);
     problem.m = stiff->s * strain.m;
     if (curved) follow_normals(problem, *stiff, space, range);
-    problem.compliance = compliance(*stiff);
+    problem.compliance = class_parameter(*stiff);
   }
   if (!in_rows.empty()) range.append(problem, gradient_rows(space, in_rows));
   add_springs(problem, springs, range);
 
-  problem.fixed = space.clamped();
-  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  problem.dirichlet_dofs = space.dirichlet_dofs();
+  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   add_displacements(problem, scene, space);
   problem.load = load_of(scene, space);
   if (scene.contact()) {
-    const auto& [gap, held, ceiling] = *scene.contact();
-    problem.contact = space.contact();
-    const Eigen::VectorXd x = space.points().col(0)(problem.contact);
+    const auto& [gap, zero_at, upper_obstacle] = *scene.contact();
+    problem.contact = space.contact_dofs();
+    const Eigen::VectorXd x = space.dof_coordinates().col(0)(problem.contact);
     problem.lower = -x.unaryExpr(gap);
     for (Eigen::Index i = 0; i < x.size(); ++i)
       if (!std::isfinite(problem.lower(i))) throw Error(fmt::format("contact: gap({:.6g}) is not finite", x(i)));
-    if (ceiling) {
-      problem.upper = x.unaryExpr(ceiling);
+    if (upper_obstacle) {
+      problem.upper = x.unaryExpr(upper_obstacle);
       // where two formulas say the same, the round-off of one must not put the ceiling below the obstacle
       const Eigen::ArrayXd lower = problem.lower.array(), round_off = 1e-12 * lower.abs().max(1);
       for (Eigen::Index i = 0; i < x.size(); ++i)

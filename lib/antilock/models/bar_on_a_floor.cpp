@@ -14,12 +14,12 @@ VariationalInequality bar_on_a_floor(int n, double pull) {
   bar.a1.setFromTriplets(entries.begin(), entries.end());
   bar.b.resize(0, n + 1);
   bar.load = pull * Eigen::VectorXd::Unit(n + 1, n);
-  bar.fixed = {0};
-  bar.fixed_values = Eigen::VectorXd::Zero(1);
+  bar.dirichlet_dofs = {0};
+  bar.dirichlet_values = Eigen::VectorXd::Zero(1);
   for (int i = 1; i <= n; ++i) bar.contact.push_back(i);
   bar.lower = bar.upper = Eigen::VectorXd::Zero(n);
-  bar.force_bound = Eigen::VectorXd::Constant(n, 1.0 / n);
-  bar.force_bound(n - 1) = 0.5 / n;
+  bar.force_limit = Eigen::VectorXd::Constant(n, 1.0 / n);
+  bar.force_limit(n - 1) = 0.5 / n;
   return bar;
 }
 

@@ -18,7 +18,7 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
           fmt::format("coating: lambda = {}, mu = {}; accepted lambda >= 0 and mu > 0", material.lambda, material.mu));
   const auto& [lambda, mu] = coating.layer;
   Eigen::Matrix4d body = coating.body.matrix(), membrane = Eigen::Matrix4d::Zero();
-  membrane(0, 0) = coating.layer.membrane();
+  membrane(0, 0) = coating.layer.plane_strain_modulus();
   StiffnessRange range(mu);
   for (const double stiffness : {coating.body.mu, coating.body.lambda + 2 * coating.body.mu, membrane(0, 0)})
     range.note(stiffness);
@@ -29,20 +29,21 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
   if (!sums_membrane) membrane.setZero();
   VariationalInequality problem;
   problem.a1 = strain_form(space, body, membrane);
-  FactoredForm rows = strain_rows(space,
-                                  {{{lambda / (lambda + 2 * mu) * t, 0, 0, 1}, lambda + 2 * mu},  // v_Y + nu t u_x
-                                   {{0, 1, t, 0}, mu}},                                           // u_Y + t v_x
-                                  Region::layer);
+  FactoredForm rows =
+      strain_form_factored(space,
+                           {{{lambda / (lambda + 2 * mu) * t, 0, 0, 1}, lambda + 2 * mu},  // v_Y + nu t u_x
+                            {{0, 1, t, 0}, mu}},                                           // u_Y + t v_x
+                           Region::layer);
   if (rows.m.size() == 0) throw Error("coating: the mesh has no layer; accepted: a body with a layer below");
   problem.b.swap(rows.b);
   problem.m = std::move(rows.m);
   problem.compliance = t * t;
-  const auto append = [&](const std::vector<StrainRow>& strains, Region region) {
+  const auto append = [&](const std::vector<StrainTerm>& strains, Region region) {
     range.append(problem, stiff_strain_rows(space, strains, region));
   };
-  if (!sums_membrane) append({{{1, 0, 0, 0}, coating.layer.membrane()}}, Region::layer);
+  if (!sums_membrane) append({{{1, 0, 0, 0}, coating.layer.plane_strain_modulus()}}, Region::layer);
   if (!sums_body) append(coating.body.rows(), Region::body);
-  add_press(problem, coating, space, &range);
+  add_block_loading(problem, coating, space, &range);
   return problem;
 }
 
@@ -50,10 +51,10 @@ Eigen::VectorXd pressure(const Coating& coating, const VectorSpace& space, const
                          const Eigen::VectorXd& p) {
   const TriangleMesh& mesh = space.x.mesh();
   const auto& [lambda, mu] = coating.body;
-  const FactoredForm body = strain_rows(space, {{{lambda, 0, 0, lambda + 2 * mu}}}, Region::body);
+  const FactoredForm body = strain_form_factored(space, {{{lambda, 0, 0, lambda + 2 * mu}}}, Region::body);
   const Eigen::VectorXd stress = body.b * u;
   Eigen::VectorXd pressure = Eigen::VectorXd::Zero(mesh.triangle_count());
-  const Eigen::VectorXd weights = divergence_rule(space).weights;
+  const Eigen::VectorXd weights = strain_quadrature(space).weights;
   const Eigen::Index points = weights.size();
   for (Eigen::Index row = 0; row < stress.size(); ++row)
     pressure(body.cell[row]) -= weights(row % points) * stress(row);

@@ -16,7 +16,7 @@ namespace antilock {
 /// per point: v_Y + nu t u_x, of weight lambda + 2 mu, and u_Y + t v_x, of weight mu; and the class parameter is t^2. At t =
 /// 0 both rows lose their second term, and what is left of the coating is a membrane of the right modulus. Without the
 /// completed square it would be 2 mu at t = 0.
-struct Coating : Press {
+struct Coating : BlockLoading {
   double thickness = 1e-2;             ///< t, in [0, 1]; 0: the limit
   Lame body = {0.3 / 0.52, 1 / 2.6};   ///< of Young's modulus 1 and Poisson's ratio 0.3
   Lame layer = {0.3 / 0.52, 1 / 2.6};  ///< times 1 / t

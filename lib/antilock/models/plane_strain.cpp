@@ -8,8 +8,8 @@
 #include <map>
 
 #include "antilock/core/error.hpp"
-#include "antilock/form/averaged.hpp"
 #include "antilock/form/quadrature.hpp"
+#include "antilock/form/strain_projection.hpp"
 #include "antilock/models/detail/stiffness_range.hpp"
 #include "antilock/problem/bounds.hpp"
 
@@ -30,7 +30,7 @@ Eigen::VectorXd friction_bounds(const Profile& g, const Space& space) {
       if (!(here >= 0)) throw Error(fmt::format("plane strain: friction bound {}; accepted 0 or more", here));
       const Eigen::VectorXd share = means_on_edge(space.element(), i);
       for (Eigen::Index k = 0; k < share.size(); ++k)  // an infinite g is for the unknowns on the edge alone
-        if (std::abs(share(k)) > 1e-15) bounds(space.unknowns()(t, k)) += mesh.edge_length(e) * here * share(k);
+        if (std::abs(share(k)) > 1e-15) bounds(space.cell_dofs()(t, k)) += mesh.edge_length(e) * here * share(k);
     }
   return bounds;
 }
@@ -40,8 +40,8 @@ void add_friction(VariationalInequality& problem, const Profile& g, const Space&
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Eigen::VectorXd all = friction_bounds(g, in_x), normal = problem.lower;
   std::vector<double> bounds;
-  for (const int i : in_x.contact()) {
-    if (std::binary_search(problem.fixed.begin(), problem.fixed.end(), i)) continue;
+  for (const int i : in_x.contact_dofs()) {
+    if (std::binary_search(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end(), i)) continue;
     problem.contact.push_back(i);
     bounds.push_back(all(i));
   }
@@ -49,17 +49,17 @@ void add_friction(VariationalInequality& problem, const Profile& g, const Space&
   const Eigen::VectorXd sticks = Eigen::VectorXd::Zero(tangential);
   const Eigen::VectorXd none = Eigen::VectorXd::Constant(normal.size(), infinity);
   problem.lower.resize(normal.size() + tangential);
-  problem.upper = problem.force_bound = problem.lower;
+  problem.upper = problem.force_limit = problem.lower;
   problem.lower << normal, sticks;
   problem.upper << none, sticks;
-  problem.force_bound << none, Eigen::Map<const Eigen::VectorXd>(bounds.data(), tangential);
+  problem.force_limit << none, Eigen::Map<const Eigen::VectorXd>(bounds.data(), tangential);
 }
 
 }  // namespace
 
-void add_press(VariationalInequality& problem, const Press& press, const VectorSpace& space,
-               const StiffnessRange* range) {
-  if (!std::isfinite(press.push)) throw Error("plane strain: push is not finite");
+void add_block_loading(VariationalInequality& problem, const BlockLoading& press, const VectorSpace& space,
+                       const StiffnessRange* range) {
+  if (!std::isfinite(press.prescribed_displacement)) throw Error("plane strain: push is not finite");
   if (!(press.jump_weight >= 0))
     throw Error(fmt::format("plane strain: jump weight {}; accepted 0 or more", press.jump_weight));
   if (&space.x.mesh() != &space.y.mesh())
@@ -75,13 +75,13 @@ void add_press(VariationalInequality& problem, const Press& press, const VectorS
 
   std::map<int, double> fixed;
   for (int i = 0; press.sliding && i < space.x.size(); ++i)
-    if (space.x.points()(i, 0) == 0) fixed[i] = 0;
-  for (const int i : space.x.clamped())
+    if (space.x.dof_coordinates()(i, 0) == 0) fixed[i] = 0;
+  for (const int i : space.x.dirichlet_dofs())
     if (!press.sliding) fixed[i] = 0;
-  for (const int i : space.y.clamped()) fixed[shift + i] = -press.push;
-  set_fixed(problem, fixed);
-  for (const int i : space.y.contact()) problem.contact.push_back(shift + i);
-  problem.lower = -space.y.points().col(0)(space.y.contact()).unaryExpr(press.gap);
+  for (const int i : space.y.dirichlet_dofs()) fixed[shift + i] = -press.prescribed_displacement;
+  set_dirichlet(problem, fixed);
+  for (const int i : space.y.contact_dofs()) problem.contact.push_back(shift + i);
+  problem.lower = -space.y.dof_coordinates().col(0)(space.y.contact_dofs()).unaryExpr(press.gap);
   if (press.friction) add_friction(problem, press.friction, space.x);
 }
 
@@ -91,11 +91,12 @@ VariationalInequality assemble(const PlaneStrain& scene, const VectorSpace& spac
   VariationalInequality problem;
   strain_form(space).swap(problem.a1);
   FactoredForm div = divergence(space);
-  if (scene.continuous_pressure) div = averaged(div, vertex_shares(space.x.mesh(), div, divergence_rule(space)));
+  if (scene.continuous_pressure)
+    div = project_strain(div, vertex_projection(space.x.mesh(), div, strain_quadrature(space)));
   problem.b.swap(div.b);
   problem.m = std::move(div.m);
   problem.compliance = scene.epsilon;
-  add_press(problem, scene, space);
+  add_block_loading(problem, scene, space);
   return problem;
 }
 

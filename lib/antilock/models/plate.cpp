@@ -19,11 +19,12 @@ std::map<int, double> held(const Plate& plate, const PlateSpace& space) {
   const TriangleMesh& mesh = space.mesh();
   std::map<int, double> values;
   const auto hold = [&](const Space& part, int first, const Field& value) {
-    for (const int i : part.clamped()) values[first + i] = value(part.points()(i, 0), part.points()(i, 1));
+    for (const int i : part.dirichlet_dofs())
+      values[first + i] = value(part.dof_coordinates()(i, 0), part.dof_coordinates()(i, 1));
   };
-  hold(space.deflection, 0, plate.rim);
-  hold(space.rotation.x, space.theta_x(), plate.rim_slope_x);
-  hold(space.rotation.y, space.theta_y(), plate.rim_slope_y);
+  hold(space.deflection, 0, plate.boundary_deflection);
+  hold(space.rotation.x, space.theta_x(), plate.boundary_rotation_x);
+  hold(space.rotation.y, space.theta_y(), plate.boundary_rotation_y);
   for (int e = 0; e < mesh.edge_count(); ++e) {
     if (!is_dirichlet(mesh.edge_tag[e])) continue;
     const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
@@ -32,9 +33,11 @@ std::map<int, double> held(const Plate& plate, const PlateSpace& space) {
       return 2 * (f(middle(0), middle(1)) - (f(a(0), a(1)) + f(b(0), b(1))) / 2) / 3;
     };
     if (!space.deflection.element().conforming())
-      values[e] = (plate.rim(a(0), a(1)) + plate.rim(b(0), b(1))) / 2 + curve(plate.rim);
+      values[e] = (plate.boundary_deflection(a(0), a(1)) + plate.boundary_deflection(b(0), b(1))) / 2 +
+                  curve(plate.boundary_deflection);
     if (space.shear == ShearRule::edges)
-      values[space.on_edges() + e] = along(0) * curve(plate.rim_slope_x) + along(1) * curve(plate.rim_slope_y);
+      values[space.on_edges() + e] =
+          along(0) * curve(plate.boundary_rotation_x) + along(1) * curve(plate.boundary_rotation_y);
   }
   return values;
 }
@@ -49,7 +52,7 @@ void require_rim_above(const Plate& plate, const TriangleMesh& mesh) {
     for (const int corner : mesh.triangles.row(mesh.edge_triangles(e, 0)))
       if (const double size = std::abs(gap(corner)); std::isfinite(size)) around = std::max(around, size);
     for (const int corner : mesh.edges.row(e)) {
-      const double x = mesh.vertices(corner, 0), y = mesh.vertices(corner, 1), rim = plate.rim(x, y);
+      const double x = mesh.vertices(corner, 0), y = mesh.vertices(corner, 1), rim = plate.boundary_deflection(x, y);
       if (rim + gap(corner) < -1e-6 * around)
         throw Error(
             fmt::format("plate: the rim is held at w = {:.6g} in ({:.6g}, {:.6g}), below the obstacle at "
@@ -66,7 +69,8 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
     throw Error(fmt::format("plate: thickness = {}; accepted 0 to 1", plate.thickness));
   if (!(plate.poisson >= 0 && plate.poisson < 1))
     throw Error(fmt::format("plate: Poisson's ratio = {}; accepted 0 to less than 1", plate.poisson));
-  for (const Field* field : {&plate.load, &plate.gap, &plate.rim, &plate.rim_slope_x, &plate.rim_slope_y})
+  for (const Field* field :
+       {&plate.load, &plate.gap, &plate.boundary_deflection, &plate.boundary_rotation_x, &plate.boundary_rotation_y})
     if (!*field)
       throw Error("plate: a function is empty; accepted: load, gap and the values on the rim, or their defaults");
   VariationalInequality problem;
@@ -79,10 +83,10 @@ VariationalInequality assemble(const Plate& plate, const PlateSpace& space) {
   problem.load.head(space.deflection.size()) = load_vector(space.deflection, plate.load);
 
   const std::map<int, double> fixed = held(plate, space);
-  set_fixed(problem, fixed);
+  set_dirichlet(problem, fixed);
   std::vector<double> lower;
   for (int i = 0; i < space.deflection.size(); ++i) {
-    const double gap = plate.gap(space.deflection.points()(i, 0), space.deflection.points()(i, 1));
+    const double gap = plate.gap(space.deflection.dof_coordinates()(i, 0), space.deflection.dof_coordinates()(i, 1));
     if (std::isnan(gap) || gap == -std::numeric_limits<double>::infinity())
       throw Error(fmt::format("plate: the gap is {}; accepted: a number, or infinity for no obstacle", gap));
     if (fixed.count(i) > 0 || std::isinf(gap)) continue;

@@ -28,7 +28,7 @@ VariationalInequality assemble(const Beam& beam) {
 
   VariationalInequality problem;
   Triplets a1;
-  RowsOfB rows;
+  FactoredFormBuilder rows;
   problem.load = Eigen::VectorXd::Zero(2 * n + 2);
   const double s = 0.5 / std::sqrt(3.0);
   const std::vector<double> points =
@@ -48,13 +48,13 @@ VariationalInequality assemble(const Beam& beam) {
     problem.load(w(i)) -= 0.5 * h * beam.load;
     problem.load(w(i + 1)) -= 0.5 * h * beam.load;
   }
-  problem.a1 = summed<SparseMatrix>(2 * n + 2, 2 * n + 2, a1);
+  problem.a1 = from_triplets<SparseMatrix>(2 * n + 2, 2 * n + 2, a1);
   FactoredForm strain = rows.form(2 * n + 2);
   problem.b.swap(strain.b);
   problem.m.swap(strain.m);
   problem.compliance = beam.epsilon;  // here the class parameter is epsilon itself
-  problem.fixed = {w(0), theta(0), w(n), theta(n)};
-  problem.fixed_values = Eigen::VectorXd::Zero(4);
+  problem.dirichlet_dofs = {w(0), theta(0), w(n), theta(n)};
+  problem.dirichlet_values = Eigen::VectorXd::Zero(4);
   for (int i = 1; i < n; ++i) problem.contact.push_back(w(i));
   problem.lower = Eigen::VectorXd::Constant(n - 1, -beam.gap);
   return problem;

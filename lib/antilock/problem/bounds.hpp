@@ -23,11 +23,11 @@ Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::
 /// bound gives way. C entries.
 Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
-/// j(u), the work that bounds with a force_bound take up: the sum of force_bound times the distance from the bounds.
+/// j(u), the work that bounds with a force_limit take up: the sum of force_limit times the distance from the bounds.
 double friction_energy(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
 /// Gives the problem these fixed unknowns with their values, in the place of those that it has.
-void set_fixed(VariationalInequality& problem, const std::map<int, double>& values);
+void set_dirichlet(VariationalInequality& problem, const std::map<int, double>& values);
 
 /// Leaves the problem without bounds, on unknowns or combinations.
 void clear_bounds(VariationalInequality& problem);
@@ -35,13 +35,13 @@ void clear_bounds(VariationalInequality& problem);
 /// The problem whose bounds marked in `active` (one mark per contact unknown) hold as equations, and whose other bounds
 /// are gone: linear, and where `active` is the contact set of the solution, with the same solution. Throws Error for
 /// another number of marks, and where bounds are others than lower ones on unknowns.
-VariationalInequality held_in_contact(VariationalInequality problem, const std::vector<bool>& active);
+VariationalInequality equality_constrained(VariationalInequality problem, const std::vector<bool>& active);
 
 /// Throws Error where `who` takes bounds on unknowns alone and the problem has combinations.
 void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who);
 
 /// Throws Error where `who` takes bounds that bear anything and the problem has others.
-void require_firm_bounds(const VariationalInequality& problem, const std::string& who);
+void require_hard_bounds(const VariationalInequality& problem, const std::string& who);
 
 /// Throws Error where `who` takes lower bounds on unknowns alone and the problem has others.
 void require_lower_bounds(const VariationalInequality& problem, const std::string& who);

@@ -7,16 +7,16 @@ namespace antilock {
 
 /// How stiff B' M B is beside A1, from their diagonals at the free unknowns. Of a problem in pieces: the sums over the
 /// pieces, and the largest of them.
-struct RelativeStiffness {
-  double sum_0 = 0, sum_1 = 0;    ///< of the diagonals of B' M B and of A1, where both are positive
-  double most_0 = 0, most_1 = 0;  ///< the largest entry of each
+struct StiffnessRatio {
+  double trace_a0 = 0, trace_a1 = 0;  ///< of the diagonals of B' M B and of A1, where both are positive
+  double max_a0 = 0, max_a1 = 0;      ///< the largest entry of each
 
   /// s = r^(1/3) R^(2/3), r the ratio of the sums and R that of the largest; 1 where they cannot be compared. In the layer
   /// and in rubber A1 and B hold first derivatives, and s is about 1. In a beam and in a glue B holds none. (The exponents
   /// are a fit: they serve all models of the library.)
   double value() const;
 };
-RelativeStiffness relative_stiffness(const VariationalInequality& problem);
+StiffnessRatio stiffness_ratio(const VariationalInequality& problem);
 
 /// The penalty delta of the iterated penalty (solve/) from the matrices alone: A1 times t asks for delta / t, M times t for
 /// t delta. Too large costs corrections, too small costs digits of A1 in the factor; the answer is the same.
@@ -31,15 +31,13 @@ RelativeStiffness relative_stiffness(const VariationalInequality& problem);
 ///
 /// Corrections measured with contact, the most over compliance 1 to 1e-12 and 0: layer, 1/h = 8 to 128: P1 2, CR 2, locked
 /// P1 4 (with 1e-6 in place of 6e-8: 4, 4, 20); beam, 512 cells: 6, 1024: 12 (locked, where all of u tends to 0).
-constexpr double usual_penalty = 6e-8;
-inline double choose_penalty(const RelativeStiffness& s) { return usual_penalty * s.value(); }
-inline double choose_penalty(const VariationalInequality& problem) {
-  return choose_penalty(relative_stiffness(problem));
-}
+constexpr double default_penalty = 6e-8;
+inline double choose_penalty(const StiffnessRatio& s) { return default_penalty * s.value(); }
+inline double choose_penalty(const VariationalInequality& problem) { return choose_penalty(stiffness_ratio(problem)); }
 
 /// What the factor is made with: max(compliance, penalty), `penalty` chosen by the rule above where none is given; the
 /// compliance counts where B has a row of the class, or none at all.
 /// Throws Error for a penalty that is not positive.
-double moderate_delta(const VariationalInequality& problem, std::optional<double> penalty = {});
+double penalty_parameter(const VariationalInequality& problem, std::optional<double> penalty = {});
 
 }  // namespace antilock

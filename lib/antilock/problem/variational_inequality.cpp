@@ -45,15 +45,15 @@ double asymmetry(const SparseMatrix& a) {
   return largest;
 }
 
-void check_combinations(const VariationalInequality& problem) {
-  const RowMatrix& rows = problem.combinations;
+void check_constraints(const VariationalInequality& problem) {
+  const RowMatrix& rows = problem.constraints;
   if (rows.rows() == 0) return;
   require(rows.cols() == problem.size(),
           fmt::format("combinations have {} columns; accepted {}, one per unknown", rows.cols(), problem.size()));
   require(rows.isCompressed(), "combinations are accepted compressed only");
   require(finite(rows.valuePtr(), rows.nonZeros()), "an entry of combinations is not finite");
   std::vector<char> fixed(problem.size(), 0);
-  for (const int i : problem.fixed) fixed[i] = 1;
+  for (const int i : problem.dirichlet_dofs) fixed[i] = 1;
   for (Eigen::Index row = 0; row < rows.rows(); ++row) {
     bool free = false;
     for (RowMatrix::InnerIterator c(rows, row); c; ++c) free = free || (c.value() != 0 && fixed[c.col()] == 0);
@@ -64,7 +64,7 @@ void check_combinations(const VariationalInequality& problem) {
 }  // namespace
 
 void check_bounds(const VariationalInequality& problem) {
-  check_combinations(problem);
+  check_constraints(problem);
   const Eigen::VectorXd &lower = problem.lower, &upper = problem.upper;
   const int bounds = problem.bound_count();
   require(lower.size() == bounds,
@@ -73,11 +73,11 @@ void check_bounds(const VariationalInequality& problem) {
   require(upper.size() == 0 || upper.size() == bounds,
           fmt::format("upper has {} entries; accepted none, or {} as in lower", upper.size(), bounds));
   require(
-      problem.force_bound.size() == 0 || problem.force_bound.size() == bounds,
-      fmt::format("force_bound has {} entries; accepted none, or {} as in lower", problem.force_bound.size(), bounds));
-  for (Eigen::Index i = 0; i < problem.force_bound.size(); ++i)
-    require(problem.force_bound(i) >= 0,
-            fmt::format("force_bound {} is {}; accepted: 0 or more, infinity for any", i, problem.force_bound(i)));
+      problem.force_limit.size() == 0 || problem.force_limit.size() == bounds,
+      fmt::format("force_limit has {} entries; accepted none, or {} as in lower", problem.force_limit.size(), bounds));
+  for (Eigen::Index i = 0; i < problem.force_limit.size(); ++i)
+    require(problem.force_limit(i) >= 0,
+            fmt::format("force_limit {} is {}; accepted: 0 or more, infinity for any", i, problem.force_limit(i)));
   constexpr double infinity = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < bounds; ++i) {
     const double low = lower(i), high = upper.size() > 0 ? upper(i) : infinity;
@@ -100,7 +100,7 @@ void check_data(const VariationalInequality& problem) {
                       problem.m.size(), n));
   require(problem.a1.isCompressed() && problem.b.isCompressed(), "a1 and B are accepted compressed only");
   require(finite(problem.a1.valuePtr(), problem.a1.nonZeros()) && finite(problem.b.valuePtr(), problem.b.nonZeros()) &&
-              finite(problem.m) && finite(problem.load) && finite(problem.fixed_values),
+              finite(problem.m) && finite(problem.load) && finite(problem.dirichlet_values),
           "an entry is not finite");
   require(rows == 0 || problem.m.minCoeff() > 0, "M is not positive");
   require(problem.compliance >= 0 && std::isfinite(problem.compliance),
@@ -110,10 +110,10 @@ void check_data(const VariationalInequality& problem) {
           fmt::format("own_compliances has {} entries; accepted: {} at most, one per row of B", own.size(), rows));
   require(own.size() == 0 || (own.allFinite() && own.minCoeff() >= 0),
           "an own compliance is negative or not finite; accepted: 0 or more");
-  require(problem.fixed_values.size() == static_cast<Eigen::Index>(problem.fixed.size()),
+  require(problem.dirichlet_values.size() == static_cast<Eigen::Index>(problem.dirichlet_dofs.size()),
           "one value per fixed unknown is needed");
   std::vector<char> taken(n, 0);
-  for (const std::vector<int>* list : {&problem.fixed, &problem.contact})
+  for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.contact})
     for (const int i : *list) {
       require(i >= 0 && i < n, fmt::format("unknown {} is out of range; accepted 0 to {}", i, n - 1));
       require(!taken[i], fmt::format("unknown {} is fixed or bounded twice", i));

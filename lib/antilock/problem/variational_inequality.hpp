@@ -11,7 +11,7 @@ namespace antilock {
 ///     K_h = { v : v = fixed_values on the fixed unknowns, lower <= v <= upper on the contact unknowns,
 ///                 lower <= combinations v <= upper }
 ///
-/// A bound with a finite force_bound g is no part of K_h: it bears g at most and gives way to more. It adds j(v) - j(u)
+/// A bound with a finite force_limit g is no part of K_h: it bears g at most and gives way to more. It adds j(v) - j(u)
 /// on the left, j(v) = sum g dist(v, [lower, upper]), and |lambda| <= g; lambda = g below it, -g above. Tresca's
 /// friction with the bound g is the one of a tangential displacement with lower = upper = 0: it sticks where
 /// |lambda| < g and slips against lambda where |lambda| = g.
@@ -24,20 +24,20 @@ namespace antilock {
 /// No unit is better than another: A1 times s is the same problem at compliance / s, M times s at compliance s, and a
 /// compliance above 1 is taken as it is.
 struct VariationalInequality {
-  SparseMatrix a1;         ///< N x N, symmetric; positive definite together with B' M B on the free unknowns
-  RowMatrix b;             ///< R x N; R = 0 where nothing is stiff
-  Eigen::VectorXd m;       ///< R, the diagonal of M, positive (areas of cells)
-  double compliance = 1;   ///< the class parameter, 0 or more. In (23) it is epsilon^2: the one place that says so is
-                           ///< `assemble` (models/anti_plane.hpp)
-  Eigen::VectorXd load;    ///< N, L(phi_i)
-  std::vector<int> fixed;  ///< unknowns with a prescribed value
-  Eigen::VectorXd fixed_values;      ///< one per fixed unknown
+  SparseMatrix a1;        ///< N x N, symmetric; positive definite together with B' M B on the free unknowns
+  RowMatrix b;            ///< R x N; R = 0 where nothing is stiff
+  Eigen::VectorXd m;      ///< R, the diagonal of M, positive (areas of cells)
+  double compliance = 1;  ///< the class parameter, 0 or more. In (23) it is epsilon^2: the one place that says so is
+                          ///< `assemble` (models/anti_plane.hpp)
+  Eigen::VectorXd load;   ///< N, L(phi_i)
+  std::vector<int> dirichlet_dofs;   ///< unknowns with a prescribed value
+  Eigen::VectorXd dirichlet_values;  ///< one per fixed unknown
   std::vector<int> contact;          ///< bounded unknowns, in the order of the reports (by x)
   Eigen::VectorXd lower;             ///< C: lower <= u there (= -gap). -infinity: no bound from below
   Eigen::VectorXd upper = {};        ///< C, or empty: none. +infinity: no bound from above; = lower: an equation
-  Eigen::VectorXd force_bound = {};  ///< C, or empty: none. The most that a bound bears, 0 or more; +infinity: anything
-  RowMatrix combinations = {};  ///< a row per bound beyond `contact` x N, or empty: a row c bounds c . u, such as the
-                                ///< normal displacement on a slope or the gap between two bodies
+  Eigen::VectorXd force_limit = {};  ///< C, or empty: none. The most that a bound bears, 0 or more; +infinity: anything
+  RowMatrix constraints = {};  ///< a row per bound beyond `contact` x N, or empty: a row c bounds c . u, such as the
+                               ///< normal displacement on a slope or the gap between two bodies
 
   /// The compliances of the last rows of B, 0 or more, whatever `compliance` is: their energy m (B u)^2 / (2 own) belongs
   /// to a1, in factors because a sum would lose its digits (a part of the body that is far stiffer than the rest). 0: a
@@ -45,7 +45,7 @@ struct VariationalInequality {
   Eigen::VectorXd own_compliances = {};
 
   int size() const { return static_cast<int>(load.size()); }
-  int free_count() const { return size() - static_cast<int>(fixed.size()); }
+  int free_count() const { return size() - static_cast<int>(dirichlet_dofs.size()); }
   Eigen::Index class_rows() const { return b.rows() - own_compliances.size(); }
   /// R, the compliance of each row of B.
   Eigen::VectorXd compliances() const {
@@ -53,7 +53,7 @@ struct VariationalInequality {
     rows.tail(own_compliances.size()) = own_compliances;
     return rows;
   }
-  int bound_count() const { return static_cast<int>(contact.size()) + static_cast<int>(combinations.rows()); }
+  int bound_count() const { return static_cast<int>(contact.size()) + static_cast<int>(constraints.rows()); }
 };
 
 /// Throws Error with the first thing that is wrong: sizes that do not fit, entries that are not finite, an a1 that is

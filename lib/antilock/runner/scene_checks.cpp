@@ -9,14 +9,13 @@
 #include <map>
 #include <tuple>
 
+#include "antilock/analysis/locking.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/models/anti_plane.hpp"
 
 namespace antilock {
 namespace {
-
-constexpr double telling = 0.05;  // the share from which a difference is no matter of the mesh width
 
 /// The place of point k in a triangle: a sequence of low discrepancy in the unit square (Roberts 2018, the plastic
 /// number), folded to the triangle. No two points of a run have the same x or the same y, so that strips are found
@@ -46,8 +45,9 @@ Eigen::MatrixXd quadratic_fit(const Quadrature& rule) {
 
 /// V values: the displacement that is prescribed at a vertex, not a number where none is.
 Eigen::VectorXd prescribed(const SceneFile& file, const TriangleMesh& mesh) {
-  const Eigen::VectorXd given = file.elastic ? Eigen::VectorXd::Constant(mesh.vertex_count(), -file.elastic->push)
-                                             : prescribed_values(file.scene, mesh);
+  const Eigen::VectorXd given =
+      file.elastic ? Eigen::VectorXd::Constant(mesh.vertex_count(), -file.elastic->prescribed_displacement)
+                   : dirichlet_vertex_values(file.scene, mesh);
   Eigen::VectorXd values = Eigen::VectorXd::Constant(mesh.vertex_count(), NAN);
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
@@ -66,7 +66,7 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
     for (const double s : {0.0, 0.5, 1.0}) f((1 - s) * from(0) + s * to(0), (1 - s) * from(1) + s * to(1));
   }
   if (!file.scene.contact()) return;
-  const auto& [gap, held, ceiling] = *file.scene.contact();
+  const auto& [gap, zero_at, upper_obstacle] = *file.scene.contact();
   const Eigen::VectorXd values = prescribed(file, mesh);
   double largest = 0;  // |gap|: u may be in a unit in which 1e-12 is much
   for (int e = 0; e < mesh.edge_count(); ++e) {
@@ -76,7 +76,7 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
       const double x = a + (b - a) * i / 32;
       largest = std::max(largest, std::abs(gap(x)));
       try {
-        check_ceiling(*file.scene.contact(), x);
+        check_upper_obstacle(*file.scene.contact(), x);
       } catch (const Error& error) {
         throw Error(file.name + ": contact.ceiling: " + error.what());
       }
@@ -88,7 +88,7 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
     for (const int v : mesh.edges.row(e)) {
       const double x = mesh.vertices(v, 0), scale = std::max(largest, std::abs(values(v)));
       const double round_off = std::min(1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))), 1e-6 * scale);
-      for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &ceiling, 1}})
+      for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
         if (*bound && sign * values(v) > (*bound)(x) + round_off)
           throw Error(
               fmt::format("{0}: contact.{1}: {1}({2:.6g}) = {3:.6g}, but u = {4:.6g} is prescribed there; accepted: "
@@ -142,12 +142,12 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
     }
   }
   // the basis sums to 1, and with the places of the unknowns as weights to x and to y
-  const Points& at = space.points();
+  const Points& at = space.dof_coordinates();
   const bool alone = !file.elastic && file.scene.beyond_the_paper().empty();  // else edges and the layer load, too
   const Eigen::VectorXd load = alone ? problem.load : load_vector(space, f);
   const Eigen::Vector3d seen(load.sum(), load.dot(at.col(0)), load.dot(at.col(1)));
   for (int i = 0; i < 3; ++i)
-    if (std::abs(seen(i) - sampled(i)) > telling * std::max(size(i), std::abs(seen(i))))
+    if (std::abs(seen(i) - sampled(i)) > significance * std::max(size(i), std::abs(seen(i))))
       return fmt::format(
           "load.f: the quadrature of this mesh misses the load: the integral of {} is {:.3g} by the quadrature, {:.3g} "
           "by {:.0f} points (that of its absolute value {:.3g}): a finer mesh is needed where the load lives",
@@ -264,11 +264,11 @@ std::string geometry_warning(const SceneFile& file) {
 
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
   if (!file.scene.contact() || file.elastic) return "";
-  const auto& [gap, held, ceiling] = *file.scene.contact();
+  const auto& [gap, zero_at, upper_obstacle] = *file.scene.contact();
   const TriangleMesh& mesh = space.mesh();
   const Eigen::VectorXd values = prescribed(file, mesh);
   std::vector<std::pair<double, double>> line;  // x and u_h at the contact unknowns and at the held ends of Gamma_C
-  for (const int i : space.contact()) line.emplace_back(space.points()(i, 0), solution.u(i));
+  for (const int i : space.contact_dofs()) line.emplace_back(space.dof_coordinates()(i, 0), solution.u(i));
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
       if (mesh.edge_tag[e] == EdgeTag::contact && !std::isnan(values(v)))
@@ -290,7 +290,7 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
       const auto [x0, u0] = *(right - 1);
       const auto [x1, u1] = *right;
       const double u = x1 > x0 ? u0 + (u1 - u0) * (x - x0) / (x1 - x0) : u0;
-      for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &ceiling, 1}})
+      for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
         if (*bound) {
           const double at = (*bound)(x), depth = sign * u - at;
           largest = std::max(largest, std::abs(at));
@@ -298,7 +298,7 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
         }
     }
   }
-  if (deepest <= telling * size || deepest < 1e-12 * largest) return "";
+  if (deepest <= significance * size || deepest < 1e-12 * largest) return "";
   return fmt::format(
       "contact.{}: between its contact unknowns the mesh misses the obstacle: u sinks {:.3g} deep into it at x = "
       "{:.6g} (max |u| is {:.3g}): a finer mesh is needed there",
@@ -317,7 +317,7 @@ std::string range_warning(const SceneFile& file, const Space& space, const Solut
       (mesh.edge_tag[e] == EdgeTag::interior ? inside : around).extend(Eigen::Matrix<double, 1, 1>(solution.u(e)));
   const double size = solution.u.lpNorm<Eigen::Infinity>();  // an empty box is infinitely far from everything
   const double off = std::max(around.min()(0) - inside.min()(0), inside.max()(0) - around.max()(0));
-  if (off <= telling * size) return "";
+  if (off <= significance * size) return "";
   return fmt::format(
       "layer: within it u is {:.0f} % of max |u| beyond the values around it, where no exact solution is: the layer is "
       "too soft along x for this element, or the mesh too coarse; remedy: a layer in columns (kind = \"layered\"), a "

@@ -195,7 +195,7 @@ Body read_body(const Section& root) {
 }
 
 /// `stiffness = { left = 1, right = 10 }`: the surfaces of the file and their numbers, found by place.
-void read_groups(const Section& body, const std::filesystem::path& mesh, MoreGroups& groups, Body& read) {
+void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGroups& groups, Body& read) {
   if (!body.table()["stiffness"].is_table()) return;
   std::vector<double> numbers;
   const Section section = body.section("stiffness");
@@ -230,7 +230,7 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, MoreGro
 UnilateralContact read_contact(const Section& section) {
   section.only({"gap", "ceiling"});
   UnilateralContact contact{profile(section, "gap", "0")};
-  if (section.has("ceiling")) contact.ceiling = profile(section, "ceiling");
+  if (section.has("ceiling")) contact.upper_obstacle = profile(section, "ceiling");
   return contact;
 }
 
@@ -268,12 +268,12 @@ Layer read_layer(const Section& section) {
   return layer;
 }
 
-std::vector<EdgeCondition> read_edges(const std::vector<Section>& sections, MoreGroups& groups) {
-  using Kind = EdgeCondition::Kind;
-  std::vector<EdgeCondition> edges;
+std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections, ExtraGroups& groups) {
+  using Kind = BoundaryCondition::Kind;
+  std::vector<BoundaryCondition> edges;
   for (const Section& section : sections) {
     section.only({"group", "free", "displacement", "traction", "spring"});
-    EdgeCondition edge{section.text("group", "the name of a group of curves of the mesh file")};
+    BoundaryCondition edge{section.text("group", "the name of a group of curves of the mesh file")};
     if (edge.group == "clamped" || edge.group == "contact" || edge.group == "sigma" ||
         groups.curves.contains(edge.group))
       section.refuse("group",
@@ -294,7 +294,7 @@ std::vector<EdgeCondition> read_edges(const std::vector<Section>& sections, More
                                           "traction, spring",
                                           printable(edge.group), conditions));
     const auto k = static_cast<int>(edges.size());
-    groups.curves[edge.group] = edge.kind == Kind::displacement ? held_group(k) : natural_group(k);
+    groups.curves[edge.group] = edge.kind == Kind::displacement ? dirichlet_group(k) : natural_group(k);
     edges.push_back(std::move(edge));
   }
   return edges;
@@ -336,7 +336,7 @@ std::optional<ElasticRequest> read_model(const Section& section, const Layer& la
                              : section.number(key, fmt::format("{:g} to {:g}", least, most),
                                               [=](double value) { return value >= least && value <= most; });
   };
-  elastic.push = number("push", elastic.push, -1e6, 1e6);
+  elastic.prescribed_displacement = number("push", elastic.prescribed_displacement, -1e6, 1e6);
   elastic.epsilon = number("epsilon", elastic.epsilon, 0, 1);
   const double young = number("young", 1, 1e-6, 1e6), nu = number("poisson", 0.3, 0, 0.49);
   elastic.material = {young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
@@ -442,14 +442,14 @@ void check_elastic(const Section& root, const Scene& scene, const MethodRequest&
     root.refuse("model.kind", "\"plane strain\" does not go with " + what + "; accepted: " + accepted);
   };
   if (method.accuracy || method.solver != "active-set") refuse("accuracy or another solver", "solver = \"active-set\"");
-  if (!scene.contact() || scene.contact()->ceiling)
+  if (!scene.contact() || scene.contact()->upper_obstacle)
     refuse("a scene without contact, or with a ceiling", "a section [contact]");
   if (scene.body().stiffness)
     refuse("a stiffness of the body", "no [body]; with a [layer], young and poisson in [model]");
   const auto* layer = std::get_if<StiffLayer>(&scene.layer());
   if (layer != nullptr && layer->load) refuse("a load on the layer", "none");
-  for (const EdgeCondition& edge : scene.edges())
-    if (edge.kind != EdgeCondition::Kind::free) refuse("a condition on the group " + edge.group, "free edges");
+  for (const BoundaryCondition& edge : scene.edges())
+    if (edge.kind != BoundaryCondition::Kind::free) refuse("a condition on the group " + edge.group, "free edges");
 }
 
 }  // namespace
@@ -479,8 +479,8 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   const bool unit_square = !mesh.from_file();  // what a file holds is known when it is read
   Body body = read_body(root);
   if (unit_square) sample_load(body.load);
-  MoreGroups groups;
-  const std::vector<EdgeCondition> edges = read_edges(root.sections("edge"), groups);
+  ExtraGroups groups;
+  const std::vector<BoundaryCondition> edges = read_edges(root.sections("edge"), groups);
   read_groups(root.section("body"), mesh.file, groups, body);
   if (unit_square && !(groups.curves.empty() && groups.bodies.empty()))
     root.refuse(groups.bodies.empty() ? "edge" : "body",
@@ -489,16 +489,16 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   std::optional<UnilateralContact> contact;
   if (root.has("contact")) contact = read_contact(root.section("contact"));
   if (contact && unit_square) sample_profile(contact->gap);
-  if (contact && contact->ceiling && unit_square) sample_profile(contact->ceiling);
+  if (contact && contact->upper_obstacle && unit_square) sample_profile(contact->upper_obstacle);
   const auto elastic = root.has("model") ? read_model(root.section("model"), layer) : std::nullopt;
-  if (contact && (!unit_square || elastic)) contact->held.clear();  // of a block the sides are free
+  if (contact && (!unit_square || elastic)) contact->zero_at.clear();  // of a block the sides are free
   const MethodRequest method = read_method(root.section("method"));
   const Scene scene = [&] {
     try {
       Scene made(body, layer, contact, edges);
       if (contact && unit_square)
         sample_profile([&](double x) {
-          check_ceiling(*contact, x);
+          check_upper_obstacle(*contact, x);
           return 0.0;
         });
       return made;

@@ -35,10 +35,10 @@ struct MethodRequest {
 
 /// [model] kind = "plane strain": a block that is pressed down, of rubber or with a coating (models/).
 struct ElasticRequest {
-  double push = 0.1;      ///< how far the clamped edges are moved down
-  double epsilon = 1e-8;  ///< 1/lambda of the rubber, mu = 1; read without a layer
-  Lame material = {};     ///< of block and coating; read with a layer, whose epsilon is the thickness
-  Profile friction = {};  ///< Tresca's bound; empty: none
+  double prescribed_displacement = 0.1;  ///< how far the clamped edges are moved down
+  double epsilon = 1e-8;                 ///< 1/lambda of the rubber, mu = 1; read without a layer
+  Lame material = {};                    ///< of block and coating; read with a layer, whose epsilon is the thickness
+  Profile friction = {};                 ///< Tresca's bound; empty: none
 };
 
 /// A question asked in TOML (tutorials/scenes holds examples, run_scene --help lists the keys).
@@ -48,8 +48,8 @@ struct SceneFile {
   Scene scene;
   MeshRequest mesh;
   MethodRequest method;
-  std::string words;                     ///< its sections as JSON, for the summary, which repeats the question
-  MoreGroups groups = {};                ///< of the mesh file: those that [[edge]] and a table of stiffnesses name
+  std::string json;                      ///< its sections as JSON, for the summary, which repeats the question
+  ExtraGroups groups = {};               ///< of the mesh file: those that [[edge]] and a table of stiffnesses name
   std::vector<Eigen::Vector2d> at = {};  ///< where the summary tells u
   std::optional<ElasticRequest> elastic = {};
 };

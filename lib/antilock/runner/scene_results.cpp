@@ -15,8 +15,8 @@
 #include "antilock/measure/errors.hpp"
 #include "antilock/measure/point_values.hpp"
 #include "antilock/mesh/write_msh.hpp"
-#include "antilock/runner/scene_answer.hpp"
 #include "antilock/runner/scene_mesh.hpp"
+#include "antilock/runner/solve_scene.hpp"
 
 namespace antilock {
 namespace {
@@ -35,7 +35,7 @@ const char* asked_of(const MethodRequest& method) { return method.of == Quantity
 
 /// The question in full: with it and the mesh file anyone can ask it again.
 Json question(const SceneFile& file) {
-  const Json words = Json::parse(file.words);
+  const Json words = Json::parse(file.json);
   const MethodRequest& method = file.method;
   Json asked = {{"title", file.title},
                 {"load", words["load"]["f"]},
@@ -67,10 +67,10 @@ Json question(const SceneFile& file) {
 Json certificate(const MethodRequest& method, const CertifiedSolution& certified) {
   const Certificate& proof = certified.certificate;
   Json levels = Json::array();
-  const std::string& geometry = certified.answer.mesh->geometry.file;
+  const std::string& geometry = certified.result.mesh->geometry.file;
   const std::string corners =
       geometry.empty() ? "" : ", its corners on the curves of " + std::filesystem::path(geometry).filename().string();
-  for (const Level& level : certified.history)
+  for (const RefinementLevel& level : certified.history)
     levels.push_back({{"unknowns", level.unknowns}, {"bound", level.bound}, {"seconds", level.seconds}});
   return {{"asked", *method.accuracy},
           {"of", asked_of(method)},
@@ -94,37 +94,37 @@ Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p)
 }
 
 /// The table of contact with the tangential force per length behind it; 0 where an unknown is held.
-Eigen::MatrixXd with_friction(const Eigen::MatrixX3d& table, const Answer& answer) {
-  const std::vector<int>& contact = answer.space.contact();
-  const Eigen::VectorXd length = contact_lengths(answer.space);
+Eigen::MatrixXd with_friction(const Eigen::MatrixX3d& table, const Result& result) {
+  const std::vector<int>& contact = result.space.contact_dofs();
+  const Eigen::VectorXd length = contact_lengths(result.space);
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(table.rows(), 4);
   all.leftCols<3>() = table;
-  for (std::size_t i = contact.size(); i < answer.problem.contact.size();
+  for (std::size_t i = contact.size(); i < result.problem.contact.size();
        ++i) {  // the bounds of u_x, in the same order
-    const auto row = std::find(contact.begin(), contact.end(), answer.problem.contact[i]) - contact.begin();
-    all(row, 3) = answer.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
+    const auto row = std::find(contact.begin(), contact.end(), result.problem.contact[i]) - contact.begin();
+    all(row, 3) = result.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
   }
   return all;
 }
 
 }  // namespace
 
-SceneSummary summary_of(const SceneFile& file, const Answer& answer) {
-  const Solution& solution = answer.solution;
+SceneSummary summary_of(const SceneFile& file, const Result& result) {
+  const Solution& solution = result.solution;
   SceneSummary s;
-  s.h = mesh_width(file, *answer.mesh);
+  s.h = mesh_width(file, *result.mesh);
   s.unknowns = solution.counters.unknowns;
-  s.energy = energy(answer.problem, solution);
+  s.energy = energy(result.problem, solution);
   s.u_max = solution.u.maxCoeff();
   s.u_min = solution.u.minCoeff();
   if (file.scene.contact()) {
-    const NormalContact normal = normal_contact(answer);
-    s.zone = contact_zone(answer.space, normal.problem, normal.solution);
+    const NormalContact normal = normal_contact(result);
+    s.zone = contact_zone(result.space, normal.problem, normal.solution);
   }
-  const Eigen::Index size = answer.space.size(), components = solution.u.size() / size;
+  const Eigen::Index size = result.space.size(), components = solution.u.size() / size;
   s.at.resize(static_cast<Eigen::Index>(file.at.size()), 2 + components);
   if (s.at.rows() > 0) {
-    const PointValues values(answer.space);
+    const PointValues values(result.space);
     for (Eigen::Index i = 0; i < s.at.rows(); ++i) {
       const Eigen::Vector2d& x = file.at[i];
       const auto place = values.locate(x, 1e-9);
@@ -139,8 +139,8 @@ SceneSummary summary_of(const SceneFile& file, const Answer& answer) {
   s.kkt = solution.kkt;
   s.contact_steps = solution.counters.contact;
   s.corrections = solution.counters.corrections;
-  s.layer = layer_report_of(file, answer);
-  s.warning = joined(s.layer ? s.layer->warning : "", answer.warning);
+  s.layer = locking_report_of(file, result);
+  s.warning = joined(s.layer ? s.layer->warning : "", result.warning);
   return s;
 }
 
@@ -242,32 +242,32 @@ ResultFiles result_files(const std::string& words) {
   return asked;
 }
 
-void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
+void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Result& result,
                          const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked) {
   const Stopwatch watch;
   const bool contact = file.scene.contact().has_value(), csv = asked.contains("csv"), vtu = asked.contains("vtu");
   const auto write = [&](const std::filesystem::path& draft) {
-    if (csv) write_solution_csv(draft / "solution.csv", answer.space, answer.solution.u);
+    if (csv) write_solution_csv(draft / "solution.csv", result.space, result.solution.u);
     VtuFields more;
-    if (!file.elastic) more.p = layer_stress(*answer.mesh, answer.solution.p.head(answer.problem.class_rows()));
+    if (!file.elastic) more.p = layer_stress(*result.mesh, result.solution.p.head(result.problem.class_rows()));
     if (contact) {
-      const NormalContact normal = normal_contact(answer);
-      Eigen::MatrixX3d table = contact_table(answer.space, normal.problem, normal.solution);
-      if (!file.scene.contact()->ceiling)                           // which presses downwards: a pressure below 0
+      const NormalContact normal = normal_contact(result);
+      Eigen::MatrixX3d table = contact_table(result.space, normal.problem, normal.solution);
+      if (!file.scene.contact()->upper_obstacle)                    // which presses downwards: a pressure below 0
         table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
       if (csv && file.elastic && file.elastic->friction)
-        write_csv(draft / "contact.csv", {"x", "gap", "pressure", "friction"}, with_friction(table, answer));
+        write_csv(draft / "contact.csv", {"x", "gap", "pressure", "friction"}, with_friction(table, result));
       else if (csv)
         write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
       more.pressure = table.col(2);
     }
-    if (asked.contains("mesh")) write_msh(draft / "mesh.msh", *answer.mesh, file.scene.edges());
+    if (asked.contains("mesh")) write_msh(draft / "mesh.msh", *result.mesh, file.scene.edges());
     if (vtu && file.elastic)
-      write_deformed_vtu(draft / "solution.vtu", {answer.space, answer.space}, answer.solution.u,
-                         pressure_of(file, answer));
+      write_deformed_vtu(draft / "solution.vtu", {result.space, result.space}, result.solution.u,
+                         pressure_of(file, result));
     else if (vtu)
-      write_vtu(draft / "solution.vtu", answer.space, answer.solution.u, more);
-    write_summary(draft / "summary.json", file, summary, answer.seconds, watch.seconds(), certified);
+      write_vtu(draft / "solution.vtu", result.space, result.solution.u, more);
+    write_summary(draft / "summary.json", file, summary, result.seconds, watch.seconds(), certified);
   };
   write_folder(folder, write, result_names(folder));
 }

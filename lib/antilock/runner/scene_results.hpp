@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "antilock/adapt/solve_to.hpp"
-#include "antilock/analysis/layer_report.hpp"
-#include "antilock/measure/answer.hpp"
+#include "antilock/analysis/locking_report.hpp"
 #include "antilock/measure/contact_zone.hpp"
+#include "antilock/measure/result.hpp"
 #include "antilock/runner/scene_file.hpp"
 #include "antilock/solve/solution.hpp"
 
@@ -31,7 +31,7 @@ struct SceneSummary {
   ContactZone zone;  ///< read with the effect alone
   Kkt kkt;
   int contact_steps = 0, corrections = 0;
-  std::optional<LayerReport> layer;
+  std::optional<LockingReport> layer;
   Eigen::MatrixXd at;  ///< a row per point of [at]: x, y, u, in plane strain x, y, u_x, u_y
   std::string warning;
   struct Parallel {
@@ -43,7 +43,7 @@ struct SceneSummary {
   std::optional<Parallel> parallel;
 };
 /// With the layer's report, whose warning comes first.
-SceneSummary summary_of(const SceneFile& file, const Answer& answer);
+SceneSummary summary_of(const SceneFile& file, const Result& result);
 
 /// The text of summary.json, the only place of its keys, which are those of `run_scene --help`. `certified`, where an
 /// accuracy was asked for, gives its `certificate`; `files` are the seconds spent on the other files. Throws
@@ -63,7 +63,7 @@ ResultFiles result_files(const std::string& words);
 /// (MSH 2.2), solution.vtu; all that are asked for or none, and those of an earlier run that are not asked for go. Gaps
 /// and pressures that are negative by round-off are written as 0; the summary's `kkt` has them as they are. Throws
 /// Error where the folder cannot be written, NotConverged where a number is not finite.
-void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Answer& answer,
+void write_scene_results(const std::filesystem::path& folder, const SceneFile& file, const Result& result,
                          const SceneSummary& summary, const CertifiedSolution* certified, const ResultFiles& asked);
 
 }  // namespace antilock

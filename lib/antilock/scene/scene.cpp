@@ -16,11 +16,11 @@ void check_epsilon(const std::string& model, double epsilon, double smallest, co
 
 }  // namespace
 
-Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, std::vector<EdgeCondition> edges)
+Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, std::vector<BoundaryCondition> edges)
     : body_(std::move(body)), layer_(std::move(layer)), contact_(std::move(contact)), edges_(std::move(edges)) {
   if (!body_.load) throw Error("body: no load given; accepted: a function f(x, y)");
-  for (const EdgeCondition& edge : edges_)
-    if (edge.kind != EdgeCondition::Kind::free && !edge.value)
+  for (const BoundaryCondition& edge : edges_)
+    if (edge.kind != BoundaryCondition::Kind::free && !edge.value)
       throw Error("edge group " + edge.group + ": no value given; accepted: a function of x and y");
   const auto* stiff = std::get_if<StiffLayer>(&layer_);
   if (stiff != nullptr && !(stiff->s > 0 && std::isfinite(stiff->s)))
@@ -30,17 +30,17 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, s
     check_epsilon("thin", thin->epsilon, 1e-3, "1e-3 <= epsilon <= 1 (below, use the scaled layer)");
   if (!contact_) return;
   if (!contact_->gap) throw Error("contact: no gap given; accepted: a function gap(x)");
-  for (const double x : contact_->held)
-    for (const auto& [name, bound] : {std::pair("gap", &contact_->gap), {"ceiling", &contact_->ceiling}})
+  for (const double x : contact_->zero_at)
+    for (const auto& [name, bound] : {std::pair("gap", &contact_->gap), {"ceiling", &contact_->upper_obstacle}})
       // sin(pi) in double precision is 1.2e-16
       if (*bound && !((*bound)(x) >= -1e-12 * std::max(1.0, std::abs((*bound)(0.5)))))
         throw Error(fmt::format("contact: {0}({1}) = {2}, but u = 0 is prescribed there; accepted: {0} >= 0 at x = {3}",
-                                name, x, (*bound)(x), fmt::join(contact_->held, " and x = ")));
+                                name, x, (*bound)(x), fmt::join(contact_->zero_at, " and x = ")));
 }
 
-void check_ceiling(const UnilateralContact& contact, double x) {
-  if (!contact.ceiling) return;
-  const double lower = -contact.gap(x), upper = contact.ceiling(x);
+void check_upper_obstacle(const UnilateralContact& contact, double x) {
+  if (!contact.upper_obstacle) return;
+  const double lower = -contact.gap(x), upper = contact.upper_obstacle(x);
   if (upper < lower - 1e-12 * std::max(1.0, std::abs(lower)))  // the round-off of two formulas
     throw Error(
         fmt::format("contact: ceiling({0:.6g}) = {1:.6g} is below the obstacle, -gap({0:.6g}) = {2:.6g}; accepted: "
@@ -56,9 +56,9 @@ std::string Scene::beyond_the_paper() const {
 }
 
 std::string Scene::beyond_the_certificate() const {
-  for (const EdgeCondition& edge : edges_)
-    if (edge.kind == EdgeCondition::Kind::spring) return "a spring on the group " + edge.group;
-  if (contact_ && contact_->ceiling) return "a ceiling";
+  for (const BoundaryCondition& edge : edges_)
+    if (edge.kind == BoundaryCondition::Kind::spring) return "a spring on the group " + edge.group;
+  if (contact_ && contact_->upper_obstacle) return "a ceiling";
   const auto* stiff = std::get_if<StiffLayer>(&layer_);
   return stiff != nullptr && stiff->load ? "a load on the layer" : "";
 }

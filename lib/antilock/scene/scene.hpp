@@ -20,7 +20,7 @@ struct Body {
 
 /// What holds on the edges of a named group of a mesh file: the outward derivative of u times the stiffness is 0 (free), g
 /// (traction) or -k u (spring, k >= 0), or u itself is given (displacement).
-struct EdgeCondition {
+struct BoundaryCondition {
   enum class Kind { free, displacement, traction, spring };
   std::string group;
   Kind kind = Kind::free;
@@ -47,25 +47,25 @@ using Layer = std::variant<NoLayer, StiffLayer, VentcelLayer, ThinLayer>;
 /// Signorini contact on Gamma_C, the last line of (21): u >= -gap, pressure >= 0, complementary.
 struct UnilateralContact {
   Profile gap = [](double) { return 0.0; };  ///< distance of the obstacle at x (negative: it presses in)
-  std::vector<double> held = {0, 1};         ///< where beside Gamma_C u = 0 is prescribed: gap, ceiling >= 0 there
-  Profile ceiling = {};                      ///< u <= ceiling too; empty: none
+  std::vector<double> zero_at = {0, 1};      ///< where beside Gamma_C u = 0 is prescribed: gap, ceiling >= 0 there
+  Profile upper_obstacle = {};               ///< u <= ceiling too; empty: none
 };
 
 /// Throws Error where the ceiling is below the obstacle at x: no u satisfies -gap(x) <= u <= ceiling(x).
-void check_ceiling(const UnilateralContact& contact, double x);
+void check_upper_obstacle(const UnilateralContact& contact, double x);
 
 /// A question to answer: which body, which layer, contact or not.
 /// Construction throws Error where the combination is meaningless, with the reason.
 class Scene {
  public:
   explicit Scene(Body body, Layer layer = NoLayer{}, std::optional<UnilateralContact> contact = std::nullopt,
-                 std::vector<EdgeCondition> edges = {});
+                 std::vector<BoundaryCondition> edges = {});
 
   const Body& body() const { return body_; }
   const Layer& layer() const { return layer_; }
   const std::optional<UnilateralContact>& contact() const { return contact_; }
-  /// Of the groups of its mesh (natural_group, held_group), in their order.
-  const std::vector<EdgeCondition>& edges() const { return edges_; }
+  /// Of the groups of its mesh (natural_group, dirichlet_group), in their order.
+  const std::vector<BoundaryCondition>& edges() const { return edges_; }
   /// What goes beyond the paper's problem, in words, and what of it the certificate has no proof for; empty where nothing
   /// does.
   std::string beyond_the_paper() const;
@@ -81,7 +81,7 @@ class Scene {
   Body body_;
   Layer layer_;
   std::optional<UnilateralContact> contact_;
-  std::vector<EdgeCondition> edges_;
+  std::vector<BoundaryCondition> edges_;
 };
 
 /// The load of every figure here, f = 10 sin(2 pi x); the paper gives none.

@@ -7,29 +7,29 @@
 #include "antilock/core/progress.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/contact.hpp"
+#include "antilock/solve/defaults.hpp"
 #include "antilock/solve/kkt.hpp"
 #include "antilock/solve/penalty_factor.hpp"
-#include "antilock/solve/tuned.hpp"
 
 namespace antilock {
 
 struct CorrectionOptions {
   double tolerance = 1e-10;  ///< on the relative algebraic error of u in the maximum norm: far below that of any mesh
-  int max_corrections = tuned::most_corrections;  ///< reached: NotConverged
-  ProgressHook progress = {};                     ///< called after every correction that is not the last
+  int max_corrections = defaults::max_corrections;  ///< reached: NotConverged
+  ProgressHook progress = {};                       ///< called after every correction that is not the last
   double contact = 0;  ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
 
   /// KKT report above which no answer is returned: room for what a u right to the tolerance leaves of it. Who asks for
   /// little gets little, with a warning.
-  double refused() const { return std::max(TrustLevels{}.refused, 10 * tolerance); }
+  double kkt_fail() const { return std::max(KktTolerances{}.fail, 10 * tolerance); }
 };
 
 struct ActiveSetOptions {
   CorrectionOptions corrections;
-  std::optional<double> penalty;              ///< delta where compliance is smaller; empty: choose_penalty
-  ContactRoad road = ContactRoad::automatic;  ///< of the factor, where the solver makes it
+  std::optional<double> penalty;  ///< delta where compliance is smaller; empty: choose_penalty
+  ContactReduction reduction = ContactReduction::automatic;  ///< of the factor, where the solver makes it
   int max_steps = 1000;  ///< of a correction's contact iteration, which ends, but perhaps late; reached: NotConverged
-  std::optional<Pieces> start;  ///< C: pieces to start from; empty: the nested start
+  std::optional<BoundStatuses> start;  ///< C: pieces to start from; empty: the nested start
 };
 
 /// Two loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer
@@ -41,22 +41,22 @@ struct ActiveSetOptions {
 ///              r1 = L - A1 u - B' M p + lambda,   r2 = compliance p - B u       exact: residual.hpp
 ///              K du = r1 + delta^-1 B' M r2 + dlambda, with the bounds of u     contact.hpp
 ///              u += du,   p += dp = (B du - r2) / delta
-///              stop where accuracy(next du, r2) is within the tolerance         judge.hpp
-///     then:    doubt and the KKT report: a warning, or NotConverged             judge.hpp, kkt.hpp
+///              stop where accuracy(next du, r2) is within the tolerance         forward_error.hpp
+///     then:    doubt and the KKT report: a warning, or NotConverged             forward_error.hpp, kkt.hpp
 ///
 /// No digit of A1 is ever added to a large one, so the answer is right at every compliance down to and including 0,
 /// where it solves (7) exactly. Once the contact set stays, a mode with a0 = sigma a1 is multiplied by (delta -
 /// compliance) / (delta + sigma) < 1 in each correction: it converges for every delta, fast where delta is small beside
 /// sigma, and Anderson's mix (anderson.hpp) does the rest. After 15 corrections the next 15 are made with delta / 64.
 ///
-/// To read in this order: problem/variational_inequality.hpp, stairs.hpp, contact.hpp, residual.hpp, this, judge.hpp;
-/// the constants with their reasons are in tuned.hpp. The outer loop stands in active_set.cpp,
+/// To read in this order: problem/variational_inequality.hpp, bounds.hpp, contact.hpp, residual.hpp, this,
+/// forward_error.hpp; the constants with their reasons are in defaults.hpp. The outer loop stands in active_set.cpp,
 /// IteratedPenalty::solve. A loop that stops otherwise, after five corrections say, changes the one condition there;
 /// `finished` judges its last correction all the same, and refuses what is not within the tolerance.
 ///
 /// Without contact unknowns this is a linear solve. counters.contact are the steps on the finest level, the largest
 /// number over the corrections. Throws Error for a malformed problem, NotConverged instead of ever returning an
-/// unconverged answer. A bounded combination becomes an unknown of its own (tied.hpp).
+/// unconverged answer. A bounded combination becomes an unknown of its own (slack_form.hpp).
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options = {});
 
 /// The same with a factor made before, for a sweep over loads, bounds or compliances of one pair (A1, B).
@@ -66,7 +66,7 @@ Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor,
 /// or a SparseContact, as the factor was made. `before`: of the last correction, empty at first; `u_scale`: the largest
 /// |u|.
 using ContactSolver =
-    std::function<ContactAnswer(ContactSystem&, const Stairs&, const ContactAnswer& before, double u_scale)>;
+    std::function<ContactResult(ContactSystem&, const Bounds&, const ContactResult& before, double u_scale)>;
 
 /// The outer loop, with any solver of the inner problem. Throws as active_set does; `name` is the solver's.
 Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "antilock/core/dense.hpp"
-#include "antilock/core/twice.hpp"
-#include "antilock/solve/tuned.hpp"
+#include "antilock/core/double_double.hpp"
+#include "antilock/solve/defaults.hpp"
 
 namespace antilock {
 
@@ -22,19 +22,19 @@ class Anderson {
   /// vectors of u and p.
   static constexpr std::size_t depth = 6;
 
-  /// Notes a plain step: `reached` = x + g from some x, and `companion`, a vector that depends affinely on x.
-  void note(const Twice& reached, const Eigen::VectorXd& g, const Twice& companion) {
-    past_.push_front({reached, companion, g});
+  /// Notes a plain step: `iterate` = x + g from some x, and `dependent`, a vector that depends affinely on x.
+  void push(const DoubleDoubleVector& iterate, const Eigen::VectorXd& g, const DoubleDoubleVector& dependent) {
+    past_.push_front({iterate, dependent, g});
     if (past_.size() > depth) past_.pop_back();
-    double most = past_.size() < 2 ? tuned::slowest : 1 - tuned::slowest, gain = 0;
+    double most = past_.size() < 2 ? defaults::max_contraction : 1 - defaults::max_contraction, gain = 0;
     for (std::size_t i = 1; i < past_.size(); ++i) {
-      const Eigen::VectorXd after = reached - past_[i].reached;
+      const Eigen::VectorXd after = iterate - past_[i].iterate;
       const double apart = (after - g + past_[i].g).norm();
       if (!(apart > 0)) continue;
       most = std::max(most, after.norm() / apart);
-      gain = std::max(gain, (companion - past_[i].companion).lpNorm<Eigen::Infinity>() / apart);
+      gain = std::max(gain, (dependent - past_[i].dependent).lpNorm<Eigen::Infinity>() / apart);
     }
-    contraction_ = std::min(most, tuned::slowest);
+    contraction_ = std::min(most, defaults::max_contraction);
     // else the last one: another contact set hardly changes it, a smaller penalty makes it smaller
     if (gain > 0) gain_ = gain;
   }
@@ -43,15 +43,16 @@ class Anderson {
   /// the maximum norm, where a start moved by 1; 0 where no two starts are noted yet. (A step of the companion itself
   /// does not tell: round-off that a mix leaves in a start is in g, and in the companion, but in no step between two
   /// companions.)
-  double next_companion_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
+  double next_dependent_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
 
   /// By how much a plain step brings two starts closer, at worst over the last start and those before it; within
-  /// tuned::slowest, and that where there is only one. It holds wherever the starts came from. (The ratio of two steps
+  /// defaults::max_contraction, and that where there is only one. It holds wherever the starts came from. (The ratio
+  /// of two steps
   /// |g| does not: a mix makes g smaller, not the error by the same factor.)
   double contraction() const { return contraction_; }
 
-  /// Mixes the noted iterates: `reached` and, with the same weights, `companion` become the next start.
-  void mix(Twice& reached, Twice& companion) const {
+  /// Mixes the noted iterates: `iterate` and, with the same weights, `dependent` become the next start.
+  void mix(DoubleDoubleVector& iterate, DoubleDoubleVector& dependent) const {
     const auto others = static_cast<Eigen::Index>(past_.size()) - 1;
     if (others < 1) return;
     const Eigen::VectorXd& g = past_[0].g;
@@ -63,10 +64,10 @@ class Anderson {
     for (Eigen::Index i = 0; i < others; ++i) difference.col(i) /= scale(i);
     const Eigen::MatrixXd normal = difference.transpose() * difference;
     const Eigen::VectorXd gamma =
-        least_squares(normal, difference.transpose() * g, tuned::round_off).cwiseQuotient(scale);
+        least_squares(normal, difference.transpose() * g, defaults::round_off).cwiseQuotient(scale);
     for (Eigen::Index i = 0; i < others; ++i) {
-      reached += -gamma(i) * (past_[0].reached - past_[i + 1].reached);
-      companion += -gamma(i) * (past_[0].companion - past_[i + 1].companion);
+      iterate += -gamma(i) * (past_[0].iterate - past_[i + 1].iterate);
+      dependent += -gamma(i) * (past_[0].dependent - past_[i + 1].dependent);
     }
   }
 
@@ -79,11 +80,11 @@ class Anderson {
 
  private:
   struct Iterate {
-    Twice reached, companion;
+    DoubleDoubleVector iterate, dependent;
     Eigen::VectorXd g;
   };
   std::deque<Iterate> past_;           ///< the last one first
-  double contraction_ = 0, gain_ = 0;  ///< both measured by `note`
+  double contraction_ = 0, gain_ = 0;  ///< both measured by `push`
 };
 
 }  // namespace antilock

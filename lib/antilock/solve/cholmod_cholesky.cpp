@@ -7,8 +7,8 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/core/memory.hpp"
+#include "antilock/solve/defaults.hpp"
 #include "antilock/solve/sparse_cholesky.hpp"
-#include "antilock/solve/tuned.hpp"
 
 // Of the OpenMP library that CHOLMOD is linked to; the <omp.h> that a compiler finds may be that of another.
 // Declared here, and absent where CHOLMOD was built without OpenMP: the addresses are null then.
@@ -93,7 +93,7 @@ class CholmodCholesky final : public SparseCholesky {
         const double pivot = node.block(j, j) * node.block(j, j);
         const int row = order()(node.first + j);
         smallest_pivot_ = std::min(smallest_pivot_, pivot);
-        if (!lost && !(pivot > tuned::round_off * k.coeff(row, row))) lost = row;
+        if (!lost && !(pivot > defaults::round_off * k.coeff(row, row))) lost = row;
       }
     }
     return lost;

@@ -3,15 +3,16 @@
 #include <utility>
 #include <vector>
 
-#include "antilock/solve/stairs.hpp"
+#include "antilock/solve/bounds.hpp"
 
 namespace antilock {
 
 /// The equilibrium K v = q + lambda in which one of value and force is given per bound.
 struct Equilibrium {
-  Eigen::VectorXd v;          ///< n, all unknowns of the system
-  Eigen::VectorXd lambda;     ///< C
-  Eigen::VectorXd round_off;  ///< C: of a force there, tuned::round_off times the sum of the absolute terms of its row
+  Eigen::VectorXd v;       ///< n, all unknowns of the system
+  Eigen::VectorXd lambda;  ///< C
+  Eigen::VectorXd
+      round_off;  ///< C: of a force there, defaults::round_off times the sum of the absolute terms of its row
 };
 
 /// The linear system of a contact problem, K symmetric positive definite (n x n), C of its unknowns bounded: all others
@@ -22,19 +23,19 @@ class ContactSystem {
   virtual ~ContactSystem() = default;
   /// v_i = given_i where bound i is held, lambda_i = given_i elsewhere; lambda counts from Stairs::force. Throws Error
   /// where K is not positive definite.
-  virtual Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) = 0;
+  virtual Equilibrium solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) = 0;
   virtual double square(const Eigen::VectorXd& d) const = 0;  ///< d' K d
   /// A start near the answer: that of a smaller problem of the same kind.
-  virtual Pieces nested_start(const Stairs& stairs, int max_steps) = 0;
+  virtual BoundStatuses nested_start(const Bounds& bounds, int max_steps) = 0;
   const std::vector<int>& bounded() const { return bounded_; }  ///< C: bound -> unknown
 
  private:
   std::vector<int> bounded_;
 };
 
-struct ContactAnswer {
+struct ContactResult {
   Eigen::VectorXd v, lambda;  ///< n; C, the whole force
-  Pieces pieces;              ///< C
+  BoundStatuses status;       ///< C
   int steps = 0;              ///< linear systems solved
 };
 
@@ -57,11 +58,11 @@ struct ContactAnswer {
 /// SIAM J. Optim. 1, 1991, let go like this.)
 ///
 /// Without a start it begins at the nested one. Throws NotConverged after max_steps linear systems.
-ContactAnswer solve_contact(ContactSystem& system, const Stairs& stairs, const std::optional<Pieces>& start,
+ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const std::optional<BoundStatuses>& start,
                             int max_steps);
 
 /// A start from the answer of `coarse`, the same problem bounded at every second bound only (1, 3, 5, ...): each of the
 /// others is on the piece of its two neighbours in the order of the bounds, where they agree.
-Pieces start_by_halves(const Stairs& stairs, ContactSystem& coarse, int max_steps);
+BoundStatuses coarse_start(const Bounds& bounds, ContactSystem& coarse, int max_steps);
 
 }  // namespace antilock

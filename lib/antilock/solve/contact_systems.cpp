@@ -8,7 +8,7 @@
 
 #include "antilock/core/dense.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/solve/tuned.hpp"
+#include "antilock/solve/defaults.hpp"
 
 namespace antilock {
 namespace {
@@ -57,9 +57,9 @@ std::vector<int> groups_of(const SparseMatrix& k) {
 /// Whether a constant costs no energy but near what is fixed, as aggregation supposes: rows of K sum to 0, to
 /// round-off. Beside what is fixed they do not; of a mesh that is a part of all rows that falls like h. In a beam or a
 /// plate the rows of the rotations do not, half of all or more. A quarter tells the two apart.
-bool constants_are_free(const HeldFactor& k) {
+bool constants_are_free(const ConstrainedCholesky& k) {
   const Eigen::VectorXd one = Eigen::VectorXd::Ones(k.upper().cols());
-  return 4 * (k.times(one).array().abs() > tuned::round_off * k.absolute_times(one).array()).count() < one.size();
+  return 4 * (k.times(one).array().abs() > defaults::round_off * k.absolute_times(one).array()).count() < one.size();
 }
 
 }  // namespace
@@ -67,54 +67,54 @@ bool constants_are_free(const HeldFactor& k) {
 DenseContact::DenseContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q)
     : ContactSystem(from_zero_to(q.size())), s_(s), q_(q) {}
 
-Equilibrium DenseContact::solve(const std::vector<char>& held, const Eigen::VectorXd& given) {
+Equilibrium DenseContact::solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) {
   std::vector<int> free, fixed;
-  for (int i = 0; i < static_cast<int>(held.size()); ++i) (held[i] != 0 ? fixed : free).push_back(i);
-  Equilibrium now{given, given, {}};
+  for (int i = 0; i < static_cast<int>(active.size()); ++i) (active[i] != 0 ? fixed : free).push_back(i);
+  Equilibrium now{prescribed, prescribed, {}};
   if (!free.empty()) {
-    Eigen::VectorXd rhs = q_(free) + given(free);
-    if (!fixed.empty()) rhs.noalias() -= s_(free, fixed) * given(fixed);
+    Eigen::VectorXd rhs = q_(free) + prescribed(free);
+    if (!fixed.empty()) rhs.noalias() -= s_(free, fixed) * prescribed(fixed);
     const Eigen::VectorXd v = factor_of(s_(free, free)).solve(rhs);
     now.v(free) = v;
   }
   if (!fixed.empty()) now.lambda(fixed) = s_(fixed, Eigen::all) * now.v - q_(fixed);
   // each force by the terms of its own row: one stiff unknown must not hide the pull on a soft one
-  now.round_off = tuned::round_off * (s_.cwiseAbs() * now.v.cwiseAbs() + q_.cwiseAbs());
+  now.round_off = defaults::round_off * (s_.cwiseAbs() * now.v.cwiseAbs() + q_.cwiseAbs());
   return now;
 }
 
-Pieces DenseContact::nested_start(const Stairs& stairs, int max_steps) {
-  const int fine = stairs.count(), coarse = fine / 2;
-  if (fine <= 1) return Pieces(fine, Piece::between);
+BoundStatuses DenseContact::nested_start(const Bounds& bounds, int max_steps) {
+  const int fine = bounds.count(), coarse = fine / 2;
+  if (fine <= 1) return BoundStatuses(fine, BoundStatus::inactive);
   const auto kept = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
   const Cholesky factor = factor_of(s_(others, others));
-  const Eigen::MatrixXd half = factor.half_solve(Eigen::MatrixXd(s_(others, kept)));
-  const Eigen::VectorXd half_q = factor.half_solve(Eigen::VectorXd(q_(others)));
+  const Eigen::MatrixXd half = factor.forward(Eigen::MatrixXd(s_(others, kept)));
+  const Eigen::VectorXd half_q = factor.forward(Eigen::VectorXd(q_(others)));
   const Eigen::MatrixXd s = Eigen::MatrixXd(s_(kept, kept)) - half.transpose() * half;
   const Eigen::VectorXd q = Eigen::VectorXd(q_(kept)) - half.transpose() * half_q;
   DenseContact smaller(s, q);
-  return start_by_halves(stairs, smaller, max_steps);
+  return coarse_start(bounds, smaller, max_steps);
 }
 
-Equilibrium SparseContact::solve(const std::vector<char>& held, const Eigen::VectorXd& given) {
-  std::vector<char> held_places(q_.size(), 0);
+Equilibrium SparseContact::solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) {
+  std::vector<char> eliminated(q_.size(), 0);
   Eigen::VectorXd q = q_, x = Eigen::VectorXd::Zero(q_.size());
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    held_places[bounded()[i]] = held[i];
-    (held[i] != 0 ? x : q)(bounded()[i]) += given(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    eliminated[bounded()[i]] = active[i];
+    (active[i] != 0 ? x : q)(bounded()[i]) += prescribed(static_cast<Eigen::Index>(i));
   }
-  k_.hold(held_places);
+  k_.eliminate(eliminated);
   x += k_.solve(q - k_.times(x));
   const Eigen::VectorXd force = k_.times(x) - q_;
-  const Eigen::VectorXd noise = tuned::round_off * (k_.absolute_times(x.cwiseAbs()) + q_.cwiseAbs());
-  Equilibrium now{std::move(x), given, noise(bounded())};
-  for (std::size_t i = 0; i < held.size(); ++i)
-    if (held[i] != 0) now.lambda(static_cast<Eigen::Index>(i)) = force(bounded()[i]);
+  const Eigen::VectorXd noise = defaults::round_off * (k_.absolute_times(x.cwiseAbs()) + q_.cwiseAbs());
+  Equilibrium now{std::move(x), prescribed, noise(bounded())};
+  for (std::size_t i = 0; i < active.size(); ++i)
+    if (active[i] != 0) now.lambda(static_cast<Eigen::Index>(i)) = force(bounded()[i]);
   return now;
 }
 
-Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
-  Pieces start(bounded().size(), Piece::between);
+BoundStatuses SparseContact::nested_start(const Bounds& bounds, int max_steps) {
+  BoundStatuses start(bounded().size(), BoundStatus::inactive);
   if (bounded().size() <= 1) return start;
   const SparseMatrix whole = k_.upper().selfadjointView<Eigen::Upper>();
   const std::vector<int> group = constants_are_free(k_) ? groups_of(whole) : from_zero_to(q_.size());
@@ -123,7 +123,7 @@ Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
     std::vector<int> second;
     for (std::size_t i = 1; i < bounded().size(); i += 2) second.push_back(bounded()[i]);
     SparseContact coarse(k_, q_, second);
-    return start_by_halves(stairs, coarse, max_steps);
+    return coarse_start(bounds, coarse, max_steps);
   }
 
   RowMatrix members(q_.size(), groups);
@@ -139,28 +139,28 @@ Pieces SparseContact::nested_start(const Stairs& stairs, int max_steps) {
     return Eigen::VectorXd((count > 0).select(all / count, none));
   };
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  Stairs fewer{mean(stairs.lower, -infinity)};
-  if (stairs.upper.size() > 0) fewer.upper = mean(stairs.upper, infinity);
-  if (stairs.bears.size() > 0) fewer.bears = sum(stairs.bears);
-  if (stairs.force.size() > 0) fewer.force = sum(stairs.force);
+  Bounds fewer{mean(bounds.lower, -infinity)};
+  if (bounds.upper.size() > 0) fewer.upper = mean(bounds.upper, infinity);
+  if (bounds.force_limit.size() > 0) fewer.force_limit = sum(bounds.force_limit);
+  if (bounds.accumulated_force.size() > 0) fewer.accumulated_force = sum(bounds.accumulated_force);
   // P = (I - 2/3 D^-1 K) P0, P0 = 1 on the members of a group: the weight is Vanek's 4/3 over the largest eigenvalue of
   // D^-1 K, about 2 for first derivatives
   const Eigen::VectorXd weight = (2.0 / 3) * whole.diagonal().cwiseInverse();
   const SparseMatrix p = SparseMatrix(members) - SparseMatrix(weight.asDiagonal() * SparseMatrix(whole * members));
   const Eigen::VectorXd q = p.transpose() * q_;
   try {
-    HeldFactor k;
+    ConstrainedCholesky k;
     if (k.factorise(SparseMatrix(p.transpose() * SparseMatrix(whole * p)).triangularView<Eigen::Upper>())) return start;
     SparseContact coarse(k, q, from_zero_to(groups));
-    const Pieces pieces = solve_contact(coarse, fewer, std::nullopt, max_steps).pieces;
+    const BoundStatuses status = solve_contact(coarse, fewer, std::nullopt, max_steps).status;
     const RowMatrix rows = p;
     for (std::size_t i = 0; i < bounded().size(); ++i) {
-      start[i] = pieces[group[bounded()[i]]];
-      for (RowMatrix::InnerIterator w(rows, bounded()[i]); w; ++w) start[i] = agreed(start[i], pieces[w.col()]);
+      start[i] = status[group[bounded()[i]]];
+      for (RowMatrix::InnerIterator w(rows, bounded()[i]); w; ++w) start[i] = common_status(start[i], status[w.col()]);
     }
   } catch (const Error&) {  // a start, no more: the fine problem says what is wrong
   }
-  return stairs.there_are(std::move(start));
+  return bounds.nearest_valid(std::move(start));
 }
 
 }  // namespace antilock

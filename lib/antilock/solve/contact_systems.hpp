@@ -10,13 +10,13 @@ class DenseContact final : public ContactSystem {
   /// Both must outlive it.
   DenseContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q);
 
-  Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override;
+  Equilibrium solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) override;
   double square(const Eigen::VectorXd& d) const override { return d.dot(s_ * d); }
   /// Makes the steps independent of h: the same problem, bounded at every second unknown only (the others are free and
   /// eliminated), solved the same way down to one, gives the pieces by interpolation. Elimination keeps every order of
   /// S right; interpolated functions (P' S P) would be far too stiff for a beam, whose bending energy does not take
   /// their corners.
-  Pieces nested_start(const Stairs& stairs, int max_steps) override;
+  BoundStatuses nested_start(const Bounds& bounds, int max_steps) override;
 
   const Eigen::MatrixXd& s() const { return s_; }
   const Eigen::VectorXd& q() const { return q_; }
@@ -31,10 +31,10 @@ class DenseContact final : public ContactSystem {
 class SparseContact final : public ContactSystem {
  public:
   /// All must outlive it. q: F entries; bounded: the C places of the bounded unknowns.
-  SparseContact(HeldFactor& k, const Eigen::VectorXd& q, std::vector<int> bounded)
+  SparseContact(ConstrainedCholesky& k, const Eigen::VectorXd& q, std::vector<int> bounded)
       : ContactSystem(std::move(bounded)), k_(k), q_(q) {}
 
-  Equilibrium solve(const std::vector<char>& held, const Eigen::VectorXd& given) override;
+  Equilibrium solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) override;
   double square(const Eigen::VectorXd& d) const override { return d.dot(k_.times(d)); }
   /// A start that needs no mesh. K is coarsened by smoothed aggregation (Vanek, Mandel, Brezina 1996), the same problem
   /// solved there, in the same way down to one bound, and a bound starts on the piece of all groups that its unknown
@@ -42,10 +42,10 @@ class SparseContact final : public ContactSystem {
   /// is too much is given up one row of cells at a time. (Groups without the smoothing take 30 steps in place of 7 at
   /// 65,025 bounds.) Aggregation supposes that constants cost no energy; where they do (beams, plates: their rotations)
   /// every second bound alone is kept, and K stays whole: right for every K, but each of the factors is of all of it.
-  Pieces nested_start(const Stairs& stairs, int max_steps) override;
+  BoundStatuses nested_start(const Bounds& bounds, int max_steps) override;
 
  private:
-  HeldFactor& k_;
+  ConstrainedCholesky& k_;
   const Eigen::VectorXd& q_;
 };
 

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numeric>
 
-#include "antilock/solve/tuned.hpp"
+#include "antilock/solve/defaults.hpp"
 
 namespace antilock {
 namespace {
@@ -38,7 +38,7 @@ class EigenCholesky final : public SparseCholesky {
     factor_.clear();
     factor_.factorize(p);
     for (Eigen::Index j = 0; j < p.cols(); ++j)
-      if (const double root = l().coeff(j, j); !(root * root > tuned::round_off * p.coeff(j, j)))
+      if (const double root = l().coeff(j, j); !(root * root > defaults::round_off * p.coeff(j, j)))
         return Permutation(order_.inverse()).indices()(j);
     return std::nullopt;
   }

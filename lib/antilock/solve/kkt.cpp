@@ -8,7 +8,7 @@
 
 #include "antilock/core/error.hpp"
 #include "antilock/problem/bounds.hpp"
-#include "antilock/solve/tuned.hpp"
+#include "antilock/solve/defaults.hpp"
 
 namespace antilock {
 namespace {
@@ -19,8 +19,8 @@ constexpr double unbounded = std::numeric_limits<double>::infinity();
 double ratio(double value, double scale) { return value == 0 ? 0.0 : value / scale; }
 
 /// The smaller and the larger one; not a number where one of them is not.
-double least(double a, double b) { return std::isnan(a) || a < b ? a : b; }
-double most(double a, double b) { return std::isnan(a) || a > b ? a : b; }
+double min_or_nan(double a, double b) { return std::isnan(a) || a < b ? a : b; }
+double max_or_nan(double a, double b) { return std::isnan(a) || a > b ? a : b; }
 
 }  // namespace
 
@@ -38,31 +38,31 @@ KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& 
       parts.terms(b.col()) += std::abs(b.value() * stress(row));
       parts.stiffness(b.col()) += b.value() * b.value() * problem.m(row);
     }
-    parts.strain = most(parts.strain, std::abs(r2(row)) / (unit == 0 ? 1 : unit));
+    parts.strain = max_or_nan(parts.strain, std::abs(r2(row)) / (unit == 0 ? 1 : unit));
   }
   return parts;
 }
 
-Eigen::VectorXd note_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
-                               double with_reactions) {
+Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
+                              double with_reactions) {
   // a great force somewhere must hide nothing where all forces are small
   const Eigen::VectorXd own = parts.terms.cwiseMax(u * parts.stiffness);
   Eigen::VectorXd forces = own.cwiseMin(force);
-  kkt.residual = most(kkt.residual, ratio(parts.strain, u));
+  kkt.residual = max_or_nan(kkt.residual, ratio(parts.strain, u));
   for (Eigen::Index i = 0; i < forces.size(); ++i) {
     if (fixed[i] != 0) {
       forces(i) = unbounded;  // the clamp bears any
       continue;
     }
     // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
-    const double beyond = most(std::abs(parts.r1(i)) - tuned::equal * parts.terms(i), 0);
-    kkt.residual = most(kkt.residual, ratio(beyond, std::min(own(i), with_reactions)));
+    const double beyond = max_or_nan(std::abs(parts.r1(i)) - defaults::row_tolerance * parts.terms(i), 0);
+    kkt.residual = max_or_nan(kkt.residual, ratio(beyond, std::min(own(i), with_reactions)));
   }
   return forces;
 }
 
-void note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, double lambda, double reach, double force) {
-  const double lower = stairs.lower(i), upper = stairs.above(i), bears = stairs.most(i);
+void add_bound(Kkt& kkt, const Bounds& bounds, int i, double value, double lambda, double reach, double force) {
+  const double lower = bounds.lower(i), upper = bounds.upper_or_infinity(i), bears = bounds.force_limit_or_infinity(i);
   const bool soft = std::isfinite(bears);
   // between two bounds either sign of lambda is right, and each side answers for its own
   const bool two = std::isfinite(lower) && std::isfinite(upper);
@@ -70,15 +70,15 @@ void note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, double lamb
   const auto side = [&](double bound, double gap, double pressure) {
     if (!std::isfinite(bound)) return;
     const double scale = std::max(reach, std::abs(bound));  // its own: a far obstacle hides no near one
-    if (!two) kkt.min_pressure = least(kkt.min_pressure, ratio(pressure, force));
-    if (!soft) kkt.min_gap = least(kkt.min_gap, ratio(gap, scale));
+    if (!two) kkt.min_pressure = min_or_nan(kkt.min_pressure, ratio(pressure, force));
+    if (!soft) kkt.min_gap = min_or_nan(kkt.min_gap, ratio(gap, scale));
     // what is not borne beyond a bound; a bound that bears far more than the forces at work is not passed by round-off
     const bool beyond = soft && gap < 0;
     const double idle = beyond ? bears - pressure : pressure, unit = beyond ? std::max(force, bears) : force;
-    kkt.complementarity = most(kkt.complementarity, ratio(std::abs(idle * gap), scale * unit));
+    kkt.complementarity = max_or_nan(kkt.complementarity, ratio(std::abs(idle * gap), scale * unit));
   };
-  if (two) kkt.min_pressure = least(kkt.min_pressure, ratio(std::abs(lambda), force));
-  if (soft) kkt.min_pressure = least(kkt.min_pressure, ratio(bears - std::abs(lambda), std::max(force, bears)));
+  if (two) kkt.min_pressure = min_or_nan(kkt.min_pressure, ratio(std::abs(lambda), force));
+  if (soft) kkt.min_pressure = min_or_nan(kkt.min_pressure, ratio(bears - std::abs(lambda), std::max(force, bears)));
   side(lower, value - lower, up);
   side(upper, upper - value, down);
 }
@@ -97,38 +97,38 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
   const int contact = static_cast<int>(problem.contact.size());
   const auto each_of = [&](int bound, const auto& of) {  // the unknowns of a bound, and how much it holds of each
     if (bound < contact) return of(problem.contact[bound], 1.0);
-    for (RowMatrix::InnerIterator c(problem.combinations, bound - contact); c; ++c)
+    for (RowMatrix::InnerIterator c(problem.constraints, bound - contact); c; ++c)
       if (c.value() != 0) of(static_cast<int>(c.col()), c.value());
   };
   KktParts parts = kkt_parts(problem, u, p);
   double largest_force = problem.load.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < problem.bound_count(); ++i)
     each_of(i, [&](int unknown, double c) {
-      parts.push(unknown, c * lambda(i));
+      parts.add_force(unknown, c * lambda(i));
       largest_force = std::max(largest_force, std::abs(c * lambda(i)));
     });
   double with_reactions = largest_force;
   std::vector<char> fixed(problem.size(), 0);
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i) {
-    const int unknown = problem.fixed[i];
+  for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i) {
+    const int unknown = problem.dirichlet_dofs[i];
     fixed[unknown] = 1;
     with_reactions = std::max(with_reactions, std::abs(parts.r1(unknown)));
     // the prescribed values hold exactly or not at all
-    if (u(unknown) != problem.fixed_values(static_cast<Eigen::Index>(i))) kkt.residual = 1;
+    if (u(unknown) != problem.dirichlet_values(static_cast<Eigen::Index>(i))) kkt.residual = 1;
   }
-  const double largest_u = std::max(u.lpNorm<Eigen::Infinity>(), TrustLevels{}.refused * solution.moderate);
-  const Eigen::VectorXd forces = note_equations(kkt, parts, fixed, largest_u, largest_force, with_reactions);
+  const double largest_u = std::max(u.lpNorm<Eigen::Infinity>(), KktTolerances{}.fail * solution.unlocked_size);
+  const Eigen::VectorXd forces = add_equations(kkt, parts, fixed, largest_u, largest_force, with_reactions);
   if (problem.bound_count() == 0) return kkt;
-  const Stairs stairs{problem.lower, problem.upper, problem.force_bound};
+  const Bounds bounds{problem.lower, problem.upper, problem.force_limit};
   const Eigen::VectorXd values = bounded_values(problem, u);
   kkt.min_gap = kkt.min_pressure = unbounded;
-  for (int i = 0; i < stairs.count(); ++i) {  // each in its own units
+  for (int i = 0; i < bounds.count(); ++i) {  // each in its own units
     double most_of_it = 0, force = unbounded;
     each_of(i, [&](int unknown, double c) {
       most_of_it += std::abs(c);
       force = std::min(force, forces(unknown) / std::abs(c));
     });
-    note_bound(kkt, stairs, i, values(i), lambda(i), largest_u * most_of_it, force);
+    add_bound(kkt, bounds, i, values(i), lambda(i), largest_u * most_of_it, force);
   }
   if (kkt.min_gap == unbounded) kkt.min_gap = 0;  // every bound gives way
   return kkt;
@@ -140,26 +140,25 @@ double worst_violation(const Kkt& kkt) {
   return finite ? worst : unbounded;
 }
 
-void check_kkt(const VariationalInequality& problem, Solution& solution, const TrustLevels& levels) {
+void check_kkt(const VariationalInequality& problem, Solution& solution, const KktTolerances& levels) {
   solution.kkt = kkt_report(problem, solution);
-  require_trusted(solution, levels);
+  apply_tolerances(solution, levels);
 }
 
-void require_trusted(Solution& solution, const TrustLevels& levels) {
+void apply_tolerances(Solution& solution, const KktTolerances& levels) {
   const double worst = worst_violation(solution.kkt);
   const Kkt& k = solution.kkt;
   const std::string report =
       fmt::format("smallest gap {:.1e}, smallest pressure {:.1e}, complementarity {:.1e}, residual {:.1e}", k.min_gap,
                   k.min_pressure, k.complementarity, k.residual);
   const int steps = static_cast<int>(solution.history.size());
-  if (!(worst <= levels.refused))
+  if (!(worst <= levels.fail))
     throw NotConverged(fmt::format("{}: answer refused: the conditions hold only to {:.1e}, accepted {:.0e} ({})",
-                                   solution.solver, worst, levels.refused, report),
+                                   solution.solver, worst, levels.fail, report),
                        worst, steps);
-  if (worst > levels.trusted)
-    solution.warning +=
-        fmt::format("{}{}: the conditions hold to {:.1e}, trusted {:.0e} ({})", solution.warning.empty() ? "" : "; ",
-                    solution.solver, worst, levels.trusted, report);
+  if (worst > levels.warn)
+    solution.warning += fmt::format("{}{}: the conditions hold to {:.1e}, trusted {:.0e} ({})",
+                                    solution.warning.empty() ? "" : "; ", solution.solver, worst, levels.warn, report);
 }
 
 }  // namespace antilock

@@ -38,19 +38,19 @@ namespace antilock {
 /// All zero for the zero solution of a zero load. Throws Error for a malformed problem and for sizes that do not fit.
 Kkt kkt_report(const VariationalInequality& problem, const Solution& solution);
 
-/// Levels of the largest number of a report (its worst violation): above `trusted` a solution carries a warning; above
-/// `refused` no solver of this library returns it. Promises, not limits of the arithmetic: ten times the tolerance of
+/// Levels of the largest number of a report (its worst violation): above `warn` a solution carries a warning; above
+/// `fail` no solver of this library returns it. Promises, not limits of the arithmetic: ten times the tolerance of
 /// the corrections, and what no figure and no mesh of the course could show.
-struct TrustLevels {
-  double trusted = 1e-9;
-  double refused = 1e-6;
+struct KktTolerances {
+  double warn = 1e-9;
+  double fail = 1e-6;
 };
 double worst_violation(const Kkt& kkt);
 
-/// Fills solution.kkt and solution.warning; throws NotConverged where the report is above `refused` or not finite.
-void check_kkt(const VariationalInequality& problem, Solution& solution, const TrustLevels& levels = {});
+/// Fills solution.kkt and solution.warning; throws NotConverged where the report is above `fail` or not finite.
+void check_kkt(const VariationalInequality& problem, Solution& solution, const KktTolerances& levels = {});
 /// The second half of it: judges the report that the solution carries.
-void require_trusted(Solution& solution, const TrustLevels& levels = {});
+void apply_tolerances(Solution& solution, const KktTolerances& levels = {});
 
 /// What the report compares, unknown by unknown. Of a problem in pieces each part is the sum over the pieces, strain
 /// and what is noted of them are maxima, min_gap and min_pressure minima.
@@ -60,7 +60,7 @@ struct KktParts {
   Eigen::VectorXd stiffness;  ///< N, the diagonals of |A1| and of B' M B
   double strain = 0;          ///< the largest |r2| in units of its row
   /// One term more of r1.
-  void push(Eigen::Index unknown, double force) {
+  void add_force(Eigen::Index unknown, double force) {
     r1(unknown) += force;
     terms(unknown) += std::abs(force);
   }
@@ -70,9 +70,9 @@ KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& 
 
 /// Notes the residual of the equations. Returns min(own, F_0) of all unknowns (N), infinite where `fixed` (N) is not 0:
 /// where the value is prescribed. `u`, `force`, `with_reactions`: U, F_0, F, of a problem in pieces those of the whole.
-Eigen::VectorXd note_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
-                               double with_reactions);
+Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
+                              double with_reactions);
 /// Notes the rows of bound i, whose value is s_i = `value`. `reach`: U c_i; `force`: force_i.
-void note_bound(Kkt& kkt, const Stairs& stairs, int i, double value, double lambda, double reach, double force);
+void add_bound(Kkt& kkt, const Bounds& bounds, int i, double value, double lambda, double reach, double force);
 
 }  // namespace antilock

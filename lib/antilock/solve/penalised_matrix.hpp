@@ -7,25 +7,25 @@
 namespace antilock {
 
 /// Where each unknown stands among the unknowns to solve for: the free ones in their own order, the contact ones last.
-struct FreeNumbering {
-  explicit FreeNumbering(const VariationalInequality& problem) : place(problem.size(), 0) {
-    for (const std::vector<int>* list : {&problem.fixed, &problem.contact})
-      for (const int i : *list) place[i] = -1;
+struct DofOrdering {
+  explicit DofOrdering(const VariationalInequality& problem) : position(problem.size(), 0) {
+    for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.contact})
+      for (const int i : *list) position[i] = -1;
     for (int i = 0; i < problem.size(); ++i)
-      if (place[i] == 0) take(i);
-    interior = static_cast<int>(unknown.size());
-    for (const int i : problem.contact) take(i);
+      if (position[i] == 0) append(i);
+    interior = static_cast<int>(dof.size());
+    for (const int i : problem.contact) append(i);
   }
-  int contact() const { return static_cast<int>(unknown.size()) - interior; }
+  int contact() const { return static_cast<int>(dof.size()) - interior; }
 
-  std::vector<int> unknown;  ///< F: place -> unknown
-  std::vector<int> place;    ///< N: unknown -> place, -1 where fixed
-  int interior = 0;          ///< F - C: the contact unknowns stand at interior, interior + 1, ...
+  std::vector<int> dof;       ///< F: place -> unknown
+  std::vector<int> position;  ///< N: unknown -> place, -1 where fixed
+  int interior = 0;           ///< F - C: the contact unknowns stand at interior, interior + 1, ...
 
  private:
-  void take(int i) {
-    place[i] = static_cast<int>(unknown.size());
-    unknown.push_back(i);
+  void append(int i) {
+    position[i] = static_cast<int>(dof.size());
+    dof.push_back(i);
   }
 };
 
@@ -38,12 +38,12 @@ inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, doubl
   return penalties;
 }
 
-/// Upper triangle (F x F, in the places of FreeNumbering) of K = A1 + B' M diag(penalty)^-1 B on the free unknowns, from R
-/// penalties.
+/// Upper triangle (F x F, in the places of DofOrdering) of K = A1 + B' M diag(penalty)^-1 B on the free unknowns, from
+/// R penalties.
 /// Only the factorisation may see this sum: in it A1 has lost digits to delta^-1 (tutorial 18: the round-off trap).
-inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering,
+inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const DofOrdering& ordering,
                                      const Eigen::VectorXd& penalty) {
-  const int size = static_cast<int>(numbering.unknown.size());
+  const int size = static_cast<int>(ordering.dof.size());
   const SparseMatrix b_by_column = problem.b;
   SparseMatrix k(size, size);
   k.reserve((problem.a1.nonZeros() + size) / 2 + b_by_column.nonZeros() / 2);
@@ -53,9 +53,9 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const
   // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator. (From triplets it takes ten times
   // as long at 1/h = 256, an eighth of a solution: memory.)
   for (int column = 0; column < size; ++column) {
-    const int j = numbering.unknown[column];
-    const auto add = [&](Eigen::Index unknown, double value) {
-      const int row = numbering.place[unknown];
+    const int j = ordering.dof[column];
+    const auto add = [&](Eigen::Index dof, double value) {
+      const int row = ordering.position[dof];
       if (row < 0 || row > column) return;
       if (seen[row] == 0) touched.push_back(row);
       seen[row] = 1;
@@ -79,9 +79,8 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const
 }
 
 /// The same with one penalty for all rows.
-inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const FreeNumbering& numbering,
-                                     double delta) {
-  return penalised_matrix(problem, numbering, row_penalties(problem, delta, delta));
+inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const DofOrdering& ordering, double delta) {
+  return penalised_matrix(problem, ordering, row_penalties(problem, delta, delta));
 }
 
 }  // namespace antilock

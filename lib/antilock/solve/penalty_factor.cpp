@@ -9,8 +9,8 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/problem/choose_penalty.hpp"
-#include "antilock/solve/detail/tied.hpp"
-#include "antilock/solve/tuned.hpp"
+#include "antilock/solve/defaults.hpp"
+#include "antilock/solve/detail/slack_form.hpp"
 
 namespace antilock {
 namespace {
@@ -30,63 +30,64 @@ bool same(const Sparse& one, const Sparse& other) {
          equal(one.outerIndexPtr(), other.outerIndexPtr(), one.outerSize());
 }
 
-/// Whether the contact problem takes the sparse road (see ContactRoad).
-bool takes_sparse(ContactRoad road, const FreeNumbering& numbering) {
-  const int bounded = numbering.contact();
-  if (road != ContactRoad::automatic) return bounded > 0 && road == ContactRoad::sparse;
-  return bounded > 10 * std::sqrt(numbering.unknown.size());
+/// Whether the contact problem takes the sparse road (see ContactReduction).
+bool chooses_sparse(ContactReduction reduction, const DofOrdering& ordering) {
+  const int bounded = ordering.contact();
+  if (reduction != ContactReduction::automatic) return bounded > 0 && reduction == ContactReduction::sparse;
+  return bounded > 10 * std::sqrt(ordering.dof.size());
 }
 
 }  // namespace
 
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty, ContactRoad road,
-                             CholeskyMaker make)
-    : first_delta_(moderate_delta(checked(problem), penalty)),
-      of_(*Tied(problem, first_delta_)),
-      numbering_(of_),
-      sparse_(takes_sparse(road, numbering_)),
+PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty,
+                             ContactReduction reduction, CholeskyMaker make)
+    : first_delta_(penalty_parameter(checked(problem), penalty)),
+      problem_(*SlackForm(problem, first_delta_)),
+      ordering_(problem_),
+      sparse_(chooses_sparse(reduction, ordering_)),
       factor_(make) {
   refactor(first_delta_);
 }
 
-void PenaltyFactor::check_fits(const VariationalInequality& problem) const { tied(problem); }
+void PenaltyFactor::check_fits(const VariationalInequality& problem) const { slack_form(problem); }
 
-Tied PenaltyFactor::tied(const VariationalInequality& problem) const {
+SlackForm PenaltyFactor::slack_form(const VariationalInequality& problem) const {
   check_data(problem);
-  Tied tied(problem, first_delta_);
-  const FreeNumbering other(*tied);
-  if (other.unknown != numbering_.unknown || other.interior != numbering_.interior)
+  SlackForm slack_form(problem, first_delta_);
+  const DofOrdering other(*slack_form);
+  if (other.dof != ordering_.dof || other.interior != ordering_.interior)
     throw Error(
         fmt::format("solve: the factor is of {} free unknowns, {} of them in contact, the problem has {} and {}; "
                     "accepted: the factor of a problem with the same free and contact unknowns",
-                    numbering_.unknown.size(), numbering_.contact(), other.unknown.size(), other.contact()));
-  const Eigen::VectorXd &own = tied->own_compliances, &of_factor = of_.own_compliances;
-  if (!same(tied->a1, of_.a1) || !same(tied->b, of_.b) || tied->m != of_.m || own.size() != of_factor.size() ||
-      own != of_factor)
+                    ordering_.dof.size(), ordering_.contact(), other.dof.size(), other.contact()));
+  const Eigen::VectorXd &own = slack_form->own_compliances, &of_factor = problem_.own_compliances;
+  if (!same(slack_form->a1, problem_.a1) || !same(slack_form->b, problem_.b) || slack_form->m != problem_.m ||
+      own.size() != of_factor.size() || own != of_factor)
     throw Error("solve: the factor is of another A1, B or M; accepted: the factor of this problem's matrices");
-  return tied;
+  return slack_form;
 }
 
 void PenaltyFactor::refactor(double delta) {
   if (!(delta > 0 && std::isfinite(delta)))
     throw Error(fmt::format("solve: delta = {}; accepted: a positive number", delta));
-  double own = of_.own_compliances.size() > 0 ? tuned::own_penalty * std::min(delta, choose_penalty(of_)) : delta;
-  for (delta_ = 0; delta_ == 0; delta *= tuned::next_penalty, own *= tuned::next_penalty) {
-    penalties_ = row_penalties(of_, delta, own);
+  double own =
+      problem_.own_compliances.size() > 0 ? defaults::own_penalty * std::min(delta, choose_penalty(problem_)) : delta;
+  for (delta_ = 0; delta_ == 0; delta *= defaults::penalty_reduction, own *= defaults::penalty_reduction) {
+    penalties_ = row_penalties(problem_, delta, own);
     const std::optional<int> lost =
-        factor_.factorise(penalised_matrix(of_, numbering_, penalties_), sparse_ ? 0 : numbering_.contact());
+        factor_.factorise(penalised_matrix(problem_, ordering_, penalties_), sparse_ ? 0 : ordering_.contact());
     if (!lost) delta_ = delta;
     // a larger penalty leaves the factor more digits of A1, until nothing is stiff beside it any more
-    else if (of_.b.rows() == 0 || !(delta < first_delta_ / usual_penalty))
+    else if (problem_.b.rows() == 0 || !(delta < first_delta_ / default_penalty))
       throw Error(fmt::format(
           "solve: A1 + B' M B / {:.3g} is not positive definite (at unknown {}): a part of the structure is held "
           "by nothing, a cell is too flat for double precision, or A1 and B are in units far apart; accepted: enough "
           "fixed unknowns, cells, entries of A1 and B' M B of like size",
-          delta, numbering_.unknown[*lost]));
+          delta, ordering_.dof[*lost]));
   }
   if (sparse_) return;
   const Stopwatch watch;
-  contact_block_ = factor_.cholesky().trailing_block(numbering_.interior);
+  contact_block_ = factor_.cholesky().trailing_block(ordering_.interior);
   schur_ = contact_block_.triangularView<Eigen::Lower>() * contact_block_.transpose();
   schur_seconds_ = watch.seconds();
 }
@@ -95,8 +96,8 @@ const SparseCholesky& PenaltyFactor::dense() const {
   if (sparse_)
     throw Error(
         fmt::format("solve: this factor of {} bounds among {} unknowns has no dense contact block; accepted: a factor "
-                    "made with ContactRoad::dense",
-                    numbering_.contact(), numbering_.unknown.size()));
+                    "made with ContactReduction::schur_complement",
+                    ordering_.contact(), ordering_.dof.size()));
   return factor_.cholesky();
 }
 

@@ -7,7 +7,7 @@
 
 namespace antilock {
 
-class Tied;
+class SlackForm;
 
 /// How the contact problem of a correction is solved.
 ///
@@ -22,7 +22,7 @@ class Tied;
 /// at 12, for n = 32, 64 and 128: C^3 stands against F^(3/2). Where all unknowns are bounded, the sparse road is taken
 /// from 101 on: at 225 both cost the same, at 529 it takes a fifth. Uzawa asks for a factor of the dense one. (A beam of
 /// 512 cells takes as many steps on either.)
-enum class ContactRoad { automatic, dense, sparse };
+enum class ContactReduction { automatic, schur_complement, sparse };
 
 /// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B. On the dense road with
 /// the contact unknowns ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur
@@ -30,31 +30,32 @@ enum class ContactRoad { automatic, dense, sparse };
 /// where delta is the same, every compliance of one matrix pair (A1, B).
 class PenaltyFactor {
  public:
-  /// refactor(moderate_delta(problem, penalty)). Throws Error for a malformed problem or a penalty that is not positive,
-  /// if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of memory.
+  /// refactor(penalty_parameter(problem, penalty)). Throws Error for a malformed problem or a penalty that is not
+  /// positive, if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of memory.
   explicit PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
-                         ContactRoad road = ContactRoad::automatic, CholeskyMaker make = default_cholesky);
+                         ContactReduction reduction = ContactReduction::automatic,
+                         CholeskyMaker make = default_cholesky);
 
   /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B
   /// or M than this factor's, to the last bit: one walk over the data, about the cost of a residual.
   void check_fits(const VariationalInequality& problem) const;
-  /// The same, and the problem whose bounds are all on unknowns (tied.hpp).
-  Tied tied(const VariationalInequality& problem) const;
+  /// The same, and the problem whose bounds are all on unknowns (slack_form.hpp).
+  SlackForm slack_form(const VariationalInequality& problem) const;
   /// A new numeric factorisation for another delta, or one so much larger that the factor has its pivots; the symbolic
   /// analysis is kept. Throws as the constructor does, and delta() is 0 then, until it succeeds.
   void refactor(double delta);
 
   double delta() const { return delta_; }
-  /// R, of the tied problem: delta, and of rows with compliances of their own these or tuned::own_penalty.
+  /// R, of the tied problem: delta, and of rows with compliances of their own these or defaults::own_penalty.
   const Eigen::VectorXd& penalties() const { return penalties_; }
-  const FreeNumbering& numbering() const { return numbering_; }
+  const DofOrdering& ordering() const { return ordering_; }
   /// The smallest pivot of K: to about a factor of F its smallest eigenvalue, for next to nothing.
   double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
   /// K^-1 r on the F free places; on the sparse road of the unknowns that are not held, 0 on the held ones.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_.solve(r); }
 
   /// The sparse road's K, which holds unknowns; nullptr on the dense one.
-  HeldFactor* held() { return sparse_ ? &factor_ : nullptr; }
+  ConstrainedCholesky* sparse_factor() { return sparse_ ? &factor_ : nullptr; }
 
   // The dense road's; on the sparse one they throw Error.
   /// The factor itself: of L^-1 P r the last C entries belong to the contact unknowns, in their order.
@@ -70,10 +71,10 @@ class PenaltyFactor {
  private:
   double first_delta_, delta_ = 0;
   Eigen::VectorXd penalties_;
-  VariationalInequality of_;  ///< that it was made of, tied
-  FreeNumbering numbering_;
+  VariationalInequality problem_;  ///< that it was made of, tied
+  DofOrdering ordering_;
   bool sparse_;
-  HeldFactor factor_;
+  ConstrainedCholesky factor_;
   Eigen::MatrixXd contact_block_, schur_;  ///< of the dense road
   double schur_seconds_ = 0;
 };

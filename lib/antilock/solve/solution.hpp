@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "antilock/core/eigen_memory.hpp"
-#include "antilock/solve/stairs.hpp"
+#include "antilock/solve/bounds.hpp"
 
 namespace antilock {
 
@@ -37,16 +37,16 @@ struct Solution {
   Eigen::VectorXd p;         ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
   Eigen::VectorXd lambda;    ///< C contact forces, one per bound (a force; measure/ turns it to a density): >= 0 at a
                              ///< lower bound, <= 0 at an upper one
-  Pieces pieces;             ///< C: the piece of its stair that each bound is on; empty where the solver knows none
+  BoundStatuses status;      ///< C: the piece of its stair that each bound is on; empty where the solver knows none
   std::vector<bool> active;  ///< C: in contact, with either bound: is_active(pieces[i])
-  double moderate = 0;       ///< largest |u| with the moderate penalty in place of the compliance: the size of u before
+  double unlocked_size = 0;  ///< largest |u| with the moderate penalty in place of the compliance: the size of u before
                              ///< it locks, where it is known (0: it is not)
   /// Forward error of u in the maximum norm, relative to the largest |u|; 0: none is claimed, or there was nothing left
   /// to correct. The sum of what the next corrections would add, with the contraction that was measured, of what is
   /// left of B u = compliance p, and of the rounding of u to doubles, eps / 2. An estimate: of 24,000 random problems
   /// one was off by 15 times what it claims, all others by 10 times at most; the worst that is known, by 24 times. It
-  /// is above the tolerance where u has locked to less than 2e-6 of `moderate`: such a u is the round-off of its size
-  /// before. It is infinite where u is 0 and something is left to correct. It holds for the contact set found, and
+  /// is above the tolerance where u has locked to less than 2e-6 of `unlocked_size`: such a u is the round-off of its
+  /// size before. It is infinite where u is 0 and something is left to correct. It holds for the contact set found, and
   /// knows nothing of what Uzawa's steps leave.
   double error = 0;
   Kkt kkt;

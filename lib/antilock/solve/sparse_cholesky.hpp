@@ -20,7 +20,7 @@ class SparseCholesky {
   virtual void analyse(const SparseMatrix& k, int last) = 0;
 
   /// A numeric factorisation of a matrix of the analysed pattern. Returns the row of K whose pivot is not positive or
-  /// nothing but round-off (tuned::round_off); empty: K is positive definite. Throws NotConverged out of memory.
+  /// nothing but round-off (defaults::round_off); empty: K is positive definite. Throws NotConverged out of memory.
   virtual std::optional<int> factorise(const SparseMatrix& k) = 0;
 
   /// The smallest pivot: to about a factor of F the smallest eigenvalue of K, for next to nothing. Infinite of no rows.
@@ -43,44 +43,44 @@ std::unique_ptr<SparseCholesky> default_cholesky();
 /// A symmetric positive definite K (F x F) of which some unknowns may be held: the factor is that of the others, the
 /// rows and columns of the held ones are left with their diagonal alone. One analysis serves every set, so that another
 /// set costs one numeric factorisation.
-class HeldFactor {
+class ConstrainedCholesky {
  public:
-  explicit HeldFactor(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
+  explicit ConstrainedCholesky(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
 
   /// Takes the upper triangle of K and factors it with nothing held; a later one must have the same pattern, and `last`
   /// is of the first alone. Returns the row of a lost pivot. All as SparseCholesky.
   std::optional<int> factorise(SparseMatrix&& k, int last = 0) {
     k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved
-    held_.assign(k_.cols(), 0);
+    eliminated_.assign(k_.cols(), 0);
     Stopwatch watch;
     if (factorisations_++ == 0) {
       cholesky_->analyse(k_, last);
       analyse_seconds_ = watch.lap();
     }
-    const std::optional<int> lost = cholesky_->factorise(k_);
+    const std::optional<int> lost_pivot = cholesky_->factorise(k_);
     factor_seconds_ = watch.lap();
-    return lost;
+    return lost_pivot;
   }
 
   /// Throws Error where the rest of K is not positive definite.
-  void hold(const std::vector<char>& held) {
-    if (held == held_) return;
+  void eliminate(const std::vector<char>& eliminated) {
+    if (eliminated == eliminated_) return;
     SparseMatrix rest = k_;
     for (Eigen::Index j = 0; j < rest.cols(); ++j)
       for (SparseMatrix::InnerIterator it(rest, j); it; ++it)
-        if (it.row() != j && (held[j] != 0 || held[it.row()] != 0)) it.valueRef() = 0;
-    held_.clear();
+        if (it.row() != j && (eliminated[j] != 0 || eliminated[it.row()] != 0)) it.valueRef() = 0;
+    eliminated_.clear();
     ++factorisations_;
     if (cholesky_->factorise(rest))
       throw Error("contact: K on the unknowns that are not held is not positive definite");
-    held_ = held;
+    eliminated_ = eliminated;
   }
 
   /// x = K^-1 r on the unknowns that are not held, 0 on the held ones.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const {
     Eigen::VectorXd x = cholesky_->backward(cholesky_->forward(r));
     for (Eigen::Index i = 0; i < x.size(); ++i)
-      if (held_[i] != 0) x(i) = 0;
+      if (eliminated_[i] != 0) x(i) = 0;
     return x;
   }
 
@@ -99,7 +99,7 @@ class HeldFactor {
 
  private:
   SparseMatrix k_;
-  std::vector<char> held_;
+  std::vector<char> eliminated_;
   int factorisations_ = 0;
   double analyse_seconds_ = 0, factor_seconds_ = 0;
   std::unique_ptr<SparseCholesky> cholesky_;

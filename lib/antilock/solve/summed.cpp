@@ -75,44 +75,44 @@ SummedSystem summed_system(const VariationalInequality& problem, const std::stri
   if (problem.b.rows() > 0 && problem.compliance == 0)
     throw Error(fmt::format(
         "{}: the summed matrix does not exist at epsilon = 0; accepted epsilon > 0, or the solver {}", who, instead));
-  FreeNumbering numbering(problem);
-  SparseMatrix upper = penalised_matrix(problem, numbering, problem.compliance);  // the sum, and the fault
+  DofOrdering ordering(problem);
+  SparseMatrix upper = penalised_matrix(problem, ordering, problem.compliance);  // the sum, and the fault
   Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.size());
-  u(problem.fixed) = problem.fixed_values;
+  u(problem.dirichlet_dofs) = problem.dirichlet_values;
   Eigen::VectorXd load = problem.load - problem.a1 * u;
   if (problem.b.rows() > 0) load -= problem.b.transpose() * problem.m.cwiseProduct(problem.b * u) / problem.compliance;
-  load = Eigen::VectorXd(load(numbering.unknown));
-  return {std::move(numbering), std::move(upper), std::move(load), std::move(u)};
+  load = Eigen::VectorXd(load(ordering.dof));
+  return {std::move(ordering), std::move(upper), std::move(load), std::move(u)};
 }
 
 std::string to_string(NaiveEnd end) {
   return std::array{"settled", "cycled", "refused", "step cap"}[static_cast<std::size_t>(end)];
 }
 
-NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps) {
+NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps) {
   const Stopwatch watch;
-  const auto [numbering, k, b, given] = summed_system(problem, "naive", "active_set");
+  const auto [ordering, k, b, given] = summed_system(problem, "naive", "active_set");
   const SparseMatrix both_triangles = k.selfadjointView<Eigen::Upper>();
   const int size = static_cast<int>(b.size()), c = static_cast<int>(problem.contact.size());
-  NaiveAnswer answer;
-  Solution& s = answer.solution;
+  NaiveResult result;
+  Solution& s = result.solution;
   s.solver = kind == SummedFactor::cholesky ? "naive, Cholesky of the sum" : "naive, LU of the sum";
   s.u = given;
   s.lambda = Eigen::VectorXd::Zero(c);
   s.active.assign(c, false);
 
   std::set<std::vector<bool>> tried;
-  answer.end = NaiveEnd::step_cap;
+  result.end = NaiveEnd::step_cap;
   while (s.counters.contact < max_steps) {
     if (!tried.insert(s.active).second) {
-      answer.end = NaiveEnd::cycled;
+      result.end = NaiveEnd::cycled;
       break;
     }
     // the active unknowns stand at their bounds and leave the system
     Eigen::VectorXd x = Eigen::VectorXd::Zero(size);
     std::vector<int> inactive;
     for (int i = 0; i < size; ++i)
-      if (const int contact = i - numbering.interior; contact >= 0 && s.active[contact])
+      if (const int contact = i - ordering.interior; contact >= 0 && s.active[contact])
         x(i) = problem.lower(contact);
       else
         inactive.push_back(i);
@@ -124,7 +124,7 @@ NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFacto
     ++s.counters.solves;
     ++s.counters.contact;
     if (found.size() == 0) {
-      answer.end = NaiveEnd::refused;
+      result.end = NaiveEnd::refused;
       break;
     }
     x(inactive) = found;
@@ -133,14 +133,14 @@ NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFacto
     s.lambda.setZero();
     for (int i = 0; i < c; ++i) {
       if (s.active[i]) s.lambda(i) = force(i);
-      const double gap = x(numbering.interior + i) - problem.lower(i);
+      const double gap = x(ordering.interior + i) - problem.lower(i);
       if (!(s.active[i] ? force(i) < 0 : gap < 0)) continue;
       s.active[i] = !s.active[i];
       settled = false;
     }
-    s.u(numbering.unknown) = x;
+    s.u(ordering.dof) = x;
     if (settled) {
-      answer.end = NaiveEnd::settled;
+      result.end = NaiveEnd::settled;
       break;
     }
   }
@@ -148,17 +148,17 @@ NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFacto
   s.p = problem.b * s.u / problem.compliance;
   s.counters.unknowns = problem.free_count();
   s.kkt = kkt_report(problem, s);
-  return answer;
+  return result;
 }
 
 Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options) {
   const std::string who = "uzawa, CG + ILUT";
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("{}: step = {}; accepted: a positive number", who, *options.step));
-  if (options.enough)
+  if (options.stop_at)
     throw Error(who + ": options.enough asks for the condensed matrix; accepted: tolerance, or the solver uzawa");
   Stopwatch watch, stage;
-  const auto [numbering, upper, load, given] = summed_system(problem, who, "uzawa");
+  const auto [ordering, upper, load, given] = summed_system(problem, who, "uzawa");
   CgIlut solve(upper);
   Solution s;
   s.solver = who;
@@ -199,7 +199,7 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
           change, steps);
   }
   s.seconds.solve = stage.lap();
-  s.u(numbering.unknown) = x;
+  s.u(ordering.dof) = x;
   s.lambda = lambda;
   for (Eigen::Index i = 0; i < c; ++i) s.active.push_back(lambda(i) > 0);
   s.p = problem.b * s.u / problem.compliance;

@@ -8,7 +8,7 @@ namespace antilock {
 
 /// K u = load on the free unknowns, K = A1 + compliance^-1 B' M B.
 struct SummedSystem {
-  FreeNumbering numbering;
+  DofOrdering ordering;
   SparseMatrix upper;    ///< F x F, the upper triangle of K
   Eigen::VectorXd load;  ///< F: what the prescribed values leave of it
   Eigen::VectorXd u;     ///< N: the prescribed values, 0 elsewhere
@@ -32,14 +32,14 @@ std::string to_string(NaiveEnd end);
 
 /// An answer that nobody has vouched for: solution.kkt is the report in split form, as it is, and no level of trust was
 /// applied. p is compliance^-1 B u, where u has lost the digits that p is made of.
-struct NaiveAnswer {
+struct NaiveResult {
   Solution solution;
   NaiveEnd end = NaiveEnd::settled;
 };
 
 /// The sum, factored in every step of a primal-dual active set that starts from no contact. Throws as summed_system
 /// does.
-NaiveAnswer naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps = 100);
+NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps = 100);
 
 /// The paper's algorithm with the paper's linear solver (Section 4.2): one run of conjugate gradients on the sum,
 /// preconditioned by ILUT, a step. ILUT breaks down on stiff meshes that are not aligned with the layer, which is

@@ -13,30 +13,30 @@
 #include "antilock/problem/choose_penalty.hpp"
 #include "antilock/solve/active_set.hpp"
 #include "antilock/solve/contact_systems.hpp"
-#include "antilock/solve/tuned.hpp"
+#include "antilock/solve/defaults.hpp"
 
 namespace antilock {
 namespace {
 
 /// Steps from one look at the duality gap, the hook and the clock to the next: a step costs far less than a look.
-constexpr int look = 32;
+constexpr int check_interval = 32;
 
 /// An upper bound of J(v+) - J(u_h) on Gamma_C, v+ = v moved to the nearest bound where it is beyond, for v = S^-1 (q +
 /// lambda) and any lambda of the right signs: the energy of v+ less the dual energy of lambda, -(q + lambda) S^-1 (q +
 /// lambda) / 2 + lambda bound (the lower one where lambda > 0, the upper one where lambda < 0), which simplifies to
 ///     lambda (v+ - bound) + d S d / 2,   d = v+ - v what v sinks in.
 /// A bound that gives way moves nothing and adds the work that it takes up, what it bears times the distance from it.
-double duality_gap(const Eigen::MatrixXd& s, const Stairs& stairs, const ContactAnswer& answer) {
-  Eigen::VectorXd inside = answer.v;
+double duality_gap(const Eigen::MatrixXd& s, const Bounds& bounds, const ContactResult& result) {
+  Eigen::VectorXd inside = result.v;
   double work = 0;
-  for (int i = 0; i < stairs.count(); ++i) {
-    const double low = stairs.lower(i), high = stairs.above(i), lambda = answer.lambda(i);
-    if (std::isinf(stairs.most(i))) inside(i) = std::clamp(inside(i), low, high);
-    const double sunk = std::max(low - inside(i), inside(i) - high);
+  for (int i = 0; i < bounds.count(); ++i) {
+    const double low = bounds.lower(i), high = bounds.upper_or_infinity(i), lambda = result.lambda(i);
+    if (std::isinf(bounds.force_limit_or_infinity(i))) inside(i) = std::clamp(inside(i), low, high);
+    const double penetration = std::max(low - inside(i), inside(i) - high);
     if (lambda != 0) work += lambda * (inside(i) - (lambda > 0 ? low : high));
-    if (sunk > 0) work += stairs.most(i) * sunk;
+    if (penetration > 0) work += bounds.force_limit_or_infinity(i) * penetration;
   }
-  const Eigen::VectorXd d = inside - answer.v;
+  const Eigen::VectorXd d = inside - result.v;
   return work + 0.5 * d.dot(s * d);
 }
 
@@ -45,32 +45,33 @@ class CondensedUzawa {
  public:
   CondensedUzawa(const PenaltyFactor& factor, const UzawaOptions& options) : factor_(factor), options_(options) {}
 
-  ContactAnswer operator()(const ContactSystem& system, const Stairs& asked, const ContactAnswer& before,
+  ContactResult operator()(const ContactSystem& system, const Bounds& asked, const ContactResult& before,
                            double u_scale) {
     const auto& given = dynamic_cast<const DenseContact&>(system);
-    const Stairs stairs{asked.lower, asked.upper, asked.bears};
+    const Bounds bounds{asked.lower, asked.upper, asked.force_limit};
     if (factor_.delta() != delta_) condense(given.s());  // the corrections may have taken another penalty
     Eigen::VectorXd q = given.q();                       // the steps are taken on whole forces
-    if (asked.force.size() > 0) q -= asked.force;
-    ContactAnswer answer;
+    if (asked.accumulated_force.size() > 0) q -= asked.accumulated_force;
+    ContactResult result;
     // the step is taken on f = q + lambda >= q: where the obstacle bears a great load, little is left of the two
     Eigen::VectorXd f = q;
     if (before.lambda.size() > 0) f += before.lambda;
     while (true) {
-      answer.v = compliance_ * f;
-      answer.lambda = f - q;
-      const bool looks = answer.steps % look == 0;
-      if (options_.enough && looks && duality_gap(given.s(), stairs, answer) <= options_.enough->energy) break;
-      const Eigen::VectorXd next = projected_step(stairs, q, f, answer.v);
-      const double scale = std::max(answer.v.cwiseAbs().maxCoeff(), u_scale);  // bounds far from v do not count
+      result.v = flexibility_ * f;
+      result.lambda = f - q;
+      const bool checks = result.steps % check_interval == 0;
+      if (options_.stop_at && checks && duality_gap(given.s(), bounds, result) <= options_.stop_at->energy) break;
+      const Eigen::VectorXd next = projected_step(bounds, q, f, result.v);
+      const double scale = std::max(result.v.cwiseAbs().maxCoeff(), u_scale);  // bounds far from v do not count
       const double change = scale > 0 ? (next - f).cwiseAbs().cwiseQuotient(rho_).maxCoeff() / scale : 0;
       f = next;
-      ++answer.steps;
+      ++result.steps;
       history.push_back(change);
       if (change <= options_.tolerance) break;
-      if (answer.steps % look == 0)
-        report(options_.progress, {"contact", static_cast<int>(history.size()), change, options_.tolerance}, "uzawa");
-      const bool late = answer.steps % look == 0 && watch_.seconds() > options_.max_seconds;
+      if (result.steps % check_interval == 0)
+        notify_or_throw(options_.progress, {"contact", static_cast<int>(history.size()), change, options_.tolerance},
+                        "uzawa");
+      const bool late = result.steps % check_interval == 0 && watch_.seconds() > options_.max_seconds;
       if (!std::isfinite(change) || late || static_cast<int>(history.size()) >= options_.max_steps)
         throw NotConverged(
             fmt::format("uzawa: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}; "
@@ -78,43 +79,44 @@ class CondensedUzawa {
                         change, history.size(), watch_.seconds(), options_.tolerance),
             change, static_cast<int>(history.size()));
     }
-    answer.v = compliance_ * f;
-    answer.lambda = f - q;
-    for (int i = 0; i < stairs.count(); ++i) answer.pieces.push_back(take_piece(stairs, i, q(i), f(i), answer));
-    return answer;
+    result.v = flexibility_ * f;
+    result.lambda = f - q;
+    for (int i = 0; i < bounds.count(); ++i) result.status.push_back(status_of(bounds, i, q(i), f(i), result));
+    return result;
   }
 
   std::vector<double> history;
 
  private:
   /// The piece that (v, lambda) stands on: a bound that pushes holds, but not where it bears its most.
-  Piece take_piece(const Stairs& stairs, int i, double q, double f, ContactAnswer& answer) const {
-    const double most = stairs.most(i);
+  BoundStatus status_of(const Bounds& bounds, int i, double q, double f, ContactResult& result) const {
+    const double most = bounds.force_limit_or_infinity(i);
     const bool low = f >= q + most, high = f <= q - most;
     if (low || high) {
-      answer.lambda(i) = low && high ? 0 : low ? most : -most;
-      if (low && high && answer.v(i) >= stairs.lower(i) && answer.v(i) <= stairs.above(i)) return Piece::between;
-      return low && (!high || answer.v(i) < stairs.lower(i)) ? Piece::below : Piece::above;
+      result.lambda(i) = low && high ? 0 : low ? most : -most;
+      if (low && high && result.v(i) >= bounds.lower(i) && result.v(i) <= bounds.upper_or_infinity(i))
+        return BoundStatus::inactive;
+      return low && (!high || result.v(i) < bounds.lower(i)) ? BoundStatus::slip_below : BoundStatus::slip_above;
     }
-    if (stairs.is_equation(i) || f > q) return Piece::at_lower;
-    return f < q ? Piece::at_upper : Piece::between;
+    if (bounds.is_equation(i) || f > q) return BoundStatus::at_lower;
+    return f < q ? BoundStatus::at_upper : BoundStatus::inactive;
   }
 
   /// lambda <- max(0, lambda - rho (v - lower)) + min(0, lambda - rho (v - upper)): of the two terms one is zero. In f
   /// that is q, moved up to f - rho (v - lower) or down to f - rho (v - upper), and no further than a bound bears.
-  Eigen::VectorXd projected_step(const Stairs& stairs, const Eigen::VectorXd& q, const Eigen::VectorXd& f,
+  Eigen::VectorXd projected_step(const Bounds& bounds, const Eigen::VectorXd& q, const Eigen::VectorXd& f,
                                  const Eigen::VectorXd& v) const {
     Eigen::VectorXd next = q;
-    if (stairs.upper.size() > 0) next = next.cwiseMin(f - rho_.cwiseProduct(v - stairs.upper));
-    next = next.cwiseMax(f - rho_.cwiseProduct(v - stairs.lower));
-    if (stairs.bears.size() > 0) next = next.cwiseMax(q - stairs.bears).cwiseMin(q + stairs.bears);
+    if (bounds.upper.size() > 0) next = next.cwiseMin(f - rho_.cwiseProduct(v - bounds.upper));
+    next = next.cwiseMax(f - rho_.cwiseProduct(v - bounds.lower));
+    if (bounds.force_limit.size() > 0) next = next.cwiseMax(q - bounds.force_limit).cwiseMin(q + bounds.force_limit);
     return next;
   }
 
   void condense(const Eigen::MatrixXd& s) {
     const Eigen::Index count = s.rows();
-    const Eigen::MatrixXd inverse = Cholesky(s).half_solve(Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
-    compliance_ = inverse.transpose() * inverse;
+    const Eigen::MatrixXd inverse = Cholesky(s).forward(Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
+    flexibility_ = inverse.transpose() * inverse;
     delta_ = factor_.delta();
     if (options_.step) {
       rho_.setConstant(count, *options_.step);
@@ -124,9 +126,9 @@ class CondensedUzawa {
     // small for most. The one that contracts fastest is 2 / (largest + smallest eigenvalue of W C).
     double best = std::numeric_limits<double>::infinity();
     for (const Eigen::VectorXd& weight :
-         {Eigen::VectorXd(compliance_.diagonal().cwiseInverse()), Eigen::VectorXd(Eigen::VectorXd::Ones(count))}) {
+         {Eigen::VectorXd(flexibility_.diagonal().cwiseInverse()), Eigen::VectorXd(Eigen::VectorXd::Ones(count))}) {
       const Eigen::VectorXd root = weight.cwiseSqrt();
-      const double most = largest(compliance_, root), least = 1 / largest(s, root.cwiseInverse());
+      const double most = largest(flexibility_, root), least = 1 / largest(s, root.cwiseInverse());
       if (most / least > best) continue;
       best = most / least;
       rho_ = 2 / (most + least) * weight;
@@ -143,7 +145,7 @@ class CondensedUzawa {
 
   const PenaltyFactor& factor_;
   UzawaOptions options_;
-  Eigen::MatrixXd compliance_;
+  Eigen::MatrixXd flexibility_;
   Eigen::VectorXd rho_;  ///< C, the step of each force
   double delta_ = 0;
   Stopwatch watch_;
@@ -154,10 +156,10 @@ class CondensedUzawa {
 Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options) {
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
-  CorrectionOptions corrections{std::max({options.tolerance, options.enough ? options.enough->relative : 0, 1e-12})};
+  CorrectionOptions corrections{std::max({options.tolerance, options.stop_at ? options.stop_at->relative : 0, 1e-12})};
   corrections.progress = options.progress;
   corrections.contact = corrections.tolerance;
-  if (factor.held() != nullptr) factor.contact_block();  // says that there is none
+  if (factor.sparse_factor() != nullptr) factor.contact_block();  // says that there is none
   CondensedUzawa contact(factor, options);
   Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");
   if (problem.bound_count() == 0) return solution;
@@ -168,7 +170,8 @@ Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, cons
 
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
   // its steps are products with S^-1, whose round-off no correction mends: a penalty that leaves it more digits
-  PenaltyFactor factor(problem, tuned::next_penalty * choose_penalty(problem), ContactRoad::dense);
+  PenaltyFactor factor(problem, defaults::penalty_reduction * choose_penalty(problem),
+                       ContactReduction::schur_complement);
   return uzawa(problem, factor, options);
 }
 

@@ -9,8 +9,8 @@
 
 namespace antilock {
 
-/// An algebraic error not worth pushing further down; certificate/accurate_enough.hpp says which.
-struct AccurateEnough {
+/// An algebraic error not worth pushing further down; certificate/balanced_tolerance.hpp says which.
+struct AlgebraicTolerance {
   double energy = 0;    ///< of J(v) - J(u_h), v = the iterate pushed out of the obstacle, J with the penalty delta in
                         ///< place of a smaller compliance
   double relative = 0;  ///< the same in u: of |v - u_h|_a relative to |u_h|_a, the norm with delta, too
@@ -25,13 +25,13 @@ struct UzawaOptions {
   std::optional<double> step;
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
-  std::optional<AccurateEnough> enough;
+  std::optional<AlgebraicTolerance> stop_at;
   ProgressHook progress = {};  ///< called every 32 steps, and after every correction that is not the last
 };
 
 /// The paper's algorithm: projected gradient on the contact pressure,
 ///     A u = L + lambda,   lambda <- max(0, lambda - rho (u - lower))   on Gamma_C,
-/// and + min(0, lambda - rho (u - upper)) where there is an upper bound, cut to |lambda| <= force_bound; the linear
+/// and + min(0, lambda - rho (u - upper)) where there is an upper bound, cut to |lambda| <= force_limit; the linear
 /// solve by Cholesky. Condensed on Gamma_C (the compliance is dense there and small) a step costs a product with a C x
 /// C matrix; the stiff part is treated by iterated penalty, as in active_set. history holds one entry per step. Throws
 /// NotConverged, with how far it came, instead of ever returning an unconverged answer. Bounds of other shapes as in

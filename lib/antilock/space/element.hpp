@@ -14,17 +14,17 @@ class Element {
   virtual std::string name() const = 0;
   virtual int degree() const = 0;  ///< of the polynomials of the basis: what a quadrature must be exact for
   virtual bool conforming() const { return true; }  ///< V_h is part of V: no jumps
-  virtual int per_vertex() const = 0;               ///< unknowns at a vertex
-  virtual int per_edge() const = 0;      ///< unknowns on an edge, ordered from its vertex i+1 to its vertex i+2
-  virtual int per_triangle() const = 0;  ///< unknowns inside a triangle
+  virtual int dofs_per_vertex() const = 0;          ///< unknowns at a vertex
+  virtual int dofs_per_edge() const = 0;  ///< unknowns on an edge, ordered from its vertex i+1 to its vertex i+2
+  virtual int dofs_per_cell() const = 0;  ///< unknowns inside a triangle
   /// m x 3: barycentric coordinates of the m unknowns; basis function i is 1 at row i and 0 at the others.
-  virtual Eigen::MatrixX3d nodes() const = 0;
+  virtual Eigen::MatrixX3d support_points() const = 0;
   /// m values of the basis at lambda.
   virtual Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const = 0;
   /// m x 3 derivatives d phi_i / d lambda_j; the gradient is this times grad lambda (3 x 2).
   virtual Eigen::MatrixX3d derivative(const Eigen::Vector3d& lambda) const = 0;
 
-  int unknowns() const { return 3 * per_vertex() + 3 * per_edge() + per_triangle(); }
+  int dofs() const { return 3 * dofs_per_vertex() + 3 * dofs_per_edge() + dofs_per_cell(); }
 };
 
 /// The pages, one instance each, alive as long as the program: P1, P2, P3 and P4 (conforming; beyond P1 contact is

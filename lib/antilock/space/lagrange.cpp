@@ -10,7 +10,7 @@ namespace {
 
 class Lagrange final : public Element {
  public:
-  explicit Lagrange(int degree) : k_(degree), lattice_(unknowns(), 3) {
+  explicit Lagrange(int degree) : k_(degree), lattice_(dofs(), 3) {
     Eigen::Index row = 0;
     const auto add = [&](const Eigen::RowVector3i& a) { lattice_.row(row++) = a; };
     for (int i = 0; i < 3; ++i) add(k_ * Eigen::RowVector3i::Unit(i));
@@ -22,10 +22,10 @@ class Lagrange final : public Element {
   }
   std::string name() const override { return fmt::format("P{}", k_); }
   int degree() const override { return k_; }
-  int per_vertex() const override { return 1; }
-  int per_edge() const override { return k_ - 1; }
-  int per_triangle() const override { return (k_ - 1) * (k_ - 2) / 2; }
-  Eigen::MatrixX3d nodes() const override { return lattice_.cast<double>() / k_; }
+  int dofs_per_vertex() const override { return 1; }
+  int dofs_per_edge() const override { return k_ - 1; }
+  int dofs_per_cell() const override { return (k_ - 1) * (k_ - 2) / 2; }
+  Eigen::MatrixX3d support_points() const override { return lattice_.cast<double>() / k_; }
 
   // phi_a = s(a0, lambda_0) s(a1, lambda_1) s(a2, lambda_2), s(a, t) = prod_{m < a} (k t - m) / (m + 1): 1 at t = a/k,
   // 0 at the lattice values before it (Silvester 1969)

@@ -8,10 +8,10 @@ class P1 final : public Element {
  public:
   std::string name() const override { return "P1"; }
   int degree() const override { return 1; }
-  int per_vertex() const override { return 1; }
-  int per_edge() const override { return 0; }
-  int per_triangle() const override { return 0; }
-  Eigen::MatrixX3d nodes() const override { return Eigen::Matrix3d::Identity(); }
+  int dofs_per_vertex() const override { return 1; }
+  int dofs_per_edge() const override { return 0; }
+  int dofs_per_cell() const override { return 0; }
+  Eigen::MatrixX3d support_points() const override { return Eigen::Matrix3d::Identity(); }
 
   // phi_i = lambda_i
   Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const override { return lambda; }

@@ -9,10 +9,10 @@ class P1Bubble final : public Element {
  public:
   std::string name() const override { return "P1+bubble"; }
   int degree() const override { return 3; }  // of the bubble: it reproduces polynomials of degree 1 alone
-  int per_vertex() const override { return 1; }
-  int per_edge() const override { return 0; }
-  int per_triangle() const override { return 1; }
-  Eigen::MatrixX3d nodes() const override {
+  int dofs_per_vertex() const override { return 1; }
+  int dofs_per_edge() const override { return 0; }
+  int dofs_per_cell() const override { return 1; }
+  Eigen::MatrixX3d support_points() const override {
     Eigen::MatrixX3d n(4, 3);
     n << Eigen::Matrix3d::Identity(), Eigen::RowVector3d::Constant(1.0 / 3);
     return n;

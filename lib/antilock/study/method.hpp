@@ -32,7 +32,7 @@ struct Method {
   TriangleMesh mesh(int cells) const { return family.mesh(cells); }
   /// The space of this element on a mesh, which must outlive it.
   Space space(const TriangleMesh& mesh) const { return Space(mesh, *element); }
-  Discretisation on(int cells) const { return {mesh(cells), *element}; }
+  Discretisation discretise(int cells) const { return {mesh(cells), *element}; }
 };
 
 /// Every element on every family, elements first: without arguments four methods (the caption of Figure 9 counts

@@ -16,7 +16,7 @@ void SceneSweep::set_epsilon(double epsilon) {
   StiffLayer layer = std::get<StiffLayer>(scene_.layer());
   layer.epsilon = epsilon;
   scene_ = Scene(scene_.body(), layer, scene_.contact(), scene_.edges());  // checks epsilon
-  problem_.compliance = compliance(layer);
+  problem_.compliance = class_parameter(layer);
 }
 
 void SceneSweep::set_load(const Field& f) {

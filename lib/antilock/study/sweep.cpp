@@ -39,12 +39,12 @@ void Sweep::set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upp
   }
 }
 
-void Sweep::set_force_bound(Eigen::VectorXd force_bound) {
-  std::swap(problem_.force_bound, force_bound);
+void Sweep::set_force_limit(Eigen::VectorXd force_limit) {
+  std::swap(problem_.force_limit, force_limit);
   try {
     check_bounds(problem_);
   } catch (const Error&) {
-    std::swap(problem_.force_bound, force_bound);
+    std::swap(problem_.force_limit, force_limit);
     throw;
   }
 }
@@ -55,17 +55,17 @@ const PenaltyFactor& Sweep::factor() const {
 }
 
 Solution Sweep::solve(ActiveSetOptions options) {
-  const double delta = moderate_delta(problem_, options.penalty);
+  const double delta = penalty_parameter(problem_, options.penalty);
   const int factorisations_before = factor_ ? factor_->factorisations() : 0;
   if (!factor_)
-    factor_.emplace(problem_, delta, options.road);
+    factor_.emplace(problem_, delta, options.reduction);
   else if (problem_.b.rows() > 0 && asked_ != delta)  // its own delta may have moved
     factor_->refactor(delta);
   asked_ = delta;
-  if (!options.start) options.start = pieces_;
+  if (!options.start) options.start = status_;
 
   Solution solution = active_set(problem_, *factor_, options);
-  pieces_ = solution.pieces;
+  status_ = solution.status;
   solution.counters.factorisations = factor_->factorisations() - factorisations_before;
   if (solution.counters.factorisations == 0) solution.seconds.factor = 0;
   if (factorisations_before > 0) solution.seconds.analyse = 0;

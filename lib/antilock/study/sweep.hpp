@@ -24,7 +24,7 @@ class Sweep {
   /// contact, and as `check` does.
   void set_bounds(Eigen::VectorXd lower, std::optional<Eigen::VectorXd> upper = {});
   /// C entries, or none, as in the problem. Throws Error as `check` does.
-  void set_force_bound(Eigen::VectorXd force_bound);
+  void set_force_limit(Eigen::VectorXd force_limit);
 
   /// The answer, its counters saying what this question cost beyond the ones before. The road is that of the first one.
   Solution solve(ActiveSetOptions options = {});
@@ -40,7 +40,7 @@ class Sweep {
  private:
   std::optional<PenaltyFactor> factor_;
   double asked_ = 0;  ///< the delta that the factor was asked for last
-  std::optional<Pieces> pieces_;
+  std::optional<BoundStatuses> status_;
   Counters total_;
 };
 

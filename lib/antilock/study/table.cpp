@@ -32,13 +32,13 @@ Eigen::ArrayXd some(const Table& table, const std::string& column) {
 
 }  // namespace
 
-std::string Entry::text(int digits) const {
+std::string TableEntry::text(int digits) const {
   if (!is_number()) return std::get<std::string>(value_);
   const bool whole = number() == std::floor(number()) && std::abs(number()) < 1e9;
   return digits == 0 || whole ? fmt::format("{}", number()) : fmt::format("{:.{}g}", number(), digits);
 }
 
-std::size_t Table::place(const std::string& column) const {
+std::size_t Table::column_index(const std::string& column) const {
   const auto found = std::find(columns_.begin(), columns_.end(), column);
   if (found == columns_.end())
     throw Error(fmt::format("table: no column '{}'; accepted: {}", column, fmt::join(columns_, ", ")));
@@ -51,7 +51,7 @@ Table::Table(std::vector<std::string> columns) : columns_(std::move(columns)) {
       throw Error(fmt::format("table: column '{}' twice; accepted: names that differ", *name));
 }
 
-void Table::add(std::vector<Entry> row) {
+void Table::add(std::vector<TableEntry> row) {
   if (row.size() != columns_.size())
     throw Error(fmt::format("table: a row of {} entries; accepted: {}, one per column ({})", row.size(),
                             columns_.size(), fmt::join(columns_, ", ")));
@@ -65,20 +65,20 @@ void Table::add(const Table& other) {
   rows_.insert(rows_.end(), other.rows_.begin(), other.rows_.end());
 }
 
-Table Table::where(const std::string& column, const Entry& value) const {
-  return kept(column, [&](const Entry& entry) { return entry == value; });
+Table Table::filter(const std::string& column, const TableEntry& value) const {
+  return filter_rows(column, [&](const TableEntry& entry) { return entry == value; });
 }
 
-Table Table::where_number(const std::string& column, const std::function<bool(double)>& holds) const {
+Table Table::filter_number(const std::string& column, const std::function<bool(double)>& holds) const {
   numbers(column);  // refuses words
-  return kept(column, [&](const Entry& entry) { return holds(entry.number()); });
+  return filter_rows(column, [&](const TableEntry& entry) { return holds(entry.number()); });
 }
 
-Table Table::kept(const std::string& column, const std::function<bool(const Entry&)>& holds) const {
-  Table kept(columns_);
-  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(kept.rows_),
-               [&, at = place(column)](const std::vector<Entry>& row) { return holds(row[at]); });
-  return kept;
+Table Table::filter_rows(const std::string& column, const std::function<bool(const TableEntry&)>& holds) const {
+  Table filter_rows(columns_);
+  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(filter_rows.rows_),
+               [&, at = column_index(column)](const std::vector<TableEntry>& row) { return holds(row[at]); });
+  return filter_rows;
 }
 
 std::vector<Table> Table::rows() const {
@@ -87,23 +87,23 @@ std::vector<Table> Table::rows() const {
   return rows;
 }
 
-std::vector<Entry> Table::entries(const std::string& column) const {
-  const std::size_t at = place(column);
-  std::vector<Entry> entries;
+std::vector<TableEntry> Table::entries(const std::string& column) const {
+  const std::size_t at = column_index(column);
+  std::vector<TableEntry> entries;
   for (const auto& row : rows_) entries.push_back(row[at]);
   return entries;
 }
 
-std::vector<Entry> Table::different(const std::string& column) const {
-  std::vector<Entry> different;
-  for (const Entry& entry : entries(column))
-    if (std::find(different.begin(), different.end(), entry) == different.end()) different.push_back(entry);
-  return different;
+std::vector<TableEntry> Table::unique(const std::string& column) const {
+  std::vector<TableEntry> unique;
+  for (const TableEntry& entry : entries(column))
+    if (std::find(unique.begin(), unique.end(), entry) == unique.end()) unique.push_back(entry);
+  return unique;
 }
 
 std::vector<double> Table::numbers(const std::string& column) const {
   std::vector<double> numbers;
-  for (const Entry& entry : entries(column)) {
+  for (const TableEntry& entry : entries(column)) {
     if (!entry.is_number())
       throw Error(fmt::format("table: '{}' in column '{}'; accepted: a number", entry.text(), column));
     numbers.push_back(entry.number());
@@ -111,8 +111,8 @@ std::vector<double> Table::numbers(const std::string& column) const {
   return numbers;
 }
 
-Entry Table::entry(const std::string& column) const {
-  const std::vector<Entry> all = entries(column);
+TableEntry Table::entry(const std::string& column) const {
+  const std::vector<TableEntry> all = entries(column);
   if (all.size() != 1) throw Error(fmt::format("table: column '{}' of {} rows; accepted: of one", column, all.size()));
   return all.front();
 }
@@ -122,8 +122,8 @@ double Table::number(const std::string& column) const {
   return numbers(column).front();
 }
 
-double Table::least(const std::string& column) const { return some(*this, column).minCoeff<Eigen::PropagateNaN>(); }
-double Table::most(const std::string& column) const { return some(*this, column).maxCoeff<Eigen::PropagateNaN>(); }
+double Table::min(const std::string& column) const { return some(*this, column).minCoeff<Eigen::PropagateNaN>(); }
+double Table::max(const std::string& column) const { return some(*this, column).maxCoeff<Eigen::PropagateNaN>(); }
 double Table::first(const std::string& column) const { return some(*this, column)(0); }
 double Table::last(const std::string& column) const { return some(*this, column).tail<1>()(0); }
 
@@ -132,9 +132,9 @@ double Table::order(const std::string& y, const std::string& x) const {
     for (const double value : numbers(column))
       if (!(value > 0 && std::isfinite(value)))
         throw Error(fmt::format("table: order of {} in column '{}'; accepted: a number > 0", value, column));
-  if (different(x).size() < 2)
+  if (unique(x).size() < 2)
     throw Error(
-        fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y, x, different(x).size()));
+        fmt::format("table: order of '{}' in '{}' from {} places; accepted: two or more", y, x, unique(x).size()));
   return slope(numbers(x), numbers(y));
 }
 
@@ -149,23 +149,23 @@ std::vector<double> Table::pairwise_orders(const std::string& y, const std::stri
 }
 
 Table Table::pivot(const std::string& rows, const std::string& across, const std::string& value) const {
-  const std::vector<Entry> down = different(rows), right = different(across);
+  const std::vector<TableEntry> down = unique(rows), right = unique(across);
   std::vector<std::string> columns{rows};
   for (const int digits : {4, 0}) {  // rounded, unless two of them become one
     columns.resize(1);
-    for (const Entry& entry : right) columns.push_back(entry.text(digits));
+    for (const TableEntry& entry : right) columns.push_back(entry.text(digits));
     if (std::set<std::string>(columns.begin(), columns.end()).size() == columns.size()) break;
   }
   Table pivoted(std::move(columns));
-  for (const Entry& name : down) {
-    const Table line = where(rows, name);
-    std::vector<Entry> row{name};
-    for (const Entry& entry : right) {
-      const std::vector<Entry> here = line.where(across, entry).entries(value);
+  for (const TableEntry& name : down) {
+    const Table line = filter(rows, name);
+    std::vector<TableEntry> row{name};
+    for (const TableEntry& entry : right) {
+      const std::vector<TableEntry> here = line.filter(across, entry).entries(value);
       if (here.size() > 1)
         throw Error(fmt::format("table: {} entries for {} = {}, {} = {}; accepted: one", here.size(), rows, name.text(),
                                 across, entry.text()));
-      row.push_back(here.empty() ? Entry("") : here.front());
+      row.push_back(here.empty() ? TableEntry("") : here.front());
     }
     pivoted.add(std::move(row));
   }
@@ -176,7 +176,7 @@ Table Table::select(const std::vector<std::string>& columns) const {
   Table selected(columns);
   selected.rows_.resize(rows_.size());
   for (const std::string& column : columns)
-    for (std::size_t i = 0; const Entry& entry : entries(column)) selected.rows_[i++].push_back(entry);
+    for (std::size_t i = 0; const TableEntry& entry : entries(column)) selected.rows_[i++].push_back(entry);
   return selected;
 }
 
@@ -202,7 +202,7 @@ void Table::print(const std::string& title, int digits) const {
 void Table::write(const std::filesystem::path& path) const {
   write_file(path, [&](std::ostream& out) {
     Text text(out);
-    const auto line = [&](const std::vector<Entry>& row) {
+    const auto line = [&](const std::vector<TableEntry>& row) {
       for (std::size_t i = 0; i < row.size(); ++i) text.print("{}{}", i > 0 ? "," : "", in_csv(row[i].text()));
       text.print("\n");
     };

@@ -9,19 +9,19 @@
 namespace antilock {
 
 /// One entry of a table: a number or a word.
-class Entry {
+class TableEntry {
  public:
   template <class Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
-  Entry(Number number) : value_(static_cast<double>(number)) {}
-  Entry(std::string word) : value_(std::move(word)) {}
-  Entry(const char* word) : value_(std::string(word)) {}
+  TableEntry(Number number) : value_(static_cast<double>(number)) {}
+  TableEntry(std::string word) : value_(std::move(word)) {}
+  TableEntry(const char* word) : value_(std::string(word)) {}
 
   bool is_number() const { return std::holds_alternative<double>(value_); }
   double number() const { return std::get<double>(value_); }
   /// A number as the shortest text that reads back as the same double, or rounded to `digits` (whole numbers
   /// below 1e9 are not).
   std::string text(int digits = 0) const;
-  bool operator==(const Entry&) const = default;  ///< of numbers: the same double
+  bool operator==(const TableEntry&) const = default;  ///< of numbers: the same double
 
  private:
   std::variant<double, std::string> value_;
@@ -35,28 +35,28 @@ class Table {
   explicit Table(std::vector<std::string> columns);
 
   /// Throws Error unless there is one entry per column.
-  void add(std::vector<Entry> row);
+  void add(std::vector<TableEntry> row);
   /// Adds the rows of a table with the same columns, else throws Error.
   void add(const Table& other);
   int size() const { return static_cast<int>(rows_.size()); }  ///< rows
   const std::vector<std::string>& columns() const { return columns_; }
 
   /// The rows that hold `value` in this column, in their order; those whose number there satisfies `holds`.
-  Table where(const std::string& column, const Entry& value) const;
-  Table where_number(const std::string& column, const std::function<bool(double)>& holds) const;
+  Table filter(const std::string& column, const TableEntry& value) const;
+  Table filter_number(const std::string& column, const std::function<bool(double)>& holds) const;
   /// Each row as a table of its own.
   std::vector<Table> rows() const;
   /// One column: its entries; the different ones, in the order in which they occur; its numbers.
-  std::vector<Entry> entries(const std::string& column) const;
-  std::vector<Entry> different(const std::string& column) const;
+  std::vector<TableEntry> entries(const std::string& column) const;
+  std::vector<TableEntry> unique(const std::string& column) const;
   std::vector<double> numbers(const std::string& column) const;
   /// The entry, or the number, in the one row of a table; throws Error where there are more or none.
-  Entry entry(const std::string& column) const;
+  TableEntry entry(const std::string& column) const;
   double number(const std::string& column) const;
   /// The smallest, the largest (NaN where an entry is NaN), the first and the last number of a column. Throws Error for
   /// a table without rows.
-  double least(const std::string& column) const;
-  double most(const std::string& column) const;
+  double min(const std::string& column) const;
+  double max(const std::string& column) const;
   double first(const std::string& column) const;
   double last(const std::string& column) const;
   /// The order of convergence: least-squares slope of log(y) against log(x). Throws Error where there are fewer than
@@ -78,10 +78,10 @@ class Table {
   void write(const std::filesystem::path& path) const;
 
  private:
-  std::size_t place(const std::string& column) const;
-  Table kept(const std::string& column, const std::function<bool(const Entry&)>& holds) const;
+  std::size_t column_index(const std::string& column) const;
+  Table filter_rows(const std::string& column, const std::function<bool(const TableEntry&)>& holds) const;
   std::vector<std::string> columns_;
-  std::vector<std::vector<Entry>> rows_;
+  std::vector<std::vector<TableEntry>> rows_;
 };
 
 }  // namespace antilock

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "antilock/analysis/ties.hpp"
+#include "antilock/analysis/layer_components.hpp"
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/distributed/kkt_report.hpp"
@@ -17,7 +17,7 @@
 #include "antilock/mesh/refine.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/runner/scene_results.hpp"
-#include "programs/petsc/whole_files.hpp"
+#include "programs/petsc/atomic_files.hpp"
 
 namespace antilock::distributed {
 namespace {
@@ -33,7 +33,7 @@ double energy_of_all(const NestedLevel& level) {
 
 /// Per unknown of the piece: the contact pressure, a density; 0 off Gamma_C. Certified: below zero is round-off.
 Eigen::VectorXd pressures(const NestedLevel& level) {
-  const Rows& rows = level.problem.rows();
+  const DofMap& rows = level.problem.rows();
   const Eigen::VectorXd lambda = contact_forces(level.problem, level.state);
   const Vector v = rows.vector();
   rows.summed(edge_load(level.space, EdgeTag::contact, [](double, double) { return 1.0; }), v);
@@ -47,15 +47,16 @@ Eigen::VectorXd pressures(const NestedLevel& level) {
 
 /// One row per contact unknown of all ranks, by x: x, gap, pressure.
 Eigen::MatrixX3d contact_table_of_all(const NestedLevel& level, const Eigen::VectorXd& pressure) {
-  const Rows& rows = level.problem.rows();
+  const DofMap& rows = level.problem.rows();
   std::vector<double> mine;
   for (int place = 0; place < rows.owned(); ++place) {
     const double lower = level.problem.lower()(place);
     if (std::isinf(lower)) continue;
     const int i = rows.unknown(place);
-    mine.insert(mine.end(), {level.space.points()(i, 0), std::max(level.state.u(i) - lower, 0.0), pressure(i)});
+    mine.insert(mine.end(),
+                {level.space.dof_coordinates()(i, 0), std::max(level.state.u(i) - lower, 0.0), pressure(i)});
   }
-  const std::vector<double> all = gathered(mine);
+  const std::vector<double> all = all_gather(mine);
   std::vector<std::array<double, 3>> sorted(all.size() / 3);
   for (std::size_t i = 0; i < sorted.size(); ++i) sorted[i] = {all[3 * i], all[3 * i + 1], all[3 * i + 2]};
   std::sort(sorted.begin(), sorted.end());
@@ -66,11 +67,11 @@ Eigen::MatrixX3d contact_table_of_all(const NestedLevel& level, const Eigen::Vec
 
 /// Layer stress and pressure as a VTU file takes them: per triangle, and per contact unknown of the piece.
 VtuFields fields_of(const NestedLevel& level, const Eigen::VectorXd& pressure, bool contact) {
-  const TriangleMesh& mesh = level.piece;
+  const TriangleMesh& mesh = level.subdomain;
   VtuFields fields{Eigen::VectorXd::Zero(mesh.triangle_count()), {}};
   for (int t = 0, row = 0; t < mesh.triangle_count() && row < level.state.p.size(); ++t)
     if (mesh.region[t] == Region::layer) fields.p(t) = level.state.p(row++);  // one row of B per layer triangle
-  if (contact) fields.pressure = pressure(level.space.contact());
+  if (contact) fields.pressure = pressure(level.space.contact_dofs());
   return fields;
 }
 
@@ -90,11 +91,11 @@ void write_pvtu(const fs::path& path, bool contact) {
 
 /// Every number of the summary that all ranks must form together.
 SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, const NestedReport& report, int levels,
-                            const std::optional<LayerReport>& layer, const std::string& warning) {
+                            const std::optional<LockingReport>& layer, const std::string& warning) {
   SceneSummary s;
   s.layer = layer;
   const bool from_file = file.mesh.from_file();
-  s.h = from_file ? largest(level.piece.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
+  s.h = from_file ? largest(level.subdomain.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
   s.unknowns = level.problem.rows().total();
   s.energy = energy_of_all(level);
   s.u_max = largest(level.state.u.maxCoeff());
@@ -106,7 +107,7 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
       if (set.active[i] != 0) ++s.zone.active, s.zone.from = s.zone.from.value_or(set.x[i]), s.zone.to = set.x[i];
   }
   s.kkt = report.kkt;
-  s.contact_steps = report.last.sets + 1;
+  s.contact_steps = report.last.set_changes + 1;
   s.corrections = report.last.corrections;
   s.parallel = {ranks(), petsc_version(), levels, report.linear_iterations, peak_megabytes()};
   s.warning = warning;
@@ -115,16 +116,18 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
 
 }  // namespace
 
-std::optional<LayerReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
-                                               const NestedLevel& level) {
+std::optional<LockingReport> layer_report_of_all(const SceneFile& file, const TriangleMesh& coarse, int refinements,
+                                                 const NestedLevel& level) {
   const Scene& scene = file.scene;
-  const bool may_lock = scene.layer_depth() > 0 && level.space.element().conforming() && !find_ties(coarse).in_columns;
+  const bool may_lock =
+      scene.layer_depth() > 0 && level.space.element().conforming() && !layer_components(coarse).is_aligned;
   std::vector<double> values;
   for (int i = 0; may_lock && i < level.space.size(); ++i)
-    values.insert(values.end(), {level.space.points()(i, 0), level.space.points()(i, 1), level.state.u(i)});
-  values = gathered(values);
-  std::optional<LayerReport> report;
-  together([&] {
+    values.insert(values.end(),
+                  {level.space.dof_coordinates()(i, 0), level.space.dof_coordinates()(i, 1), level.state.u(i)});
+  values = all_gather(values);
+  std::optional<LockingReport> report;
+  collectively([&] {
     if (rank() > 0) return;
     TriangleMesh mesh = coarse;
     for (int i = 0; may_lock && i < refinements; ++i) mesh = refined(mesh);
@@ -138,17 +141,18 @@ std::optional<LayerReport> layer_report_of_all(const SceneFile& file, const Tria
       for (std::size_t i = 0; i < values.size(); i += 3) at[key(values[i], values[i + 1])] = values[i + 2];
       problem = assemble(scene, space);
       whole.u.resize(space.size());
-      for (int i = 0; i < space.size(); ++i) whole.u(i) = at.at(key(space.points()(i, 0), space.points()(i, 1)));
+      for (int i = 0; i < space.size(); ++i)
+        whole.u(i) = at.at(key(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1)));
       whole.p = Eigen::VectorXd::Zero(problem.b.rows());
       if (problem.compliance > 0) whole.p = problem.b * whole.u / problem.compliance;
     }
-    report = report_layer(scene, space, problem, whole);
+    report = report_locking(scene, space, problem, whole);
   });
   return report;
 }
 
 void write_scene_files(const fs::path& folder, const SceneFile& file, const NestedLevel& level,
-                       const NestedReport& report, int levels, const std::optional<LayerReport>& layer,
+                       const NestedReport& report, int levels, const std::optional<LockingReport>& layer,
                        const std::string& warning, const RunSeconds& seconds) {
   const bool contact = file.scene.contact().has_value();
   const bool csv = level.problem.rows().total() <= most_csv_unknowns;
@@ -156,12 +160,12 @@ void write_scene_files(const fs::path& folder, const SceneFile& file, const Nest
   const Stopwatch files;
   const auto write = [&](const fs::path& draft) {
     if (csv) write_solution_csv_together(draft / "solution.csv", level);
-    write_msh_together(draft / "mesh.msh", level.piece);
+    write_msh_together(draft / "mesh.msh", level.subdomain);
     const Eigen::VectorXd pressure = pressures(level);
     const Eigen::MatrixX3d table = contact_table_of_all(level, pressure);
     const VtuFields fields = fields_of(level, pressure, contact);
-    together([&] { write_vtu(draft / piece_name(rank()), level.space, level.state.u, fields); });
-    together([&] {
+    collectively([&] { write_vtu(draft / piece_name(rank()), level.space, level.state.u, fields); });
+    collectively([&] {
       if (rank() > 0) return;
       write_pvtu(draft / "solution.pvtu", contact);
       if (contact) write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);

@@ -11,7 +11,7 @@
 #include "antilock/core/number.hpp"
 #include "antilock/core/plain_text.hpp"
 
-namespace antilock::doors {
+namespace antilock::subcommands {
 namespace {
 
 constexpr std::string_view blanks = " \t\r";
@@ -124,4 +124,4 @@ Eigen::MatrixXd read_csv(const std::string& path, const std::vector<std::string>
   return read_csv_table(path, header).numbers;
 }
 
-}  // namespace antilock::doors
+}  // namespace antilock::subcommands

@@ -6,7 +6,7 @@
 
 #include "antilock/core/eigen_memory.hpp"
 
-namespace antilock::doors {
+namespace antilock::subcommands {
 
 /// A table of numbers, and the line of the file that each row stands on, from 1.
 struct CsvTable {
@@ -34,4 +34,4 @@ CsvTable read_csv_table(const std::string& path, const std::vector<std::string>&
 Eigen::MatrixXd read_csv(std::istream& in, const std::string& name, const std::vector<std::string>& header);
 Eigen::MatrixXd read_csv(const std::string& path, const std::vector<std::string>& header);
 
-}  // namespace antilock::doors
+}  // namespace antilock::subcommands

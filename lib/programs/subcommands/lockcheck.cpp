@@ -20,7 +20,7 @@
 #include "programs/subcommands/matrix_market.hpp"
 #include "programs/subcommands/subcommands.hpp"
 
-namespace antilock::doors {
+namespace antilock::subcommands {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -57,15 +57,15 @@ void read_fixed(const std::filesystem::path& path, VariationalInequality& proble
   std::map<int, double> values;
   for (const auto& [unknown, row] : by_unknown(path, {"unknown", "value"}, problem.a1.rows()))
     values[unknown] = row.values(0);
-  set_fixed(problem, values);
+  set_dirichlet(problem, values);
 }
 
 /// The bounds of the unknowns that are not fixed. A side that is infinite, or as large as no u is, bounds nothing; the
 /// bounds of a fixed unknown hold its value and bound nothing either.
 void read_bounds(const std::filesystem::path& path, VariationalInequality& problem) {
   std::map<int, double> fixed;
-  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-    fixed[problem.fixed[i]] = problem.fixed_values(static_cast<Eigen::Index>(i));
+  for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
+    fixed[problem.dirichlet_dofs[i]] = problem.dirichlet_values(static_cast<Eigen::Index>(i));
   const CsvForm form{.optional_columns = 1, .infinite = true};
   std::vector<double> lower, upper;
   for (const auto& [unknown, row] : by_unknown(path, {"unknown", "lower", "upper"}, problem.a1.rows(), form)) {
@@ -184,4 +184,4 @@ int lockcheck(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace antilock::doors
+}  // namespace antilock::subcommands

@@ -11,7 +11,7 @@
 #include "antilock/core/error.hpp"
 #include "antilock/core/plain_text.hpp"
 
-namespace antilock::doors {
+namespace antilock::subcommands {
 namespace {
 
 /// The lines of a file that are no comments, and where they stand.
@@ -108,4 +108,4 @@ Eigen::VectorXd read_vector(const std::string& path) {
   return matrix.diagonal();
 }
 
-}  // namespace antilock::doors
+}  // namespace antilock::subcommands

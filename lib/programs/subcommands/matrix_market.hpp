@@ -3,7 +3,7 @@
 
 #include "antilock/core/matrix.hpp"
 
-namespace antilock::doors {
+namespace antilock::subcommands {
 
 /// A matrix from a Matrix Market file: `coordinate` or `array`, `real` or `integer`, `general` or `symmetric`; entries that
 /// come twice add up. Throws Error, `PATH: line N: what is wrong; accepted: ...`, for anything else, a wrong number of
@@ -12,4 +12,4 @@ SparseMatrix read_matrix(const std::string& path);
 /// The same for a vector: one column, or one row, or the diagonal of a square matrix.
 Eigen::VectorXd read_vector(const std::string& path);
 
-}  // namespace antilock::doors
+}  // namespace antilock::subcommands

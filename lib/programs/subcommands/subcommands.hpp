@@ -8,11 +8,11 @@
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/runner/scene_file.hpp"
 
-namespace antilock::doors {
+namespace antilock::subcommands {
 
-int truth(int argc, char** argv);
+int exact(int argc, char** argv);
 int sweep(int argc, char** argv);
-int judge(int argc, char** argv);
+int estimate(int argc, char** argv);
 int lockcheck(int argc, char** argv);
 
 /// Whether body and layer are the unit squares of Figure 2, clamped and in contact as there, of which the series is: the
@@ -20,7 +20,7 @@ int lockcheck(int argc, char** argv);
 bool is_unit_square(const TriangleMesh& mesh);
 
 /// Largest |u| on the contact boundary: what locking takes away.
-double ridge(const Space& space, const Eigen::VectorXd& u);
+double layer_displacement(const Space& space, const Eigen::VectorXd& u);
 
 /// The row of p of each layer triangle, one per triangle in their order.
 std::vector<int> stress_rows(const TriangleMesh& mesh);
@@ -28,4 +28,4 @@ std::vector<int> stress_rows(const TriangleMesh& mesh);
 /// The scene solved to a proved relative error of `accuracy` in the energy norm, from its own first mesh.
 CertifiedSolution certified(const SceneFile& file, double accuracy);
 
-}  // namespace antilock::doors
+}  // namespace antilock::subcommands

@@ -17,7 +17,7 @@
 #include "programs/program.hpp"
 #include "programs/subcommands/subcommands.hpp"
 
-namespace antilock::doors {
+namespace antilock::subcommands {
 namespace {
 
 /// The numbers of a list such as "8,16,32"; throws Error, `option` first.
@@ -53,14 +53,14 @@ std::vector<double> epsilons(const std::string& text) {
 struct OnMesh {
   int cells;
   Discretisation discretisation;
-  std::vector<PointValues::Place> places;
+  std::vector<PointValues::Location> places;
 };
 
 }  // namespace
 
-double ridge(const Space& space, const Eigen::VectorXd& u) {
+double layer_displacement(const Space& space, const Eigen::VectorXd& u) {
   double largest = 0;
-  for (const int i : space.contact()) largest = std::max(largest, std::abs(u(i)));
+  for (const int i : space.contact_dofs()) largest = std::max(largest, std::abs(u(i)));
   return largest;
 }
 
@@ -117,14 +117,14 @@ int sweep(int argc, char** argv) {
       on.places.push_back(*place);
     }
   }
-  std::vector<Truth> truths;
-  std::vector<TruthTable> tables;
+  std::vector<ExactSolution> truths;
+  std::vector<ExactTable> tables;
   const bool square = !file.mesh.from_file() || is_unit_square(meshes.front().discretisation.space().mesh());
   for (const Scene& one : scenes) {
-    std::optional<Truth> truth = square ? truth_of(one) : std::nullopt;
-    if (!truth) break;  // it is the load or the gap: known of every epsilon or of none
-    tables.emplace_back(*truth);
-    truths.push_back(std::move(*truth));
+    std::optional<ExactSolution> exact = square ? exact_solution_of(one) : std::nullopt;
+    if (!exact) break;  // it is the load or the gap: known of every epsilon or of none
+    tables.emplace_back(*exact);
+    truths.push_back(std::move(*exact));
   }
   const bool known = !truths.empty();
 
@@ -143,9 +143,9 @@ int sweep(int argc, char** argv) {
       const Stopwatch watch;
       questions.set_epsilon(list[i]);
       const Solution solution = questions.solve();
-      const double seconds = watch.seconds(), found = ridge(space, solution.u);
-      std::vector<Entry> row{cells, list[i], space.free_count()};
-      for (const PointValues::Place& place : places) row.emplace_back(values.value(solution.u, place));
+      const double seconds = watch.seconds(), found = layer_displacement(space, solution.u);
+      std::vector<TableEntry> row{cells, list[i], space.free_count()};
+      for (const PointValues::Location& place : places) row.emplace_back(values.value(solution.u, place));
       row.emplace_back(found);
       if (known) {
         const Errors errors = measure_errors(space, solution, list[i], reference(tables[i]));
@@ -165,4 +165,4 @@ int sweep(int argc, char** argv) {
   return 0;
 }
 
-}  // namespace antilock::doors
+}  // namespace antilock::subcommands

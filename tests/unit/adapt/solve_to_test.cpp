@@ -3,7 +3,7 @@
 #include "antilock/adapt/bisection.hpp"
 #include "antilock/certificate/exact_errors.hpp"
 #include "antilock/core/stopwatch.hpp"
-#include "antilock/exact/truth.hpp"
+#include "antilock/exact/exact_solution.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/mesh/read_msh.hpp"
 #include "support/bodies.hpp"
@@ -74,13 +74,13 @@ TEST(Marking, TakesTheLargestUpToHalfTheSumAndNeverTooFew) {
   Eigen::VectorXd indicator = Eigen::VectorXd::Constant(100, 1.0);
   indicator(17) = 1000;
   const auto count = [](const std::vector<bool>& m) { return std::count(m.begin(), m.end(), true); };
-  EXPECT_EQ(count(marked(indicator, {.fewest = 0})), 1);
-  EXPECT_TRUE(marked(indicator)[17]);
-  EXPECT_EQ(count(marked(indicator)), 5) << "5 % at least";
+  EXPECT_EQ(count(dorfler_mark(indicator, {.min_fraction = 0})), 1);
+  EXPECT_TRUE(dorfler_mark(indicator)[17]);
+  EXPECT_EQ(count(dorfler_mark(indicator)), 5) << "5 % at least";
   indicator(17) = 1;
-  EXPECT_EQ(count(marked(indicator)), 100) << "an even error: all";
-  EXPECT_EQ(count(marked(indicator, {.spread = 1})), 50);
-  EXPECT_EQ(count(marked(indicator, {.most = 7})), 7);
+  EXPECT_EQ(count(dorfler_mark(indicator)), 100) << "an even error: all";
+  EXPECT_EQ(count(dorfler_mark(indicator, {.uniform_above = 1})), 50);
+  EXPECT_EQ(count(dorfler_mark(indicator, {.max_marked = 7})), 7);
 }
 
 const Field bump = [](double x, double y) {
@@ -93,7 +93,7 @@ TriangleMesh first_mesh(double epsilon) { return unstructured_mesh(8, {epsilon >
 
 TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
   for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 0.0}) {
-    const TruthTable truth{Truth(paper_sine_load(), epsilon)};
+    const ExactTable exact_solution{ExactSolution(paper_sine_load(), epsilon)};
     for (const Quantity of : {Quantity::displacement, Quantity::stress})
       for (const double asked : {1e-1, 3e-2, 1e-2}) {
         // 1e-2 once, since it takes seconds: chapter 22 with --asked 0.01 asks it at every epsilon
@@ -103,17 +103,17 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
         const std::string at = fmt::format("epsilon = {:g}, asked {:g}", epsilon, asked);
         EXPECT_LE(found.certificate.relative(of), asked) << at;
         EXPECT_GE(found.certificate.relative(of), asked / 2) << at;
-        const auto& [mesh, space, problem, solution, seconds, warning] = found.answer;
+        const auto& [mesh, space, problem, solution, seconds, warning] = found.result;
         const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
-        const auto exact = exact_errors(*mesh, equilibrated_flux(scene, space, problem, solution), v, truth);
+        const auto exact = exact_errors(*mesh, equilibrated_flux(scene, space, problem, solution), v, exact_solution);
         EXPECT_LE(exact.displacement, found.certificate.displacement) << at;
         EXPECT_LE(exact.gradient, found.certificate.gradient) << at;
         EXPECT_LE(exact.stress, found.certificate.stress) << at;
         EXPECT_LE(found.certificate.displacement, 1.4 * exact.displacement) << at;
-        const Level& last = found.history.back();
+        const RefinementLevel& last = found.history.back();
         EXPECT_EQ(last.unknowns, space.free_count());
         if (found.history.size() > 3) {
-          const double quoted = found.history[found.history.size() - 2].quoted_unknowns;
+          const double quoted = found.history[found.history.size() - 2].predicted_unknowns;
           EXPECT_NEAR(quoted, last.unknowns, 0.3 * last.unknowns) << at;
         }
       }
@@ -122,13 +122,13 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
 
 // Where the layer is not in columns the companion has columns of its own: its values at the mesh's vertices are theirs.
 TEST(SolveTo, TheCompanionHasValuesInALayerOfAnyTriangles) {
-  const CertifiedSolution found =
-      solve_to(scene_of(paper_load, 1e-2), unstructured_mesh(8), {0.1, Quantity::displacement, 2e6, Growth::bisect});
-  const TruthTable truth{Truth(paper_sine_load(), 1e-2)};
-  const TriangleMesh& mesh = *found.answer.mesh;
+  const CertifiedSolution found = solve_to(scene_of(paper_load, 1e-2), unstructured_mesh(8),
+                                           {0.1, Quantity::displacement, 2e6, RefinementStrategy::bisect});
+  const ExactTable exact_solution{ExactSolution(paper_sine_load(), 1e-2)};
+  const TriangleMesh& mesh = *found.result.mesh;
   double off = 0, most = 0;
   for (int i = 0; i < mesh.vertex_count(); ++i)
-    if (const double exact = truth.value(mesh.vertices(i, 0), mesh.vertices(i, 1)); mesh.vertices(i, 1) < 0) {
+    if (const double exact = exact_solution.value(mesh.vertices(i, 0), mesh.vertices(i, 1)); mesh.vertices(i, 1) < 0) {
       off = std::max(off, std::abs(found.companion.u(i) - exact));
       most = std::max(most, std::abs(exact));
     }
@@ -137,19 +137,19 @@ TEST(SolveTo, TheCompanionHasValuesInALayerOfAnyTriangles) {
 
 TEST(SolveTo, IsCheapWhereTheSolutionIsLocal) {
   const double epsilon = 1e-6;
-  const auto unknowns = [&](const Scene& scene, double asked, std::optional<Growth> growth, bool layer) {
+  const auto unknowns = [&](const Scene& scene, double asked, std::optional<RefinementStrategy> growth, bool layer) {
     const CertifiedSolution found =
         solve_to(scene, unstructured_mesh(8, {layer ? 1.0 : 0.0}), {asked, Quantity::displacement, 2e6, growth});
     return found.history.back().unknowns;
   };
   EXPECT_LE(unknowns(scene_of(bump, epsilon), 3e-2, std::nullopt, false), 60000);
-  EXPECT_LE(unknowns(scene_of(bump, epsilon), 3e-2, Growth::bisect, true), 90000);
+  EXPECT_LE(unknowns(scene_of(bump, epsilon), 3e-2, RefinementStrategy::bisect, true), 90000);
   // a needle under the valley, where the load presses: two unknowns touch it; uniform meshes prove 29 % with 14,401
   const Profile needle = [](double x) { return 0.1 - 0.12 * std::exp(-std::pow((x - 0.75) / 0.004, 2)); };
   const CertifiedSolution on_needle = solve_to(scene_of(paper_load, epsilon, {needle}), first_mesh(epsilon), {1e-1});
   EXPECT_LE(on_needle.history.back().unknowns, 5000);
-  EXPECT_TRUE(std::find(on_needle.answer.solution.active.begin(), on_needle.answer.solution.active.end(), true) !=
-              on_needle.answer.solution.active.end());
+  EXPECT_TRUE(std::find(on_needle.result.solution.active.begin(), on_needle.result.solution.active.end(), true) !=
+              on_needle.result.solution.active.end());
 }
 
 // Unknowns times the square of the error is the price of a family of meshes, whatever is asked. Adapted meshes are held
@@ -171,7 +171,7 @@ TEST(SolveTo, CostsNoMoreThanUniformMeshesForASmoothLoad) {
       body = bisected(body, std::vector<bool>(body.triangle_count(), true));
     const double uniform = price(extruded(body, epsilon));
     EXPECT_LE(uniform, (first == 8 ? 1.07 : 1.02) * gmsh) << first;
-    const Level last = solve_to(scene, unstructured_mesh(first, {0}), {3e-2}).history.back();
+    const RefinementLevel last = solve_to(scene, unstructured_mesh(first, {0}), {3e-2}).history.back();
     const double adapted = last.unknowns * last.relative * last.relative;
     EXPECT_LE(adapted, 1.05 * uniform) << first;
     EXPECT_LE(adapted, (first == 8 ? 1.1 : 1.05) * gmsh) << first;
@@ -244,7 +244,7 @@ TEST(SolveTo, RefusesWithASentence) {
   expect_refused([&] { solve_to(scene, first_mesh(0), {1e-1, Quantity::displacement, -1}); }, "1 or more");
   expect_refused(
       [&] {
-        solve_to(Scene({paper_load}), first_mesh(0), {1e-1, Quantity::displacement, 1e6, Growth::extrude});
+        solve_to(Scene({paper_load}), first_mesh(0), {1e-1, Quantity::displacement, 1e6, RefinementStrategy::extrude});
       },
       "no scaled layer");
   TriangleMesh free_below = structured_mesh(8);  // the layer that is asked about is not that of columns
@@ -268,7 +268,7 @@ TEST(SolveTo, QuotesNothingWhileTheBoundRises) {
   EXPECT_GT(found.history.size(), 7u);
   for (std::size_t k = 1; k < found.history.size(); ++k)
     if (found.history[k].relative >= found.history[k - 1].relative) {
-      EXPECT_EQ(found.history[k].quoted_unknowns, 0) << k;
+      EXPECT_EQ(found.history[k].predicted_unknowns, 0) << k;
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "antilock/certificate/accurate_enough.hpp"
+#include "antilock/certificate/balanced_tolerance.hpp"
 #include "antilock/certificate/certificate.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
@@ -31,7 +31,7 @@ struct Answered {
   Answered& operator=(const Answered&) = delete;
 
   EquilibratedFlux flux() const { return equilibrated_flux(scene, space, problem, solution); }
-  Companion strip() const { return strip_companion(scene, space, problem, solution); }
+  Companion strip() const { return local_companion(scene, space, problem, solution); }
   Certificate certified() const { return certify(scene, space, problem, solution); }
 };
 
@@ -40,7 +40,7 @@ inline void disturb(Answered& run, double amount, unsigned seed) {
   std::mt19937 random(seed);
   const auto noise = [&] { return amount * (2.0 * random() / std::mt19937::max() - 1); };
   std::vector<char> fixed(run.space.size(), 0);
-  for (const int i : run.problem.fixed) fixed[i] = 1;
+  for (const int i : run.problem.dirichlet_dofs) fixed[i] = 1;
   const double u = run.solution.u.lpNorm<Eigen::Infinity>(), p = run.solution.p.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < run.space.size(); ++i) run.solution.u(i) += fixed[i] ? 0 : noise() * u;
   for (double& value : run.solution.p) value += noise() * p;

@@ -1,7 +1,7 @@
 // Inf-sup constants under contact.
 #include "antilock/analysis/inf_sup.hpp"
 #include "antilock/mesh/refine.hpp"
-#include "antilock/models/projected.hpp"
+#include "antilock/models/project_strain.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/space/space.hpp"
@@ -19,7 +19,7 @@ std::vector<double> inf_sup_constants(const Element& element, bool per_vertex, b
     const VariationalInequality problem = rubber(space, per_vertex);
     std::vector<bool> active(problem.contact.size());
     if (contact) active = active_set(problem).active;
-    const VariationalInequality held = held_in_contact(problem, active);
+    const VariationalInequality held = equality_constrained(problem, active);
     beta.push_back(inf_sup(multiplier_gram(held, held.a1), Eigen::MatrixXd(held.m.asDiagonal())));
   }
   return beta;
@@ -48,11 +48,12 @@ TEST(InfSupUnderContact, FallsForP1) {
 /// The marks of a finer mesh: what lies on an edge of Gamma_C both ends of which are held, or on a held vertex.
 std::vector<bool> refined_marks(const Space& coarse, const std::vector<bool>& active, const Space& fine) {
   std::map<double, bool> held{{0, true}, {1, true}};  // the corners are clamped
-  for (std::size_t i = 0; i < active.size(); ++i) held[coarse.points()(coarse.contact()[i], 0)] = active[i];
+  for (std::size_t i = 0; i < active.size(); ++i)
+    held[coarse.dof_coordinates()(coarse.contact_dofs()[i], 0)] = active[i];
   std::vector<bool> marks;
-  for (const int i : fine.contact()) {
-    const auto right = held.lower_bound(fine.points()(i, 0) - 1e-9);
-    const bool vertex = std::abs(right->first - fine.points()(i, 0)) < 1e-9;
+  for (const int i : fine.contact_dofs()) {
+    const auto right = held.lower_bound(fine.dof_coordinates()(i, 0) - 1e-9);
+    const bool vertex = std::abs(right->first - fine.dof_coordinates()(i, 0)) < 1e-9;
     marks.push_back(right->second && (vertex || std::prev(right)->second));
   }
   return marks;
@@ -64,19 +65,19 @@ double inf_sup_of_boxes(const TriangleMesh& mesh, int n, bool contact) {
   const TriangleMesh fine = refined(refined(mesh));
   const Space space(mesh, p1()), all(fine, p1());
   const VariationalInequality problem = stiff_problem(space, 0);
-  const Shares boxes = box_shares(mesh, layer_strain(space), 2.0 / n, 2.0 / n);
+  const StrainProjection boxes = box_projection(mesh, layer_strain(space), 2.0 / n, 2.0 / n);
   std::vector<Eigen::Triplet<double>> parts;
   for (Eigen::Index g = 0; g < boxes.rows(); ++g)
-    for (Shares::InnerIterator share(boxes, g); share; ++share)
+    for (StrainProjection::InnerIterator share(boxes, g); share; ++share)
       for (int k = 0; k < 16; ++k)
         parts.emplace_back(static_cast<int>(g), 16 * static_cast<int>(share.col()) + k, share.value());
-  Shares of_all(boxes.rows(), 16 * boxes.cols());
+  StrainProjection of_all(boxes.rows(), 16 * boxes.cols());
   of_all.setFromTriplets(parts.begin(), parts.end());
   std::vector<bool> held(problem.contact.size());
-  if (contact) held = active_set(projected(problem, boxes, 0.5)).active;
-  const VariationalInequality here = held_in_contact(projected(problem, boxes), held),
-                              there = held_in_contact(projected(stiff_problem(all, 0), of_all),
-                                                      refined_marks(space, held, all));
+  if (contact) held = active_set(project_strain(problem, boxes, 0.5)).active;
+  const VariationalInequality here = equality_constrained(project_strain(problem, boxes), held),
+                              there = equality_constrained(project_strain(stiff_problem(all, 0), of_all),
+                                                           refined_marks(space, held, all));
   return inf_sup(multiplier_gram(here, h1_seminorm(space)), multiplier_gram(there, h1_seminorm(all)));
 }
 
@@ -98,7 +99,7 @@ TEST(InfSupUnderContact, IsZeroWhereAConfinedBlockIsHeldAllRound) {
   for (const Element* element : {&p1_bubble(), &p2()}) {
     const Space space(mesh, *element);
     VariationalInequality problem = rubber(space, true);
-    const VariationalInequality held = held_in_contact(problem, std::vector<bool>(problem.contact.size(), true));
+    const VariationalInequality held = equality_constrained(problem, std::vector<bool>(problem.contact.size(), true));
     EXPECT_EQ(inf_sup(multiplier_gram(held, held.a1), Eigen::MatrixXd(held.m.asDiagonal())), 0) << element->name();
     // pushed by .1 into a groove of .083: no motion keeps the volume
     EXPECT_THROW(active_set(problem), NotConverged) << element->name();

@@ -25,7 +25,7 @@ constexpr double layer_displacement = 0.0457160;
 double largest_on_layer(const Space& space, const Solution& s) {
   double largest = 0;
   for (int i = 0; i < space.size(); ++i)
-    if (space.points()(i, 1) <= 0) largest = std::max(largest, std::abs(s.u(i)));
+    if (space.dof_coordinates()(i, 1) <= 0) largest = std::max(largest, std::abs(s.u(i)));
   return largest;
 }
 
@@ -55,11 +55,11 @@ TEST(Locking, TheLockedSolutionIsDirichletsOnTheBody) {
   VariationalInequality dirichlet = assemble(Scene({paper_load}, StiffLayer{1}), space);
   std::vector<int> fixed;
   for (int i = 0; i < space.size(); ++i) {
-    const double x = space.points()(i, 0), y = space.points()(i, 1);
+    const double x = space.dof_coordinates()(i, 0), y = space.dof_coordinates()(i, 1);
     if (x == 0 || x == 1 || y == 1 || y <= 0) fixed.push_back(i);
   }
-  dirichlet.fixed = fixed;
-  dirichlet.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fixed.size()));
+  dirichlet.dirichlet_dofs = fixed;
+  dirichlet.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(fixed.size()));
   EXPECT_LT(relative_difference(locked.u, active_set(dirichlet).u), 1e-8);
 }
 
@@ -100,11 +100,11 @@ TEST(Locking, LeavesP2OneParabolaWhereTheLoadIsNotOddAboutTheMiddle) {
   const SpaceOn space(unstructured_mesh(4), p2());
   const auto largest_off_parabola = [&](const SineLoad& load, double& c) {
     const Solution s = active_set(assemble(Scene({load}, StiffLayer{0}, UnilateralContact{}), space));
-    const Eigen::ArrayXd x = space.points().col(0).array(), parabola = x * (1 - x);
+    const Eigen::ArrayXd x = space.dof_coordinates().col(0).array(), parabola = x * (1 - x);
     double off = 0;
-    c = s.u(space.contact()).maxCoeff() * 4;  // at the middle x (1 - x) = 1/4
+    c = s.u(space.contact_dofs()).maxCoeff() * 4;  // at the middle x (1 - x) = 1/4
     for (int i = 0; i < space.size(); ++i)
-      if (space.points()(i, 1) <= 0) off = std::max(off, std::abs(s.u(i) - c * parabola(i)));
+      if (space.dof_coordinates()(i, 1) <= 0) off = std::max(off, std::abs(s.u(i) - c * parabola(i)));
     return off;
   };
   double c = 0;
@@ -116,12 +116,12 @@ TEST(Locking, LeavesP2OneParabolaWhereTheLoadIsNotOddAboutTheMiddle) {
 }
 
 TEST(Locking, TheEnergyBracketsTheTruthAndDoesNotCloseWhereItLocks) {
-  const double truth = Truth(paper_sine_load(), 0).energy();
-  EXPECT_NEAR(truth, -0.44154446, 1e-8);
+  const double exact = ExactSolution(paper_sine_load(), 0).energy();
+  EXPECT_NEAR(exact, -0.44154446, 1e-8);
   const auto above = [&](const TriangleMesh& mesh, const Element& element) {
     const Space space(mesh, element);
     const VariationalInequality problem = stiff_problem(space, 0);
-    return energy(problem, active_set(problem)) - truth;
+    return energy(problem, active_set(problem)) - exact;
   };
   struct Row {
     int cells;
@@ -175,17 +175,17 @@ TEST(InfSup, AndCoercivityRefuseWhatDoesNotFit) {
 /// Errors in the broken H1 norm for epsilon = 1, 1e-1, 1e-2, 1e-4, 1e-8, 0.
 std::vector<double> h1_errors(const Space& space) {
   static const std::vector<double> epsilons{1, 1e-1, 1e-2, 1e-4, 1e-8, 0};
-  static const std::vector<TruthTable> truth = [] {  // 2^13 points: gradients to 2e-6
-    std::vector<TruthTable> tables;
+  static const std::vector<ExactTable> exact = [] {  // 2^13 points: gradients to 2e-6
+    std::vector<ExactTable> tables;
     tables.reserve(epsilons.size());
-    for (const double epsilon : epsilons) tables.emplace_back(Truth(paper_sine_load(), epsilon, true, 13));
+    for (const double epsilon : epsilons) tables.emplace_back(ExactSolution(paper_sine_load(), epsilon, true, 13));
     return tables;
   }();
   SceneSweep sweep(test::stiff_scene(1), space);
   std::vector<double> errors;
   for (std::size_t i = 0; i < epsilons.size(); ++i) {
     sweep.set_epsilon(epsilons[i]);
-    errors.push_back(measure_errors(space, sweep.solve(), epsilons[i], reference(truth[i])).h1);
+    errors.push_back(measure_errors(space, sweep.solve(), epsilons[i], reference(exact[i])).h1);
   }
   return errors;
 }

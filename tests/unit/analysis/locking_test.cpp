@@ -23,10 +23,10 @@ using Problem = std::function<VariationalInequality(int cells)>;
 double flexibility(VariationalInequality problem) {
   problem.load.setZero();
   for (const int i : problem.contact) problem.load(i) = 1.0 / static_cast<double>(problem.contact.size());
-  problem.fixed_values.setZero();
+  problem.dirichlet_values.setZero();
   problem.compliance = 1e-8;
   const std::vector<bool> none(problem.contact.size());
-  return active_set(held_in_contact(problem, none)).u.dot(problem.load);
+  return active_set(equality_constrained(problem, none)).u.dot(problem.load);
 }
 
 /// `kept` is measured: the flexibility at compliance 1e-8 over that of the method that is known to be right.
@@ -110,9 +110,9 @@ TEST(LockingDiagnosis, IsRightForBeamAndPlate) {
   // prescribed values do not matter; without bounds all unknowns of the stiff part are counted, and those that B ties
   // are no sign of locking
   VariationalInequality coarse = beam(ShearIntegration::reduced)(16), fine = beam(ShearIntegration::reduced)(32);
-  const double softening = diagnose_locking(coarse, fine).softening;
-  for (VariationalInequality* problem : {&coarse, &fine}) problem->fixed_values.setOnes();
-  EXPECT_EQ(diagnose_locking(coarse, fine).softening, softening);
+  const double softening = diagnose_locking(coarse, fine).refinement_softening;
+  for (VariationalInequality* problem : {&coarse, &fine}) problem->dirichlet_values.setOnes();
+  EXPECT_EQ(diagnose_locking(coarse, fine).refinement_softening, softening);
   for (VariationalInequality* problem : {&coarse, &fine}) problem->contact.clear(), problem->lower.resize(0);
   EXPECT_FALSE(diagnose_locking(coarse, fine).locks());
   const auto plate = [](const Element& deflection, const Element& rotation, ShearRule shear) -> Problem {
@@ -237,10 +237,10 @@ VariationalInequality tetrahedra(int n, double moved, bool nonconforming, double
   for (int i = 0; i < size; ++i) {
     const Eigen::Vector3d& x = places[i];
     const bool side = std::min({x(0), x(1), 1 - x(0), 1 - x(1), 1 - x(2)}) < 1e-12;
-    if (side) problem.fixed.push_back(i);
+    if (side) problem.dirichlet_dofs.push_back(i);
     if (!side && x(2) < -1 + 1e-12) problem.contact.push_back(i);
   }
-  problem.fixed_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.fixed.size()));
+  problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
   return problem;
 }

@@ -50,7 +50,7 @@ TEST(ContactTrace, TheConstantIsTheLargestHiddenPartOfSampledFunctions) {
   for (const SpaceOn& space : two_square_spaces(3, {&p2(), &crouzeix_raviart()})) {
     std::vector<int> free;
     for (int i = 0; i < space.size(); ++i)
-      if (!std::binary_search(space.clamped().begin(), space.clamped().end(), i)) free.push_back(i);
+      if (!std::binary_search(space.dirichlet_dofs().begin(), space.dirichlet_dofs().end(), i)) free.push_back(i);
     Eigen::MatrixXd samples(3 * 32, free.size());  // three edges on Gamma_C
     for (std::size_t i = 0; i < free.size(); ++i) {
       const Eigen::MatrixX3d trace = contact_trace(space, Eigen::VectorXd::Unit(space.size(), free[i]));
@@ -73,8 +73,8 @@ TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
     for (int k = 1; k <= 20; ++k) {
       Eigen::VectorXd v(space.size());  // of K_h, otherwise wild
       for (int i = 0; i < space.size(); ++i) v(i) = std::sin(k * 1.7 * i * i + i);
-      for (const int i : space.clamped()) v(i) = 0;
-      for (const int i : space.contact()) v(i) = std::max(0.0, v(i));
+      for (const int i : space.dirichlet_dofs()) v(i) = 0;
+      for (const int i : space.contact_dofs()) v(i) = std::max(0.0, v(i));
       const Eigen::MatrixX3d trace = contact_trace(space, v);
       const double below = std::sqrt((trace.col(1).array().min(0).square() * trace.col(2).array()).sum());
       EXPECT_LE(below, constant * std::sqrt(v.dot(norm * v))) << space.name;

@@ -32,8 +32,8 @@ TEST(LoadModes, WorkIsTheTruths) {
   for (const double epsilon : {1.0, 0.1, 1e-6, 1e-20, 0.0})
     for (const int k : {1, 2, 5}) {
       const Eigen::VectorXd f = modes.constant_in_y(k, 10);
-      const Truth truth(SineLoad{{{k, {10}}}}, epsilon, false, 10);
-      EXPECT_NEAR(f.dot(modes.response(f, epsilon)) / (-2 * truth.energy()), 1, 1e-4) << epsilon << " " << k;
+      const ExactSolution exact(SineLoad{{{k, {10}}}}, epsilon, false, 10);
+      EXPECT_NEAR(f.dot(modes.response(f, epsilon)) / (-2 * exact.energy()), 1, 1e-4) << epsilon << " " << k;
     }
 }
 
@@ -64,7 +64,7 @@ TEST(ErrorForm, IsTheMeasuredErrorOfEveryElement) {
         Eigen::VectorXd f = Eigen::VectorXd::Zero(form.modes().size());
         for (int j = 0; j < f.size(); ++j) f(j) = form.modes().k()(j) == k && form.modes().m()(j) == 1;
         const SineLoad load = load_of_modes(Eigen::VectorXd::Unit(k, k - 1));
-        const TruthTable table(Truth(load, epsilon, false, 12), 1 << 11);
+        const ExactTable table(ExactSolution(load, epsilon, false, 12), 1 << 11);
         const Solution solution = active_set(assemble(Scene(Body{load}, StiffLayer{epsilon}), space));
         const double measured = measure_errors(space, solution, epsilon, reference(table)).energy;
         EXPECT_NEAR(form.error(f) / measured, 1, 1e-3) << element->name() << " " << epsilon << " " << k;
@@ -85,7 +85,7 @@ TEST(ErrorForm, ItsLargestIsTheDenseEigenvalue) {
           assemble(Scene(Body{[](double, double) { return 0.0; }}, StiffLayer{epsilon}), space);
       Eigen::MatrixXd a =
           Eigen::MatrixXd(problem.a1) + test::gram(Eigen::MatrixXd(problem.b), problem.m) / (epsilon * epsilon);
-      for (const int i : problem.fixed) {
+      for (const int i : problem.dirichlet_dofs) {
         a.row(i).setZero();
         a.col(i).setZero();
         a(i, i) = 1;
@@ -95,7 +95,7 @@ TEST(ErrorForm, ItsLargestIsTheDenseEigenvalue) {
       for (int j = 0; j < n; ++j) {
         const Eigen::VectorXd one = Eigen::VectorXd::Unit(n, j);
         loads.col(j) = load_vector(space, [&](double x, double y) { return form.modes().value(one, x, y); });
-        for (const int i : problem.fixed) loads(i, j) = 0;
+        for (const int i : problem.dirichlet_dofs) loads(i, j) = 0;
         u.col(j) = test::lu_solve(a, loads.col(j));
         dense.col(j) = form.modes().response(one, epsilon);
       }

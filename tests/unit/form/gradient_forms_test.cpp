@@ -71,15 +71,15 @@ Eigen::MatrixXd dense_form(const Space& space, Region region, double wx, double 
     const Eigen::Matrix3d coefficients = corners.inverse();  // column i: lambda_i = c0 + c1 x + c2 y
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::Vector3d l = rule.points.row(q);
-      for (int i = 0; i < space.unknowns().cols(); ++i)
-        for (int j = 0; j < space.unknowns().cols(); ++j) {
+      for (int i = 0; i < space.cell_dofs().cols(); ++i)
+        for (int j = 0; j < space.cell_dofs().cols(); ++j) {
           const auto d = space.element().derivative(l);
           double product = 0;
           for (int m = 0; m < 3; ++m)
             for (int n = 0; n < 3; ++n)
               product += d(i, m) * d(j, n) *
                          (wx * coefficients(1, m) * coefficients(1, n) + wy * coefficients(2, m) * coefficients(2, n));
-          form(space.unknowns()(t, i), space.unknowns()(t, j)) += rule.weights(q) * area * product;
+          form(space.cell_dofs()(t, i), space.cell_dofs()(t, j)) += rule.weights(q) * area * product;
         }
     }
   }
@@ -114,7 +114,8 @@ TEST(Forms, RowsOfBBelongToTheLayerTrianglesAndMMeasuresThem) {
 TEST(Forms, EnergyOfAPolynomialOfTheElementsDegreeIsExact) {
   for (const SpaceOn& space : two_square_spaces(3, {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()})) {
     const int k = space.element().degree();
-    const Eigen::VectorXd in_x = space.points().col(0).array().pow(k), in_y = space.points().col(1).array().pow(k);
+    const Eigen::VectorXd in_x = space.dof_coordinates().col(0).array().pow(k),
+                          in_y = space.dof_coordinates().col(1).array().pow(k);
     const double square = k * k / (2.0 * k - 1);  // int_0^1 (k t^(k-1))^2, on (-1, 0) the same
     EXPECT_NEAR(in_x.dot(gradient_form(space, {2, 3}, {5, 7}) * in_x), 7 * square, 1e-10) << space.name << k;
     EXPECT_NEAR(in_y.dot(gradient_form(space, {2, 3}, {5, 7}) * in_y), 10 * square, 1e-10) << space.name << k;
@@ -128,7 +129,7 @@ TEST(Forms, LoadOfAConstantSumsToTheAreaOfTheBodyAndDoesNotReachTheLayer) {
   for (const SpaceOn& space : two_square_spaces(5, elements())) {
     const Eigen::ArrayXd load = load_vector(space, [](double, double) { return 1.0; });
     EXPECT_NEAR(load.sum(), 1, 1e-13) << space.name;
-    EXPECT_EQ((space.points().col(1).array() < 0).select(load, 0).abs().maxCoeff(), 0) << space.name;
+    EXPECT_EQ((space.dof_coordinates().col(1).array() < 0).select(load, 0).abs().maxCoeff(), 0) << space.name;
   }
 }
 
@@ -136,8 +137,8 @@ TEST(Forms, LoadIntegratesPolynomialsExactly) {
   for (const auto& [name, mesh] : two_square_meshes(3)) {
     const Space space(mesh, p1());
     const Eigen::VectorXd load = load_vector(space, [](double x, double y) { return x * x * y * y; });
-    EXPECT_NEAR(load.sum(), 1.0 / 9, 1e-14) << name;                        // degree 4
-    EXPECT_NEAR(load.dot(space.points().col(0)), 1.0 / 12, 1e-14) << name;  // degree 5: x^3 y^2
+    EXPECT_NEAR(load.sum(), 1.0 / 9, 1e-14) << name;                                 // degree 4
+    EXPECT_NEAR(load.dot(space.dof_coordinates().col(0)), 1.0 / 12, 1e-14) << name;  // degree 5: x^3 y^2
   }
 }
 
@@ -146,7 +147,7 @@ TEST(Forms, EdgeLoadsAndSpringsIntegratePolynomialsExactlyAndRefuseWhatIsNotFini
   const TriangleMesh mesh = structured_mesh(2);
   const Space space(mesh, p1());
   const auto to = [](int k) { return [k](double x, double) { return std::pow(x, k); }; };
-  const Eigen::VectorXd x = space.points().col(0);
+  const Eigen::VectorXd x = space.dof_coordinates().col(0);
   EXPECT_NEAR(edge_load(space, EdgeTag::contact, to(4)).dot(x), 1.0 / 6, 1e-14);
   EXPECT_NEAR(x.dot(edge_mass(space, EdgeTag::contact, to(3)) * x), 1.0 / 6, 1e-14);
   EXPECT_NEAR(edge_load(space, EdgeTag::sigma, to(0)).sum(), 1, 1e-14);  // on both sides
@@ -164,13 +165,13 @@ TEST(Forms, VentcelTermIsTheEnergyOfTheTraceOnSigma) {
       const Eigen::MatrixXd form = ventcel_form(space, Eigen::VectorXd::Zero(mesh.vertex_count()));
       EXPECT_LT((form - form.transpose()).cwiseAbs().maxCoeff(), 1e-14);
       // the hat min(x, 1 - x) with its peak at an unknown or between two: slopes are 1 and -1 but near the peak
-      const Eigen::ArrayXd x = space.points().col(0).array();
+      const Eigen::ArrayXd x = space.dof_coordinates().col(0).array();
       const Eigen::VectorXd u = x.min(1 - x);
       const double energy = u.dot(form * u);
       EXPECT_NEAR(energy, element == &p1() ? 1 : 1 - 1.0 / 8, 1e-10) << element->name();  // gmsh's points: 1e-12 off
       // nothing but Sigma is touched
       for (int i = 0; i < space.size(); ++i) {
-        if (space.points()(i, 1) > 0) {
+        if (space.dof_coordinates()(i, 1) > 0) {
           ASSERT_EQ(form.row(i).cwiseAbs().sum(), 0);
         }
       }

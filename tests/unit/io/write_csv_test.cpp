@@ -54,7 +54,7 @@ TEST(WriteSolutionCsv, HoldsOneRowAnUnknownAtItsPlace) {
     const std::vector<double> n = numbers(folder / "solution.csv", "x,y,u\n");
     ASSERT_EQ(n.size(), 3U * space.size());
     const Rows rows(n.data(), space.size(), 3);
-    EXPECT_EQ(rows.leftCols(2), space.points());
+    EXPECT_EQ(rows.leftCols(2), space.dof_coordinates());
     EXPECT_EQ(rows.col(2), u);
   }
 }

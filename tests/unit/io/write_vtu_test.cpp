@@ -103,8 +103,8 @@ TEST(WriteVtu, P1SharesItsVerticesAndCrouzeixRaviartKeepsItsJumps) {
         EXPECT_EQ(point[3 * p + 1], mesh.vertices(mesh.triangles(t, i), 1));
       }
       // the affine function of the file takes u's values at the unknowns; 1e-14: three terms of order 1
-      const Eigen::Vector3d at_unknowns = element->nodes() * corners;
-      for (int i = 0; i < 3; ++i) EXPECT_NEAR(at_unknowns(i), u(space.unknowns()(t, i)), 1e-14);
+      const Eigen::Vector3d at_unknowns = element->support_points() * corners;
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(at_unknowns(i), u(space.cell_dofs()(t, i)), 1e-14);
     }
   }
 }
@@ -116,7 +116,7 @@ TEST(WriteDeformedVtu, MovesEveryTriangleWithItsUnknowns) {
   const Space x(mesh, p1()), y(mesh, crouzeix_raviart());
   // u = (2x + y, -x/2), affine: in both spaces
   Eigen::VectorXd u(x.size() + y.size());
-  u << 2 * x.points().col(0) + x.points().col(1), -0.5 * y.points().col(0);
+  u << 2 * x.dof_coordinates().col(0) + x.dof_coordinates().col(1), -0.5 * y.dof_coordinates().col(0);
   const Eigen::VectorXd pressure = Eigen::VectorXd::LinSpaced(triangles, 0, 1);
   write_deformed_vtu(folder / "u.vtu", {x, y}, u, pressure);
   const std::string text = contents(folder / "u.vtu");

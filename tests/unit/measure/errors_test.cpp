@@ -1,7 +1,7 @@
 // Norms against integrals done by hand; rates, contact zones and energy.
 #include <Eigen/Core>
 
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 #include "antilock/form/gradient_forms.hpp"
 #include "antilock/form/h1_norm.hpp"
 #include "antilock/measure/contact_zone.hpp"
@@ -142,14 +142,14 @@ TEST(ContactZone, IsEmptyWhereNothingTouches) {
 
 TEST(ExactResidual, IsTheWorkOfTheContactPressureOnConformingSpaces) {
   constexpr double epsilon = 0.1;
-  const Truth truth(paper_sine_load(), epsilon, true, 14);
-  const TruthTable table(truth);
+  const ExactSolution exact(paper_sine_load(), epsilon, true, 14);
+  const ExactTable table(exact);
   std::vector<double> ends;
-  for (const auto& [from, to] : truth.contact_zones()) ends.insert(ends.end(), {from, to});
+  for (const auto& [from, to] : exact.contact_zones()) ends.insert(ends.end(), {from, to});
   for (const SpaceOn& space : two_square_spaces(8, {&p1(), &p2()})) {
     Eigen::VectorXd residual = consistency_residual(space, load_vector(space, paper_load), reference(table), ends);
-    Eigen::VectorXd work = contact_work(space, [&](double x) { return truth.pressure(x); });
-    for (const int i : space.clamped()) residual(i) = work(i) = 0;  // reactions
+    Eigen::VectorXd work = contact_work(space, [&](double x) { return exact.pressure(x); });
+    for (const int i : space.dirichlet_dofs()) residual(i) = work(i) = 0;  // reactions
     // 1e-3: the stress rises like a square root at the end of contact, within one column of triangles
     EXPECT_LT((residual - work).cwiseAbs().maxCoeff(), 1e-3 * work.maxCoeff()) << space.name;
   }

@@ -21,7 +21,8 @@ inline Reference affine(double epsilon) {
 inline Solution interpolant(const Space& space, const Reference& reference, double epsilon) {
   Solution s;
   s.u.resize(space.size());
-  for (int i = 0; i < space.size(); ++i) s.u(i) = reference.value(space.points()(i, 0), space.points()(i, 1));
+  for (int i = 0; i < space.size(); ++i)
+    s.u(i) = reference.value(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1));
   s.p = layer_strain(space).b * s.u / (epsilon * epsilon);
   return s;
 }

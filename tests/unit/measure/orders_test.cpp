@@ -1,5 +1,5 @@
 // How fast, and how accurate: slopes against manufactured solutions, the accuracy table against the truth.
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/mesh/triangle_mesh.hpp"
 #include "antilock/scene/scene.hpp"
@@ -87,8 +87,8 @@ struct Study {
   std::vector<double> h, errors;
   double contact_from = 0;
 };
-Study study(const Meshes& meshes, const Element& element, double epsilon, const Truth& truth) {
-  const TruthTable table(truth);
+Study study(const Meshes& meshes, const Element& element, double epsilon, const ExactSolution& exact_solution) {
+  const ExactTable table(exact_solution);
   Study study;
   double h = 1.0 / 16;
   for (const TriangleMesh& mesh : meshes) {
@@ -97,7 +97,8 @@ Study study(const Meshes& meshes, const Element& element, double epsilon, const 
     const Solution s = active_set(problem);
     double error = 0;
     for (int i = 0; i < space.size(); ++i)
-      error = std::max(error, std::abs(s.u(i) - table.value(space.points()(i, 0), space.points()(i, 1))));
+      error =
+          std::max(error, std::abs(s.u(i) - table.value(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))));
     study.h.push_back(h);
     study.errors.push_back(error);
     study.contact_from = contact_zone(space, problem, s).from.value_or(-1);
@@ -107,7 +108,7 @@ Study study(const Meshes& meshes, const Element& element, double epsilon, const 
 }
 
 /// The truth against which tables are made; 2^14 points: 1e-7 and better, errors here are 1e-5 and more.
-Truth truth(double epsilon) { return Truth(paper_sine_load(), epsilon, true, 14); }
+ExactSolution exact_solution(double epsilon) { return ExactSolution(paper_sine_load(), epsilon, true, 14); }
 
 TEST(AccuracyTable, StructuredMeshes) {
   // errors measured by a first program that shares no line with this library, two or three digits (1 %); diagonal / as
@@ -122,7 +123,7 @@ TEST(AccuracyTable, StructuredMeshes) {
   for (const Row& row : {Row{1e-2, &p1(), 1.26e-3, 7.97e-5, 2, 0.2}, Row{1e-6, &p1(), 1.26e-3, 7.99e-5, 2, 0.2},
                          Row{1e-2, &crouzeix_raviart(), 3.56e-3, 2.81e-4, 1.85, 0.15},
                          Row{1e-6, &crouzeix_raviart(), 3.56e-3, 2.81e-4, 1.85, 0.15}}) {
-    const Study s = study(meshes, *row.element, row.epsilon, truth(row.epsilon));
+    const Study s = study(meshes, *row.element, row.epsilon, exact_solution(row.epsilon));
     const std::string where = row.element->name() + ", epsilon " + std::to_string(row.epsilon);
     EXPECT_NEAR(s.errors[0] / row.at_16, 1, 0.01) << where;
     EXPECT_NEAR(s.errors[2] / row.at_64, 1, 0.01) << where;
@@ -138,19 +139,19 @@ TEST(AccuracyTable, UnstructuredMeshes) {
   Meshes meshes;
   for (const int cells : {16, 32, 64, 128}) meshes.push_back(unstructured_mesh(cells));
   for (const double epsilon : {1e-2, 1e-6}) {
-    const Study cr = study(meshes, crouzeix_raviart(), epsilon, truth(epsilon));
+    const Study cr = study(meshes, crouzeix_raviart(), epsilon, exact_solution(epsilon));
     EXPECT_NEAR(cr.errors[0] / 2.65e-3, 1, 0.4) << epsilon;
     EXPECT_NEAR(cr.errors[2] / 5.06e-4, 1, 0.4) << epsilon;
     EXPECT_GT(slope(cr.h, cr.errors), 1.2) << epsilon;
     // where contact begins the gap opens from zero slope: a nonconforming gap may close an edge too early
     EXPECT_NEAR(cr.contact_from, epsilon == 1e-6 ? 0.7020 : 0.69753, 2.0 / 128) << epsilon;
   }
-  const Study locked = study(meshes, p1(), 1e-6, truth(1e-6));
+  const Study locked = study(meshes, p1(), 1e-6, exact_solution(1e-6));
   EXPECT_NEAR(locked.errors[0] / 4.57e-2, 1, 0.01);
   EXPECT_NEAR(locked.errors[2] / 4.57e-2, 1, 0.01);
   EXPECT_NEAR(slope(locked.h, locked.errors), 0, 0.1);
   meshes.pop_back();
-  const Study locking = study(meshes, p1(), 1e-2, truth(1e-2));
+  const Study locking = study(meshes, p1(), 1e-2, exact_solution(1e-2));
   EXPECT_NEAR(locking.errors[0] / 3.84e-2, 1, 0.1);
   EXPECT_NEAR(locking.errors[2] / 3.25e-3, 1, 0.4);  // the mesh resolves epsilon = 1e-2 at last
 }

@@ -217,17 +217,17 @@ TEST(ForeignMesh, ACurveAndASurfaceMayHaveOneName) {
     return with(with(two_surfaces, "1 4 \"clamped\"", "1 4 \"" + curve + "\""), "2 1 \"body\"",
                 "2 1 \"" + surface + "\"");
   };
-  const auto read_with = [&](const std::string& text, const MoreGroups& groups) {
+  const auto read_with = [&](const std::string& text, const ExtraGroups& groups) {
     std::istringstream in(text);
     std::vector<int> part;
     const TriangleMesh mesh = read_msh(in, "test.msh", groups, &part);
     EXPECT_EQ(part, std::vector<int>(4, 0));
     return mesh;
   };
-  const MoreGroups steel{{{"steel", held_group(0)}}, {"steel"}}, curve{{{"steel", held_group(0)}}, {}};
+  const ExtraGroups steel{{{"steel", dirichlet_group(0)}}, {"steel"}}, curve{{{"steel", dirichlet_group(0)}}, {}};
   const TriangleMesh mesh = read_with(named("steel", "steel"), steel);
   EXPECT_EQ(mesh.vertices, read(two_surfaces).vertices);
-  EXPECT_EQ(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), held_group(0)), 4);
+  EXPECT_EQ(std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), dirichlet_group(0)), 4);
   expect_refused([&] { read_with(named("clamped", "steel"), steel); }, "has no curve in the group \"steel\"");
   expect_refused([&] { read_with(named("steel", "body"), steel); }, "has no surface in the group \"steel\"");
   expect_refused([&] { read_with(named("steel", "steel"), curve); }, "unknown surface group \"steel\"");

@@ -81,7 +81,7 @@ TriangleMesh half_ring(int cells, double held) {
   TriangleMesh mesh = structured_mesh(cells, {0});
   for (int e = 0; e < mesh.edge_count(); ++e)
     if (mesh.edge_tag[e] == EdgeTag::clamped)
-      mesh.edge_tag[e] = mesh.vertices(mesh.edges.row(e), 1).minCoeff() == 1 ? held_group(1) : natural_group(0);
+      mesh.edge_tag[e] = mesh.vertices(mesh.edges.row(e), 1).minCoeff() == 1 ? dirichlet_group(1) : natural_group(0);
   for (auto row : mesh.vertices.rowwise()) {
     const double r = 1 + (held - 1) * row(1), angle = std::numbers::pi * (held > 1 ? 1 - row(0) : 1 + row(0));
     row << r * std::cos(angle), r * std::sin(angle);
@@ -95,8 +95,8 @@ TriangleMesh half_ring(int cells, double held) {
 TEST(ExtrudedLayer, AlongNormalsIsTheLayerOfARing) {
   const double t = 0.3, s = 0.5;
   const auto zero = [](double, double) { return 0.0; };
-  const std::vector<EdgeCondition> edges{
-      {"sides"}, {"held", EdgeCondition::Kind::displacement, [](double x, double) { return x; }}};
+  const std::vector<BoundaryCondition> edges{
+      {"sides"}, {"held", BoundaryCondition::Kind::displacement, [](double x, double) { return x; }}};
   for (const double held : {2.0, 0.5})
     for (const Element* element : {&p1(), &crouzeix_raviart(), &p2()}) {
       const double rho = held > 1 ? 1 - t : 1 + t, w = 1 / (rho * rho);
@@ -109,13 +109,13 @@ TEST(ExtrudedLayer, AlongNormalsIsTheLayerOfARing) {
         const Solution u = active_set(assemble(Scene(Body{zero}, StiffLayer{t, s}, {}, edges), space));
         double error = 0;
         for (int k = 0; k < mesh.triangle_count(); ++k)
-          for (const int i : space.unknowns().row(k)) {
-            const Eigen::RowVector2d x = space.points().row(i);
+          for (const int i : space.cell_dofs().row(k)) {
+            const Eigen::RowVector2d x = space.dof_coordinates().row(i);
             const double r = x.norm();
             if (mesh.region[k] == Region::body) error = std::max(error, std::abs(u.u(i) - (a + b / (r * r)) * x(0)));
           }
-        for (const int i : space.contact()) {
-          const Eigen::RowVector2d foot = space.points().row(i) + Eigen::RowVector2d(0, 1);
+        for (const int i : space.contact_dofs()) {
+          const Eigen::RowVector2d foot = space.dof_coordinates().row(i) + Eigen::RowVector2d(0, 1);
           error = std::max(error, std::abs(u.u(i) - scale * (2 * w * rho + 2 / rho) * foot(0) / foot.norm()));
         }
         errors.push_back(error);
@@ -128,7 +128,7 @@ TEST(ExtrudedLayer, AlongNormalsIsTheLayerOfARing) {
 TEST(ExtrudedLayer, AlongNormalsIsRefusedWhereThereIsNoSuchLayer) {
   TriangleMesh ring = half_ring(8, 2), turned = ring;
   expect_refused([&] { extruded(ring, 1, true); }, "meets itself");
-  TriangleMesh slot = test::cut_out(8, [](double x, double y) { return y < 0.25 || y > 0.5 || x < 0.25; });
+  TriangleMesh slot = test::submesh(8, [](double x, double y) { return y < 0.25 || y > 0.5 || x < 0.25; });
   for (int e = 0; e < slot.edge_count(); ++e)
     if (slot.edge_triangles(e, 1) < 0 && (slot.vertices(slot.edges.row(e), 1).array() == 0.5).all())
       slot.edge_tag[e] = EdgeTag::contact;
@@ -137,16 +137,16 @@ TEST(ExtrudedLayer, AlongNormalsIsRefusedWhereThereIsNoSuchLayer) {
   expect_refused([&] { extruded(turned, 0.1, true); }, "the body is not above its contact edge");
   expect_refused([&] { extruded(ring, 0.1); }, "on the line y = 0");
   for (EdgeTag& tag : ring.edge_tag)
-    if (tag == natural_group(0)) tag = held_group(0);
+    if (tag == natural_group(0)) tag = dirichlet_group(0);
   expect_refused([&] { extruded(ring, 0.1, true); }, "a displacement is given at");
   const TriangleMesh grown = extruded(half_ring(8, 2), 0.1, true);
   const Space space(grown, p1());
   const Scene scene(Body{paper_load}, StiffLayer{0.1}, UnilateralContact{[](double) { return 1.0; }},
-                    {{"in"}, {"out", EdgeCondition::Kind::displacement, [](double, double) { return 0; }}});
+                    {{"in"}, {"out", BoundaryCondition::Kind::displacement, [](double, double) { return 0; }}});
   expect_refused([&] { SceneSweep(scene, space).set_epsilon(0.2); }, "along normals");
   expect_refused([&] { solve_to(scene, grown, {0.1}); }, "along the normals");
   TriangleMesh forgotten = grown;
-  forgotten.bend.clear();
+  forgotten.curved_columns.clear();
   expect_refused([&] { assemble(scene, Space(forgotten, p1())); }, "Sigma on the line y = 0");
 }
 

@@ -11,11 +11,11 @@ TEST(Assemble, StiffLayerIsEquation23) {
   for (const SpaceOn& space : two_square_spaces(4, {&p1(), &crouzeix_raviart()})) {
     const VariationalInequality problem = stiff_problem(space, 0.1);
     // u = 2 x + 3 y: a1(u, u) = body 4 + 9, layer 4; a0(u, u) = layer 9
-    const Eigen::VectorXd u = 2 * space.points().col(0) + 3 * space.points().col(1);
+    const Eigen::VectorXd u = 2 * space.dof_coordinates().col(0) + 3 * space.dof_coordinates().col(1);
     EXPECT_NEAR(u.dot(problem.a1 * u), 17, 1e-11) << space.name;
     EXPECT_NEAR(value({problem.b, problem.m, {}}, u), 9, 1e-11) << space.name;
-    EXPECT_EQ(problem.fixed, space.clamped());
-    EXPECT_TRUE(problem.fixed_values.isZero(0));
+    EXPECT_EQ(problem.dirichlet_dofs, space.dirichlet_dofs());
+    EXPECT_TRUE(problem.dirichlet_values.isZero(0));
     EXPECT_NO_THROW(check(problem));
   }
 }
@@ -41,9 +41,9 @@ TEST(Assemble, TheObstacleIsMinusTheGapAtEachContactUnknown) {
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
     const Space space(mesh, *element);
     const auto problem = stiff_problem(space, 0.1, {[](double x) { return 0.5 * x; }});
-    ASSERT_EQ(problem.contact, space.contact());
+    ASSERT_EQ(problem.contact, space.contact_dofs());
     for (Eigen::Index i = 0; i < problem.lower.size(); ++i)
-      EXPECT_EQ(problem.lower(i), -0.5 * space.points()(problem.contact[i], 0));
+      EXPECT_EQ(problem.lower(i), -0.5 * space.dof_coordinates()(problem.contact[i], 0));
   }
   const Space space(mesh, p1());
   expect_refused([&] { stiff_problem(space, 0.1, {[](double x) { return x > 0 && x < 1 ? nan : 0; }}); },
@@ -56,12 +56,12 @@ TEST(Assemble, RefusesASceneThatDoesNotFitItsMesh) {
   expect_refused([&] { assemble(Scene({paper_load}, ThinLayer{0.1}), Space(body, p1())); }, "no group layer");
   expect_refused([&] { assemble(Scene({paper_load}), Space(both, p1())); }, "no layer");
   expect_refused([&] { assemble(Scene({paper_load}, VentcelLayer{}), Space(both, p1())); }, "no layer");
-  std::replace(body.edge_tag.begin(), body.edge_tag.end(), EdgeTag::clamped, held_group(0));
+  std::replace(body.edge_tag.begin(), body.edge_tag.end(), EdgeTag::clamped, dirichlet_group(0));
   for (const Layer& layer : {Layer(NoLayer{}), Layer(VentcelLayer{})})
     expect_refused([&] { assemble(Scene({paper_load}, layer), Space(body, p1())); }, "of which the scene says nothing");
   const TriangleMesh hangs = retagged(structured_mesh(4, {0}), [](double, double) { return natural_group(0); });
-  const Scene pulled({paper_load}, NoLayer{}, {}, {{"rim", EdgeCondition::Kind::traction, paper_load}});
-  expect_refused([&] { assemble(pulled, Space(hangs, p1())); }, "nothing holds the piece of the mesh");
+  const Scene pulled({paper_load}, NoLayer{}, {}, {{"rim", BoundaryCondition::Kind::traction, paper_load}});
+  expect_refused([&] { assemble(pulled, Space(hangs, p1())); }, "nothing holds the component of the mesh");
   for (int v = 0; v < both.vertex_count(); ++v)  // whichever end of an edge it is
     if (both.vertices(v, 1) == 0) {
       TriangleMesh bent = both;

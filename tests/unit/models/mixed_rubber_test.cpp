@@ -16,7 +16,7 @@ TEST(Mixed, StrainsAndDivergencesAreExact) {
     const auto field = [&](auto&& of_x, auto&& of_y) {
       Eigen::VectorXd u(both.size());
       for (int i = 0; i < space.size(); ++i) {
-        const double x = space.points()(i, 0), y = space.points()(i, 1);
+        const double x = space.dof_coordinates()(i, 0), y = space.dof_coordinates()(i, 1);
         u(i) = of_x(x, y);
         u(space.size() + i) = of_y(x, y);
       }
@@ -53,20 +53,20 @@ TEST(Mixed, AtEpsilonZeroIsTheSaddlePoint) {
       for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
         const Eigen::MatrixXd gradient = element->derivative(rule.points.row(q)) * barycentric_gradients(mesh, t);
         for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < element->unknowns(); ++j)
+          for (int j = 0; j < element->dofs(); ++j)
             for (const int k : {0, 1})
-              d(mesh.triangles(t, i), space.unknowns()(t, j) + k * space.size()) +=
+              d(mesh.triangles(t, i), space.cell_dofs()(t, j) + k * space.size()) +=
                   rule.weights(q) * mesh.area(t) * rule.points(q, i) * gradient(j, k);
       }
-    const VariationalInequality held = held_in_contact(problem, ours.active);
+    const VariationalInequality held = equality_constrained(problem, ours.active);
     const auto n = problem.size(), m = mesh.vertex_count();
     Eigen::MatrixXd saddle = Eigen::MatrixXd::Zero(n + m, n + m);
     saddle << problem.a1.toDense(), d.transpose(), d, Eigen::MatrixXd::Zero(m, m);
     Eigen::VectorXd right = Eigen::VectorXd::Zero(n + m);
-    for (std::size_t i = 0; i < held.fixed.size(); ++i) {
-      saddle.row(held.fixed[i]).setZero();
-      saddle(held.fixed[i], held.fixed[i]) = 1;
-      right(held.fixed[i]) = held.fixed_values(static_cast<Eigen::Index>(i));
+    for (std::size_t i = 0; i < held.dirichlet_dofs.size(); ++i) {
+      saddle.row(held.dirichlet_dofs[i]).setZero();
+      saddle(held.dirichlet_dofs[i], held.dirichlet_dofs[i]) = 1;
+      right(held.dirichlet_dofs[i]) = held.dirichlet_values(static_cast<Eigen::Index>(i));
     }
     const Eigen::VectorXd theirs = test::lu_solve(saddle, right);
     EXPECT_LT((ours.u - theirs.head(n)).lpNorm<Eigen::Infinity>(), 1e-9) << element->name();

@@ -20,12 +20,12 @@ struct Spaces {
 /// Error of the contact force in per cent, against a fine reference for lambda = 1, 100, 1e4, infinity. The first three
 /// are Kouhia-Stenberg's on 32 cells less its error there, by a first program that shares no line with this library.
 void expect_force_errors(const Spaces& spaces, double jump_weight, const std::vector<double>& percent,
-                         const std::vector<double>& within, int most_corrections) {
+                         const std::vector<double>& within, int max_corrections) {
   const std::vector<double> lambda = {1, 1e2, 1e4, infinity}, reference = {0.15881, 0.25576, 0.25916, 0.2592};
   for (std::size_t k = 0; k < lambda.size(); ++k) {
     const Solution solution = active_set(assemble(platen(1 / lambda[k], jump_weight), spaces.both()));
     EXPECT_NEAR(100 * (solution.lambda.sum() / reference[k] - 1), percent[k], within[k]) << "lambda " << lambda[k];
-    EXPECT_LE(solution.counters.corrections, most_corrections) << "lambda " << lambda[k];
+    EXPECT_LE(solution.counters.corrections, max_corrections) << "lambda " << lambda[k];
   }
 }
 
@@ -52,12 +52,12 @@ TEST(PlaneStrain, PassesThePatchTest) {
       for (const double lambda : {1.0, 1e4, 1e20, infinity}) {
         SCOPED_TRACE(x->name() + y->name() + ", lambda " + std::to_string(lambda));
         const Spaces spaces(mesh, *x, *y);
-        const PlaneStrain scene{Press{.sliding = true, .jump_weight = weight}, 1 / lambda, continuous_pressure};
+        const PlaneStrain scene{BlockLoading{.sliding = true, .jump_weight = weight}, 1 / lambda, continuous_pressure};
         const Solution solution = active_set(assemble(scene, spaces.both()));
         const double stretch = 0.1 / (1 + 2 * scene.epsilon);
         EXPECT_NEAR(solution.lambda.sum(), 0.4 * (1 + scene.epsilon) / (1 + 2 * scene.epsilon), 1e-12);
         Eigen::VectorXd exact(solution.u.size());
-        exact << stretch * spaces.x.points().col(0), -0.1 * spaces.y.points().col(1);
+        exact << stretch * spaces.x.dof_coordinates().col(0), -0.1 * spaces.y.dof_coordinates().col(1);
         EXPECT_LT((solution.u - exact).lpNorm<Eigen::Infinity>(), 1e-12);
         // P1 locks to a kernel of one function here, and its pressure is not unique
         if (x->name() == "CR" || continuous_pressure) {
@@ -78,7 +78,7 @@ int zero_modes(const Spaces& spaces, double jump_weight) {
   const VariationalInequality problem = assemble(platen(0, jump_weight), spaces.both());
   std::vector<int> unknowns;
   for (int i = 0; i < problem.size(); ++i)
-    if (!std::binary_search(problem.fixed.begin(), problem.fixed.end(), i)) unknowns.push_back(i);
+    if (!std::binary_search(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end(), i)) unknowns.push_back(i);
   const Eigen::MatrixXd a1 = problem.a1.toDense()(unknowns, unknowns);
   const Eigen::VectorXd values = symmetric_eigenvalues(a1);
   return static_cast<int>((values.array() < 1e-10).count());  // the next is at 1e-2
@@ -132,9 +132,9 @@ TEST(Coating, PassesThePatchTest) {
       const double soft = scene.layer.mu;
       // v = b y + c in the block, v = d (Y + 1) in the coating; v(1) = -push
       const double b_of_a = -(lambda + 2 * mu) / lambda, d_of_a = -t * (lambda + 2 * soft) / lambda,
-                   a = -scene.push / (b_of_a + d_of_a);
+                   a = -scene.prescribed_displacement / (b_of_a + d_of_a);
       Eigen::VectorXd exact(x.size() + y.size());
-      exact << a * x.points().col(0), y.points().col(1).unaryExpr([&](double at) {
+      exact << a * x.dof_coordinates().col(0), y.dof_coordinates().col(1).unaryExpr([&](double at) {
         return a * (at > 0 ? b_of_a * at + d_of_a : d_of_a * (at + 1));
       });
       ActiveSetOptions options;
@@ -161,13 +161,13 @@ TEST(Coating, PassesThePatchTestInShear) {
                    v_y_c = (t * stress - lambda_c * u_x) / (lambda_c + 2 * mu_c);
       VariationalInequality problem = assemble(scene, {space, space});
       Eigen::VectorXd exact(problem.size());
-      problem.fixed.clear(), problem.contact.clear(), problem.lower.resize(0);
+      problem.dirichlet_dofs.clear(), problem.contact.clear(), problem.lower.resize(0);
       for (int i = 0; i < problem.size(); ++i) {
-        const double x = space.points()(i % space.size(), 0), y = space.points()(i % space.size(), 1);
+        const double x = space.dof_coordinates()(i % space.size(), 0), y = space.dof_coordinates()(i % space.size(), 1);
         exact(i) = i < space.size() ? u_x * x + (y > 0 ? u_y : t * u_y_c) * y : v_x * x + (y > 0 ? v_y : t * v_y_c) * y;
-        if (x == 0 || x == 1 || std::abs(y) == 1) problem.fixed.push_back(i);
+        if (x == 0 || x == 1 || std::abs(y) == 1) problem.dirichlet_dofs.push_back(i);
       }
-      problem.fixed_values = exact(problem.fixed);
+      problem.dirichlet_values = exact(problem.dirichlet_dofs);
       const Solution s = active_set(problem);
       SCOPED_TRACE(element->name() + " at t = " + std::to_string(t));
       EXPECT_LE((s.u - exact).cwiseAbs().maxCoeff(), 1e-10);  // CorrectionOptions::tolerance, |u| <= 1
@@ -212,7 +212,7 @@ TEST(PlaneStrain, SticksToAFloorThatBearsAnything) {
     const Spaces spaces(mesh, *element, *element);
     PlaneStrain scene = platen(1, 1);
     const auto slip = [&] {
-      return active_set(assemble(scene, spaces.both())).u(spaces.x.contact()).cwiseAbs().maxCoeff();
+      return active_set(assemble(scene, spaces.both())).u(spaces.x.contact_dofs()).cwiseAbs().maxCoeff();
     };
     EXPECT_GT(slip(), 1e-3) << element->name();
     for (const double most : {1e300, infinity}) {
@@ -225,8 +225,9 @@ TEST(PlaneStrain, SticksToAFloorThatBearsAnything) {
 TEST(PlaneStrain, RefusesValuesOutOfRange) {
   const TriangleMesh mesh = block(2);
   const Spaces spaces(mesh, p1(), p1());
-  for (const PlaneStrain& bad : {PlaneStrain{Press{}, -1}, PlaneStrain{Press{}, 2},
-                                 PlaneStrain{Press{.push = infinity}}, PlaneStrain{Press{.jump_weight = -1}}})
+  for (const PlaneStrain& bad :
+       {PlaneStrain{BlockLoading{}, -1}, PlaneStrain{BlockLoading{}, 2},
+        PlaneStrain{BlockLoading{.prescribed_displacement = infinity}}, PlaneStrain{BlockLoading{.jump_weight = -1}}})
     EXPECT_THROW(assemble(bad, spaces.both()), Error);
 }
 

@@ -1,7 +1,7 @@
 // Reissner and Mindlin's plate over an obstacle: the class in two dimensions, bounds under all of it.
 #include "antilock/models/plate.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/exact/plate_truth.hpp"
+#include "antilock/exact/exact_plate.hpp"
 #include "antilock/form/plate_forms.hpp"
 #include "antilock/form/quadrature.hpp"
 #include "antilock/models/coating.hpp"
@@ -39,9 +39,9 @@ TriangleMesh clamped(TriangleMesh mesh) {
 Plate bent(double thickness) {
   Plate plate{.thickness = thickness, .load = [](double, double) { return 0.0; }};
   plate.gap = [](double, double) { return infinity; };
-  plate.rim = [](double x, double y) { return x * x + x * y - y * y / 2; };
-  plate.rim_slope_x = [](double x, double y) { return 2 * x + y; };
-  plate.rim_slope_y = [](double x, double y) { return x - y; };
+  plate.boundary_deflection = [](double x, double y) { return x * x + x * y - y * y / 2; };
+  plate.boundary_rotation_x = [](double x, double y) { return 2 * x + y; };
+  plate.boundary_rotation_y = [](double x, double y) { return x - y; };
   return plate;
 }
 
@@ -80,9 +80,9 @@ TEST(Plate, TheOtherRulesHaveTheShearThatTheySee) {
     const Eigen::VectorXd u = Eigen::VectorXd::LinSpaced(on.space.size(), 0, 40).array().sin();
     double exact = 0;
     for (int t = 0; t < mesh.triangle_count(); ++t) {
-      const Eigen::VectorXd w = u(on.w.unknowns().row(t)),
-                            x = u.segment(on.space.theta_x(), on.theta.size())(on.theta.unknowns().row(t)),
-                            y = u.segment(on.space.theta_y(), on.theta.size())(on.theta.unknowns().row(t));
+      const Eigen::VectorXd w = u(on.w.cell_dofs().row(t)),
+                            x = u.segment(on.space.theta_x(), on.theta.size())(on.theta.cell_dofs().row(t)),
+                            y = u.segment(on.space.theta_y(), on.theta.size())(on.theta.cell_dofs().row(t));
       Eigen::Vector2d mean = Eigen::Vector2d::Zero();
       double square = 0;
       for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
@@ -127,16 +127,16 @@ TEST(Plate, TheBubblesOfTheEdgesHaveTheirExactBendingEnergy) {
 TEST(Plate, TheRimHasTheMeansOfWhatIsPrescribed) {
   const TriangleMesh mesh = disc_mesh(3);
   Plate plate = bent(1);
-  plate.rim = [](double x, double y) { return x * x * x - x * y; };
-  plate.rim_slope_x = [](double x, double y) { return x * x - y; };
-  plate.rim_slope_y = [](double x, double y) { return x * y + y * y; };
+  plate.boundary_deflection = [](double x, double y) { return x * x * x - x * y; };
+  plate.boundary_rotation_x = [](double x, double y) { return x * x - y; };
+  plate.boundary_rotation_y = [](double x, double y) { return x * y + y * y; };
   const auto [points, weights] = gauss_rule(2);  // exact to degree 3
   for (const PlateElement& method : {duran_liberman, arnold_falk}) {
     const On on(method, mesh);
     const VariationalInequality problem = assemble(plate, on.space);
     std::map<int, double> fixed;
-    for (std::size_t k = 0; k < problem.fixed.size(); ++k)
-      fixed[problem.fixed[k]] = problem.fixed_values(static_cast<Eigen::Index>(k));
+    for (std::size_t k = 0; k < problem.dirichlet_dofs.size(); ++k)
+      fixed[problem.dirichlet_dofs[k]] = problem.dirichlet_values(static_cast<Eigen::Index>(k));
     for (int e = 0; e < mesh.edge_count(); ++e) {
       if (mesh.edge_tag[e] != EdgeTag::clamped) continue;
       const Eigen::RowVector2d a = mesh.vertices.row(mesh.edges(e, 0)), b = mesh.vertices.row(mesh.edges(e, 1));
@@ -144,8 +144,9 @@ TEST(Plate, TheRimHasTheMeansOfWhatIsPrescribed) {
       double w = 0, theta = 0;
       for (int q = 0; q < 2; ++q) {
         const Eigen::RowVector2d x = a + points(q) * (b - a);
-        w += weights(q) * plate.rim(x(0), x(1));
-        theta += weights(q) * (plate.rim_slope_x(x(0), x(1)) * along(0) + plate.rim_slope_y(x(0), x(1)) * along(1));
+        w += weights(q) * plate.boundary_deflection(x(0), x(1));
+        theta += weights(q) *
+                 (plate.boundary_rotation_x(x(0), x(1)) * along(0) + plate.boundary_rotation_y(x(0), x(1)) * along(1));
       }
       if (method.shear == ShearRule::edges) {
         double ends = 0;
@@ -231,7 +232,7 @@ std::pair<double, double> errors(const PlateElement& method, const TriangleMesh&
   const Solution s = active_set(assemble(exact.plate(), on.space));
   double w = 0, w2 = 0, theta = 0, theta2 = 0;
   for (int i = 0; i < on.w.size(); ++i) {
-    const double value = exact.deflection(on.w.points()(i, 0), on.w.points()(i, 1));
+    const double value = exact.deflection(on.w.dof_coordinates()(i, 0), on.w.dof_coordinates()(i, 1));
     w += std::pow(s.u(i) - value, 2);
     w2 += value * value;
   }
@@ -274,8 +275,8 @@ TEST(Plate, ThePressedPlateFulfilsTheConditionsOnBothRoads) {
       const On on(method, mesh);
       const VariationalInequality problem = assemble(Plate{.thickness = t}, on.space);
       ActiveSetOptions on_sparse, on_dense;
-      on_sparse.road = ContactRoad::sparse;
-      on_dense.road = ContactRoad::dense;
+      on_sparse.reduction = ContactReduction::sparse;
+      on_dense.reduction = ContactReduction::schur_complement;
       const Solution dense = active_set(problem, on_dense), sparse = active_set(problem, on_sparse);
       EXPECT_LT(worst_violation(kkt_report(problem, dense)), 1e-9);
       EXPECT_LT((dense.u - sparse.u).norm(), 1e-8 * dense.u.norm());
@@ -292,7 +293,7 @@ TEST(Plate, TheContactForceTendsToTheExactOne) {
         const TriangleMesh mesh = disc_mesh(n);
         const On on(method, mesh);
         off.push_back(std::abs(
-            active_set(assemble(Plate{.thickness = t}, on.space)).lambda.sum() / PlateTruth(t).contact_force() - 1));
+            active_set(assemble(Plate{.thickness = t}, on.space)).lambda.sum() / ExactPlate(t).contact_force() - 1));
       }
       EXPECT_LT(off.back(), 0.01) << method.name << t;
       EXPECT_LT(off.back(), off.front()) << method.name << t;
@@ -317,16 +318,16 @@ TEST(Plate, ValuesOutOfRangeAreRefused) {
   for (const double nu : {-0.1, 1.0})
     test::expect_refused([&] { assemble(Plate{.poisson = nu}, on.space); }, "Poisson");
   Plate sunk;  // below the obstacle on a part of the rim
-  const TriangleMesh group = retagged(mesh, [](double, double) { return held_group(0); });
+  const TriangleMesh group = retagged(mesh, [](double, double) { return dirichlet_group(0); });
   const On named(arnold_falk, group);
   EXPECT_TRUE(assemble(sunk, named.space).a1.isApprox(assemble(sunk, on.space).a1)) << "held under whatever name";
   sunk.gap = [](double x, double) { return x > 0.9 ? -0.1 : 1.0; };
   for (const On* rim : {&on, &named})
     test::expect_refused([&] { assemble(sunk, rim->space); }, "below the obstacle at 0.1");
   sunk.gap = [](double x, double) { return x < 0 ? 0.1 : 1e13; };  // large elsewhere: hides nothing
-  sunk.rim = [](double, double) { return -1.0; };
+  sunk.boundary_deflection = [](double, double) { return -1.0; };
   test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at -0.1");
-  sunk.rim = [](double, double) { return 0.0; };  // a thousandth of the gap beside it below
+  sunk.boundary_deflection = [](double, double) { return 0.0; };  // a thousandth of the gap beside it below
   sunk.gap = [](double x, double y) { return x * x + y * y > 0.99 ? -1e-4 : 0.1; };
   test::expect_refused([&] { assemble(sunk, on.space); }, "below the obstacle at 0.0001");
   TriangleMesh rounded = mesh;  // an obstacle that meets the rim, whose corners are where they are to 1e-9

@@ -1,6 +1,6 @@
 // The Timoshenko beam over an obstacle: another member of the class, the same solver; full integration locks.
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/exact/beam_truth.hpp"
+#include "antilock/exact/exact_beam.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/models/plate.hpp"
 #include "support/dense.hpp"
@@ -13,20 +13,20 @@ Beam beam(int cells, double epsilon, ShearIntegration shear) {
 }
 
 double nodal_error(const Beam& b) {
-  const BeamTruth truth(b);
+  const ExactBeam exact(b);
   const Solution solution = active_set(assemble(b));
   double largest = 0;
   for (int i = 0; i <= b.cells; ++i)
-    largest = std::max(largest, std::abs(solution.u(2 * i) - truth.deflection(static_cast<double>(i) / b.cells)));
+    largest = std::max(largest, std::abs(solution.u(2 * i) - exact.deflection(static_cast<double>(i) / b.cells)));
   return largest;
 }
 
 TEST(Beam, TheTruthHasItsKnownDigits) {
-  const auto start = [](double epsilon) { return BeamTruth(beam(2, epsilon, ShearIntegration::reduced)); };
+  const auto start = [](double epsilon) { return ExactBeam(beam(2, epsilon, ShearIntegration::reduced)); };
   EXPECT_NEAR(start(1).contact_start(), 0.01852, 5e-6);
   EXPECT_NEAR(start(1e-2).contact_start(), 0.17822, 5e-6);
   EXPECT_NEAR(start(1e-4).contact_start(), 0.32230, 1e-5);
-  const BeamTruth bernoulli = start(0);
+  const ExactBeam bernoulli = start(0);
   EXPECT_NEAR(bernoulli.contact_start(), 1.0 / 3, 1e-13);  // (72 gap / load)^(1/4)
   EXPECT_NEAR(bernoulli.contact_force(), 5 * 5832.0 / 9, 1e-8);
   EXPECT_NEAR(bernoulli.energy(), -3758.4, 1e-8);
@@ -35,23 +35,23 @@ TEST(Beam, TheTruthHasItsKnownDigits) {
 TEST(Beam, TheTruthSolvesItsEquations) {
   // off the obstacle V' = q and theta'' = -V, V = (w' - theta)/epsilon, by differences
   const double epsilon = 1e-2, q = Beam{}.load, d = 1e-4;
-  const BeamTruth truth(beam(2, epsilon, ShearIntegration::reduced));
+  const ExactBeam exact(beam(2, epsilon, ShearIntegration::reduced));
   const auto shear = [&](double x) {
-    return ((truth.deflection(x + d) - truth.deflection(x - d)) / (2 * d) - truth.rotation(x)) / epsilon;
+    return ((exact.deflection(x + d) - exact.deflection(x - d)) / (2 * d) - exact.rotation(x)) / epsilon;
   };
   for (const double x : {0.03, 0.1, 0.15}) {
     EXPECT_NEAR((shear(x + d) - shear(x - d)) / (2 * d) / q, 1, 1e-4) << x;
-    const double bending = (truth.rotation(x + d) - 2 * truth.rotation(x) + truth.rotation(x - d)) / (d * d);
+    const double bending = (exact.rotation(x + d) - 2 * exact.rotation(x) + exact.rotation(x - d)) / (d * d);
     EXPECT_NEAR(bending / shear(x), -1, 1e-4) << x;
   }
   // on it w' = 0: epsilon theta'' = theta; odd about the middle, and continuous where contact begins
   for (const double x : {0.2, 0.3, 0.4}) {
-    const double bending = (truth.rotation(x + d) - 2 * truth.rotation(x) + truth.rotation(x - d)) / (d * d);
-    EXPECT_NEAR(epsilon * bending / truth.rotation(x), 1, 1e-4) << x;
-    EXPECT_NEAR(truth.rotation(1 - x) / -truth.rotation(x), 1, 1e-13) << x;
+    const double bending = (exact.rotation(x + d) - 2 * exact.rotation(x) + exact.rotation(x - d)) / (d * d);
+    EXPECT_NEAR(epsilon * bending / exact.rotation(x), 1, 1e-4) << x;
+    EXPECT_NEAR(exact.rotation(1 - x) / -exact.rotation(x), 1, 1e-13) << x;
   }
-  EXPECT_NEAR(truth.rotation(truth.contact_start() + 1e-9) / truth.rotation(truth.contact_start()), 1, 1e-6);
-  EXPECT_EQ(BeamTruth(beam(2, 0, ShearIntegration::reduced)).rotation(0.4), 0) << "Bernoulli's beam lies flat";
+  EXPECT_NEAR(exact.rotation(exact.contact_start() + 1e-9) / exact.rotation(exact.contact_start()), 1, 1e-6);
+  EXPECT_EQ(ExactBeam(beam(2, 0, ShearIntegration::reduced)).rotation(0.4), 0) << "Bernoulli's beam lies flat";
 }
 
 TEST(Beam, FullIntegrationLocksAndReducedDoesNot) {
@@ -86,7 +86,7 @@ TEST(Beam, IsSolvedInAFewStepsAndCorrectionsHoweverFine) {
       EXPECT_LE(solution.counters.contact, 30);                        // measured: 23 at most
       EXPECT_LE(solution.counters.corrections, cells > 256 ? 25 : 5);  // measured: 19 and 5 at most
       EXPECT_LT(solution.kkt.residual, 1e-11);                         // measured: 4e-13 at most
-      EXPECT_NEAR(solution.lambda.sum() / BeamTruth(b).contact_force(), 1, 1e-3);
+      EXPECT_NEAR(solution.lambda.sum() / ExactBeam(b).contact_force(), 1, 1e-3);
     }
 }
 
@@ -129,13 +129,13 @@ TEST(Beam, LockingIsTheKernelOfB) {
 }
 
 TEST(Beam, ForcesConcentrateAtTheEndsOfContact) {
-  const BeamTruth truth(beam(64, 0, ShearIntegration::reduced));
+  const ExactBeam exact(beam(64, 0, ShearIntegration::reduced));
   const Solution solution = active_set(assemble(beam(64, 0, ShearIntegration::reduced)));
   // two point forces q c / 3 at the ends, spread over a few nodes there
   double at_end = 0;
   for (int i = 0; i < 63; ++i)
-    if (std::abs((i + 1) / 64.0 - truth.contact_start()) < 3.0 / 64) at_end += solution.lambda(i);
-  EXPECT_GT(at_end, 0.9 * Beam{}.load * truth.contact_start() / 3);
+    if (std::abs((i + 1) / 64.0 - exact.contact_start()) < 3.0 / 64) at_end += solution.lambda(i);
+  EXPECT_GT(at_end, 0.9 * Beam{}.load * exact.contact_start() / 3);
 }
 
 TEST(Beam, OneFormAloneIsSingularAndTheirSumIsNot) {
@@ -166,7 +166,7 @@ TEST(Beam, RefusesValuesOutOfRange) {
   for (const Beam& bad : {Beam{.cells = 1}, Beam{.epsilon = -1e-9}, Beam{.epsilon = 1.1}, Beam{.epsilon = test::nan},
                           Beam{.gap = 0}, Beam{.load = test::infinity}})
     EXPECT_THROW(assemble(bad), Error);
-  EXPECT_THROW(BeamTruth{Beam{.load = 1}}, Error);  // does not reach the obstacle
+  EXPECT_THROW(ExactBeam{Beam{.load = 1}}, Error);  // does not reach the obstacle
 }
 
 }  // namespace antilock::test::models_test::timoshenko_beam_test

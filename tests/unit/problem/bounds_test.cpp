@@ -8,9 +8,9 @@ namespace antilock::test::problem_test::bounds_test {
 TEST(HeldInContact, RefusesWhatDoesNotFit) {
   const SpaceOn space(block(4), p2());
   VariationalInequality problem = rubber(space, true);
-  expect_refused([&] { held_in_contact(problem, {true}); }, "1 marks; accepted: 9");
+  expect_refused([&] { equality_constrained(problem, {true}); }, "1 marks; accepted: 9");
   problem.upper = Eigen::VectorXd::Constant(problem.lower.size(), 1);
-  expect_refused([&] { held_in_contact(problem, std::vector<bool>(9)); }, "held_in_contact: upper bounds");
+  expect_refused([&] { equality_constrained(problem, std::vector<bool>(9)); }, "equality_constrained: upper bounds");
 }
 
 }  // namespace antilock::test::problem_test::bounds_test

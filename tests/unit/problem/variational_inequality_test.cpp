@@ -10,8 +10,8 @@ TEST(ChoosePenalty, IsInTheUnitsOfCompliance) {
   const TriangleMesh mesh = structured_mesh(8);
   const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 0);
   const double delta = choose_penalty(problem);
-  EXPECT_EQ(moderate_delta(problem), delta);
-  EXPECT_EQ(moderate_delta(problem, 1e-3), 1e-3);
+  EXPECT_EQ(penalty_parameter(problem), delta);
+  EXPECT_EQ(penalty_parameter(problem, 1e-3), 1e-3);
   for (const double s : {1e3, 1e6}) {
     VariationalInequality scaled = problem;
     scaled.b *= s;
@@ -24,7 +24,7 @@ TEST(ChoosePenalty, IsInTheUnitsOfCompliance) {
     EXPECT_NEAR(choose_penalty(scaled) / (delta / s), 1, 1e-13);
   }
   for (const double penalty : {0.0, -1.0, std::nan(""), infinity})
-    expect_refused([&] { moderate_delta(problem, penalty); }, "accepted: a positive number");
+    expect_refused([&] { penalty_parameter(problem, penalty); }, "accepted: a positive number");
 }
 
 /// A good problem, spoilt in one place.
@@ -42,13 +42,13 @@ TEST(Check, RefusesWhatIsNoProblem) {
   refused([](P& p) { p.load.conservativeResize(p.load.size() - 1); }, "a1 is");
   refused([](P& p) { p.b.conservativeResize(p.b.rows(), p.b.cols() - 1); }, "B is");
   refused([](P& p) { p.m.conservativeResize(p.m.size() - 1); }, "M has");
-  refused([](P& p) { p.fixed.pop_back(); }, "one value per fixed unknown");
+  refused([](P& p) { p.dirichlet_dofs.pop_back(); }, "one value per fixed unknown");
   refused([](P& p) { p.contact.pop_back(); }, "one bound per contact unknown");
   refused([=](P& p) { p.a1.valuePtr()[0] = nan; }, "not finite");
   refused([=](P& p) { p.b.valuePtr()[3] = infinity; }, "not finite");
   refused([=](P& p) { p.load(1) = nan; }, "not finite");
   refused([=](P& p) { p.lower(0) = -infinity; }, "not finite");
-  refused([=](P& p) { p.fixed_values(0) = nan; }, "not finite");
+  refused([=](P& p) { p.dirichlet_values(0) = nan; }, "not finite");
   refused([=](P& p) { p.m(3) = nan; }, "not finite");
   refused([=](P& p) { p.m(p.m.size() - 1) = infinity; }, "not finite");
   refused([](P& p) { p.m(2) = 0; }, "M is not positive");
@@ -68,18 +68,18 @@ TEST(Check, RefusesWhatIsNoProblem) {
         },
         "not symmetric");
   }
-  refused([](P& p) { p.fixed[0] = -1; }, "out of range");
+  refused([](P& p) { p.dirichlet_dofs[0] = -1; }, "out of range");
   refused([](P& p) { p.contact[0] = p.size(); }, "out of range");
-  refused([](P& p) { p.fixed[1] = p.fixed[0]; }, "fixed or bounded twice");
-  refused([](P& p) { p.contact[0] = p.fixed[0]; }, "fixed or bounded twice");
+  refused([](P& p) { p.dirichlet_dofs[1] = p.dirichlet_dofs[0]; }, "fixed or bounded twice");
+  refused([](P& p) { p.contact[0] = p.dirichlet_dofs[0]; }, "fixed or bounded twice");
   refused([](P& p) { p.contact[0] = p.contact[1]; }, "fixed or bounded twice");
   refused(
       [](P& p) {
         p.contact.clear();
         p.lower.resize(0);
-        p.fixed.clear();
-        for (int i = 0; i < p.size(); ++i) p.fixed.push_back(i);
-        p.fixed_values = Eigen::VectorXd::Zero(p.size());
+        p.dirichlet_dofs.clear();
+        for (int i = 0; i < p.size(); ++i) p.dirichlet_dofs.push_back(i);
+        p.dirichlet_values = Eigen::VectorXd::Zero(p.size());
       },
       "every unknown is fixed");
   refused([](P& p) { p.a1.uncompress(); }, "compressed");

@@ -44,7 +44,7 @@ TEST(Scene, RefusesEpsilonOutOfRange) {
 TEST(Scene, RefusesABodyWithoutLoadAndContactWithoutGap) {
   expect_refused([] { Scene({Field{}}); }, "no load");
   expect_refused([] { Scene({paper_load}, StiffLayer{0.1, -1}); }, "s > 0");
-  const EdgeCondition pull{"g", EdgeCondition::Kind::traction};
+  const BoundaryCondition pull{"g", BoundaryCondition::Kind::traction};
   expect_refused([&] { Scene({paper_load}, NoLayer{}, {}, {pull}); }, "group g: no value");
   expect_refused([] { Scene({paper_load}, NoLayer{}, UnilateralContact{Profile{}}); }, "no gap");
 }

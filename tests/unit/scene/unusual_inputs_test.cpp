@@ -11,7 +11,7 @@ namespace antilock::test::scene_test::unusual_inputs_test {
 
 UnilateralContact between(Profile obstacle, Profile ceiling) {
   UnilateralContact contact{[=](double x) { return -obstacle(x); }};
-  contact.ceiling = std::move(ceiling);
+  contact.upper_obstacle = std::move(ceiling);
   return contact;
 }
 
@@ -25,11 +25,11 @@ TEST(Ceiling, IsCheckedAgainstTheObstacleUpToTheRoundOffOfTwoFormulas) {
   for (int i = 0; i <= 1000; ++i) {
     const double x = i / 1000.0;
     differ = differ || same(x) < third(x);
-    EXPECT_NO_THROW(check_ceiling(equal, x)) << x;
-    EXPECT_THROW(check_ceiling(below, x), Error) << x;
+    EXPECT_NO_THROW(check_upper_obstacle(equal, x)) << x;
+    EXPECT_THROW(check_upper_obstacle(below, x), Error) << x;
   }
   EXPECT_TRUE(differ);
-  EXPECT_NO_THROW(check_ceiling(UnilateralContact{}, 0.5));  // without a ceiling
+  EXPECT_NO_THROW(check_upper_obstacle(UnilateralContact{}, 0.5));  // without a ceiling
 }
 
 TEST(Ceiling, EqualToTheObstacleIsAProblemWithASolution) {
@@ -42,7 +42,7 @@ TEST(Ceiling, EqualToTheObstacleIsAProblemWithASolution) {
     EXPECT_GE((problem.upper - problem.lower).minCoeff(), 0);
     const Solution solution = active_set(problem);
     // held on both sides: u is the obstacle to the last digit of either formula
-    for (const int i : problem.contact) EXPECT_NEAR(solution.u(i), hill(space.points()(i, 0)), 1e-15);
+    for (const int i : problem.contact) EXPECT_NEAR(solution.u(i), hill(space.dof_coordinates()(i, 0)), 1e-15);
   }
 }
 

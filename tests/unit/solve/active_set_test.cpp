@@ -28,15 +28,15 @@ TEST(ActiveSet, IsTheBruteForceAnswer) {
       for (std::size_t k = 0; k < obstacles().size(); ++k) {
         SCOPED_TRACE(space.name + ", epsilon " + std::to_string(epsilon) + ", obstacle " + std::to_string(k));
         const VariationalInequality problem = stiff_problem(space, epsilon, obstacles()[k]);
-        const test::BruteForce truth = test::brute_force(problem);
+        const test::BruteForce exact = test::brute_force(problem);
         const Solution solution = active_set(problem);
         // corrections stop at an estimated 1e-10
-        EXPECT_LT(relative_difference(solution.u, truth.u), 1e-9);
-        EXPECT_LT((solution.lambda - truth.lambda).cwiseAbs().maxCoeff(),
-                  1e-8 * (problem.load.cwiseAbs().maxCoeff() + truth.lambda.cwiseAbs().maxCoeff()));
-        EXPECT_EQ(solution.active, truth.active);
+        EXPECT_LT(relative_difference(solution.u, exact.u), 1e-9);
+        EXPECT_LT((solution.lambda - exact.lambda).cwiseAbs().maxCoeff(),
+                  1e-8 * (problem.load.cwiseAbs().maxCoeff() + exact.lambda.cwiseAbs().maxCoeff()));
+        EXPECT_EQ(solution.active, exact.active);
         if (epsilon > 0) {
-          const Eigen::VectorXd p = problem.b * truth.u / problem.compliance;
+          const Eigen::VectorXd p = problem.b * exact.u / problem.compliance;
           // digits of B u that epsilon^-2 leaves in double precision
           EXPECT_LT(relative_difference(solution.p, p), 1e-8 + 1e-15 / problem.compliance);
         }
@@ -54,7 +54,7 @@ TEST(ActiveSet, LimitProblemOnAStructuredMeshIsVentcels) {
       const VariationalInequality in_layer = stiff_problem(on_both, 0, obstacle),
                                   on_line = assemble(Scene({paper_load}, VentcelLayer{}, obstacle), on_body);
       const Solution limit = active_set(in_layer), ventcel = active_set(on_line);
-      EXPECT_LT(relative_difference(limit.u(on_both.contact()), ventcel.u(on_body.contact())), 1e-8);
+      EXPECT_LT(relative_difference(limit.u(on_both.contact_dofs()), ventcel.u(on_body.contact_dofs())), 1e-8);
       EXPECT_NEAR(energy(in_layer, limit), energy(on_line, ventcel), 1e-9);
       EXPECT_LT(relative_difference(limit.lambda, ventcel.lambda), 1e-8);
       EXPECT_EQ(limit.active, ventcel.active);
@@ -108,9 +108,9 @@ TEST(ActiveSet, NeverReturnsAnUnconvergedAnswer) {
 
   options = {};
   options.max_steps = 1;
-  options.start = Pieces(problem.contact.size(), Piece::at_lower);
+  options.start = BoundStatuses(problem.contact.size(), BoundStatus::at_lower);
   EXPECT_THROW(active_set(problem, options), NotConverged);
-  options.start->push_back(Piece::between);
+  options.start->push_back(BoundStatus::inactive);
   expect_refused([&] { active_set(problem, options); }, "contact: the start has");
 }
 
@@ -119,13 +119,13 @@ TEST(ActiveSet, NeverReturnsAnUnconvergedAnswer) {
 TEST(Anderson, TheContractionIsThatOfThePlainSteps) {
   const Eigen::VectorXd rate = Eigen::Vector4d(0.9, 0.1, 0.08, 0.05), fixed_point = Eigen::Vector4d(1, 1, -2, 3);
   Anderson anderson;
-  Twice x(Eigen::VectorXd::Zero(4)), companion = x;
+  DoubleDoubleVector x(Eigen::VectorXd::Zero(4)), companion = x;
   double before = 1;
   for (int step = 0; step < 5; ++step) {
     const Eigen::VectorXd g = (1 - rate.array()) * (fixed_point - x.high).array();
     x += g;
     companion += g;
-    anderson.note(x, g, companion);
+    anderson.push(x, g, companion);
     if (step == 0) {
       EXPECT_EQ(anderson.contraction(), 0.99) << "one step tells nothing";
     }
@@ -162,12 +162,12 @@ TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
   for (const double delta : {0.01, 1e-4}) {
     factor.refactor(delta);
     EXPECT_EQ(factor.delta(), delta);
-    const std::vector<int>& unknown = factor.numbering().unknown;
+    const std::vector<int>& unknown = factor.ordering().dof;
     const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + test::gram(problem.b, problem.m) / delta;
     const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.free_count(), -1, 2);
     const Eigen::VectorXd x = factor.dense().backward(factor.dense().forward(r));
-    const Eigen::VectorXd truth = Cholesky(k(unknown, unknown)).solve(r);
-    EXPECT_LT(relative_difference(x, truth), 1e-10) << delta;
+    const Eigen::VectorXd exact = Cholesky(k(unknown, unknown)).solve(r);
+    EXPECT_LT(relative_difference(x, exact), 1e-10) << delta;
   }
   EXPECT_EQ(factor.factorisations(), 3);
 }
@@ -201,7 +201,7 @@ TEST(Combinations, LeaveTiedRowsTied) {
   VariationalInequality problem =
       small_problem(Eigen::Matrix2d{{2, -1}, {-1, 2}}, Eigen::Vector2d(1, 0.5), {}, Eigen::RowVector2d(1, 1), 1e-3);
   problem.own_compliances = Eigen::VectorXd::Zero(1);
-  problem.combinations = RowMatrix(Eigen::MatrixXd(Eigen::RowVector2d(1, -3)).sparseView());
+  problem.constraints = RowMatrix(Eigen::MatrixXd(Eigen::RowVector2d(1, -3)).sparseView());
   problem.lower = Eigen::VectorXd::Constant(1, -10);
   EXPECT_NEAR(active_set(problem).u.sum(), 0, 1e-15);
 }
@@ -221,10 +221,10 @@ TEST(Progress, IsReportedOncePerCorrectionAndStopsTheSolve) {
   ASSERT_EQ(static_cast<int>(seen.size()), followed.counters.corrections);  // the last one is the answer
   for (std::size_t i = 0; i < seen.size(); ++i) {
     EXPECT_EQ(seen[i].step, static_cast<int>(i) + 1);
-    EXPECT_EQ(seen[i].asked, options.corrections.tolerance);
+    EXPECT_EQ(seen[i].tolerance, options.corrections.tolerance);
   }
   options.corrections.progress = [](const Progress& now) { return now.step < 2; };
-  const auto stopped = thrown<Stopped>([&] { active_set(problem, options); });
+  const auto stopped = thrown<Interrupted>([&] { active_set(problem, options); });
   EXPECT_EQ(stopped.steps, 2);
   EXPECT_NE(std::string(stopped.what()).find("stopped as asked"), std::string::npos) << stopped.what();
 }
@@ -235,7 +235,7 @@ TEST(Progress, StopsUzawaAmongItsSteps) {
   UzawaOptions options;
   options.step = 1e-3;  // far too short: thousands of steps
   options.progress = [](const Progress& now) { return now.stage != "contact"; };
-  EXPECT_EQ(thrown<Stopped>([&] { uzawa(problem, options); }).steps, 32);
+  EXPECT_EQ(thrown<Interrupted>([&] { uzawa(problem, options); }).steps, 32);
 }
 
 }  // namespace antilock::test::solve_test::active_set_test

@@ -46,8 +46,8 @@ struct String {
     problem.b.resize(0, n + 1);
     problem.load.resize(n + 1);
     for (int i = 0; i <= n; ++i) problem.load(i) = i == n / 2 ? 0 : i < n / 2 ? load * h : -load * h;
-    problem.fixed = {0, n};
-    problem.fixed_values = Eigen::Vector2d::Zero();
+    problem.dirichlet_dofs = {0, n};
+    problem.dirichlet_values = Eigen::Vector2d::Zero();
     for (int i = 1; i < n; ++i) problem.contact.push_back(i);
     problem.lower = Eigen::VectorXd::Constant(n - 1, -floor);
     problem.upper = Eigen::VectorXd::Constant(n - 1, ceiling);
@@ -88,7 +88,7 @@ TEST(StringBetweenFloorAndCeiling, AsCombinationsIsTheSame) {
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(bounds, problem.size());
   for (int k = 0; k < bounds; ++k) rows(k, problem.contact[k]) = -3;
   problem.contact.clear();
-  problem.combinations = rows_of(rows);
+  problem.constraints = rows_of(rows);
   problem.lower = Eigen::VectorXd::Constant(bounds, -3 * string.ceiling);
   problem.upper = Eigen::VectorXd::Constant(bounds, 3 * string.floor);
   const Solution s = active_set(problem);
@@ -101,7 +101,7 @@ TEST(StringBetweenFloorAndCeiling, TheDualityGapOfUzawaBoundsWhatIsLeft) {
   UzawaOptions options;
   int steps = 0;
   for (const double energy : {1e-4, 1e-6, 1e-8}) {
-    options.enough = {energy, 1e-2};
+    options.stop_at = {energy, 1e-2};
     const Solution s = uzawa(string.problem, options);
     const Eigen::VectorXd e = s.u - string.u;
     EXPECT_LE(0.5 * e.dot(string.problem.a1 * e), energy);
@@ -115,9 +115,9 @@ TEST(StringBetweenFloorAndCeiling, TheNestedStartKnowsTheSides) {
   const String string;
   Eigen::MatrixXd s = Eigen::MatrixXd(string.problem.a1).block(1, 1, string.n - 1, string.n - 1);
   const Eigen::VectorXd q = string.problem.load.segment(1, string.n - 1);
-  const Stairs stairs{string.problem.lower, string.problem.upper, {}};
+  const Bounds bounds{string.problem.lower, string.problem.upper, {}};
   DenseContact system(s, q);
-  EXPECT_LE(solve_contact(system, stairs, system.nested_start(stairs, 100), 100).steps, 3);
+  EXPECT_LE(solve_contact(system, bounds, system.nested_start(bounds, 100), 100).steps, 3);
 }
 
 TEST(StringBetweenFloorAndCeiling, ASweepKeepsTheSides) {
@@ -174,15 +174,15 @@ TEST(Equations, ArePrescribedValuesWithTheirReaction) {
     for (std::size_t i = 1; i < held.contact.size(); ++i)
       EXPECT_EQ(s.u(held.contact[i]), held.lower(static_cast<Eigen::Index>(i)));
     VariationalInequality fixed = held;
-    fixed.fixed.insert(fixed.fixed.end(), held.contact.begin() + 1, held.contact.end());
-    fixed.fixed_values.conservativeResize(static_cast<Eigen::Index>(fixed.fixed.size()));
-    fixed.fixed_values.tail(held.lower.size() - 1) = held.lower.tail(held.lower.size() - 1);
+    fixed.dirichlet_dofs.insert(fixed.dirichlet_dofs.end(), held.contact.begin() + 1, held.contact.end());
+    fixed.dirichlet_values.conservativeResize(static_cast<Eigen::Index>(fixed.dirichlet_dofs.size()));
+    fixed.dirichlet_values.tail(held.lower.size() - 1) = held.lower.tail(held.lower.size() - 1);
     fixed.contact.resize(1);
     fixed.lower.conservativeResize(1);
     fixed.upper.conservativeResize(1);
-    const Solution truth = active_set(fixed);
-    EXPECT_LT(relative_difference(s.u, truth.u), 1e-9) << epsilon;
-    const Eigen::VectorXd reaction = -exact_residual(fixed, truth.u, truth.p, truth.lambda).r1;
+    const Solution exact = active_set(fixed);
+    EXPECT_LT(relative_difference(s.u, exact.u), 1e-9) << epsilon;
+    const Eigen::VectorXd reaction = -exact_residual(fixed, exact.u, exact.p, exact.lambda).r1;
     for (std::size_t i = 1; i < held.contact.size(); ++i)
       EXPECT_NEAR(s.lambda(static_cast<Eigen::Index>(i)), reaction(held.contact[i]), 1e-9) << epsilon;
     EXPECT_LT(s.lambda.minCoeff() * s.lambda.maxCoeff(), 0) << "reactions of both signs: the test means something";
@@ -209,15 +209,15 @@ VariationalInequality two_bodies(const VariationalInequality& one, const Variati
   both.m = then(one.m, other.m);
   both.load = then(one.load, other.load);
   both.compliance = one.compliance;
-  both.fixed = one.fixed;
-  for (const int i : other.fixed) both.fixed.push_back(one.size() + i);
-  both.fixed_values = then(one.fixed_values, other.fixed_values);
+  both.dirichlet_dofs = one.dirichlet_dofs;
+  for (const int i : other.dirichlet_dofs) both.dirichlet_dofs.push_back(one.size() + i);
+  both.dirichlet_values = then(one.dirichlet_values, other.dirichlet_values);
   Eigen::MatrixXd gaps = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(one.contact.size()), both.size());
   for (Eigen::Index k = 0; k < gaps.rows(); ++k) {
     gaps(k, one.contact[k]) = 1;
     gaps(k, one.size() + other.contact[k]) = -1;
   }
-  both.combinations = rows_of(gaps);
+  both.constraints = rows_of(gaps);
   both.lower = Eigen::VectorXd::Constant(gaps.rows(), -gap);
   return both;
 }
@@ -255,9 +255,9 @@ TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
     for (const double load : {1.0, -1.0, 0.1}) {
       VariationalInequality problem = stiff_problem(space, epsilon);
       problem.load *= load;
-      problem.fixed_values(0) = 0.02;
+      problem.dirichlet_values(0) = 0.02;
       std::vector<char> taken(problem.size(), 0);
-      for (const int i : problem.fixed) taken[i] = 1;
+      for (const int i : problem.dirichlet_dofs) taken[i] = 1;
       for (const int i : problem.contact) taken[i] = 1;
       Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(2, problem.size());
       const int third = problem.contact[2];
@@ -265,19 +265,19 @@ TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
       const int beside = static_cast<int>(std::find(taken.begin(), taken.end(), 0) - taken.begin());
       rows(0, third) = 1;
       rows(0, beside) = -0.3;
-      rows(0, problem.fixed[0]) = 0.7;
+      rows(0, problem.dirichlet_dofs[0]) = 0.7;
       rows(1, beside) = 1e3;
       rows(1, problem.contact[0]) = -2e3;  // bounded by itself
-      problem.combinations = rows_of(rows);
+      problem.constraints = rows_of(rows);
       problem.lower = Eigen::Vector4d(-0.001, -infinity, 0, -0.5);
       problem.upper = Eigen::Vector4d(0.002, 0.001, infinity, 0.5);
-      const test::BruteForce truth = test::brute_force(problem);
+      const test::BruteForce exact = test::brute_force(problem);
       for (const Solution& s : {active_set(problem), uzawa(problem)}) {
         const double within = s.solver == "uzawa" ? 1e-7 : 1e-9;
-        EXPECT_LT(relative_difference(s.u, truth.u), within) << s.solver << epsilon << ", load " << load;
-        EXPECT_LT(relative_difference(s.lambda, truth.lambda), 10 * within) << s.solver << epsilon << ", load " << load;
-        EXPECT_EQ(s.active, truth.active) << s.solver << epsilon << ", load " << load;
-        EXPECT_EQ(s.u(problem.fixed[0]), 0.02);
+        EXPECT_LT(relative_difference(s.u, exact.u), within) << s.solver << epsilon << ", load " << load;
+        EXPECT_LT(relative_difference(s.lambda, exact.lambda), 10 * within) << s.solver << epsilon << ", load " << load;
+        EXPECT_EQ(s.active, exact.active) << s.solver << epsilon << ", load " << load;
+        EXPECT_EQ(s.u(problem.dirichlet_dofs[0]), 0.02);
       }
     }
 }
@@ -295,9 +295,10 @@ struct Turned {
     problem = assemble(platen(epsilon, element.conforming() ? 0 : 1), {x, y});
     // the clamped edges move along the turned axis; the bounds are on the turned normal
     const double c = std::cos(angle), s = std::sin(angle);
-    for (std::size_t i = 0; i < problem.fixed.size(); ++i)
-      problem.fixed_values(static_cast<Eigen::Index>(i)) = problem.fixed[i] < x.size() ? 0.1 * s : -0.1 * c;
-    const auto along = [&](int i) { return c * x.points()(i, 0) + s * x.points()(i, 1); };
+    for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
+      problem.dirichlet_values(static_cast<Eigen::Index>(i)) =
+          problem.dirichlet_dofs[i] < x.size() ? 0.1 * s : -0.1 * c;
+    const auto along = [&](int i) { return c * x.dof_coordinates()(i, 0) + s * x.dof_coordinates()(i, 1); };
     std::sort(problem.contact.begin(), problem.contact.end(),
               [&](int i, int j) { return along(i - x.size()) < along(j - x.size()); });  // as on the flat one
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(problem.lower.size(), problem.size());
@@ -308,7 +309,7 @@ struct Turned {
       normal(k, x.size() + i) = c;
     }
     problem.contact.clear();
-    problem.combinations = rows_of(normal);
+    problem.constraints = rows_of(normal);
   }
 
   static TriangleMesh turned(TriangleMesh mesh, double angle) {
@@ -346,7 +347,7 @@ TEST(BlockOnASlope, IsTheFlatOneTurned) {
 /// Three points (u_x, u_y) on springs.
 VariationalInequality springs(const Eigen::MatrixXd& rows, const Eigen::VectorXd& load) {
   VariationalInequality problem = small_problem(Eigen::MatrixXd::Identity(load.size(), load.size()), load);
-  problem.combinations = rows_of(rows);
+  problem.constraints = rows_of(rows);
   problem.lower = Eigen::VectorXd::Zero(rows.rows());
   return problem;
 }
@@ -359,9 +360,9 @@ TEST(Combinations, APointInAGrooveStandsOnBothWalls) {
   const Eigen::Vector2d load(0.3, -1);
   const Solution s = active_set(springs(walls, load));
   EXPECT_LT(s.u.norm(), 1e-15);
-  const Eigen::Vector2d truth = walls.transpose().inverse() * -load;
-  EXPECT_GT(truth.minCoeff(), 0);
-  EXPECT_LT((s.lambda - truth).norm(), 1e-15);
+  const Eigen::Vector2d exact = walls.transpose().inverse() * -load;
+  EXPECT_GT(exact.minCoeff(), 0);
+  EXPECT_LT((s.lambda - exact).norm(), 1e-15);
   // pulled up along one wall and into it, it slides there, held by this wall alone
   const Eigen::Vector2d up(-std::cos(a), std::sin(a));
   const Solution t = active_set(springs(walls, up - 0.1 * walls.row(0).transpose()));
@@ -372,10 +373,10 @@ TEST(Combinations, APointInAGrooveStandsOnBothWalls) {
 TEST(Combinations, MayShareUnknownsAndDependOnEachOther) {
   const Eigen::Vector4d load(1, -2, 3, -4);
   const auto right = [](const VariationalInequality& problem) {
-    const test::ExactAnswer truth = test::exact_answer(problem);
-    ASSERT_EQ(truth.what, test::Exactly::solved);
+    const test::ExactAnswer exact = test::exact_answer(problem);
+    ASSERT_EQ(exact.what, test::Exactly::solved);
     for (const Solution& s : {active_set(problem), uzawa(problem)})
-      EXPECT_LT((s.u - truth.u).lpNorm<Eigen::Infinity>(), 1e-8 * truth.u.lpNorm<Eigen::Infinity>()) << s.solver;
+      EXPECT_LT((s.u - exact.u).lpNorm<Eigen::Infinity>(), 1e-8 * exact.u.lpNorm<Eigen::Infinity>()) << s.solver;
   };
   Eigen::MatrixXd rows(3, 4);
   rows << 1, -1, 0, 0, 0, 1, -1, 0, 1, 0, -1, 0;  // the third is the sum of the others
@@ -398,7 +399,7 @@ TEST(Combinations, TheUnitsOfARowAndOfForcesDoNotMatter) {
   EXPECT_EQ(std::count(one.active.begin(), one.active.end(), true), 2);
   for (const auto& [unit, force] : {std::pair{0x1p-60, 1.0}, {0x1p60, 1.0}, {1.0, 0x1p60}}) {
     VariationalInequality other = problem;
-    other.combinations *= unit;
+    other.constraints *= unit;
     other.lower *= unit;
     other.upper *= unit;
     other.a1 *= force, other.load *= force;
@@ -422,10 +423,10 @@ TEST(Bounds, ThatNoUCanMeetAreRefusedUnderAnyLoad) {
       problem.m = Eigen::VectorXd::Ones(1);
       problem.compliance = 0;
       if (shape == 0) {
-        problem.combinations = rows_of(Eigen::RowVector3d(1, -1, 0));
+        problem.constraints = rows_of(Eigen::RowVector3d(1, -1, 0));
         problem.lower = Eigen::VectorXd::Constant(1, 0.05);
       } else {
-        problem.combinations.resize(0, 0);
+        problem.constraints.resize(0, 0);
         problem.contact = {0, 1};
         problem.lower = Eigen::Vector2d(0.05, shape == 1 ? -1 : -infinity);
         problem.upper = Eigen::Vector2d(infinity, 0);
@@ -517,18 +518,18 @@ TEST(CheckBounds, RefusesBoundsThatAreNone) {
   refused([](P& p) { p.upper(3) = -infinity; }, "bound 3 is not finite");
   refused([nan](P& p) { p.upper(3) = nan; }, "not finite");
   refused([](P& p) { p.upper.conservativeResize(5); }, "upper has 5 entries");
-  refused([](P& p) { p.combinations.resize(1, 3); }, "combinations have 3 columns");
+  refused([](P& p) { p.constraints.resize(1, 3); }, "combinations have 3 columns");
   const auto with_row = [](P& p, double value) {
     p.contact.pop_back();
     Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, p.size());
     row(0, p.size() - 2) = 1;
-    p.combinations = rows_of(row);
-    p.combinations.valuePtr()[0] = value;
+    p.constraints = rows_of(row);
+    p.constraints.valuePtr()[0] = value;
   };
   refused([&](P& p) { with_row(p, nan); }, "an entry of combinations is not finite");
   refused([&](P& p) { with_row(p, 0); }, "combination 0 holds no free unknown");
   refused([&](P& p) { with_row(p, 1), p.lower.conservativeResize(3); }, "one bound per contact unknown and per");
-  refused([&](P& p) { with_row(p, 1), p.combinations.uncompress(); }, "compressed");
+  refused([&](P& p) { with_row(p, 1), p.constraints.uncompress(); }, "compressed");
 }
 
 TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
@@ -539,7 +540,7 @@ TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
   Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, combined.size());
   row(0, combined.contact.back()) = 1;
   combined.contact.pop_back();
-  combined.combinations = rows_of(row);
+  combined.constraints = rows_of(row);
   for (const VariationalInequality* problem : {&above, &combined}) {
     const Solution s = active_set(*problem);
     const std::string words = "accepted: lower bounds on unknowns";

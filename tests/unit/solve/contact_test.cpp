@@ -8,11 +8,11 @@ namespace antilock::test::solve_test::contact_test {
 struct Box {
   Eigen::MatrixXd s;
   Eigen::VectorXd q, lower, upper;
-  ContactAnswer solve(const Pieces& start, int max_steps = 1000) const {
+  ContactResult solve(const BoundStatuses& start, int max_steps = 1000) const {
     DenseContact system(s, q);
     return solve_contact(system, {lower, upper}, start, max_steps);
   }
-  Pieces nested() const { return DenseContact(s, q).nested_start({lower, upper}, 1000); }
+  BoundStatuses nested() const { return DenseContact(s, q).nested_start({lower, upper}, 1000); }
 };
 
 /// S = A A' + I / 100, dense, no M-matrix: with a `rank` of A below `size` plain active-set exchanges may cycle. A third of
@@ -36,11 +36,11 @@ Box random_box(int size, unsigned seed, int rank = 0) {
 }
 
 /// The conditions of the box, each with an absolute tolerance.
-void expect_right(const Box& box, const ContactAnswer& answer, double tolerance) {
+void expect_right(const Box& box, const ContactResult& answer, double tolerance) {
   const Eigen::VectorXd lambda = box.s * answer.v - box.q;
   EXPECT_LT((lambda - answer.lambda).lpNorm<Eigen::Infinity>(), tolerance);
   for (int i = 0; i < box.q.size(); ++i) {
-    const bool low = answer.pieces[i] == Piece::at_lower, high = answer.pieces[i] == Piece::at_upper;
+    const bool low = answer.status[i] == BoundStatus::at_lower, high = answer.status[i] == BoundStatus::at_upper;
     EXPECT_GE(answer.v(i), box.lower(i) - tolerance);
     EXPECT_LE(answer.v(i), box.upper(i) + tolerance);
     EXPECT_EQ(low || high ? answer.v(i) : answer.lambda(i), low ? box.lower(i) : high ? box.upper(i) : 0);
@@ -56,9 +56,10 @@ TEST(ContactProblem, EveryStartLeadsToTheOneAnswer) {
     const Box box = random_box(size, seed);
     Eigen::VectorXd v;
     for (int start = 0; start < std::pow(3, size); start += 7) {
-      Pieces pieces;
-      for (int i = 0, digits = start; i < size; ++i, digits /= 3) pieces.push_back(static_cast<Piece>(digits % 3 - 1));
-      const ContactAnswer answer = box.solve(pieces);
+      BoundStatuses status;
+      for (int i = 0, digits = start; i < size; ++i, digits /= 3)
+        status.push_back(static_cast<BoundStatus>(digits % 3 - 1));
+      const ContactResult answer = box.solve(status);
       expect_right(box, answer, 1e-11);  // strictly convex: what meets the conditions is the answer
       if (v.size() > 0) {
         EXPECT_LT((answer.v - v).lpNorm<Eigen::Infinity>(), 1e-11) << seed;
@@ -71,12 +72,12 @@ TEST(ContactProblem, EveryStartLeadsToTheOneAnswer) {
 TEST(ContactProblem, BadlyConditionedOnesDoNotCycle) {
   for (unsigned seed = 0; seed < 200; ++seed) {
     const Box box = random_box(12, seed, 4);
-    expect_right(box, box.solve(Pieces(12, Piece::between), 200), 1e-8);
+    expect_right(box, box.solve(BoundStatuses(12, BoundStatus::inactive), 200), 1e-8);
     expect_right(box, box.solve(box.nested(), 200), 1e-8);
   }
   for (const unsigned seed : {1U, 2U, 3U}) {
     const Box large = random_box(80, seed);
-    expect_right(large, large.solve(Pieces(80, Piece::between)), 1e-8);
+    expect_right(large, large.solve(BoundStatuses(80, BoundStatus::inactive)), 1e-8);
   }
 }
 
@@ -86,70 +87,79 @@ TEST(ContactProblem, AWrongSideCostsAStepPerPiece) {
   box.q = Eigen::VectorXd::Constant(9, 5);
   box.lower = Eigen::VectorXd::Constant(9, -1);
   box.upper = Eigen::VectorXd::Constant(9, 1);
-  const ContactAnswer answer = box.solve(Pieces(9, Piece::at_lower), 10);
+  const ContactResult answer = box.solve(BoundStatuses(9, BoundStatus::at_lower), 10);
   EXPECT_EQ(answer.steps, 3);  // at_lower, between, at_upper
   EXPECT_EQ(answer.v, box.upper);
-  EXPECT_EQ(answer.pieces, Pieces(9, Piece::at_upper));
-  EXPECT_EQ(box.solve(answer.pieces, 10).steps, 1);
+  EXPECT_EQ(answer.status, BoundStatuses(9, BoundStatus::at_upper));
+  EXPECT_EQ(box.solve(answer.status, 10).steps, 1);
 }
 
 // Below a bound that gives way, at it, between, at the upper bound, above it: v rises and lambda falls.
-TEST(Stairs, ValuesRiseAndForcesFallFromPieceToPiece) {
-  const Stairs stairs{Eigen::VectorXd{{0}}, Eigen::VectorXd{{1}}, Eigen::VectorXd{{3}}};
-  const Pieces all{Piece::below, Piece::at_lower, Piece::between, Piece::at_upper, Piece::above};
+TEST(Bounds, ValuesRiseAndForcesFallFromPieceToPiece) {
+  const Bounds bounds{Eigen::VectorXd{{0}}, Eigen::VectorXd{{1}}, Eigen::VectorXd{{3}}};
+  const BoundStatuses all{BoundStatus::slip_below, BoundStatus::at_lower, BoundStatus::inactive, BoundStatus::at_upper,
+                          BoundStatus::slip_above};
   double v = -infinity, lambda = infinity;
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const auto [low, high] = stairs.found(0, all[k]);
-    const double given = stairs.given(0, all[k]);
+    const auto [low, high] = bounds.admissible_range(0, all[k]);
+    const double given = bounds.prescribed(0, all[k]);
     EXPECT_GE(is_active(all[k]) ? given : low, v);
     EXPECT_LE(is_active(all[k]) ? high : given, lambda);
     v = is_active(all[k]) ? given : high, lambda = is_active(all[k]) ? low : given;
     if (k > 0) {
-      EXPECT_EQ(stairs.next(0, all[k], false), all[k - 1]);
-      EXPECT_EQ(stairs.next(0, all[k - 1], true), all[k]);
+      EXPECT_EQ(bounds.next(0, all[k], false), all[k - 1]);
+      EXPECT_EQ(bounds.next(0, all[k - 1], true), all[k]);
     }
   }
   EXPECT_EQ(v, infinity);
   EXPECT_EQ(lambda, -3);
   // what a bound bears so far is left out of the forces that are given and found, and is in the whole force
-  Stairs later = stairs;
-  later.force = Eigen::VectorXd{{0.5}};
-  for (const Piece piece : all) {
-    const Stairs::Interval before = stairs.found(0, piece), now = later.found(0, piece);
-    const double moved = is_active(piece) ? 0.5 : 0, given = stairs.given(0, piece);
+  Bounds later = bounds;
+  later.accumulated_force = Eigen::VectorXd{{0.5}};
+  for (const BoundStatus status : all) {
+    const Bounds::Interval before = bounds.admissible_range(0, status), now = later.admissible_range(0, status);
+    const double moved = is_active(status) ? 0.5 : 0, given = bounds.prescribed(0, status);
     EXPECT_EQ(now.low, before.low - moved);
     EXPECT_EQ(now.high, before.high - moved);
-    EXPECT_EQ(later.given(0, piece), given - (0.5 - moved));
-    EXPECT_EQ(later.whole_force(0, piece, 0.25), is_active(piece) ? 0.75 : given);
+    EXPECT_EQ(later.prescribed(0, status), given - (0.5 - moved));
+    EXPECT_EQ(later.total_force(0, status, 0.25), is_active(status) ? 0.75 : given);
   }
 }
 
-TEST(Stairs, AnEquationHasThreePiecesAndNothingBetween) {
-  const Stairs stairs{Eigen::VectorXd{{2}}, Eigen::VectorXd{{2}}, Eigen::VectorXd{{3}}};
-  EXPECT_EQ(stairs.next(0, Piece::below, true), Piece::at_lower);
-  EXPECT_EQ(stairs.next(0, Piece::at_lower, true), Piece::above);
-  EXPECT_EQ(stairs.next(0, Piece::above, false), Piece::at_lower);
-  EXPECT_EQ(stairs.next(0, Piece::at_lower, false), Piece::below);
-  expect_refused([&] { stairs.next(0, Piece::above, true); }, "none beyond");
-  expect_refused([&] { stairs.next(0, Piece::below, false); }, "none beyond");
-  EXPECT_EQ(stairs.found(0, Piece::at_lower).low, -3);
-  EXPECT_EQ(stairs.found(0, Piece::at_lower).high, 3);
+TEST(Bounds, AnEquationHasThreePiecesAndNothingBetween) {
+  const Bounds bounds{Eigen::VectorXd{{2}}, Eigen::VectorXd{{2}}, Eigen::VectorXd{{3}}};
+  EXPECT_EQ(bounds.next(0, BoundStatus::slip_below, true), BoundStatus::at_lower);
+  EXPECT_EQ(bounds.next(0, BoundStatus::at_lower, true), BoundStatus::slip_above);
+  EXPECT_EQ(bounds.next(0, BoundStatus::slip_above, false), BoundStatus::at_lower);
+  EXPECT_EQ(bounds.next(0, BoundStatus::at_lower, false), BoundStatus::slip_below);
+  expect_refused([&] { bounds.next(0, BoundStatus::slip_above, true); }, "none beyond");
+  expect_refused([&] { bounds.next(0, BoundStatus::slip_below, false); }, "none beyond");
+  EXPECT_EQ(bounds.admissible_range(0, BoundStatus::at_lower).low, -3);
+  EXPECT_EQ(bounds.admissible_range(0, BoundStatus::at_lower).high, 3);
 }
 
-TEST(Stairs, AStartAsksForPiecesThatThereAre) {
+TEST(Bounds, AStartAsksForPiecesThatThereAre) {
   // two-sided, from below, from above, an equation; each bears anything, then each gives way
   const Eigen::VectorXd lower{{0, 0, -infinity, 1}}, upper{{1, infinity, 1, 1}};
-  using P = Piece;
-  const Stairs none{Eigen::VectorXd{{-infinity}}};  // a coarse start may ask for a bound that is not there
-  for (const P asked : {P::at_lower, P::at_upper, P::above}) EXPECT_EQ(none.there_are({asked}), Pieces{P::between});
-  const Stairs hard{lower, upper, {}}, soft{lower, upper, Eigen::VectorXd::Ones(4)};
-  EXPECT_EQ(hard.there_are(Pieces(4, P::at_upper)), (Pieces{P::at_upper, P::at_lower, P::at_upper, P::at_lower}));
-  EXPECT_EQ(hard.there_are(Pieces(4, P::at_lower)), (Pieces{P::at_lower, P::at_lower, P::at_upper, P::at_lower}));
-  EXPECT_EQ(hard.there_are(Pieces(4, P::between)), (Pieces{P::between, P::between, P::between, P::at_lower}));
-  EXPECT_EQ(hard.there_are(Pieces(4, P::below)), (Pieces{P::between, P::between, P::between, P::at_lower}));
-  EXPECT_EQ(soft.there_are(Pieces(4, P::below)), (Pieces{P::below, P::below, P::between, P::below}));
-  EXPECT_EQ(soft.there_are(Pieces(4, P::above)), (Pieces{P::above, P::between, P::above, P::above}));
-  test::expect_refused([&] { hard.there_are(Pieces(3, P::between)); }, "3 pieces; accepted one per bound, 4");
+  using P = BoundStatus;
+  const Bounds none{Eigen::VectorXd{{-infinity}}};  // a coarse start may ask for a bound that is not there
+  for (const P asked : {P::at_lower, P::at_upper, P::slip_above})
+    EXPECT_EQ(none.nearest_valid({asked}), BoundStatuses{P::inactive});
+  const Bounds hard{lower, upper, {}}, soft{lower, upper, Eigen::VectorXd::Ones(4)};
+  EXPECT_EQ(hard.nearest_valid(BoundStatuses(4, P::at_upper)),
+            (BoundStatuses{P::at_upper, P::at_lower, P::at_upper, P::at_lower}));
+  EXPECT_EQ(hard.nearest_valid(BoundStatuses(4, P::at_lower)),
+            (BoundStatuses{P::at_lower, P::at_lower, P::at_upper, P::at_lower}));
+  EXPECT_EQ(hard.nearest_valid(BoundStatuses(4, P::inactive)),
+            (BoundStatuses{P::inactive, P::inactive, P::inactive, P::at_lower}));
+  EXPECT_EQ(hard.nearest_valid(BoundStatuses(4, P::slip_below)),
+            (BoundStatuses{P::inactive, P::inactive, P::inactive, P::at_lower}));
+  EXPECT_EQ(soft.nearest_valid(BoundStatuses(4, P::slip_below)),
+            (BoundStatuses{P::slip_below, P::slip_below, P::inactive, P::slip_below}));
+  EXPECT_EQ(soft.nearest_valid(BoundStatuses(4, P::slip_above)),
+            (BoundStatuses{P::slip_above, P::inactive, P::slip_above, P::slip_above}));
+  test::expect_refused([&] { hard.nearest_valid(BoundStatuses(3, P::inactive)); },
+                       "3 pieces; accepted one per bound, 4");
 }
 
 /// A 1-D obstacle problem on n points, like the limit problem on Sigma: the case where a cold start takes O(n) steps.
@@ -170,9 +180,9 @@ TEST(ContactProblem, NestedStartTakesEverySizeAndMakesTheStepsIndependentOfH) {
   for (int n = 1; n < 40; ++n) sizes.push_back(n);
   for (const int n : sizes) {
     const Box r = obstacle(n);
-    const ContactAnswer cold = r.solve(Pieces(n, Piece::between), 1000);
-    const ContactAnswer nested = r.solve(r.nested());
-    EXPECT_EQ(nested.pieces, cold.pieces) << n;
+    const ContactResult cold = r.solve(BoundStatuses(n, BoundStatus::inactive), 1000);
+    const ContactResult nested = r.solve(r.nested());
+    EXPECT_EQ(nested.status, cold.status) << n;
     EXPECT_LE(nested.steps, 4) << n;
     if (n > 100) {
       EXPECT_GT(cold.steps, 3 * nested.steps) << n;

@@ -30,16 +30,16 @@ VariationalInequality random_friction(std::mt19937& engine) {
   for (int i = 0; i < bounds; ++i) problem.contact.push_back(i);
   Eigen::MatrixXd combination = Eigen::MatrixXd::Zero(rows, n);
   if (rows > 0) combination.row(0).tail(2) << 3 * normal(engine), normal(engine);
-  problem.combinations = combination.sparseView();
+  problem.constraints = combination.sparseView();
   problem.lower = Eigen::VectorXd::NullaryExpr(bounds + rows, [&](auto) { return -0.2 * std::abs(normal(engine)); });
-  problem.upper = problem.force_bound = Eigen::VectorXd::Constant(bounds + rows, infinity);
+  problem.upper = problem.force_limit = Eigen::VectorXd::Constant(bounds + rows, infinity);
   for (int i = 0; i < bounds + rows; ++i) {
     if (engine() % 4 == 0) {  // contact, or an equation
       if (engine() % 2 == 0) problem.upper(i) = problem.lower(i);
       continue;
     }
     if (engine() % 4 == 0) continue;  // contact
-    problem.force_bound(i) = 0.7 * std::abs(normal(engine));
+    problem.force_limit(i) = 0.7 * std::abs(normal(engine));
     if (engine() % 4 == 0) continue;                               // a plastic obstacle
     problem.upper(i) = problem.lower(i) = engine() % 3 ? 0 : 0.1;  // friction, about 0 or elsewhere
     if (engine() % 5 == 0) problem.upper(i) += 0.05;               // with play
@@ -55,23 +55,23 @@ TEST(Friction, IsRightBesideContactInHundredsOfSmallProblems) {
     const VariationalInequality problem = random_friction(engine);
     VariationalInequality limit = problem;  // brute force sums A1 and B' M B / compliance: 1e-20 is 0 to all digits
     if (problem.compliance == 1e-20) limit.compliance = 0;
-    const test::BruteForce truth = test::brute_force(limit);
-    const double size = truth.u.lpNorm<Eigen::Infinity>();
+    const test::BruteForce exact_solution = test::brute_force(limit);
+    const double size = exact_solution.u.lpNorm<Eigen::Infinity>();
     ActiveSetOptions sparse;
-    sparse.road = ContactRoad::sparse;
+    sparse.reduction = ContactReduction::sparse;
     std::vector<Solution> answers{active_set(problem)};
-    if (problem.combinations.rows() == 0) answers.push_back(active_set(problem, sparse));
+    if (problem.constraints.rows() == 0) answers.push_back(active_set(problem, sparse));
     if (trial % 4 == 0) answers.push_back(uzawa(problem));
     for (const Solution& s : answers) {
-      EXPECT_LT((s.u - truth.u).lpNorm<Eigen::Infinity>(), 1e-7 * size) << s.solver;
-      EXPECT_LT((s.lambda - truth.lambda).lpNorm<Eigen::Infinity>(), 1e-6) << s.solver;
+      EXPECT_LT((s.u - exact_solution.u).lpNorm<Eigen::Infinity>(), 1e-7 * size) << s.solver;
+      EXPECT_LT((s.lambda - exact_solution.lambda).lpNorm<Eigen::Infinity>(), 1e-6) << s.solver;
       EXPECT_LT(worst_violation(s.kkt), 1e-8) << s.solver;
     }
-    for (Eigen::Index i = 0; i < truth.lambda.size(); ++i) {
-      if (std::isinf(problem.force_bound(i))) continue;
-      const bool slipped = std::abs(truth.lambda(i)) >= problem.force_bound(i) * (1 - 1e-12);
+    for (Eigen::Index i = 0; i < exact_solution.lambda.size(); ++i) {
+      if (std::isinf(problem.force_limit(i))) continue;
+      const bool slipped = std::abs(exact_solution.lambda(i)) >= problem.force_limit(i) * (1 - 1e-12);
       ++(slipped ? slips : sticks);
-      EXPECT_EQ(answers[0].active[i], truth.active[i]) << i;
+      EXPECT_EQ(answers[0].active[i], exact_solution.active[i]) << i;
     }
   }
   EXPECT_GT(slips, 200);
@@ -91,7 +91,7 @@ TEST(Friction, ABarSlipsAsFarAsItsPullReaches) {
     EXPECT_LT((uzawa(bar).u - s.u).lpNorm<Eigen::Infinity>(), 1e-8);
     EXPECT_NEAR(s.lambda.sum(), -pull, 1e-12);  // the floor bears all
     for (Eigen::Index i = 0; i < s.lambda.size(); ++i)
-      EXPECT_EQ(s.active[i], s.lambda(i) > -bar.force_bound(i)) << "sticks where it bears less than it can";
+      EXPECT_EQ(s.active[i], s.lambda(i) > -bar.force_limit(i)) << "sticks where it bears less than it can";
     EXPECT_LE(s.counters.contact, 8);
   }
 }
@@ -135,12 +135,12 @@ TEST(Friction, LimitsAreTheProblemsWithoutIt) {
   VariationalInequality free = bar;
   free.contact.clear();
   free.lower.resize(0);
-  free.upper = free.force_bound = free.lower;
-  bar.force_bound.setZero();
+  free.upper = free.force_limit = free.lower;
+  bar.force_limit.setZero();
   for (const Solution& s : {active_set(bar), uzawa(bar)})
     EXPECT_LT((s.u - active_set(free).u).lpNorm<Eigen::Infinity>(), 1e-12) << s.solver;
   for (const double most : {1e3, 1e12, infinity}) {
-    bar.force_bound.setConstant(most);
+    bar.force_limit.setConstant(most);
     EXPECT_EQ(active_set(bar).u.lpNorm<Eigen::Infinity>(), 0) << most;
   }
 }
@@ -160,8 +160,8 @@ TEST(Friction, TheLoopEndsOnProblemsOnWhichExchangesCycle) {
       most(i) = 0.5 * std::abs(normal(engine));
     }
     DenseContact system(random.s, random.q);
-    const Pieces start(n, trial % 2 == 1 ? Piece::at_lower : Piece::between);
-    const ContactAnswer answer = solve_contact(system, {random.lower, upper, most}, start, 300);
+    const BoundStatuses start(n, trial % 2 == 1 ? BoundStatus::at_lower : BoundStatus::inactive);
+    const ContactResult answer = solve_contact(system, {random.lower, upper, most}, start, 300);
     const Eigen::VectorXd residual = random.s * answer.v - random.q - answer.lambda;
     EXPECT_LT(residual.lpNorm<Eigen::Infinity>(), 1e-8) << trial;
     for (int i = 0; i < n; ++i) {
@@ -181,14 +181,14 @@ TEST(Friction, BothRoadsAgreeOnAMembraneThatRubs) {
   const auto count = membrane.lower.size();
   membrane.lower.setZero();  // every vertex is held in a paste that yields
   membrane.upper = membrane.lower;
-  membrane.force_bound = Eigen::VectorXd::Constant(count, 4.0 / (30 * 30));
+  membrane.force_limit = Eigen::VectorXd::Constant(count, 4.0 / (30 * 30));
   ActiveSetOptions dense, sparse;
-  dense.road = ContactRoad::dense;
-  sparse.road = ContactRoad::sparse;
+  dense.reduction = ContactReduction::schur_complement;
+  sparse.reduction = ContactReduction::sparse;
   const Solution one = active_set(membrane, dense), other = active_set(membrane, sparse);
   EXPECT_LT((one.u - other.u).lpNorm<Eigen::Infinity>(), 1e-11);
   EXPECT_EQ(one.active, other.active);
-  membrane.force_bound.head(count / 2).setConstant(20.0 / (30 * 30));  // half of it bears all of its load and more
+  membrane.force_limit.head(count / 2).setConstant(20.0 / (30 * 30));  // half of it bears all of its load and more
   const Solution held = active_set(membrane, sparse);
   EXPECT_LT((held.u - active_set(membrane, dense).u).lpNorm<Eigen::Infinity>(), 1e-11);
   EXPECT_GT(std::count(held.active.begin(), held.active.end(), true), 300);
@@ -208,7 +208,7 @@ TEST(Friction, TheBlockIsUniformInLambdaWhereItDoesNotLock) {
     EXPECT_EQ(s.active, limit.active);
   }
   scene.friction = [](double at) { return 3 * at; };
-  EXPECT_NEAR(assemble(scene, {x, y}).force_bound.tail(17).sum(), 1.5, 1e-14);  // int g
+  EXPECT_NEAR(assemble(scene, {x, y}).force_limit.tail(17).sum(), 1.5, 1e-14);  // int g
   scene.friction = [](double) { return -1.0; };
   expect_refused([&] { assemble(scene, {x, y}); }, "friction bound -1");
 }
@@ -217,13 +217,13 @@ TEST(Friction, ASweepOverItsBoundIsTheSameAsEachAlone) {
   Sweep sweep(bar_on_a_floor(40, 0.53));
   for (const double factor : {1.0, 0.6, 2.0, 0.0, 1.0}) {
     VariationalInequality alone = bar_on_a_floor(40, 0.53);
-    alone.force_bound *= factor;
-    sweep.set_force_bound(alone.force_bound);
+    alone.force_limit *= factor;
+    sweep.set_force_limit(alone.force_limit);
     const Solution s = sweep.solve();
     EXPECT_LT((s.u - active_set(alone).u).lpNorm<Eigen::Infinity>(), 1e-13) << factor;
   }
   EXPECT_EQ(sweep.total().factorisations, 1);
-  expect_refused([&] { sweep.set_force_bound(Eigen::VectorXd::Constant(40, -1)); }, "force_bound 0 is -1");
+  expect_refused([&] { sweep.set_force_limit(Eigen::VectorXd::Constant(40, -1)); }, "force_limit 0 is -1");
   EXPECT_LT((sweep.solve().u - active_set(bar_on_a_floor(40, 0.53)).u).lpNorm<Eigen::Infinity>(), 1e-13) << "as before";
 }
 
@@ -246,23 +246,23 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
   const VariationalInequality good = bar_on_a_floor(4, 0.3);
   const auto refused = [&](double value, Eigen::Index size, const std::string& words) {
     VariationalInequality bad = good;
-    bad.force_bound = Eigen::VectorXd::Constant(size, value);
+    bad.force_limit = Eigen::VectorXd::Constant(size, value);
     for (const auto& solve : {+[](const VariationalInequality& p) { return active_set(p); },
                               +[](const VariationalInequality& p) { return uzawa(p); }})
       expect_refused([&] { solve(bad); }, words);
   };
-  refused(-1, 4, "force_bound 0 is -1");
-  refused(nan, 4, "force_bound 0 is nan");
-  refused(1, 3, "force_bound has 3 entries; accepted none, or 4");
+  refused(-1, 4, "force_limit 0 is -1");
+  refused(nan, 4, "force_limit 0 is nan");
+  refused(1, 3, "force_limit has 3 entries; accepted none, or 4");
   const SpaceOn space(structured_mesh(2), p1());
   expect_refused([&] { contact_zone(space, good, active_set(good)); }, "friction is not known here");
   expect_refused([&] { require_lower_bounds(good, "certificate"); }, "certificate: friction is not known here");
   ActiveSetOptions options;
-  options.start = Pieces(3, Piece::between);
+  options.start = BoundStatuses(3, BoundStatus::inactive);
   expect_refused([&] { active_set(good, options); }, "3 pieces; accepted one per bound, 4");
   VariationalInequality loose = good;  // nothing but friction holds it: its A1 is singular
-  loose.fixed.clear();
-  loose.fixed_values.resize(0);
+  loose.dirichlet_dofs.clear();
+  loose.dirichlet_values.resize(0);
   expect_refused([&] { active_set(loose); }, "held by nothing");
 }
 
@@ -275,9 +275,9 @@ TEST(Friction, AnInfeasibleProblemIsRefusedWithFrictionToo) {
   problem.m = Eigen::VectorXd::Ones(1);
   problem.compliance = 0;
   problem.lower(0) = problem.upper(0) = 0.05;
-  problem.force_bound(0) = infinity;
+  problem.force_limit(0) = infinity;
   EXPECT_THROW(active_set(problem), NotConverged);
-  problem.force_bound(0) = 0.1;  // the same bound, but it gives way
+  problem.force_limit(0) = 0.1;  // the same bound, but it gives way
   EXPECT_NEAR(active_set(problem).u(1), 0, 1e-12);
   EXPECT_NEAR(active_set(problem).lambda(0), 0.1, 1e-12);
 }

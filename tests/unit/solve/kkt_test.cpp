@@ -30,9 +30,9 @@ TEST(Kkt, SplitResidualIsZeroOfTheSolutionAndTheReactionOnTheClamps) {
   const Solved s(1e-3);
   const SplitResidual r = exact_residual(s.problem, s.solution.u, s.solution.p, s.solution.lambda);
   Eigen::VectorXd free = r.r1;
-  free(s.problem.fixed).setZero();
+  free(s.problem.dirichlet_dofs).setZero();
   EXPECT_LT(free.cwiseAbs().maxCoeff(), 1e-9 * s.problem.load.cwiseAbs().maxCoeff() * 100);
-  EXPECT_GT(Eigen::VectorXd(r.r1(s.problem.fixed)).cwiseAbs().maxCoeff(), 1e-3);
+  EXPECT_GT(Eigen::VectorXd(r.r1(s.problem.dirichlet_dofs)).cwiseAbs().maxCoeff(), 1e-3);
   EXPECT_LT(r.r2.cwiseAbs().maxCoeff(), 1e-9);
 }
 
@@ -49,8 +49,8 @@ TEST(Kkt, APullIsMeasuredByTheLargestForce) {
 TEST(Kkt, AResidualIsMeasuredByTheReactionWhereNoLoadActs) {
   VariationalInequality problem =
       small_problem(Eigen::Matrix3d{{1, -1, 0}, {-1, 2, -1}, {0, -1, 1}}, Eigen::Vector3d::Zero());
-  problem.fixed = {0, 2};
-  problem.fixed_values = Eigen::Vector2d(1, 0);
+  problem.dirichlet_dofs = {0, 2};
+  problem.dirichlet_values = Eigen::Vector2d(1, 0);
   Solution s = active_set(problem);
   s.u(1) += 0.5e-8;  // a force of 1e-8; the clamps bear 1/2
   EXPECT_NEAR(kkt_report(problem, s).residual, 2e-8, 1e-14);
@@ -66,7 +66,7 @@ TEST(Kkt, ALoadThatTheStiffFormBearsIsNoMeasureOfU) {
   s.lambda = Eigen::VectorXd::Zero(1);
   EXPECT_EQ(worst_violation(kkt_report(problem, s)), 0);
   s.u(1) = 1e-3;
-  s.moderate = 1e3;  // the first iterate was larger: u is what counts, down to a millionth of that
+  s.unlocked_size = 1e3;  // the first iterate was larger: u is what counts, down to a millionth of that
   EXPECT_NEAR(kkt_report(problem, s).residual, 1e-3, 1e-15);
   s.u(1) = 0;
   problem.lower(0) = 1.001;
@@ -83,7 +83,7 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
         active[loose(s.solution)] = true;
       else
         active[held(s.solution)] = false;
-      Solution wrong = active_set(held_in_contact(s.problem, active));
+      Solution wrong = active_set(equality_constrained(s.problem, active));
       const SplitResidual r = exact_residual(s.problem, wrong.u, wrong.p, Eigen::VectorXd());
       wrong.lambda = Eigen::VectorXd::Zero(s.problem.lower.size());
       for (std::size_t i = 0; i < active.size(); ++i)
@@ -107,7 +107,7 @@ TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
   EXPECT_THROW(check_kkt(problem, wrong), NotConverged);
   wrong = right;
   const int corner = 0;  // (0, -1): its neighbours' equations barely see it, only the clamp itself
-  ASSERT_EQ(problem.fixed[0], corner);
+  ASSERT_EQ(problem.dirichlet_dofs[0], corner);
   wrong.u(corner) = 1e-9;
   EXPECT_THROW(check_kkt(problem, wrong), NotConverged) << "a clamp that slipped";
   // the report is linear in what is wrong: above the lower level there is a warning
@@ -118,7 +118,7 @@ TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
     wrong = right;
     wrong.p *= 1 + reached / unit;
     check_kkt(problem, wrong);
-    EXPECT_EQ(wrong.warning.empty(), reached < TrustLevels{}.trusted) << wrong.warning;
+    EXPECT_EQ(wrong.warning.empty(), reached < KktTolerances{}.warn) << wrong.warning;
   }
   VariationalInequality none = problem;
   none.load.setZero();

@@ -15,10 +15,10 @@ struct Outcome {
   std::string refusal;
 };
 
-Outcome by(ContactRoad road, const VariationalInequality& problem) {
+Outcome by(ContactReduction reduction, const VariationalInequality& problem) {
   try {
     ActiveSetOptions options;
-    options.road = road;
+    options.reduction = reduction;
     return {active_set(problem, options), ""};
   } catch (const Error& error) {
     return {{}, error.what()};
@@ -29,7 +29,7 @@ Outcome by(ContactRoad road, const VariationalInequality& problem) {
 /// those of its size before) to 1e-4 of that size.
 double apart(const Solution& a, const Solution& b) {
   const double distance = (a.u - b.u).lpNorm<Eigen::Infinity>();
-  return distance == 0 ? 0 : distance / std::max(a.u.lpNorm<Eigen::Infinity>(), 1e-4 * a.moderate);
+  return distance == 0 ? 0 : distance / std::max(a.u.lpNorm<Eigen::Infinity>(), 1e-4 * a.unlocked_size);
 }
 
 /// Both roads on one list of problems: how many both answer without a warning, and how many one of them refuses alone, and how
@@ -42,7 +42,8 @@ Agreement compare(const std::function<VariationalInequality(unsigned)>& problem_
   Agreement agreement;
   for (unsigned seed = 0; seed < seeds; ++seed) {
     const VariationalInequality problem = problem_of(seed);
-    const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+    const Outcome dense = by(ContactReduction::schur_complement, problem),
+                  sparse = by(ContactReduction::sparse, problem);
     const auto plain = [](const Outcome& o) { return o.refusal.empty() && o.s.warning.empty(); };
     agreement.other += dense.refusal.empty() != sparse.refusal.empty();
     if (!plain(dense) || !plain(sparse)) continue;
@@ -81,10 +82,10 @@ VariationalInequality layer_under_bounds(const TriangleMesh& mesh, const std::st
   const Space space(mesh, element(element_name));
   VariationalInequality problem = stiff_problem(space, epsilon);
   std::vector<char> fixed(problem.size(), 0);
-  for (const int i : problem.fixed) fixed[i] = 1;
+  for (const int i : problem.dirichlet_dofs) fixed[i] = 1;
   problem.contact.clear();
   for (int i = 0; i < problem.size(); ++i)
-    if (fixed[i] == 0 && space.points()(i, 1) <= 1e-12) problem.contact.push_back(i);
+    if (fixed[i] == 0 && space.dof_coordinates()(i, 1) <= 1e-12) problem.contact.push_back(i);
   problem.lower = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.contact.size()));
   return problem;
 }
@@ -98,7 +99,8 @@ TEST(ManyBounds, BothRoadsAgreeOnAStiffLayerUnderBounds) {
         const Eigen::VectorXd ones = Eigen::VectorXd::Ones(problem.lower.size());
         for (const double lower : {-10.0, -0.01, 0.0, 0.02}) {  // nowhere, in part, on the rest state, lifted
           problem.lower = lower * ones;
-          const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+          const Outcome dense = by(ContactReduction::schur_complement, problem),
+                        sparse = by(ContactReduction::sparse, problem);
           const std::string what = fmt::format("{} {} epsilon {} lower {}", name, structured, epsilon, lower);
           ASSERT_EQ(dense.refusal.empty(), sparse.refusal.empty()) << what << dense.refusal << sparse.refusal;
           if (!dense.refusal.empty()) continue;
@@ -110,7 +112,7 @@ TEST(ManyBounds, BothRoadsAgreeOnAStiffLayerUnderBounds) {
 
 TEST(ManyBounds, BothRoadsFindTheSameDiscUnderAMembrane) {
   const VariationalInequality problem = membrane_over_obstacle(28);
-  const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+  const Outcome dense = by(ContactReduction::schur_complement, problem), sparse = by(ContactReduction::sparse, problem);
   ASSERT_EQ(dense.refusal + sparse.refusal, "");
   EXPECT_EQ(dense.s.active, sparse.s.active);
   EXPECT_LE(apart(dense.s, sparse.s), 1e-13);
@@ -119,7 +121,7 @@ TEST(ManyBounds, BothRoadsFindTheSameDiscUnderAMembrane) {
   std::vector<bool> mixed(problem.bound_count());
   for (std::size_t i = 0; i < mixed.size(); i += 2) mixed[i] = true;
   ActiveSetOptions options;
-  options.road = ContactRoad::sparse;
+  options.reduction = ContactReduction::sparse;
   options.start = test::held_at_lower(mixed);
   EXPECT_LE(apart(sparse.s, active_set(problem, options)), 1e-13) << "any start ends there";
 }
@@ -135,7 +137,7 @@ TEST(ManyBounds, BothRoadsAgreeBetweenTwoObstacles) {
     if (i % 31 == 5) problem.lower(i) = -infinity;
     if (i % 31 == 6) problem.upper(i) = infinity;
   }
-  const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+  const Outcome dense = by(ContactReduction::schur_complement, problem), sparse = by(ContactReduction::sparse, problem);
   ASSERT_EQ(dense.refusal + sparse.refusal, "");
   EXPECT_GT(dense.s.lambda.maxCoeff(), 0);
   EXPECT_LT(dense.s.lambda.minCoeff(), 0);
@@ -150,7 +152,8 @@ TEST(ManyBounds, DegenerateContactIsTheSameByBothRoads) {
   const Eigen::VectorXd grazing = problem.a1 * problem.lower;  // u = lower with no force
   for (const double push : {-1.0, 0.0, 1e-13, 1.0}) {
     problem.load = grazing + push * Eigen::VectorXd::Ones(problem.size());
-    const Outcome dense = by(ContactRoad::dense, problem), sparse = by(ContactRoad::sparse, problem);
+    const Outcome dense = by(ContactReduction::schur_complement, problem),
+                  sparse = by(ContactReduction::sparse, problem);
     ASSERT_EQ(dense.refusal + sparse.refusal, "") << push;
     EXPECT_LE(apart(dense.s, sparse.s), 1e-12) << push;
     if (push == -1) {
@@ -159,8 +162,8 @@ TEST(ManyBounds, DegenerateContactIsTheSameByBothRoads) {
   }
   problem.load.setZero();
   problem.lower.setZero();
-  for (const ContactRoad road : {ContactRoad::dense, ContactRoad::sparse}) {
-    const Outcome rest = by(road, problem);
+  for (const ContactReduction reduction : {ContactReduction::schur_complement, ContactReduction::sparse}) {
+    const Outcome rest = by(reduction, problem);
     EXPECT_TRUE(rest.s.u.isZero(0));
     EXPECT_EQ(rest.s.active, std::vector<bool>(problem.size(), false)) << "no bound holds where nothing pushes";
     EXPECT_EQ(rest.s.counters.contact, 1);
@@ -170,7 +173,7 @@ TEST(ManyBounds, DegenerateContactIsTheSameByBothRoads) {
 // From no contact and from contact everywhere the steps grow like 1/h (26 and 45 at 1/h = 128); nested they hardly do.
 TEST(ManyBounds, TheNestedStartKeepsTheStepsFew) {
   for (const int n : {32, 64, 128}) {
-    const Outcome o = by(ContactRoad::automatic, membrane_over_obstacle(n));
+    const Outcome o = by(ContactReduction::automatic, membrane_over_obstacle(n));
     ASSERT_EQ(o.refusal, "");
     EXPECT_LE(o.s.counters.contact, 9) << n;  // measured: 4, 4, 6
     if (n > 45) {                             // beyond 2000 bounds the start factors smaller matrices of its own
@@ -181,15 +184,15 @@ TEST(ManyBounds, TheNestedStartKeepsTheStepsFew) {
 }
 
 /// Every unknown is bounded.
-Pieces nested_start_of(const VariationalInequality& problem) {
-  HeldFactor k;
+BoundStatuses nested_start_of(const VariationalInequality& problem) {
+  ConstrainedCholesky k;
   EXPECT_FALSE(k.factorise(SparseMatrix(problem.a1.triangularView<Eigen::Upper>())));
   return SparseContact(k, problem.load, problem.contact).nested_start({problem.lower}, 100);
 }
 
 TEST(ManyBounds, TheNestedStartIsMostOfTheContactSetAndLittleElse) {
   const VariationalInequality problem = membrane_over_obstacle(28);
-  const Pieces start = nested_start_of(problem);
+  const BoundStatuses start = nested_start_of(problem);
   const std::vector<bool> active = active_set(problem).active;
   int found = 0, contact = 0, elsewhere = 0;
   for (int i = 0; i < problem.size(); ++i) {
@@ -200,7 +203,7 @@ TEST(ManyBounds, TheNestedStartIsMostOfTheContactSetAndLittleElse) {
   EXPECT_GE(3 * found, 2 * contact);                              // measured: 108 of 145
   EXPECT_LE(elsewhere, 5);                                        // measured: 2
   const VariationalInequality small = membrane_over_obstacle(2);  // one bound: no smaller problem
-  EXPECT_EQ(nested_start_of(small), Pieces(small.size(), Piece::between));
+  EXPECT_EQ(nested_start_of(small), BoundStatuses(small.size(), BoundStatus::inactive));
 }
 
 // All of the membrane lies on the floor but where the floor has a hole: a start must not hold what no bound bears, in
@@ -210,44 +213,44 @@ TEST(ManyBounds, TheNestedStartHoldsNoBoundThatIsNotThere) {
   for (const int hole : {0, 29}) {
     problem.lower.setZero();
     problem.lower(hole) = -infinity;
-    const Pieces start = nested_start_of(problem);
+    const BoundStatuses start = nested_start_of(problem);
     EXPECT_FALSE(is_active(start[hole])) << hole;
-    EXPECT_GT(std::count(start.begin(), start.end(), Piece::at_lower), 700) << hole;  // of 729
+    EXPECT_GT(std::count(start.begin(), start.end(), BoundStatus::at_lower), 700) << hole;  // of 729
   }
 }
 
 TEST(ManyBounds, AHeldFactorCountsTheSetsThatItFactors) {
-  HeldFactor k;
+  ConstrainedCholesky k;
   ASSERT_FALSE(k.factorise(SparseMatrix(membrane_over_obstacle(4).a1.triangularView<Eigen::Upper>())));
   std::vector<char> held(9, 0);
-  k.hold(held);
+  k.eliminate(held);
   EXPECT_EQ(k.factorisations(), 1);
   held[4] = 1;
-  k.hold(held);
-  k.hold(held);
+  k.eliminate(held);
+  k.eliminate(held);
   EXPECT_EQ(k.factorisations(), 2);
 }
 
 TEST(ManyBounds, OneFactorServesASweepOverLoadsBoundsAndCompliances) {
   VariationalInequality problem = layer_under_bounds(structured_mesh(8), "P1", 0.0);
-  PenaltyFactor factor(problem, 1e-4, ContactRoad::sparse);
+  PenaltyFactor factor(problem, 1e-4, ContactReduction::sparse);
   for (const double compliance : {0.0, 1e-12, 1e-6})
     for (const double size : {1.0, -3.0}) {
       VariationalInequality other = problem;
       other.compliance = compliance;
       other.load *= size;
       other.lower.array() -= 0.001 * std::abs(size);
-      const Outcome alone = by(ContactRoad::dense, other);
+      const Outcome alone = by(ContactReduction::schur_complement, other);
       ASSERT_EQ(alone.refusal, "");
       EXPECT_LE(apart(alone.s, active_set(other, factor)), 1e-10) << compliance << " " << size;
     }
 }
 
 TEST(ManyBounds, TheLibraryChoosesTheRoad) {
-  EXPECT_NE(PenaltyFactor(membrane_over_obstacle(12)).held(), nullptr);  // 121 bounds, all of the unknowns
-  EXPECT_EQ(PenaltyFactor(membrane_over_obstacle(10)).held(), nullptr);  // 81
-  const TriangleMesh mesh = structured_mesh(64);                         // bounds on a line
-  EXPECT_EQ(PenaltyFactor(test::stiff_problem(Space(mesh, p1()), 0.1)).held(), nullptr);
+  EXPECT_NE(PenaltyFactor(membrane_over_obstacle(12)).sparse_factor(), nullptr);  // 121 bounds, all of the unknowns
+  EXPECT_EQ(PenaltyFactor(membrane_over_obstacle(10)).sparse_factor(), nullptr);  // 81
+  const TriangleMesh mesh = structured_mesh(64);                                  // bounds on a line
+  EXPECT_EQ(PenaltyFactor(test::stiff_problem(Space(mesh, p1()), 0.1)).sparse_factor(), nullptr);
 }
 
 TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
@@ -256,7 +259,7 @@ TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
   ActiveSetOptions one;
   one.max_steps = 1;
   EXPECT_THROW(active_set(problem, factor, one), NotConverged);
-  expect_refused([&] { uzawa(problem, factor); }, "accepted: a factor made with ContactRoad::dense");
+  expect_refused([&] { uzawa(problem, factor); }, "accepted: a factor made with ContactReduction::schur_complement");
   expect_refused([&] { factor.dense().forward(problem.load); }, "ContactRoad::dense");
   const auto refused = [&](const auto& spoil, const std::string& words) {
     VariationalInequality bad = problem;

@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(BothFactors, CholeskyOf, testing::Values(default_choles
 TEST_P(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
   const SpaceOn space(unstructured_mesh(8), crouzeix_raviart());
   const VariationalInequality problem = stiff_problem(space, 0.1);
-  const FreeNumbering free(problem);
+  const DofOrdering free(problem);
   SparseMatrix k = penalised_matrix(problem, free, 1e-3);
   const Eigen::MatrixXd full = Eigen::MatrixXd(k).selfadjointView<Eigen::Upper>();
   const int size = static_cast<int>(k.cols());
@@ -89,12 +89,12 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOverTheUniformityTable) {
   int answers = 0;
   for (const int cells : {16, 64})
     for (const Method& method : methods()) {
-      const Discretisation discrete = method.on(cells);
+      const Discretisation discrete = method.discretise(cells);
       for (const double epsilon : every_epsilon) {
         SCOPED_TRACE(fmt::format("{}, 1/h = {}, epsilon = {}", method.name(), cells, epsilon));
         const VariationalInequality problem = stiff_problem(discrete.space(), epsilon);
-        PenaltyFactor cholmod(problem, {}, ContactRoad::automatic, default_cholesky);
-        PenaltyFactor eigen(problem, {}, ContactRoad::automatic, eigen_cholesky);
+        PenaltyFactor cholmod(problem, {}, ContactReduction::automatic, default_cholesky);
+        PenaltyFactor eigen(problem, {}, ContactReduction::automatic, eigen_cholesky);
         const Solution one = active_set(problem, cholmod), other = active_set(problem, eigen);
         const double apart = relative_difference(other.u, one.u);
         EXPECT_LT(apart, 1e-12);
@@ -111,12 +111,12 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOverTheUniformityTable) {
 // The road on which unknowns are held, and factors are made anew for every set of them.
 TEST(TwoFactors, BothFactorsGiveTheSameAnswersOnTheSparseRoad) {
   for (const Method& method : methods()) {
-    const Discretisation discrete = method.on(16);
+    const Discretisation discrete = method.discretise(16);
     for (const double epsilon : {1.0, 1e-4, 0.0}) {
       const VariationalInequality problem = stiff_problem(discrete.space(), epsilon);
-      PenaltyFactor cholmod(problem, {}, ContactRoad::sparse, default_cholesky);
-      PenaltyFactor eigen(problem, {}, ContactRoad::sparse, eigen_cholesky);
-      EXPECT_NE(eigen.held(), nullptr);
+      PenaltyFactor cholmod(problem, {}, ContactReduction::sparse, default_cholesky);
+      PenaltyFactor eigen(problem, {}, ContactReduction::sparse, eigen_cholesky);
+      EXPECT_NE(eigen.sparse_factor(), nullptr);
       EXPECT_LT(relative_difference(active_set(problem, eigen).u, active_set(problem, cholmod).u), 1e-12)
           << method.name();
     }

@@ -1,9 +1,9 @@
 // Uzawa, the paper's algorithm: slow, but to the same answer; or no answer.
 #include "antilock/solve/uzawa.hpp"
-#include "antilock/certificate/accurate_enough.hpp"
+#include "antilock/certificate/balanced_tolerance.hpp"
 #include "antilock/core/dense.hpp"
 #include "antilock/core/eigenvalues.hpp"
-#include "antilock/exact/truth_table.hpp"
+#include "antilock/exact/exact_table.hpp"
 #include "antilock/solve/summed.hpp"
 #include "support/dense.hpp"
 #include "support/scenes.hpp"
@@ -56,7 +56,7 @@ TEST(Uzawa, RefusesAStepThatGoesNowhere) {
     expect_refused([&] { uzawa_cg_ilut(problem, options); }, "accepted: a positive number");
   }
   UzawaOptions options;
-  options.enough = {1e-6, 1e-3};
+  options.stop_at = {1e-6, 1e-3};
   expect_refused([&] { uzawa_cg_ilut(problem, options); }, "options.enough");
 }
 
@@ -82,17 +82,17 @@ TEST(Uzawa, StopsWhereItIsAccurateEnough) {
   const auto stop = [](const std::string& element_name, const TriangleMesh& mesh, const TriangleMesh& coarse) {
     const Space space(mesh, element(element_name));
     for (const double epsilon : {1.0, 1e-2, 1e-6}) {
-      const TruthTable truth(Truth(paper_sine_load(), epsilon, true, 14));
+      const ExactTable exact_solution(ExactSolution(paper_sine_load(), epsilon, true, 14));
       const VariationalInequality problem = stiff_problem(space, epsilon);
       UzawaOptions options;
       const Solution full = uzawa(problem);
-      options.enough = accurate_enough(energy_bracket(test::stiff_scene(epsilon), coarse), 2);
+      options.stop_at = balanced_tolerance(energy_bounds(test::stiff_scene(epsilon), coarse), 2);
       const Solution early = uzawa(problem, options);
       EXPECT_LT(2 * early.counters.contact, full.counters.contact)
           << element_name << epsilon;  // it looks every 32 steps
       EXPECT_LE(early.counters.corrections, full.counters.corrections);
-      const Errors a = measure_errors(space, full, epsilon, reference(truth)),
-                   b = measure_errors(space, early, epsilon, reference(truth));
+      const Errors a = measure_errors(space, full, epsilon, reference(exact_solution)),
+                   b = measure_errors(space, early, epsilon, reference(exact_solution));
       // the promise of accurate_enough
       EXPECT_LT(b.max, 1.01 * a.max) << element_name << epsilon;
       EXPECT_LT(b.h1, 1.01 * a.h1) << element_name << epsilon;
@@ -112,7 +112,7 @@ TEST(Uzawa, TheDualityGapBoundsWhatIsLeft) {
     UzawaOptions options;
     int steps = 0;
     for (const double energy : {1e-4, 1e-6, 1e-8, 1e-10}) {
-      options.enough = {energy, 1e-3};
+      options.stop_at = {energy, 1e-3};
       const Solution s = uzawa(problem, options);
       const Eigen::VectorXd e = s.u - exact, strain = problem.b * e;
       const double left =
@@ -193,14 +193,14 @@ TEST(Uzawa, TheDualityGapOfOneSpringIsTheEnergyBetween) {
   // the first v is -5, with lambda = 0: J(-1) = -9, and the dual energy is J(-5) = -25
   UzawaOptions options;
   for (const double energy : {15.9, 16.1}) {
-    options.enough = {energy, 1};
+    options.stop_at = {energy, 1};
     EXPECT_EQ(uzawa(one_spring(), options).counters.contact == 0, energy > 16) << energy;
   }
   // a bound that bears no more than 3 takes up 3 * 4 on the way to -5: J(-5) = -25 + 12
   VariationalInequality soft = one_spring();
-  soft.force_bound = Eigen::VectorXd{{3}};
+  soft.force_limit = Eigen::VectorXd{{3}};
   for (const double energy : {11.9, 12.1}) {
-    options.enough = {energy, 1};
+    options.stop_at = {energy, 1};
     EXPECT_EQ(uzawa(soft, options).counters.contact == 0, energy > 12) << energy;
   }
 }
@@ -216,7 +216,7 @@ TEST(Uzawa, AsksTheCorrectionsForItsOwnToleranceButNoLessThan1em12) {
     double asked = 0;
     options.tolerance = tolerance;
     options.progress = [&](const Progress& progress) {
-      if (progress.stage == "corrections") asked = progress.asked;
+      if (progress.stage == "corrections") asked = progress.tolerance;
       return true;
     };
     uzawa(problem, factor, options);
@@ -255,10 +255,10 @@ TEST(Uzawa, TheLargestEigenvalueOfAnOperatorIsThatOfItsMatrix) {
       20, 20, [](Eigen::Index i, Eigen::Index j) { return std::exp(-0.3 * std::abs(static_cast<double>(i - j))); });
   for (const int size : {1, 2, 3, 20}) {
     const Eigen::MatrixXd part = a.topLeftCorner(size, size);
-    const double truth = symmetric_eigenvalues(part).maxCoeff();
+    const double exact_solution = symmetric_eigenvalues(part).maxCoeff();
     const double found = largest_eigenvalue([&](const Eigen::VectorXd& x) { return Eigen::VectorXd(part * x); }, size);
-    EXPECT_NEAR(found, truth, 1e-6 * truth) << size;
-    EXPECT_LE(found, truth * (1 + 1e-12)) << size;  // from below
+    EXPECT_NEAR(found, exact_solution, 1e-6 * exact_solution) << size;
+    EXPECT_LE(found, exact_solution * (1 + 1e-12)) << size;  // from below
   }
 }
 

@@ -19,8 +19,8 @@ constexpr double round_off = 1e-14;
 
 TEST(Element, BasisIsNodal) {
   for (const Element* element : elements()) {
-    const Eigen::MatrixX3d nodes = element->nodes();
-    ASSERT_EQ(nodes.rows(), element->unknowns()) << element->name();
+    const Eigen::MatrixX3d nodes = element->support_points();
+    ASSERT_EQ(nodes.rows(), element->dofs()) << element->name();
     for (Eigen::Index j = 0; j < nodes.rows(); ++j) {
       EXPECT_NEAR(nodes.row(j).sum(), 1, round_off) << element->name();
       const Eigen::VectorXd phi = element->basis(nodes.row(j));
@@ -36,10 +36,10 @@ TEST(Element, ReproducesPolynomialsOfItsDegree) {
     return degree == 2 ? linear + 0.9 * l(0) * l(0) - 1.3 * l(0) * l(1) + 0.4 * l(1) * l(1) : linear;
   };
   for (const Element* element : elements()) {
-    const Eigen::MatrixX3d nodes = element->nodes();
+    const Eigen::MatrixX3d nodes = element->support_points();
     Eigen::VectorXd values(nodes.rows());
     // degree() is that of the quadrature; unknowns at vertices, or one per edge, hold affine functions alone
-    const int degree = element->conforming() && element->per_edge() > 0 ? 2 : 1;
+    const int degree = element->conforming() && element->dofs_per_edge() > 0 ? 2 : 1;
     for (Eigen::Index i = 0; i < nodes.rows(); ++i) values(i) = polynomial(nodes.row(i), degree);
     for (const Eigen::Vector3d& at : sample_points()) {
       EXPECT_NEAR(element->basis(at).sum(), 1, round_off) << element->name();
@@ -112,17 +112,17 @@ TEST(Space, PointInMapsCornersAndCentroid) {
 
 TEST(Space, UnknownsSitWhereTheirElementSays) {
   for (const SpaceOn& space : two_square_spaces(5, elements())) {
-    EXPECT_EQ(space.size(), space.element().per_vertex() * space.mesh().vertex_count() +
-                                space.element().per_edge() * space.mesh().edge_count() +
-                                space.element().per_triangle() * space.mesh().triangle_count());
+    EXPECT_EQ(space.size(), space.element().dofs_per_vertex() * space.mesh().vertex_count() +
+                                space.element().dofs_per_edge() * space.mesh().edge_count() +
+                                space.element().dofs_per_cell() * space.mesh().triangle_count());
     std::set<int> met;
     for (int t = 0; t < space.mesh().triangle_count(); ++t)
-      for (int i = 0; i < space.element().unknowns(); ++i) {
-        const int unknown = space.unknowns()(t, i);
+      for (int i = 0; i < space.element().dofs(); ++i) {
+        const int unknown = space.cell_dofs()(t, i);
         met.insert(unknown);
         // neighbours agree on the place, whichever of them looks
-        const Eigen::Vector2d here = point_in(space.mesh(), t, space.element().nodes().row(i));
-        ASSERT_LT((space.points().row(unknown).transpose() - here).norm(), round_off) << space.name;
+        const Eigen::Vector2d here = point_in(space.mesh(), t, space.element().support_points().row(i));
+        ASSERT_LT((space.dof_coordinates().row(unknown).transpose() - here).norm(), round_off) << space.name;
       }
     EXPECT_EQ(static_cast<int>(met.size()), space.size()) << space.name;
   }
@@ -133,7 +133,7 @@ TEST(Space, CrouzeixRaviartUnknownsAreEdgeMidpoints) {
   const Space space(mesh, crouzeix_raviart());
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const Eigen::RowVector2d middle = 0.5 * (mesh.vertices.row(mesh.edges(e, 0)) + mesh.vertices.row(mesh.edges(e, 1)));
-    ASSERT_LT((space.points().row(e) - middle).norm(), round_off);
+    ASSERT_LT((space.dof_coordinates().row(e) - middle).norm(), round_off);
   }
 }
 
@@ -154,7 +154,7 @@ TEST(Space, ConformingElementsAreContinuousCrouzeixRaviartOnlyAtMidpoints) {
             if (mesh.triangles(t, i) == mesh.edges(e, 0)) at(i) = 1 - s;
             if (mesh.triangles(t, i) == mesh.edges(e, 1)) at(i) = s;
           }
-          value[side] = element->basis(at).dot(u(space.unknowns().row(t)));
+          value[side] = element->basis(at).dot(u(space.cell_dofs().row(t)));
         }
         double& jump = s == 0.5 ? jump_at_middle : jump_at_ends;
         jump = std::max(jump, std::abs(value[0] - value[1]));
@@ -172,18 +172,18 @@ TEST(Space, ClampedAndContactUnknownsAreThoseOnTheirEdges) {
   for (const SpaceOn& space : two_square_spaces(6, elements())) {
     std::vector<int> clamped, contact;
     for (int i = 0; i < space.size(); ++i) {
-      const double x = space.points()(i, 0), y = space.points()(i, 1);
+      const double x = space.dof_coordinates()(i, 0), y = space.dof_coordinates()(i, 1);
       if (x == 0 || x == 1 || y == 1)
         clamped.push_back(i);
       else if (y == -1)
         contact.push_back(i);
     }
     std::sort(contact.begin(), contact.end(),
-              [&](int a, int b) { return space.points()(a, 0) < space.points()(b, 0); });
-    EXPECT_EQ(space.clamped(), clamped) << space.name;
-    EXPECT_EQ(space.contact(), contact) << space.name;
+              [&](int a, int b) { return space.dof_coordinates()(a, 0) < space.dof_coordinates()(b, 0); });
+    EXPECT_EQ(space.dirichlet_dofs(), clamped) << space.name;
+    EXPECT_EQ(space.contact_dofs(), contact) << space.name;
     EXPECT_EQ(space.free_count(), space.size() - static_cast<int>(clamped.size()));
-    const int vertices = space.element().per_vertex() * 5, midpoints = space.element().per_edge() * 6;
+    const int vertices = space.element().dofs_per_vertex() * 5, midpoints = space.element().dofs_per_edge() * 6;
     EXPECT_EQ(static_cast<int>(contact.size()), vertices + midpoints) << space.name;
   }
 }

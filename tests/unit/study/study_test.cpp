@@ -36,22 +36,22 @@ TEST(Table, WritesNumbersThatReadBackToTheSameDoubles) {
     text += "\"Uzawa, \"\"Cholesky\"\"\"," + number + "\n";
   EXPECT_EQ(test::contents(folder / "table.csv"), text);
   for (const double number : table.numbers("number"))
-    EXPECT_EQ(std::strtod(Entry(number).text().c_str(), nullptr), number);
+    EXPECT_EQ(std::strtod(TableEntry(number).text().c_str(), nullptr), number);
 }
 
 TEST(Table, SelectsByWordNumberAndCondition) {
   const Table table = power_laws();
   EXPECT_EQ(table.size(), 16);
-  const Table p1 = table.where("element", "P1").where("epsilon", 1e-6);
+  const Table p1 = table.filter("element", "P1").filter("epsilon", 1e-6);
   EXPECT_EQ(p1.numbers("cells"), (std::vector<double>{8, 16, 32, 64}));
-  EXPECT_EQ(p1.where("cells", 16).number("error"), 3.0 / 256);
-  EXPECT_EQ(table.where_number("cells", [](double cells) { return cells > 16; }).size(), 8);
-  EXPECT_EQ(table.where("element", "P2").size(), 0);
-  EXPECT_EQ(table.different("element"), (std::vector<Entry>{"P1", "CR"}));
-  EXPECT_EQ(p1.most("error"), 3.0 / 64);
-  EXPECT_EQ(p1.least("error"), 3.0 / 4096);
-  EXPECT_EQ(p1.first("error"), p1.most("error"));
-  EXPECT_EQ(p1.last("error"), p1.least("error"));
+  EXPECT_EQ(p1.filter("cells", 16).number("error"), 3.0 / 256);
+  EXPECT_EQ(table.filter_number("cells", [](double cells) { return cells > 16; }).size(), 8);
+  EXPECT_EQ(table.filter("element", "P2").size(), 0);
+  EXPECT_EQ(table.unique("element"), (std::vector<TableEntry>{"P1", "CR"}));
+  EXPECT_EQ(p1.max("error"), 3.0 / 64);
+  EXPECT_EQ(p1.min("error"), 3.0 / 4096);
+  EXPECT_EQ(p1.first("error"), p1.max("error"));
+  EXPECT_EQ(p1.last("error"), p1.min("error"));
   EXPECT_EQ(p1.select({"h", "cells"}).columns(), (std::vector<std::string>{"h", "cells"}));
   EXPECT_EQ(p1.select({"h", "cells"}).last("cells"), 64);
   ASSERT_EQ(p1.rows().size(), 4u);
@@ -60,9 +60,9 @@ TEST(Table, SelectsByWordNumberAndCondition) {
 
 TEST(Table, FindsTheOrderOfAPowerLaw) {
   const Table table = power_laws();
-  EXPECT_NEAR(table.where("element", "P1").order("error", "h"), 2, 1e-13);
-  EXPECT_NEAR(table.where("element", "CR").order("error", "h"), 1, 1e-13);
-  EXPECT_NEAR(table.where("element", "CR").order("error", "cells"), -1, 1e-13);
+  EXPECT_NEAR(table.filter("element", "P1").order("error", "h"), 2, 1e-13);
+  EXPECT_NEAR(table.filter("element", "CR").order("error", "h"), 1, 1e-13);
+  EXPECT_NEAR(table.filter("element", "CR").order("error", "cells"), -1, 1e-13);
   // least squares: what is symmetric about the line does not move it
   Table noisy({"x", "y"});
   for (const auto& [x, y] : {std::pair{1.0, 2.0}, {1.0, 0.5}, {8.0, 128.0}, {8.0, 32.0}}) noisy.add({x, y});
@@ -76,9 +76,9 @@ TEST(Table, FindsTheOrderOfAPowerLaw) {
 }
 
 TEST(Table, PivotsToOneQuantityAgainstTwo) {
-  const Table pivoted = power_laws().where("element", "P1").pivot("cells", "epsilon", "error");
+  const Table pivoted = power_laws().filter("element", "P1").pivot("cells", "epsilon", "error");
   EXPECT_EQ(pivoted.columns(), (std::vector<std::string>{"cells", "1", "1e-06"}));
-  EXPECT_EQ(pivoted.where("cells", 8).number("1e-06"), 3.0 / 64);
+  EXPECT_EQ(pivoted.filter("cells", 8).number("1e-06"), 3.0 / 64);
   EXPECT_THROW(power_laws().pivot("cells", "epsilon", "error"), Error);  // P1 and CR at one place
 }
 
@@ -103,12 +103,12 @@ TEST(Table, RefusesAndSaysWhat) {
   EXPECT_EQ(table.size(), 16);  // nothing was added
   EXPECT_EQ(test::refusal([&] { table.numbers("element"); }), "table: 'P1' in column 'element'; accepted: a number");
   EXPECT_EQ(test::refusal([&] { table.number("error"); }), "table: column 'error' of 16 rows; accepted: of one");
-  EXPECT_THROW(table.where("mesh", "structured"), Error);
-  EXPECT_THROW(table.where_number("element", [](double) { return true; }), Error);
+  EXPECT_THROW(table.filter("mesh", "structured"), Error);
+  EXPECT_THROW(table.filter_number("element", [](double) { return true; }), Error);
   EXPECT_THROW(table.select({"mesh"}), Error);
   EXPECT_THROW(table.add(Table({"element"})), Error);
-  EXPECT_THROW(table.where("element", "P2").most("error"), Error);
-  EXPECT_THROW(table.where("cells", 8).order("error", "h"), Error);  // one place
+  EXPECT_THROW(table.filter("element", "P2").max("error"), Error);
+  EXPECT_THROW(table.filter("cells", 8).order("error", "h"), Error);  // one place
   table.add({"P1", 1.0, 128, 1.0 / 128, 0.0});
   EXPECT_THROW(table.order("error", "h"), Error);  // log of 0
   EXPECT_THROW(Table({"a"}).write("/dev/null/table.csv"), Error);
@@ -129,7 +129,7 @@ TEST(Method, MakesItsMeshItsSpaceAndItsName) {
 
 TEST(Method, KeepsMeshAndSpaceTogetherWhereverTheyGo) {
   std::vector<Discretisation> kept;
-  for (const int cells : {2, 4}) kept.push_back(methods().front().on(cells));  // moved as the vector grows
+  for (const int cells : {2, 4}) kept.push_back(methods().front().discretise(cells));  // moved as the vector grows
   kept.push_back(Discretisation(kept.front(), crouzeix_raviart()));
   EXPECT_EQ(kept[1].space().size(), kept[1].mesh().vertex_count());
   EXPECT_EQ(&kept[2].mesh(), &kept[0].mesh());
@@ -156,7 +156,7 @@ TEST(SweepOfAnyProblem, GivesTheAnswersOfTheBeam) {
   }
   EXPECT_EQ(sweep.total().factorisations, factorisations);
   EXPECT_LT(factorisations, 5);
-  sweep.solve({{}, 1e-3, ContactRoad::automatic, 1000, {}});
+  sweep.solve({{}, 1e-3, ContactReduction::automatic, 1000, {}});
   EXPECT_EQ(sweep.factor().delta(), 1e-3) << "as asked";
 }
 

@@ -19,7 +19,7 @@ struct Made {
 };
 std::map<std::tuple<int, int, int>, Made> made;  // by element, kind and cells, with the amount asked for last
 book::LiveFigure* figures[2];                    // of `made`, those that are seen: P1, Crouzeix-Raviart
-std::unique_ptr<book::LiveTruth> truth;
+std::unique_ptr<book::LiveTruth> exact;
 book::LiveNumbers numbers;
 book::RoundOff round_off_numbers;
 std::vector<float> picture;
@@ -35,8 +35,8 @@ book::LiveFigure& figure_of(int element, int kind, int cells, double amount) {
 }
 
 const book::LiveTruth& truth_at(double epsilon) {
-  if (!truth || truth->epsilon != epsilon) truth = std::make_unique<book::LiveTruth>(epsilon);
-  return *truth;
+  if (!exact || exact->epsilon != epsilon) exact = std::make_unique<book::LiveTruth>(epsilon);
+  return *exact;
 }
 
 /// The script is told of a throw: what the call returns is not to be read then.

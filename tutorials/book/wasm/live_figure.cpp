@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/analysis/layer_report.hpp"
+#include "antilock/analysis/locking_report.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/mesh/layered.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -14,10 +14,10 @@ namespace {
 
 Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}); }
 
-double largest_error(const Space& space, const Eigen::VectorXd& u, const TruthTable& table) {
+double largest_error(const Space& space, const Eigen::VectorXd& u, const ExactTable& table) {
   double error = 0;
   for (int i = 0; i < space.size(); ++i)
-    error = std::max(error, std::abs(u(i) - table.value(space.points()(i, 0), space.points()(i, 1))));
+    error = std::max(error, std::abs(u(i) - table.value(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))));
   return error;
 }
 
@@ -40,24 +40,24 @@ TriangleMesh live_mesh(LiveMesh kind, int cells, double amount) {
 LiveFigure::LiveFigure(LiveMesh kind, int cells, double amount, const Element& element)
     : discrete_(live_mesh(kind, cells, amount), element), sweep_(paper_scene(1), discrete_.space()) {}
 
-LiveNumbers LiveFigure::solve(double epsilon, const LiveTruth& truth) {
+LiveNumbers LiveFigure::solve(double epsilon, const LiveTruth& exact) {
   const Stopwatch watch;
   sweep_.set_epsilon(epsilon);
   solution_ = sweep_.solve();
   LiveNumbers numbers;
   numbers.milliseconds = 1e3 * watch.seconds();
   const Space& space = discrete_.space();
-  warning_ = report_layer(paper_scene(epsilon), space, sweep_.problem(), solution_)->warning;
-  for (std::size_t i = 0; i < space.contact().size(); ++i) {
-    const int unknown = space.contact()[i];
+  warning_ = report_locking(paper_scene(epsilon), space, sweep_.problem(), solution_)->warning;
+  for (std::size_t i = 0; i < space.contact_dofs().size(); ++i) {
+    const int unknown = space.contact_dofs()[i];
     numbers.largest_on_contact = std::max(numbers.largest_on_contact, solution_.u(unknown));
     if (!solution_.active[i]) continue;
     ++numbers.touching;
-    numbers.touches_from = std::min(numbers.touches_from, space.points()(unknown, 0));
+    numbers.touches_from = std::min(numbers.touches_from, space.dof_coordinates()(unknown, 0));
   }
-  numbers.contact = static_cast<double>(space.contact().size());
-  numbers.ridge = truth.truth.max_on_contact();
-  numbers.error = largest_error(space, solution_.u, truth.table);
+  numbers.contact = static_cast<double>(space.contact_dofs().size());
+  numbers.ridge = exact.solution.max_on_contact();
+  numbers.error = largest_error(space, solution_.u, exact.table);
   numbers.unknowns = solution_.counters.unknowns;
   numbers.corrections = solution_.counters.corrections;
   numbers.factorisations = solution_.counters.factorisations;
@@ -71,7 +71,7 @@ std::vector<float> LiveFigure::picture() const {
   std::vector<float> numbers;
   numbers.reserve(9 * static_cast<std::size_t>(mesh.triangle_count()));
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::VectorXd u = solution_.u(space.unknowns().row(t));
+    const Eigen::VectorXd u = solution_.u(space.cell_dofs().row(t));
     for (int i = 0; i < 3; ++i) {
       const int v = mesh.triangles(t, i);
       const double height = u.dot(space.element().basis(corners.row(i)));
@@ -85,33 +85,34 @@ std::vector<float> LiveFigure::picture() const {
 std::vector<double> LiveFigure::trace() const {
   const Space& space = discrete_.space();
   std::vector<double> numbers;
-  for (std::size_t i = 0; i < space.contact().size(); ++i) {
-    const int unknown = space.contact()[i];
-    numbers.insert(numbers.end(), {space.points()(unknown, 0), solution_.u(unknown), solution_.active[i] ? 1.0 : 0.0});
+  for (std::size_t i = 0; i < space.contact_dofs().size(); ++i) {
+    const int unknown = space.contact_dofs()[i];
+    numbers.insert(numbers.end(),
+                   {space.dof_coordinates()(unknown, 0), solution_.u(unknown), solution_.active[i] ? 1.0 : 0.0});
   }
   return numbers;
 }
 
 LiveTruth::LiveTruth(double epsilon)
-    : epsilon(epsilon), truth(paper_sine_load(), epsilon, true, 10), table(truth, 1 << 10) {}
+    : epsilon(epsilon), solution(paper_sine_load(), epsilon, true, 10), table(solution, 1 << 10) {}
 
-std::vector<double> ridge_line(const LiveTruth& truth, int points) {
+std::vector<double> ridge_line(const LiveTruth& exact, int points) {
   std::vector<double> numbers;
   for (int i = 0; i < points; ++i) {
     const double x = static_cast<double>(i) / (points - 1);
-    numbers.insert(numbers.end(), {x, truth.table.value(x, -1)});
+    numbers.insert(numbers.end(), {x, exact.table.value(x, -1)});
   }
   return numbers;
 }
 
-RoundOff round_off(int cells, double epsilon, const LiveTruth& truth) {
+RoundOff round_off(int cells, double epsilon, const LiveTruth& exact) {
   const Discretisation discrete(structured_mesh(cells), p1());
   const Space& space = discrete.space();
   const VariationalInequality problem = assemble(paper_scene(epsilon), space);
   RoundOff errors;
-  errors.split = largest_error(space, active_set(problem).u, truth.table);
-  const NaiveAnswer summed = naive_summed_solve(problem, SummedFactor::cholesky);
-  errors.summed = summed.end == NaiveEnd::refused ? 1 : largest_error(space, summed.solution.u, truth.table);
+  errors.split = largest_error(space, active_set(problem).u, exact.table);
+  const NaiveResult summed = naive_summed_solve(problem, SummedFactor::cholesky);
+  errors.summed = summed.end == NaiveEnd::refused ? 1 : largest_error(space, summed.solution.u, exact.table);
   return errors;
 }
 

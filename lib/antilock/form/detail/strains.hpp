@@ -9,7 +9,7 @@ namespace antilock {
 class Gradients {
  public:
   Gradients(const VectorSpace& space, const Quadrature& rule)
-      : space_(space), m_(space.x.element().unknowns()), n_(space.y.element().unknowns()) {
+      : space_(space), m_(space.x.element().dofs()), n_(space.y.element().dofs()) {
     for (const auto point : rule.points.rowwise()) {
       of_x_.push_back(space.x.element().derivative(point));
       of_y_.push_back(space.y.element().derivative(point));
@@ -18,8 +18,8 @@ class Gradients {
   /// The unknowns behind the columns, in the whole vector.
   Eigen::VectorXi unknowns(int t) const {
     Eigen::VectorXi both(m_ + n_);
-    both << space_.x.unknowns().row(t).transpose(),
-        (space_.y.unknowns().row(t).transpose().array() + space_.x.size()).matrix();
+    both << space_.x.cell_dofs().row(t).transpose(),
+        (space_.y.cell_dofs().row(t).transpose().array() + space_.x.size()).matrix();
     return both;
   }
   /// 4 x (m + n)
@@ -45,7 +45,7 @@ SparseMatrix sum_strains(int size, int triangles, Local&& local) {
     for (Eigen::Index i = 0; i < unknown.size(); ++i)
       for (Eigen::Index j = 0; j < unknown.size(); ++j) entries.emplace_back(unknown(i), unknown(j), matrix(i, j));
   }
-  return summed<SparseMatrix>(size, size, entries);
+  return from_triplets<SparseMatrix>(size, size, entries);
 }
 
 }  // namespace antilock

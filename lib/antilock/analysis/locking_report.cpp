@@ -1,0 +1,61 @@
+// The sentence on locking that every door says.
+#include "antilock/analysis/locking_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "antilock/analysis/layer_components.hpp"
+#include "antilock/analysis/locking_loss.hpp"
+#include "antilock/core/error.hpp"
+
+namespace antilock {
+
+std::optional<LockingReport> report_locking(const Scene& scene, const Space& space,
+                                            const VariationalInequality& problem, const Solution& solution) {
+  const Element& element = space.element();
+  const TriangleMesh& mesh = space.mesh();
+  if (!scene.epsilon()) return std::nullopt;
+  if (!(scene.layer_depth() > 0)) return LockingReport{"no layer mesh: nothing here can lock"};
+  if (!element.conforming())
+    return LockingReport{element.name() +
+                         " does not lock: half a motion without strain per layer triangle, on any mesh (Theorem 7)"};
+  const LayerComponents components = layer_components(mesh);
+  if (components.is_aligned)
+    return LockingReport{element.name() + " does not lock here: the columns of the layer are free of each other"};
+  LockingReport report;
+  report.diagnosis = fmt::format(
+      "below {} edges of Sigma the layer's triangles are tied into {} group{} by edges that are not vertical; without "
+      "strain {} is one polynomial of degree {} in x on each",
+      std::count(mesh.edge_tag.begin(), mesh.edge_tag.end(), EdgeTag::sigma), components.count,
+      components.count == 1 ? "" : "s", element.name(), element.degree());
+  LockingLoss energy;
+  try {
+    energy = locking_loss(scene, space, problem, solution);
+  } catch (const Error& error) {  // the answer stands, whatever becomes of what is told about it
+    report.diagnosis += std::string("; nothing is known of what it costs (") + error.what() + ")";
+    return report;
+  }
+  const double estimate = energy.share(energy.estimate), lower_bound = energy.share(energy.lower_bound);
+  const bool locks = estimate >= significance, by_proof = !locks || lower_bound >= significance;
+  if (by_proof) report.lost = lower_bound;
+  report.estimate = estimate, report.reference = energy.reference;
+  if (!locks) {
+    report.diagnosis += energy.reference > 0
+                            ? fmt::format("; at epsilon = {:g} this costs less than {:.0f} % of the energy",
+                                          *scene.epsilon(), 100 * significance)
+                            : "; the layer moves no further than round-off here";
+    return report;
+  }
+  report.diagnosis += fmt::format("; at epsilon = {:g} it locks", *scene.epsilon());
+  report.warning = fmt::format(
+      "{} locks in this layer: it loses {} {:.0f} % of the energy that the layer's motion releases ({}); "
+      "remedy: element = \"CR\", or a layer in columns (kind = \"layered\")",
+      element.name(), by_proof ? "at least" : "about",
+      std::min(std::floor(100 * (by_proof ? lower_bound : estimate)), 99.0),
+      by_proof ? "proved" : "by a second solve, with columns");
+  return report;
+}
+
+}  // namespace antilock

@@ -1,0 +1,27 @@
+#pragma once
+#include "antilock/form/factored_form.hpp"
+#include "antilock/form/quadrature.hpp"
+#include "antilock/mesh/triangle_mesh.hpp"
+
+namespace antilock {
+
+/// The shares of R rows of B in G means: a row per mean, a column per row of B; none negative, each column sums to 1.
+using StrainProjection = RowMatrix;
+
+/// The form of the averaged strain. Row g of B is the mean of the rows of B with the weights shares(g, r) m(r), and
+/// the new M are the sums of these weights. Shares 0 and 1 make groups: the strain is projected in L2 onto constants
+/// per group. Hat functions as shares make a mixed form: a row is (integral of phi_g times the strain) / (integral of
+/// phi_g). The new form is never larger than the old one (Jensen). `cell` of a mean: the first cell that has a share,
+/// or none where the form names none. Throws Error for shares that do not fit: another number of columns, a negative
+/// one, a column that does not sum to 1, an empty row.
+FactoredForm project_strain(const FactoredForm& form, const StrainProjection& projection);
+
+/// A mean per box of the grid of `width` x `height` (lengths, positive; from the smallest x and y of the mesh on) that
+/// has the centroid of a cell in it. Throws Error for a length that is not positive.
+StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width, double height);
+
+/// A mean per vertex of the cells, over its patch, with its hat function at the points of `rule` as the share: the rows
+/// of a cell are those of the rule, in turn. Throws Error where they are not.
+StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm& form, const Quadrature& rule);
+
+}  // namespace antilock

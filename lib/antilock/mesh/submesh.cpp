@@ -1,0 +1,48 @@
+#include "antilock/mesh/submesh.hpp"
+
+#include <algorithm>
+
+namespace antilock {
+
+Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)>& kept) {
+  Submesh piece;
+  std::vector<int> number(mesh.vertex_count(), -1), owners(mesh.edge_count(), 0);
+  std::vector<Region> region;
+  Triples triangles(mesh.triangle_count(), 3);
+  int count = 0;
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    if (!kept(t)) continue;
+    for (int i = 0; i < 3; ++i) {
+      const int v = mesh.triangles(t, i);
+      ++owners[mesh.triangle_edges(t, i)];
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(piece.old_vertex.size());
+        piece.old_vertex.push_back(v);
+      }
+      triangles(count, i) = number[v];
+    }
+    region.push_back(mesh.region[t]);
+    ++count;
+  }
+  triangles.conservativeResize(count, 3);
+  std::vector<TaggedEdge> tagged;
+  for (int e = 0; e < mesh.edge_count(); ++e) {
+    if (owners[e] == 0) continue;
+    EdgeTag tag = mesh.edge_tag[e];
+    if (owners[e] == 1 && tag == EdgeTag::interior) tag = EdgeTag::clamped;
+    if (owners[e] == 1 && tag == EdgeTag::sigma) tag = EdgeTag::contact;
+    if (tag != EdgeTag::interior) tagged.push_back({number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag});
+  }
+  Points points = mesh.vertices(piece.old_vertex, Eigen::all);
+  piece.mesh =
+      make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), tagged, "a part of a mesh");
+  piece.mesh.geometry = mesh.geometry;
+  return piece;
+}
+
+TriangleMesh body_submesh(const TriangleMesh& mesh) {
+  if (std::find(mesh.region.begin(), mesh.region.end(), Region::layer) == mesh.region.end()) return mesh;
+  return submesh(mesh, [&](int t) { return mesh.region[t] == Region::body; }).mesh;
+}
+
+}  // namespace antilock

@@ -1,0 +1,185 @@
+#include "antilock/solve/forward_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "antilock/core/dense.hpp"
+#include "antilock/problem/bounds.hpp"
+#include "antilock/solve/defaults.hpp"
+
+namespace antilock {
+namespace {
+
+constexpr double eps = defaults::eps, unlimited = std::numeric_limits<double>::infinity();
+
+/// Whether B u = 0 in the rows of compliance 0, the prescribed values and the bounds may leave no u: u = 0 is none.
+bool may_be_infeasible(const VariationalInequality& problem) {
+  const bool at_rest =
+      problem.dirichlet_values.isZero(0) && (slack(problem, Eigen::VectorXd::Zero(problem.size())).array() >= 0).all();
+  return (problem.compliances().array() == 0).any() && !at_rest;
+}
+
+/// Farkas's certificate: a number that no admissible u is smaller than, 0 where y (R) proves nothing. Admissible is
+/// what meets the bounds, the prescribed values and B u = 0 in the rows of compliance 0. With y on these rows and z =
+/// B' y,
+///
+///     0 = y' B u = z' u >= D - s |u|,  and so |u| >= D / s:
+///     D = sum of z_i lower_i (z_i > 0), z_i upper_i (z_i < 0), z_i fixed_i, where u_i has that
+///     s = sum of the other |z_i|
+///
+/// Where nothing is admissible the corrections of p tend to a y with s = 0: M B u, u the nearest to the kernel of B
+/// that the bounds allow. Round-off: rows that differ by less than defaults::row_tolerance are equal, and so D is less
+/// by defaults::row_tolerance of all terms of y' B u: with the value that u_i is given, else with the u_i of the
+/// answer (a gradient of a constant is 0, but for the rounding of B). A great u must not hide what the given values
+/// contradict: no other u_i counts for more than their mean, each weighed by its |z_i|.
+double smallest_feasible_norm(const VariationalInequality& problem, const DoubleDoubleVector& y,
+                              const Eigen::VectorXd& u) {
+  DoubleDoubleVector z(Eigen::VectorXd::Zero(problem.size()));
+  Eigen::VectorXd terms = Eigen::VectorXd::Zero(problem.size());
+  const double size = y.size() > 0 ? y.high.lpNorm<Eigen::Infinity>() : 0;
+  if (!(size > 0 && std::isfinite(size))) return 0;
+  const double unit = std::exp2(-std::ilogb(size));  // exact
+  double d = 0, s = 0, weight = 0, given = 0;
+  const Eigen::VectorXd compliance = problem.compliances();
+  for (Eigen::Index row = 0; row < y.size(); ++row) {
+    if (compliance(row) != 0) continue;
+    const DoubleDouble share = unit * y(row);
+    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) {
+      s += eps * eps * std::abs(z.high(b.col()));  // the round-off of the sum
+      z.add(b.col(), b.value() * share);
+      terms(b.col()) += std::abs(b.value() * share.high);
+    }
+  }
+  const auto bounded_by = [&](int i, double bound) {
+    d += z.high(i) * bound - defaults::row_tolerance * std::abs(terms(i) * bound);
+    weight += std::abs(z.high(i));
+    given += std::abs(z.high(i) * bound);
+    z.high(i) = terms(i) = 0;
+  };
+  for (std::size_t k = 0; k < problem.dirichlet_dofs.size(); ++k)
+    bounded_by(problem.dirichlet_dofs[k], problem.dirichlet_values(static_cast<Eigen::Index>(k)));
+  const Bounds bounds{problem.lower, problem.upper, problem.force_limit};
+  for (int i = 0; i < bounds.count(); ++i) {
+    const double bound = z.high(problem.contact[i]) > 0 ? bounds.lower(i) : bounds.upper_or_infinity(i);
+    if (std::isfinite(bound) && std::isinf(bounds.force_limit_or_infinity(i))) bounded_by(problem.contact[i], bound);
+  }
+  if (weight > 0) d -= defaults::row_tolerance * terms.dot(u.cwiseAbs().cwiseMin(given / weight));
+  return d > 0 ? d / (s + z.high.lpNorm<1>()) : 0;
+}
+
+}  // namespace
+
+ForwardError forward_error(const VariationalInequality& problem, const DoubleDoubleVector& u, double next_correction,
+                           const Eigen::VectorXd& constraint_residual, double contraction, double largest_u,
+                           const CorrectionOptions& options) {
+  const double size = u.high.lpNorm<Eigen::Infinity>(), largest = std::max(size, largest_u);
+  const double scale = std::max(size, eps / options.tolerance * largest);
+  const double closed = std::max(
+      defaults::row_tolerance * std::max(1.0, options.tolerance / CorrectionOptions{}.tolerance), options.contact);
+  const bool by_itself = may_be_infeasible(problem);
+  double data = problem.dirichlet_values.size() > 0 ? problem.dirichlet_values.lpNorm<Eigen::Infinity>() : 0;
+  for (const Eigen::VectorXd* bound : {&problem.lower, &problem.upper})
+    for (const double b : *bound)
+      if (std::isfinite(b)) data = std::max(data, std::abs(b));
+  const double to_come = next_correction / (1 - contraction);
+  ForwardError forward_error{next_correction > 0 ? to_come / scale : 0, 0, to_come};
+  for (Eigen::Index row = 0; row < constraint_residual.size(); ++row) {
+    const double left = std::abs(constraint_residual(row));
+    if (!(left > std::numeric_limits<double>::min())) continue;  // 0, or of no digits
+    double terms = 0, unit = 0;
+    for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) {
+      terms += std::abs(b.value() * u.high(b.col()));
+      unit += std::abs(b.value());
+    }
+    const double own = options.kkt_fail() * std::min(terms, data * unit) + eps * eps * unit * largest;
+    forward_error.absolute = std::max(forward_error.absolute, to_come + left / unit);
+    forward_error.constraint =
+        std::max(forward_error.constraint, left / std::min(closed * unit * scale, by_itself ? own : unlimited));
+  }
+  return forward_error;
+}
+
+void throw_if_infeasible(const VariationalInequality& problem, const DoubleDoubleVector& y, const Eigen::VectorXd& u,
+                         double within, const Solution& so_far) {
+  if (!may_be_infeasible(problem)) return;
+  const double least = smallest_feasible_norm(problem, y, u);
+  if (least > within)
+    throw NotConverged(
+        fmt::format("{}: infeasible: after {} corrections u is at most {:.1e}, and no u below {:.1e} meets "
+                    "the bounds, the prescribed values and B u = 0",
+                    so_far.solver, so_far.counters.corrections, within, least),
+        1, so_far.counters.corrections);
+}
+
+double factor_roundoff(const VariationalInequality& problem, const PenaltyFactor& factor) {
+  return eps * problem.free_count() * problem.a1.diagonal().cwiseAbs().maxCoeff() / factor.smallest_pivot();
+}
+
+ConstraintDefect constraint_defect(const VariationalInequality& problem, const Eigen::VectorXd& constraint_residual,
+                                   const BoundStatuses& status) {
+  const Eigen::Index rows = problem.b.rows(), columns = problem.size();
+  ConstraintDefect constraint{0, Eigen::VectorXd(Eigen::VectorXd::Zero(rows))};
+  if (rows < 2 || rows > defaults::max_rows_for_qr || columns > 10 * defaults::max_rows_for_qr ||
+      constraint_residual.isZero(0))
+    return constraint;
+  const Eigen::VectorXd compliance = problem.compliances();
+  Eigen::MatrixXd b = problem.b, step(rows, columns + rows);
+  for (const int i : problem.dirichlet_dofs) b.col(i).setZero();
+  const Eigen::ArrayXd stiffness = problem.a1.diagonal().cwiseAbs() + b.cwiseAbs2().transpose() * problem.m;
+  const Eigen::VectorXd unit = (stiffness > 0).select(stiffness.sqrt().inverse(), 1);
+  step << b * unit.asDiagonal(), Eigen::MatrixXd(compliance.cwiseQuotient(problem.m).cwiseSqrt().asDiagonal());
+  const Eigen::ArrayXd length = step.rowwise().norm();
+  const Eigen::VectorXd norm = (length > 0).select(length, 1);
+  step = norm.cwiseInverse().asDiagonal() * step;
+  constraint.displacement =
+      unit.cwiseProduct(
+              least_squares(step, constraint_residual.cwiseQuotient(norm), defaults::row_tolerance).head(columns))
+          .lpNorm<Eigen::Infinity>();
+  if (compliance.minCoeff() > 0) return constraint;
+  // y: what B u is off by, less its part in the span of the rows where u may move; again, as z = B' y is exact
+  Eigen::VectorXd displacement = Eigen::VectorXd::Ones(columns);
+  displacement(problem.dirichlet_dofs).setZero();
+  for (std::size_t i = 0; i < status.size(); ++i)
+    if (is_active(status[i])) displacement(problem.contact[i]) = 0;
+  const Eigen::VectorXd stiff = (compliance.array() == 0).cast<double>();
+  b = stiff.asDiagonal() * step.leftCols(columns) * displacement.asDiagonal();
+  constraint.infeasible_part = Eigen::VectorXd(-stiff.cwiseProduct(constraint_residual));
+  for (int pass = 0; pass < 3; ++pass) {  // each leaves eps cond(B): three reach 106 bits up to cond(B) = 1e5
+    DoubleDoubleVector z(Eigen::VectorXd::Zero(columns));
+    for (Eigen::Index r = 0; r < rows; ++r)
+      for (RowMatrix::InnerIterator entry(problem.b, r); entry; ++entry)
+        if (displacement(entry.col()) != 0) z.add(entry.col(), entry.value() * constraint.infeasible_part(r));
+    const Eigen::VectorXd part = least_squares(b.transpose(), unit.cwiseProduct(z.high), defaults::row_tolerance);
+    for (Eigen::Index r = 0; r < rows; ++r) constraint.infeasible_part.add(r, {-part(r) / norm(r), 0});
+  }
+  return constraint;
+}
+
+void add_conditioning_error(const VariationalInequality& problem, const PenaltyFactor& factor,
+                            const Eigen::VectorXd& constraint_residual, Solution& result) {
+  const double size = result.u.lpNorm<Eigen::Infinity>();
+  const double trusted = KktTolerances{}.warn * std::max(size, KktTolerances{}.fail * result.unlocked_size);
+  // |K^-1| is about F / smallest pivot, an estimate; 106 bits leave eps^2 of the largest force
+  const double stress =
+      problem.b.rows() > 0 ? (problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(result.p.cwiseAbs())).maxCoeff()
+                           : 0;
+  const double moved = eps * eps * stress * problem.free_count() / factor.smallest_pivot();
+  result.error += moved;
+  if (moved > trusted) {
+    result.warning = fmt::format("{}: forces of {:.0e} may leave an error of {:.0e} in u, {:.0e}", result.solver,
+                                 stress, moved, size);
+    return;
+  }
+  const ConstraintDefect constraint = constraint_defect(problem, constraint_residual, result.status);
+  throw_if_infeasible(problem, constraint.infeasible_part, result.u, (1 + KktTolerances{}.fail) * size, result);
+  result.error += constraint.displacement;
+  if (constraint.displacement > trusted)
+    result.warning =
+        fmt::format("{}: rows of B are nearly dependent, and what is left of them may move u, {:.0e}, by {:.0e}",
+                    result.solver, size, constraint.displacement);
+}
+
+}  // namespace antilock
