@@ -20,7 +20,7 @@
 namespace antilock {
 namespace {
 
-/// One solve: the factor and where the iterates stand.
+/// One solve: the factor and the iterates.
 class IteratedPenalty {
  public:
   IteratedPenalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
@@ -42,7 +42,7 @@ class IteratedPenalty {
       if (correction == 0) result_.unlocked_size = largest;
       const double rho = contraction(moved), next = std::max(rho * moved, acceleration_.next_dependent_step());
       ForwardError now = forward_error(problem_, u_, next, constraint_residual_, rho, result_.unlocked_size, options_);
-      // what is left of a load that a bound can hardly bear is seen by the second residual, and not by the first
+      // a load just above a force limit shows in the second residual, and not in the first
       if (correction == 0 && moved > 0 && problem_.force_limit.size() > 0) now.relative = 1;
       result_.history.push_back(largest > 0 ? moved / largest : 0);
       result_.counters.corrections = correction;
@@ -63,7 +63,7 @@ class IteratedPenalty {
   }
 
  private:
-  /// K du = r1 + delta^-1 B' M r2 + dlambda on the free places, dp = (B du - r2) / delta, delta a row's penalty.
+  /// Solves K du = r1 + delta^-1 B' M r2 + dlambda on the free unknowns, dp = (B du - r2) / delta, delta a row's penalty.
   Eigen::VectorXd outer_step(SplitResidual r) {
     const std::vector<int>&unknown = factor_.ordering().dof, &contact = problem_.contact;
     const Eigen::VectorXd& delta = factor_.penalties();
@@ -81,7 +81,7 @@ class IteratedPenalty {
         factor_.sparse_factor() != nullptr ? sparse_step(r.r1(unknown), bounds) : schur_step(r.r1(unknown), bounds);
     u_ += du;
     const Eigen::VectorXd v = contact_.v.tail(bounds.count());
-    for (int i = 0; i < bounds.count(); ++i)  // what is held stands where its bound is, to the last digit
+    for (int i = 0; i < bounds.count(); ++i)  // an active value is that of its bound, to the last digit
       if (const BoundStatus status = contact_.status[i]; is_active(status) && v(i) == bounds.prescribed(i, status))
         u_.set(contact[i], status == BoundStatus::at_lower ? problem_.lower(i) : problem_.upper(i));
     if (p_.size() == 0) return du;
@@ -102,7 +102,7 @@ class IteratedPenalty {
   Eigen::VectorXd schur_step(Eigen::VectorXd r, const Bounds& bounds) {
     const Eigen::Index c = bounds.count();
     Stopwatch watch;
-    // what acts on a bounded unknown itself stays out of the factor: a great load there, which the bound bears, would
+    // the load on a bounded unknown itself stays out of the factor: a large load there, which the bound carries, would
     // leave its round-off on the neighbours
     const Eigen::VectorXd r_c = r.tail(c);
     r.tail(c).setZero();
@@ -132,7 +132,7 @@ class IteratedPenalty {
     return contact_.v;
   }
 
-  /// By how much a correction brings u closer: as the past tells; at first, without B, the round-off of the factor.
+  /// The factor by which a correction reduces the error of u: measured; at first, without B, the round-off of the factor.
   double contraction(double moved) const {
     if (p_.size() > 0) return acceleration_.contraction();
     if (result_.history.empty()) return std::min(defaults::max_contraction, factor_roundoff(problem_, factor_));
@@ -141,7 +141,7 @@ class IteratedPenalty {
                           : defaults::max_contraction;
   }
 
-  /// No smaller than the compliance, and than what leaves a factor digits of A1.
+  /// Takes a penalty that is smaller, but no smaller than the compliance, nor so small that the factor keeps no digits of A1.
   void reduce_penalty() {
     const double before = factor_.delta(), compliance = problem_.class_rows() > 0 ? problem_.compliance : 0;
     const double smallest = defaults::round_off * stiffness_ratio(problem_).value();
@@ -151,7 +151,7 @@ class IteratedPenalty {
     acceleration_.restart();
   }
 
-  /// u, p and lambda of the last correction, with its error and the judge's doubt. Throws NotConverged where the last
+  /// u, p and lambda of the last correction, with the error and the warning. Throws NotConverged where the last
   /// correction is not small enough.
   Solution finalise(const ForwardError& now) {
     if (!now.within(options_.tolerance))

@@ -19,8 +19,8 @@ struct CorrectionOptions {
   ProgressHook progress = {};                       ///< called after every correction that is not the last
   double contact = 0;  ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
 
-  /// KKT report above which no answer is returned: room for what a u right to the tolerance leaves of it. Who asks for
-  /// little gets little, with a warning.
+  /// The KKT violation above which no solution is returned: a u that is right to the tolerance has some of it. A large
+  /// tolerance gives little accuracy, with a warning.
   double kkt_fail() const { return std::max(KktTolerances{}.fail, 10 * tolerance); }
 };
 
@@ -29,20 +29,21 @@ struct ActiveSetOptions {
   std::optional<double> penalty;  ///< delta where compliance is smaller; empty: choose_penalty
   ContactReduction reduction = ContactReduction::automatic;  ///< of the factor, where the solver makes it
   int max_steps = 1000;  ///< of a correction's contact iteration, which ends, but perhaps late; reached: NotConverged
-  std::optional<BoundStatuses> start;  ///< C: pieces to start from; empty: the nested start
+  std::optional<BoundStatuses> start;  ///< C: statuses to start from; empty: the nested start
 };
 
 /// Two loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer
 /// stress p = compliance^-1 B u, with step 1/delta (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976). It corrects u
-/// and p by one factor of the moderately penalised K = A1 + delta^-1 B' M B. The inner one finds the contact set of
+/// and p by one factor of the penalised A_delta = K = A1 + delta^-1 B' M B. The inner one finds the contact set of
 /// each correction:
 ///
 ///     repeat, correction 0 the first solve:
 ///              r1 = L - A1 u - B' M p + lambda,   r2 = compliance p - B u       exact: residual.hpp
 ///              K du = r1 + delta^-1 B' M r2 + dlambda, with the bounds of u     contact.hpp
 ///              u += du,   p += dp = (B du - r2) / delta
-///              stop where accuracy(next du, r2) is within the tolerance         forward_error.hpp
-///     then:    doubt and the KKT report: a warning, or NotConverged             forward_error.hpp, kkt.hpp
+///              stop where the estimated error of u is within the tolerance      forward_error.hpp
+///     then:    add the error of nearly dependent rows, check the KKT conditions: forward_error.hpp, kkt.hpp
+///              a warning, or NotConverged
 ///
 /// No digit of A1 is ever added to a large one, so the answer is right at every compliance down to and including 0,
 /// where it solves (7) exactly. Once the contact set stays, a mode with a0 = sigma a1 is multiplied by (delta -
@@ -52,11 +53,12 @@ struct ActiveSetOptions {
 /// To read in this order: problem/variational_inequality.hpp, bounds.hpp, contact.hpp, residual.hpp, this,
 /// forward_error.hpp; the constants with their reasons are in defaults.hpp. The outer loop stands in active_set.cpp,
 /// IteratedPenalty::solve. A loop that stops otherwise, after five corrections say, changes the one condition there;
-/// `finished` judges its last correction all the same, and refuses what is not within the tolerance.
+/// `finalise` checks the last correction all the same, and throws where it is not within the tolerance.
 ///
 /// Without contact unknowns this is a linear solve. counters.contact are the steps on the finest level, the largest
 /// number over the corrections. Throws Error for a malformed problem, NotConverged instead of ever returning an
-/// unconverged answer. A bounded combination becomes an unknown of its own (slack_form.hpp).
+/// unconverged answer. A constraint on c . u gets a slack variable
+/// (slack_form.hpp).
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options = {});
 
 /// The same with a factor made before, for a sweep over loads, bounds or compliances of one pair (A1, B).

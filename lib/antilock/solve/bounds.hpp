@@ -11,61 +11,70 @@
 
 namespace antilock {
 
-/// On which piece of its stair a bounded value v stands, lambda the force of the bound on it:
+/// The status of one bound: where the pair (v, lambda) of a bounded value v and of the force lambda that
+/// its bound exerts stands on the set-valued law of the bound (Kikuchi and Oden, Contact Problems in
+/// Elasticity, 1988; in contact one says open, stick and slip):
 ///
-///     below      v <= lower, lambda = +bears        the bound from below gives way
-///     at_lower   v = lower,  0 <= lambda <= bears   (of either sign where lower = upper: an equation)
-///     between    lower <= v <= upper, lambda = 0
-///     at_upper   v = upper, -bears <= lambda <= 0
-///     above      v >= upper, lambda = -bears        the bound from above gives way
+///     slip_below   v <= lower, lambda = +limit        the lower bound has reached its force limit
+///     at_lower     v = lower,  0 <= lambda <= limit   (of either sign where lower = upper: an equation)
+///     inactive     lower <= v <= upper, lambda = 0
+///     at_upper     v = upper, -limit <= lambda <= 0
+///     slip_above   v >= upper, lambda = -limit        the upper bound has reached its force limit
 ///
-/// Along the stair, from below to above, v rises and lambda falls. On every second piece v is given and lambda is
-/// found; on the others it is the other way round.
-enum class BoundStatus : signed char { slip_below = -2, at_lower = -1, inactive = 0, at_upper = 1, slip_above = 2 };
+/// In this order v grows and lambda falls. An active bound (at_lower, at_upper) prescribes v, and lambda
+/// is the unknown; every other status prescribes lambda, and v is the unknown.
+enum class BoundStatus : signed char {
+  slip_below = -2,
+  at_lower = -1,
+  inactive = 0,
+  at_upper = 1,
+  slip_above = 2
+};
 using BoundStatuses = std::vector<BoundStatus>;
 
-/// Whether v is given there.
+/// Whether the bound prescribes v.
 inline bool is_active(BoundStatus status) { return status == BoundStatus::at_lower || status == BoundStatus::at_upper; }
 
-/// C stairs. A bound from below, two bounds, an equation, friction: each is a list of the pieces above that it has.
+/// C bounds with their set-valued laws. A lower bound, two bounds, an equation and Tresca's friction differ
+/// only in the statuses that exist.
 struct Bounds {
-  Eigen::VectorXd lower;             ///< C; -infinity: none
-  Eigen::VectorXd upper = {};        ///< C, or empty: none; +infinity: none here
-  Eigen::VectorXd force_limit = {};  ///< C, or empty: the most that a bound bears; +infinity: anything
-  Eigen::VectorXd accumulated_force =
-      {};  ///< C, or empty: lambda of the corrections so far; `prescribed` and `admissible_range` are without it
+  Eigen::VectorXd lower;             ///< C; -infinity: no lower bound
+  Eigen::VectorXd upper = {};        ///< C, or empty: no upper bounds; +infinity: none here
+  Eigen::VectorXd force_limit = {};  ///< C, or empty: no limits; the largest |lambda|; +infinity: a hard bound
+  /// C, or empty: lambda of the earlier corrections. prescribed() and admissible_range() count lambda from it.
+  Eigen::VectorXd accumulated_force = {};
 
   struct Interval {
     double low, high;
   };
 
   int count() const { return static_cast<int>(lower.size()); }
-  /// The upper bound of i, what it bears (both infinite: none), and its lambda so far.
+  /// The upper bound i; infinity where there is none.
   double upper_or_infinity(int i) const {
     return upper.size() > 0 ? upper(i) : std::numeric_limits<double>::infinity();
   }
+  /// The force limit of bound i; infinity where it has none.
   double force_limit_or_infinity(int i) const {
     return force_limit.size() > 0 ? force_limit(i) : std::numeric_limits<double>::infinity();
   }
   double accumulated(int i) const { return accumulated_force.size() > 0 ? accumulated_force(i) : 0; }
   bool is_equation(int i) const { return lower(i) == upper_or_infinity(i); }
 
-  /// What `status` gives: v where it holds, else lambda - force.
+  /// The quantity that `status` prescribes: v where the bound is active, else lambda - accumulated.
   double prescribed(int i, BoundStatus status) const {
     if (is_active(status)) return status == BoundStatus::at_lower ? lower(i) : upper(i);
     return total_force(i, status, 0) - accumulated(i);
   }
 
-  /// The whole lambda: the force so far and `admissible_range` where v is held, else what the piece gives, to the last
-  /// digit.
+  /// lambda with its accumulated part: accumulated + `reaction` where the bound is active, else the force
+  /// that the status prescribes, to the last digit.
   double total_force(int i, BoundStatus status, double reaction) const {
     if (is_active(status)) return accumulated(i) + reaction;
-    return status == BoundStatus::slip_below   ? force_limit_or_infinity(i)
-           : status == BoundStatus::slip_above ? -force_limit_or_infinity(i)
-                                               : 0;
+    if (status == BoundStatus::inactive) return 0;
+    return status == BoundStatus::slip_below ? force_limit_or_infinity(i) : -force_limit_or_infinity(i);
   }
 
-  /// Where the other one of v and lambda - force must lie.
+  /// The interval in which the other one of v and lambda - accumulated must lie.
   Interval admissible_range(int i, BoundStatus status) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     switch (status) {
@@ -83,13 +92,14 @@ struct Bounds {
     }
   }
 
-  /// The next piece of stair i towards larger values, or towards smaller ones. Throws Error where there is none.
+  /// The status beside `status` of bound i, towards larger values of v or (`up` = false) smaller ones. Throws
+  /// Error where there is none.
   BoundStatus next(int i, BoundStatus status, bool up) const {
-    // v rises and lambda falls: a piece without an end that way is the last one
+    // v grows and lambda falls: a range without an end on that side belongs to the last status
     const auto [low, high] = admissible_range(i, status);
     if (!std::isfinite(is_active(status) == up ? low : high))
-      throw Error(
-          fmt::format("contact: stair {} ends with piece {}; there is none beyond", i, static_cast<int>(status)));
+      throw Error(fmt::format("contact: the status {} of bound {} is the last one; there is none beyond",
+                              static_cast<int>(status), i));
     if (is_equation(i))
       return status != BoundStatus::at_lower ? BoundStatus::at_lower
              : up                            ? BoundStatus::slip_above
@@ -97,17 +107,17 @@ struct Bounds {
     return static_cast<BoundStatus>(static_cast<int>(status) + (up ? 1 : -1));
   }
 
-  /// The pieces that there are, nearest to those asked for; an equation holds unless it gives way. Throws Error where
-  /// `requested` has not one entry per stair.
+  /// The statuses that exist, each the nearest to the one requested; an equation is active unless it slips.
+  /// Throws Error where `requested` has not one entry per bound.
   BoundStatuses nearest_valid(BoundStatuses requested) const {
     if (static_cast<int>(requested.size()) != count())
       throw Error(
-          fmt::format("contact: the start has {} pieces; accepted one per bound, {}", requested.size(), count()));
+          fmt::format("contact: the start has {} statuses; accepted one per bound, {}", requested.size(), count()));
     for (int i = 0; i < count(); ++i) {
       BoundStatus& status = requested[i];
       const bool low = std::isfinite(lower(i)), high = std::isfinite(upper_or_infinity(i)),
-                 gives_way = std::isfinite(force_limit_or_infinity(i));
-      if (gives_way && ((status == BoundStatus::slip_below && low) || (status == BoundStatus::slip_above && high)))
+                 is_soft = std::isfinite(force_limit_or_infinity(i));
+      if (is_soft && ((status == BoundStatus::slip_below && low) || (status == BoundStatus::slip_above && high)))
         continue;
       if (is_equation(i) || (is_active(status) && low && !(status == BoundStatus::at_upper && high)))
         status = BoundStatus::at_lower;
@@ -117,13 +127,13 @@ struct Bounds {
     return requested;
   }
 
-  /// The same stairs for v - u.
+  /// The same bounds for v - u.
   Bounds shifted_by(const Eigen::VectorXd& u) const {
     return {lower - u, upper.size() > 0 ? Eigen::VectorXd(upper - u) : upper, force_limit, accumulated_force};
   }
 };
 
-/// The piece of a bound between two others: theirs where they agree, else between.
+/// The status of a bound between two others: theirs where they agree, else inactive.
 inline BoundStatus common_status(BoundStatus one, BoundStatus other) {
   return one == other ? one : BoundStatus::inactive;
 }

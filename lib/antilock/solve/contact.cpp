@@ -11,14 +11,14 @@
 namespace antilock {
 namespace {
 
-/// A bound that is off its piece: a force by more than round-off, a value by anything. (A value off by round-off costs
-/// a step of the descent, which stays finite. Forces that are 0 but for round-off would be let go of in ever other
-/// sets.)
+/// A bound whose value or force is outside the range of its status: a force by more than round-off, a value by
+/// anything. (A value that is outside by round-off costs one step of the search, which stays finite. Bounds whose
+/// forces are 0 but for round-off would be released in ever other sets.)
 struct Breakpoint {
   int bound;
-  BoundStatus next_status;  ///< the piece beyond that end
-  double value;             ///< of the piece, where its value has left it
-  double step{};            ///< the part of the way at which its value comes there
+  BoundStatus next_status;  ///< beyond the end of the range
+  double value;             ///< the end of the range
+  double step{};            ///< the fraction of the search direction after which the value is there
 };
 
 Equilibrium equilibrium(ContactSystem& system, const Bounds& bounds, const BoundStatuses& status) {
@@ -31,7 +31,7 @@ Equilibrium equilibrium(ContactSystem& system, const Bounds& bounds, const Bound
   return system.solve(active, prescribed);
 }
 
-/// The bounds whose forces have left their pieces, or (`active` = false) those whose values have.
+/// The active bounds whose forces are outside their ranges, or (`active` = false) the others whose values are.
 std::vector<Breakpoint> violations(const Bounds& bounds, const BoundStatuses& status, const Equilibrium& now,
                                    const std::vector<int>& dof_of, bool active) {
   std::vector<Breakpoint> violations;
@@ -39,37 +39,37 @@ std::vector<Breakpoint> violations(const Bounds& bounds, const BoundStatuses& st
     if (is_active(status[i]) != active) continue;
     const double value = active ? now.lambda(i) : now.v(dof_of[i]);
     const auto [low, high] = bounds.admissible_range(i, status[i]);
-    const double noise = active ? now.round_off(i) : 0;
-    const bool under = value<low - noise, over = value> high + noise;
-    if (under || over)  // too little force: v must rise
+    const double tolerance = active ? now.round_off(i) : 0;
+    const bool under = value<low - tolerance, over = value> high + tolerance;
+    if (under || over)  // too small a force: v must grow
       violations.push_back({i, bounds.next(i, status[i], active == under), under ? low : high});
   }
   return violations;
 }
 
-/// v goes towards w, as far as contact.hpp says; `breakpoints` leave their pieces there.
+/// Moves v towards w, as far as contact.hpp says; the bounds of `breakpoints` that are met change their status.
 void projected_search(const ContactSystem& system, std::vector<Breakpoint>& breakpoints, const Eigen::VectorXd& w,
                       Eigen::VectorXd& v, BoundStatuses& status) {
   const Eigen::VectorXd direction = w - v;
   const std::vector<int>& dof_of = system.bounded();
-  for (Breakpoint& m : breakpoints) {
-    const double all = direction(dof_of[m.bound]), share = (m.value - v(dof_of[m.bound])) / all;
-    m.step = all != 0 && share > 0 ? std::min(share, 1.0) : 0;  // 0 where it is no number, so that the loop ends
+  for (Breakpoint& b : breakpoints) {
+    const double full = direction(dof_of[b.bound]), step = (b.value - v(dof_of[b.bound])) / full;
+    b.step = full != 0 && step > 0 ? std::min(step, 1.0) : 0;  // 0 where it is not a number, so that the loop ends
   }
   std::sort(breakpoints.begin(), breakpoints.end(),
             [](const Breakpoint& a, const Breakpoint& b) { return a.step < b.step; });
-  const double first = breakpoints.front().step, visited_faces = (1 - first) * (1 - first) * system.square(direction);
+  const double first = breakpoints.front().step, at_first = (1 - first) * (1 - first) * system.square(direction);
   Eigen::VectorXd next;
-  double part = 1;
-  for (std::size_t stopped = breakpoints.size();; part = breakpoints[stopped - 1].step) {
-    next = v + part * direction;
-    for (const Breakpoint& m : breakpoints)
-      if (m.step <= part) next(dof_of[m.bound]) = m.value;
-    if (part == first || system.square(w - next) < visited_faces) break;
+  double step = 1;
+  for (std::size_t stopped = breakpoints.size();; step = breakpoints[stopped - 1].step) {
+    next = v + step * direction;
+    for (const Breakpoint& b : breakpoints)
+      if (b.step <= step) next(dof_of[b.bound]) = b.value;
+    if (step == first || system.square(w - next) < at_first) break;
     stopped = std::max<std::size_t>(stopped / 2, 1);
   }
-  for (const Breakpoint& m : breakpoints)
-    if (m.step <= part) status[m.bound] = m.next_status;
+  for (const Breakpoint& b : breakpoints)
+    if (b.step <= step) status[b.bound] = b.next_status;
   v = std::move(next);
 }
 
@@ -78,7 +78,7 @@ void projected_search(const ContactSystem& system, std::vector<Breakpoint>& brea
 ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const std::optional<BoundStatuses>& start,
                             int max_steps) {
   BoundStatuses status = bounds.nearest_valid(start ? *start : system.nested_start(bounds, max_steps));
-  std::set<BoundStatuses> visited_faces;  // of all pieces whose lowest point is on them
+  std::set<BoundStatuses> visited_faces;  // whose minimisers were feasible
   Eigen::VectorXd v;
   for (int steps = 1;; ++steps) {
     Equilibrium now = equilibrium(system, bounds, status);
@@ -94,27 +94,27 @@ ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const s
                                      violated.size(), bounds.count(), steps),
                          static_cast<double>(violated.size()) / bounds.count(), steps);
     if (feasible) {
-      for (const Breakpoint& m : violated) status[m.bound] = m.next_status;
+      for (const Breakpoint& b : violated) status[b.bound] = b.next_status;  // released
       v = std::move(now.v);
       continue;
     }
-    if (v.size() == 0) v = now.v;  // the descent starts with no way to go: all that are beyond go to their ends
+    if (v.size() == 0) v = now.v;  // the first direction is 0: every violated value moves to its bound
     projected_search(system, violated, now.v, v, status);
   }
 }
 
 BoundStatuses coarse_start(const Bounds& bounds, ContactSystem& coarse, int max_steps) {
   const int count = bounds.count();
-  const auto second = [](const Eigen::VectorXd& of_all) {
+  const auto every_second = [](const Eigen::VectorXd& of_all) {
     return Eigen::VectorXd(of_all(Eigen::seqN(1, of_all.size() / 2, 2)));
   };
-  Bounds fewer{second(bounds.lower), second(bounds.upper), second(bounds.force_limit),
-               second(bounds.accumulated_force)};
-  // where the others bear nothing, one bears its own force and half of what each neighbour gives up
+  Bounds fewer{every_second(bounds.lower), every_second(bounds.upper), every_second(bounds.force_limit),
+               every_second(bounds.accumulated_force)};
+  // a bound carries its own force, and half of that of each neighbour that is left out
   for (int i = 0; i < count && bounds.force_limit.size() > 0; i += 2)
-    for (const int beside : {i / 2 - 1, i / 2})
-      if (beside >= 0 && beside < fewer.count() && std::isfinite(bounds.force_limit(i)))
-        fewer.force_limit(beside) += 0.5 * bounds.force_limit(i);
+    for (const int neighbour : {i / 2 - 1, i / 2})
+      if (neighbour >= 0 && neighbour < fewer.count() && std::isfinite(bounds.force_limit(i)))
+        fewer.force_limit(neighbour) += 0.5 * bounds.force_limit(i);
   const BoundStatuses status = solve_contact(coarse, fewer, std::nullopt, max_steps).status;
   BoundStatuses start;
   for (int i = 0; i < count; ++i)

@@ -25,7 +25,7 @@ std::vector<int> from_zero_to(Eigen::Index count) {
   return all;
 }
 
-/// Unknown -> group, by the entries of a symmetric K alone. Neighbours are tied by |k_ij| > 0.08 sqrt(k_ii k_jj). An
+/// Unknown -> group, by the entries of a symmetric K alone. Neighbours are strongly connected where |k_ij| > 0.08 sqrt(k_ii k_jj). An
 /// unknown none of whose neighbours has a group makes one with all of them; the others join that of a neighbour. P.
 /// Vanek, J. Mandel, M. Brezina, Computing 56 (1996): 0.08 is theirs.
 std::vector<int> groups_of(const SparseMatrix& k) {
@@ -86,12 +86,12 @@ Equilibrium DenseContact::solve(const std::vector<char>& active, const Eigen::Ve
 BoundStatuses DenseContact::nested_start(const Bounds& bounds, int max_steps) {
   const int fine = bounds.count(), coarse = fine / 2;
   if (fine <= 1) return BoundStatuses(fine, BoundStatus::inactive);
-  const auto kept = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
+  const auto bounded = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
   const Cholesky factor = factor_of(s_(others, others));
-  const Eigen::MatrixXd half = factor.forward(Eigen::MatrixXd(s_(others, kept)));
+  const Eigen::MatrixXd half = factor.forward(Eigen::MatrixXd(s_(others, bounded)));
   const Eigen::VectorXd half_q = factor.forward(Eigen::VectorXd(q_(others)));
-  const Eigen::MatrixXd s = Eigen::MatrixXd(s_(kept, kept)) - half.transpose() * half;
-  const Eigen::VectorXd q = Eigen::VectorXd(q_(kept)) - half.transpose() * half_q;
+  const Eigen::MatrixXd s = Eigen::MatrixXd(s_(bounded, bounded)) - half.transpose() * half;
+  const Eigen::VectorXd q = Eigen::VectorXd(q_(bounded)) - half.transpose() * half_q;
   DenseContact smaller(s, q);
   return coarse_start(bounds, smaller, max_steps);
 }

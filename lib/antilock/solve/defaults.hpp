@@ -2,8 +2,8 @@
 #include <limits>
 
 /// The constants of solve/ that are neither promises (KktTolerances, CorrectionOptions) nor mathematics, and why they
-/// are what they are. Those of the penalty stand in problem/choose_penalty.hpp, those of the two roads in
-/// penalty_factor.hpp.
+/// are what they are. Those of the penalty stand in problem/choose_penalty.hpp, that of the
+/// contact reduction in penalty_factor.hpp.
 namespace antilock::defaults {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -45,7 +45,7 @@ constexpr double max_contraction = 1 - 1.0 / max_corrections;
 /// the smaller the penalty, the more of them the factor has as they are. 6e-11 leaves the factor five digits of A1.
 constexpr double own_penalty = 1e-3;
 
-/// A row that ties a bounded combination c . u to its own unknown w is so much stiffer than c . u: a correction leaves
+/// The row that ties c . u to its slack variable w is stiffer than c . u by this factor: a correction leaves
 /// about 1/4096 of the distance between the two, as if it were made with two penalties less.
 constexpr double slack_stiffness_ratio = penalty_reduction * penalty_reduction;
 

@@ -13,28 +13,28 @@
 namespace antilock {
 namespace {
 
-constexpr double eps = defaults::eps, unlimited = std::numeric_limits<double>::infinity();
+constexpr double eps = defaults::eps, infinite = std::numeric_limits<double>::infinity();
 
-/// Whether B u = 0 in the rows of compliance 0, the prescribed values and the bounds may leave no u: u = 0 is none.
+/// Whether B u = 0 in the rows of compliance 0, the prescribed values and the bounds may exclude each other. They do
+/// not where u = 0 is admissible.
 bool may_be_infeasible(const VariationalInequality& problem) {
-  const bool at_rest =
+  const bool zero_is_admissible =
       problem.dirichlet_values.isZero(0) && (slack(problem, Eigen::VectorXd::Zero(problem.size())).array() >= 0).all();
-  return (problem.compliances().array() == 0).any() && !at_rest;
+  return (problem.compliances().array() == 0).any() && !zero_is_admissible;
 }
 
-/// Farkas's certificate: a number that no admissible u is smaller than, 0 where y (R) proves nothing. Admissible is
-/// what meets the bounds, the prescribed values and B u = 0 in the rows of compliance 0. With y on these rows and z =
-/// B' y,
+/// A lower bound of |u| over the admissible u by Farkas's lemma; 0 where y (R) proves nothing. Admissible is a u that
+/// meets the bounds, the prescribed values and B u = 0 in the rows of compliance 0. With y on these rows and z = B' y,
 ///
 ///     0 = y' B u = z' u >= D - s |u|,  and so |u| >= D / s:
-///     D = sum of z_i lower_i (z_i > 0), z_i upper_i (z_i < 0), z_i fixed_i, where u_i has that
+///     D = sum of z_i lower_i (z_i > 0), z_i upper_i (z_i < 0), z_i times the prescribed u_i, where u_i has one of them
 ///     s = sum of the other |z_i|
 ///
-/// Where nothing is admissible the corrections of p tend to a y with s = 0: M B u, u the nearest to the kernel of B
-/// that the bounds allow. Round-off: rows that differ by less than defaults::row_tolerance are equal, and so D is less
-/// by defaults::row_tolerance of all terms of y' B u: with the value that u_i is given, else with the u_i of the
-/// answer (a gradient of a constant is 0, but for the rounding of B). A great u must not hide what the given values
-/// contradict: no other u_i counts for more than their mean, each weighed by its |z_i|.
+/// Where nothing is admissible the corrections of p tend to a y with s = 0: M B u, u the admissible point that is
+/// nearest to the kernel of B. Round-off: rows that differ by less than defaults::row_tolerance are equal. So D is
+/// reduced by row_tolerance times the terms of y' B u, with the bound or prescribed value of u_i where it has one, else
+/// with the u_i of the iterate (a gradient of a constant is 0, but for the rounding of B). A large u must not hide a
+/// contradiction between the data: no other u_i counts for more than the mean of the data, weighted by |z_i|.
 double smallest_feasible_norm(const VariationalInequality& problem, const DoubleDoubleVector& y,
                               const Eigen::VectorXd& u) {
   DoubleDoubleVector z(Eigen::VectorXd::Zero(problem.size()));
@@ -42,21 +42,21 @@ double smallest_feasible_norm(const VariationalInequality& problem, const Double
   const double size = y.size() > 0 ? y.high.lpNorm<Eigen::Infinity>() : 0;
   if (!(size > 0 && std::isfinite(size))) return 0;
   const double unit = std::exp2(-std::ilogb(size));  // exact
-  double d = 0, s = 0, weight = 0, given = 0;
+  double d = 0, s = 0, weight = 0, data = 0;
   const Eigen::VectorXd compliance = problem.compliances();
   for (Eigen::Index row = 0; row < y.size(); ++row) {
     if (compliance(row) != 0) continue;
-    const DoubleDouble share = unit * y(row);
+    const DoubleDouble y_row = unit * y(row);
     for (RowMatrix::InnerIterator b(problem.b, row); b; ++b) {
       s += eps * eps * std::abs(z.high(b.col()));  // the round-off of the sum
-      z.add(b.col(), b.value() * share);
-      terms(b.col()) += std::abs(b.value() * share.high);
+      z.add(b.col(), b.value() * y_row);
+      terms(b.col()) += std::abs(b.value() * y_row.high);
     }
   }
   const auto bounded_by = [&](int i, double bound) {
     d += z.high(i) * bound - defaults::row_tolerance * std::abs(terms(i) * bound);
     weight += std::abs(z.high(i));
-    given += std::abs(z.high(i) * bound);
+    data += std::abs(z.high(i) * bound);
     z.high(i) = terms(i) = 0;
   };
   for (std::size_t k = 0; k < problem.dirichlet_dofs.size(); ++k)
@@ -66,7 +66,7 @@ double smallest_feasible_norm(const VariationalInequality& problem, const Double
     const double bound = z.high(problem.contact[i]) > 0 ? bounds.lower(i) : bounds.upper_or_infinity(i);
     if (std::isfinite(bound) && std::isinf(bounds.force_limit_or_infinity(i))) bounded_by(problem.contact[i], bound);
   }
-  if (weight > 0) d -= defaults::row_tolerance * terms.dot(u.cwiseAbs().cwiseMin(given / weight));
+  if (weight > 0) d -= defaults::row_tolerance * terms.dot(u.cwiseAbs().cwiseMin(data / weight));
   return d > 0 ? d / (s + z.high.lpNorm<1>()) : 0;
 }
 
@@ -97,7 +97,7 @@ ForwardError forward_error(const VariationalInequality& problem, const DoubleDou
     const double own = options.kkt_fail() * std::min(terms, data * unit) + eps * eps * unit * largest;
     forward_error.absolute = std::max(forward_error.absolute, to_come + left / unit);
     forward_error.constraint =
-        std::max(forward_error.constraint, left / std::min(closed * unit * scale, by_itself ? own : unlimited));
+        std::max(forward_error.constraint, left / std::min(closed * unit * scale, by_itself ? own : infinite));
   }
   return forward_error;
 }
@@ -121,10 +121,10 @@ double factor_roundoff(const VariationalInequality& problem, const PenaltyFactor
 ConstraintDefect constraint_defect(const VariationalInequality& problem, const Eigen::VectorXd& constraint_residual,
                                    const BoundStatuses& status) {
   const Eigen::Index rows = problem.b.rows(), columns = problem.size();
-  ConstraintDefect constraint{0, Eigen::VectorXd(Eigen::VectorXd::Zero(rows))};
+  ConstraintDefect defect{0, Eigen::VectorXd(Eigen::VectorXd::Zero(rows))};
   if (rows < 2 || rows > defaults::max_rows_for_qr || columns > 10 * defaults::max_rows_for_qr ||
       constraint_residual.isZero(0))
-    return constraint;
+    return defect;
   const Eigen::VectorXd compliance = problem.compliances();
   Eigen::MatrixXd b = problem.b, step(rows, columns + rows);
   for (const int i : problem.dirichlet_dofs) b.col(i).setZero();
@@ -134,52 +134,52 @@ ConstraintDefect constraint_defect(const VariationalInequality& problem, const E
   const Eigen::ArrayXd length = step.rowwise().norm();
   const Eigen::VectorXd norm = (length > 0).select(length, 1);
   step = norm.cwiseInverse().asDiagonal() * step;
-  constraint.displacement =
+  defect.displacement =
       unit.cwiseProduct(
               least_squares(step, constraint_residual.cwiseQuotient(norm), defaults::row_tolerance).head(columns))
           .lpNorm<Eigen::Infinity>();
-  if (compliance.minCoeff() > 0) return constraint;
-  // y: what B u is off by, less its part in the span of the rows where u may move; again, as z = B' y is exact
-  Eigen::VectorXd displacement = Eigen::VectorXd::Ones(columns);
-  displacement(problem.dirichlet_dofs).setZero();
+  if (compliance.minCoeff() > 0) return defect;
+  // y: the residual of B u less its part in the span of the rows where u may move. Repeated, since z = B' y is exact
+  Eigen::VectorXd movable = Eigen::VectorXd::Ones(columns);
+  movable(problem.dirichlet_dofs).setZero();
   for (std::size_t i = 0; i < status.size(); ++i)
-    if (is_active(status[i])) displacement(problem.contact[i]) = 0;
+    if (is_active(status[i])) movable(problem.contact[i]) = 0;
   const Eigen::VectorXd stiff = (compliance.array() == 0).cast<double>();
-  b = stiff.asDiagonal() * step.leftCols(columns) * displacement.asDiagonal();
-  constraint.infeasible_part = Eigen::VectorXd(-stiff.cwiseProduct(constraint_residual));
+  b = stiff.asDiagonal() * step.leftCols(columns) * movable.asDiagonal();
+  defect.infeasible_part = Eigen::VectorXd(-stiff.cwiseProduct(constraint_residual));
   for (int pass = 0; pass < 3; ++pass) {  // each leaves eps cond(B): three reach 106 bits up to cond(B) = 1e5
     DoubleDoubleVector z(Eigen::VectorXd::Zero(columns));
     for (Eigen::Index r = 0; r < rows; ++r)
       for (RowMatrix::InnerIterator entry(problem.b, r); entry; ++entry)
-        if (displacement(entry.col()) != 0) z.add(entry.col(), entry.value() * constraint.infeasible_part(r));
+        if (movable(entry.col()) != 0) z.add(entry.col(), entry.value() * defect.infeasible_part(r));
     const Eigen::VectorXd part = least_squares(b.transpose(), unit.cwiseProduct(z.high), defaults::row_tolerance);
-    for (Eigen::Index r = 0; r < rows; ++r) constraint.infeasible_part.add(r, {-part(r) / norm(r), 0});
+    for (Eigen::Index r = 0; r < rows; ++r) defect.infeasible_part.add(r, {-part(r) / norm(r), 0});
   }
-  return constraint;
+  return defect;
 }
 
 void add_conditioning_error(const VariationalInequality& problem, const PenaltyFactor& factor,
                             const Eigen::VectorXd& constraint_residual, Solution& result) {
   const double size = result.u.lpNorm<Eigen::Infinity>();
-  const double trusted = KktTolerances{}.warn * std::max(size, KktTolerances{}.fail * result.unlocked_size);
-  // |K^-1| is about F / smallest pivot, an estimate; 106 bits leave eps^2 of the largest force
+  const double warn_above = KktTolerances{}.warn * std::max(size, KktTolerances{}.fail * result.unlocked_size);
+  // |K^-1| is estimated by n_free / smallest pivot; double-double numbers leave eps^2 of the largest force
   const double stress =
       problem.b.rows() > 0 ? (problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(result.p.cwiseAbs())).maxCoeff()
                            : 0;
   const double moved = eps * eps * stress * problem.free_count() / factor.smallest_pivot();
   result.error += moved;
-  if (moved > trusted) {
+  if (moved > warn_above) {
     result.warning = fmt::format("{}: forces of {:.0e} may leave an error of {:.0e} in u, {:.0e}", result.solver,
                                  stress, moved, size);
     return;
   }
-  const ConstraintDefect constraint = constraint_defect(problem, constraint_residual, result.status);
-  throw_if_infeasible(problem, constraint.infeasible_part, result.u, (1 + KktTolerances{}.fail) * size, result);
-  result.error += constraint.displacement;
-  if (constraint.displacement > trusted)
+  const ConstraintDefect defect = constraint_defect(problem, constraint_residual, result.status);
+  throw_if_infeasible(problem, defect.infeasible_part, result.u, (1 + KktTolerances{}.fail) * size, result);
+  result.error += defect.displacement;
+  if (defect.displacement > warn_above)
     result.warning =
         fmt::format("{}: rows of B are nearly dependent, and what is left of them may move u, {:.0e}, by {:.0e}",
-                    result.solver, size, constraint.displacement);
+                    result.solver, size, defect.displacement);
 }
 
 }  // namespace antilock

@@ -4,59 +4,63 @@
 
 namespace antilock {
 
-/// How far an iterate is from the answer, judged by the correction that led to it: r1 and r2 were exact, so the next
-/// corrections, `next_correction` + rate next + rate^2 next + ..., are what u is wrong by (LAPACK's xGERFSX asks the
-/// same of its solutions).
+/// The estimated forward error of an iterate, from the correction that led to it. The residuals r1 and r2 were exact,
+/// so that the error of u is the sum of the corrections to come, next + rate next + rate^2 next + ..., as LAPACK's
+/// xGERFSX estimates that of its solutions.
 struct ForwardError {
-  double relative = 1;    ///< of u: next / (1 - rate), relative to U = max(|u|, eps |largest u| / tolerance)
-  double constraint = 1;  ///< of the rows of B u = compliance p, the worst: |r2_j| over what it may be
-  double absolute =
-      0;  ///< of u, absolute: next / (1 - rate), and what closes the worst row at least, |r2_j| / (|B| 1)_j
+  double relative = 1;    ///< of u: next / (1 - rate) over U = max(|u|, eps |largest u| / tolerance)
+  double constraint = 1;  ///< the largest constraint residual |r2_j| of a row of B u = compliance p over its tolerance
+  double absolute = 0;    ///< of u: next / (1 - rate), plus |r2_j| / (|B| 1)_j of the worst row
   bool within(double tolerance) const { return relative <= tolerance && constraint <= 1; }
 };
 
-/// What is left of r2 after a correction is (compliance - delta) dp, exactly. A row is closed at
+/// Estimates the forward error of u. After a correction the constraint residual r2 is (compliance - delta) dp, exactly.
+/// A row j satisfies its constraint where
+///
 ///     |r2_j| <= defaults::row_tolerance (|B| 1)_j U
-/// and what that may leave of u is told by constraint_defect below. The factor defaults::row_tolerance is larger where
-/// the tolerance asked for is larger than the default, and where the contact solver works to a tolerance. Where there
-/// may be no answer at all, |r2_j| must also be below `refused` times the row's own terms, and times the largest bound
-/// and prescribed value: else a great u would hide a row that never closes.
+///
+/// constraint_defect() below says how much of u such a residual may stand for. The factor row_tolerance grows with a
+/// tolerance that is larger than the default, and with that of the contact solver. Where the problem may be infeasible,
+/// |r2_j| must also be at most CorrectionOptions::kkt_fail() times the terms of the row, and times the largest bound and
+/// prescribed value: otherwise a large u would hide a row whose constraint is never met.
 ForwardError forward_error(const VariationalInequality& problem, const DoubleDoubleVector& u, double next_correction,
                            const Eigen::VectorXd& constraint_residual, double contraction, double largest_u,
                            const CorrectionOptions& options);
 
-/// Throws NotConverged where y (R), a residual of B u = 0 that does not go away, proves by Farkas's certificate
-/// (forward_error.cpp) that no u of at most `within` is admissible, u (N) being the one that left it. It is asked
-/// twice. While the corrections are slow, y = M B u, and u may still grow. `within` is 1 / sqrt(eps) times the largest
-/// u so far then, half of a double's digits: ample, since a stiffer problem hardly moves more than the moderate one
-/// (expected, not proved). Of an answer y is ConstraintDefect::for_good, and `within` is its own size.
+/// Throws NotConverged where y (R), a residual of B u = 0 that does not go away, proves by Farkas's lemma
+/// (forward_error.cpp) that no admissible u has max |u| <= `bound`; u (N) is the iterate that left it. There are two
+/// calls. While the corrections are slow, y = M B u, and u may still grow: `bound` is then 1 / sqrt(eps) times the
+/// largest u so far, half of a double's digits. That is ample, since a stiffer problem hardly moves more than the
+/// penalised one (expected, not proved). For a solution, y is ConstraintDefect::infeasible_part, and `bound` is the size
+/// of u.
 void throw_if_infeasible(const VariationalInequality& problem, const DoubleDoubleVector& y, const Eigen::VectorXd& u,
                          double within, const Solution& so_far);
 
-/// F eps cond(K): what a solve may be wrong by, relative to u. Without B, where it is asked for, K is A1. The largest of
-/// its diagonal over the smallest pivot stands for cond(K): an estimate, no bound.
+/// The round-off of one solve relative to u, n_free eps cond(K), where B has no rows: K is then A1. cond(K) is estimated
+/// by the largest diagonal entry over the smallest pivot.
 double factor_roundoff(const VariationalInequality& problem, const PenaltyFactor& factor);
 
-/// What is left of r2, and what it does. Each row in its own unit, each unknown in that of its stiffness; rows nearer
-/// to dependent than defaults::row_tolerance are one.
+/// The effect of a constraint residual r2. Each row counts in its own unit, each unknown in that of its stiffness; rows
+/// whose distance is below defaults::row_tolerance count as equal.
 struct ConstraintDefect {
-  /// By how much u is off for it: max |v|, v the shortest step (in the energy of the diagonals) that closes the rows.
-  /// Along a singular value s of B an r2 of 1e-15 stands for 1e-15 / s of u, and the next correction hardly moves that.
-  /// A row of compliance c gives way as well: a spring of its own, of the stiffness m / c, takes a part of the step.
+  /// The error of u that r2 stands for: max |v|, v the shortest step (in the energy of the diagonals) that meets the
+  /// constraints. Along a singular value s of B a residual of 1e-15 stands for 1e-15 / s of u, and the next correction
+  /// hardly changes it. A row of compliance c > 0 takes a part of the step itself, as a spring of stiffness m / c.
   double displacement = 0;
-  /// R: the part of r2 that no step closes in the rows of compliance 0, as the y of a certificate: B' y = 0 where u is
-  /// neither prescribed nor held.
+  /// R: the part of r2 that no step removes in the rows of compliance 0, as the y of an infeasibility certificate
+  /// (Boyd and Vandenberghe, Convex Optimization, 5.8): B' y = 0 where u is neither prescribed nor at an active bound.
   DoubleDoubleVector infeasible_part;
 };
-/// A dense QR: where B has more than defaults::max_rows_for_qr rows, or there are more than ten times as many
-/// unknowns, nothing is looked for and both are 0. There Solution::error knows nothing of such rows, and
-/// `kernel_dimension` (analysis/) tells.
+
+/// Computed by a dense QR. Where B has more than defaults::max_rows_for_qr rows, or more than ten times as many
+/// unknowns, both parts are 0 without a computation: Solution::error does not contain such rows there, and
+/// kernel_dimension (analysis/) finds them.
 ConstraintDefect constraint_defect(const VariationalInequality& problem, const Eigen::VectorXd& constraint_residual,
                                    const BoundStatuses& status);
 
-/// What no correction shows: forces of p so large that 106 bits leave something of them, and rows of B so nearly
-/// dependent that what is left of them moves u. Adds what u moves by to the error of `answer`, absolute yet, and warns
-/// where it is above 1e-9 of u: of the forces first. Throws NotConverged where what is left of r2 proves that no u of
+/// Adds to result.error, which is absolute here, the errors of u that no correction shows: the round-off of forces p
+/// that are so large that 106 bits do not hold them, and the constraint defect of nearly dependent rows of B. Warns
+/// where one of them is above 1e-9 of u, of the forces first. Throws NotConverged where the defect proves that no u of
 /// this size is admissible.
 void add_conditioning_error(const VariationalInequality& problem, const PenaltyFactor& factor,
                             const Eigen::VectorXd& constraint_residual, Solution& result);

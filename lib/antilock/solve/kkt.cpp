@@ -51,7 +51,7 @@ Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector
   kkt.residual = max_or_nan(kkt.residual, ratio(parts.strain, u));
   for (Eigen::Index i = 0; i < forces.size(); ++i) {
     if (fixed[i] != 0) {
-      forces(i) = unbounded;  // the clamp bears any
+      forces(i) = unbounded;  // the clamp carries any force
       continue;
     }
     // what the rounding of u and p alone may leave of r1 is no error: flat cells multiply it
@@ -62,8 +62,8 @@ Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector
 }
 
 void add_bound(Kkt& kkt, const Bounds& bounds, int i, double value, double lambda, double reach, double force) {
-  const double lower = bounds.lower(i), upper = bounds.upper_or_infinity(i), bears = bounds.force_limit_or_infinity(i);
-  const bool soft = std::isfinite(bears);
+  const double lower = bounds.lower(i), upper = bounds.upper_or_infinity(i), limit = bounds.force_limit_or_infinity(i);
+  const bool soft = std::isfinite(limit);
   // between two bounds either sign of lambda is right, and each side answers for its own
   const bool two = std::isfinite(lower) && std::isfinite(upper);
   const double up = two ? std::max(lambda, 0.0) : lambda, down = two ? std::max(-lambda, 0.0) : -lambda;
@@ -72,13 +72,14 @@ void add_bound(Kkt& kkt, const Bounds& bounds, int i, double value, double lambd
     const double scale = std::max(reach, std::abs(bound));  // its own: a far obstacle hides no near one
     if (!two) kkt.min_pressure = min_or_nan(kkt.min_pressure, ratio(pressure, force));
     if (!soft) kkt.min_gap = min_or_nan(kkt.min_gap, ratio(gap, scale));
-    // what is not borne beyond a bound; a bound that bears far more than the forces at work is not passed by round-off
+    // beyond a bound, the part of its limit that it does not use; a limit far above the forces at work is not reached
+    // by round-off
     const bool beyond = soft && gap < 0;
-    const double idle = beyond ? bears - pressure : pressure, unit = beyond ? std::max(force, bears) : force;
+    const double idle = beyond ? limit - pressure : pressure, unit = beyond ? std::max(force, limit) : force;
     kkt.complementarity = max_or_nan(kkt.complementarity, ratio(std::abs(idle * gap), scale * unit));
   };
   if (two) kkt.min_pressure = min_or_nan(kkt.min_pressure, ratio(std::abs(lambda), force));
-  if (soft) kkt.min_pressure = min_or_nan(kkt.min_pressure, ratio(bears - std::abs(lambda), std::max(force, bears)));
+  if (soft) kkt.min_pressure = min_or_nan(kkt.min_pressure, ratio(limit - std::abs(lambda), std::max(force, limit)));
   side(lower, value - lower, up);
   side(upper, upper - value, down);
 }

@@ -19,18 +19,18 @@ namespace antilock {
 /// | min_pressure, of bound i  | lambda_i at a lower bound  | force_i               |
 /// |                           | -lambda_i at an upper one  | force_i               |
 /// |                           | |lambda_i| between two     | force_i               |
-/// |                           | g_i - |lambda_i|, where the bound bears g_i          | max(force_i, g_i)             |
-/// | complementarity           | |lambda_i gap|, of lambda_i the part that side bears | the gap's scale times force_i |
+/// |                           | g_i - |lambda_i|, where g_i is the force limit       | max(force_i, g_i)             |
+/// | complementarity           | |lambda_i gap|, lambda_i of that side alone           | the gap's scale times force_i |
 ///
 /// Why: the terms of A1 u are larger than the forces at work by h^-2 and would hide an error; a great force must hide
 /// nothing elsewhere, nor a far obstacle a near one; the rounding of u and p is no error; a strain has the unit of its
 /// row; prescribed values hold exactly; between two bounds either sign of lambda is right, and each side is by itself.
-/// A bound that gives way leaves no gap; beyond it complementarity asks for lambda_i = g_i: |(g_i - |lambda_i|) gap|.
+/// A bound that slips leaves no gap; beyond it complementarity asks for lambda_i = g_i: |(g_i - |lambda_i|) gap|.
 ///
-///     s_i    the bounded value: u_k of a contact unknown k, c . u of a row c of combinations
+///     s_i    the bounded value: u_k of a contact unknown k, c . u of a row c of constraints
 ///     c_i    what s_i is at most where no |u| is above 1: 1, and sum_k |c_k|
-///     force_i  min(own_k, F_0), and its smallest value over |c_k| on the free unknowns of a combination
-///     U      max(|u|, 1e-6 moderate): a locked u tends to 0, and its round-off is that of its size before
+///     force_i  min(own_k, F_0), and its smallest value over |c_k| on the free unknowns of a constraint
+///     U      max(|u|, 1e-6 unlocked_size): a locked u tends to 0, and its round-off is that of its size before
 ///     t      |L| + |A1| |u| + |B'| M |p| + |lambda|, the terms of r1
 ///     own    max(t, U diag(A1 + B' M B)), the forces at one unknown
 ///     F_0, F the largest load and force of a bound on an unknown, and with the reactions of the fixed unknowns
@@ -49,11 +49,11 @@ double worst_violation(const Kkt& kkt);
 
 /// Fills solution.kkt and solution.warning; throws NotConverged where the report is above `fail` or not finite.
 void check_kkt(const VariationalInequality& problem, Solution& solution, const KktTolerances& levels = {});
-/// The second half of it: judges the report that the solution carries.
+/// The second half of check_kkt: compares the report that the solution has with the tolerances.
 void apply_tolerances(Solution& solution, const KktTolerances& levels = {});
 
-/// What the report compares, unknown by unknown. Of a problem in pieces each part is the sum over the pieces, strain
-/// and what is noted of them are maxima, min_gap and min_pressure minima.
+/// What the report compares, unknown by unknown. Of a problem on subdomains each part is the sum over them;
+/// strain and the numbers of the report are maxima, min_gap and min_pressure minima.
 struct KktParts {
   Eigen::VectorXd r1;         ///< N
   Eigen::VectorXd terms;      ///< N, t: the sum of the absolute values of all terms of r1
@@ -68,11 +68,11 @@ struct KktParts {
 /// All but the forces of the bounds. u: N entries, p: R.
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p);
 
-/// Notes the residual of the equations. Returns min(own, F_0) of all unknowns (N), infinite where `fixed` (N) is not 0:
-/// where the value is prescribed. `u`, `force`, `with_reactions`: U, F_0, F, of a problem in pieces those of the whole.
+/// Adds the residual of the equations to the report. Returns min(own, F_0) of all unknowns (N), infinite where `fixed` (N) is not 0:
+/// where the value is prescribed. `u`, `force`, `with_reactions`: U, F_0, F, of a problem on subdomains those of the whole.
 Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
                               double with_reactions);
-/// Notes the rows of bound i, whose value is s_i = `value`. `reach`: U c_i; `force`: force_i.
+/// Adds the rows of bound i to the report, whose value is s_i = `value`. `reach`: U c_i; `force`: force_i.
 void add_bound(Kkt& kkt, const Bounds& bounds, int i, double value, double lambda, double reach, double force);
 
 }  // namespace antilock

@@ -6,7 +6,7 @@
 
 namespace antilock {
 
-/// Where each unknown stands among the unknowns to solve for: the free ones in their own order, the contact ones last.
+/// The permutation of the unknowns to solve for: the interior free ones in their own order, then the contact unknowns.
 struct DofOrdering {
   explicit DofOrdering(const VariationalInequality& problem) : position(problem.size(), 0) {
     for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.contact})
@@ -18,9 +18,9 @@ struct DofOrdering {
   }
   int contact() const { return static_cast<int>(dof.size()) - interior; }
 
-  std::vector<int> dof;       ///< F: place -> unknown
-  std::vector<int> position;  ///< N: unknown -> place, -1 where fixed
-  int interior = 0;           ///< F - C: the contact unknowns stand at interior, interior + 1, ...
+  std::vector<int> dof;       ///< n_free: position -> unknown
+  std::vector<int> position;  ///< N: unknown -> position, -1 where it is prescribed
+  int interior = 0;           ///< n_free - C: the contact unknowns stand at interior, interior + 1, ...
 
  private:
   void append(int i) {
@@ -38,7 +38,7 @@ inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, doubl
   return penalties;
 }
 
-/// Upper triangle (F x F, in the places of DofOrdering) of K = A1 + B' M diag(penalty)^-1 B on the free unknowns, from
+/// Upper triangle (n_free x n_free, in the order of DofOrdering) of K = A1 + B' M diag(penalty)^-1 B on the free unknowns, from
 /// R penalties.
 /// Only the factorisation may see this sum: in it A1 has lost digits to delta^-1 (tutorial 18: the round-off trap).
 inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const DofOrdering& ordering,

@@ -30,7 +30,7 @@ bool same(const Sparse& one, const Sparse& other) {
          equal(one.outerIndexPtr(), other.outerIndexPtr(), one.outerSize());
 }
 
-/// Whether the contact problem takes the sparse road (see ContactReduction).
+/// Whether the contact problem is solved on the sparse matrix (see ContactReduction).
 bool chooses_sparse(ContactReduction reduction, const DofOrdering& ordering) {
   const int bounded = ordering.contact();
   if (reduction != ContactReduction::automatic) return bounded > 0 && reduction == ContactReduction::sparse;

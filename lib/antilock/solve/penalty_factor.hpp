@@ -9,29 +9,29 @@ namespace antilock {
 
 class SlackForm;
 
-/// How the contact problem of a correction is solved.
+/// How the linear system of a correction is reduced for the contact iteration.
 ///
-/// dense: the contact unknowns come last in the factor, everything else is eliminated once, and the contact iteration
-/// works on their C x C Schur complement. sparse: each step of the contact iteration factors K on the unknowns that are
-/// not held; its cost follows the sparse factor, whatever C is. automatic takes the sparse one where
+/// schur_complement: the contact unknowns come last in the factor, everything else is eliminated once, and the contact iteration
+/// works on their C x C Schur complement (static condensation). sparse: each step of the contact iteration factors K on the unknowns that are
+/// not active; its cost follows the sparse factor, whatever C is. automatic takes sparse where
 ///
 ///     C > 10 sqrt(F),   F free unknowns
 ///
 /// Measured on a membrane (figures/benchmarks/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F):
-/// dense over sparse seconds are 0.2 to 0.4 at k = 1 to 4, 0.5 to 0.9 at 8, 0.6, 1.1 and 1.4 at 10 and 0.8, 1.4 and 2.5
-/// at 12, for n = 32, 64 and 128: C^3 stands against F^(3/2). Where all unknowns are bounded, the sparse road is taken
-/// from 101 on: at 225 both cost the same, at 529 it takes a fifth. Uzawa asks for a factor of the dense one. (A beam of
-/// 512 cells takes as many steps on either.)
+/// the seconds of schur_complement over those of sparse are 0.2 to 0.4 at k = 1 to 4, 0.5 to 0.9 at 8, 0.6, 1.1 and 1.4 at 10 and 0.8, 1.4 and 2.5
+/// at 12, for n = 32, 64 and 128: C^3 stands against F^(3/2). Where all unknowns are bounded, sparse is taken
+/// from 101 on: at 225 both cost the same, at 529 it takes a fifth. Uzawa needs schur_complement. (A beam of
+/// 512 cells takes as many steps with either.)
 enum class ContactReduction { automatic, schur_complement, sparse };
 
-/// Sparse Cholesky factor L L' = P K P' of the moderately penalised K = A1 + delta^-1 B' M B. On the dense road with
-/// the contact unknowns ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur
+/// Sparse Cholesky factor L L' = P K P' of the penalised matrix A_delta, K = A1 + delta^-1 B' M B. With
+/// schur_complement the contact unknowns are ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur
 /// complement, so the whole contact problem is solved on it for next to nothing. It serves every load, every bound and,
 /// where delta is the same, every compliance of one matrix pair (A1, B).
 class PenaltyFactor {
  public:
   /// refactor(penalty_parameter(problem, penalty)). Throws Error for a malformed problem or a penalty that is not
-  /// positive, if K is not positive definite (then A1 + B' M B is singular: a piece is held nowhere), or out of memory.
+  /// positive, if K is not positive definite (then A1 + B' M B is singular: a component of the mesh is held nowhere), or out of memory.
   explicit PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
                          ContactReduction reduction = ContactReduction::automatic,
                          CholeskyMaker make = default_cholesky);
@@ -39,7 +39,7 @@ class PenaltyFactor {
   /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B
   /// or M than this factor's, to the last bit: one walk over the data, about the cost of a residual.
   void check_fits(const VariationalInequality& problem) const;
-  /// The same, and the problem whose bounds are all on unknowns (slack_form.hpp).
+  /// The same, and the problem in slack form, with all bounds on unknowns (slack_form.hpp).
   SlackForm slack_form(const VariationalInequality& problem) const;
   /// A new numeric factorisation for another delta, or one so much larger that the factor has its pivots; the symbolic
   /// analysis is kept. Throws as the constructor does, and delta() is 0 then, until it succeeds.
@@ -51,13 +51,13 @@ class PenaltyFactor {
   const DofOrdering& ordering() const { return ordering_; }
   /// The smallest pivot of K: to about a factor of F its smallest eigenvalue, for next to nothing.
   double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
-  /// K^-1 r on the F free places; on the sparse road of the unknowns that are not held, 0 on the held ones.
+  /// K^-1 r on the n_free unknowns; with sparse on those that are not eliminated, 0 on the others.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_.solve(r); }
 
-  /// The sparse road's K, which holds unknowns; nullptr on the dense one.
+  /// The factor of K with eliminated unknowns; nullptr with schur_complement.
   ConstrainedCholesky* sparse_factor() { return sparse_ ? &factor_ : nullptr; }
 
-  // The dense road's; on the sparse one they throw Error.
+  // With schur_complement alone; with sparse they throw Error.
   /// The factor itself: of L^-1 P r the last C entries belong to the contact unknowns, in their order.
   const SparseCholesky& dense() const;
   /// C x C lower triangular trailing block of L, and the Schur complement of which it is the factor.
@@ -71,11 +71,11 @@ class PenaltyFactor {
  private:
   double first_delta_, delta_ = 0;
   Eigen::VectorXd penalties_;
-  VariationalInequality problem_;  ///< that it was made of, tied
+  VariationalInequality problem_;  ///< that it was made of, in slack form
   DofOrdering ordering_;
   bool sparse_;
   ConstrainedCholesky factor_;
-  Eigen::MatrixXd contact_block_, schur_;  ///< of the dense road
+  Eigen::MatrixXd contact_block_, schur_;  ///< with schur_complement
   double schur_seconds_ = 0;
 };
 

@@ -18,7 +18,7 @@ struct Kkt {
 
 /// What the solve did: counted, so that a test can assert that an absent effect costs nothing.
 struct Counters {
-  int unknowns = 0;        ///< solved for: neither fixed nor condensed away by hand
+  int unknowns = 0;        ///< solved for: not in dirichlet_dofs
   int factorisations = 0;  ///< numeric sparse Cholesky factorisations (or ILUT)
   int solves = 0;          ///< sparse triangular solves (or CG runs)
   int contact = 0;         ///< steps of the contact iteration (active sets tried, Uzawa steps)
@@ -37,9 +37,9 @@ struct Solution {
   Eigen::VectorXd p;         ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
   Eigen::VectorXd lambda;    ///< C contact forces, one per bound (a force; measure/ turns it to a density): >= 0 at a
                              ///< lower bound, <= 0 at an upper one
-  BoundStatuses status;      ///< C: the piece of its stair that each bound is on; empty where the solver knows none
-  std::vector<bool> active;  ///< C: in contact, with either bound: is_active(pieces[i])
-  double unlocked_size = 0;  ///< largest |u| with the moderate penalty in place of the compliance: the size of u before
+  BoundStatuses status;      ///< C: the status of each bound; empty where the solver knows none
+  std::vector<bool> active;  ///< C: in contact, with either bound: is_active(status[i])
+  double unlocked_size = 0;  ///< largest |u| with the penalty in place of the compliance: the size of u before
                              ///< it locks, where it is known (0: it is not)
   /// Forward error of u in the maximum norm, relative to the largest |u|; 0: none is claimed, or there was nothing left
   /// to correct. The sum of what the next corrections would add, with the contraction that was measured, of what is

@@ -31,7 +31,7 @@ class SparseCholesky {
   virtual Eigen::MatrixXd trailing_block(int first) const = 0;
 };
 
-/// Who makes a factor.
+/// A function that makes a factor.
 using CholeskyMaker = std::unique_ptr<SparseCholesky> (*)();
 
 /// CHOLMOD's, supernodal on a BLAS: the fastest that there is. Where rows are to stay last, CAMD orders the rest (a
@@ -40,14 +40,14 @@ using CholeskyMaker = std::unique_ptr<SparseCholesky> (*)();
 /// round-off.
 std::unique_ptr<SparseCholesky> default_cholesky();
 
-/// A symmetric positive definite K (F x F) of which some unknowns may be held: the factor is that of the others, the
-/// rows and columns of the held ones are left with their diagonal alone. One analysis serves every set, so that another
-/// set costs one numeric factorisation.
+/// A symmetric positive definite K (F x F) of which some unknowns may be eliminated, as prescribed values are: the
+/// factor is that of the others, the rows and columns of the eliminated ones keep their diagonal alone. One analysis
+/// serves every set, so that another set costs one numeric factorisation.
 class ConstrainedCholesky {
  public:
   explicit ConstrainedCholesky(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
 
-  /// Takes the upper triangle of K and factors it with nothing held; a later one must have the same pattern, and `last`
+  /// Takes the upper triangle of K and factors it with nothing eliminated; a later one must have the same pattern, and `last`
   /// is of the first alone. Returns the row of a lost pivot. All as SparseCholesky.
   std::optional<int> factorise(SparseMatrix&& k, int last = 0) {
     k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved
@@ -62,7 +62,7 @@ class ConstrainedCholesky {
     return lost_pivot;
   }
 
-  /// Throws Error where the rest of K is not positive definite.
+  /// Eliminates the marked unknowns, and those alone. Throws Error where the rest of K is not positive definite.
   void eliminate(const std::vector<char>& eliminated) {
     if (eliminated == eliminated_) return;
     SparseMatrix rest = k_;
@@ -76,7 +76,7 @@ class ConstrainedCholesky {
     eliminated_ = eliminated;
   }
 
-  /// x = K^-1 r on the unknowns that are not held, 0 on the held ones.
+  /// x = K^-1 r on the unknowns that are not eliminated, 0 on the others.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const {
     Eigen::VectorXd x = cholesky_->backward(cholesky_->forward(r));
     for (Eigen::Index i = 0; i < x.size(); ++i)

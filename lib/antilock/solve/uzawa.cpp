@@ -18,14 +18,14 @@
 namespace antilock {
 namespace {
 
-/// Steps from one look at the duality gap, the hook and the clock to the next: a step costs far less than a look.
+/// Steps between two checks of the duality gap, the hook and the clock: a step costs far less than a check.
 constexpr int check_interval = 32;
 
 /// An upper bound of J(v+) - J(u_h) on Gamma_C, v+ = v moved to the nearest bound where it is beyond, for v = S^-1 (q +
 /// lambda) and any lambda of the right signs: the energy of v+ less the dual energy of lambda, -(q + lambda) S^-1 (q +
 /// lambda) / 2 + lambda bound (the lower one where lambda > 0, the upper one where lambda < 0), which simplifies to
-///     lambda (v+ - bound) + d S d / 2,   d = v+ - v what v sinks in.
-/// A bound that gives way moves nothing and adds the work that it takes up, what it bears times the distance from it.
+///     lambda (v+ - bound) + d S d / 2,   d = v+ - v the penetration.
+/// A bound with a force limit moves nothing and adds the work that it takes up, the limit times the distance.
 double duality_gap(const Eigen::MatrixXd& s, const Bounds& bounds, const ContactResult& result) {
   Eigen::VectorXd inside = result.v;
   double work = 0;
@@ -40,7 +40,7 @@ double duality_gap(const Eigen::MatrixXd& s, const Bounds& bounds, const Contact
   return work + 0.5 * d.dot(s * d);
 }
 
-/// Uzawa on Gamma_C alone. The compliance C = S^-1 maps contact forces to displacements.
+/// Uzawa on Gamma_C alone. The flexibility S^-1 maps contact forces to displacements.
 class CondensedUzawa {
  public:
   CondensedUzawa(const PenaltyFactor& factor, const UzawaOptions& options) : factor_(factor), options_(options) {}
@@ -53,7 +53,7 @@ class CondensedUzawa {
     Eigen::VectorXd q = given.q();                       // the steps are taken on whole forces
     if (asked.accumulated_force.size() > 0) q -= asked.accumulated_force;
     ContactResult result;
-    // the step is taken on f = q + lambda >= q: where the obstacle bears a great load, little is left of the two
+    // the step is taken on f = q + lambda >= q: where the obstacle carries a large load, little is left of the two
     Eigen::VectorXd f = q;
     if (before.lambda.size() > 0) f += before.lambda;
     while (true) {
@@ -88,12 +88,12 @@ class CondensedUzawa {
   std::vector<double> history;
 
  private:
-  /// The piece that (v, lambda) stands on: a bound that pushes holds, but not where it bears its most.
+  /// The status of (v, lambda): a bound with a force is active, unless the force is at its limit.
   BoundStatus status_of(const Bounds& bounds, int i, double q, double f, ContactResult& result) const {
-    const double most = bounds.force_limit_or_infinity(i);
-    const bool low = f >= q + most, high = f <= q - most;
+    const double limit = bounds.force_limit_or_infinity(i);
+    const bool low = f >= q + limit, high = f <= q - limit;
     if (low || high) {
-      result.lambda(i) = low && high ? 0 : low ? most : -most;
+      result.lambda(i) = low && high ? 0 : low ? limit : -limit;
       if (low && high && result.v(i) >= bounds.lower(i) && result.v(i) <= bounds.upper_or_infinity(i))
         return BoundStatus::inactive;
       return low && (!high || result.v(i) < bounds.lower(i)) ? BoundStatus::slip_below : BoundStatus::slip_above;
@@ -103,7 +103,7 @@ class CondensedUzawa {
   }
 
   /// lambda <- max(0, lambda - rho (v - lower)) + min(0, lambda - rho (v - upper)): of the two terms one is zero. In f
-  /// that is q, moved up to f - rho (v - lower) or down to f - rho (v - upper), and no further than a bound bears.
+  /// that is q, moved up to f - rho (v - lower) or down to f - rho (v - upper), and no further than the force limit.
   Eigen::VectorXd projected_step(const Bounds& bounds, const Eigen::VectorXd& q, const Eigen::VectorXd& f,
                                  const Eigen::VectorXd& v) const {
     Eigen::VectorXd next = q;

@@ -9,7 +9,8 @@
 
 namespace antilock {
 
-/// An algebraic error not worth pushing further down; certificate/balanced_tolerance.hpp says which.
+/// An algebraic error that is balanced with the discretisation error (Ern and Vohralik 2013): to push it further down
+/// is not worth the steps. certificate/balanced_tolerance.hpp computes it.
 struct AlgebraicTolerance {
   double energy = 0;    ///< of J(v) - J(u_h), v = the iterate pushed out of the obstacle, J with the penalty delta in
                         ///< place of a smaller compliance
@@ -21,7 +22,7 @@ struct UzawaOptions {
   int max_steps = 1'000'000;                                     ///< reached: NotConverged
   double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock; reached: NotConverged
   /// rho; empty: 2 / (largest + smallest eigenvalue of the compliance C), by Lanczos iteration, or the same of C scaled
-  /// to a unit diagonal, over C_ii, where that is better conditioned.
+  /// to a unit diagonal, over its diagonal, where that is better conditioned.
   std::optional<double> step;
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
@@ -32,7 +33,7 @@ struct UzawaOptions {
 /// The paper's algorithm: projected gradient on the contact pressure,
 ///     A u = L + lambda,   lambda <- max(0, lambda - rho (u - lower))   on Gamma_C,
 /// and + min(0, lambda - rho (u - upper)) where there is an upper bound, cut to |lambda| <= force_limit; the linear
-/// solve by Cholesky. Condensed on Gamma_C (the compliance is dense there and small) a step costs a product with a C x
+/// solve by Cholesky. Condensed on Gamma_C (the flexibility is dense there and small) a step costs a product with a C x
 /// C matrix; the stiff part is treated by iterated penalty, as in active_set. history holds one entry per step. Throws
 /// NotConverged, with how far it came, instead of ever returning an unconverged answer. Bounds of other shapes as in
 /// active_set.

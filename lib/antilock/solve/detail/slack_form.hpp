@@ -12,8 +12,9 @@
 
 namespace antilock {
 
-/// A problem whose bounds are all on unknowns. A bounded combination c . u becomes an unknown w of its own, after the N
-/// others, and a row of B with compliance 0 ties the two:
+/// A problem whose bounds are all on unknowns. A constraint lower <= c . u <= upper gets a slack variable
+/// w, an unknown after the N others, and an equality row of B, of compliance 0 (Nocedal and Wright, Numerical
+/// Optimization, ch. 15):
 ///
 ///     B gains the row (c, -1),   lower <= w <= upper,   A1 and the load are 0 at w
 ///
@@ -21,7 +22,7 @@ namespace antilock {
 /// Of such a row K gains delta^-1 M (c, -1)' (c, -1): defaults::slack_stiffness_ratio times the stiffness 1 / sum
 /// (c_j^2 / K_jj) that c . u has at least, K = A1 + delta^-1 B' M B. Throws Error where K is 0 at a free unknown.
 ///
-/// Without combinations it is the problem itself, which must then outlive this.
+/// Without constraints it is the problem itself, which must then outlive this.
 class SlackForm {
  public:
   SlackForm(const VariationalInequality& problem, double delta) : problem_(problem) {
@@ -29,7 +30,7 @@ class SlackForm {
   }
   const VariationalInequality& operator*() const { return slack_problem_ ? *slack_problem_ : problem_; }
   const VariationalInequality* operator->() const { return &**this; }
-  /// C forces in the units of the problem's own rows.
+  /// C forces in the units of the rows of the problem itself.
   Eigen::VectorXd forces(Eigen::VectorXd lambda) const { return scaled(std::move(lambda), scale_); }
 
  private:
@@ -38,7 +39,7 @@ class SlackForm {
     Eigen::VectorXd stiffness = problem.a1.diagonal();
     stiffness += problem.b.cwiseAbs2().transpose() * problem.m / delta;
     for (const int i : problem.dirichlet_dofs) stiffness(i) = std::numeric_limits<double>::infinity();
-    for (Eigen::Index j = 0; j < n; ++j)  // the tie would hide it from the factor but for round-off
+    for (Eigen::Index j = 0; j < n; ++j)  // the equality row would hide it from the factor but for round-off
       if (!(stiffness(j) > 0))
         throw Error(
             fmt::format("solve: unknown {} is held by nothing: A1 and B' M B are 0 there; accepted: a matrix A1 + "
@@ -78,7 +79,7 @@ class SlackForm {
 
   const VariationalInequality& problem_;
   std::optional<VariationalInequality> slack_problem_;
-  Eigen::VectorXd scale_;  ///< by row of combinations
+  Eigen::VectorXd scale_;  ///< by row of constraints
 };
 
 }  // namespace antilock
