@@ -1,6 +1,6 @@
-// antilock: doors for other people's answers. One program, one word for what is asked.
+// antilock: command-line tools for the solutions of other programs, one subcommand for each.
 //
-// Run:    antilock truth tutorials/scenes/figure8.toml < points.csv     the exact solution at points
+// Run:    antilock exact tutorials/scenes/figure8.toml < points.csv     the exact solution at points
 // Run:    antilock sweep tutorials/scenes/figure7.toml --epsilon 1:1e-6:7
 //
 // Every subcommand ends with status 0, or with one line on standard error and nothing written: status 2 for a question
@@ -25,6 +25,9 @@ struct Subcommand {
   const char* name;
   std::function<int(int, char**)> run;
   const char* summary;
+  const char* old_name = "";  ///< the name in 0.2, which works as well and is not shown
+
+  bool is_called(const char* word) const { return std::strcmp(word, name) == 0 || std::strcmp(word, old_name) == 0; }
 };
 
 const std::vector<Subcommand>& subcommands() {
@@ -35,9 +38,9 @@ const std::vector<Subcommand>& subcommands() {
          tutorial::exec_program("run_scene", argv);
          throw Error("antilock run: run_scene is not beside this program; accepted: the folder of both");
        },
-       "answer a scene: run_scene, the same options"},
-      {"truth", subcommands::exact, "the exact solution of a scene at given points"},
-      {"judge", subcommands::estimate, "how far another program's answer is from the exact solution"},
+       "solve a scene: run_scene, the same options"},
+      {"exact", subcommands::exact, "the exact solution of a scene at given points", "truth"},
+      {"estimate", subcommands::estimate, "the error of another program's solution, with a proved bound", "judge"},
       {"lockcheck", subcommands::lockcheck, "whether the matrices of another program lock"},
       {"sweep", subcommands::sweep, "a scene over epsilons and meshes: one table"}};
   return all;
@@ -62,15 +65,15 @@ int fail(const std::string& message, int status) {
 int main(int argc, char** argv) {
   try {
     for (const Subcommand& subcommand : subcommands())
-      for (int k = 0; k < std::min(argc, 2); ++k)  // 0: it started again, as choose_machine does
-        if (!std::strcmp(argv[k], subcommand.name)) {
+      for (int k = 0; k < std::min(argc, 2); ++k)  // 0: it started again, as reexec_tuned does
+        if (subcommand.is_called(argv[k])) {
           const int status = subcommand.run(argc - k, argv + k);
-          return antilock::delivered(status, std::string("antilock ") + subcommand.name);
+          return antilock::delivered(status, std::string("antilock ") + argv[k]);
         }
     if (argc < 2) return help(stderr, 2);
     if (!std::strcmp(argv[1], "--help") || !std::strcmp(argv[1], "-h")) return help(stdout, 0);
     return fail(std::string("antilock: \"") + argv[1] +
-                    "\" is unknown; accepted: run, truth, judge, lockcheck, sweep (see --help)",
+                    "\" is unknown; accepted: run, exact, estimate, lockcheck, sweep (see --help)",
                 2);
   } catch (const antilock::NotConverged& failure) {
     return fail(failure.what(), 3);

@@ -140,33 +140,33 @@ py::dict certify_scene(const std::string& text, double accuracy, const std::stri
 }
 
 /// The exact solution and its table.
-struct KnownTruth {
-  KnownTruth(double epsilon, const std::string& load, bool contact)
-      : truth([&] {
+struct TabulatedExact {
+  TabulatedExact(double epsilon, const std::string& load, bool contact)
+      : solution([&] {
           const Scene scene({Expression(load, {"x", "y"})}, StiffLayer{epsilon},
                             contact ? std::optional(UnilateralContact{}) : std::nullopt);
           std::optional<ExactSolution> known = exact_solution_of(scene);
           if (!known)
-            throw Error("truth: load \"" + printable(load) +
+            throw Error("exact solution: load \"" + printable(load) +
                         "\" is no sum of sines in x with polynomials in y; accepted: such as 10*sin(2*pi*x), or run "
                         "and certify for any other");
           return std::move(*known);
         }()),
-        table(truth) {}
-  ExactSolution truth;
+        table(solution) {}
+  ExactSolution solution;
   ExactTable table;
 };
 
-ExactPoint at(const KnownTruth* known, double x, double y, double top = 1) {
+ExactPoint at(const TabulatedExact* known, double x, double y, double top = 1) {
   const double in_x = std::clamp(x, 0.0, 1.0), in_y = std::clamp(y, -1.0, top);
   if (!(std::hypot(x - in_x, y - in_y) <= 1e-9))  // coordinates are rounded; u is right to 1e-8
-    throw Error(fmt::format("truth: ({}, {}); accepted: 0 <= x <= 1, -1 <= y <= {}", x, y, top));
+    throw Error(fmt::format("exact solution: ({}, {}); accepted: 0 <= x <= 1, -1 <= y <= {}", x, y, top));
   return known->table.at(in_x, in_y);
 }
 
-double pressure_at(const KnownTruth& known, double x) {
+double pressure_at(const TabulatedExact& known, double x) {
   const double in_x = std::clamp(x, 0.0, 1.0);
-  if (!(std::abs(x - in_x) <= 1e-9)) throw Error(fmt::format("truth: x = {}; accepted: 0 <= x <= 1", x));
+  if (!(std::abs(x - in_x) <= 1e-9)) throw Error(fmt::format("exact solution: x = {}; accepted: 0 <= x <= 1", x));
   return known.solution.pressure(in_x);
 }
 
@@ -257,9 +257,9 @@ PYBIND11_MODULE(_antilock, module) {
       .def_readonly("fine", &LockingDiagnosis::fine, "the same on the finer mesh")
       .def("__str__", &LockingDiagnosis::text);
 
-  using T = KnownTruth;
+  using T = TabulatedExact;
   using Any = const py::object&;
-  py::class_<T>(module, "Truth", "The exact solution of (23). x and y are numbers or arrays, which broadcast.")
+  py::class_<T>(module, "ExactSolution", "The exact solution of (23). x and y are numbers or arrays, which broadcast.")
       .def(py::init([](Any epsilon, Any load, Any contact) {
              const auto arguments = py::module_::import("antilock._arguments");
              const double size = number("epsilon", epsilon, "0 to 1");
@@ -303,6 +303,8 @@ PYBIND11_MODULE(_antilock, module) {
           "energy", [](const T& t) { return t.solution.energy(); }, "J(u), to 1e-8")
       .def_property_readonly(
           "contact", [](const T& t) { return t.solution.contact_zones(); }, "intervals of x, to 1e-5");
+
+  module.attr("Truth") = module.attr("ExactSolution");  // the name in 0.2
 
   module.def("without_void_bound", py::vectorize(&without_void_bound), "infinite where |bound| >= 1e40");
   module.def("diagnose", &diagnose_locking, py::call_guard<Unlocked>());

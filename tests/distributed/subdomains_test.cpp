@@ -1,4 +1,4 @@
-// Strips, pieces, refusals and the report of the distributed module.
+// Strips, subdomains, refusals and the report of the distributed module.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 //
 // Run: adversary_survey 0 20000              by the active set
 // Run: adversary_survey 0 2000 uzawa         by Uzawa
-// Run: adversary_survey 0 5000 bounds        with upper bounds and bounds on combinations of unknowns
+// Run: adversary_survey 0 5000 bounds        with upper bounds and constraints of several unknowns
 // Run: adversary_survey 0 5000 friction      and with bounds that give way
 // Run: adversary_survey 0 5000 corners       rows on prescribed values, nearly dependent, nearly singular, tiny compliance
 #include <fmt/format.h>

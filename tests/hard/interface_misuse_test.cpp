@@ -1,4 +1,4 @@
-// No quiet wrong answer through any door: what an ordinary mistake at the programming interface comes to. Each of these
+// No quiet wrong answer through any interface: what an ordinary mistake at the programming interface comes to. Each of these
 // was once answered with a number, or ended the program.
 #include <filesystem>
 #include <fstream>

@@ -28,7 +28,7 @@ def valid():
     a1 = sparse.csc_matrix(2 * np.eye(N) - np.eye(N, k=1) - np.eye(N, k=-1))
     b = sparse.csr_matrix(np.eye(R, N))
     return dict(a1=a1, b=b, m=np.ones(R), load=-np.ones(N), compliance=0.5, fixed={0: 0.0}, lower=-np.ones(N),
-                upper=np.ones(N), force_bound=np.full(N, 10.0))
+                upper=np.ones(N), force_limit=np.full(N, 10.0))
 
 
 def problem():
@@ -109,7 +109,7 @@ def set_compliance(given):
     made.compliance = given
 
 
-TRUTH = antilock.truth(1e-1)
+EXACT = antilock.exact_solution(1e-1)
 ARRAYS = ("list", "array", "empty", "long", "matrix", "cube")  # values of x and of y: 0.5 and ones
 FUNCTIONS = {
     "a1": (solve_with("a1"), MATRICES, ()),
@@ -120,22 +120,23 @@ FUNCTIONS = {
     "fixed": (solve_with("fixed"), MAPPINGS, ("None",)),
     "lower": (solve_with("lower"), VECTORS, ("None", "minus infinity")),
     "upper": (solve_with("upper"), VECTORS, ("None",)),
+    "force_limit": (solve_with("force_limit"), VECTORS, ("None",)),
     "force_bound": (solve_with("force_bound"), VECTORS, ("None",)),
     "tolerance": (solve_with("tolerance"), NUMBERS, ()),
     "tolerance of Problem.solve": (lambda given: problem().solve(given), NUMBERS, ()),
     "compliance of a Problem": (set_compliance, NUMBERS, ()),
     "coarse": (lambda given: antilock.diagnose(given, problem()), {}, ()),
     "fine": (lambda given: antilock.diagnose(problem(), given), {}, ()),
-    "epsilon": (lambda given: antilock.truth(given), NUMBERS, ()),
-    "epsilon of Truth": (lambda given: antilock.Truth(given, "sin(pi*x)", True), NUMBERS, ()),
-    "load of a truth": (lambda given: antilock.truth(0.1, given), {"surrogate": lambda: "\ud800", "zero": lambda: "x\0"}, ("str",)),
-    "contact": (lambda given: antilock.truth(0.1, contact=given), {"one": lambda: 1, "text": lambda: "yes"}, ("bool", "numpy bool")),
-    "x": (lambda given: TRUTH(given, 0.5), NUMBERS, ARRAYS),
-    "y": (lambda given: TRUTH(0.5, given), NUMBERS, (*ARRAYS, "negative")),
-    "x of u_x": (lambda given: TRUTH.u_x(given, 0.5), NUMBERS, ARRAYS),
-    "y of u_y": (lambda given: TRUTH.u_y(0.5, given), NUMBERS, (*ARRAYS, "negative")),
-    "y of p": (lambda given: TRUTH.p(0.5, given), {**NUMBERS, "in the body": lambda: 0.5}, ("empty", "negative")),
-    "x of pressure": (lambda given: TRUTH.pressure(given), NUMBERS, ARRAYS),
+    "epsilon": (lambda given: antilock.exact_solution(given), NUMBERS, ()),
+    "epsilon of ExactSolution": (lambda given: antilock.ExactSolution(given, "sin(pi*x)", True), NUMBERS, ()),
+    "load of an exact solution": (lambda given: antilock.exact_solution(0.1, given), {"surrogate": lambda: "\ud800", "zero": lambda: "x\0"}, ("str",)),
+    "contact": (lambda given: antilock.exact_solution(0.1, contact=given), {"one": lambda: 1, "text": lambda: "yes"}, ("bool", "numpy bool")),
+    "x": (lambda given: EXACT(given, 0.5), NUMBERS, ARRAYS),
+    "y": (lambda given: EXACT(0.5, given), NUMBERS, (*ARRAYS, "negative")),
+    "x of u_x": (lambda given: EXACT.u_x(given, 0.5), NUMBERS, ARRAYS),
+    "y of u_y": (lambda given: EXACT.u_y(0.5, given), NUMBERS, (*ARRAYS, "negative")),
+    "y of p": (lambda given: EXACT.p(0.5, given), {**NUMBERS, "in the body": lambda: 0.5}, ("empty", "negative")),
+    "x of pressure": (lambda given: EXACT.pressure(given), NUMBERS, ARRAYS),
     "scene of assemble": (antilock.assemble, {"path": lambda: Path("s.toml"), "surrogate": lambda: "\ud800"}, ("scene",)),
     "scene of run": (antilock.run, {"path": lambda: Path("s.toml"), "surrogate": lambda: "\ud800"}, ("scene",)),
     "scene of certify": (antilock.certify, {"path": lambda: Path("s.toml"), "zero": lambda: SCENE + "\0"}, ("scene",)),
@@ -170,7 +171,7 @@ def same(found):
     ("load", -np.ones((N, 1))), ("load", [-1] * N), ("load", -np.ones(N, np.float32)), ("load", np.ma.masked_array(-np.ones(N))),
     ("fixed", {np.int64(0): np.float32(0)}), ("fixed", {0: fractions.Fraction(0)}), ("fixed", {0: np.array(0.0)}),
     ("compliance", fractions.Fraction(1, 2)), ("compliance", np.float64(0.5)), ("compliance", np.array(0.5)),
-    ("lower", [-1] * N), ("upper", np.ones((N, 1))), ("force_bound", [10] * N),
+    ("lower", [-1] * N), ("upper", np.ones((N, 1))), ("force_limit", [10] * N), ("force_bound", [10] * N),
 ])
 def test_what_is_a_value_in_another_form_is_that_value(name, given):
     assert same(antilock.solve(**{**valid(), name: given}))
@@ -187,7 +188,7 @@ def test_arguments_are_not_changed():
 
 
 def test_x_and_y_broadcast_or_are_refused():
-    assert TRUTH([0.1, 0.2], [[0.5], [0.6]]).shape == (2, 2)
-    assert TRUTH(np.zeros((0,)), 0.5).shape == (0,)
+    assert EXACT([0.1, 0.2], [[0.5], [0.6]]).shape == (2, 2)
+    assert EXACT(np.zeros((0,)), 0.5).shape == (0,)
     with pytest.raises(antilock.Error, match="broadcast"):
-        TRUTH([0.1, 0.2], [0.5, 0.6, 0.7])
+        EXACT([0.1, 0.2], [0.5, 0.6, 0.7])

@@ -224,7 +224,7 @@ nlohmann::json blas_used(const std::vector<std::pair<std::string, const char*>>&
     set(name, value);
   }
   const SceneRun run(scene(contact, structured(4)));
-  const TemporaryFolder log;  // a door that starts again is the same door
+  const TemporaryFolder log;  // a program that starts again is the same program
   EXPECT_NE(run_antilock("truth missing.toml", log).err.find("cannot"), std::string::npos);
   for (const auto& [name, value] : before) set(name, value ? value->c_str() : nullptr);
   return run.summary()["blas"];

@@ -24,17 +24,17 @@ void hand_in(const std::filesystem::path& path, const Space& space, const Eigen:
     out << fmt::format("{:.12g},{:.12g},{:.12g}\n", space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1), u(i));
 }
 
-class Door : public testing::Test {
+class Subcommand : public testing::Test {
  protected:
   std::string file(const std::string& name, const std::string& text) {
     std::ofstream(folder / name, std::ios::binary) << text;
     return in_shell((folder / name).string());
   }
   Outcome ask(const std::string& arguments) { return run_antilock(arguments, log); }
-  Outcome judge(const std::string& asked, const Space& space, const Eigen::VectorXd& u, const std::string& options) {
+  Outcome estimate(const std::string& asked, const Space& space, const Eigen::VectorXd& u, const std::string& options) {
     write_msh(folder / "mesh.msh", space.mesh());
     hand_in(folder / "u.csv", space, u);
-    return ask("judge " + file("scene.toml", asked) + " " + in_shell(folder / "mesh.msh") + " " +
+    return ask("estimate " + file("scene.toml", asked) + " " + in_shell(folder / "mesh.msh") + " " +
                in_shell(folder / "u.csv") + options);
   }
   TemporaryFolder folder, log;
@@ -57,9 +57,9 @@ TEST(AsSineLoad, IsRecognisedAndNothingElseIs) {
   EXPECT_FALSE(as_sine_load([](double x, double) { return std::sin(M_PI * x) + (std::abs(x - 0.3003) < 1e-4); }));
 }
 
-TEST_F(Door, TruthGivesTheExactSolutionAtPoints) {
+TEST_F(Subcommand, ExactGivesTheSolutionAtPoints) {
   const std::string points = file("points.csv", "x,y\n0.25,-1\n0.25,0.5\n-1e-18,1\n");
-  const Outcome told = ask("truth " + file("scene.toml", scene(1e-2)) + " --summary " +
+  const Outcome told = ask("exact " + file("scene.toml", scene(1e-2)) + " --summary " +
                            in_shell((folder / "s.json").string()) + " < " + points);
   ASSERT_EQ(told.status, 0) << told.err;
   const ExactSolution exact(paper_sine_load(), 1e-2);
@@ -76,9 +76,9 @@ TEST_F(Door, TruthGivesTheExactSolutionAtPoints) {
   EXPECT_NEAR(summary["contact"][0][0], 0.69753, 1e-5);  // five digits are printed in the project's table of truths
 }
 
-TEST_F(Door, TruthOfAnyOtherLoadIsCertified) {
+TEST_F(Subcommand, ExactOfAnyOtherLoadIsCertified) {
   const std::string points = file("points.csv", "x,y\n0.25,-0.5\n");
-  const Outcome told = ask("truth " + file("scene.toml", scene(1e-2, "x*sin(pi*x)")) + " --accuracy 0.1 --summary " +
+  const Outcome told = ask("exact " + file("scene.toml", scene(1e-2, "x*sin(pi*x)")) + " --accuracy 0.1 --summary " +
                            in_shell((folder / "s.json").string()) + " < " + points);
   ASSERT_EQ(told.status, 0) << told.err;
   const auto summary = nlohmann::json::parse(contents(folder / "s.json"));
@@ -87,12 +87,12 @@ TEST_F(Door, TruthOfAnyOtherLoadIsCertified) {
   EXPECT_LT(summary["energy"][0], summary["energy"][1]);
   // the series is of the unit squares alone
   const std::string other = in_shell(EXAMPLE_SCENES "/l_shape.toml");
-  EXPECT_NE(ask("truth " + other + " --accuracy 0.3 < " + file("inside.csv", "x,y\n0.25,0.5\n")).err.find("certified"),
+  EXPECT_NE(ask("exact " + other + " --accuracy 0.3 < " + file("inside.csv", "x,y\n0.25,0.5\n")).err.find("certified"),
             std::string::npos);
   EXPECT_NE(ask("sweep " + other + " --epsilon 1:0.1:2").out.find("no exact solution"), std::string::npos);
 }
 
-TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {
+TEST_F(Subcommand, EstimateBoundsTheErrorOfForeignAnswers) {
   const double epsilon = 1e-3;
   const ExactTable exact(ExactSolution(paper_sine_load(), epsilon));
   for (const auto& [element, mesh, locks] : {std::tuple{&p1(), structured_mesh(16), false},
@@ -101,7 +101,7 @@ TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {
     const Space space(mesh, *element);
     const Solution answer = active_set(stiff_problem(space, epsilon));
     const auto judged_by = [&](const Eigen::VectorXd& u) {
-      return judge(scene(epsilon), space, u, " --accuracy 0.03 --json " + in_shell(folder / "judged.json"));
+      return estimate(scene(epsilon), space, u, " --accuracy 0.03 --json " + in_shell(folder / "judged.json"));
     };
     const Outcome told = judged_by(answer.u);
     ASSERT_EQ(told.status, 0) << told.err;
@@ -125,22 +125,22 @@ TEST_F(Door, JudgeBoundsTheErrorOfForeignAnswers) {
   }
 }
 
-TEST_F(Door, JudgeLiftsAnAnswerOutOfTheObstacleAndSaysSo) {
+TEST_F(Subcommand, EstimateLiftsAnAnswerOutOfTheObstacleAndSaysSo) {
   const test::SpaceOn space(structured_mesh(8), p1());
   Eigen::VectorXd u = active_set(stiff_problem(space, 0.1)).u;
   for (const int i : space.contact_dofs()) u(i) -= 1e-3;
-  const Outcome told = judge(scene(0.1), space, u, " --accuracy 0.2");
+  const Outcome told = estimate(scene(0.1), space, u, " --accuracy 0.2");
   ASSERT_EQ(told.status, 0) << told.err;
   EXPECT_NE(told.out.find("for the way into K"), std::string::npos) << told.out;
   EXPECT_EQ(told.out.find("this answer is not it"), std::string::npos) << told.out;
   // half of the right answer is off by half of |u|_a = 0.94, more than 1.3 h |f| on cells of 1/32
   const test::SpaceOn fine_space(structured_mesh(32), p1());
   const Outcome half =
-      judge(scene(0.1), fine_space, active_set(stiff_problem(fine_space, 0.1)).u / 2, " --accuracy 0.2");
+      estimate(scene(0.1), fine_space, active_set(stiff_problem(fine_space, 0.1)).u / 2, " --accuracy 0.2");
   EXPECT_NE(half.out.find("this answer is not it"), std::string::npos) << half.out;
 }
 
-TEST_F(Door, JudgeFindsAFaultWhereItWasPut) {
+TEST_F(Subcommand, EstimateFindsAFaultWhereItWasPut) {
   const TriangleMesh mesh = jittered_mesh(16, 0.2);
   const Space space(mesh, p1());
   const std::string out = " --json " + in_shell(folder / "judged.json") + " --where " + in_shell(folder / "where.csv");
@@ -150,7 +150,7 @@ TEST_F(Door, JudgeFindsAFaultWhereItWasPut) {
       Eigen::Index at = 0;
       (space.dof_coordinates().rowwise() - fault).rowwise().norm().minCoeff(&at);
       u(at) += 0.3;
-      const Outcome told = judge(scene(0.1, load), space, u, " --accuracy 0.1" + out);
+      const Outcome told = estimate(scene(0.1, load), space, u, " --accuracy 0.1" + out);
       ASSERT_EQ(told.status, 0) << told.err;
       const auto judged = nlohmann::json::parse(contents(folder / "judged.json"));
       const auto& where = judged["where"];
@@ -188,14 +188,14 @@ TEST_F(Door, JudgeFindsAFaultWhereItWasPut) {
           rows += fmt::format("{:.12g},{:.12g},0\n", space.dof_coordinates()(i, 1), space.dof_coordinates()(i, 0));
         return rows;
       }();
-  const Outcome told = ask("judge " + file("scene.toml", scene(0.1)) + " " + in_shell(folder / "mesh.msh") + " " +
+  const Outcome told = ask("estimate " + file("scene.toml", scene(0.1)) + " " + in_shell(folder / "mesh.msh") + " " +
                            in_shell(folder / "u.csv") + out);
   EXPECT_EQ(told.status, 2);
   EXPECT_NE(told.err.find("is the first of them that is none"), std::string::npos) << told.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "where.csv"));
 }
 
-TEST_F(Door, SweepIsTheSceneAskedAgainAndAgain) {
+TEST_F(Subcommand, SweepIsTheSceneAskedAgainAndAgain) {
   const Outcome told =
       ask("sweep " + file("scene.toml", scene(1)) + " --epsilon 1,1e-4,0 --cells 8,16 --at 0.25,-1,0.5,0.5 --out " +
           in_shell(folder / "sweep.csv"));
@@ -225,7 +225,7 @@ void export_matrix(const std::filesystem::path& path, const SparseMatrix& matrix
       out << fmt::format("{} {} {}\n", it.row() + 1, it.col() + 1, it.value());
 }
 
-TEST_F(Door, LockcheckDiagnosesAndSolvesMatrices) {
+TEST_F(Subcommand, LockcheckDiagnosesAndSolvesMatrices) {
   const auto hand_over = [&](const std::string& name, const TriangleMesh& mesh) {
     const Space space(mesh, p1());
     const VariationalInequality problem = stiff_problem(space, 1);
@@ -262,12 +262,12 @@ TEST_F(Door, LockcheckDiagnosesAndSolvesMatrices) {
   }
 }
 
-TEST_F(Door, JudgeKnowsWhatItsSeriesAndItsDiagnosisAreOf) {
+TEST_F(Subcommand, EstimateKnowsWhatItsSeriesAndItsDiagnosisAreOf) {
   TriangleMesh mesh = unstructured_mesh(8);
   const auto told = [&](double times) {
     const Space space(mesh, p1());
     const Outcome outcome =
-        judge(scene(1e-4), space, times * active_set(stiff_problem(space, 1e-4)).u, " --accuracy 0.3");
+        estimate(scene(1e-4), space, times * active_set(stiff_problem(space, 1e-4)).u, " --accuracy 0.3");
     EXPECT_EQ(outcome.status, 0) << outcome.err;
     return outcome.out;
   };
@@ -284,16 +284,16 @@ TEST_F(Door, JudgeKnowsWhatItsSeriesAndItsDiagnosisAreOf) {
   }
 }
 
-TEST_F(Door, RefusesInOneLine) {
+TEST_F(Subcommand, RefusesInOneLine) {
   const std::string one = file("one.mtx", "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n");
   const std::string good = file("scene.toml", scene(1e-2)), points = file("points.csv", "x,y\n0.25,-1\n");
   for (const auto& [arguments, says] :
        {std::pair<std::string, std::string>{"", "antilock SUBCOMMAND"},
         {"fly", "\"fly\" is unknown"},
-        {"truth " + good + " < " + file("a.csv", "x,z\n1,2\n"), "accepted: the header x,y"},
-        {"truth " + good + " < " + file("b.csv", "x,y\n1,two\n"), "line 2: \"two\" is no finite number"},
-        {"truth " + good + " < " + file("c.csv", "x,y\n0.5,-2\n"), "outside the domain"},
-        {"truth /nowhere.toml < " + points, "/nowhere.toml"},
+        {"exact " + good + " < " + file("a.csv", "x,z\n1,2\n"), "accepted: the header x,y"},
+        {"exact " + good + " < " + file("b.csv", "x,y\n1,two\n"), "line 2: \"two\" is no finite number"},
+        {"exact " + good + " < " + file("c.csv", "x,y\n0.5,-2\n"), "outside the domain"},
+        {"exact /nowhere.toml < " + points, "/nowhere.toml"},
         {"sweep " + good + " --epsilon 1:2", "accepted: FROM:TO:COUNT"},
         {"sweep " + good + " --epsilon 2", "epsilon = 2 is out of range"},
         {"sweep " + good + " --at 3,3", "outside the mesh"},
@@ -308,7 +308,7 @@ TEST_F(Door, RefusesInOneLine) {
          "accepted: a load whose energy is a number"},
         {"lockcheck " + one + " " + one + " " + one + " " + one + " --fixed " + file("one.csv", "unknown,value\n1,0\n"),
          "one.csv: line 2: unknown 1; accepted: whole numbers from 0 to 0"},
-        {"judge " + good + " " + points + " " + points, "points.csv"}}) {
+        {"estimate " + good + " " + points + " " + points, "points.csv"}}) {
     const Outcome told = ask(arguments);
     EXPECT_EQ(told.status, 2) << arguments;
     EXPECT_EQ(told.out, "") << arguments;

@@ -259,14 +259,14 @@ ExactAnswer exact_answer(const VariationalInequality& problem) {
     }
   }
   std::vector<Side> sides;
-  const Eigen::MatrixXd combinations = problem.constraints;
+  const Eigen::MatrixXd constraints = problem.constraints;
   for (int k = 0; k < problem.bound_count(); ++k) {
     const int contact = static_cast<int>(problem.contact.size());
     Vector row(dimension, Number(0));
     Number start_value = 0;
     for (std::size_t i = 0; i < size; ++i) {
       const Number entry =
-          k < contact ? Number(static_cast<int>(i) == problem.contact[k]) : Number(combinations(k - contact, i));
+          k < contact ? Number(static_cast<int>(i) == problem.contact[k]) : Number(constraints(k - contact, i));
       if (entry == 0) continue;
       start_value += entry * u[i];
       if (place[i] < 0) continue;

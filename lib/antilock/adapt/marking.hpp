@@ -7,24 +7,24 @@
 
 namespace antilock {
 
-/// How a mesh grows: everything is bisected, or the body alone, with the layer's columns extruded anew below it. A
+/// The refinement strategy: everything is bisected, or the body alone, with the layer's columns extruded anew below it. A
 /// feature of a thin layer crosses all of it, so that columns are the cheaper mesh for epsilon <= 0.1.
 enum class RefinementStrategy { bisect, extrude };
 
-/// How much to mark: the largest indicators that make up `theta` of the sum, at least the part `min_fraction` of their
-/// number (without that, an obstacle of one needle takes twenty levels), and no more than `max_marked` (0: no limit).
+/// Doerfler's marking: the largest indicators that make up `theta` of the sum are marked, but at least `min_fraction` of
+/// their number (without that, an obstacle of one needle takes twenty levels) and at most `max_marked` (0: no limit).
 struct Marking {
   double theta = 0.5, min_fraction = 0.05;
   int max_marked = 0;
-  double uniform_above =
-      0.2;  ///< where more than this part of them is needed, the error is spread evenly: all are marked, and
-            ///< the triangles keep their shapes (only where `max_marked` leaves room for all)
+  /// Where more than this fraction is needed, the error is spread evenly: all are marked, and the triangles keep their
+  /// shapes (only where `max_marked` allows it).
+  double uniform_above = 0.2;
 };
 
 /// Doerfler's marking (1996): true for those to refine.
 std::vector<bool> dorfler_mark(const Eigen::VectorXd& indicator, const Marking& marking = {});
 
-/// A mesh and, for Growth::extrude, the body that its layer stands under.
+/// A mesh and, for RefinementStrategy::extrude, the body that its layer stands under.
 struct AdaptiveMesh {
   TriangleMesh mesh, body;
   int marks = 0;  ///< triangles and columns marked on the way to it

@@ -3,7 +3,7 @@
 
 namespace antilock {
 
-/// N x F: puts the free unknowns in their places.
+/// N x n_free: the prolongation of the free unknowns to all of them.
 SparseMatrix free_prolongation(const VariationalInequality& problem);
 
 /// dim G_h, G_h = { v : B v = 0, v = 0 on the fixed unknowns } (Section 2, (H2)): by rank-revealing sparse QR. Zero:
@@ -12,7 +12,7 @@ SparseMatrix free_prolongation(const VariationalInequality& problem);
 int kernel_dimension(const VariationalInequality& problem);
 
 /// The stiff part alone: the unknowns that stand in no row of B (an entry that is zero counts), which are in every
-/// kernel, are held at 0. Its `contact` are the bounded unknowns of the stiff part, those of combinations, too.
+/// kernel, are held at 0. Its `contact` are the bounded unknowns of the stiff part, those in constraints, too.
 VariationalInequality stiff_part(VariationalInequality problem);
 /// kernel_dimension of the stiff part.
 int layer_kernel_dimension(const VariationalInequality& problem);

@@ -3,11 +3,12 @@
 
 namespace antilock {
 
-/// What the layer's triangles are to each other: two that share an edge which is not vertical are tied together, and so are
-/// those that they are tied to. On a group of them a conforming function without slope in y is one polynomial in x.
+/// The connected components of the layer's triangles, where two are connected by a common edge that is not vertical. On
+/// a component a conforming function without slope in y is one polynomial in x.
 struct LayerComponents {
   int count = 0;
-  bool is_aligned = false;  ///< each group is between two neighbours on Sigma: one per edge of Sigma, side by side
+  bool is_aligned = false;  ///< the mesh is aligned with the layer (in columns: vertical mesh lines, as in an
+                           ///< extruded mesh): one component below each edge of Sigma
 };
 LayerComponents layer_components(const TriangleMesh& mesh);
 

@@ -26,7 +26,7 @@ enum class Verdict { locks_completely, locks, locks_in_part, not_detected };
 /// - no more on the finer mesh: K_0 has infinitely many independent traces; m + 1 of them cannot all be limits of
 ///   functions whose traces have the dimension m, so that some load locks. Proved, if the number stays m on all meshes.
 /// - more, and bounds without a motion of their own in proportion: a part of the boundary is held (counterexample to "it
-///   grows": a layer with columns under one half of it and tied triangles under the other).
+///   grows": a layer aligned under one half of it and with connected triangles under the other).
 /// - more, but refinement makes the bounds softer under a force at a small compliance than it does at compliance 1: a
 ///   stiffness of the mesh is in the way. Observed, not proved. (Counterexample to "it grows": P1 for rubber with free
 ///   sides has motions of every bound that reach one triangle deep.)
@@ -37,9 +37,9 @@ struct LockingDiagnosis {
   int coarse = 0, fine = 0;                ///< dimension of the trace on the bounds, on a mesh and on a finer one
   int coarse_bounds = 0, fine_bounds = 0;  ///< bounded unknowns of the stiff part
   bool bounded = true;  ///< false: nothing stiff is bounded, and all of the stiff part stands for the bounds
-  double refinement_softening =
-      0;  ///< flexibility under a force on the bounds, on the finer mesh over the coarser one, over the
-          ///< same at compliance 1, less 1: of `compliance`, else of 1e-6
+  /// The flexibility under a force on the bounds, on the finer mesh over the coarser one, over the same at compliance 1,
+  /// less 1: of `compliance`, else of 1e-6.
+  double refinement_softening = 0;
   double compliance =
       0;  ///< which compliances locking concerns: the first of 1e-1 to 1e-6 where the softening is above
           ///< a twentieth and above what refinement changes at compliance 1; 0: none

@@ -1,4 +1,4 @@
-// The sentence on locking that every door says.
+// The text on locking that every program prints.
 #include "antilock/analysis/locking_report.hpp"
 
 #include <fmt/format.h>

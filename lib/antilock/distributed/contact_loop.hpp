@@ -7,8 +7,8 @@ namespace antilock::distributed {
 
 /// What a solve starts from and ends with, the part of this rank.
 struct State {
-  Eigen::VectorXd u;         ///< at every unknown of the piece
-  Eigen::VectorXd p;         ///< the layer stress, per row of B of the piece
+  Eigen::VectorXd u;         ///< at every unknown of the subdomain
+  Eigen::VectorXd p;         ///< the layer stress, per row of B of the subdomain
   std::vector<char> active;  ///< per owned row: in contact
 };
 State zero_state(const DistributedProblem& problem);

@@ -26,7 +26,7 @@ void check_question(const Scene& scene, const Element& element) {
     throw Error("layer.model: \"ventcel\" is not accepted by petsc; accepted \"scaled\" and \"thin\"");
 }
 
-/// The corners of child i of a triangle in the barycentric coordinates of its father (partition.hpp's order): the
+/// The corners of child i of a triangle in the barycentric coordinates of its parent (partition.hpp's order): the
 /// midpoints of the edges, or corner i and the midpoints beside it.
 Eigen::Matrix3d corners_of_child(int i) {
   Eigen::Matrix3d corners = 0.5 * (Eigen::Matrix3d::Ones() - Eigen::Matrix3d::Identity());
@@ -70,14 +70,14 @@ void NestedLevel::start_from(const ContactSet& set) {
 
 void NestedLevel::start_from(const NestedLevel& coarse) {
   const Element& element = space.element();
-  std::array<Eigen::Matrix3d, 4> values;  // the father's basis at the unknowns of child i
+  std::array<Eigen::Matrix3d, 4> values;  // the parent's basis at the unknowns of child i
   for (int i = 0; i < 4; ++i) {
     const Eigen::Matrix3d nodes = element.support_points() * corners_of_child(i);
     for (int k = 0; k < 3; ++k) values[i].row(k) = element.basis(nodes.row(k)).transpose();
   }
   for (Eigen::Index t = 0; t < space.cell_dofs().rows(); ++t) {
-    const Eigen::RowVector3i father = coarse.space.cell_dofs().row(t / 4), child = space.cell_dofs().row(t);
-    const Eigen::Vector3d u(coarse.state.u(father(0)), coarse.state.u(father(1)), coarse.state.u(father(2)));
+    const Eigen::RowVector3i parent = coarse.space.cell_dofs().row(t / 4), child = space.cell_dofs().row(t);
+    const Eigen::Vector3d u(coarse.state.u(parent(0)), coarse.state.u(parent(1)), coarse.state.u(parent(2)));
     const Eigen::Vector3d here = values[t % 4] * u;
     for (int k = 0; k < 3; ++k) state.u(child(k)) = here(k);
   }

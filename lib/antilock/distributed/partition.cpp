@@ -78,7 +78,7 @@ TriangleMesh subdomain_of(const TriangleMesh& coarse, const std::vector<int>& ra
     if (number[v] == 0) number[v] = static_cast<int>(vertices.size()), vertices.push_back(v);
   subdomain.vertices = coarse.vertices(vertices, Eigen::all);
   subdomain.triangles = coarse.triangles(triangles, Eigen::all).unaryExpr([&](int v) { return number[v]; });
-  number_edges(subdomain, "a piece of the mesh");
+  number_edges(subdomain, "a subdomain of the mesh");
   for (int t = 0; t < subdomain.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i)
       subdomain.edge_tag[subdomain.triangle_edges(t, i)] = coarse.edge_tag[coarse.triangle_edges(triangles[t], i)];
@@ -99,9 +99,9 @@ TriangleMesh refined_subdomain(const TriangleMesh& mesh) {
     cut.triangles.row(4 * t + 3) = m;
     cut.region.insert(cut.region.end(), 4, mesh.region[t]);
   }
-  number_edges(cut, "a piece of the mesh");
+  number_edges(cut, "a subdomain of the mesh");
   for (int t = 0; t < mesh.triangle_count(); ++t)
-    for (int i = 0; i < 3; ++i)  // the edges 1 and 2 of child i are halves of its father's edges i + 1 and i + 2
+    for (int i = 0; i < 3; ++i)  // the edges 1 and 2 of child i are halves of its parent's edges i + 1 and i + 2
       for (const int k : {1, 2})
         cut.edge_tag[cut.triangle_edges(4 * t + i, k)] = mesh.edge_tag[mesh.triangle_edges(t, (i + k) % 3)];
   return cut;

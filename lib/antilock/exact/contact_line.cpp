@@ -54,7 +54,7 @@ VectorXd solve_free(const Grid& level, const ArrayXd& free, const VectorXd& star
   for (int step = 0; !(rz <= enough * enough); ++step) {
     if (step == most_cg_steps || !std::isfinite(rz))
       throw NotConverged(
-          fmt::format("truth: conjugate gradients on Gamma_C stopped at {:.1e} after {} steps on {} points",
+          fmt::format("exact solution: conjugate gradients on Gamma_C stopped at {:.1e} after {} steps on {} points",
                       std::sqrt(rz) / level.energy, step, level.load.size() - 1),
           std::sqrt(rz) / level.energy, step);
     const VectorXd dp = masked(level.apply(p));
@@ -84,7 +84,7 @@ ContactLine settle(const Grid& level, ArrayXd free, VectorXd c) {
     free = next;
   }
   throw NotConverged(
-      fmt::format("truth: the contact set on {} points did not settle in {} steps", level.load.size() - 1, most_sets),
+      fmt::format("exact solution: the contact set on {} points did not settle in {} steps", level.load.size() - 1, most_sets),
       1, most_sets);
 }
 

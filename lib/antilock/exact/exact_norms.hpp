@@ -3,8 +3,8 @@
 
 namespace antilock {
 
-/// ||u_a - u_b||_{1,Omega}, the norm of Theorem 1, of two truths, body and layer together: by Parseval's theorem on
-/// rows y = const, and Gauss' rule over the rows. The truths may differ in epsilon, load and points.
+/// ||u_a - u_b||_{1,Omega}, the norm of Theorem 1, of two exact solutions, body and layer together: by Parseval's theorem on
+/// rows y = const, and Gauss' rule over the rows. They may differ in epsilon, load and points.
 double h1_distance(const ExactSolution& a, const ExactSolution& b);
 
 /// ||u||_{2,Omega+} + ||u||_{2,Omega-}, the right side of (28) and (31), by the same rule: each the root of the

@@ -28,17 +28,17 @@ std::vector<LoadResponse> checked_load(const SineLoad& load, int points) {
   std::map<int, std::vector<double>> profiles;
   for (const SineMode& mode : load.modes) {
     if (mode.k < 1 || mode.k > points / 16)
-      throw Error(fmt::format("truth: load with wave number k = {}; accepted: 1 <= k <= {} on {} points", mode.k,
+      throw Error(fmt::format("exact solution: load with wave number k = {}; accepted: 1 <= k <= {} on {} points", mode.k,
                               points / 16, points));
     if (mode.profile.size() > LoadResponse::max_degree + 1)
-      throw Error(fmt::format("truth: load profile of degree {} at k = {}; accepted: at most {}",
+      throw Error(fmt::format("exact solution: load profile of degree {} at k = {}; accepted: at most {}",
                               mode.profile.size() - 1, mode.k, LoadResponse::max_degree));
     std::vector<double>& sum = profiles[mode.k];
     sum.resize(std::max(sum.size(), mode.profile.size()));
     for (std::size_t m = 0; m < mode.profile.size(); ++m) {
       if (!std::isfinite(mode.profile[m]))
         throw Error(
-            fmt::format("truth: load coefficient {} at k = {}; accepted: finite numbers", mode.profile[m], mode.k));
+            fmt::format("exact solution: load coefficient {} at k = {}; accepted: finite numbers", mode.profile[m], mode.k));
       sum[m] += mode.profile[m];
     }
   }
@@ -138,9 +138,9 @@ SineLoad paper_sine_load() { return {{{2, {10.0}}}}; }
 
 ExactSolution::ExactSolution(const SineLoad& load, double epsilon, bool contact, int log2_points) {
   if (!(epsilon >= 0 && epsilon <= 1))
-    throw Error(fmt::format("truth: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
+    throw Error(fmt::format("exact solution: epsilon = {} is out of range; accepted 0 <= epsilon <= 1", epsilon));
   if (log2_points < 6 || log2_points > 20)
-    throw Error(fmt::format("truth: log2_points = {} is out of range; accepted 6 to 20", log2_points));
+    throw Error(fmt::format("exact solution: log2_points = {} is out of range; accepted 6 to 20", log2_points));
   const int n = 1 << log2_points;
   Data data;
   data.epsilon = epsilon;
@@ -179,7 +179,7 @@ Eigen::Vector2d ExactSolution::gradient(double x, double y) const {
 double ExactSolution::layer_stress(double x, double y) const {
   const Eigen::Vector2d at = inside_domain(x, y);
   if (at.y() > 0)
-    throw Error(fmt::format("truth: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
+    throw Error(fmt::format("exact solution: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
   if (at.y() == -1) return -pressure(x);
   return sum_series(layer_row(*data_, at.y()).p, at.x()).sine;
 }

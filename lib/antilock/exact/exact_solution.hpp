@@ -10,7 +10,7 @@ namespace antilock {
 
 /// One term of the load f(x, y) = sum f_k(y) sin(k pi x) on the body: f_k is a polynomial in y.
 struct SineMode {
-  int k;                        ///< wave number, 1 <= k <= N / 16 (N: the points of Truth)
+  int k;                        ///< wave number, 1 <= k <= N / 16 (N: the points of ExactSolution)
   std::vector<double> profile;  ///< f_k(y) = profile[0] + profile[1] y + ..., degree at most 12
 };
 struct SineLoad {

@@ -7,7 +7,7 @@
 
 namespace antilock {
 
-/// What Truth keeps: sine coefficients by wave number k = 0..modes (0 unused), and values at the points j / n.
+/// The data of ExactSolution: sine coefficients by wave number k = 0..modes (0 unused), and values at the points j / n.
 struct ExactSolution::Data {
   double epsilon = 0;
   bool contact = false;
@@ -24,7 +24,7 @@ struct ExactSolution::Data {
   int points() const { return int(displacement.size()) - 1; }
 };
 
-/// The sine coefficients by k (0 unused) of the truth on one row y = const, cut where nothing is left of them.
+/// The sine coefficients by k (0 unused) of the exact solution on one row y = const, cut where nothing is left of them.
 struct SineRow {
   Eigen::VectorXd u;
   Eigen::VectorXd p;    ///< body: d_y u; layer: epsilon^-2 d_y u

@@ -162,12 +162,12 @@ struct ExactTable::Grid {
 
 ExactTable::ExactTable(const ExactSolution& exact, int finest_cells) {
   if (finest_cells < 1 || !std::has_single_bit(static_cast<unsigned>(finest_cells)))
-    throw Error(fmt::format("truth table: {} cells; accepted: a power of two", finest_cells));
+    throw Error(fmt::format("exact table: {} cells; accepted: a power of two", finest_cells));
   const ExactSolution::Data& data = exact.data();
   const int waves = data.load.empty() ? 1 : data.load.back().k();  // the largest
   if (waves > most_waves)
     throw Error(
-        fmt::format("truth table: load with wave number k = {}; accepted: up to {} (sum the series of Truth instead)",
+        fmt::format("exact table: load with wave number k = {}; accepted: up to {} (sum the series of ExactSolution instead)",
                     waves, most_waves));
   const double epsilon = data.epsilon, longest = smooth_step / (waves * std::numbers::pi);
   const double finest = 1.0 / finest_cells;  // between rows, next to Gamma_C
@@ -190,7 +190,7 @@ Eigen::Vector2d ExactTable::gradient(double x, double y) const { return at(x, y)
 
 double ExactTable::layer_stress(double x, double y) const {
   if (inside_domain(x, y).y() > 0)
-    throw Error(fmt::format("truth table: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
+    throw Error(fmt::format("exact table: layer stress at ({}, {}), in the body; accepted: -1 <= y <= 0", x, y));
   // Sigma belongs to the body's rows, where p is the same.
   return grid_->between(x, y).p();
 }

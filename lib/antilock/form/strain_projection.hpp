@@ -5,14 +5,15 @@
 
 namespace antilock {
 
-/// The shares of R rows of B in G means: a row per mean, a column per row of B; none negative, each column sums to 1.
+/// The weights of a strain projection: a row per mean (G), a column per row of B (R). No weight is negative, and each
+/// column sums to 1.
 using StrainProjection = RowMatrix;
 
-/// The form of the averaged strain. Row g of B is the mean of the rows of B with the weights shares(g, r) m(r), and
-/// the new M are the sums of these weights. Shares 0 and 1 make groups: the strain is projected in L2 onto constants
-/// per group. Hat functions as shares make a mixed form: a row is (integral of phi_g times the strain) / (integral of
-/// phi_g). The new form is never larger than the old one (Jensen). `cell` of a mean: the first cell that has a share,
-/// or none where the form names none. Throws Error for shares that do not fit: another number of columns, a negative
+/// The form of the projected strain, as in the B-bar method (Hughes 1980). Row g of B is the mean of the rows of B with the weights projection(g, r) m(r), and
+/// the new M are the sums of these weights. Weights 0 and 1 make groups: the strain is projected in L2 onto constants
+/// per group. Hat functions as weights make a mixed form: a row is (integral of phi_g times the strain) / (integral of
+/// phi_g). The new form is never larger than the old one (Jensen). `cell` of a mean: the first cell that has a weight,
+/// or none where the form names none. Throws Error for weights that do not fit: another number of columns, a negative
 /// one, a column that does not sum to 1, an empty row.
 FactoredForm project_strain(const FactoredForm& form, const StrainProjection& projection);
 
@@ -20,7 +21,7 @@ FactoredForm project_strain(const FactoredForm& form, const StrainProjection& pr
 /// has the centroid of a cell in it. Throws Error for a length that is not positive.
 StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width, double height);
 
-/// A mean per vertex of the cells, over its patch, with its hat function at the points of `rule` as the share: the rows
+/// A mean per vertex of the cells, over its patch, with its hat function at the points of `rule` as the weight: the rows
 /// of a cell are those of the rule, in turn. Throws Error where they are not.
 StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm& form, const Quadrature& rule);
 

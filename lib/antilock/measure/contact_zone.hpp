@@ -14,7 +14,7 @@ struct ContactZone {
   std::optional<double> from, to;  ///< x-range of the active ones; empty where none
 };
 /// `space`: of the component with bounds, one per unknown on Gamma_C. Throws Error for another, for bounds on
-/// combinations (they have no point) and for friction.
+/// constraints (they have no point) and for friction.
 ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution);
 
 /// Length of Gamma_C that each contact unknown stands for: its edge (CR), half its two edges (P1). lambda divided by it

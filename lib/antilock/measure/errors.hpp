@@ -21,7 +21,7 @@ struct Reference {
   ExactPoint known(const Eigen::Vector2d& x, bool in_layer) const;
 };
 
-/// The tabulated truth as a reference; the table must outlive it.
+/// The tabulated exact solution as a reference; the table must outlive it.
 Reference reference(const ExactTable& table);
 
 /// Absolute errors u_h - u; the names say the norm.

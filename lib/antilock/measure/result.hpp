@@ -10,7 +10,7 @@
 namespace antilock {
 
 /// Wall seconds of a run by stage: the scene and its mesh, the discrete problem with a look at its load, the factor, the
-/// rest of the solve with what is told about the answer. The files are timed where they are written.
+/// rest of the solve with the checks of the result. The files are timed where they are written.
 struct RunSeconds {
   double mesh = 0, assemble = 0, factor = 0, solve = 0;
 };
@@ -32,14 +32,14 @@ inline OfTheClass own_rows_summed(const VariationalInequality& problem, Solution
   return {own_rows_summed(problem), std::move(solution)};
 }
 
-/// An answer with the question that it belongs to: what is measured, proved, drawn and written is so of all of it.
+/// A discrete solution with its space and its problem, from which everything is measured, proved, drawn and written.
 struct Result {
   std::shared_ptr<const TriangleMesh> mesh;  ///< behind the space; stays where it is when the answer is moved
   Space space;
   VariationalInequality problem;
   Solution solution;
   RunSeconds seconds;
-  std::string warning;  ///< empty, or one line: what to doubt
+  std::string warning;  ///< empty, or one line: the reason to distrust the result
 };
 
 }  // namespace antilock

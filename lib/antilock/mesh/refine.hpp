@@ -3,7 +3,7 @@
 
 namespace antilock {
 
-/// Every triangle cut into four by its edge midpoints: triangle t becomes 4 t ... 4 t + 3, so that the father of t is
+/// Every triangle cut into four by its edge midpoints: triangle t becomes 4 t ... 4 t + 3, so that the parent of t is
 /// t / 4 and a function on the mesh is one on its refinement. Regions, tags and the geometry are inherited.
 TriangleMesh refined(const TriangleMesh& mesh);
 

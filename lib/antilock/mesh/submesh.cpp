@@ -4,20 +4,20 @@
 
 namespace antilock {
 
-Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)>& kept) {
-  Submesh piece;
+Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)>& selected) {
+  Submesh part;
   std::vector<int> number(mesh.vertex_count(), -1), owners(mesh.edge_count(), 0);
   std::vector<Region> region;
   Triples triangles(mesh.triangle_count(), 3);
   int count = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    if (!kept(t)) continue;
+    if (!selected(t)) continue;
     for (int i = 0; i < 3; ++i) {
       const int v = mesh.triangles(t, i);
       ++owners[mesh.triangle_edges(t, i)];
       if (number[v] < 0) {
-        number[v] = static_cast<int>(piece.old_vertex.size());
-        piece.old_vertex.push_back(v);
+        number[v] = static_cast<int>(part.old_vertex.size());
+        part.old_vertex.push_back(v);
       }
       triangles(count, i) = number[v];
     }
@@ -33,11 +33,11 @@ Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)
     if (owners[e] == 1 && tag == EdgeTag::sigma) tag = EdgeTag::contact;
     if (tag != EdgeTag::interior) tagged.push_back({number[mesh.edges(e, 0)], number[mesh.edges(e, 1)], tag});
   }
-  Points points = mesh.vertices(piece.old_vertex, Eigen::all);
-  piece.mesh =
+  Points points = mesh.vertices(part.old_vertex, Eigen::all);
+  part.mesh =
       make_triangle_mesh(std::move(points), std::move(triangles), std::move(region), tagged, "a part of a mesh");
-  piece.mesh.geometry = mesh.geometry;
-  return piece;
+  part.mesh.geometry = mesh.geometry;
+  return part;
 }
 
 TriangleMesh body_submesh(const TriangleMesh& mesh) {

@@ -6,13 +6,13 @@
 
 namespace antilock {
 
-/// Some triangles of a mesh as a mesh of their own, with the old numbers of its vertices. Where the mesh is cut it is
+/// A submesh: some triangles of a mesh, with the old numbers of its vertices. Where the mesh is cut it is
 /// clamped, and Sigma is contact.
 struct Submesh {
   TriangleMesh mesh;
   std::vector<int> old_vertex;
 };
-Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)>& kept);
+Submesh submesh(const TriangleMesh& mesh, const std::function<bool(int triangle)>& selected);
 /// The body alone; a mesh without a layer as it is.
 TriangleMesh body_submesh(const TriangleMesh& mesh);
 

@@ -12,8 +12,8 @@ namespace antilock {
 /// Physical groups of Figure 2; the numbers are those of the MSH and FreeFEM files.
 enum class Region { body = 1, layer = 2 };
 enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5, free = 6 };
-/// The tags of named groups of edges, k = 0, 1, ...: those where u is given, and all others. Whoever moves tags from
-/// mesh to mesh moves them along.
+/// The tags of named groups of edges, k = 0, 1, ...: those with Dirichlet data, and all others. A copy of the tags
+/// must copy them, too.
 constexpr EdgeTag natural_group(int k) { return static_cast<EdgeTag>(10 + k); }
 constexpr EdgeTag dirichlet_group(int k) { return static_cast<EdgeTag>(1000 + k); }
 constexpr bool is_dirichlet(EdgeTag tag) { return tag == EdgeTag::clamped || tag >= dirichlet_group(0); }
@@ -27,12 +27,12 @@ using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< 
 using Triples = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;    ///< n x 3, indices from 0
 using Pairs = Eigen::Matrix<int, Eigen::Dynamic, 2, Eigen::RowMajor>;      ///< n x 2, indices from 0
 
-/// How a column of a layer hangs below an edge of a curved Sigma, y = foot + slope x (mesh/layered.hpp).
+/// How a column of a layer hangs below an edge of a curved Sigma, y = intercept + slope x (mesh/layered.hpp).
 struct CurvedColumn {
   double intercept = 0, slope = 0;
   double curvature = 0;  ///< of Sigma: above 0 where the normals out of the body spread
 
-  /// J = 1 + thickness * curvature * depth, of a point.
+  /// The Jacobian 1 + thickness * curvature * depth at a point.
   double jacobian(const Eigen::Vector2d& x, double thickness) const {
     return 1 + thickness * curvature * (intercept + slope * x(0) - x(1));
   }
@@ -60,7 +60,7 @@ struct TriangleMesh {
   double twice_area(int triangle) const;
   double area(int triangle) const { return 0.5 * twice_area(triangle); }
   double edge_length(int edge) const;
-  /// Where a vertex is, "(x, y)", for messages.
+  /// The location of a vertex as text, "(x, y)", for messages.
   std::string location_text(int vertex) const;
   /// The longest edge: the paper's h (1/cells times sqrt(2) on a structured mesh).
   double diameter() const;
@@ -87,7 +87,8 @@ TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<
                                 const std::vector<TaggedEdge>& tagged_edges, const std::string& where,
                                 const std::vector<int>& surface = {});
 
-/// A triangle of a piece without an edge that is held; -1: there is none. Pieces hang together by edges, not by vertices.
+/// A triangle of a floating component, one without a held edge (a floating subdomain in FETI); -1: there is none.
+/// Components are connected by edges, not by vertices.
 int find_floating_component(const TriangleMesh& mesh, const std::function<bool(int edge)>& held);
 
 /// Fills edges, triangle_edges and edge_triangles from vertices and triangles, in linear time where no vertex has many

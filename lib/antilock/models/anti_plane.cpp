@@ -40,7 +40,7 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
     return is_dirichlet(mesh.edge_tag[e]) || (k >= 0 && scene.edges()[k].kind == Kind::spring);
   });
   if (loose >= 0 && is_whole(mesh))
-    throw Error("scene and mesh: nothing holds the piece of the mesh at " +
+    throw Error("scene and mesh: nothing holds the component of the mesh at " +
                 mesh.location_text(mesh.triangles(loose, 0)) +
                 "; accepted: a displacement or a spring on one of its edges");
   const auto& region = mesh.region;

@@ -15,10 +15,10 @@ Eigen::VectorXd load_of(const Scene& scene, const Space& space);
 
 /// The class parameter of (1), which in (23) is the square of the paper's epsilon. The one place that says so.
 double class_parameter(const StiffLayer& layer);
-/// The displacement that is given at a point x of the held edge e: 0 on a clamped one, on the side of a layer that above, on
+/// The displacement prescribed at a point x of the Dirichlet edge e: 0 on a clamped one, on the side of a layer that above, on
 /// y = 0.
 double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const Eigen::RowVector2d& x);
-/// V values: the same at the ends of held edges, 0 elsewhere. Where groups with displacements meet, a vertex has the mean of
+/// V values: the same at the ends of Dirichlet edges, 0 elsewhere. Where groups with displacements meet, a vertex has the mean of
 /// their values, whatever their order; where one meets a clamped edge, it has the group's value. So it is in `assemble`.
 Eigen::VectorXd dirichlet_vertex_values(const Scene& scene, const TriangleMesh& mesh);
 

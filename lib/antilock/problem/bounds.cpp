@@ -85,7 +85,7 @@ VariationalInequality equality_constrained(VariationalInequality problem, const 
 
 void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who) {
   if (problem.constraints.rows() > 0)
-    throw Error(who + ": bounds on combinations are not known here; accepted: bounds on unknowns");
+    throw Error(who + ": bounds on constraints are not known here; accepted: bounds on unknowns");
 }
 
 void require_hard_bounds(const VariationalInequality& problem, const std::string& who) {
@@ -97,7 +97,7 @@ void require_lower_bounds(const VariationalInequality& problem, const std::strin
   require_hard_bounds(problem, who);
   if (problem.constraints.rows() > 0 || problem.upper.size() > 0)
     throw Error(who +
-                ": upper bounds and bounds on combinations are not known here; accepted: lower bounds on unknowns");
+                ": upper bounds and bounds on constraints are not known here; accepted: lower bounds on unknowns");
 }
 
 }  // namespace antilock

@@ -49,15 +49,15 @@ void check_constraints(const VariationalInequality& problem) {
   const RowMatrix& rows = problem.constraints;
   if (rows.rows() == 0) return;
   require(rows.cols() == problem.size(),
-          fmt::format("combinations have {} columns; accepted {}, one per unknown", rows.cols(), problem.size()));
-  require(rows.isCompressed(), "combinations are accepted compressed only");
-  require(finite(rows.valuePtr(), rows.nonZeros()), "an entry of combinations is not finite");
+          fmt::format("constraints have {} columns; accepted {}, one per unknown", rows.cols(), problem.size()));
+  require(rows.isCompressed(), "constraints are accepted compressed only");
+  require(finite(rows.valuePtr(), rows.nonZeros()), "an entry of constraints is not finite");
   std::vector<char> fixed(problem.size(), 0);
   for (const int i : problem.dirichlet_dofs) fixed[i] = 1;
   for (Eigen::Index row = 0; row < rows.rows(); ++row) {
     bool free = false;
     for (RowMatrix::InnerIterator c(rows, row); c; ++c) free = free || (c.value() != 0 && fixed[c.col()] == 0);
-    require(free, fmt::format("combination {} holds no free unknown; accepted: one or more", row));
+    require(free, fmt::format("constraint {} holds no free unknown; accepted: one or more", row));
   }
 }
 
@@ -68,7 +68,7 @@ void check_bounds(const VariationalInequality& problem) {
   const Eigen::VectorXd &lower = problem.lower, &upper = problem.upper;
   const int bounds = problem.bound_count();
   require(lower.size() == bounds,
-          fmt::format("lower has {} entries; accepted {}: one bound per contact unknown and per combination",
+          fmt::format("lower has {} entries; accepted {}: one bound per contact unknown and per constraint",
                       lower.size(), bounds));
   require(upper.size() == 0 || upper.size() == bounds,
           fmt::format("upper has {} entries; accepted none, or {} as in lower", upper.size(), bounds));

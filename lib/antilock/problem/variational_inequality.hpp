@@ -8,16 +8,16 @@ namespace antilock {
 /// The discrete problem of the paper's whole class, (6), and (7) where compliance = 0:
 ///
 ///     u in K_h:  a1(u, v - u) + compliance^-1 a0(u, v - u) >= L(v - u)   for all v in K_h
-///     K_h = { v : v = fixed_values on the fixed unknowns, lower <= v <= upper on the contact unknowns,
-///                 lower <= combinations v <= upper }
+///     K_h = { v : v = dirichlet_values on the dirichlet_dofs, lower <= v <= upper on the contact unknowns,
+///                 lower <= constraints v <= upper }
 ///
-/// A bound with a finite force_limit g is no part of K_h: it bears g at most and gives way to more. It adds j(v) - j(u)
+/// A bound with a finite force_limit g is no part of K_h: it carries a force of at most g (a soft constraint), and slips under more. It adds j(v) - j(u)
 /// on the left, j(v) = sum g dist(v, [lower, upper]), and |lambda| <= g; lambda = g below it, -g above. Tresca's
 /// friction with the bound g is the one of a tangential displacement with lower = upper = 0: it sticks where
 /// |lambda| < g and slips against lambda where |lambda| = g.
 ///
 /// a0(u, v) = (B u, M B v) stays in factored form: summed into a1 it destroys a1 by round-off. Everything is
-/// dimensionless. N unknowns, R rows of B, C bounds: those on unknowns and then those on combinations, in lower, in
+/// dimensionless. N unknowns, R rows of B, C bounds: those on unknowns and then those on constraints, in lower, in
 /// upper and in the answer's lambda. lambda >= 0 at a lower bound, <= 0 at an upper one.
 ///
 /// M is diagonal. A form whose M has a block per cell fits as well: with block = G G', rows G' B of the cell and M = 1.
@@ -31,11 +31,11 @@ struct VariationalInequality {
                           ///< `assemble` (models/anti_plane.hpp)
   Eigen::VectorXd load;   ///< N, L(phi_i)
   std::vector<int> dirichlet_dofs;   ///< unknowns with a prescribed value
-  Eigen::VectorXd dirichlet_values;  ///< one per fixed unknown
+  Eigen::VectorXd dirichlet_values;  ///< one per dirichlet_dof
   std::vector<int> contact;          ///< bounded unknowns, in the order of the reports (by x)
   Eigen::VectorXd lower;             ///< C: lower <= u there (= -gap). -infinity: no bound from below
   Eigen::VectorXd upper = {};        ///< C, or empty: none. +infinity: no bound from above; = lower: an equation
-  Eigen::VectorXd force_limit = {};  ///< C, or empty: none. The most that a bound bears, 0 or more; +infinity: anything
+  Eigen::VectorXd force_limit = {};  ///< C, or empty: none. The largest |lambda|, 0 or more; +infinity: no limit
   RowMatrix constraints = {};  ///< a row per bound beyond `contact` x N, or empty: a row c bounds c . u, such as the
                                ///< normal displacement on a slope or the gap between two bodies
 
@@ -73,7 +73,7 @@ void append_rows(VariationalInequality& problem, const RowMatrix& b, const Eigen
 /// which loses the digits that they keep. Rows of the class and ties stay.
 VariationalInequality own_rows_summed(VariationalInequality problem);
 
-/// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of combinations
+/// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of constraints
 /// without a free unknown. Throws Error.
 void check_bounds(const VariationalInequality& problem);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A scene file answered: its discrete problem and its solution.
+// The discrete problem of a scene file and its solution.
 #include <functional>
 #include <optional>
 #include <string>
@@ -19,14 +19,14 @@ namespace antilock {
 /// in this space (size 2 N). Throws Error.
 VariationalInequality problem_of(const SceneFile& file, const Space& space);
 
-/// Who follows the answer to a scene; an empty hook costs nothing.
+/// Callbacks of solve_scene; an empty one costs nothing.
 struct Callbacks {
   std::function<void(const std::string&)> stage;      ///< what begins now
   ProgressHook solve;                                 ///< may end a solve on one mesh, or a level of an accuracy
   std::function<void(const RefinementLevel&)> level;  ///< with an accuracy, after every level
 };
 
-/// The answer to a scene file by its [method]: one solve on its mesh, whose history is empty, or with an accuracy as
+/// Solves a scene file by its [method]: one solve on its mesh, whose history is empty, or with an accuracy as
 /// many as it takes. `warning` is about the solve, the load, the displacements, the gap and the polygon; the layer's joins it in
 /// summary_of. Throws Error, and NotConverged with how far it came, also where double precision goes no further than
 /// asked.

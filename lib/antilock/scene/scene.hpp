@@ -47,14 +47,14 @@ using Layer = std::variant<NoLayer, StiffLayer, VentcelLayer, ThinLayer>;
 /// Signorini contact on Gamma_C, the last line of (21): u >= -gap, pressure >= 0, complementary.
 struct UnilateralContact {
   Profile gap = [](double) { return 0.0; };  ///< distance of the obstacle at x (negative: it presses in)
-  std::vector<double> zero_at = {0, 1};      ///< where beside Gamma_C u = 0 is prescribed: gap, ceiling >= 0 there
-  Profile upper_obstacle = {};               ///< u <= ceiling too; empty: none
+  std::vector<double> zero_at = {0, 1};      ///< where beside Gamma_C u = 0 is prescribed: gap, upper_obstacle >= 0 there
+  Profile upper_obstacle = {};               ///< u <= upper_obstacle, too (a double obstacle problem); empty: none
 };
 
-/// Throws Error where the ceiling is below the obstacle at x: no u satisfies -gap(x) <= u <= ceiling(x).
+/// Throws Error where the upper obstacle is below the lower one at x: no u satisfies -gap(x) <= u <= upper_obstacle(x).
 void check_upper_obstacle(const UnilateralContact& contact, double x);
 
-/// A question to answer: which body, which layer, contact or not.
+/// A scene (the description of a problem): a body, a layer or none, contact or not.
 /// Construction throws Error where the combination is meaningless, with the reason.
 class Scene {
  public:

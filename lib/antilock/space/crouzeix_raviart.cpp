@@ -25,8 +25,8 @@ class CrouzeixRaviart final : public Element {
 }  // namespace
 
 const Element& crouzeix_raviart() {
-  static const CrouzeixRaviart page;
-  return page;
+  static const CrouzeixRaviart instance;
+  return instance;
 }
 
 }  // namespace antilock

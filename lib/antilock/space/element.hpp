@@ -6,7 +6,7 @@
 
 namespace antilock {
 
-/// One page says what an element is: where its unknowns sit and its basis in barycentric coordinates lambda.
+/// An element: the support points of its unknowns and its basis, in barycentric coordinates lambda.
 /// Local order of the unknowns: vertices 0 1 2, then edges 0 1 2 (edge i opposite vertex i), then the interior.
 class Element {
  public:
@@ -27,7 +27,7 @@ class Element {
   int dofs() const { return 3 * dofs_per_vertex() + 3 * dofs_per_edge() + dofs_per_cell(); }
 };
 
-/// The pages, one instance each, alive as long as the program: P1, P2, P3 and P4 (conforming; beyond P1 contact is
+/// The elements, one instance each, alive as long as the program: P1, P2, P3 and P4 (conforming; beyond P1 contact is
 /// asked at the unknowns on Gamma_C alone, so that K_h is not part of K), CR (Crouzeix-Raviart, P1 nonconforming of
 /// Section 4.2: edge midpoints) and P1 with a bubble per triangle, which is P1 on every edge.
 const Element& p1();

@@ -65,9 +65,9 @@ class Lagrange final : public Element {
 
 const Element& lagrange(int degree) {
   static const Lagrange two(2), three(3), four(4), five(5), six(6);
-  static const Element* const pages[] = {&p1(), &two, &three, &four, &five, &six};
+  static const Element* const instances[] = {&p1(), &two, &three, &four, &five, &six};
   if (degree < 1 || degree > 6) throw Error(fmt::format("element: degree {} is not accepted; 1 to 6", degree));
-  return *pages[degree - 1];
+  return *instances[degree - 1];
 }
 const Element& p2() { return lagrange(2); }
 const Element& p3() { return lagrange(3); }

@@ -21,8 +21,8 @@ class P1 final : public Element {
 }  // namespace
 
 const Element& p1() {
-  static const P1 page;
-  return page;
+  static const P1 instance;
+  return instance;
 }
 
 }  // namespace antilock

@@ -34,8 +34,8 @@ class P1Bubble final : public Element {
 }  // namespace
 
 const Element& p1_bubble() {
-  static const P1Bubble page;
-  return page;
+  static const P1Bubble instance;
+  return instance;
 }
 
 }  // namespace antilock

@@ -31,7 +31,7 @@ double energy_of_all(const NestedLevel& level) {
   return sum(u.dot(part.a1 * u) / 2 + part.compliance * p.dot(part.m.cwiseProduct(p)) / 2 - part.load.dot(u));
 }
 
-/// Per unknown of the piece: the contact pressure, a density; 0 off Gamma_C. Certified: below zero is round-off.
+/// Per unknown of the subdomain: the contact pressure, a density; 0 off Gamma_C. Certified: below zero is round-off.
 Eigen::VectorXd pressures(const NestedLevel& level) {
   const DofMap& rows = level.problem.rows();
   const Eigen::VectorXd lambda = contact_forces(level.problem, level.state);
@@ -65,7 +65,7 @@ Eigen::MatrixX3d contact_table_of_all(const NestedLevel& level, const Eigen::Vec
   return table;
 }
 
-/// Layer stress and pressure as a VTU file takes them: per triangle, and per contact unknown of the piece.
+/// Layer stress and pressure as a VTU file takes them: per triangle, and per contact unknown of the subdomain.
 VtuFields fields_of(const NestedLevel& level, const Eigen::VectorXd& pressure, bool contact) {
   const TriangleMesh& mesh = level.subdomain;
   VtuFields fields{Eigen::VectorXd::Zero(mesh.triangle_count()), {}};

@@ -1,4 +1,4 @@
-// antilock judge SCENE.toml MESH.msh U.csv: how far another program's answer is from the exact solution.
+// antilock estimate SCENE.toml MESH.msh U.csv: the error of another program's solution, estimated and bounded.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -203,7 +203,7 @@ std::optional<double> a_priori_bound(const Space& space, const Field& f) {
 Reference reference(const Result& own, const PointValues& at) {
   const auto place = [&at](double x, double y) {
     const auto found = at.locate({x, y}, 1e-6);  // of a triangle's size: its own mesh has the same boundary, rounded
-    if (!found) throw Error(fmt::format("judge: ({}, {}) is outside the mesh of the certified answer", x, y));
+    if (!found) throw Error(fmt::format("estimate: ({}, {}) is outside the mesh of the certified answer", x, y));
     return *found;
   };
   const std::vector<int> row = stress_rows(*own.mesh);
@@ -254,7 +254,7 @@ int estimate(int argc, char** argv) {
   CLI::App line(
       "Another program's answer to a scene, on its own mesh: its errors, a proved bound, what it keeps of the "
       "layer's displacement, and whether it locks.",
-      "antilock judge");
+      "antilock estimate");
   std::filesystem::path scene, mesh_file, answer, out, where;
   double accuracy = 1e-2;
   std::string row;
@@ -279,7 +279,7 @@ int estimate(int argc, char** argv) {
 
   const SceneFile file = read_scene_file(scene);
   for (const std::filesystem::path& written : {out, where}) check_not_an_input(written, {scene, mesh_file, answer});
-  require_paper_problem(file, "judge");
+  require_paper_problem(file, argv[0]);
   const TriangleMesh mesh = read_msh(mesh_file.string());
   const Eigen::MatrixXd rows = read_csv(answer.string(), {"x", "y", "u"});
   ReadAnswer read;

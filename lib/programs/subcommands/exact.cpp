@@ -1,4 +1,4 @@
-// antilock truth SCENE.toml < points.csv: the exact solution of a scene at given points.
+// antilock exact SCENE.toml < points.csv: the exact solution of a scene at given points.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -159,7 +159,7 @@ int exact(int argc, char** argv) {
       "x,y,u,u_x,u_y,p. p is the layer stress, epsilon^-2 u_y, and empty in the body; on the contact boundary -p is "
       "the "
       "pressure. On Sigma, u_y is the body's.",
-      "antilock truth");
+      "antilock exact");
   std::filesystem::path scene, summary;
   double accuracy = 1e-2;
   int digits = 17;
@@ -172,11 +172,11 @@ int exact(int argc, char** argv) {
       "A load that is a sum of sines in x with polynomials in y has an exact solution, a series (scaled layer or its "
       "limit, "
       "obstacle at the distance 0). Any other scene is solved to a proved accuracy.\n"
-      "Example: printf 'x,y\\n0.25,-1\\n' | antilock truth tutorials/scenes/figure8.toml");
+      "Example: printf 'x,y\\n0.25,-1\\n' | antilock exact tutorials/scenes/figure8.toml");
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
   const SceneFile file = read_scene_file(scene);
   check_not_an_input(summary, {scene, file.mesh.file});
-  require_paper_problem(file, "truth");
+  require_paper_problem(file, argv[0]);
   const Eigen::MatrixXd points = read_csv(std::cin, "standard input", {"x", "y"});
   const bool square = !file.mesh.from_file() || is_unit_square(make_mesh(file));
   const std::optional<ExactSolution> series = square ? exact_solution_of(file.scene) : std::nullopt;
@@ -197,7 +197,7 @@ int exact(int argc, char** argv) {
     fmt::print("{},{},{},{},{},{}\n", points(n, 0), points(n, 1), text(row.u), text(row.gradient(0)),
                text(row.gradient(1)), row.p ? text(*row.p) : "");
   }
-  fmt::print(stderr, "antilock truth: {}, J = {}\n", known.summary["kind"].get<std::string>(),
+  fmt::print(stderr, "antilock {}: {}, J = {}\n", argv[0], known.summary["kind"].get<std::string>(),
              known.summary["energy"].dump());
   return 0;
 }

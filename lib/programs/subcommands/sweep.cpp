@@ -117,16 +117,16 @@ int sweep(int argc, char** argv) {
       on.places.push_back(*place);
     }
   }
-  std::vector<ExactSolution> truths;
+  std::vector<ExactSolution> exact_solutions;
   std::vector<ExactTable> tables;
   const bool square = !file.mesh.from_file() || is_unit_square(meshes.front().discretisation.space().mesh());
   for (const Scene& one : scenes) {
     std::optional<ExactSolution> exact = square ? exact_solution_of(one) : std::nullopt;
     if (!exact) break;  // it is the load or the gap: known of every epsilon or of none
     tables.emplace_back(*exact);
-    truths.push_back(std::move(*exact));
+    exact_solutions.push_back(std::move(*exact));
   }
-  const bool known = !truths.empty();
+  const bool known = !exact_solutions.empty();
 
   std::vector<std::string> columns{"cells", "epsilon", "unknowns"};
   for (std::size_t i = 1; i <= at.size() / 2; ++i)
@@ -149,7 +149,7 @@ int sweep(int argc, char** argv) {
       row.emplace_back(found);
       if (known) {
         const Errors errors = measure_errors(space, solution, list[i], reference(tables[i]));
-        row.emplace_back(truths[i].max_on_contact() > 0 ? found / truths[i].max_on_contact() : 1);
+        row.emplace_back(exact_solutions[i].max_on_contact() > 0 ? found / exact_solutions[i].max_on_contact() : 1);
         row.emplace_back(errors.max_at_unknowns);
         row.emplace_back(errors.energy);
       }
@@ -161,7 +161,7 @@ int sweep(int argc, char** argv) {
   if (!out.empty()) table.write(out);
   table.print(file.title.empty() ? file.name : file.title);
   if (!known)
-    fmt::print("  no exact solution is known of this scene: no errors (antilock truth --help says of which)\n");
+    fmt::print("  no exact solution is known of this scene: no errors (antilock exact --help says of which)\n");
   return 0;
 }
 

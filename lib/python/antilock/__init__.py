@@ -1,4 +1,4 @@
-"""Stiff parameters without locking, for who has matrices from numpy and scipy, or a scene as a text.
+"""Stiff parameters without locking, for those who have matrices from numpy and scipy, or a scene as a text.
 
 Everything is dimensionless. N unknowns, R rows of B. Error is a ValueError that says in one line what is wrong and what is
 accepted; NotConverged is an Error of a solve that did not reach its tolerance. tutorials/guides/howto_python.md shows it all.
@@ -18,10 +18,10 @@ with one_thread_where_memory_is_limited():  # both of them, and the library, loa
 from numpy.typing import ArrayLike
 
 from . import _arguments as arguments
-from ._antilock import Diagnosis, Error, NotConverged, Solution, Truth, __version__
+from ._antilock import Diagnosis, Error, ExactSolution, NotConverged, Solution, __version__
 
-__all__ = ["Diagnosis", "Error", "NotConverged", "Problem", "Solution", "Truth",
-           "assemble", "certify", "diagnose", "run", "solve", "truth"]
+__all__ = ["Diagnosis", "Error", "ExactSolution", "NotConverged", "Problem", "Solution",
+           "assemble", "certify", "diagnose", "exact_solution", "run", "solve"]
 
 
 class Problem(_antilock.Problem):
@@ -29,13 +29,13 @@ class Problem(_antilock.Problem):
 
     a1: N x N, symmetric; b: R x N, one row per strain that becomes stiff; m: R positive weights (areas of cells), the
     diagonal of M; load: N; fixed: unknown -> value; lower, upper: N, infinite (or 1e40 and more)
-    where there is no bound; force_bound: N,
-    the most that a bound bears. a1 and b are scipy matrices or arrays. compliance may be set again between two solves.
+    where there is no bound; force_limit: N,
+    the largest force that a bound can carry (Tresca's g). a1 and b are scipy matrices or arrays. compliance may be set again between two solves.
     """
 
     def __init__(self, a1: Any, b: Any, m: ArrayLike, load: ArrayLike, *, compliance: float = 1.0,
                  fixed: Mapping[int, float] | None = None, lower: ArrayLike | None = None, upper: ArrayLike | None = None,
-                 force_bound: ArrayLike | None = None) -> None:
+                 force_limit: ArrayLike | None = None, force_bound: ArrayLike | None = None) -> None:
         a1, b = arguments.matrix("a1", a1, sparse.csc_matrix), arguments.matrix("b", b, sparse.csr_matrix)
         n = a1.shape[0]
         m, load = arguments.vector("m", m, b.shape[0]), arguments.vector("load", load, n)
@@ -50,9 +50,12 @@ class Problem(_antilock.Problem):
                 raise Error(f"fixed[{i}] = {value}; accepted: from {low[i]} to {high[i]}, its bounds")
         bounded = (low != -np.inf) | (high != np.inf)
         bounded[list(held)] = False
-        most = [] if force_bound is None else arguments.vector("force_bound", force_bound, n)[bounded]
+        if force_bound is not None and force_limit is not None:
+            raise Error("force_bound is the name of force_limit in 0.2; accepted: one of them")
+        name, given = ("force_limit", force_limit) if force_bound is None else ("force_bound", force_bound)
+        limits = [] if given is None else arguments.vector(name, given, n)[bounded]
         super().__init__(a1, b, m, load, compliance, list(held), list(held.values()), np.flatnonzero(bounded),
-                         low[bounded], high[bounded], most)
+                         low[bounded], high[bounded], limits)
 
 
 def solve(a1: Any, b: Any, m: ArrayLike, load: ArrayLike, *, tolerance: float = 1e-10, **keywords: Any) -> Solution:
@@ -66,9 +69,12 @@ def diagnose(coarse: _antilock.Problem, fine: _antilock.Problem) -> Diagnosis:
                               arguments.problem("fine", fine, _antilock.Problem))
 
 
-def truth(epsilon: float, load: str = "10*sin(2*pi*x)", contact: bool = True) -> Truth:
+def exact_solution(epsilon: float, load: str = "10*sin(2*pi*x)", contact: bool = True) -> ExactSolution:
     """The exact solution of (23) at 0 <= epsilon <= 1 for a load that is a sum of sines in x with polynomials in y."""
-    return Truth(epsilon, load, contact)
+    return ExactSolution(epsilon, load, contact)
+
+
+Truth, truth = ExactSolution, exact_solution  # the names in 0.2
 
 
 def assemble(scene: str, folder: str = ".") -> _antilock.Problem:

@@ -110,10 +110,10 @@ TEST(Averaged, RefusesSharesThatDoNotFit) {
   StrainProjection half = 0.5 * identity(rows), negative = identity(rows), empty(rows + 1, rows);
   negative.coeffRef(0, 0) = -1;
   for (Eigen::Index r = 0; r < rows; ++r) empty.insert(r, r) = 1;
-  expect_refused([&] { project_strain(strain, identity(3)); }, "shares of 3 rows");
+  expect_refused([&] { project_strain(strain, identity(3)); }, "weights of 3 rows");
   expect_refused([&] { project_strain(strain, half); }, "sum to 0.5");
   expect_refused([&] { project_strain(strain, (1 + 1e-9) * identity(rows)); }, "sum to 1.000000001");
-  expect_refused([&] { project_strain(strain, negative); }, "share -1 of row 0");
+  expect_refused([&] { project_strain(strain, negative); }, "weight -1 of row 0");
   expect_refused([&] { project_strain(strain, empty); }, "has no row of B");
   expect_refused([&] { box_projection(mesh, strain, 0, 1); }, "accepted: positive lengths");
   expect_refused([&] { box_projection(mesh, strain, 1e-30, 0.1); }, "a billionth");

@@ -83,9 +83,9 @@ TEST(Projected, RefusesWhatCannotBeKept) {
   EXPECT_EQ(projected_class_parameter(0.25, 0), 0.25);
   EXPECT_EQ(projected_class_parameter(1, 0.5), 1);
   EXPECT_EQ(projected_class_parameter(0, 0.5), 0);
-  expect_refused([] { projected_class_parameter(0.5, 1); }, "kept = 1; accepted");
-  expect_refused([] { projected_class_parameter(0.5, -0.1); }, "kept = -0.1; accepted");
-  expect_refused([] { projected_class_parameter(2, 0.5); }, "compliance 2 with kept = 0.5");
+  expect_refused([] { projected_class_parameter(0.5, 1); }, "exact_fraction = 1; accepted");
+  expect_refused([] { projected_class_parameter(0.5, -0.1); }, "exact_fraction = -0.1; accepted");
+  expect_refused([] { projected_class_parameter(2, 0.5); }, "compliance 2 with exact_fraction = 0.5");
   expect_refused([] { projected_class_parameter(NAN, 0.5); }, "compliance nan");
 }
 

@@ -1,4 +1,4 @@
-// Bounds of other shapes: from above, from both sides, on combinations of unknowns. The same solvers, the same report.
+// Bounds of other shapes: from above, from both sides, on constraints of several unknowns. The same solvers, the same report.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -342,7 +342,7 @@ TEST(BlockOnASlope, IsTheFlatOneTurned) {
     }
 }
 
-// ---- Bounds on combinations.
+// ---- Bounds on constraints.
 
 /// Three points (u_x, u_y) on springs.
 VariationalInequality springs(const Eigen::MatrixXd& rows, const Eigen::VectorXd& load) {
@@ -518,7 +518,7 @@ TEST(CheckBounds, RefusesBoundsThatAreNone) {
   refused([](P& p) { p.upper(3) = -infinity; }, "bound 3 is not finite");
   refused([nan](P& p) { p.upper(3) = nan; }, "not finite");
   refused([](P& p) { p.upper.conservativeResize(5); }, "upper has 5 entries");
-  refused([](P& p) { p.constraints.resize(1, 3); }, "combinations have 3 columns");
+  refused([](P& p) { p.constraints.resize(1, 3); }, "constraints have 3 columns");
   const auto with_row = [](P& p, double value) {
     p.contact.pop_back();
     Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, p.size());
@@ -526,8 +526,8 @@ TEST(CheckBounds, RefusesBoundsThatAreNone) {
     p.constraints = rows_of(row);
     p.constraints.valuePtr()[0] = value;
   };
-  refused([&](P& p) { with_row(p, nan); }, "an entry of combinations is not finite");
-  refused([&](P& p) { with_row(p, 0); }, "combination 0 holds no free unknown");
+  refused([&](P& p) { with_row(p, nan); }, "an entry of constraints is not finite");
+  refused([&](P& p) { with_row(p, 0); }, "constraint 0 holds no free unknown");
   refused([&](P& p) { with_row(p, 1), p.lower.conservativeResize(3); }, "one bound per contact unknown and per");
   refused([&](P& p) { with_row(p, 1), p.constraints.uncompress(); }, "compressed");
 }

@@ -81,7 +81,7 @@ TEST(ContactProblem, BadlyConditionedOnesDoNotCycle) {
   }
 }
 
-TEST(ContactProblem, AWrongSideCostsAStepPerPiece) {
+TEST(ContactProblem, AWrongSideCostsAStepPerStatus) {
   Box box;
   box.s = Eigen::MatrixXd::Identity(9, 9);
   box.q = Eigen::VectorXd::Constant(9, 5);
@@ -94,8 +94,8 @@ TEST(ContactProblem, AWrongSideCostsAStepPerPiece) {
   EXPECT_EQ(box.solve(answer.status, 10).steps, 1);
 }
 
-// Below a bound that gives way, at it, between, at the upper bound, above it: v rises and lambda falls.
-TEST(Bounds, ValuesRiseAndForcesFallFromPieceToPiece) {
+// The statuses in their order: v grows and lambda falls.
+TEST(Bounds, ValuesRiseAndForcesFallFromStatusToStatus) {
   const Bounds bounds{Eigen::VectorXd{{0}}, Eigen::VectorXd{{1}}, Eigen::VectorXd{{3}}};
   const BoundStatuses all{BoundStatus::slip_below, BoundStatus::at_lower, BoundStatus::inactive, BoundStatus::at_upper,
                           BoundStatus::slip_above};
@@ -126,7 +126,7 @@ TEST(Bounds, ValuesRiseAndForcesFallFromPieceToPiece) {
   }
 }
 
-TEST(Bounds, AnEquationHasThreePiecesAndNothingBetween) {
+TEST(Bounds, AnEquationHasThreeStatusesAndIsNeverInactive) {
   const Bounds bounds{Eigen::VectorXd{{2}}, Eigen::VectorXd{{2}}, Eigen::VectorXd{{3}}};
   EXPECT_EQ(bounds.next(0, BoundStatus::slip_below, true), BoundStatus::at_lower);
   EXPECT_EQ(bounds.next(0, BoundStatus::at_lower, true), BoundStatus::slip_above);
@@ -138,7 +138,7 @@ TEST(Bounds, AnEquationHasThreePiecesAndNothingBetween) {
   EXPECT_EQ(bounds.admissible_range(0, BoundStatus::at_lower).high, 3);
 }
 
-TEST(Bounds, AStartAsksForPiecesThatThereAre) {
+TEST(Bounds, AStartAsksForStatusesThatExist) {
   // two-sided, from below, from above, an equation; each bears anything, then each gives way
   const Eigen::VectorXd lower{{0, 0, -infinity, 1}}, upper{{1, infinity, 1, 1}};
   using P = BoundStatus;
@@ -159,7 +159,7 @@ TEST(Bounds, AStartAsksForPiecesThatThereAre) {
   EXPECT_EQ(soft.nearest_valid(BoundStatuses(4, P::slip_above)),
             (BoundStatuses{P::slip_above, P::inactive, P::slip_above, P::slip_above}));
   test::expect_refused([&] { hard.nearest_valid(BoundStatuses(3, P::inactive)); },
-                       "3 pieces; accepted one per bound, 4");
+                       "3 statuses; accepted one per bound, 4");
 }
 
 /// A 1-D obstacle problem on n points, like the limit problem on Sigma: the case where a cold start takes O(n) steps.

@@ -259,7 +259,7 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
   expect_refused([&] { require_lower_bounds(good, "certificate"); }, "certificate: friction is not known here");
   ActiveSetOptions options;
   options.start = BoundStatuses(3, BoundStatus::inactive);
-  expect_refused([&] { active_set(good, options); }, "3 pieces; accepted one per bound, 4");
+  expect_refused([&] { active_set(good, options); }, "3 statuses; accepted one per bound, 4");
   VariationalInequality loose = good;  // nothing but friction holds it: its A1 is singular
   loose.dirichlet_dofs.clear();
   loose.dirichlet_values.resize(0);
