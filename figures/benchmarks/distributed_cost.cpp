@@ -1,4 +1,4 @@
-// What the distributed road costs beside the serial one, on the structured mesh: one line of numbers per run.
+// What the distributed solver costs beside the serial one, on the structured mesh: one line of numbers per run.
 //
 // Run:    mpiexec -n 2 distributed_cost --cells 1024        PETSc, on two ranks
 //         distributed_cost --cells 1024 --serial            the library's own factor, in this process
@@ -77,7 +77,7 @@ void petsc(const Scene& scene, const Element& element, int cells, bool levels) {
 
 int main(int argc, char** argv) {
   CLI::App line(
-      "The cost of the distributed road and of the serial one: "
+      "The cost of the distributed solver and of the serial one: "
       "solver,element,ranks,unknowns,mesh,assemble,setup or factor,solve,CPU of these two,iterations,corrections,"
       "most iterations,contact sets,peak MB of the largest rank,residual,seconds of one residual",
       "distributed_cost");

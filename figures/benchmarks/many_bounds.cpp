@@ -1,4 +1,4 @@
-// What bounds on all unknowns cost: a membrane over an obstacle, by the dense road and by the sparse one, and the number
+// What bounds on all unknowns cost: a membrane over an obstacle, on the Schur complement and on the sparse matrix, and the number
 // of bounds at which the two cost the same (the rule of ContactReduction, solve/penalty_factor.hpp).
 //
 // Run: many_bounds --out results/benchmark                 half a minute: the table, to 1/h = 512
@@ -39,7 +39,7 @@ Measured measure(const VariationalInequality& problem, ContactReduction reductio
   return measured;
 }
 
-/// The dense road up to 2,000 bounds: beyond it grows by eight where they double.
+/// The Schur complement up to 2,000 bounds: beyond it grows by eight where they double.
 void table(int finest, const std::filesystem::path& folder) {
   std::string csv = "bounds,dense,sparse,contact_steps,factorisations\n";
   for (const int n : {16, 24, 32, 45, 64, 128, 256, 512}) {
@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   bool rows = false;
   std::filesystem::path folder = "results/benchmark";
   line.add_option("--cells", finest, "finest mesh, 1/h")->check(CLI::Range(16, 512));
-  line.add_flag("--crossover", rows, "bounds on a few rows of vertices, to see where the two roads cost the same");
+  line.add_flag("--crossover", rows, "bounds on a few rows of vertices, to see where the two reductions cost the same");
   line.add_option("--out", folder, "folder of the results");
   if (const auto status = antilock::tutorial::parse(line, argc, argv)) return *status;
   try {

@@ -121,7 +121,7 @@ FUNCTIONS = {
     "lower": (solve_with("lower"), VECTORS, ("None", "minus infinity")),
     "upper": (solve_with("upper"), VECTORS, ("None",)),
     "force_limit": (solve_with("force_limit"), VECTORS, ("None",)),
-    "force_bound": (solve_with("force_bound"), VECTORS, ("None",)),
+    "force_bound": (lambda given: antilock.solve(**{**valid(), "force_limit": None, "force_bound": given}), VECTORS, ("None",)),
     "tolerance": (solve_with("tolerance"), NUMBERS, ()),
     "tolerance of Problem.solve": (lambda given: problem().solve(given), NUMBERS, ()),
     "compliance of a Problem": (set_compliance, NUMBERS, ()),
@@ -171,10 +171,18 @@ def same(found):
     ("load", -np.ones((N, 1))), ("load", [-1] * N), ("load", -np.ones(N, np.float32)), ("load", np.ma.masked_array(-np.ones(N))),
     ("fixed", {np.int64(0): np.float32(0)}), ("fixed", {0: fractions.Fraction(0)}), ("fixed", {0: np.array(0.0)}),
     ("compliance", fractions.Fraction(1, 2)), ("compliance", np.float64(0.5)), ("compliance", np.array(0.5)),
-    ("lower", [-1] * N), ("upper", np.ones((N, 1))), ("force_limit", [10] * N), ("force_bound", [10] * N),
+    ("lower", [-1] * N), ("upper", np.ones((N, 1))), ("force_limit", [10] * N),
 ])
 def test_what_is_a_value_in_another_form_is_that_value(name, given):
     assert same(antilock.solve(**{**valid(), name: given}))
+
+
+def test_force_bound_is_the_old_name_of_force_limit():
+    arguments = valid()
+    arguments["force_bound"] = arguments.pop("force_limit")
+    assert same(antilock.solve(**arguments))
+    with pytest.raises(antilock.Error, match="force_bound is the name of force_limit in 0.2; accepted: one of them"):
+        antilock.solve(**{**valid(), "force_bound": [10] * N})
 
 
 def test_arguments_are_not_changed():

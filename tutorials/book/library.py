@@ -16,10 +16,10 @@ EXAMPLES = {
     "space/space.hpp": ("unit/space/space_test.cpp", "Space, CrouzeixRaviartUnknownsAreEdgeMidpoints"),
     "problem/variational_inequality.hpp": ("unit/problem/variational_inequality_test.cpp", "Check, TakesAnA1OfZerosWhereBHoldsEverything"),
     "solve/active_set.hpp": ("unit/solve/active_set_test.cpp", "ActiveSet, LimitProblemOnAStructuredMeshIsVentcels"),
-    "solve/contact.hpp": ("unit/solve/contact_test.cpp", "ContactProblem, AWrongSideCostsAStepPerPiece"),
+    "solve/contact.hpp": ("unit/solve/contact_test.cpp", "ContactProblem, AWrongSideCostsAStepPerStatus"),
     "analysis/locking.hpp": ("unit/analysis/locking_test.cpp", "LockingDiagnosis, FindsThatAHalfIsHeld"),
     "certificate/certificate.hpp": ("unit/certificate/certificate_test.cpp", "Certificate, BoundsTheEnergyOfAScaledSolution"),
-    "analysis/locking_loss.hpp": ("unit/analysis/locking_report_test.cpp", "LostEnergy, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),
+    "analysis/locking_loss.hpp": ("unit/analysis/locking_report_test.cpp", "LockingLoss, IsToldByTheSecondSolveWhereTheGapIsAsFineAsTheMesh"),
     "adapt/solve_to.hpp": ("unit/adapt/solve_to_test.cpp", "SolveTo, TakesTheVentcelLayerForTheRigidLimit"),
 }
 

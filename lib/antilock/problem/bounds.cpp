@@ -68,7 +68,7 @@ void clear_bounds(VariationalInequality& problem) {
 }
 
 VariationalInequality equality_constrained(VariationalInequality problem, const std::vector<bool>& active) {
-  require_lower_bounds(problem, "held_in_contact");
+  require_lower_bounds(problem, "equality_constrained");
   if (active.size() != problem.contact.size())
     throw Error(fmt::format("equality_constrained: {} marks; accepted: {}, one per contact unknown", active.size(),
                             problem.contact.size()));

@@ -62,7 +62,7 @@ Lost lost_on(const TriangleMesh& mesh, const Element& element, const Scene& scen
           share_by_solving(scene, space, energy(problem, solution))};
 }
 
-TEST(LockingLoss, LiesBelowWhatTheTruthSays) {
+TEST(LockingLoss, LiesBelowWhatTheExactSolutionSays) {
   for (const double epsilon : {1.0, 0.1, 1e-2, 1e-3, 1e-6, 0.0}) {
     const double exact = ExactSolution(paper_sine_load(), epsilon, true, 14).energy();
     for (const int cells : {8, 32}) {

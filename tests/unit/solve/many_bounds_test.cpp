@@ -260,7 +260,7 @@ TEST(ManyBounds, WhatIsWrongIsRefusedHereToo) {
   one.max_steps = 1;
   EXPECT_THROW(active_set(problem, factor, one), NotConverged);
   expect_refused([&] { uzawa(problem, factor); }, "accepted: a factor made with ContactReduction::schur_complement");
-  expect_refused([&] { factor.dense().forward(problem.load); }, "ContactRoad::dense");
+  expect_refused([&] { factor.dense().forward(problem.load); }, "ContactReduction::schur_complement");
   const auto refused = [&](const auto& spoil, const std::string& words) {
     VariationalInequality bad = problem;
     spoil(bad);

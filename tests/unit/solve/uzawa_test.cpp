@@ -93,7 +93,7 @@ TEST(Uzawa, StopsWhereItIsAccurateEnough) {
       EXPECT_LE(early.counters.corrections, full.counters.corrections);
       const Errors a = measure_errors(space, full, epsilon, reference(exact_solution)),
                    b = measure_errors(space, early, epsilon, reference(exact_solution));
-      // the promise of accurate_enough
+      // the promise of balanced_tolerance
       EXPECT_LT(b.max, 1.01 * a.max) << element_name << epsilon;
       EXPECT_LT(b.h1, 1.01 * a.h1) << element_name << epsilon;
       EXPECT_LT(b.energy, 1.01 * a.energy) << element_name << epsilon;
