@@ -24,7 +24,7 @@ struct Interrupted : NotConverged {
   using NotConverged::NotConverged;
 };
 
-/// Calls the hook, if there is one. Throws Stopped, with how far `who` came, where the hook says so.
+/// Calls the hook, if there is one. Throws Interrupted, with how far `who` came, where the hook says so.
 inline void notify_or_throw(const ProgressHook& hook, const Progress& progress, const std::string& who) {
   if (!hook || hook(progress)) return;
   throw Interrupted(

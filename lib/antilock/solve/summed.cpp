@@ -156,7 +156,7 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   if (options.step && !(*options.step > 0))
     throw Error(fmt::format("{}: step = {}; accepted: a positive number", who, *options.step));
   if (options.stop_at)
-    throw Error(who + ": options.enough asks for the condensed matrix; accepted: tolerance, or the solver uzawa");
+    throw Error(who + ": options.stop_at needs for the condensed matrix; accepted: tolerance, or the solver uzawa");
   Stopwatch watch, stage;
   const auto [ordering, upper, load, given] = summed_system(problem, who, "uzawa");
   CgIlut solve(upper);

@@ -43,7 +43,7 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
 
 /// The paper's algorithm with the paper's linear solver (Section 4.2): one run of conjugate gradients on the sum,
 /// preconditioned by ILUT, a step. ILUT breaks down on stiff meshes that are not aligned with the layer, which is
-/// reported, never returned as an answer. Throws as summed_system does, and for options.enough: the duality gap asks
+/// reported, never returned as an answer. Throws as summed_system does, and for options.stop_at: the duality gap asks
 /// for the matrix condensed on Gamma_C.
 Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options = {});
 

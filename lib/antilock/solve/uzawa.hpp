@@ -24,7 +24,7 @@ struct UzawaOptions {
   /// rho; empty: 2 / (largest + smallest eigenvalue of the compliance C), by Lanczos iteration, or the same of C scaled
   /// to a unit diagonal, over its diagonal, where that is better conditioned.
   std::optional<double> step;
-  /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= enough->energy
+  /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= stop_at->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
   std::optional<AlgebraicTolerance> stop_at;
   ProgressHook progress = {};  ///< called every 32 steps, and after every correction that is not the last

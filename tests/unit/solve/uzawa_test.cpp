@@ -57,7 +57,7 @@ TEST(Uzawa, RefusesAStepThatGoesNowhere) {
   }
   UzawaOptions options;
   options.stop_at = {1e-6, 1e-3};
-  expect_refused([&] { uzawa_cg_ilut(problem, options); }, "options.enough");
+  expect_refused([&] { uzawa_cg_ilut(problem, options); }, "options.stop_at");
 }
 
 TEST(Uzawa, WithThePapersLinearSolverIsRightOrSaysThatItIsNot) {
