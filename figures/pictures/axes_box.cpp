@@ -38,7 +38,7 @@ void add_lines(vtkRenderer& renderer, const std::vector<std::pair<Vector, Vector
   renderer.AddActor(actor);
 }
 
-/// Numbers along one edge of the room; `outward` points away from it.
+/// Numbers along one edge of the box; `outward` points away from it.
 void label_edge(Page& page, const View& view, const Axis& axis, const std::function<Vector(double)>& place,
                 const Vector& outward) {
   const Point full = view(place(axis.low()) + outward) - view(place(axis.low())), away = (1 / length(full)) * full;

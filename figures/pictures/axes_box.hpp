@@ -10,7 +10,7 @@
 
 namespace antilock::figures {
 
-/// How much is written around a room: all of it, fewer numbers, or those alone.
+/// How much is written around an axes box: all of it, fewer numbers, or those alone.
 enum class AxesDetail { full, few, least };
 
 /// The box around a surface: floor and the two walls behind, with grid lines at the ticks.
@@ -22,7 +22,7 @@ struct AxesBox {
   bool parts = true;  // body and layer meet at y = 0: Sigma and their names are drawn
 };
 
-/// The room of a domain (its x and y) and a range of u that is drawn `height` high.
+/// The axes box of a domain (its x and y) and a range of u that is drawn `height` high.
 AxesBox make_axes_box(const vtkBoundingBox& domain, const Range& range, double height, AxesDetail detail);
 
 /// Puts floor and walls into a scene, and Sigma on the floor; the eye looks from high x and low y.

@@ -4,11 +4,11 @@
 // Run: compare --cells 16      coarser meshes, a few seconds
 //
 // In the formulation `mixed` FreeFEM solves the saddle point problem with u and the layer stress p as it stands, by one
-// UMFPACK; the library corrects a penalised problem. In the formulation `penalty` both do the latter. The two are the same
-// discrete solution on paper, so they must agree to round-off and to the tolerance of the corrections; the bound is 1e-8
-// relative in the maximum norm. Scripts that write numbers and no solution are compared by these. The column `road`
-// says what FreeFEM did in each line. The last lines show FreeFEM with the plain sum a1 + epsilon^-2 a0, which is no
-// solution at the paper's epsilon.
+// UMFPACK; the library corrects a penalised problem. In the formulation `penalty` both do the latter. The two are the
+// same discrete solution on paper, so they must agree to round-off and to the tolerance of the corrections; the bound
+// is 1e-8 relative in the maximum norm. Scripts that write numbers and no solution are compared by these. The column
+// `road` says what FreeFEM did in each line. The last lines show FreeFEM with the plain sum a1 + epsilon^-2 a0, which
+// is no solution at the paper's epsilon.
 
 #include <fmt/format.h>
 

@@ -105,7 +105,7 @@ locking, with a layer, is {diagnosis, kept, lost_energy}: lost_energy is the sha
 motion that is lost at least (proved; null where nothing is proved), kept is 1 - lost_energy;
 scene is the question in full; certificate, with an accuracy, is what was proved, level by level, of the
 polygon of the last mesh, with load, traction and gap as sampled; warning says what to
-doubt: a layer that locks, an answer above the trusted error, a load of the body or
+distrust: a layer that locks, a solution with a larger error than promised, a load of the body or
 an obstacle that the mesh misses, u within a layer beyond its values around it, a polygon in place of a curve.
 Exit status: 0 answered; 2 bad input, or what is printed does not arrive; 3 not solved to the tolerance, or out of memory. 2 and
 3 say why in one line and write nothing.

@@ -244,7 +244,7 @@ PYBIND11_MODULE(_antilock, module) {
       .def_readonly("active", &S::active, "N: whether a bound holds")
       .def_readonly("energy", &S::energy, "J(u) = a(u, u) / 2 - L(u)")
       .def_readonly("error", &S::error, "algebraic error of u at most, relative to the largest |u|")
-      .def_readonly("warning", &S::warning, "empty, or one line: what to doubt")
+      .def_readonly("warning", &S::warning, "empty, or one line: the reason to distrust it")
       .def_property_readonly("corrections", [](const S& s) { return s.counters.corrections; })
       .def_property_readonly(
           "residual", [](const S& s) { return s.kkt.residual; }, "of the KKT report, relative");

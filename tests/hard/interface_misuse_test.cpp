@@ -1,5 +1,5 @@
-// No quiet wrong answer through any interface: what an ordinary mistake at the programming interface comes to. Each of these
-// was once answered with a number, or ended the program.
+// No quiet wrong answer through any interface: what an ordinary mistake at the programming interface comes to. Each of
+// these was once answered with a number, or ended the program.
 #include <filesystem>
 #include <fstream>
 
@@ -157,7 +157,7 @@ TEST(InterfaceMisuse, TablesPassOverNothing) {
   near.add({1, 1.00001e-3, 5});
   near.add({1, 1.00002e-3, 6});
   EXPECT_EQ(near.pivot("h", "epsilon", "e").number("0.00100002"), 6);
-  const auto path = std::filesystem::temp_directory_path() / "antilock_doors.csv";
+  const auto path = std::filesystem::temp_directory_path() / "antilock_misuse.csv";
   table.write(path);
   std::ifstream in(path);
   std::string header;

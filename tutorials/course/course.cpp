@@ -15,11 +15,12 @@
 namespace antilock::tutorial {
 namespace {
 
-ExactSolution known_truth(const Scene& scene, int log2_points) {
+ExactSolution known_solution(const Scene& scene, int log2_points) {
   std::optional<ExactSolution> solution = exact_solution_of(scene, log2_points);
   if (!solution)
     throw Error(
-        "exact: the truth of this scene is not known; accepted: a StiffLayer, a load that is a sum of sines, and "
+        "exact: the exact solution of this scene is not known; accepted: a StiffLayer, a load that is a sum of sines, "
+        "and "
         "the obstacle, if any, at the distance 0, and nothing beyond the paper");
   return std::move(*solution);
 }
@@ -49,7 +50,7 @@ Scene paper_scene(double epsilon) { return Scene(Body{paper_load}, StiffLayer{ep
 Exact::Exact(Scene scene, int log2_points)
     : scene(std::move(scene)),
       epsilon(this->scene.epsilon().value_or(0)),
-      solution(known_truth(this->scene, log2_points)),
+      solution(known_solution(this->scene, log2_points)),
       table(solution, 1 << std::clamp(log2_points - 3, 10, 14)) {}
 
 Errors Exact::errors(const Space& space, const Solution& solution) const {

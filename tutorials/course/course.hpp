@@ -34,8 +34,9 @@ Scene paper_scene(double epsilon);
 /// The exact solution of a scene with a scaled layer, ready for whole meshes. It is made from the scene that is solved,
 /// so that nothing is measured against the truth of another load.
 struct Exact {
-  /// Throws Error for a scene whose truth is not known (exact/sine_load.hpp says which is). The series has 2^log2_points
-  /// points; 14 give gradients to 1e-6. The table has an eighth of them along Gamma_C, 2^10 to 2^14: 2 to 30 MB.
+  /// Throws Error for a scene whose exact solution is not known (exact/sine_load.hpp says which is). The series has
+  /// 2^log2_points points; 14 give gradients to 1e-6. The table has an eighth of them along Gamma_C, 2^10 to 2^14: 2
+  /// to 30 MB.
   explicit Exact(Scene scene, int log2_points = 17);
 
   Errors errors(const Space& space, const Solution& solution) const;

@@ -7,12 +7,13 @@
 
 namespace antilock {
 
-/// The refinement strategy: everything is bisected, or the body alone, with the layer's columns extruded anew below it. A
-/// feature of a thin layer crosses all of it, so that columns are the cheaper mesh for epsilon <= 0.1.
+/// The refinement strategy: everything is bisected, or the body alone, with the layer's columns extruded anew below
+/// it. A feature of a thin layer crosses all of it, so that columns are the cheaper mesh for epsilon <= 0.1.
 enum class RefinementStrategy { bisect, extrude };
 
-/// Doerfler's marking: the largest indicators that make up `theta` of the sum are marked, but at least `min_fraction` of
-/// their number (without that, an obstacle of one needle takes twenty levels) and at most `max_marked` (0: no limit).
+/// Doerfler's marking: the largest indicators that make up `theta` of the sum are marked, but at least `min_fraction`
+/// of their number (without that, an obstacle of one needle takes twenty levels) and at most `max_marked` (0: no
+/// limit).
 struct Marking {
   double theta = 0.5, min_fraction = 0.05;
   int max_marked = 0;

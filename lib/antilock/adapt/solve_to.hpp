@@ -55,8 +55,8 @@ struct CertifiedSolution {
 /// must come down to epsilon first: an end that needs more than the limit is told at once, with what locks.
 ///
 /// Throws Error for an accuracy outside (0, 1), another element, a limit that cannot hold the first mesh, a scene and a
-/// mesh that do not fit; NotConverged where the accuracy is not to be reached within the limit, with what is; Interrupted
-/// where accuracy.follow says so.
+/// mesh that do not fit; NotConverged where the accuracy is not to be reached within the limit, with what is;
+/// Interrupted where accuracy.follow says so.
 CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const AccuracyGoal& accuracy,
                            const std::function<void(const RefinementLevel&)>& progress = {});
 

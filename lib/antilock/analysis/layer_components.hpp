@@ -8,7 +8,7 @@ namespace antilock {
 struct LayerComponents {
   int count = 0;
   bool is_aligned = false;  ///< the mesh is aligned with the layer (in columns: vertical mesh lines, as in an
-                           ///< extruded mesh): one component below each edge of Sigma
+                            ///< extruded mesh): one component below each edge of Sigma
 };
 LayerComponents layer_components(const TriangleMesh& mesh);
 

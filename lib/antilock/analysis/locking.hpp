@@ -37,8 +37,8 @@ struct LockingDiagnosis {
   int coarse = 0, fine = 0;                ///< dimension of the trace on the bounds, on a mesh and on a finer one
   int coarse_bounds = 0, fine_bounds = 0;  ///< bounded unknowns of the stiff part
   bool bounded = true;  ///< false: nothing stiff is bounded, and all of the stiff part stands for the bounds
-  /// The flexibility under a force on the bounds, on the finer mesh over the coarser one, over the same at compliance 1,
-  /// less 1: of `compliance`, else of 1e-6.
+  /// The flexibility under a force on the bounds, on the finer mesh over the coarser one, over the same at compliance
+  /// 1, less 1: of `compliance`, else of 1e-6.
   double refinement_softening = 0;
   double compliance =
       0;  ///< which compliances locking concerns: the first of 1e-1 to 1e-6 where the softening is above

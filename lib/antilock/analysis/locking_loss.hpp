@@ -7,13 +7,13 @@
 
 namespace antilock {
 
-/// The energy that a discrete solution has lost by locking. J(v) = a(v, v)/2 - L(v); v is a function whose layer is free
-/// to move, above the obstacle at the points on Sigma, as u_h is at its own points on Gamma_C. Load and stiffness are those
-/// that u_h has at its points: what both miss is in neither.
-/// It is not what a finer mesh would gain. A layer of few rows is coarse, which is not locking (measured: rows half as high
-/// are worth 18 to 30 % under the feet of a bridge at epsilon = 1, and no loss is reported). And where the waves of a gap are few
-/// edges long, u_h meets it at other points than another mesh would (measured, 4.6 edges per wave: 9 % reported, where P1 in
-/// columns with points of its own is 3 % better).
+/// The energy that a discrete solution has lost by locking. J(v) = a(v, v)/2 - L(v); v is a function whose layer is
+/// free to move, above the obstacle at the points on Sigma, as u_h is at its own points on Gamma_C. Load and stiffness
+/// are those that u_h has at its points: what both miss is in neither.
+/// It is not what a finer mesh would gain. A layer of few rows is coarse, which is not locking (measured: rows half as
+/// high are worth 18 to 30 % under the feet of a bridge at epsilon = 1, and no loss is reported). And where the waves
+/// of a gap are few edges long, u_h meets it at other points than another mesh would (measured, 4.6 edges per wave: 9
+/// % reported, where P1 in columns with points of its own is 3 % better).
 struct LockingLoss {
   double estimate = 0;  ///< J(u_h) - J(v), negative where v is the worse of the two
   /// J(u_h) - J(v') <= J(u_h) - J(u), up to round-off: v' is v, lifted into K as 33 points per edge show it; -infinity

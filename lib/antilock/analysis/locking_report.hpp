@@ -23,8 +23,8 @@ struct LockingReport {
   /// One line for a program to print: the warning, or the diagnosis where there is none.
   const std::string& text() const { return warning.empty() ? diagnosis : warning; }
 };
-/// Empty for a scene without a layer. On aligned layers (in columns) and for elements that do not conform no number is made: what
-/// can be told from the mesh costs nothing.
+/// Empty for a scene without a layer. On aligned layers (in columns) and for elements that do not conform no number is
+/// made: what can be told from the mesh costs nothing.
 std::optional<LockingReport> report_locking(const Scene& scene, const Space& space,
                                             const VariationalInequality& problem, const Solution& solution);
 

@@ -83,9 +83,9 @@ ContactLine settle(const Grid& level, ArrayXd free, VectorXd c) {
     if ((next == free).all()) return {c.cwiseMax(0), lambda.cwiseMax(0)};
     free = next;
   }
-  throw NotConverged(
-      fmt::format("exact solution: the contact set on {} points did not settle in {} steps", level.load.size() - 1, most_sets),
-      1, most_sets);
+  throw NotConverged(fmt::format("exact solution: the contact set on {} points did not settle in {} steps",
+                                 level.load.size() - 1, most_sets),
+                     1, most_sets);
 }
 
 // A fine point starts in contact where its coarse neighbours are; the displacement is carried over as a sine series.

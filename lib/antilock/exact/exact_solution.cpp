@@ -28,8 +28,8 @@ std::vector<LoadResponse> checked_load(const SineLoad& load, int points) {
   std::map<int, std::vector<double>> profiles;
   for (const SineMode& mode : load.modes) {
     if (mode.k < 1 || mode.k > points / 16)
-      throw Error(fmt::format("exact solution: load with wave number k = {}; accepted: 1 <= k <= {} on {} points", mode.k,
-                              points / 16, points));
+      throw Error(fmt::format("exact solution: load with wave number k = {}; accepted: 1 <= k <= {} on {} points",
+                              mode.k, points / 16, points));
     if (mode.profile.size() > LoadResponse::max_degree + 1)
       throw Error(fmt::format("exact solution: load profile of degree {} at k = {}; accepted: at most {}",
                               mode.profile.size() - 1, mode.k, LoadResponse::max_degree));
@@ -37,8 +37,8 @@ std::vector<LoadResponse> checked_load(const SineLoad& load, int points) {
     sum.resize(std::max(sum.size(), mode.profile.size()));
     for (std::size_t m = 0; m < mode.profile.size(); ++m) {
       if (!std::isfinite(mode.profile[m]))
-        throw Error(
-            fmt::format("exact solution: load coefficient {} at k = {}; accepted: finite numbers", mode.profile[m], mode.k));
+        throw Error(fmt::format("exact solution: load coefficient {} at k = {}; accepted: finite numbers",
+                                mode.profile[m], mode.k));
       sum[m] += mode.profile[m];
     }
   }

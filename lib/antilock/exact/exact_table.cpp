@@ -166,9 +166,9 @@ ExactTable::ExactTable(const ExactSolution& exact, int finest_cells) {
   const ExactSolution::Data& data = exact.data();
   const int waves = data.load.empty() ? 1 : data.load.back().k();  // the largest
   if (waves > most_waves)
-    throw Error(
-        fmt::format("exact table: load with wave number k = {}; accepted: up to {} (sum the series of ExactSolution instead)",
-                    waves, most_waves));
+    throw Error(fmt::format(
+        "exact table: load with wave number k = {}; accepted: up to {} (sum the series of ExactSolution instead)",
+        waves, most_waves));
   const double epsilon = data.epsilon, longest = smooth_step / (waves * std::numbers::pi);
   const double finest = 1.0 / finest_cells;  // between rows, next to Gamma_C
   const auto cells = [&](double distance) {

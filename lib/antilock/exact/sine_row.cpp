@@ -101,7 +101,8 @@ SineRow layer_row(const ExactSolution::Data& exact, double y) {
 Eigen::Vector2d inside_domain(double x, double y) {
   const double slack = 1e-9;  // what meshes in single precision or a file's rounding may be off
   if (!(x >= -slack && x <= 1 + slack && y >= -1 - slack && y <= 1 + slack))
-    throw Error(fmt::format("exact solution: point ({}, {}) is outside the domain; accepted: 0 <= x <= 1, -1 <= y <= 1", x, y));
+    throw Error(
+        fmt::format("exact solution: point ({}, {}) is outside the domain; accepted: 0 <= x <= 1, -1 <= y <= 1", x, y));
   return {std::clamp(x, 0.0, 1.0), std::clamp(y, -1.0, 1.0)};
 }
 

@@ -13,14 +13,15 @@ namespace {
 
 void check_projection(const FactoredForm& form, const StrainProjection& projection) {
   if (projection.cols() != form.b.rows())
-    throw Error(
-        fmt::format("strain projection: weights of {} rows; accepted: of the {} rows of B", projection.cols(), form.b.rows()));
+    throw Error(fmt::format("strain projection: weights of {} rows; accepted: of the {} rows of B", projection.cols(),
+                            form.b.rows()));
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(projection.cols());
   for (Eigen::Index g = 0; g < projection.rows(); ++g) {
     double own = 0;
     for (StrainProjection::InnerIterator weight(projection, g); weight; ++weight) {
       if (!(weight.value() >= 0))
-        throw Error(fmt::format("strain projection: weight {} of row {}; accepted: 0 to 1", weight.value(), weight.col()));
+        throw Error(
+            fmt::format("strain projection: weight {} of row {}; accepted: 0 to 1", weight.value(), weight.col()));
       sum(weight.col()) += weight.value();
       own += weight.value();
     }
@@ -34,8 +35,9 @@ void check_projection(const FactoredForm& form, const StrainProjection& projecti
 void check_cells(const TriangleMesh& mesh, const FactoredForm& form) {
   for (const int t : form.cell)
     if (t < 0 || t >= mesh.triangle_count())
-      throw Error(fmt::format("strain projection: a row of B in cell {} of a mesh of {}; accepted: the mesh of the form", t,
-                              mesh.triangle_count()));
+      throw Error(
+          fmt::format("strain projection: a row of B in cell {} of a mesh of {}; accepted: the mesh of the form", t,
+                      mesh.triangle_count()));
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace antilock {
 VariationalInequality project_strain(VariationalInequality problem, const StrainProjection& projection,
                                      double exact_fraction = 0);
 
-/// (1 - s) c / (1 - s c), s = exact_fraction: the class parameter of the projected problem for c, from 0 to 1 as c does. For a Sweep of a
-/// projected problem. Throws Error unless 0 <= s < 1 and 0 <= c with s c < 1.
+/// (1 - s) c / (1 - s c), s = exact_fraction: the class parameter of the projected problem for c, from 0 to 1 as c
+/// does. For a Sweep of a projected problem. Throws Error unless 0 <= s < 1 and 0 <= c with s c < 1.
 double projected_class_parameter(double compliance, double exact_fraction);
 
 }  // namespace antilock

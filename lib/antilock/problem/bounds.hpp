@@ -23,7 +23,8 @@ Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::
 /// bound has a force limit. C entries.
 Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
-/// j(u), the work against bounds with a force_limit (Tresca's friction): the sum of force_limit times the distance from the bounds.
+/// j(u), the work against bounds with a force_limit (Tresca's friction): the sum of force_limit times the distance
+/// from the bounds.
 double friction_energy(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
 /// Replaces the dirichlet_dofs of the problem and their values by these.
@@ -33,8 +34,9 @@ void set_dirichlet(VariationalInequality& problem, const std::map<int, double>& 
 void clear_bounds(VariationalInequality& problem);
 
 /// The equality-constrained problem of an active set (Nocedal and Wright, ch. 16): the bounds marked in `active` (one
-/// mark per contact unknown) hold as equations, and the other bounds are gone. It is linear, and where `active` is the contact set of the solution, with the same solution. Throws Error for
-/// another number of marks, and where bounds are others than lower ones on unknowns.
+/// mark per contact unknown) hold as equations, and the other bounds are gone. It is linear, and where `active` is the
+/// contact set of the solution, with the same solution. Throws Error for another number of marks, and where bounds are
+/// others than lower ones on unknowns.
 VariationalInequality equality_constrained(VariationalInequality problem, const std::vector<bool>& active);
 
 /// Throws Error where `who` takes bounds on unknowns alone and the problem has constraints.

@@ -5,8 +5,8 @@
 
 namespace antilock {
 
-/// The stiffness of B' M B relative to A1, from their diagonals at the free unknowns. Of a problem on subdomains: the sums
-/// over them, and the largest of them.
+/// The stiffness of B' M B relative to A1, from their diagonals at the free unknowns. Of a problem on subdomains: the
+/// sums over them, and the largest of them.
 struct StiffnessRatio {
   double trace_a0 = 0, trace_a1 = 0;  ///< of the diagonals of B' M B and of A1, where both are positive
   double max_a0 = 0, max_a1 = 0;      ///< the largest entry of each
@@ -35,9 +35,8 @@ constexpr double default_penalty = 6e-8;
 inline double choose_penalty(const StiffnessRatio& s) { return default_penalty * s.value(); }
 inline double choose_penalty(const VariationalInequality& problem) { return choose_penalty(stiffness_ratio(problem)); }
 
-/// The penalty parameter delta of the factor: max(compliance, penalty), `penalty` chosen by the rule above where none is given; the
-/// compliance counts where B has a row of the class, or none at all.
-/// Throws Error for a penalty that is not positive.
+/// The penalty parameter delta of the factor: max(compliance, penalty), `penalty` chosen by the rule above where none
+/// is given; the compliance counts where B has a row of the class, or none at all. Throws Error for a penalty that is not positive.
 double penalty_parameter(const VariationalInequality& problem, std::optional<double> penalty = {});
 
 }  // namespace antilock

@@ -11,9 +11,10 @@ namespace antilock {
 ///     K_h = { v : v = dirichlet_values on the dirichlet_dofs, lower <= v <= upper on the contact unknowns,
 ///                 lower <= constraints v <= upper }
 ///
-/// A bound with a finite force_limit g is no part of K_h: it carries a force of at most g (a soft constraint), and slips under more. It adds j(v) - j(u)
-/// on the left, j(v) = sum g dist(v, [lower, upper]), and |lambda| <= g; lambda = g below it, -g above. Tresca's
-/// friction with the bound g is the one of a tangential displacement with lower = upper = 0: it sticks where
+/// A bound with a finite force_limit g is no part of K_h: it carries a force of at most g (a soft constraint), and
+/// slips under more. It adds j(v) - j(u) on the left, j(v) = sum g dist(v, [lower, upper]), and |lambda| <= g; lambda
+/// = g below it, -g above. Tresca's friction with the bound g is the one of a tangential displacement with lower =
+/// upper = 0: it sticks where
 /// |lambda| < g and slips against lambda where |lambda| = g.
 ///
 /// a0(u, v) = (B u, M B v) stays in factored form: summed into a1 it destroys a1 by round-off. Everything is

@@ -47,8 +47,8 @@ using Layer = std::variant<NoLayer, StiffLayer, VentcelLayer, ThinLayer>;
 /// Signorini contact on Gamma_C, the last line of (21): u >= -gap, pressure >= 0, complementary.
 struct UnilateralContact {
   Profile gap = [](double) { return 0.0; };  ///< distance of the obstacle at x (negative: it presses in)
-  std::vector<double> zero_at = {0, 1};      ///< where beside Gamma_C u = 0 is prescribed: gap, upper_obstacle >= 0 there
-  Profile upper_obstacle = {};               ///< u <= upper_obstacle, too (a double obstacle problem); empty: none
+  std::vector<double> zero_at = {0, 1};  ///< where beside Gamma_C u = 0 is prescribed: gap, upper_obstacle >= 0 there
+  Profile upper_obstacle = {};           ///< u <= upper_obstacle, too (a double obstacle problem); empty: none
 };
 
 /// Throws Error where the upper obstacle is below the lower one at x: no u satisfies -gap(x) <= u <= upper_obstacle(x).

@@ -132,7 +132,8 @@ class IteratedPenalty {
     return contact_.v;
   }
 
-  /// The factor by which a correction reduces the error of u: measured; at first, without B, the round-off of the factor.
+  /// The factor by which a correction reduces the error of u: measured; at first, without B, the round-off of the
+  /// factor.
   double contraction(double moved) const {
     if (p_.size() > 0) return acceleration_.contraction();
     if (result_.history.empty()) return std::min(defaults::max_contraction, factor_roundoff(problem_, factor_));
@@ -141,7 +142,8 @@ class IteratedPenalty {
                           : defaults::max_contraction;
   }
 
-  /// Takes a penalty that is smaller, but no smaller than the compliance, nor so small that the factor keeps no digits of A1.
+  /// Takes a penalty that is smaller, but no smaller than the compliance, nor so small that the factor keeps no digits
+  /// of A1.
   void reduce_penalty() {
     const double before = factor_.delta(), compliance = problem_.class_rows() > 0 ? problem_.compliance : 0;
     const double smallest = defaults::round_off * stiffness_ratio(problem_).value();

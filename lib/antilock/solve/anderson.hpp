@@ -14,15 +14,17 @@ namespace antilock {
 ///
 /// What a mix does to the rate: nothing. Near the answer a plain step multiplies the error of x by T, and a mix changes
 /// the error and not T. So what a plain step after a mix leaves is bounded by the contraction of plain steps. A slow
-/// mode with a small share in all starts of the history stays unseen. Where what is left of g is round-off, the weights of a mix
-/// are chance; it does no harm as long as the dependent vectors that it mixes are all near the solution.
+/// mode with a small share in all starts of the history stays unseen. Where what is left of g is round-off, the
+/// weights of a mix are chance; it does no harm as long as the dependent vectors that it mixes are all near the
+/// solution.
 class Anderson {
  public:
   /// Iterates that are kept: as many slow modes less one are gone. Two to five were seen, in locked P1; each costs two
   /// vectors of u and p.
   static constexpr std::size_t depth = 6;
 
-  /// Adds a plain step to the history: `iterate` = x + g from some x, and `dependent`, a vector that depends affinely on x.
+  /// Adds a plain step to the history: `iterate` = x + g from some x, and `dependent`, a vector that depends affinely
+  /// on x.
   void push(const DoubleDoubleVector& iterate, const Eigen::VectorXd& g, const DoubleDoubleVector& dependent) {
     past_.push_front({iterate, dependent, g});
     if (past_.size() > depth) past_.pop_back();
@@ -39,10 +41,10 @@ class Anderson {
     if (gain > 0) gain_ = gain;
   }
 
-  /// What the next step adds to the dependent vector: |g| of the last step times `gain`, the most that the dependent vector moved, in
-  /// the maximum norm, where a start moved by 1; 0 where the history holds no two starts yet. (A step of the dependent vector itself
-  /// does not tell: round-off that a mix leaves in a start is in g, and in the dependent vector, but in no step between
-  /// two of them.)
+  /// What the next step adds to the dependent vector: |g| of the last step times `gain`, the most that the dependent
+  /// vector moved, in the maximum norm, where a start moved by 1; 0 where the history holds no two starts yet. (A step
+  /// of the dependent vector itself does not tell: round-off that a mix leaves in a start is in g, and in the
+  /// dependent vector, but in no step between two of them.)
   double next_dependent_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
 
   /// By how much a plain step brings two starts closer, at worst over the last start and those before it; within

@@ -23,13 +23,7 @@ namespace antilock {
 ///
 /// In this order v grows and lambda falls. An active bound (at_lower, at_upper) prescribes v, and lambda
 /// is the unknown; every other status prescribes lambda, and v is the unknown.
-enum class BoundStatus : signed char {
-  slip_below = -2,
-  at_lower = -1,
-  inactive = 0,
-  at_upper = 1,
-  slip_above = 2
-};
+enum class BoundStatus : signed char { slip_below = -2, at_lower = -1, inactive = 0, at_upper = 1, slip_above = 2 };
 using BoundStatuses = std::vector<BoundStatus>;
 
 /// Whether the bound prescribes v.

@@ -25,9 +25,9 @@ std::vector<int> from_zero_to(Eigen::Index count) {
   return all;
 }
 
-/// Unknown -> group, by the entries of a symmetric K alone. Neighbours are strongly connected where |k_ij| > 0.08 sqrt(k_ii k_jj). An
-/// unknown none of whose neighbours has a group makes one with all of them; the others join that of a neighbour. P.
-/// Vanek, J. Mandel, M. Brezina, Computing 56 (1996): 0.08 is theirs.
+/// Unknown -> group, by the entries of a symmetric K alone. Neighbours are strongly connected where |k_ij| > 0.08
+/// sqrt(k_ii k_jj). An unknown none of whose neighbours has a group makes one with all of them; the others join that
+/// of a neighbour. P. Vanek, J. Mandel, M. Brezina, Computing 56 (1996): 0.08 is theirs.
 std::vector<int> groups_of(const SparseMatrix& k) {
   const int size = static_cast<int>(k.cols());
   const Eigen::VectorXd root = k.diagonal().cwiseSqrt();

@@ -38,10 +38,11 @@ class SparseContact final : public ContactSystem {
   double square(const Eigen::VectorXd& d) const override { return d.dot(k_.times(d)); }
   /// A start that needs no mesh. K is coarsened by smoothed aggregation (Vanek, Mandel, Brezina 1996), the same problem
   /// solved there, in the same way down to one bound, and a bound starts with the status of all groups that its
-  /// unknown depends on, where they agree. Rather too small a set than too large: a hole in it is filled in a step or two, what
-  /// is too much is given up one row of cells at a time. (Groups without the smoothing take 30 steps in place of 7 at
-  /// 65,025 bounds.) Aggregation supposes that constants cost no energy; where they do (beams, plates: their rotations)
-  /// every second bound alone is kept, and K stays whole: right for every K, but each of the factors is of all of it.
+  /// unknown depends on, where they agree. Rather too small a set than too large: a hole in it is filled in a step or
+  /// two, what is too much is given up one row of cells at a time. (Groups without the smoothing take 30 steps in
+  /// place of 7 at 65,025 bounds.) Aggregation supposes that constants cost no energy; where they do (beams, plates:
+  /// their rotations) every second bound alone is kept, and K stays whole: right for every K, but each of the factors
+  /// is of all of it.
   BoundStatuses nested_start(const Bounds& bounds, int max_steps) override;
 
  private:

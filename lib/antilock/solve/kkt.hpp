@@ -68,8 +68,9 @@ struct KktParts {
 /// All but the forces of the bounds. u: N entries, p: R.
 KktParts kkt_parts(const VariationalInequality& problem, const Eigen::VectorXd& u, const Eigen::VectorXd& p);
 
-/// Adds the residual of the equations to the report. Returns min(own, F_0) of all unknowns (N), infinite where `fixed` (N) is not 0:
-/// where the value is prescribed. `u`, `force`, `with_reactions`: U, F_0, F, of a problem on subdomains those of the whole.
+/// Adds the residual of the equations to the report. Returns min(own, F_0) of all unknowns (N), infinite where `fixed`
+/// (N) is not 0: where the value is prescribed. `u`, `force`, `with_reactions`: U, F_0, F, of a problem on subdomains
+/// those of the whole.
 Eigen::VectorXd add_equations(Kkt& kkt, const KktParts& parts, const std::vector<char>& fixed, double u, double force,
                               double with_reactions);
 /// Adds the rows of bound i to the report, whose value is s_i = `value`. `reach`: U c_i; `force`: force_i.

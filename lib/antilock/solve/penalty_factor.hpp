@@ -11,27 +11,29 @@ class SlackForm;
 
 /// How the linear system of a correction is reduced for the contact iteration.
 ///
-/// schur_complement: the contact unknowns come last in the factor, everything else is eliminated once, and the contact iteration
-/// works on their C x C Schur complement (static condensation). sparse: each step of the contact iteration factors K on the unknowns that are
-/// not active; its cost follows the sparse factor, whatever C is. automatic takes sparse where
+/// schur_complement: the contact unknowns come last in the factor, everything else is eliminated once, and the contact
+/// iteration works on their C x C Schur complement (static condensation). sparse: each step of the contact iteration
+/// factors K on the unknowns that are not active; its cost follows the sparse factor, whatever C is. automatic takes
+/// sparse where
 ///
 ///     C > 10 sqrt(F),   F free unknowns
 ///
 /// Measured on a membrane (figures/benchmarks/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F):
-/// the seconds of schur_complement over those of sparse are 0.2 to 0.4 at k = 1 to 4, 0.5 to 0.9 at 8, 0.6, 1.1 and 1.4 at 10 and 0.8, 1.4 and 2.5
-/// at 12, for n = 32, 64 and 128: C^3 stands against F^(3/2). Where all unknowns are bounded, sparse is taken
-/// from 101 on: at 225 both cost the same, at 529 it takes a fifth. Uzawa needs schur_complement. (A beam of
-/// 512 cells takes as many steps with either.)
+/// the seconds of schur_complement over those of sparse are 0.2 to 0.4 at k = 1 to 4, 0.5 to 0.9 at 8, 0.6, 1.1 and
+/// 1.4 at 10 and 0.8, 1.4 and 2.5 at 12, for n = 32, 64 and 128: C^3 stands against F^(3/2). Where all unknowns are
+/// bounded, sparse is taken from 101 on: at 225 both cost the same, at 529 it takes a fifth. Uzawa needs
+/// schur_complement. (A beam of 512 cells takes as many steps with either.)
 enum class ContactReduction { automatic, schur_complement, sparse };
 
 /// Sparse Cholesky factor L L' = P K P' of the penalised matrix A_delta, K = A1 + delta^-1 B' M B. With
-/// schur_complement the contact unknowns are ordered last: the trailing C x C block of L is then the Cholesky factor of their Schur
-/// complement, so the whole contact problem is solved on it for next to nothing. It serves every load, every bound and,
-/// where delta is the same, every compliance of one matrix pair (A1, B).
+/// schur_complement the contact unknowns are ordered last: the trailing C x C block of L is then the Cholesky factor
+/// of their Schur complement, so the whole contact problem is solved on it for next to nothing. It serves every load,
+/// every bound and, where delta is the same, every compliance of one matrix pair (A1, B).
 class PenaltyFactor {
  public:
   /// refactor(penalty_parameter(problem, penalty)). Throws Error for a malformed problem or a penalty that is not
-  /// positive, if K is not positive definite (then A1 + B' M B is singular: a component of the mesh is held nowhere), or out of memory.
+  /// positive, if K is not positive definite (then A1 + B' M B is singular: a component of the mesh is held nowhere),
+  /// or out of memory.
   explicit PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
                          ContactReduction reduction = ContactReduction::automatic,
                          CholeskyMaker make = default_cholesky);

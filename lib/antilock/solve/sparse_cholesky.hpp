@@ -47,8 +47,8 @@ class ConstrainedCholesky {
  public:
   explicit ConstrainedCholesky(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
 
-  /// Takes the upper triangle of K and factors it with nothing eliminated; a later one must have the same pattern, and `last`
-  /// is of the first alone. Returns the row of a lost pivot. All as SparseCholesky.
+  /// Takes the upper triangle of K and factors it with nothing eliminated; a later one must have the same pattern, and
+  /// `last` is of the first alone. Returns the row of a lost pivot. All as SparseCholesky.
   std::optional<int> factorise(SparseMatrix&& k, int last = 0) {
     k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved
     eliminated_.assign(k_.cols(), 0);

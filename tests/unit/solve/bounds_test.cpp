@@ -1,4 +1,5 @@
-// Bounds of other shapes: from above, from both sides, on constraints of several unknowns. The same solvers, the same report.
+// Bounds of other shapes: from above, from both sides, on constraints of several unknowns. The same solvers, the same
+// report.
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 

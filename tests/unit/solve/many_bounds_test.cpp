@@ -1,4 +1,4 @@
-// Bounds on many unknowns: the sparse road beside the dense one, problem by problem.
+// Bounds on many unknowns: the sparse matrix beside the Schur complement, problem by problem.
 #include "antilock/solve/contact_systems.hpp"
 #include "antilock/solve/sparse_cholesky.hpp"
 #include "antilock/solve/uzawa.hpp"
@@ -59,13 +59,14 @@ TEST(ManyBounds, BothRoadsAgreeOnRandomProblems) {
   const Agreement agreement = compare(hard::random_problem, 1500);
   EXPECT_GT(agreement.answered, 1200);
   EXPECT_LE(agreement.furthest, 1e-10);
-  EXPECT_LE(agreement.other, 6);  // measured: 5; over 6000 10, six of them answered by the sparse road alone
+  EXPECT_LE(agreement.other, 6);  // measured: 5; over 6000 10, six of them solved on the sparse matrix alone
 }
 
 TEST(ManyBounds, BothRoadsAgreeOnBoundsOfOtherShapes) {
   const Agreement agreement = compare(hard::random_bounds, 1500);
   EXPECT_GT(agreement.answered, 1000);
-  EXPECT_LE(agreement.beyond, 1);  // number 1063: the dense road is 9e-11 from the exact u, the sparse one 9e-10
+  EXPECT_LE(agreement.beyond,
+            1);  // number 1063: the Schur complement is 9e-11 from the exact u, the sparse matrix 9e-10
   EXPECT_LE(agreement.furthest, 2e-9);
   EXPECT_LE(agreement.other, 10);
 }

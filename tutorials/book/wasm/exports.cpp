@@ -19,7 +19,7 @@ struct Made {
 };
 std::map<std::tuple<int, int, int>, Made> made;  // by element, kind and cells, with the amount asked for last
 book::LiveFigure* figures[2];                    // of `made`, those that are seen: P1, Crouzeix-Raviart
-std::unique_ptr<book::LiveTruth> exact;
+std::unique_ptr<book::LiveExact> exact;
 book::LiveNumbers numbers;
 book::RoundOff round_off_numbers;
 std::vector<float> picture;
@@ -34,8 +34,8 @@ book::LiveFigure& figure_of(int element, int kind, int cells, double amount) {
   return *one.figure;
 }
 
-const book::LiveTruth& truth_at(double epsilon) {
-  if (!exact || exact->epsilon != epsilon) exact = std::make_unique<book::LiveTruth>(epsilon);
+const book::LiveExact& exact_at(double epsilon) {
+  if (!exact || exact->epsilon != epsilon) exact = std::make_unique<book::LiveExact>(epsilon);
   return *exact;
 }
 
@@ -61,12 +61,12 @@ EXPORT(discretise) void discretise(int element, int kind, int cells, double amou
 EXPORT(prepare) void prepare(int element, int kind, int cells, double amount, double epsilon) {
   told([&] {
     book::LiveFigure& figure = figure_of(element, kind, cells, amount);
-    if (figure.solution().u.size() == 0 && &figure != figures[element]) figure.solve(epsilon, truth_at(epsilon));
+    if (figure.solution().u.size() == 0 && &figure != figures[element]) figure.solve(epsilon, exact_at(epsilon));
   });
 }
 /// The members of LiveNumbers in their order.
 EXPORT(solve) const double* solve(int element, double epsilon) {
-  told([&] { numbers = figures[element]->solve(epsilon, truth_at(epsilon)); });
+  told([&] { numbers = figures[element]->solve(epsilon, exact_at(epsilon)); });
   return &numbers.largest_on_contact;
 }
 /// Of the last solve: empty, or the sentence of run_scene.
@@ -82,12 +82,12 @@ EXPORT(trace) const double* trace(int element) {
   return line.data();
 }
 EXPORT(ridge) const double* ridge(double epsilon, int points) {
-  told([&] { line = book::ridge_line(truth_at(epsilon), points); });
+  told([&] { line = book::ridge_line(exact_at(epsilon), points); });
   return line.data();
 }
 EXPORT(line_size) int line_size() { return static_cast<int>(line.size()); }
 /// The members of RoundOff.
 EXPORT(round_off) const double* round_off(int cells, double epsilon) {
-  told([&] { round_off_numbers = book::round_off(cells, epsilon, truth_at(epsilon)); });
+  told([&] { round_off_numbers = book::round_off(cells, epsilon, exact_at(epsilon)); });
   return &round_off_numbers.split;
 }

@@ -40,7 +40,7 @@ TriangleMesh live_mesh(LiveMesh kind, int cells, double amount) {
 LiveFigure::LiveFigure(LiveMesh kind, int cells, double amount, const Element& element)
     : discrete_(live_mesh(kind, cells, amount), element), sweep_(paper_scene(1), discrete_.space()) {}
 
-LiveNumbers LiveFigure::solve(double epsilon, const LiveTruth& exact) {
+LiveNumbers LiveFigure::solve(double epsilon, const LiveExact& exact) {
   const Stopwatch watch;
   sweep_.set_epsilon(epsilon);
   solution_ = sweep_.solve();
@@ -93,10 +93,10 @@ std::vector<double> LiveFigure::trace() const {
   return numbers;
 }
 
-LiveTruth::LiveTruth(double epsilon)
+LiveExact::LiveExact(double epsilon)
     : epsilon(epsilon), solution(paper_sine_load(), epsilon, true, 10), table(solution, 1 << 10) {}
 
-std::vector<double> ridge_line(const LiveTruth& exact, int points) {
+std::vector<double> ridge_line(const LiveExact& exact, int points) {
   std::vector<double> numbers;
   for (int i = 0; i < points; ++i) {
     const double x = static_cast<double>(i) / (points - 1);
@@ -105,7 +105,7 @@ std::vector<double> ridge_line(const LiveTruth& exact, int points) {
   return numbers;
 }
 
-RoundOff round_off(int cells, double epsilon, const LiveTruth& exact) {
+RoundOff round_off(int cells, double epsilon, const LiveExact& exact) {
   const Discretisation discrete(structured_mesh(cells), p1());
   const Space& space = discrete.space();
   const VariationalInequality problem = assemble(paper_scene(epsilon), space);

@@ -25,8 +25,8 @@ struct LiveNumbers {
 };
 
 /// The exact solution at one epsilon as the page needs it: 2^10 points along Gamma_C.
-struct LiveTruth {
-  explicit LiveTruth(double epsilon);
+struct LiveExact {
+  explicit LiveExact(double epsilon);
   double epsilon;
   ExactSolution solution;
   ExactTable table;
@@ -38,7 +38,7 @@ class LiveFigure {
   LiveFigure(LiveMesh kind, int cells, double amount, const Element& element);
 
   /// Solves (23), or (24) at epsilon = 0, and compares with the exact solution.
-  LiveNumbers solve(double epsilon, const LiveTruth& exact);
+  LiveNumbers solve(double epsilon, const LiveExact& exact);
   /// What run_scene would say of the layer of the last solve: empty, or one sentence.
   const std::string& warning() const { return warning_; }
   /// x, y, u of the three corners of every triangle, in the order of the mesh: 9 numbers per triangle.
@@ -55,13 +55,13 @@ class LiveFigure {
 };
 
 /// x and the exact u at `points` places along Gamma_C: 2 numbers per place.
-std::vector<double> ridge_line(const LiveTruth& exact, int points);
+std::vector<double> ridge_line(const LiveExact& exact, int points);
 
 /// One epsilon of the round-off exhibit (P1, structured): the largest error at the unknowns by the split form, and by
 /// the sum A1 + epsilon^-2 B' M B; 1 where the sum was refused.
 struct RoundOff {
   double split = 0, summed = 0;
 };
-RoundOff round_off(int cells, double epsilon, const LiveTruth& exact);
+RoundOff round_off(int cells, double epsilon, const LiveExact& exact);
 
 }  // namespace antilock::book

@@ -22,7 +22,7 @@ int main() {
         book::LiveFigure figure(kind.mesh, cells, kind.amount, *element);
         for (const double exponent : {0., -2., -6., -8.}) {
           const double epsilon = exponent == -8 ? 0 : std::pow(10, exponent);
-          const book::LiveNumbers n = figure.solve(epsilon, book::LiveTruth(epsilon));
+          const book::LiveNumbers n = figure.solve(epsilon, book::LiveExact(epsilon));
           fmt::print("{{\"element\": \"{}\", \"mesh\": \"{}\", \"moved\": {}, \"cells\": {}, \"exponent\": {}, ",
                      element->name(), kind.name, kind.amount, cells, exponent);
           fmt::print("\"kept\": {:.17g}, \"error\": {:.17g}, \"touching\": {}, ", 100 * n.largest_on_contact / n.ridge,

@@ -12,12 +12,13 @@ namespace antilock::distributed {
 /// The rule's own for a solver that sees K alone. The compliance itself, however small, as in most codes: for exhibits.
 enum class PenaltyChoice { distributed_default, serial_default, none };
 
-/// The class's problem (6), each rank with the part of its own triangles: a1, B, M and L of the subdomain, assembled by the
-/// library's forms. Whole forms are sums over the ranks; only K = A1 + delta^-1 B' M B is ever a matrix of all ranks.
+/// The class's problem (6), each rank with the part of its own triangles: a1, B, M and L of the subdomain, assembled
+/// by the library's forms. Whole forms are sums over the ranks; only K = A1 + delta^-1 B' M B is ever a matrix of all
+/// ranks.
 class DistributedProblem {
  public:
-  /// `space`: on the subdomain of this rank. Every rank must call it. Throws Error, on every rank, where scene and mesh do
-  /// not fit or a load or a gap is not finite.
+  /// `space`: on the subdomain of this rank. Every rank must call it. Throws Error, on every rank, where scene and
+  /// mesh do not fit or a load or a gap is not finite.
   DistributedProblem(const Scene& scene, const Space& space,
                      PenaltyChoice penalty = PenaltyChoice::distributed_default);
 
@@ -27,8 +28,8 @@ class DistributedProblem {
   double delta() const { return delta_; }                  ///< the compliance at least
   const Eigen::VectorXd& lower() const { return lower_; }  ///< per owned row: the bound, -infinity where there is none
 
-  /// r1 = L - A1 u - B' M p, the part of this rank; 0 at the clamped unknowns. u at the unknowns of the subdomain, p at its
-  /// rows of B.
+  /// r1 = L - A1 u - B' M p, the part of this rank; 0 at the clamped unknowns. u at the unknowns of the subdomain, p
+  /// at its rows of B.
   Eigen::VectorXd equilibrium(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
     return rows_.unclamped(part_.load - part_.a1 * u - part_.b.transpose() * part_.m.cwiseProduct(p));
   }

@@ -7,9 +7,9 @@
 
 namespace antilock::distributed {
 
-/// Which row of the whole problem each unknown of a subdomain is, and the way between these unknowns and a vector of all
-/// ranks, in which one rank owns what several hold. The rows of rank 0 come first; those of a rank stand by column (x,
-/// then y: what belongs together in the layer stands together). Clamped unknowns have a row, too: u stays 0 there.
+/// Which row of the whole problem each unknown of a subdomain is, and the way between these unknowns and a vector of
+/// all ranks, in which one rank owns what several hold. The rows of rank 0 come first; those of a rank stand by column
+/// (x, then y: what belongs together in the layer stands together). Clamped unknowns have a row, too: u stays 0 there.
 class DofMap {
  public:
   /// P1 or CR. Every rank must call it.
