@@ -38,8 +38,8 @@
 // (x - P).n is 2 |T| / |E| on E and 0 on the other edges, so (2 |T| / |E|) |z|_E^2 = 2 |z|_T^2 + 2 int z (x - P).grad z <=
 // 2 |z|_T^2 + 2 h_T |z|_T |grad z|_T. And R(w) = r1' I_h w, I_h the
 // interpolation by means over edges: its gradients are the means of grad w, so |I_h w|_a <= |w|_a, and for w = 0 on
-// Gamma_D, with K = A1 + delta^-1 B' M B, delta >= epsilon^2, on the free unknowns: |R(w)| <= rho |w|_a,
-// rho^2 = r1' K^-1 r1. Set q = osc + rho.
+// Gamma_D, with A_delta = A1 + delta^-1 B' M B, delta >= epsilon^2, on the free unknowns: |R(w)| <= rho |w|_a,
+// rho^2 = r1' A_delta^-1 r1. Set q = osc + rho.
 //
 // 3. The bounds. Put e = A^-1/2 (A grad u - S_h), and w, t the same with A grad v and sigma in place of A grad u. The
 // inequality for u with v, and (a) with u - v, which is 0 on Gamma_D, give

@@ -41,7 +41,7 @@ struct LoopReport {
 /// up anew where the set changed (kept, it takes up to four times the iterations: a released point frees a whole column
 /// of the layer, which the old hierarchy does not know). A start from a coarser level is wrong by short waves alone, which
 /// a few smoothing steps take away: the set that follows them is the right one, or nearly, and multigrid is set up once
-/// and not twice. Residuals are formed from A1, B, M and p, never from K.
+/// and not twice. Residuals are formed from A1, B, M and p, never from A_delta.
 /// Every rank must call it. Throws, on every rank, NotConverged where it does not settle, Interrupted where it is told
 /// to stop.
 LoopReport contact_loop(const DistributedProblem& problem, State& state, const LoopOptions& options = {});

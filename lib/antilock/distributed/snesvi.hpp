@@ -15,7 +15,7 @@ struct SnesviEnd {
 
 /// An exhibit, to be compared against: SNESVI (vinewtonrsls: Newton on the reduced space of the free unknowns) on the
 /// matrix of `problem`, with 200 Newton steps at most, in place of the linear solver of contact_loop.hpp. Each du
-/// solves the inequality of K with the bound lower - u and the right-hand side r1 + delta^-1 B' M r2.
+/// solves the inequality of A_delta with the bound lower - u and the right-hand side r1 + delta^-1 B' M r2.
 ///
 /// `split` false: one correction from u = 0, as PETSc's solver comes. With PenaltyChoice::none the matrix is A1 +
 /// compliance^-1 B' M B, in which A1 has lost its digits. `split` true: corrections until du is below 1e-10 of u, 20 at

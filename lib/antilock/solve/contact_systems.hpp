@@ -26,11 +26,11 @@ class DenseContact final : public ContactSystem {
   const Eigen::VectorXd& q_;  ///< C
 };
 
-/// A contact problem on all F unknowns of a sparse K, for many bounds: K is factored anew with every active set,
+/// A contact problem on all n_free unknowns of a sparse K, for many bounds: K is factored anew with every active set,
 /// without the unknowns that are active.
 class SparseContact final : public ContactSystem {
  public:
-  /// All must outlive it. q: F entries; bounded: the C places of the bounded unknowns.
+  /// All must outlive it. q: n_free entries; bounded: the C places of the bounded unknowns.
   SparseContact(ConstrainedCholesky& k, const Eigen::VectorXd& q, std::vector<int> bounded)
       : ContactSystem(std::move(bounded)), k_(k), q_(q) {}
 

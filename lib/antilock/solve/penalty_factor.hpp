@@ -13,16 +13,16 @@ class SlackForm;
 ///
 /// schur_complement: the contact unknowns come last in the factor, everything else is eliminated once, and the contact
 /// iteration works on their C x C Schur complement (static condensation). sparse: each step of the contact iteration
-/// factors K on the unknowns that are not active; its cost follows the sparse factor, whatever C is. automatic takes
-/// sparse where
+/// factors K on the unknowns that are not active; its cost follows the sparse factor, whatever n_bounds is. automatic
+/// takes sparse where
 ///
-///     C > 10 sqrt(F),   F free unknowns
+///     n_bounds > 10 sqrt(n_free)
 ///
-/// Measured on a membrane (figures/benchmarks/many_bounds.cpp) with bounds on k rows of n x n vertices, C = k sqrt(F):
-/// the seconds of schur_complement over those of sparse are 0.2 to 0.4 at k = 1 to 4, 0.5 to 0.9 at 8, 0.6, 1.1 and
-/// 1.4 at 10 and 0.8, 1.4 and 2.5 at 12, for n = 32, 64 and 128: C^3 stands against F^(3/2). Where all unknowns are
-/// bounded, sparse is taken from 101 on: at 225 both cost the same, at 529 it takes a fifth. Uzawa needs
-/// schur_complement. (A beam of 512 cells takes as many steps with either.)
+/// Measured on a membrane (figures/benchmarks/many_bounds.cpp) with bounds on k rows of n x n vertices, n_bounds = k
+/// sqrt(n_free): the seconds of schur_complement over those of sparse are 0.2 to 0.4 at k = 1 to 4, 0.5 to 0.9 at 8,
+/// 0.6, 1.1 and 1.4 at 10 and 0.8, 1.4 and 2.5 at 12, for n = 32, 64 and 128: n_bounds^3 stands against n_free^(3/2).
+/// Where all unknowns are bounded, sparse is taken from 101 on: at 225 both cost the same, at 529 it takes a fifth.
+/// Uzawa needs schur_complement. (A beam of 512 cells takes as many steps with either.)
 enum class ContactReduction { automatic, schur_complement, sparse };
 
 /// Sparse Cholesky factor L L' = P K P' of the penalised matrix A_delta, K = A1 + delta^-1 B' M B. With
@@ -51,7 +51,7 @@ class PenaltyFactor {
   /// R, of the tied problem: delta, and of rows with compliances of their own these or defaults::own_penalty.
   const Eigen::VectorXd& penalties() const { return penalties_; }
   const DofOrdering& ordering() const { return ordering_; }
-  /// The smallest pivot of K: to about a factor of F its smallest eigenvalue, for next to nothing.
+  /// The smallest pivot of K: to about a factor of n_free its smallest eigenvalue, for next to nothing.
   double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
   /// K^-1 r on the n_free unknowns; with sparse on those that are not eliminated, 0 on the others.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_.solve(r); }

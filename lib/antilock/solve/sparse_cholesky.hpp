@@ -9,8 +9,8 @@
 
 namespace antilock {
 
-/// Sparse Cholesky factor L L' = P K P' of a symmetric positive definite K (F x F), of which the upper triangle is
-/// read.
+/// Sparse Cholesky factor L L' = P K P' of a symmetric positive definite K (n_free x n_free), of which the upper
+/// triangle is read.
 class SparseCholesky {
  public:
   virtual ~SparseCholesky() = default;
@@ -23,7 +23,8 @@ class SparseCholesky {
   /// nothing but round-off (defaults::round_off); empty: K is positive definite. Throws NotConverged out of memory.
   virtual std::optional<int> factorise(const SparseMatrix& k) = 0;
 
-  /// The smallest pivot: to about a factor of F the smallest eigenvalue of K, for next to nothing. Infinite of no rows.
+  /// The smallest pivot: to about a factor of n_free the smallest eigenvalue of K, for next to nothing. Infinite of no
+  /// rows.
   virtual double smallest_pivot() const = 0;
   virtual Eigen::VectorXd forward(const Eigen::VectorXd& r) const = 0;  ///< y = L^-1 P r
   virtual Eigen::VectorXd backward(Eigen::VectorXd y) const = 0;        ///< x = P' L'^-1 y
@@ -40,9 +41,9 @@ using CholeskyMaker = std::unique_ptr<SparseCholesky> (*)();
 /// round-off.
 std::unique_ptr<SparseCholesky> default_cholesky();
 
-/// A symmetric positive definite K (F x F) of which some unknowns may be eliminated, as prescribed values are: the
-/// factor is that of the others, the rows and columns of the eliminated ones keep their diagonal alone. One analysis
-/// serves every set, so that another set costs one numeric factorisation.
+/// A symmetric positive definite K (n_free x n_free) of which some unknowns may be eliminated, as prescribed values
+/// are: the factor is that of the others, the rows and columns of the eliminated ones keep their diagonal alone. One
+/// analysis serves every set, so that another set costs one numeric factorisation.
 class ConstrainedCholesky {
  public:
   explicit ConstrainedCholesky(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}

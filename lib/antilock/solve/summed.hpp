@@ -9,8 +9,8 @@ namespace antilock {
 /// K u = load on the free unknowns, K = A1 + compliance^-1 B' M B.
 struct SummedSystem {
   DofOrdering ordering;
-  SparseMatrix upper;    ///< F x F, the upper triangle of K
-  Eigen::VectorXd load;  ///< F: what the prescribed values leave of it
+  SparseMatrix upper;    ///< n_free x n_free, the upper triangle of K
+  Eigen::VectorXd load;  ///< n_free: what the prescribed values leave of it
   Eigen::VectorXd u;     ///< N: the prescribed values, 0 elsewhere
 };
 

@@ -7,14 +7,15 @@
 
 namespace antilock::distributed {
 
-/// delta of K, by the rule of problem/choose_penalty.hpp over all ranks. One 64th of it for the contact loop: conjugate
-/// gradients leave no round-off of a factor (measured at 8.4 million unknowns: with 6e-8 59 iterations, with 1e-9 14).
-/// The rule's own for a solver that sees K alone. The compliance itself, however small, as in most codes: for exhibits.
+/// delta of A_delta, by the rule of problem/choose_penalty.hpp over all ranks. One 64th of it for the contact loop:
+/// conjugate gradients leave no round-off of a factor (measured at 8.4 million unknowns: with 6e-8 59 iterations, with
+/// 1e-9 14). The rule's own for a solver that sees A_delta alone. The compliance itself, however small, as in most
+/// codes: for exhibits.
 enum class PenaltyChoice { distributed_default, serial_default, none };
 
 /// The class's problem (6), each rank with the part of its own triangles: a1, B, M and L of the subdomain, assembled
-/// by the library's forms. Whole forms are sums over the ranks; only K = A1 + delta^-1 B' M B is ever a matrix of all
-/// ranks.
+/// by the library's forms. Whole forms are sums over the ranks; only A_delta = A1 + delta^-1 B' M B is ever a matrix
+/// of all ranks.
 class DistributedProblem {
  public:
   /// `space`: on the subdomain of this rank. Every rank must call it. Throws Error, on every rank, where scene and
@@ -37,7 +38,7 @@ class DistributedProblem {
   Eigen::VectorXd compatibility(const Eigen::VectorXd& u, const Eigen::VectorXd& p) const {
     return part_.compliance * p - part_.b * u;
   }
-  /// A correction of both: K du = r1 + delta^-1 B' M r2, the part of this rank,
+  /// A correction of both: A_delta du = r1 + delta^-1 B' M r2, the part of this rank,
   Eigen::VectorXd right_side(const Eigen::VectorXd& r1, const Eigen::VectorXd& r2) const {
     return rows_.unclamped(r1 + part_.b.transpose() * part_.m.cwiseProduct(r2) / delta_);
   }
