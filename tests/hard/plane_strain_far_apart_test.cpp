@@ -2,7 +2,6 @@
 // coating or of rubber, against the same block assembled and solved with 60 digits. The kind of MYSTRAN #146 and
 // K2Engineering #7, a body that hangs from a far softer one.
 #include <cstdlib>
-#include <map>
 
 #include "antilock/core/error.hpp"
 #include "antilock/form/gradient_forms.hpp"
@@ -153,7 +152,7 @@ RealMatrix assembled(const Block& block, const VectorSpace& space) {
 
 /// u of the block with 60 digits: the pieces of its bounds are exchanged from those of an answer on. Empty where they do not
 /// settle.
-RealVector answer(const VariationalInequality& problem, const RealMatrix& k, BoundStatuses status) {
+RealVector exact_solution(const VariationalInequality& problem, const RealMatrix& k, BoundStatuses status) {
   const RealVector load = problem.load.cast<Real>();
   status.resize(problem.contact.size(), BoundStatus::inactive);
   const auto most = [&](std::size_t i) {
@@ -215,7 +214,7 @@ RealVector answer(const VariationalInequality& problem, const RealMatrix& k, Bou
   return {};
 }
 
-Judged judge(const Block& block) {
+Assessment assess(const Block& block) {
   const Space x(block.mesh, *block.in_x), y(block.mesh, *block.in_y);
   const VectorSpace space{x, y};
   VariationalInequality problem;
@@ -226,16 +225,16 @@ Judged judge(const Block& block) {
     if (block.is_coated) options.penalty = penalty(block.coating, space);
     s = active_set(problem, options);
   } catch (const Error& error) {
-    return {Finding::refused, 0, error.what()};
+    return {SceneOutcome::refused, 0, error.what()};
   }
-  const RealVector exact = answer(problem, assembled(block, space), s.status);
+  const RealVector exact = exact_solution(problem, assembled(block, space), s.status);
   // A u that has locked is the round-off of its size before (Solution::error): rounding the rows of B has moved it. It is
   // compared with that size.
-  Judged found = judged(s, exact);
+  Assessment found = compare_with_exact(s, exact);
   double largest = 0;
   for (Eigen::Index i = 0; i < exact.size(); ++i) largest = std::max(largest, std::abs(static_cast<double>(exact(i))));
   const bool is_locked = largest < 1e-5 * s.unlocked_size;
-  if (is_locked && found.error * largest <= 1e-6 * s.unlocked_size) found.finding = Finding::right;
+  if (is_locked && found.error * largest <= 1e-6 * s.unlocked_size) found.outcome = SceneOutcome::right;
   return found;
 }
 
@@ -296,15 +295,11 @@ Block random_block(unsigned seed) {
 // stiffnesses summed into A1 more than a hundred were wrong, by up to 4 %.
 TEST(PlaneStrainFarApart, RandomBlocksAreRightOrSaySo) {
   const unsigned count = std::getenv("ANTILOCK_THOROUGH") != nullptr ? 5'000 : 150;
-  std::map<Finding, int> findings;
-  for (unsigned seed = 0; seed < count; ++seed) {
-    const Judged j = judge(random_block(seed));
-    ++findings[j.finding];
-    EXPECT_NE(j.finding, Finding::quietly_wrong) << "block " << seed << ": " << j.error << " " << j.text;
-    EXPECT_NE(j.finding, Finding::unknown) << "block " << seed;
-  }
-  EXPECT_GE(findings[Finding::right], 0.8 * count);
-  EXPECT_LE(findings[Finding::warned], 0.02 * count);
+  std::map<SceneOutcome, int> outcomes =
+      count_outcomes(count, [](unsigned seed) { return assess(random_block(seed)); });
+  EXPECT_EQ(outcomes[SceneOutcome::unknown], 0);
+  EXPECT_GE(outcomes[SceneOutcome::right], 0.8 * count);
+  EXPECT_LE(outcomes[SceneOutcome::warned], 0.02 * count);
 }
 
 }  // namespace antilock::hard::plane_strain_far_apart_test

@@ -1,11 +1,13 @@
 #pragma once
 // Scenes of random numbers that are many decades apart, and the parts of a second assembly with 60 digits.
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
 #include <cmath>
+#include <map>
 #include <random>
 #include <string>
 
@@ -59,18 +61,18 @@ inline RealTriangle real_triangle(const TriangleMesh& mesh, int t) {
   return triangle;
 }
 
-enum class Finding { right, warned, refused, quietly_wrong, unknown };
+enum class SceneOutcome { right, warned, refused, quietly_wrong, unknown };
 
-struct Judged {
-  Finding finding = Finding::right;
+struct Assessment {
+  SceneOutcome outcome = SceneOutcome::right;
   double error = 0;  ///< of u, relative to its largest entry
   std::string text;
 };
 
 /// u of `s` against the exact one, empty where that is not known. A warning is right where its number is not below the
 /// error.
-inline Judged judged(const Solution& s, const RealVector& exact) {
-  if (exact.size() == 0) return {Finding::unknown, 0, "no set of contact settles"};
+inline Assessment compare_with_exact(const Solution& s, const RealVector& exact) {
+  if (exact.size() == 0) return {SceneOutcome::unknown, 0, "no set of contact settles"};
   Real off = 0, size = 0;
   for (Eigen::Index i = 0; i < exact.size(); ++i) {
     off = std::max<Real>(off, abs(exact(i) - Real(s.u(i))));
@@ -78,9 +80,23 @@ inline Judged judged(const Solution& s, const RealVector& exact) {
   }
   const auto error = static_cast<double>(size > 0 ? Real(off / size) : off);
   const std::string text = fmt::format("{}, claimed {:.1e}, warning \"{}\"", s.solver, s.error, s.warning);
-  if (error <= 1e-6) return {s.warning.empty() ? Finding::right : Finding::warned, error, text};
+  if (error <= 1e-6) return {s.warning.empty() ? SceneOutcome::right : SceneOutcome::warned, error, text};
   const bool said = !s.warning.empty() && std::max(s.error, worst_violation(s.kkt)) >= error;
-  return {said ? Finding::warned : Finding::quietly_wrong, error, text};
+  return {said ? SceneOutcome::warned : SceneOutcome::quietly_wrong, error, text};
+}
+
+/// How often each outcome comes among `count` random cases, none of which may be wrong without a word.
+/// `assess_case(seed)` solves one of them.
+template <class AssessCase>
+std::map<SceneOutcome, int> count_outcomes(unsigned count, const AssessCase& assess_case) {
+  std::map<SceneOutcome, int> outcomes;
+  for (unsigned seed = 0; seed < count; ++seed) {
+    const Assessment assessment = assess_case(seed);
+    ++outcomes[assessment.outcome];
+    EXPECT_NE(assessment.outcome, SceneOutcome::quietly_wrong)
+        << "seed " << seed << ": " << assessment.error << " " << assessment.text;
+  }
+  return outcomes;
 }
 
 /// Random numbers that are the same with every library.

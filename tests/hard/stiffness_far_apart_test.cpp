@@ -87,23 +87,23 @@ RealMatrix assembled(const Question& q, const Space& space) {
 }
 
 /// u of the scene with 60 digits: sets of contact are exchanged from `active` on. Empty where they do not settle.
-RealVector answer(const VariationalInequality& problem, const RealMatrix& k, std::vector<bool> active) {
+RealVector exact_solution(const VariationalInequality& problem, const RealMatrix& k, std::vector<bool> active) {
   active.resize(problem.contact.size(), false);
   for (int sets = 0; sets < 200; ++sets) {
     RealVector u = RealVector::Zero(problem.size());
-    std::vector<char> held(problem.size(), 0);
+    std::vector<char> fixed_at(problem.size(), 0);
     for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i) {
-      held[problem.dirichlet_dofs[i]] = 1;
+      fixed_at[problem.dirichlet_dofs[i]] = 1;
       u(problem.dirichlet_dofs[i]) = problem.dirichlet_values(Eigen::Index(i));
     }
     for (std::size_t i = 0; i < active.size(); ++i)
       if (active[i]) {
-        held[problem.contact[i]] = 1;
+        fixed_at[problem.contact[i]] = 1;
         u(problem.contact[i]) = problem.lower(Eigen::Index(i));
       }
     std::vector<int> free;
     for (int i = 0; i < problem.size(); ++i)
-      if (held[i] == 0) free.push_back(i);
+      if (fixed_at[i] == 0) free.push_back(i);
     const RealVector load = problem.load.cast<Real>();
     if (!free.empty()) {
       const RealVector rest = load - k * u;
@@ -132,7 +132,7 @@ RealVector answer(const VariationalInequality& problem, const RealMatrix& k, std
   return {};
 }
 
-Judged judge(const Question& q) {
+Assessment assess(const Question& q) {
   const Space space(q.mesh, *q.element);
   VariationalInequality problem;
   Solution s;
@@ -140,9 +140,9 @@ Judged judge(const Question& q) {
     problem = assemble(q.scene(), space);
     s = active_set(problem);
   } catch (const Error& error) {
-    return {Finding::refused, 0, error.what()};
+    return {SceneOutcome::refused, 0, error.what()};
   }
-  return judged(s, answer(problem, assembled(q, space), s.active));
+  return compare_with_exact(s, exact_solution(problem, assembled(q, space), s.active));
 }
 
 /// Top, right and left, each with a condition of its own; the side `holds` is given a displacement or a spring.
@@ -211,17 +211,13 @@ Question random_question(unsigned seed) {
 // all since their stiffnesses are more than 1e16 apart), and 4 carried a warning though they were right.
 TEST(StiffnessFarApart, RandomScenesAreRightOrSaySo) {
   const unsigned count = std::getenv("ANTILOCK_THOROUGH") != nullptr ? 20'000 : 300;
-  std::map<Finding, int> findings;
-  for (unsigned seed = 0; seed < count; ++seed) {
-    const Judged j = judge(random_question(seed));
-    ++findings[j.finding];
-    EXPECT_NE(j.finding, Finding::quietly_wrong) << "scene " << seed << ": " << j.error << " " << j.text;
-  }
-  EXPECT_GE(findings[Finding::right], 0.7 * count);
-  EXPECT_LE(findings[Finding::warned] + findings[Finding::unknown], 0.01 * count);
+  std::map<SceneOutcome, int> outcomes =
+      count_outcomes(count, [](unsigned seed) { return assess(random_question(seed)); });
+  EXPECT_GE(outcomes[SceneOutcome::right], 0.7 * count);
+  EXPECT_LE(outcomes[SceneOutcome::warned] + outcomes[SceneOutcome::unknown], 0.01 * count);
 }
 
-/// A scene on the unit square whose lower half is k times as stiff and hangs from the upper one, held at its top, under
+/// A scene on the unit square whose lower half is k times as stiff and hangs from the upper one, fixed at its top, under
 /// f = -1. u depends on y alone: k u' = y below and u' = y above, so u(1/2) = (1/4 - 1) / 2 whatever k is.
 Solution hung(const Space& space, double k, bool contact) {
   const Field stiffness = [k](double, double y) { return y < 0.5 ? k : 1; };
@@ -260,7 +256,7 @@ Coating coated(double s) {
   return coating;
 }
 
-/// The answer with the coating's own penalty; empty where it is refused.
+/// The solution with the coating's own penalty; empty where it is refused.
 std::optional<Solution> solved(const Coating& coating, const Space& space, const VariationalInequality& problem) {
   ActiveSetOptions options;
   options.penalty = penalty(coating, {space, space});

@@ -240,7 +240,7 @@ double LockingLoss::share(double energy) const { return reference > 0 ? std::cla
 LockingLoss locking_loss(const Scene& scene, const Space& space, const VariationalInequality& problem,
                          const Solution& solution) {
   if ((problem.own_compliances.array() > 0).any()) {
-    const OfTheClass here = own_rows_summed(problem, solution);
+    const ClassForm here = own_rows_summed(problem, solution);
     return locking_loss(scene, space, here.problem, here.solution);
   }
   const TriangleMesh& mesh = space.mesh();

@@ -261,7 +261,7 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
 double certified_distance(const Certificate& certificate, const Companion& v, const Space& space,
                           const VariationalInequality& problem, const Solution& w) {
   if ((problem.own_compliances.array() > 0).any()) {
-    const OfTheClass here = own_rows_summed(problem, w);
+    const ClassForm here = own_rows_summed(problem, w);
     return certified_distance(certificate, v, space, here.problem, here.solution);
   }
   const TriangleMesh& mesh = space.mesh();

@@ -215,7 +215,7 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Ei
 EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const VariationalInequality& problem,
                                    const Solution& solution) {
   if ((problem.own_compliances.array() > 0).any()) {
-    const OfTheClass here = own_rows_summed(problem, solution);
+    const ClassForm here = own_rows_summed(problem, solution);
     return equilibrated_flux(scene, space, here.problem, here.solution);
   }
   check_request(scene, space, problem, solution);

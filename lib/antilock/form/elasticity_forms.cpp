@@ -104,7 +104,7 @@ FactoredForm divergence(const VectorSpace& space) { return strain_form_factored(
 
 namespace {
 
-/// act(edge, step of a component across it) for the interior edges and those that are held.
+/// act(edge, step of a component across it) for the interior edges and Dirichlet edges.
 template <class Act>
 void at_steps(const VectorSpace& space, bool clamped_in_x, Act&& act) {
   const TriangleMesh& mesh = space.x.mesh();
@@ -112,8 +112,8 @@ void at_steps(const VectorSpace& space, bool clamped_in_x, Act&& act) {
     if (part->element().conforming()) continue;  // no steps
     for (int e = 0; e < mesh.edge_count(); ++e) {
       const bool interior = mesh.edge_triangles(e, 1) >= 0;
-      const bool held = is_dirichlet(mesh.edge_tag[e]) && (clamped_in_x || part == &space.y);
-      if (interior || held) act(e, jump(*part, first, e));
+      const bool dirichlet = is_dirichlet(mesh.edge_tag[e]) && (clamped_in_x || part == &space.y);
+      if (interior || dirichlet) act(e, jump(*part, first, e));
     }
   }
 }

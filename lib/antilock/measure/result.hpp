@@ -16,11 +16,11 @@ struct RunSeconds {
 };
 
 /// A problem and its solution in the form in which the class is studied: own_rows_summed, and p of the rows that are left.
-struct OfTheClass {
+struct ClassForm {
   VariationalInequality problem;
   Solution solution;
 };
-inline OfTheClass own_rows_summed(const VariationalInequality& problem, Solution solution) {
+inline ClassForm own_rows_summed(const VariationalInequality& problem, Solution solution) {
   const Eigen::Index first = problem.class_rows();
   Eigen::Index left = first;
   for (Eigen::Index k = 0; k < problem.own_compliances.size(); ++k)

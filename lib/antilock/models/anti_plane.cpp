@@ -108,8 +108,8 @@ std::vector<StiffRows> springs_of(const Scene& scene, const Space& space) {
   return springs;
 }
 
-/// Springs hold a piece of the mesh that no displacement holds.
-bool springs_alone_hold_a_piece(const TriangleMesh& mesh) {
+/// Springs hold a component of the mesh that no displacement holds.
+bool springs_alone_hold_a_component(const TriangleMesh& mesh) {
   return find_floating_component(mesh, [&](int e) { return is_dirichlet(mesh.edge_tag[e]); }) >= 0;
 }
 
@@ -131,10 +131,10 @@ void add_springs(VariationalInequality& problem, const std::vector<StiffRows>& s
   }
 }
 
-/// The values that the held edges at each place, an unknown or a vertex, give to it. A clamped edge gives 0 where no group
+/// The values that the Dirichlet edges at each place, an unknown or a vertex, give to it. A clamped edge gives 0 where no group
 /// with a displacement meets it. Where groups meet with different values, no continuous function has them all. The place
 /// takes their mean, so that the order of the groups does not matter.
-class GivenValues {
+class PrescribedValues {
  public:
   void give(int place, EdgeTag tag, double value) { at_[place][tag] = value; }
   /// act(place, value)
@@ -164,7 +164,7 @@ void add_displacements(VariationalInequality& problem, const Scene& scene, const
   if (std::none_of(scene.edges().begin(), scene.edges().end(), prescribes)) return;
   const TriangleMesh& mesh = space.mesh();
   const Eigen::MatrixX3d nodes = space.element().support_points();
-  GivenValues values;
+  PrescribedValues values;
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
@@ -190,7 +190,7 @@ double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const 
 }
 
 Eigen::VectorXd dirichlet_vertex_values(const Scene& scene, const TriangleMesh& mesh) {
-  GivenValues given_values;
+  PrescribedValues given_values;
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (int end = 0; end < 2 && is_dirichlet(mesh.edge_tag[e]); ++end)
       given_values.give(mesh.edges(e, end), mesh.edge_tag[e],
@@ -228,7 +228,7 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   }
   if (stiff != nullptr) range.note(stiff->s);
   if (std::holds_alternative<VentcelLayer>(scene.layer())) range.note(1);
-  if (!springs.empty() && springs_alone_hold_a_piece(space.mesh()))
+  if (!springs.empty() && springs_alone_hold_a_component(space.mesh()))
     for (const StiffRows& rows : springs) range.note(rows.form.m.dot(rows.stiffness));
   range.check("stiffness");
   for (std::size_t t = 0; t < from_triplets.size(); ++t) {

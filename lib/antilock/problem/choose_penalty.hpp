@@ -36,7 +36,8 @@ inline double choose_penalty(const StiffnessRatio& s) { return default_penalty *
 inline double choose_penalty(const VariationalInequality& problem) { return choose_penalty(stiffness_ratio(problem)); }
 
 /// The penalty parameter delta of the factor: max(compliance, penalty), `penalty` chosen by the rule above where none
-/// is given; the compliance counts where B has a row of the class, or none at all. Throws Error for a penalty that is not positive.
+/// is given; the compliance counts where B has a row of the class, or none at all. Throws Error for a penalty that is not
+/// positive.
 double penalty_parameter(const VariationalInequality& problem, std::optional<double> penalty = {});
 
 }  // namespace antilock

@@ -71,7 +71,7 @@ void append_rows(VariationalInequality& problem, const RowMatrix& b, const Eigen
                  const Eigen::VectorXd& own_compliances);
 
 /// The same problem in the form in which the class is studied: rows with an own compliance above 0 are summed into A1,
-/// which loses the digits that they keep. Rows of the class and ties stay.
+/// which loses the digits that they keep. Rows of the class and of an own compliance of 0 stay.
 VariationalInequality own_rows_summed(VariationalInequality problem);
 
 /// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of constraints

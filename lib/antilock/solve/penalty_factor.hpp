@@ -48,7 +48,7 @@ class PenaltyFactor {
   void refactor(double delta);
 
   double delta() const { return delta_; }
-  /// R, of the tied problem: delta, and of rows with compliances of their own these or defaults::own_penalty.
+  /// R, of the problem in slack form: delta, and of rows with compliances of their own these or defaults::own_penalty.
   const Eigen::VectorXd& penalties() const { return penalties_; }
   const DofOrdering& ordering() const { return ordering_; }
   /// The smallest pivot of K: to about a factor of n_free its smallest eigenvalue, for next to nothing.
