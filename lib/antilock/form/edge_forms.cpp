@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "antilock/core/error.hpp"
+#include "antilock/form/quadrature.hpp"
 #include "antilock/form/sparse_assembly.hpp"
 
 namespace antilock {
