@@ -10,6 +10,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from docutils.nodes import make_id
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -261,6 +262,17 @@ class Pages(unittest.TestCase):
         library = Library(ROOT / "lib")
         for header in EXAMPLES:
             self.assertGreater(len(library.example(ROOT / "lib/antilock" / header)), 0)
+
+    def test_every_header_of_0_2_keeps_its_address(self):
+        library, pages = Library(ROOT / "lib"), {}
+        library.write(lambda name, lines: pages.update({name: "\n".join(lines)}), [])
+        for old, heirs in library.moved.items():
+            for new in heirs:
+                self.assertTrue((ROOT / "lib/antilock" / new).exists(), f"moved.csv: {old} is to be {new}, which does not exist")
+            self.assertFalse((ROOT / "lib/antilock" / old).exists(), f"moved.csv: {old} did not move")
+            self.assertIn(f'id="{make_id(old)}"', pages[f"library_{old.split('/')[0]}"])
+        for module in library.modules:
+            self.assertIn(f'id="room-{module}"', pages[f"library_{module}"])
 
     # ---- tables and captions
 

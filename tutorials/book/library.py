@@ -27,7 +27,8 @@ EXAMPLES = {
 class Library:
     def __init__(self, lib):
         self.lib = lib
-        self.moved = [(row["header"], row["now"]) for row in csv.DictReader((Path(__file__).parent / "moved.csv").read_text().splitlines())]
+        rows = csv.DictReader((Path(__file__).parent / "moved.csv").read_text().splitlines())
+        self.moved = {row["header"]: row["now"].split() for row in rows}  # a header of 0.2: the headers that have its names now
         self.modules = [module for module in MODULES if list((lib / "antilock" / module).glob("**/*.hpp"))]
 
     def headers(self, module):
@@ -70,24 +71,31 @@ class Library:
             raise BookError(f"{self.short(header)}: its example, {test or 'a program'} in tests/{file}, is not there (library.py)")
         return [f"An example, from `tests/{file}`:", "", "```cpp", code.rstrip(), "```", ""]
 
+    def moved_headers(self, module):
+        """The headers that 0.2 had in this module and that stand elsewhere now, each under its old address. A small repository
+        has none of their heirs and gets no list."""
+        out = []
+        for old, heirs in self.moved.items():
+            there = [new for new in heirs if (self.lib / "antilock" / new).exists()]
+            if old.split("/")[0] == module and there:
+                links = ", ".join(f'<a href="{self.page(self.lib / "antilock" / new, ".html")}">{new}</a>' for new in there)
+                out.append(f'- <span id="{make_id(old)}"></span>`{old}` is now {links}')
+        return ["## Headers of 0.2 that moved", "", *out, ""] if out else []
+
     def write(self, write, chapters):
         """A page per module: each header, and the chapters that use what it declares. They are its examples: each is a
         program that the tests run."""
         words = {chapter.stem: set(re.findall(r"\w+", re.sub("//.*|\".*?\"", "", chapter.read_text()))) for chapter in chapters}
         for module in self.modules:
-            out = [f"# Module {module}", ""]
+            # In 0.2 the page's title was "Room NAME"; its address stays valid.
+            out = [f'<span id="room-{module}"></span>', "", f"# Module {module}", ""]
             for header in self.headers(module):
                 out += [f"## {self.short(header)}", "", "```cpp", header.read_text().rstrip(), "```", "", *self.example(header)]
                 used = {name: ", ".join(f"[{stem[:2]}]({stem}.md)" for stem in words if name in words[stem]) for name in self.declared(header)}
                 out += [f"- `{name}`: used in chapter {chapters}" for name, chapters in used.items() if chapters]
                 unused = ", ".join(f"`{name}`" for name, chapters in used.items() if not chapters)
                 out += [f"- no chapter uses {unused} by name", ""] if unused and "/detail/" not in str(header) else [""]
-            moved = [(old, new) for old, new in self.moved if old.split("/")[0] == module and (self.lib / "antilock" / new).exists()]
-            if moved:
-                out += ["## Headers of 0.2 that moved", ""]
-                out += [f'- <span id="{make_id(old)}"></span>`{old}` is <a href="{self.page(self.lib / "antilock" / new, ".html")}">{new}</a>'
-                        for old, new in moved]
-                out.append("")
+            out += self.moved_headers(module)
             write(f"library_{module}", out)
         write("library", ["# The library's headers", "", "A module includes only modules before it. Below each header stand the chapters that use it, and",
                           "below central ones an example: the tests compile and run them all.", "",
