@@ -197,7 +197,7 @@ s/\bLevel\b/RefinementLevel/g
 s/\bquoted_(unknowns|seconds)\b/predicted_\1/g
 
 # study
-s/(\.|->)on\(/\1discretise(/g
+s/(\.|->)on\(/\1space(/g
 s/\bfile(\.|->)words\b/file\1json/g
 s/\bEntry\b/TableEntry/g
 s/(\.|->)different\(/\1unique(/g

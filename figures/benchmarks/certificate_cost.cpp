@@ -75,8 +75,7 @@ void certificate_over_solve(Table& table, int cells, int repeats) {
 
 /// What a P1 answer says of its own locking, over its solve (15 % are asked at every size).
 void diagnosis_over_solve(Table& table, int cells, int repeats) {
-  const TriangleMesh mesh = unstructured_mesh(cells);
-  const Space space(mesh, p1());
+  const Space space(unstructured_mesh(cells), p1());
   const Scene scene({paper_load}, StiffLayer{1e-2}, UnilateralContact{});
   const VariationalInequality problem = assemble(scene, space);
   std::vector<double> solve, diagnosis;

@@ -41,9 +41,9 @@ struct Run {
 Run run_once(const std::string& element_name, int cells, double epsilon, bool with_sticks) {
   Run run{};
   Stopwatch watch;
-  const TriangleMesh mesh = structured_mesh(cells);
+  TriangleMesh mesh = structured_mesh(cells);
   run.mesh = watch.lap();
-  const Space space(mesh, element(element_name));
+  const Space space(std::move(mesh), element(element_name));
   run.space = watch.lap();
   const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
   const VariationalInequality problem = assemble(scene, space);

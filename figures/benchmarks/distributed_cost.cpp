@@ -36,9 +36,9 @@ double residual_seconds(const VariationalInequality& problem, const Eigen::Vecto
 
 void serial(const Scene& scene, const Element& element, int cells) {
   Stopwatch watch;
-  const TriangleMesh mesh = structured_mesh(cells);
+  TriangleMesh mesh = structured_mesh(cells);
   const double mesh_seconds = watch.lap();
-  const Space space(mesh, element);
+  const Space space(std::move(mesh), element);
   const VariationalInequality problem = assemble(scene, space);
   const double assemble_seconds = watch.lap();
   const double before = cpu_seconds();

@@ -97,8 +97,7 @@ Numbers string_on_an_obstacle(int cells, const std::filesystem::path& folder) {
 Numbers by_hand(int cells, double epsilon, const std::filesystem::path& folder) {
   run("03_by_hand", {"-cells", std::to_string(cells), "-epsilon", fmt::format("{}", epsilon), "-out", folder});
   const ScriptTable solution = read_table(folder / "solution.csv"), summary = read_table(folder / "summary.csv");
-  const TriangleMesh mesh = structured_mesh(cells);
-  const Space space(mesh, p1());
+  const Space space(structured_mesh(cells), p1());
   const VariationalInequality problem =
       assemble(Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}), space);
   const Solution ours = active_set(problem);
@@ -121,7 +120,7 @@ Numbers kernels(int cells, const std::filesystem::path& folder) {
   Numbers numbers;
   const Scene scene(Body{paper_load}, StiffLayer{0});
   const auto add = [&](const ScriptTable& table, Eigen::Index row, const TriangleMesh& mesh, int n) {
-    const Space conforming(mesh, p1()), broken(mesh, crouzeix_raviart());
+    const Space conforming(mesh, p1()), broken(conforming, crouzeix_raviart());
     const int p1_kernel = layer_kernel_dimension(assemble(scene, conforming));
     const auto triangles = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
     const std::string at = fmt::format("{}, 1/h = {}: ", table.names[row], n);
@@ -154,7 +153,7 @@ Numbers estimates(int cells, const std::filesystem::path& folder) {
   run("15_promises", {"-mesh", folder / "mesh.freefem.msh", "-out", folder});
   const ScriptTable table = read_table(folder / "estimates.csv", 1);
   const Scene scene(Body{paper_load}, StiffLayer{1}, UnilateralContact{});
-  const Space conforming(mesh, p1()), broken(mesh, crouzeix_raviart());
+  const Space conforming(mesh, p1()), broken(conforming, crouzeix_raviart());
   SceneSweep p1_sweep(scene, conforming), cr_sweep(scene, broken);
   Numbers numbers;
   double largest = 0;

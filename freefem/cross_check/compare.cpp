@@ -113,8 +113,7 @@ Line study(const Compared& method, int cells, const std::filesystem::path& out) 
   int meshes = 0;
   for (int n = std::max(4, cells / 4); n <= cells; n *= 2) {
     ++meshes;
-    const TriangleMesh mesh = make_mesh(method, n);
-    const Space space(mesh, element(method.element));
+    const Space space(make_mesh(method, n), element(method.element));
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6}) {
       const Line line = solve_both("", method.script(), space, epsilon, out).line;
       all.road = line.road;
@@ -175,7 +174,7 @@ std::vector<Line> elasticity(int cells, bool friction, const std::filesystem::pa
   freefem::run_elastic(script, mesh, scene.epsilon, out / "freefem");
   std::vector<Line> lines;
   const auto add = [&](const std::string& name, const std::string& what, const Element& in_x, const Element& in_y) {
-    const Space x(mesh, in_x), y(mesh, in_y);
+    const Space x(mesh, in_x), y(x, in_y);
     scene.jump_weight = name == "P1nc" ? 1 : 0;
     const VariationalInequality problem = assemble(scene, {x, y});
     const Solution ours = active_set(problem);
@@ -204,7 +203,7 @@ std::vector<Line> coated(int cells, const std::filesystem::path& out) {
   using Row = std::tuple<std::string, const Element*, const Element*>;
   for (const auto& [name, in_x, in_y] :
        {Row{"P1", &one, &one}, {"P1nc", &cr, &cr}, {"KS", &one, &cr}, {"P2", &p2(), &p2()}}) {
-    const Space x(mesh, *in_x), y(mesh, *in_y);
+    const Space x(mesh, *in_x), y(x, *in_y);
     const VariationalInequality problem = assemble(scene, {x, y});
     const Solution ours = active_set(problem);
     const freefem::ElasticAnswer theirs = freefem::elastic_answer(out / "freefem", name, {x, y});
@@ -225,7 +224,7 @@ std::vector<Line> plates(int rings, const std::filesystem::path& out) {
   std::vector<Line> lines;
   const auto add = [&](const std::string& name, const std::string& what, const Element& in_w, const Element& in_theta,
                        ShearRule shear) {
-    const Space w(mesh, in_w), theta(mesh, in_theta);
+    const Space w(mesh, in_w), theta(w, in_theta);
     const Solution ours = active_set(assemble(plate, {w, {theta, theta}, shear}));
     const freefem::PlateAnswer theirs = freefem::plate_answer(out / "freefem", name, w);
     const Eigen::VectorXd deflection = ours.u.head(w.size());
@@ -248,8 +247,7 @@ std::vector<Line> plates(int rings, const std::filesystem::path& out) {
 
 /// FreeFEM with the plain sum: shown, not asked to agree.
 Line plain_sum(const Compared& method, double epsilon, int cells, const std::filesystem::path& out) {
-  const TriangleMesh mesh = make_mesh(method, cells);
-  const Space space(mesh, element(method.element));
+  const Space space(make_mesh(method, cells), element(method.element));
   Line line;
   try {
     line = solve_both("plain sum", method.script(), space, epsilon, out, {"-stiff", "sum"}).line;
@@ -325,8 +323,7 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
 
 /// The paper's Uzawa step by step, CG in each step on both sides; the largest difference of a step in the gap.
 Line uzawa_steps(double epsilon, double rho, const std::filesystem::path& out) {
-  const TriangleMesh mesh = structured_mesh(16);
-  const Space space(mesh, p1());
+  const Space space(structured_mesh(16), p1());
   UzawaOptions options;
   options.step = rho;
   options.tolerance = 1e-8;
@@ -362,8 +359,7 @@ std::vector<Line> models(const std::filesystem::path& out) {
 std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::path& out) {
   std::vector<Line> lines{meshes(cells, out)};
   {
-    const TriangleMesh mesh = structured_mesh(2 * cells);
-    const Space space(mesh, p1());
+    const Space space(structured_mesh(2 * cells), p1());
     Line line = solve_both("04_reference_solution", "04_reference_solution", space, epsilon, out,
                            {"-solver", "condensed"}, true)
                     .line;
@@ -374,8 +370,7 @@ std::vector<Line> compare_all(int cells, double epsilon, const std::filesystem::
   lines.push_back(uzawa_steps(0.1, 1.4, out));
   const std::vector<Compared> methods{{"P1", true}, {"P1", false}, {"CR", true}, {"CR", false}};
   for (const Compared& method : {methods[0], methods[1], methods[3]}) {
-    const TriangleMesh mesh = make_mesh(method, cells);
-    const Space space(mesh, element(method.element));
+    const Space space(make_mesh(method, cells), element(method.element));
     Both both = solve_both(method.script(), method.script(), space, epsilon, out);
     both.line.what = fmt::format("{}, h = 1/{}", method.name(), cells);
     lines.push_back(both.line);

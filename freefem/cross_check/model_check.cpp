@@ -27,8 +27,7 @@ struct Sample {
 };
 
 Sample sample(const Scene& scene, int n) {
-  const TriangleMesh mesh = structured_mesh(n, Domain{scene.layer_depth()});
-  const Space space(mesh, p1());
+  const Space space(structured_mesh(n, Domain{scene.layer_depth()}), p1());
   const VariationalInequality problem = assemble(scene, space);
   const Solution solution = active_set(problem);
   const double low = -scene.layer_depth();

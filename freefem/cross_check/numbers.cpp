@@ -67,9 +67,9 @@ void Numbers::solved(const Space& space, const Solution& solution) {
 }
 
 Numbers roundoff(const std::string& element, int cells, const std::filesystem::path& folder) {
-  const TriangleMesh mesh = structured_mesh(cells);
-  const Space space(mesh, antilock::element(element));
-  run("18_roundoff", {"-mesh", written(mesh, folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
+  const Space space(structured_mesh(cells), antilock::element(element));
+  run("18_roundoff",
+      {"-mesh", written(space.mesh(), folder), "-element", element == "CR" ? "P1nc" : "P1", "-out", folder});
   const ScriptTable table = results(folder / "results.csv", 17, 1);
   SceneSweep sweep(contact_scene(1), space);
   Numbers numbers;
@@ -104,8 +104,7 @@ Numbers effects(int cells, double epsilon, const std::filesystem::path& folder) 
   Numbers numbers;
   for (int i = 0; i < 8; ++i) {
     numbers.took(table.names[i]);
-    const TriangleMesh mesh = structured_mesh(cells, Domain{scenes[i].layer_depth()});
-    const Space space(mesh, p1());
+    const Space space(structured_mesh(cells, Domain{scenes[i].layer_depth()}), p1());
     const VariationalInequality problem = assemble(scenes[i], space);
     const Solution solution = active_set(problem);
     numbers.solved(space, solution);
@@ -163,7 +162,7 @@ Numbers certificate(int cells, const std::filesystem::path& folder) {
   const TriangleMesh mesh = unstructured_mesh(cells);
   run("19_certificate", {"-mesh", written(mesh, folder), "-out", folder});
   const ScriptTable table = results(folder / "results.csv", 5, 1);
-  const Space above(mesh, p1()), below(mesh, crouzeix_raviart());
+  const Space above(mesh, p1()), below(above, crouzeix_raviart());
   SceneSweep upper(contact_scene(1), above), lower(contact_scene(1), below);
   Numbers numbers;
   const double epsilons[] = {1, 1e-1, 1e-2, 1e-4, 0};

@@ -183,8 +183,7 @@ Numbers contact_sets(const std::filesystem::path& folder) {
                                 [](const std::string& n) { return n.find("P1 structured") != std::string::npos; }) -
                    table.names.begin();
   if (row == table.rows.rows()) throw Error("results.csv: no row P1 structured");
-  const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
-  const Space space(mesh, p1()), fine_space(fine, p1());
+  const Space space(structured_mesh(cells), p1()), fine_space(structured_mesh(4 * cells), p1());
   const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});
   SceneSweep sweep(scene, fine_space);
   // P1 on the coarse mesh is P1 on the fine one: column i holds the hat function of vertex i at the fine vertices
@@ -220,8 +219,8 @@ Numbers contact_sets(const std::filesystem::path& folder) {
 Numbers worst_loads(int cells, const std::filesystem::path& folder) {
   run("17_families_of_loads", {"-cells", std::to_string(cells), "-out", folder});
   const ScriptTable table = read_table(folder / "worst.csv", 1);
-  const TriangleMesh mesh = structured_mesh(cells), fine = structured_mesh(4 * cells);
-  const Space space(mesh, p1()), fine_space(fine, p1());
+  const Space space(structured_mesh(cells), p1()), fine_space(structured_mesh(4 * cells), p1());
+  const TriangleMesh& fine = fine_space.mesh();
   // column j: the work of the load 1 / root of its area on body triangle j, so that a vector's norm is the load's in L2
   Eigen::MatrixXd work = Eigen::MatrixXd::Zero(fine_space.size(), fine.triangle_count() / 2);
   Eigen::Index column = 0;

@@ -61,8 +61,7 @@ Hierarchy hierarchy(const SceneFile& file, int ranks) {
 
 /// The contact set of the library's own solver on a coarse structured mesh: where the first level begins to search.
 dist::ContactSet first_guess(const Scene& scene) {
-  const TriangleMesh mesh = structured_mesh(32, Domain{scene.layer_depth()});
-  const Space space(mesh, p1());
+  const Space space(structured_mesh(32, Domain{scene.layer_depth()}), p1());
   const VariationalInequality problem = assemble(scene, space);
   const Solution solution = active_set(problem);
   dist::ContactSet set;

@@ -112,8 +112,8 @@ py::tuple run(const std::string& text, const std::string& folder) {
   }();
   Result& answer = found.result;
   const auto given = [](auto& owned) { return py::cast(std::move(owned)); };  // moved into the array, not copied
-  py::dict arrays("points"_a = answer.space.dof_coordinates(), "vertices"_a = answer.mesh->vertices,
-                  "triangles"_a = answer.mesh->triangles);
+  py::dict arrays("points"_a = answer.space.dof_coordinates(), "vertices"_a = answer.space.mesh().vertices,
+                  "triangles"_a = answer.space.mesh().triangles);
   if (file.scene.contact()) {
     const NormalContact normal = normal_contact(answer);
     arrays["contact"] = contact_table(answer.space, normal.problem, normal.solution);
@@ -311,8 +311,7 @@ PYBIND11_MODULE(_antilock, module) {
   module.def("assemble", [](const std::string& text, const std::string& folder) {
     const SceneFile file = scene_of(text, folder);
     const Unlocked unlocked;
-    const TriangleMesh mesh = make_mesh(file);
-    return problem_of(file, Space(mesh, element(file.method.element)));
+    return problem_of(file, Space(make_mesh(file), element(file.method.element)));
   });
   module.def("run", &run);
   module.def("certify", &certify_scene);

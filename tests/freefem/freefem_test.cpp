@@ -46,7 +46,7 @@ class FreeFemForms : public ::testing::TestWithParam<Setting> {};
 // Relative to the largest entry: entries are sums of a few products, each with a round-off or two (1e-16), and the
 // coordinates carry all digits; 1e-12 leaves room for nothing but that.
 TEST_P(FreeFemForms, MatricesAndLoadAgreeEntryByEntry) {
-  const SpaceOn space(GetParam().mesh(16), element(GetParam().element));
+  const Space space(GetParam().mesh(16), element(GetParam().element));
   const VariationalInequality ours = stiff_problem(space, 1);
   const SparseMatrix a0 = ours.b.transpose() * ours.m.asDiagonal() * ours.b;
   const TemporaryFolder folder;
@@ -66,7 +66,7 @@ class Solutions : public ::testing::TestWithParam<std::tuple<Setting, double>> {
 // Both sides stop their corrections at a relative change of 1e-10 or less.
 TEST_P(Solutions, WithoutContactAgree) {
   const auto [setting, epsilon] = GetParam();
-  const SpaceOn space(setting.mesh(16), element(setting.element));
+  const Space space(setting.mesh(16), element(setting.element));
   const VariationalInequality problem = assemble(Scene({paper_load}, StiffLayer{epsilon}), space);
   const Solution ours = active_set(problem);
   const TemporaryFolder folder;
@@ -80,7 +80,7 @@ TEST_P(Solutions, WithoutContactAgree) {
 // the solution, hence its smaller bound.
 TEST_P(Solutions, WithContactAgreeInValuesContactSetAndEnergy) {
   const auto [setting, epsilon] = GetParam();
-  const SpaceOn space(setting.mesh(16), element(setting.element));
+  const Space space(setting.mesh(16), element(setting.element));
   const VariationalInequality problem = stiff_problem(space, epsilon);
   const Solution ours = active_set(problem);
   const TemporaryFolder folder;
@@ -116,7 +116,7 @@ struct Against {
   double residual;
 };
 Against against_ours(const Setting& setting, double epsilon, const std::string& stiff) {
-  const SpaceOn space(setting.mesh(16), element(setting.element));
+  const Space space(setting.mesh(16), element(setting.element));
   const VariationalInequality problem = stiff_problem(space, epsilon);
   const TemporaryFolder folder;
   const auto theirs = freefem::solve(setting.script(), space, epsilon, folder.path(), {"-stiff", stiff});
@@ -192,7 +192,7 @@ TEST(PlainSum, LosesTheDigitsThatTheSplitFormKeeps) {
 // Both roads on the other side: the saddle point as it stands, and corrections of a penalised problem.
 TEST(Roads, MixedAndPenaltyAgreeWithTheLibrary) {
   for (const Setting& setting : settings) {
-    const SpaceOn space(setting.mesh(16), element(setting.element));
+    const Space space(setting.mesh(16), element(setting.element));
     const VariationalInequality problem = stiff_problem(space, 1e-4);
     const Solution ours = active_set(problem);
     for (const char* road : {"mixed", "penalty"}) {
@@ -206,7 +206,7 @@ TEST(Roads, MixedAndPenaltyAgreeWithTheLibrary) {
 
 // Condensed on Gamma_C, on the other side: its own stop is a step in the gap of 1e-11.
 TEST(FreeFemUzawa, CondensedFindsTheActiveSetsSolution) {
-  const SpaceOn space(structured_mesh(16), p1());
+  const Space space(structured_mesh(16), p1());
   const VariationalInequality problem = stiff_problem(space, 1e-6);
   const TemporaryFolder folder;
   const auto theirs = freefem::solve("04_reference_solution", space, 1e-6, folder.path(), {"-solver", "condensed"});
@@ -219,7 +219,7 @@ TEST(FreeFemUzawa, CondensedFindsTheActiveSetsSolution) {
 // The paper's algorithm with the paper's linear solver (CG preconditioned by ILUT here, by the diagonal there), the same
 // rho: the same iterates. A step in the gap is relative to the largest |u|, which CG knows to about 1e-10 of itself.
 TEST(FreeFemUzawa, ThePapersOwnTakesTheSameSteps) {
-  const SpaceOn space(structured_mesh(16), p1());
+  const Space space(structured_mesh(16), p1());
   for (const auto& [epsilon, rho] : {std::pair{1.0, 0.37}, std::pair{0.1, 1.4}}) {
     UzawaOptions options;
     options.step = rho;
@@ -580,7 +580,7 @@ TEST(FreeFemScripts, TheWorstLoadIsTheSame) {
   const TemporaryFolder folder;
   expect_same(freefem::worst_loads(4, folder.path()), 1e-9);
   const freefem::ScriptTable table = freefem::read_table(folder / "worst.csv", 1);
-  const SpaceOn space(structured_mesh(4), p1());
+  const Space space(structured_mesh(4), p1());
   ErrorForm form(space, LoadModes(12));
   form.set_epsilon(0);
   EXPECT_NEAR(table.column("worst")(3) / form.worst().error, 1, 0.05);

@@ -44,8 +44,7 @@ class Degenerate : public testing::TestWithParam<std::tuple<const char*, double>
     return solution;
   }
   const Element& chosen() const { return element(std::get<0>(GetParam())); }
-  TriangleMesh mesh_ = structured_mesh(32);
-  Space space_{mesh_, chosen()};
+  Space space_{structured_mesh(32), chosen()};
 };
 
 TEST_P(Degenerate, EverythingInContactUpToTheClampedCorners) {
@@ -80,7 +79,7 @@ TEST_P(Degenerate, ContactAtOneUnknownOfMany) {
 }
 
 TEST_P(Degenerate, AProblemWithOneContactUnknown) {
-  const test::SpaceOn space(structured_mesh(chosen().name() == "P1" ? 2 : 1), chosen());
+  const Space space(structured_mesh(chosen().name() == "P1" ? 2 : 1), chosen());
   ASSERT_EQ(space.contact_dofs().size(), 1u);
   for (const double sign : {-1.0, 1.0}) {
     const Solution s = proved(problem(space, [&](double, double) { return sign; }));
@@ -115,7 +114,7 @@ TEST_P(Degenerate, SeveralZonesAreThoseOfTheTruth) {
 }
 
 TEST_P(Degenerate, ARapidLoadHasOneZoneAWave) {
-  const test::SpaceOn space(structured_mesh(128), chosen());
+  const Space space(structured_mesh(128), chosen());
   const Solution s = active_set(problem(space, [](double x, double) { return 100 * std::sin(32 * pi * x); }));
   EXPECT_TRUE(s.warning.empty());
   EXPECT_LE(s.counters.contact, 40);

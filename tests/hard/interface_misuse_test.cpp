@@ -75,7 +75,7 @@ TEST(InterfaceMisuse, TheSpacesOfOneBodyHaveOneMesh) {
 }
 
 TEST(InterfaceMisuse, APlateHasALoadAndAnObstacleSomewhere) {
-  const SpaceOn space(disc_mesh(3), p1());
+  const Space space(disc_mesh(3), p1());
   const PlateSpace on{space, {space, space}, ShearRule::edges};
   Plate plate;
   plate.gap = [](double, double) { return -infinity; };

@@ -56,7 +56,7 @@ TEST(Naive, IsRightWhereEpsilonIsModerateAndNoWrongAnswerGetsPastTheChecks) {
 }
 
 TEST(Naive, HasNoSumAtEpsilonZeroAndStopsAtItsCap) {
-  const SpaceOn space(structured_mesh(4), p1());
+  const Space space(structured_mesh(4), p1());
   EXPECT_THROW(naive_summed_solve(test::stiff_problem(space, 0), SummedFactor::lu), Error);
   const NaiveResult answer = naive_summed_solve(test::stiff_problem(space, 1), SummedFactor::cholesky, 1);
   EXPECT_EQ(answer.end, NaiveEnd::step_cap);

@@ -231,7 +231,7 @@ TEST_P(Nasty, AnyNumberingGivesTheSameAnswer) {
       }
       std::vector<TaggedEdge> tagged = boundary(mesh);
       for (TaggedEdge& e : tagged) e = {vertex[e.to], vertex[e.from], e.tag};
-      const SpaceOn other(make_triangle_mesh(vertices, triangles, region, tagged, "shuffled"), chosen());
+      const Space other(make_triangle_mesh(vertices, triangles, region, tagged, "shuffled"), chosen());
       VariationalInequality problem = stiff_problem(other, epsilon);
       std::shuffle(problem.contact.begin(), problem.contact.end(), random);  // out of order they only cost steps
       const Solution s = active_set(problem);

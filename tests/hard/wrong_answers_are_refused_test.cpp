@@ -7,8 +7,7 @@ namespace antilock::test::wrong_answers_are_refused_test {
 class WrongAnswers : public testing::TestWithParam<double> {
  protected:
   WrongAnswers()
-      : mesh_(structured_mesh(16)),
-        space_(mesh_, crouzeix_raviart()),
+      : space_(structured_mesh(16), crouzeix_raviart()),
         problem_(assemble(test::stiff_scene(GetParam()), space_)),
         solution_(active_set(problem_)) {}
   int first(bool active) const {
@@ -16,7 +15,6 @@ class WrongAnswers : public testing::TestWithParam<double> {
       if (solution_.active[i] == active) return static_cast<int>(i);
     return -1;
   }
-  TriangleMesh mesh_;
   Space space_;
   VariationalInequality problem_;
   Solution solution_;
@@ -87,7 +85,7 @@ TEST_P(WrongAnswers, WarnsBetweenTheTwoLevelsAndRefusesAbove) {
 
 // The terms of A1 u are h^-2 times larger than the forces they balance: an error must not hide behind them.
 TEST_P(WrongAnswers, AWrongAnswerIsRefusedOnAFineMeshToo) {
-  const SpaceOn space(structured_mesh(128), p1());
+  const Space space(structured_mesh(128), p1());
   const VariationalInequality problem = assemble(test::stiff_scene(GetParam()), space);
   Solution wrong = active_set(problem);
   EXPECT_TRUE(wrong.warning.empty());

@@ -5,8 +5,7 @@ using namespace antilock;
 
 int main() {
   const Scene scene(Body{paper_load}, StiffLayer{1e-6}, UnilateralContact{});
-  const TriangleMesh mesh = unstructured_mesh(64);
-  const Space space(mesh, crouzeix_raviart());
+  const Space space(unstructured_mesh(64), crouzeix_raviart());
   const Solution solution = active_set(assemble(scene, space));  // right, with a warning, or it throws
   return solution.warning.empty() ? 0 : 1;
 }

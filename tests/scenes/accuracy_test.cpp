@@ -66,7 +66,7 @@ TEST(Accuracy, IsProvedOfP1AndP2Answers) {
       EXPECT_EQ(summary["element"], element);
       EXPECT_LE(summary["certificate"]["relative"], 0.2);
       const ExactSolution exact_solution(paper_sine_load(), epsilon, true, 14);
-      const SpaceOn space(read_msh((run.results / "mesh.msh").string()), antilock::element(element));
+      const Space space(read_msh((run.results / "mesh.msh").string()), antilock::element(element));
       const VariationalInequality problem = stiff_problem(space, epsilon);
       const Solution same = active_set(problem);  // the gap is 0: the same problem
       EXPECT_NEAR(summary["energy"], energy(problem, same), 1e-9);

@@ -192,7 +192,7 @@ TEST_F(ForeignFiles, TablesOfSixDigitsAreJudgedOrTheirDigitsNamed) {
       "scene.toml",
       "[load]\nf = \"10*sin(2*pi*x)\"\n[layer]\nepsilon = 1e-1\n[contact]\n[mesh]\nkind = \"structured\"\ncells = 4\n");
   for (const Element* element : {&p1(), &crouzeix_raviart()}) {
-    const SpaceOn space(mesh, *element);
+    const Space space(mesh, *element);
     const Eigen::VectorXd u = active_set(stiff_problem(space, 0.1)).u;
     const auto judge = [&](int digits) {
       std::string table = "x,y,u\n";

@@ -126,7 +126,7 @@ TEST_F(Subcommand, EstimateBoundsTheErrorOfForeignAnswers) {
 }
 
 TEST_F(Subcommand, EstimateLiftsAnAnswerOutOfTheObstacleAndSaysSo) {
-  const test::SpaceOn space(structured_mesh(8), p1());
+  const Space space(structured_mesh(8), p1());
   Eigen::VectorXd u = active_set(stiff_problem(space, 0.1)).u;
   for (const int i : space.contact_dofs()) u(i) -= 1e-3;
   const Outcome told = estimate(scene(0.1), space, u, " --accuracy 0.2");
@@ -134,7 +134,7 @@ TEST_F(Subcommand, EstimateLiftsAnAnswerOutOfTheObstacleAndSaysSo) {
   EXPECT_NE(told.out.find("for the way into K"), std::string::npos) << told.out;
   EXPECT_EQ(told.out.find("this answer is not it"), std::string::npos) << told.out;
   // half of the right answer is off by half of |u|_a = 0.94, more than 1.3 h |f| on cells of 1/32
-  const test::SpaceOn fine_space(structured_mesh(32), p1());
+  const Space fine_space(structured_mesh(32), p1());
   const Outcome half =
       estimate(scene(0.1), fine_space, active_set(stiff_problem(fine_space, 0.1)).u / 2, " --accuracy 0.2");
   EXPECT_NE(half.out.find("this answer is not it"), std::string::npos) << half.out;

@@ -75,7 +75,7 @@ TEST(OnlyWhatIsNeeded, EdgesAndStiffnessAreIntegratedWhereTheyAre) {
 }
 
 TEST(Sweep, GivesTheAnswersOfScenesSolvedOneByOne) {
-  const SpaceOn space(unstructured_mesh(12), crouzeix_raviart());
+  const Space space(unstructured_mesh(12), crouzeix_raviart());
   SceneSweep sweep(test::stiff_scene(1), space);
   for (const double epsilon : {1.0, 0.1, 1e-3, 1e-6, 0.0, 0.3}) {
     sweep.set_epsilon(epsilon);
@@ -85,7 +85,7 @@ TEST(Sweep, GivesTheAnswersOfScenesSolvedOneByOne) {
 }
 
 TEST(Sweep, SharesOneFactorisationBelowThePenalty) {
-  const SpaceOn space(structured_mesh(16), p1());
+  const Space space(structured_mesh(16), p1());
   int asked = 0;  // of the stiffness: by the forms alone
   const Field stiffness = [&asked](double, double) { return 1.0 + 0 * ++asked; };
   SceneSweep sweep(Scene({paper_load, stiffness}, StiffLayer{0}, UnilateralContact{}), space);
@@ -106,7 +106,7 @@ TEST(Sweep, SharesOneFactorisationBelowThePenalty) {
 }
 
 TEST(Sweep, LoadsShareOneFactorisation) {
-  const SpaceOn space(structured_mesh(16), crouzeix_raviart());
+  const Space space(structured_mesh(16), crouzeix_raviart());
   SceneSweep sweep(test::stiff_scene(1e-3), space);
   sweep.solve();
   for (const double size : {0.5, 2.0, -1.0}) {
@@ -120,7 +120,7 @@ TEST(Sweep, LoadsShareOneFactorisation) {
 }
 
 TEST(Sweep, StartsFromTheContactSetBefore) {
-  const SpaceOn space(structured_mesh(64), p1());
+  const Space space(structured_mesh(64), p1());
   SceneSweep sweep(test::stiff_scene(1e-3), space);
   sweep.solve();
   sweep.set_epsilon(0.9e-3);  // moves the contact zone by less than a cell
@@ -128,7 +128,7 @@ TEST(Sweep, StartsFromTheContactSetBefore) {
 }
 
 TEST(Sweep, ServesScenesWithoutEpsilonToo) {
-  const SpaceOn space(structured_mesh(8, {0}), p1());
+  const Space space(structured_mesh(8, {0}), p1());
   SceneSweep sweep(Scene({paper_load}), space);
   const Solution first = sweep.solve();
   sweep.set_load([](double x, double y) { return -3 * paper_load(x, y); });

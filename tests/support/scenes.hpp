@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <deque>
 #include <functional>
 #include <limits>
 #include <map>
@@ -45,23 +44,18 @@ inline std::vector<NamedMesh> two_square_meshes(int cells) {
           {"unstructured", unstructured_mesh(cells)}};
 }
 
-struct KeptMesh {
-  TriangleMesh kept;
-};
-/// A space with a mesh of its own, and what to call it in a message. Not copied: a Space points to its mesh.
-struct SpaceOn : private KeptMesh, public Space {
-  SpaceOn(TriangleMesh mesh, const Element& element, const std::string& mesh_name = "")
-      : KeptMesh{std::move(mesh)}, Space(kept, element), name(mesh_name + " " + element.name()) {}
-  SpaceOn(const SpaceOn&) = delete;
-  SpaceOn& operator=(const SpaceOn&) = delete;
-  const std::string name;
+/// A space, and what to call it in a message.
+struct NamedSpace : Space {
+  NamedSpace(const std::string& mesh_name, TriangleMesh mesh, const Element& element)
+      : Space(std::move(mesh), element), name(mesh_name + " " + element.name()) {}
+  std::string name;
 };
 
 /// Each element on each of the two_square_meshes.
-inline std::deque<SpaceOn> two_square_spaces(int cells, const std::vector<const Element*>& elements) {
-  std::deque<SpaceOn> spaces;
+inline std::vector<NamedSpace> two_square_spaces(int cells, const std::vector<const Element*>& elements) {
+  std::vector<NamedSpace> spaces;
   for (const auto& [name, mesh] : two_square_meshes(cells))
-    for (const Element* element : elements) spaces.emplace_back(mesh, *element, name);
+    for (const Element* element : elements) spaces.emplace_back(name, mesh, *element);
   return spaces;
 }
 

@@ -91,8 +91,8 @@ void domain(const tutorial::Options& options, tutorial::Report& report) {
 
   // ### Mesh
   // The same triangles twice: thin for (22), unit for (23).
-  const TriangleMesh unit = unstructured_mesh(options.cells), thin = squashed(unit, epsilon);
-  const Space unit_space(unit, p1()), thin_space(thin, p1());
+  const Space unit_space(unstructured_mesh(options.cells), p1()),
+      thin_space(squashed(unit_space.mesh(), epsilon), p1());
   // ### Forms
   const auto original = assemble(Scene(Body{paper_load}, ThinLayer{epsilon}, UnilateralContact{}), thin_space);
   const auto scaled = assemble(Scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{}), unit_space);

@@ -91,33 +91,31 @@ double symbol(int k, double epsilon) {
 // ### Mesh
 // **The library in ten lines.** From here on chapters compute with the library. These are its words, as the data go. A
 // *scene* (chapter 23) is what is to be solved. A *method*, an element and a family of meshes, knows nothing of it. A
-// *discretisation* is the method at one $h$. `assemble` brings both together, as chapter 03's `assemble_by_hand` does. The
-// solver knows only the matrices.
+// *space* is the method at one $h$: the element's unknowns on a mesh. `assemble` brings both together, as chapter 03's
+// `assemble_by_hand` does. The solver knows only the matrices.
 struct Solved {
   Scene scene;
-  Discretisation on;              // a mesh, and the space of the unknowns on it
+  Space space;                    // the unknowns, on a mesh
   VariationalInequality problem;  // A1; B, M and epsilon^2 in front of them; the load; which unknowns may touch
   Solution solution;              // u, the layer stress p, the pressure lambda, how well the conditions hold
 };
 const Method p1_structured{&p1(), structured()};  // an element, and one mesh per 1/h
 Solved solve(const Scene& scene, int cells) {
-  const Discretisation on = p1_structured.discretise(cells);
+  const Space space = p1_structured.space(cells);
   // ### Forms
-  const VariationalInequality problem = assemble(scene, on.space());
+  const VariationalInequality problem = assemble(scene, space);
   // ### Solve
   const Solution solution = active_set(problem);  // chapter 03's two loops
-  return {scene, on, problem, solution};
+  return {scene, space, problem, solution};
 }
 
 // The stiffness of the mesh against $\sin kπx$: push with this pressure, without an obstacle, and see how far it gives.
 double discrete_symbol(int k, double epsilon, int cells) {
-  const Discretisation on = p1_structured.discretise(cells);
-  VariationalInequality problem =
-      assemble(Scene(Body{[](double, double) { return 0.0; }}, StiffLayer{epsilon}), on.space());
+  const Space space = p1_structured.space(cells);
+  VariationalInequality problem = assemble(Scene(Body{[](double, double) { return 0.0; }}, StiffLayer{epsilon}), space);
   const double h = 1.0 / cells, a = k * pi, integral = (2 - 2 * std::cos(a * h)) / (a * a * h);  // chapter 00
-  for (const int v : on.space().contact_dofs())
-    problem.load(v) = integral * std::sin(a * on.space().dof_coordinates()(v, 0));
-  const int highest = on.space().contact_dofs()[static_cast<std::size_t>(cells / (2 * k)) - 1];  // x = 1/(2 k)
+  for (const int v : space.contact_dofs()) problem.load(v) = integral * std::sin(a * space.dof_coordinates()(v, 0));
+  const int highest = space.contact_dofs()[static_cast<std::size_t>(cells / (2 * k)) - 1];  // x = 1/(2 k)
   return 1 / active_set(problem).u(highest);
 }
 
@@ -125,7 +123,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
   const double epsilon = options.epsilon, h = 1.0 / options.cells;
   const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});  // body, layer, contact: (23)
   const Solved fine = solve(scene, options.cells);
-  const Space& space = fine.on.space();
+  const Space& space = fine.space;
   const tutorial::Exact exact(scene);  // the truth of this scene; refused where it is not known
   const Errors errors = exact.errors(space, fine.solution);
 

@@ -92,8 +92,7 @@ Table off_the_line(const Table& stress, const Eigen::VectorXd& force, const Exac
 
 void structured_study(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
-  const Discretisation discrete = Method{&p1(), structured({}, Diagonal::right)}.discretise(options.cells);
-  const Space& space = discrete.space();
+  const Space space = Method{&p1(), structured({}, Diagonal::right)}.space(options.cells);
   // ### Forms
   // The load is `paper_load`; any other goes here, as `SineLoad{{{2, {10}}}}` ($10 \sin 2πx$), and into the truth below.
   const Scene scene(Body{paper_load}, StiffLayer{options.epsilon}, UnilateralContact{});

@@ -7,23 +7,22 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options& options, tutorial::Report& report) {
        const tutorial::Exact exact(tutorial::paper_scene(1e-6));
        const auto error = [&](Diagonal diagonal) {
-         const Discretisation on = Method{&p1(), structured({}, diagonal)}.discretise(options.cells);
-         return exact.errors(on.space(), active_set(assemble(exact.scene, on.space()))).max_at_unknowns;
+         const Space space = Method{&p1(), structured({}, diagonal)}.space(options.cells);
+         return exact.errors(space, active_set(assemble(exact.scene, space))).max_at_unknowns;
        };
        report.claim_within(error(Diagonal::left) / error(Diagonal::right), 0.5, 1.5, "error left / error right:");
      }},
     {"Double the load. Does the contact zone grow? Does the pressure double?",
      "the zone stays, u and the pressure double: K is a cone (chapter 00); so does the truth, and with it the error",
      [](const tutorial::Options& options, tutorial::Report& report) {
-       const Discretisation on = Method{&p1(), structured()}.discretise(options.cells);
+       const Space space = Method{&p1(), structured()}.space(options.cells);
        const tutorial::Exact one(tutorial::paper_scene(1e-6));
        const tutorial::Exact two(Scene(Body{SineLoad{{{2, {20}}}}}, StiffLayer{1e-6}, UnilateralContact{}));
-       const Solution once = active_set(assemble(one.scene, on.space()));
-       const Solution twice = active_set(assemble(two.scene, on.space()));
+       const Solution once = active_set(assemble(one.scene, space));
+       const Solution twice = active_set(assemble(two.scene, space));
        report.claim(twice.active == once.active, "the same contact set");
        report.claim_within((twice.lambda - 2 * once.lambda).norm() / once.lambda.norm(), 0, 1e-8, "lambda - 2 lambda:");
-       report.claim_within(two.errors(on.space(), twice).h1 / one.errors(on.space(), once).h1, 1.999, 2.001,
-                           "error / error:");
+       report.claim_within(two.errors(space, twice).h1 / one.errors(space, once).h1, 1.999, 2.001, "error / error:");
      }}};
 
 // ## Answers on paper

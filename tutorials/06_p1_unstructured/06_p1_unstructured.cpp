@@ -104,16 +104,15 @@ double lost_to_kept(const TriangleMesh& mesh, double epsilon) {
 // The share of the ridge that is kept, the law's, and their ratio.
 Table follow(const MeshFamily& family, int cells, const std::vector<double>& epsilons,
              const std::filesystem::path& film = {}) {
-  const Discretisation on = Method{&p1(), family}.discretise(cells);
+  const Space space = Method{&p1(), family}.space(cells);
   Table table({"mesh", "k / h", "epsilon", "lost / kept, law", "kept, law", "kept", "kept / law"});
   for (const double epsilon : epsilons) {
     const Scene scene = tutorial::paper_scene(epsilon);
-    const Solution solution = active_set(assemble(scene, on.space()));
-    const double kept =
-        solution.u(on.space().contact_dofs()).maxCoeff() / tutorial::Exact(scene).solution.max_on_contact();
-    const double x = lost_to_kept(on.mesh(), epsilon);
-    table.add({family.name, bending_length(on.mesh()) * cells, epsilon, x, 1 / (1 + x), kept, kept * (1 + x)});
-    if (!film.empty()) write_vtu(film / fmt::format("film_{:g}.vtu", epsilon), on.space(), solution.u);
+    const Solution solution = active_set(assemble(scene, space));
+    const double kept = solution.u(space.contact_dofs()).maxCoeff() / tutorial::Exact(scene).solution.max_on_contact();
+    const double x = lost_to_kept(space.mesh(), epsilon);
+    table.add({family.name, bending_length(space.mesh()) * cells, epsilon, x, 1 / (1 + x), kept, kept * (1 + x)});
+    if (!film.empty()) write_vtu(film / fmt::format("film_{:g}.vtu", epsilon), space, solution.u);
   }
   return table;
 }
@@ -141,8 +140,7 @@ double largest_on_layer(const Space& space, const Eigen::VectorXd& u) {
 
 void lock(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
-  const Discretisation discrete = Method{&p1(), unstructured()}.discretise(options.cells);
-  const Space& space = discrete.space();
+  const Space space = Method{&p1(), unstructured()}.space(options.cells);
   // ### Forms
   VariationalInequality problem = assemble(tutorial::paper_scene(options.epsilon), space);
   // ### Solve
@@ -173,7 +171,7 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
                  "kept of the ridge, times 1 + (5.84 k / epsilon)^2: {:.2f} to {:.2f} from epsilon = 0.1 to 1e-4 "
                  "(observed; accepted 0.9 to 2.2)",
                  law.min("kept / law"), law.max("kept / law"));
-  const double x = options.epsilon > 0 ? lost_to_kept(discrete.mesh(), options.epsilon) : 1e30;
+  const double x = options.epsilon > 0 ? lost_to_kept(space.mesh(), options.epsilon) : 1e30;
   if (x < 1e4) return report.not_judged("whether the layer is clamped: it is where the law leaves less than 1e-4");
   // What the solver leaves of u is 1e-10.
   double tallest = 0;

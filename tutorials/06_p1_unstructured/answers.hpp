@@ -9,10 +9,10 @@ const std::vector<tutorial::Exercise> exercises{
        const tutorial::Exact exact(tutorial::paper_scene(1e-6));
        double error[2], rest[2], k[2];
        for (const int i : {0, 1}) {
-         const Discretisation on = Method{&p1(), unstructured()}.discretise(32 << i);
-         const Solution solution = active_set(assemble(tutorial::paper_scene(1e-6), on.space()));
-         error[i] = exact.errors(on.space(), solution).max_at_unknowns,
-         rest[i] = solution.u(on.space().contact_dofs()).maxCoeff(), k[i] = bending_length(on.mesh());
+         const Space space = Method{&p1(), unstructured()}.space(32 << i);
+         const Solution solution = active_set(assemble(tutorial::paper_scene(1e-6), space));
+         error[i] = exact.errors(space, solution).max_at_unknowns,
+         rest[i] = solution.u(space.contact_dofs()).maxCoeff(), k[i] = bending_length(space.mesh());
        }
        report.claim_within(error[1] / error[0], 0.99, 1.01, "error on 1/64 / error on 1/32:");
        report.claim_within(rest[1] / rest[0] / std::pow(k[0] / k[1], 2), 0.8, 1.25, "growth of the rest / law:");
@@ -20,12 +20,11 @@ const std::vector<tutorial::Exercise> exercises{
     {"Keep the body's triangles, and put the layer into columns (the layered mesh of chapter 02). Does it lock?",
      "no: each of its triangles has a vertical edge, so k = 0; the error is about h^2/3",
      [](const tutorial::Options& options, tutorial::Report& report) {
-       const Discretisation on = Method{&p1(), mesh_family("layered")}.discretise(options.cells);
+       const Space space = Method{&p1(), mesh_family("layered")}.space(options.cells);
        const Scene scene = tutorial::paper_scene(1e-6);
-       const double h = 1.0 / options.cells, error = tutorial::Exact(scene)
-                                                         .errors(on.space(), active_set(assemble(scene, on.space())))
-                                                         .max_at_unknowns;
-       report.claim_within(bending_length(on.mesh()) / h, 0, 1e-9, "k / h:");
+       const double h = 1.0 / options.cells,
+                    error = tutorial::Exact(scene).errors(space, active_set(assemble(scene, space))).max_at_unknowns;
+       report.claim_within(bending_length(space.mesh()) / h, 0, 1e-9, "k / h:");
        report.claim_within(error / (h * h), 0.2, 0.7, "error / h^2:");
      }},
     {"All triangles of the staggered mesh are alike. At epsilon = h/2, 1/h = 64: which mesh keeps most of the ridge?",

@@ -71,28 +71,28 @@ Table count_kernels(int finest) {
   Table counts({"cells", "method", "kernel", "predicted"});
   for (int n = 4; n <= finest; n *= 2)
     for (const Method& method : all) {
-      const Discretisation on = method.discretise(n);
-      const auto triangles = std::count(on.mesh().region.begin(), on.mesh().region.end(), Region::layer);
+      const Space space = method.space(n);
+      const auto triangles = std::count(space.mesh().region.begin(), space.mesh().region.end(), Region::layer);
       const int p = method.element->degree();
       const double predicted = !method.element->conforming()        ? 0.5 * static_cast<double>(triangles)
                                : method.family.name == "structured" ? n * p - 1
                                                                     : p - 1;
-      counts.add({n, method.name(), layer_kernel_dimension(assemble(scene, on.space())), predicted});
+      counts.add({n, method.name(), layer_kernel_dimension(assemble(scene, space)), predicted});
     }
   return counts;
 }
 
 // The library's diagnosis: it counts on two meshes how many independent motions of $Γ_C$ the kernel allows.
 LockingDiagnosis diagnose(const Method& method) {
-  return diagnose_locking(assemble(scene, method.discretise(4).space()), assemble(scene, method.discretise(8).space()));
+  return diagnose_locking(assemble(scene, method.space(4)), assemble(scene, method.space(8)));
 }
 
 // A count that does not grow says that a method locks, and none says what that costs. The answer itself does, with the
 // same line that `run_scene` prints and chapters [05](../05_p1_structured/05_p1_structured.cpp) and [06](../06_p1_unstructured/06_p1_unstructured.cpp) do.
 LockingReport cost(const Method& method) {
-  const Discretisation on = method.discretise(8);
-  const VariationalInequality problem = assemble(scene, on.space());
-  return *report_locking(scene, on.space(), problem, active_set(problem));
+  const Space space = method.space(8);
+  const VariationalInequality problem = assemble(scene, space);
+  return *report_locking(scene, space, problem, active_set(problem));
 }
 
 // From Figure 3 to Figure 6: every inner vertex is moved by up to $t h$, at random. The kernel on the layer is 0 at
@@ -106,13 +106,12 @@ Table jitter_study(int n) {
   for (const double epsilon : {1e-2, 1e-3, 1e-4, 1e-5}) {
     const tutorial::Exact exact(tutorial::paper_scene(epsilon));
     for (const double t : {1e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.2}) {
-      const Discretisation on(jittered_mesh(n, t), p1());
-      SceneSweep sweep(scene, on.space());
+      const Space space(jittered_mesh(n, t), p1());
+      SceneSweep sweep(scene, space);
       sweep.set_epsilon(epsilon);
-      const double lost =
-          exact.errors(on.space(), sweep.solve(patient)).max_at_unknowns / exact.solution.max_on_contact();
+      const double lost = exact.errors(space, sweep.solve(patient)).max_at_unknowns / exact.solution.max_on_contact();
       table.add({t, epsilon, layer_kernel_dimension(sweep.problem()), lost, lost / (1 - lost),
-                 std::pow(5.836 * bending_length(on.mesh()) / epsilon, 2)});
+                 std::pow(5.836 * bending_length(space.mesh()) / epsilon, 2)});
     }
   }
   return table;
@@ -122,7 +121,7 @@ void explain(const tutorial::Options& options, tutorial::Report& report) {
   const Table counts = count_kernels(options.cells), jitter = jitter_study(16);
   // ### Output
   for (const Method& method : {p1_columns, p1_any, cr_any})
-    tutorial::draw_kernel(options.out, method.discretise(8).space(), method.name());
+    tutorial::draw_kernel(options.out, method.space(8), method.name());
   counts.pivot("cells", "method", "kernel").print("dimension of the kernel on the layer");
   jitter.pivot("t", "epsilon", "lost")
       .print("moved by t h: share of the layer's displacement that is lost, by epsilon");

@@ -15,12 +15,11 @@ const std::vector<tutorial::Exercise> exercises{
     {"epsilon = 0 and vertices moved by a millionth of h. How much of the displacement is lost?",
      "all: a kernel is 0 or it is not, and at epsilon = 0 nothing else counts",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const Discretisation on(jittered_mesh(8, 1e-6), p1());
+       const Space space(jittered_mesh(8, 1e-6), p1());
        ActiveSetOptions patient;
        patient.corrections.max_corrections = 100000;
-       const Solution solution = active_set(assemble(scene, on.space()), patient);
-       report.claim_within(solution.u(on.space().contact_dofs()).maxCoeff() / 0.0457160, 0, 1e-3,
-                           "share that is kept:");
+       const Solution solution = active_set(assemble(scene, space), patient);
+       report.claim_within(solution.u(space.contact_dofs()).maxCoeff() / 0.0457160, 0, 1e-3, "share that is kept:");
      }}};
 
 // ## Answers on paper

@@ -5,14 +5,14 @@ std::string name = "P1", family = "structured";
 
 void project_sine(const tutorial::Options& options, tutorial::Report&) {
   const Method method{&element(name), mesh_family(family)};
-  const Discretisation on = method.discretise(options.cells);
-  const Eigen::MatrixXd basis = kernel_basis(stiff_part(assemble(scene, on.space())));
-  const Eigen::VectorXd sine = (std::numbers::pi * on.space().dof_coordinates().col(0).array()).sin();
+  const Space space = method.space(options.cells);
+  const Eigen::MatrixXd basis = kernel_basis(stiff_part(assemble(scene, space)));
+  const Eigen::VectorXd sine = (std::numbers::pi * space.dof_coordinates().col(0).array()).sin();
   const Eigen::VectorXd left = basis * (basis.transpose() * sine);
   Table points({"x", "left"});
   const bool clamped = method.element->conforming();  // in the corners; CR has no unknown there
   if (clamped) points.add({0.0, 0.0});
-  for (const int i : on.space().contact_dofs()) points.add({on.space().dof_coordinates()(i, 0), left(i)});
+  for (const int i : space.contact_dofs()) points.add({space.dof_coordinates()(i, 0), left(i)});
   if (clamped) points.add({1.0, 0.0});
   points.write(options.out / "points.csv");
   fmt::print("The kernel on this layer has {}. The library: {}.\n",

@@ -82,14 +82,14 @@ Table interpolate(const std::vector<int>& cells, const Element& element) {
   const tutorial::Exact limit(tutorial::paper_scene(0));
   Table table({"cells", "h", "strain", "smallest", "distance"});
   for (const int n : cells) {
-    const Discretisation on = Method{&element, unstructured()}.discretise(n);
-    const VariationalInequality problem = assemble(tutorial::paper_scene(0), on.space());
+    const Space space = Method{&element, unstructured()}.space(n);
+    const VariationalInequality problem = assemble(tutorial::paper_scene(0), space);
     Solution interpolated;
     const Field u0 = [&](double x, double y) { return limit.table.value(x, y); };
-    interpolated.u = element.conforming() ? interpolant(on.space(), u0) : edge_means(on.space(), u0);
+    interpolated.u = element.conforming() ? interpolant(space, u0) : edge_means(space, u0);
     interpolated.p = Eigen::VectorXd::Zero(problem.b.rows());
     table.add({n, 1.0 / n, (problem.b * interpolated.u).lpNorm<Eigen::Infinity>(),
-               interpolated.u(on.space().contact_dofs()).minCoeff(), limit.errors(on.space(), interpolated).h1});
+               interpolated.u(space.contact_dofs()).minCoeff(), limit.errors(space, interpolated).h1});
   }
   return table;
 }
@@ -97,17 +97,16 @@ Table interpolate(const std::vector<int>& cells, const Element& element) {
 void robust(const tutorial::Options& options, tutorial::Report& report) {
   // ### Mesh
   // The very mesh of chapter 06, and two spaces on it.
-  const Discretisation conforming = Method{&p1(), unstructured()}.discretise(options.cells);
-  const Discretisation nonconforming(conforming, crouzeix_raviart());
-  const Space& space = nonconforming.space();
+  const Space conforming = Method{&p1(), unstructured()}.space(options.cells);
+  const Space space(conforming, crouzeix_raviart());
   // ### Forms
   // The scene does not know the element.
   const Scene scene = tutorial::paper_scene(options.epsilon);
-  const VariationalInequality p1_problem = assemble(scene, conforming.space()), problem = assemble(scene, space);
+  const VariationalInequality p1_problem = assemble(scene, conforming), problem = assemble(scene, space);
   // ### Solve
   const Solution p1_solution = active_set(p1_problem), solution = active_set(problem);
   const tutorial::Exact exact(tutorial::paper_scene(options.epsilon));
-  const Errors p1_errors = exact.errors(conforming.space(), p1_solution), errors = exact.errors(space, solution);
+  const Errors p1_errors = exact.errors(conforming, p1_solution), errors = exact.errors(space, solution);
   const Table lemma = interpolate({8, 16, 32, 64}, crouzeix_raviart());
 
   // ### Output

@@ -57,9 +57,8 @@ void verdicts(const Table& results, const std::vector<tutorial::Exact>& exact_so
 
 // ### Forms
 // One mesh, one element, five epsilons: epsilon^2 in front of a0 is the only thing that changes.
-Table solve_all(const Method& method, const TriangleMesh& mesh, int cells,
+Table solve_all(const Method& method, const Space& space, int cells,
                 const std::vector<tutorial::Exact>& exact_solution) {
-  const Space space = method.space(mesh);
   SceneSweep sweep(tutorial::paper_scene(1), space);
   Table rows(columns);
   for (const tutorial::Exact& exact : exact_solution) {
@@ -84,9 +83,9 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   for (int n = 8; n <= options.cells; n *= 2)
     for (const MeshFamily& family : {structured(), unstructured()}) {
       report.stage(fmt::format("1/h = {}, {} mesh", n, family.name));
-      const TriangleMesh mesh = family.mesh(n);
+      const Space space(family.mesh(n), p1());
       for (const Element* element : {&p1(), &crouzeix_raviart()})
-        results.add(solve_all({element, family}, mesh, n, exact_solution));
+        results.add(solve_all({element, family}, Space(space, *element), n, exact_solution));
     }
   // ### Output
   report.finish();

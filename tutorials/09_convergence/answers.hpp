@@ -5,9 +5,9 @@
 
 std::vector<tutorial::Exercise> exercises() {
   const auto largest_error = [](const Method& method, int cells, double epsilon) {
-    const Discretisation on = method.discretise(cells);
+    const Space space = method.space(cells);
     return tutorial::Exact(tutorial::paper_scene(epsilon))
-        .errors(on.space(), active_set(assemble(tutorial::paper_scene(epsilon), on.space())))
+        .errors(space, active_set(assemble(tutorial::paper_scene(epsilon), space)))
         .max;
   };
   return {{"Add epsilon = 1e-3 for P1 unstructured. Where does its line start to fall?",

@@ -16,7 +16,7 @@ inline double most_apart(const Table& table, const std::string& one, const std::
 }
 
 /// P1 on the structured mesh of a scene: with a layer of its depth, or without one.
-inline Discretisation p1_for(const Scene& scene, int cells) {
+inline Space p1_for(const Scene& scene, int cells) {
   return {structured_mesh(cells, Domain{scene.layer_depth()}), p1()};
 }
 inline Scene with_layer(const Layer& layer) { return Scene(Body{paper_load}, layer, UnilateralContact{}); }
@@ -24,9 +24,8 @@ inline Scene with_layer(const Layer& layer) { return Scene(Body{paper_load}, lay
 /// u_h^0 of P1 on the two squares (epsilon = 0) against the discrete (25) on the body alone: the largest difference.
 inline double against_ventcel(int cells) {
   const Scene scaled = with_layer(StiffLayer{0}), ventcel = with_layer(VentcelLayer{});
-  const Discretisation both = p1_for(scaled, cells), body = p1_for(ventcel, cells);
-  const Eigen::VectorXd u0 = active_set(assemble(scaled, both.space())).u,
-                        u = active_set(assemble(ventcel, body.space())).u;
+  const Space both = p1_for(scaled, cells), body = p1_for(ventcel, cells);
+  const Eigen::VectorXd u0 = active_set(assemble(scaled, both)).u, u = active_set(assemble(ventcel, body)).u;
   return (u0.tail(u.size()) - u).cwiseAbs().maxCoeff();  // the body's rows come last
 }
 
@@ -35,8 +34,8 @@ inline Table three_models(double epsilon, int cells) {
   std::vector<Eigen::VectorXd> u;
   for (const Layer& layer : {Layer(ThinLayer{epsilon}), Layer(StiffLayer{epsilon}), Layer(VentcelLayer{})}) {
     const Scene scene = with_layer(layer);
-    const Discretisation on = p1_for(scene, cells);
-    u.push_back(active_set(assemble(scene, on.space())).u(on.space().contact_dofs()));
+    const Space space = p1_for(scene, cells);
+    u.push_back(active_set(assemble(scene, space)).u(space.contact_dofs()));
   }
   Table table({"x", "thin", "scaled", "limit"});
   table.add({0, 0, 0, 0});  // clamped

@@ -69,10 +69,10 @@ using tutorial::Exact;
 
 struct Discrete {
   // ### Mesh
-  Discretisation on;
+  Space space;
   // ### Forms
-  SceneSweep sweep{tutorial::paper_scene(0), on.space()};  // a1 and the factors of a0, assembled once for all ε
-  SparseMatrix norm = h1_norm(on.space());                 // the matrix of the norm
+  SceneSweep sweep{tutorial::paper_scene(0), space};  // a1 and the factors of a0, assembled once for all ε
+  SparseMatrix norm = h1_norm(space);                 // the matrix of the norm
   // ### Solve
   Solution at(double epsilon) {  // u_h^ε; at ε = 0 this is (7) itself, not a small ε
     sweep.set_epsilon(epsilon);
@@ -84,7 +84,7 @@ struct Discrete {
 
 // Proposition 1, one method on one mesh: the distance to its own limit, and the stiff part of (5), $ε^2 ‖p‖^2$.
 Table to_the_limit(const Method& method, int cells) {
-  Discrete discrete{method.discretise(cells)};
+  Discrete discrete{method.space(cells)};
   const Solution limit = discrete.at(0);
   Table rows({"method", "epsilon", "distance", "stiff", "stiff / (epsilon |p_h^0|)^2"});
   for (int k = 0; k <= 10; ++k) {
@@ -127,12 +127,12 @@ std::vector<OnPath> path(double k, int finest, const Exact& limit) {
 Table three_terms(const Method& method, const std::vector<OnPath>& path, const Exact& limit) {
   Table rows({"method", "h", "term", "value"});
   for (const auto& [n, exact, first_term] : path) {
-    Discrete discrete{method.discretise(n)};
+    Discrete discrete{method.space(n)};
     const Solution u = discrete.at(exact.epsilon), u0 = discrete.at(0);
     rows.add({method.name(), 1.0 / n, "first term", first_term});
-    rows.add({method.name(), 1.0 / n, "second term", limit.errors(discrete.on.space(), u0).h1});
+    rows.add({method.name(), 1.0 / n, "second term", limit.errors(discrete.space, u0).h1});
     rows.add({method.name(), 1.0 / n, "third term", discrete.distance(u0, u)});
-    rows.add({method.name(), 1.0 / n, "left side", exact.errors(discrete.on.space(), u).h1});
+    rows.add({method.name(), 1.0 / n, "left side", exact.errors(discrete.space, u).h1});
   }
   return rows;
 }

@@ -93,20 +93,20 @@ double below(const Eigen::MatrixX3d& trace) {  // in L2 of Γ_C; the columns are
 // One method on one mesh: the four numbers, and of $u_h$ itself the part below 0 (`dip`) and its norm.
 Table measure(const Method& method, int cells, const Exact& u, const Exact& u0) {
   // ### Mesh
-  const Discretisation on = method.discretise(cells);
+  const Space space = method.space(cells);
   // ### Forms
-  const VariationalInequality problem = assemble(u.scene, on.space());
-  const SparseMatrix norm = h1_norm(on.space());
+  const VariationalInequality problem = assemble(u.scene, space);
+  const SparseMatrix norm = h1_norm(space);
   const Eigen::VectorXd slope_of_phi = load_vector(
-      on.space(), [](double x, double y) { return pi * std::sin(pi * x) * std::cos(pi * y); }, Region::layer);
+      space, [](double x, double y) { return pi * std::sin(pi * x) * std::cos(pi * y); }, Region::layer);
   // ### Solve
   const Eigen::VectorXd u_h = active_set(problem).u;
   Table row(columns);
   row.add({method.element->name(), method.family.name, cells, 1.0 / cells,
-           best_approximation(on.space(), problem, u.reference(), AdmissibleSet::k_h).distance,
-           best_approximation(on.space(), problem, u0.reference(), AdmissibleSet::k_0h).distance,
-           negative_part(on.space(), problem, norm).constant, dual_norm(problem, norm, slope_of_phi, true),
-           below(contact_trace(on.space(), u_h)), std::sqrt(u_h.dot(norm * u_h))});
+           best_approximation(space, problem, u.reference(), AdmissibleSet::k_h).distance,
+           best_approximation(space, problem, u0.reference(), AdmissibleSet::k_0h).distance,
+           negative_part(space, problem, norm).constant, dual_norm(problem, norm, slope_of_phi, true),
+           below(contact_trace(space, u_h)), std::sqrt(u_h.dot(norm * u_h))});
   return row;
 }
 
@@ -115,15 +115,15 @@ struct Worst {
   Eigen::MatrixX3d trace;
   double c_h, below, at_midpoints;
 };
-Worst worst_dip(const Discretisation& on) {
-  VariationalInequality problem = assemble(tutorial::paper_scene(0), on.space());
+Worst worst_dip(const Space& space) {
+  VariationalInequality problem = assemble(tutorial::paper_scene(0), space);
   for (const int unknown : problem.contact) problem.dirichlet_dofs.push_back(unknown);
   std::sort(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end());
   problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   problem.contact.clear(), problem.lower.resize(0);
-  const NegativePart part = negative_part(on.space(), problem, h1_norm(on.space()));
-  const Eigen::MatrixX3d trace = contact_trace(on.space(), part.worst);
-  return {trace, part.constant, below(trace), part.worst(on.space().contact_dofs()).cwiseAbs().maxCoeff()};
+  const NegativePart part = negative_part(space, problem, h1_norm(space));
+  const Eigen::MatrixX3d trace = contact_trace(space, part.worst);
+  return {trace, part.constant, below(trace), part.worst(space.contact_dofs()).cwiseAbs().maxCoeff()};
 }
 
 void judge(const Method& method, const Table& own, double lost, tutorial::Report& report) {
@@ -156,7 +156,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
   Table results(columns);
   for (const Method& method : all)
     for (int n = 8; n <= options.cells; n *= 2) results.add(measure(method, n, u, u0));
-  const Worst dip = worst_dip(Method{&crouzeix_raviart(), structured()}.discretise(16));
+  const Worst dip = worst_dip(Method{&crouzeix_raviart(), structured()}.space(16));
   // ### Output
   results.print("distances to K_h and K_0h, c_h, k_h, the part of u_h below 0, its norm", 3);
   tutorial::write_contact_sets(options.out, results, u, dip.trace);

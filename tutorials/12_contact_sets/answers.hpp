@@ -4,9 +4,8 @@
 const auto distances = [](const Method& method, const Reference& v, AdmissibleSet within) {
   Table table({"h", "distance"});
   for (const int n : {8, 16, 32}) {
-    const Discretisation on = method.discretise(n);
-    table.add(
-        {1.0 / n, best_approximation(on.space(), assemble(tutorial::paper_scene(0), on.space()), v, within).distance});
+    const Space space = method.space(n);
+    table.add({1.0 / n, best_approximation(space, assemble(tutorial::paper_scene(0), space), v, within).distance});
   }
   return table;
 };

@@ -31,8 +31,8 @@ inline Table traces(const Exact& u, int cells) {
   std::vector<Eigen::MatrixX3d> trace;
   for (const Method& method :
        {Method{&p1(), structured()}, {&crouzeix_raviart(), unstructured()}, {&p2(), structured()}}) {
-    const Discretisation on = method.discretise(cells);
-    trace.push_back(contact_trace(on.space(), active_set(assemble(paper_scene(u.epsilon), on.space())).u));
+    const Space space = method.space(cells);
+    trace.push_back(contact_trace(space, active_set(assemble(paper_scene(u.epsilon), space)).u));
   }
   Table table({"x", "truth", "p1", "cr", "p2"});
   for (Eigen::Index k = 0; k < trace.front().rows(); ++k)

@@ -84,18 +84,18 @@ const std::vector<std::string> columns{"element", "mesh",     "epsilon", "cells"
 // The map: one method on one mesh at every ε. Forms and contact sets are handed on from ε to ε.
 Table solve_all(const Method& method, int cells, const std::vector<Exact>& exact_solution, const Field& load) {
   // ### Mesh
-  const Discretisation on = method.discretise(cells);
+  const Space space = method.space(cells);
   // ### Forms
-  SceneSweep sweep(Scene(Body{load}, StiffLayer{1}, UnilateralContact{}), on.space());
+  SceneSweep sweep(Scene(Body{load}, StiffLayer{1}, UnilateralContact{}), space);
   // ### Solve
   Table rows(columns);
   for (const Exact& exact : exact_solution) {
     sweep.set_epsilon(exact.epsilon);
     const Solution solution = sweep.solve();
-    const Errors errors = exact.errors(on.space(), solution);
-    const double kept = solution.u(on.space().contact_dofs()).maxCoeff() / exact.solution.max_on_contact();
+    const Errors errors = exact.errors(space, solution);
+    const double kept = solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact();
     rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, errors.h1,
-              on.space().free_count(), errors.energy, 1 / kept - 1});
+              space.free_count(), errors.energy, 1 / kept - 1});
   }
   return rows;
 }
@@ -116,10 +116,9 @@ Table worst_from(double epsilon_0, const Table& map) {
 Table distances(const Method& method, const Table& worst, const Exact& u0) {
   Table rows({"h", "distance"});
   for (const TableEntry& cells : worst.unique("cells")) {
-    const Discretisation on = method.discretise(static_cast<int>(cells.number()));
-    const VariationalInequality problem = assemble(tutorial::paper_scene(0), on.space());
-    rows.add(
-        {1 / cells.number(), best_approximation(on.space(), problem, u0.reference(), AdmissibleSet::k_0h).distance});
+    const Space space = method.space(static_cast<int>(cells.number()));
+    const VariationalInequality problem = assemble(tutorial::paper_scene(0), space);
+    rows.add({1 / cells.number(), best_approximation(space, problem, u0.reference(), AdmissibleSet::k_0h).distance});
   }
   return rows;
 }

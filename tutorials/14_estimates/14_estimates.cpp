@@ -106,23 +106,22 @@ const std::vector<std::string> columns{"element", "mesh",  "epsilon",  "cells", 
 // on jumps; `excess`: $J(u_h) - J(u)$; `identity`: the other side of its identity.
 Table both_sides(const Method& method, int cells, const std::vector<Exact>& exact_solution) {
   // ### Mesh
-  const Discretisation on = method.discretise(cells);
+  const Space space = method.space(cells);
   // ### Forms
-  SceneSweep sweep(tutorial::paper_scene(1), on.space());
-  const SparseMatrix norm = h1_norm(on.space());
+  SceneSweep sweep(tutorial::paper_scene(1), space);
+  const SparseMatrix norm = h1_norm(space);
   const bool conforming = method.element->conforming();
   Table rows(columns);
   for (const Exact& exact : exact_solution) {
     // ### Solve
     sweep.set_epsilon(exact.epsilon);
     const Solution u_h = sweep.solve();
-    const Errors errors = exact.errors(on.space(), u_h);
-    const Eigen::VectorXd work = contact_work(on.space(), [&](double x) { return exact.solution.pressure(x); });
+    const Errors errors = exact.errors(space, u_h);
+    const Eigen::VectorXd work = contact_work(space, [&](double x) { return exact.solution.pressure(x); });
     const Eigen::VectorXd r =
         conforming ? work
-                   : consistency_residual(on.space(), sweep.problem().load, exact.reference(), {exact.contact_from()});
-    const double first =
-                     best_approximation(on.space(), sweep.problem(), exact.reference(), AdmissibleSet::k_h, r).value,
+                   : consistency_residual(space, sweep.problem().load, exact.reference(), {exact.contact_from()});
+    const double first = best_approximation(space, sweep.problem(), exact.reference(), AdmissibleSet::k_h, r).value,
                  second = -r.dot(u_h.u);
     rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, errors.h1, first + second,
               second, -(r - work).dot(u_h.u), errors.h1 * errors.h1 / (first + second),
@@ -144,8 +143,8 @@ void judge(const Method& method, const Table& own, tutorial::Report& report) {
   // P1 is a part of V: its alpha is that of V or more, and falls to it like h^2. CR's may lie on either side.
   double alphas[2], away = 0;
   for (int i = 0; i < 2; ++i) {
-    const Discretisation coarse = method.discretise(8 + 4 * i);
-    alphas[i] = coercivity(assemble(tutorial::paper_scene(1), coarse.space()), h1_norm(coarse.space()));
+    const Space coarse = method.space(8 + 4 * i);
+    alphas[i] = coercivity(assemble(tutorial::paper_scene(1), coarse), h1_norm(coarse));
     away = std::max(away, std::abs(alphas[i] - alpha) * coarse.mesh().triangle_count());
   }
   report.claim(away < 0.5 && (std::min(alphas[0], alphas[1]) > alpha - 1e-9 || !method.element->conforming()),

@@ -11,8 +11,8 @@ const std::vector<tutorial::Exercise> exercises{
        Table rows({"mesh", "h", "excess"});
        for (const MeshFamily& family : {structured(), unstructured()})
          for (int n = 4; n <= options.cells; n *= 2) {
-           const Discretisation on(family.mesh(n), p1());
-           const VariationalInequality problem = assemble(scene, on.space());
+           const Space space(family.mesh(n), p1());
+           const VariationalInequality problem = assemble(scene, space);
            rows.add({family.name, 1.0 / n, energy(problem, active_set(problem)) - exact.solution.energy()});
          }
        rows.pivot("h", "mesh", "excess").print("J(u_h) - J(u)");

@@ -19,11 +19,11 @@ inline Table errors_and_bounds(const std::filesystem::path& out, int finest) {
   for (const Method& method : methods()) {
     Table own(all.columns());
     for (int n = 8; n <= finest; n *= 2) {
-      const Discretisation on = method.discretise(n);
-      SceneSweep sweep(paper_scene(1), on.space());
+      const Space space = method.space(n);
+      SceneSweep sweep(paper_scene(1), space);
       for (const Exact& exact : exact_solution) {
         sweep.set_epsilon(exact.epsilon);
-        own.add({method.name(), n, exact.epsilon, exact.errors(on.space(), sweep.solve()).h1,
+        own.add({method.name(), n, exact.epsilon, exact.errors(space, sweep.solve()).h1,
                  std::pow(exact.epsilon, -2) * std::pow(n, -0.75) * h2_norm(exact.solution)});
       }
     }

@@ -67,12 +67,12 @@ const std::vector<std::string> columns{"element", "degree", "mesh", "cells", "h"
 
 Table solve(const Method& method, int cells, double epsilon, const Field& load, const Exact& exact) {
   // ### Mesh
-  const Discretisation on = method.discretise(cells);
+  const Space space = method.space(cells);
   // ### Forms
   // The same lines for every degree. $B$ has one row per point of a quadrature that is exact for $(∂_y v)^2$.
   const Scene scene(Body{load}, StiffLayer{epsilon}, UnilateralContact{});
-  const VariationalInequality problem = assemble(scene, on.space());
-  const Eigen::VectorXd slope = problem.b * (2 * pi * on.space().dof_coordinates().col(0).array()).sin().matrix();
+  const VariationalInequality problem = assemble(scene, space);
+  const Eigen::VectorXd slope = problem.b * (2 * pi * space.dof_coordinates().col(0).array()).sin().matrix();
   // ### Solve
   // Factored at the true ε: functions that $B$ nearly misses would need hundreds of corrections with a larger penalty
   // ([chapter 18](../18_roundoff/18_roundoff.cpp)). Below ε = 1e-4 that costs too many digits; the solver says so, and refuses.
@@ -82,11 +82,10 @@ Table solve(const Method& method, int cells, double epsilon, const Field& load, 
   const double squared = slope.dot(problem.m.cwiseProduct(slope));
   Table row(columns);
   row.add(
-      {method.element->name(), method.element->degree(), method.family.name, cells, 1.0 / cells,
-       on.space().free_count(),
+      {method.element->name(), method.element->degree(), method.family.name, cells, 1.0 / cells, space.free_count(),
        cells <= 4 && method.family.name != "delaunay" ? TableEntry(layer_kernel_dimension(problem)) : TableEntry(""),
-       std::sqrt(squared), exact.errors(on.space(), solution).h1,
-       solution.u(on.space().contact_dofs()).maxCoeff() / exact.solution.max_on_contact(),
+       std::sqrt(squared), exact.errors(space, solution).h1,
+       solution.u(space.contact_dofs()).maxCoeff() / exact.solution.max_on_contact(),
        1 / (1 + squared / (epsilon * epsilon * ridge))});
   return row;
 }

@@ -103,10 +103,10 @@ constexpr const char *one_load = "our load", *ball = "worst load of the ball", *
 // One method on one mesh: forms of the error, for all ε.
 struct Ball {
   // ### Mesh
-  Discretisation on;
+  Space space;
   // ### Forms
   ErrorForm form;
-  Ball(const Method& method, int cells) : on(method.discretise(cells)), form(on.space(), LoadModes(2 * cells)) {}
+  Ball(const Method& method, int cells) : space(method.space(cells)), form(space, LoadModes(2 * cells)) {}
   // ### Solve
   WorstLoad worst(double epsilon) { return form.set_epsilon(epsilon), form.worst(); }
   double ours(double epsilon, int wave = 2) {  // the load 10 sin 2πx, scaled to norm 1
@@ -159,7 +159,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       Ball on(method, n);
       const auto add = [&](const char* load, double epsilon, double error) {
         results.add({load, method.name(), 1.0 / n, epsilon, error, std::hypot(error, on.form.modes().beyond()),
-                     error / width_of_ball(tutorial::unknowns_of_body(on.on.space()))});
+                     error / width_of_ball(tutorial::unknowns_of_body(on.space))});
       };
       for (const double epsilon : p > 2 ? std::vector<double>{0} : std::vector{1.0, 1e-1, 1e-2, 1e-4, 1e-20, 0.0}) {
         add(one_load, epsilon, on.ours(epsilon));

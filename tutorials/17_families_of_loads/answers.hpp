@@ -24,10 +24,10 @@ const std::vector<tutorial::Exercise> exercises{
      "one arch; that of P1 in columns has waves, but long ones do nearly as much harm",
      [](const tutorial::Options&, tutorial::Report& report) {
        for (const Method& method : {all_methods[0], all_methods[1]}) {
-         const Discretisation on = method.discretise(24);
+         const Space space = method.space(24);
          std::vector<double> sup;
          for (const int waves : {16, 48}) {
-           ErrorForm form(on.space(), LoadModes(waves));
+           ErrorForm form(space, LoadModes(waves));
            form.set_epsilon(0);
            sup.push_back(form.worst().error);
          }

@@ -108,9 +108,9 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
   // None on which P1 locks: whatever goes wrong below is round-off.
   const std::vector<Method> settings{
       {&p1(), structured()}, {&crouzeix_raviart(), structured()}, {&crouzeix_raviart(), unstructured()}};
-  std::vector<Discretisation> on;  // the same mesh at every ε
-  on.reserve(settings.size());
-  for (const Method& method : settings) on.push_back(method.discretise(options.cells));
+  std::vector<Space> spaces;  // the same mesh at every ε
+  spaces.reserve(settings.size());
+  for (const Method& method : settings) spaces.push_back(method.space(options.cells));
   // ### Forms
   // `compare_solvers` assembles (23) at each $ε$ and hands it to every solver.
   Table results(tutorial::solver_columns);
@@ -119,10 +119,10 @@ void roundoff(const tutorial::Options& options, tutorial::Report& report) {
     const tutorial::Exact exact(tutorial::paper_scene(epsilon), 14);
     for (std::size_t i = 0; i < settings.size(); ++i)
       results.add(tutorial::compare_solvers(
-          settings[i], on[i].space(), exact,
+          settings[i], spaces[i], exact,
           [](const auto& problem, const auto& active, double delta) { return cure(problem, active, delta); }));
   }
-  const Table conditions = tutorial::condition_numbers(on.front().space());
+  const Table conditions = tutorial::condition_numbers(spaces.front());
   // Without contact, at the penalty that the library would choose: the deepest $u$ on Σ at each ε (our load presses the
   // right half down), and how far $u$ is from the method's own limit, which it reaches with order 2 (chapter 11).
   const Table lines = tutorial::turn_the_lines(

@@ -7,8 +7,8 @@ const std::vector<tutorial::Exercise> exercises{
      "Does it bring the digits back, at epsilon = 1e-7?",
      "no: it finds the solution of the rounded sum; the digits that were lost are not in its residual",
      [](const tutorial::Options& options, tutorial::Report& report) {
-       const Discretisation on(structured_mesh(options.cells), p1());
-       const VariationalInequality problem = assemble(tutorial::paper_scene(1e-7), on.space());
+       const Space space(structured_mesh(options.cells), p1());
+       const VariationalInequality problem = assemble(tutorial::paper_scene(1e-7), space);
        PenaltyFactor factor(problem);
        const Solution right = active_set(problem, factor);
        const auto apart = [&](const VectorXd& u) { return (u - right.u).norm() / right.u.norm(); };

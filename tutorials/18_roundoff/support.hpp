@@ -34,18 +34,18 @@ inline VariationalInequality turned(const Space& space, double epsilon) {
 /// from its own solution at epsilon = 0, relative).
 inline Table turn_the_lines(int cells, const std::function<Eigen::VectorXd(const VariationalInequality&)>& cure) {
   Table rows({"method", "epsilon", "u", "from_limit"});
-  const auto solve = [&](const Discretisation& on, double epsilon) { return cure(turned(on.space(), epsilon)); };
-  const auto largest = [](const Discretisation& on, const Eigen::VectorXd& u) {
+  const auto solve = [&](const Space& space, double epsilon) { return cure(turned(space, epsilon)); };
+  const auto largest = [](const Space& space, const Eigen::VectorXd& u) {
     double most = 0;
     for (int i = 0; i < u.size(); ++i)
-      if (std::abs(on.space().dof_coordinates()(i, 1)) < 1e-12) most = std::max(most, -u(i));
+      if (std::abs(space.dof_coordinates()(i, 1)) < 1e-12) most = std::max(most, -u(i));
     return most;
   };
-  const auto add = [&](const std::string& name, const Discretisation& on) {
-    const Eigen::VectorXd limit = solve(on, 0);
+  const auto add = [&](const std::string& name, const Space& space) {
+    const Eigen::VectorXd limit = solve(space, 0);
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-6}) {
-      const Eigen::VectorXd u = solve(on, epsilon);
-      rows.add({name, epsilon, largest(on, u), (u - limit).norm() / limit.norm()});
+      const Eigen::VectorXd u = solve(space, epsilon);
+      rows.add({name, epsilon, largest(space, u), (u - limit).norm() / limit.norm()});
     }
   };
   const auto along = [](int n) {  // its layer has cells of h x 2h: each diagonal / is a line
@@ -54,12 +54,12 @@ inline Table turn_the_lines(int cells, const std::function<Eigen::VectorXd(const
       if (vertex(1) < 0) vertex(1) *= 2;
     return mesh;
   };
-  add("P1 along, 4 times finer", Discretisation(along(4 * cells), p1()));
-  add("P1 along", Discretisation(along(cells), p1()));
-  add("P1 structured", Discretisation(structured_mesh(cells), p1()));
-  add("P1 unstructured", Discretisation(unstructured_mesh(cells), p1()));
-  add("CR structured", Discretisation(structured_mesh(cells), crouzeix_raviart()));
-  add("CR unstructured", Discretisation(unstructured_mesh(cells), crouzeix_raviart()));
+  add("P1 along, 4 times finer", Space(along(4 * cells), p1()));
+  add("P1 along", Space(along(cells), p1()));
+  add("P1 structured", Space(structured_mesh(cells), p1()));
+  add("P1 unstructured", Space(unstructured_mesh(cells), p1()));
+  add("CR structured", Space(structured_mesh(cells), crouzeix_raviart()));
+  add("CR unstructured", Space(unstructured_mesh(cells), crouzeix_raviart()));
   return rows;
 }
 

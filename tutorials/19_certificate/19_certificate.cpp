@@ -93,9 +93,9 @@ const std::vector<std::string> columns{
 
 // ### Mesh
 Table certify_both(const MeshFamily& family, int cells, const std::vector<Exact>& exact_solution) {
-  const Discretisation cr(family.mesh(cells), crouzeix_raviart()), linear(cr, p1());
+  const Space cr(family.mesh(cells), crouzeix_raviart()), linear(cr, p1());
   // ### Forms
-  SceneSweep below(paper_scene(1), cr.space()), above(paper_scene(1), linear.space());
+  SceneSweep below(paper_scene(1), cr), above(paper_scene(1), linear);
   Table rows(columns);
   for (const Exact& exact : exact_solution) {
     below.set_epsilon(exact.epsilon);
@@ -103,12 +103,11 @@ Table certify_both(const MeshFamily& family, int cells, const std::vector<Exact>
     // ### Solve
     const Solution u_h = below.solve(), p1_solution = above.solve();
     // One flux, two functions v: the strip, which certify() makes, and P1's own solution. Nothing here knows u.
-    const Companion v = p1_companion(p1_solution),
-                    strip = local_companion(exact.scene, cr.space(), below.problem(), u_h);
-    const Certificate of_cr = certify(exact.scene, cr.space(), below.problem(), u_h, {.companion = &strip}),
-                      of_p1 = certify(exact.scene, cr.space(), below.problem(), u_h, {.companion = &v});
+    const Companion v = p1_companion(p1_solution), strip = local_companion(exact.scene, cr, below.problem(), u_h);
+    const Certificate of_cr = certify(exact.scene, cr, below.problem(), u_h, {.companion = &strip}),
+                      of_p1 = certify(exact.scene, cr, below.problem(), u_h, {.companion = &v});
     // The errors, J(CR) and the right side of the identity (`works`: ∫ λ_u v + ∫ λ_h u - (f - f_1, u)), for the verdicts alone.
-    const EquilibratedFlux flux = equilibrated_flux(exact.scene, cr.space(), below.problem(), u_h);
+    const EquilibratedFlux flux = equilibrated_flux(exact.scene, cr, below.problem(), u_h);
     const double j_cr = energy(below.problem(), u_h), j = exact.solution.energy();
     const auto add = [&](const char* element, const Certificate& found, const Companion& companion) {
       const ExactErrors errors = exact_errors(cr.mesh(), flux, companion, exact.table);
@@ -117,9 +116,9 @@ Table certify_both(const MeshFamily& family, int cells, const std::vector<Exact>
                    w = std::pow(found.constitutive_error, 2) / 2 + found.contact_work;  // without oscillation
       rows.add({element, family.name, exact.epsilon, cells, 1.0 / cells, found.energy_lower, found.energy_upper, width,
                 bound, error, found.layer_share, std::pow(errors.displacement, 2) / (2 * w),
-                std::pow(errors.flux, 2) / (2 * w), tutorial::works(cr.space(), flux, companion, exact) / w,
-                bound / error, std::min(j - found.energy_lower, found.energy_upper - j), std::sqrt(2 * width) / error,
-                j - j_cr, (j_cr - found.energy_lower) * cells * cells});
+                std::pow(errors.flux, 2) / (2 * w), tutorial::works(cr, flux, companion, exact) / w, bound / error,
+                std::min(j - found.energy_lower, found.energy_upper - j), std::sqrt(2 * width) / error, j - j_cr,
+                (j_cr - found.energy_lower) * cells * cells});
     };
     add("CR", of_cr, strip);
     add("P1", of_p1, v);

@@ -10,7 +10,7 @@ void scaled_solution(const tutorial::Options&, tutorial::Report& report) {
   run.solution.u *= 1.01;
   run.solution.p *= 1.01;
   const Certificate after = run.certified();
-  const double error = exact.errors(run.on.space(), run.solution).energy;
+  const double error = exact.errors(run.space, run.solution).energy;
   report.claim(after.gradient >= error, "the bound {:.4f} of the wrong answer is not below its error {:.4f}",
                after.gradient, error);
   report.claim_within(after.imbalance / before.norm, 0.009, 0.011, "rho / |v|_a:");
@@ -32,18 +32,18 @@ void other_gap(const tutorial::Options&, tutorial::Report& report) {
 
 // v must lie in K: a parabola that is 0 at a vertex and at a midpoint dips below between them.
 void parabola(const tutorial::Options&, tutorial::Report& report) {
-  const Discretisation on(unstructured_mesh(8), p2());
-  const Solution solution = active_set(assemble(paper_scene(1e-2), on.space()));
+  const Space space(unstructured_mesh(8), p2());
+  const Solution solution = active_set(assemble(paper_scene(1e-2), space));
   double lowest = 0;
-  for (int t = 0; t < on.mesh().triangle_count(); ++t)
+  for (int t = 0; t < space.mesh().triangle_count(); ++t)
     for (int i = 0; i < 3; ++i) {
-      const int e = on.mesh().triangle_edges(t, i);
-      if (on.mesh().edge_tag[e] != EdgeTag::contact) continue;
+      const int e = space.mesh().triangle_edges(t, i);
+      if (space.mesh().edge_tag[e] != EdgeTag::contact) continue;
       for (int k = 1; k < 32; ++k) {
         Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
         lambda((i + 1) % 3) = k / 32.0;
         lambda((i + 2) % 3) = 1 - k / 32.0;
-        lowest = std::min(lowest, on.space().element().basis(lambda).dot(solution.u(on.space().cell_dofs().row(t))));
+        lowest = std::min(lowest, space.element().basis(lambda).dot(solution.u(space.cell_dofs().row(t))));
       }
     }
   report.claim(lowest < 0, "P2 is nowhere negative at its unknowns on Gamma_C, and {:.1e} between them: not in K",

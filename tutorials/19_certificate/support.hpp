@@ -10,9 +10,9 @@ namespace antilock::tutorial {
 /// compliance on Gamma_C), from lambda = 0, on the unstructured mesh with h = 1/16: bound and error of Crouzeix-Raviart
 /// after 1, 2, 4, ... 512 steps, as a table of steps, quantity and value. epsilon must not be 0.
 inline Table certify_uzawa(const Exact& exact) {
-  const Discretisation on(unstructured_mesh(16), crouzeix_raviart());
+  const Space space(unstructured_mesh(16), crouzeix_raviart());
   const Scene scene = paper_scene(exact.epsilon);
-  const VariationalInequality problem = assemble(scene, on.space());
+  const VariationalInequality problem = assemble(scene, space);
   PenaltyFactor factor(problem, problem.compliance);  // K is the problem's own: one solve gives u exactly
   const auto& free = factor.ordering().dof;
   const Eigen::MatrixXd& block = factor.contact_block();  // L, the compliance on Gamma_C is (L L')^-1
@@ -34,8 +34,8 @@ inline Table certify_uzawa(const Exact& exact) {
       lambda(i) = std::max(0.0, lambda(i) - rho * (now.u(problem.contact[i]) - problem.lower(i)));
     if (steps < next) continue;
     next *= 2;
-    rows.add({steps, "bound", certify(scene, on.space(), problem, now, {.factor = &factor}).gradient});
-    rows.add({steps, "error", exact.errors(on.space(), now).energy});
+    rows.add({steps, "bound", certify(scene, space, problem, now, {.factor = &factor}).gradient});
+    rows.add({steps, "error", exact.errors(space, now).energy});
   }
   return rows;
 }
@@ -45,15 +45,15 @@ inline void write_pictures(const std::filesystem::path& out) {
   const Scene scene = paper_scene(1e-6);
   const Solved unstructured(scene, unstructured_mesh(16)), layered(scene, layered_mesh(16, 1e-6));
   const auto density = [&](const char* name, const Solved& run, const Certificate& found) {
-    write_density(out / name, run.on.mesh(), found.indicator);
+    write_density(out / name, run.space.mesh(), found.indicator);
   };
   density("width_cr.vtu", unstructured, unstructured.certified());
   density("width_p1.vtu", unstructured, unstructured.p1_certified());
   density("width_p1_layered.vtu", layered, layered.p1_certified());
   const EquilibratedFlux flux =
-      equilibrated_flux(scene, unstructured.on.space(), unstructured.problem, unstructured.solution);
-  write_vtu(out / "flux_x.vtu", unstructured.on.mesh(), component(unstructured.on.mesh(), flux, 0));
-  write_vtu(out / "flux_y.vtu", unstructured.on.mesh(), component(unstructured.on.mesh(), flux, 1));
+      equilibrated_flux(scene, unstructured.space, unstructured.problem, unstructured.solution);
+  write_vtu(out / "flux_x.vtu", unstructured.space.mesh(), component(unstructured.space.mesh(), flux, 0));
+  write_vtu(out / "flux_y.vtu", unstructured.space.mesh(), component(unstructured.space.mesh(), flux, 1));
 }
 
 /// Prints the finest meshes' results, writes results.csv, effectivity.csv and uzawa.csv, and the pictures' fields.

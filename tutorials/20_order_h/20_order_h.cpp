@@ -99,9 +99,9 @@ const std::vector<std::string> columns{"mesh",          "epsilon",  "cells", "h"
 
 Table solve_both(const std::string& family, int cells, const std::vector<Exact>& exact_solution) {
   // ### Mesh
-  const Discretisation cr(mesh_family(family).mesh(cells), crouzeix_raviart()), linear(cr, p1());
+  const Space cr(mesh_family(family).mesh(cells), crouzeix_raviart()), linear(cr, p1());
   // ### Forms
-  SceneSweep below(exact_solution[0].scene, cr.space()), above(exact_solution[0].scene, linear.space());
+  SceneSweep below(exact_solution[0].scene, cr), above(exact_solution[0].scene, linear);
   Table rows(columns);
   for (const Exact& exact : exact_solution) {
     // ### Solve
@@ -109,10 +109,10 @@ Table solve_both(const std::string& family, int cells, const std::vector<Exact>&
     above.set_epsilon(exact.epsilon);
     const Solution u_h = below.solve(), p1_solution = above.solve();
     // Steps 2 to 5: means of the flux of u over triangles and edges, against those of u_h.
-    const tutorial::Parts part = tutorial::take_apart(exact, cr.space(), below.problem(), u_h);
+    const tutorial::Parts part = tutorial::take_apart(exact, cr, below.problem(), u_h);
     rows.add({family, exact.epsilon, cells, cr.mesh().diameter(), std::hypot(part.interpolation, part.discrete),
-              exact.errors(linear.space(), p1_solution).energy, part.interpolation, part.discrete, part.layer,
-              part.flux, part.contact, part.product});
+              exact.errors(linear, p1_solution).energy, part.interpolation, part.discrete, part.layer, part.flux,
+              part.contact, part.product});
   }
   return rows;
 }

@@ -182,8 +182,8 @@ inline double kept_over_law(double rho, int cells) {
   const double a = 2 * std::numbers::pi, stiffness = a / std::tanh(a) + a * a;  // of the body, of the layer
   const Scene free(Body{paper_load}, StiffLayer{k_of_rows(cells) / rho});
   const auto ridge = [&](const std::string& family) {
-    const Discretisation on(mesh_family(family).mesh(cells), p1());
-    return active_set(assemble(free, on.space())).u(on.space().contact_dofs()).maxCoeff();
+    const Space space(mesh_family(family).mesh(cells), p1());
+    return active_set(assemble(free, space)).u(space.contact_dofs()).maxCoeff();
   };
   return ridge("rows") / ridge("structured") * (1 + rho * rho * std::pow(a, 4) / stiffness);
 }

@@ -64,12 +64,12 @@ using namespace antilock;
 using tutorial::Exact, tutorial::TimedRun;
 
 // **Work and precision**: every solver at every ε, for one method on one mesh.
-void add(tutorial::Timing& study, const Method& method, const TriangleMesh& mesh, TimedRun run,
+void add(tutorial::Timing& study, const Method& method, const std::shared_ptr<const TriangleMesh>& mesh, TimedRun run,
          const std::vector<Exact>& exact_solution) {
   run.element = method.element->name();
   run.mesh = method.family.name;
   // ### Forms
-  const Space space = method.space(mesh);
+  const Space space(mesh, *method.element);
   for (const Exact& exact : exact_solution) {
     const VariationalInequality problem = assemble(tutorial::paper_scene(exact.epsilon), space);
     run.epsilon = exact.epsilon;
@@ -93,11 +93,10 @@ Table count_steps(int finest) {
   Table steps({"epsilon", "h", "steps"});
   for (const double epsilon : {1.0, 1e-6})
     for (int n = 16; n <= finest; n *= 2) {
-      const Discretisation on(structured_mesh(n), p1());
+      const Space space(structured_mesh(n), p1());
       UzawaOptions options;
       options.tolerance = 1e-12;
-      steps.add(
-          {epsilon, 1.0 / n, uzawa(assemble(tutorial::paper_scene(epsilon), on.space()), options).counters.contact});
+      steps.add({epsilon, 1.0 / n, uzawa(assemble(tutorial::paper_scene(epsilon), space), options).counters.contact});
     }
   return steps;
 }
@@ -105,11 +104,11 @@ Table count_steps(int finest) {
 // **Stop when it is accurate enough**: Uzawa's two errors step by step, and where the bracket stops it.
 Table stop_early(const Method& method, int cells, const Exact& exact, tutorial::Report& report) {
   const Scene scene = tutorial::paper_scene(exact.epsilon);
-  const Discretisation on = method.discretise(cells);
-  const VariationalInequality problem = assemble(scene, on.space());
-  const auto error = [&](const Solution& u_h) { return exact.errors(on.space(), u_h).max; };
+  const Space space = method.space(cells);
+  const VariationalInequality problem = assemble(scene, space);
+  const auto error = [&](const Solution& u_h) { return exact.errors(space, u_h).max; };
   UzawaOptions options;
-  const EnergyBounds coarse = energy_bounds(scene, method.mesh(cells / 2)), own = energy_bounds(scene, on.mesh());
+  const EnergyBounds coarse = energy_bounds(scene, method.mesh(cells / 2)), own = energy_bounds(scene, space.mesh());
   options.stop_at = balanced_tolerance(coarse, 2);
   const double extrapolated = options.stop_at->relative / balanced_tolerance(own).relative;
   const Solution full = uzawa(problem), early = uzawa(problem, options);
@@ -152,7 +151,7 @@ void work_precision(const tutorial::Options& options, tutorial::Report& report, 
       // ### Mesh
       report.stage(fmt::format("1/h = {}, {}", n, family.name));
       const Stopwatch watch;
-      const TriangleMesh mesh = family.mesh(n);
+      const auto mesh = std::make_shared<const TriangleMesh>(family.mesh(n));
       const TimedRun run{.cells = n, .mesh_seconds = watch.seconds()};
       for (const Element* element : {&p1(), &crouzeix_raviart()})
         add(study, {element, family}, mesh, run, exact_solution);

@@ -9,8 +9,8 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options&, tutorial::Report& report) {
        Table counts({"cells", "active set", "Uzawa"});
        for (const int n : {8, 16, 32, 64}) {
-         const Discretisation on(structured_mesh(n), p1());
-         const VariationalInequality problem = assemble(tutorial::paper_scene(1e-2), on.space());
+         const Space space(structured_mesh(n), p1());
+         const VariationalInequality problem = assemble(tutorial::paper_scene(1e-2), space);
          counts.add({n, active_set(problem).counters.contact, uzawa(problem).counters.contact});
        }
        counts.print();

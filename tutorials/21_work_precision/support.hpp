@@ -30,9 +30,9 @@ inline void write_stages(const std::filesystem::path& folder, int finest, int re
   const auto total = [](const Stages& s) { return std::accumulate(s.begin(), s.end(), 0.0); };
   const auto run = [&](int n) {
     Stopwatch watch;
-    const TriangleMesh mesh = structured_mesh(n);
+    TriangleMesh mesh = structured_mesh(n);
     const double mesh_seconds = watch.lap();
-    const Space space(mesh, p1());
+    const Space space(std::move(mesh), p1());
     const VariationalInequality problem = assemble(scene, space);
     const double assembly = watch.lap();
     const Solution solution = active_set(problem);

@@ -79,7 +79,7 @@ Table refine_p1(RefinementStrategy growth, const std::filesystem::path& picture)
   AdaptiveMesh now{first_mesh(growth), first_mesh(growth)};
   if (growth == RefinementStrategy::extrude) now.mesh = extruded(now.body, 1e-6);
   for (Certificate found;; now = refine_marked(now, growth, 1e-6, found.indicator, {.uniform_above = 1})) {
-    const Space nonconforming(now.mesh, crouzeix_raviart()), linear(now.mesh, p1());
+    const Space nonconforming(now.mesh, crouzeix_raviart()), linear(nonconforming, p1());
     const VariationalInequality problem = assemble(scene, nonconforming);
     const Companion v = p1_companion(active_set(assemble(scene, linear)));
     found = certify(scene, nonconforming, problem, active_set(problem), {.companion = &v});

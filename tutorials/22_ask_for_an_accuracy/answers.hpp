@@ -39,7 +39,8 @@ void spike(const tutorial::Options&, tutorial::Report& report) {
                "the first mesh has {} unknowns, not {}: 64 x 64 samples per triangle found the spike",
                found.history.front().unknowns, asked_for);
   double least = 1;
-  for (int t = 0; t < found.result.mesh->triangle_count(); ++t) least = std::min(least, found.result.mesh->area(t));
+  for (int t = 0; t < found.result.space.mesh().triangle_count(); ++t)
+    least = std::min(least, found.result.space.mesh().area(t));
   report.claim(found.result.warning.empty() && least < 0.002 * 0.002,
                "no warning is left, and the smallest triangle has the area {:.1e}", least);
 }

@@ -14,7 +14,7 @@ void ask_once(const tutorial::Options& options, tutorial::Report&) {
                  levels.add({level.unknowns, level.relative});
                });
   levels.write(options.out / "levels.csv");
-  const TriangleMesh& mesh = *found.result.mesh;
+  const TriangleMesh& mesh = found.result.space.mesh();
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     std::vector<TableEntry> row;
     for (const int v : mesh.triangles.row(t)) row.insert(row.end(), {mesh.vertices(v, 0), mesh.vertices(v, 1)});

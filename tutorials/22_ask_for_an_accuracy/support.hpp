@@ -139,21 +139,21 @@ inline void show_accuracies(const std::filesystem::path& out, const Table& answe
     const bool bisect = growth == RefinementStrategy::bisect;
     const CertifiedSolution found =
         solve_to(scene, unstructured_mesh(8, {bisect ? 1.0 : 0.0}), {0.15, Quantity::displacement, 2e6, growth});
-    write_density(out / (bisect ? "bisected.vtu" : "extruded.vtu"), *found.result.mesh, found.certificate.indicator);
+    write_density(out / (bisect ? "bisected.vtu" : "extruded.vtu"), found.result.space.mesh(),
+                  found.certificate.indicator);
   }
 }
 
 /// The certificate on gmsh's uniform meshes from 1/8 to 1/finest; the seconds add up, without gmsh's own.
 inline Table on_uniform_meshes(const std::string& load, const Exact& exact, int finest) {
-  static std::map<int, TriangleMesh> meshes;  // gmsh's time is not counted, nor spent twice
+  static std::map<int, std::shared_ptr<const TriangleMesh>> meshes;  // gmsh's time is not counted, nor spent twice
   const Scene scene = load_scene(load, exact.epsilon);
   Table rows(accuracy_columns);
   Result result{load, "uniform", exact.epsilon};
   for (int cells = 8; cells <= finest; cells *= 2) {
-    if (!meshes.contains(cells)) meshes.emplace(cells, unstructured_mesh(cells));
-    const TriangleMesh& mesh = meshes.at(cells);
+    if (!meshes.contains(cells)) meshes[cells] = std::make_shared<const TriangleMesh>(unstructured_mesh(cells));
     Stopwatch watch;
-    const Space space(mesh, crouzeix_raviart());
+    const Space space(meshes.at(cells), crouzeix_raviart());
     const VariationalInequality problem = assemble(scene, space);
     PenaltyFactor factor(problem);
     const Solution solution = active_set(problem, factor);

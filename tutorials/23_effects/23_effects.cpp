@@ -55,7 +55,7 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
     // A `Run` assembles what the scene holds and solves it, by Crouzeix-Raviart and the active set.
     const Run run(scene, std::move(mesh));
     table.add(tutorial::costs(name, run));
-    tutorial::write_results(options.out / name, run.on.space(), run.problem, run.solution);
+    tutorial::write_results(options.out / name, run.space, run.problem, run.solution);
   }
   // ### Output
   table.print("what each scene costs", 3);
@@ -141,8 +141,8 @@ void change_of_variable(const tutorial::Options& options, tutorial::Report& repo
 // same factorisation.
 void sweep_over_epsilon(const tutorial::Options& options, tutorial::Report& report) {
   const std::vector<double> epsilons = {1e-1, 1e-3, 1e-4, 1e-6, 1e-8, 1e-12, 0};
-  const Discretisation on = Method{&crouzeix_raviart(), unstructured()}.discretise(options.cells);
-  SceneSweep sweep(tutorial::paper_scene(epsilons.front()), on.space());
+  const Space space = Method{&crouzeix_raviart(), unstructured()}.space(options.cells);
+  SceneSweep sweep(tutorial::paper_scene(epsilons.front()), space);
   for (const double epsilon : epsilons) {
     sweep.set_epsilon(epsilon);
     sweep.solve();

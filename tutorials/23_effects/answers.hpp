@@ -21,8 +21,8 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options& options, tutorial::Report& report) {
        const auto largest = [&](const Layer& layer) {
          const Scene scene(body, layer, obstacle);
-         const Discretisation on(unstructured_mesh(options.cells, {scene.layer_depth()}), p1());
-         return active_set(assemble(scene, on.space())).u(on.space().contact_dofs()).maxCoeff();
+         const Space space(unstructured_mesh(options.cells, {scene.layer_depth()}), p1());
+         return active_set(assemble(scene, space)).u(space.contact_dofs()).maxCoeff();
        };
        report.claim_within(largest(StiffLayer{1e-6}), 0, 1e-3, "(23) at 1e-6: largest u on Gamma_C");
        report.claim_within(largest(StiffLayer{0}), 0, 1e-9, "(24): largest u on Gamma_C");

@@ -7,16 +7,16 @@ namespace antilock::tutorial {
 
 /// A scene from question to answer by Crouzeix-Raviart and the active set, and what each step took (seconds).
 struct Run {
-  Run(const Scene& scene, TriangleMesh mesh) : on(std::move(mesh), crouzeix_raviart()) {
+  Run(const Scene& scene, TriangleMesh mesh) : space(std::move(mesh), crouzeix_raviart()) {
     Stopwatch watch;
-    problem = assemble(scene, on.space());
+    problem = assemble(scene, space);
     assemble_seconds = watch.lap();
     solution = active_set(problem);
     solve_seconds = watch.lap();
-    contact_from = contact_zone(on.space(), problem, solution).from.value_or(1);
+    contact_from = contact_zone(space, problem, solution).from.value_or(1);
     energy = antilock::energy(problem, solution);
   }
-  Discretisation on;
+  Space space;
   VariationalInequality problem;
   Solution solution;
   double energy = 0, contact_from = 1, assemble_seconds = 0, solve_seconds = 0;
@@ -24,7 +24,7 @@ struct Run {
   /// The largest |u - truth| at the contact unknowns.
   double error_on_contact(const ExactSolution& exact) const {
     double error = 0;  // gap = u where the obstacle is flat
-    const Eigen::MatrixX3d points = contact_table(on.space(), problem, solution);
+    const Eigen::MatrixX3d points = contact_table(space, problem, solution);
     for (const auto& point : points.rowwise()) error = std::max(error, std::abs(point(1) - exact.value(point(0), -1)));
     return error;
   }
@@ -38,7 +38,7 @@ inline const std::vector<std::string> cost_columns{"scene",   "triangles", "unkn
 inline std::vector<TableEntry> costs(const std::string& name, const Run& run) {
   const Counters& c = run.solution.counters;
   return {name,
-          run.on.mesh().triangle_count(),
+          run.space.mesh().triangle_count(),
           c.unknowns,
           c.factorisations,
           c.solves,

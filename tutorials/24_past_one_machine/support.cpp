@@ -81,9 +81,8 @@ Table on_ranks(const std::string& what, const std::vector<int>& ranks, const std
 
 Ended by_snesvi(const Asked& asked) {
   const TriangleMesh mesh = structured_mesh(asked.cells);
-  const TriangleMesh subdomain =
-      distributed::subdomain_of(mesh, distributed::strip_partition(mesh, asked.ranks), distributed::rank());
-  const Space space(subdomain, p1());
+  const Space space(
+      distributed::subdomain_of(mesh, distributed::strip_partition(mesh, asked.ranks), distributed::rank()), p1());
   const bool summed = asked.what == "SNESVI, summed";
   const distributed::DistributedProblem problem(
       paper_scene(asked.epsilon), space,

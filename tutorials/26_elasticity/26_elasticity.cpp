@@ -73,7 +73,7 @@ void push(const tutorial::Options& options, tutorial::Report& report) {
   Table forces({"element", "lambda", "epsilon", "force", "corrections", "percent", "known", "locks"});
   for (const Rubber& rubber : tutorial::rubbers(options.cells)) {
     report.stage(rubber.name);
-    const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
+    const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
     const VectorSpace space{x, y};
     const VariationalInequality problem = pushed(rubber, space, 1);
 

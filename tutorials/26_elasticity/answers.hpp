@@ -14,7 +14,7 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options&, tutorial::Report& report) {
        const auto spread = [&](int cells) {
          const Rubber cr = named("Crouzeix-Raviart with jumps", cells);
-         const Space x(cr.mesh, cr.in_x), y(cr.mesh, cr.in_y);
+         const Space x(cr.mesh, cr.in_x), y(x, cr.in_y);
          const auto force = [&](double weight) {
            VariationalInequality problem = pushed(cr, {x, y}, weight);
            problem.compliance = 1e-8;
@@ -31,7 +31,7 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options&, tutorial::Report& report) {
        const auto kernel = [&](const std::string& name, int cells) {
          const Rubber rubber = named(name, cells);
-         const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
+         const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
          return kernel_dimension(pushed(rubber, {x, y}, 1));
        };
        const int coarse = kernel("P1 right diagonals", 4), fine = kernel("P1 right diagonals", 8);

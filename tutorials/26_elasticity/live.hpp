@@ -2,7 +2,7 @@
 void press(const tutorial::Options& options, tutorial::Report&) {
   Table forces({"element", "force"});
   for (const Rubber& rubber : tutorial::rubbers(options.cells)) {
-    const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
+    const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
     Sweep sweep(pushed(rubber, {x, y}, 1));
     sweep.set_compliance(options.epsilon);
     forces.add({rubber.name, sweep.solve().lambda.sum()});

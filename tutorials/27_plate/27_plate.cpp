@@ -88,7 +88,7 @@
 #include "support.hpp"
 
 using namespace antilock;
-using tutorial::Discrete, tutorial::PlateElement, tutorial::error_of_w, tutorial::thicknesses;
+using tutorial::PlateElement, tutorial::error_of_w, tutorial::thicknesses;
 
 const std::vector<PlateElement> plate_elements{
     {"P1 with exact shear", "p1", p1(), p1(), ShearRule::exact, true},
@@ -107,11 +107,11 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
     for (const int n : {options.cells / 2, 3 * options.cells / 4, options.cells, 3 * options.cells / 2}) {
       if (method.locks && n > options.cells) continue;
       // ### Mesh
-      const TriangleMesh mesh = disc_mesh(n);  // rings of nearly equilateral triangles; the rim is clamped
-      const Discrete on(method, mesh);
+      // Rings of nearly equilateral triangles; the rim is clamped.
+      const PlateSpace space = tutorial::plate_space(method, disc_mesh(n));
       // ### Forms
       // They do not hold $t$: one assembly serves every thickness.
-      const VariationalInequality problem = assemble(Plate{}, on.space);
+      const VariationalInequality problem = assemble(Plate{}, space);
       // ### Solve
       // The contact set of one thickness starts the next; all small $t$ share one factor.
       const Stopwatch watch;
@@ -119,7 +119,7 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
       for (const double t : thicknesses()) {
         sweep.set_compliance(t * t);
         const Solution solution = sweep.solve();
-        errors.add({method.name, n, 1.0 / n, t, error_of_w(on.w, solution, ExactPlate(t)),
+        errors.add({method.name, n, 1.0 / n, t, error_of_w(space.deflection, solution, ExactPlate(t)),
                     solution.counters.corrections, method.locks});
       }
       const double seconds = watch.seconds() / static_cast<double>(thicknesses().size());
@@ -127,7 +127,7 @@ void press(const tutorial::Options& options, tutorial::Report& report) {
       // ### Output
       sweep.set_compliance(options.epsilon);
       const Solution solution = sweep.solve();
-      tutorial::draw(options, method, on.w, solution, profile);
+      tutorial::draw(options, method, space.deflection, solution, profile);
       const double n2 = n * n, vertices = 3 * n2 - 3 * n + 1;  // off the rim
       const double left = method.locks ? 0 : method.shear == ShearRule::edges ? 3 * vertices : 15 * n2 - 9 * n + 2;
       const TriangleMesh small = disc_mesh(6);

@@ -2,9 +2,7 @@
 // The answers to the exercises of 27_plate, whose page includes this one: to be read after predicting.
 
 const auto pressed = [](const PlateElement& method, int rings, const Plate& plate) {
-  const TriangleMesh mesh = disc_mesh(rings);
-  const Discrete on(method, mesh);
-  const VariationalInequality problem = assemble(plate, on.space);
+  const VariationalInequality problem = assemble(plate, tutorial::plate_space(method, disc_mesh(rings)));
   return std::pair(active_set(problem), kernel_dimension(problem));
 };
 const std::vector<tutorial::Exercise> exercises{
@@ -16,8 +14,7 @@ const std::vector<tutorial::Exercise> exercises{
        const PlateElement bare{"without bubbles", "", crouzeix_raviart(), p1(), ShearRule::mean, false};
        std::vector<double> without, with;
        for (const int n : {4, 8}) {
-         const TriangleMesh mesh = disc_mesh(n);
-         const Space w(mesh, crouzeix_raviart());
+         const Space w(disc_mesh(n), crouzeix_raviart());
          const auto [solution, kernel] = pressed(bare, n, Plate{.thickness = 0});
          without.push_back(error_of_w(w, solution, ExactPlate(0)));
          with.push_back(error_of_w(w, pressed(plate_elements.back(), n, Plate{.thickness = 0}).first, ExactPlate(0)));

@@ -23,29 +23,26 @@ struct PlateElement {
   bool locks;
 };
 
-/// The method on a mesh, which must outlive it.
-struct Discrete {
-  Discrete(const PlateElement& method, const TriangleMesh& mesh)
-      : w(mesh, method.deflection), theta(mesh, method.rotation), space{w, {theta, theta}, method.shear} {}
-  Space w, theta;
-  PlateSpace space;
-};
+/// The method on a mesh.
+inline PlateSpace plate_space(const PlateElement& method, TriangleMesh mesh) {
+  const Space deflection(std::move(mesh), method.deflection), rotation(deflection, method.rotation);
+  return {deflection, {rotation, rotation}, method.shear};
+}
 
 /// The patch test: largest error of theta at the vertices of a plate that is bent by its rim with the constant curvature
 /// of w = x^2 + x y - y^2 / 2.
 inline double patch_error(const PlateElement& method, const TriangleMesh& mesh, double thickness) {
-  const Discrete on(method, mesh);
+  const PlateSpace space = plate_space(method, mesh);
   Plate bent{.thickness = thickness, .load = [](double, double) { return 0.0; }};
   bent.gap = [](double, double) { return std::numeric_limits<double>::infinity(); };
   bent.boundary_deflection = [](double x, double y) { return x * x + x * y - y * y / 2; };
   bent.boundary_rotation_x = [](double x, double y) { return 2 * x + y; };
   bent.boundary_rotation_y = [](double x, double y) { return x - y; };
-  const Eigen::VectorXd u = active_set(assemble(bent, on.space)).u;
+  const Eigen::VectorXd u = active_set(assemble(bent, space)).u;
   double worst = 0;
   for (int i = 0; i < mesh.vertex_count(); ++i) {
     const double x = mesh.vertices(i, 0), y = mesh.vertices(i, 1);
-    worst =
-        std::max({worst, std::abs(u(on.space.theta_x() + i) - 2 * x - y), std::abs(u(on.space.theta_y() + i) - x + y)});
+    worst = std::max({worst, std::abs(u(space.theta_x() + i) - 2 * x - y), std::abs(u(space.theta_y() + i) - x + y)});
   }
   return worst;
 }

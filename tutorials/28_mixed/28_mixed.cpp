@@ -113,22 +113,22 @@ VariationalInequality layer_problem(const Projection& way, const Space& space, i
 // $∫ ∂_y v\, φ$ over such $v$ of norm 1, with $φ = \sin πx \sin πy$ (chapter 12's $k_h$).
 Table measure(const Projection& way, int cells, const std::vector<Exact>& exact_solution) {
   // ### Mesh
-  const Discretisation on = way.method.discretise(cells);
+  const Space space = way.method.space(cells);
   // ### Solve
-  Sweep sweep(layer_problem(way, on.space(), cells));
-  const SparseMatrix norm = h1_norm(on.space());
-  const double alpha = on.space().free_count() < 1000 ? coercivity(sweep.problem(), norm) : std::nan("");
+  Sweep sweep(layer_problem(way, space, cells));
+  const SparseMatrix norm = h1_norm(space);
+  const double alpha = space.free_count() < 1000 ? coercivity(sweep.problem(), norm) : std::nan("");
   const double near =
-      best_approximation(on.space(), sweep.problem(), exact_solution.back().reference(), AdmissibleSet::k_0h).distance;
+      best_approximation(space, sweep.problem(), exact_solution.back().reference(), AdmissibleSet::k_0h).distance;
   using std::numbers::pi;
   const Field slope_of_phi = [](double x, double y) { return pi * std::sin(pi * x) * std::cos(pi * y); };
-  const double hidden = dual_norm(sweep.problem(), norm, load_vector(on.space(), slope_of_phi, Region::layer), true);
+  const double hidden = dual_norm(sweep.problem(), norm, load_vector(space, slope_of_phi, Region::layer), true);
   Table rows(tutorial::projection_columns);
   for (const Exact& exact : exact_solution) {
     sweep.set_compliance(projected_class_parameter(exact.epsilon * exact.epsilon, way.kept));
     Solution solution = sweep.solve();
     solution.p.resize(0);  // means, not one stress per triangle: the errors of u alone
-    rows.add({way.name, 1.0 / cells, exact.epsilon, exact.errors(on.space(), solution).h1, alpha, near, hidden,
+    rows.add({way.name, 1.0 / cells, exact.epsilon, exact.errors(space, solution).h1, alpha, near, hidden,
               solution.counters.corrections, solution.seconds.total()});
   }
   return rows;

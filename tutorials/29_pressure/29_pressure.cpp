@@ -93,8 +93,7 @@ const std::vector<Mixed> mixed_methods{{"P1 (pressure per triangle)", "", p1(), 
 void move_by_gradients(const Mixed& way, bool on_fluxes, Table& worst, Table& by_lambda) {
   const std::string name = way.name + (on_fluxes ? ", load on fluxes" : "");
   for (const int n : {8, 12, 16, 24}) {
-    const TriangleMesh mesh = tutorial::block(n);
-    const Space space(mesh, way.element);
+    const Space space(tutorial::block(n), way.element);
     const VariationalInequality pressed = tutorial::rubber(way, space, 0);
     Sweep sweep(equality_constrained(pressed, std::vector<bool>(pressed.contact.size())));
     const Eigen::MatrixXd loads = tutorial::gradient_loads(space, n / 2, on_fluxes);

@@ -32,24 +32,24 @@ inline double layer_inf_sup(const Method& method, int n) {
   const auto gram = [](const Space& space, int merged) {
     return multiplier_gram(assemble(paper_scene(0), space), gradient_form(space, {1, 1}, {1, 1}), merged);
   };
-  const Discretisation on = method.discretise(n), almost_all(refined(refined(on.mesh())), p1());
-  return inf_sup(gram(on.space(), 1), gram(almost_all.space(), 16));
+  const Space space = method.space(n), almost_all(refined(refined(space.mesh())), p1());
+  return inf_sup(gram(space, 1), gram(almost_all, 16));
 }
 
 /// One row per lambda: the contact force against chapter 26's reference, in per cent. Draws the incompressible block.
 inline const std::vector<std::string> force_columns{"name",    "h",        "unknowns",    "epsilon",
                                                     "percent", "pressure", "corrections", "seconds"};
 inline Table push(const Mixed& way, int cells, const Options& options) {
-  const TriangleMesh mesh = block(cells);
-  const Space space(mesh, way.element);
+  const Space space(block(cells), way.element);
   Sweep sweep(rubber(way, space));
   Table rows(force_columns);
   for (const double epsilon : {0.0, 1.0, 1e-2, 1e-4, 1e-8, 1e-20}) {
     sweep.set_compliance(epsilon);
     const Solution solution = sweep.solve();
     if (epsilon == 0 && cells == options.cells && !way.file.empty()) {
-      Eigen::VectorXd pressure(mesh.triangle_count());
-      for (int t = 0; t < mesh.triangle_count(); ++t) pressure(t) = -solution.p(mesh.triangles.row(t)).mean();
+      Eigen::VectorXd pressure(space.mesh().triangle_count());
+      for (int t = 0; t < space.mesh().triangle_count(); ++t)
+        pressure(t) = -solution.p(space.mesh().triangles.row(t)).mean();
       write_deformed_vtu(options.out / (way.file + ".vtu"), {space, space}, solution.u, pressure);
     }
     rows.add({way.name, 1.0 / cells, sweep.problem().free_count(), epsilon,

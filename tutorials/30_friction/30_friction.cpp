@@ -94,7 +94,7 @@ VariationalInequality pressed(const Rubber& rubber, const VectorSpace& space, co
 // At each λ $N$ in all, $T$ on the left half (to the right, the mean of both halves by symmetry), the largest slip $u_x$ of
 // the left half, and the length that sticks. All large λ share one factor, and each answer starts from the zones of the one before.
 void press_all(const Rubber& rubber, int cells, Table& forces) {
-  const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
+  const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
   Sweep sweep(pressed(rubber, {x, y}, g, 1));
   for (const double lambda : {1.0, 2.0, 3.0, 5.0, 7.0, 10.0, 20.0, 50.0, 1e2, 1e4, 1e6, 1e8, 1e12, 1e20, 0.0}) {
     sweep.set_compliance(lambda == 0 ? 0 : 1 / lambda);
@@ -158,7 +158,7 @@ void rub(const tutorial::Options& options, tutorial::Report& report) {
   }
   for (const Rubber& rubber : tutorial::structured_rubbers(options.cells)) {
     report.stage(rubber.name);
-    const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
+    const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
     const VectorSpace space{x, y};
     const auto with = [&](const Profile& friction) { return pressed(rubber, space, friction, options.epsilon); };
     const VariationalInequality problem = with(g);

@@ -8,7 +8,7 @@ const std::vector<tutorial::Exercise> exercises{
      "by a factor of 10 or more: N hardly depends on the friction, and F is small",
      [](const tutorial::Options&, tutorial::Report& report) {
        const Rubber cr = tutorial::structured_rubbers(32).at(2);  // its unknowns of u_x and u_y share their places
-       const Space x(cr.mesh, cr.in_x), y(cr.mesh, cr.in_y);
+       const Space x(cr.mesh, cr.in_x), y(x, cr.in_y);
        Sweep sweep(pressed(
            cr, {x, y}, [](double) { return 0; }, 1e-8));
        const auto count = static_cast<Eigen::Index>(y.contact_dofs().size());

@@ -6,7 +6,7 @@ double roughness = 1;
 void rub_once(const tutorial::Options& options, tutorial::Report&) {
   const std::vector<Rubber> rubbers = tutorial::structured_rubbers(options.cells);
   const Rubber& rubber = rubbers.at(1);  // P1 on crossed triangles
-  const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
+  const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
   const VectorSpace space{x, y};
   const auto most = [](double at) { return roughness * g(at); };
   const VariationalInequality problem = pressed(rubber, space, most, options.epsilon);

@@ -81,16 +81,16 @@ TriangleMesh mesh_for(const Grading& level, double end, double epsilon) {
 
 Table solve(const std::string& series, const Grading& level, double end, const Exact& exact) {
   const Stopwatch watch;
-  const Discretisation on(mesh_for(level, end, exact.epsilon), lagrange(level.degree));
+  const Space space(mesh_for(level, end, exact.epsilon), lagrange(level.degree));
   // ### Forms
-  const VariationalInequality problem = assemble(tutorial::paper_scene(exact.epsilon), on.space());
+  const VariationalInequality problem = assemble(tutorial::paper_scene(exact.epsilon), space);
   // ### Solve
   const Solution solution = active_set(problem);
-  const double seconds = watch.seconds(), found = contact_zone(on.space(), problem, solution).from.value_or(end);
-  const auto [contact, below] = tutorial::on_contact(on.space(), solution.u, exact.solution);
+  const double seconds = watch.seconds(), found = contact_zone(space, problem, solution).from.value_or(end);
+  const auto [contact, below] = tutorial::on_contact(space, solution.u, exact.solution);
   Table row(hp_columns);
   row.add({level.layers == none ? "equal cells" : "graded", series, exact.epsilon, level.degree, 1.0 / level.cells,
-           on.space().free_count(), exact.errors(on.space(), solution).h1, contact, below, found, seconds});
+           space.free_count(), exact.errors(space, solution).h1, contact, below, found, seconds});
   return row;
 }
 

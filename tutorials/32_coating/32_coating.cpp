@@ -107,8 +107,7 @@ void press(const tutorial::Options& options, double thickness, tutorial::Report&
   for (const tutorial::CoatedBlock& method : tutorial::coated_blocks()) {
     report.stage(method.name);
     for (const int n : {options.cells / 4, options.cells / 2, options.cells}) {
-      const TriangleMesh mesh = method.mesh(n);
-      const Space x(mesh, method.in_x), y(mesh, method.in_y);
+      const Space x(method.mesh(n), method.in_x), y(x, method.in_y);
       for (const double t : {1.0, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 0.0}) {
         const Solution solution = pressed({x, y}, t);
         const double force = solution.lambda.sum();
@@ -122,8 +121,7 @@ void press(const tutorial::Options& options, double thickness, tutorial::Report&
     }
     // Asked before anything is solved: the limit problem on two meshes.
     const auto limit = [&](int n) {
-      const TriangleMesh mesh = method.mesh(n);
-      const Space x(mesh, method.in_x), y(mesh, method.in_y);
+      const Space x(method.mesh(n), method.in_x), y(x, method.in_y);
       return assemble(coating(0), {x, y});
     };
     const LockingDiagnosis found = diagnose_locking(limit(options.cells / 4), limit(options.cells / 2));

@@ -17,8 +17,7 @@ const std::vector<tutorial::Exercise> exercises{
      "and "
      "the block bears a part; with the square completed it is the same at both",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const TriangleMesh mesh = with_free_sides(unstructured_mesh(16));
-       const Space cr(mesh, crouzeix_raviart());
+       const Space cr(with_free_sides(unstructured_mesh(16)), crouzeix_raviart());
        const VectorSpace space{cr, cr};
        const auto plain = [&](double t) {
          VariationalInequality problem = assemble(coating(t), space);
@@ -43,8 +42,7 @@ const std::vector<tutorial::Exercise> exercises{
      "grows are motions of u",
      [](const tutorial::Options&, tutorial::Report& report) {
        const auto limit = [](int n) {
-         const TriangleMesh mesh = with_free_sides(unstructured_mesh(n));
-         const Space x(mesh, crouzeix_raviart()), y(mesh, p1());
+         const Space x(with_free_sides(unstructured_mesh(n)), crouzeix_raviart()), y(x, p1());
          return assemble(coating(0), {x, y});
        };
        const VariationalInequality coarse = limit(8), fine = limit(16);
@@ -58,8 +56,7 @@ const std::vector<tutorial::Exercise> exercises{
      "to 16, 29, 39: each correction brings in t^2/delta of what is left. That they stay so few is due to mixing the "
      "last six iterates (Anderson) and to a smaller penalty after 15. With delta = t^2 they are 2, 3, 6",
      [](const tutorial::Options&, tutorial::Report& report) {
-       const TriangleMesh mesh = with_free_sides(structured_mesh(16));
-       const Space x(mesh, p1());
+       const Space x(with_free_sides(structured_mesh(16)), p1());
        std::vector<int> usual, ours;
        for (const double t : {1e-4, 1e-5, 1e-6}) {
          usual.push_back(active_set(assemble(coating(t), {x, x})).counters.corrections);

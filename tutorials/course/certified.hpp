@@ -34,21 +34,21 @@ inline Eigen::MatrixX3d component(const TriangleMesh& mesh, const EquilibratedFl
 /// A Crouzeix-Raviart solution, what was asked, and room for what an exercise does to it.
 struct Solved {
   Scene scene;
-  Discretisation on;
+  Space space;
   VariationalInequality problem;
   Solution solution;
 
   Solved(const Scene& asked, TriangleMesh mesh)
       : scene(asked),
-        on(std::move(mesh), crouzeix_raviart()),
-        problem(assemble(scene, on.space())),
+        space(std::move(mesh), crouzeix_raviart()),
+        problem(assemble(scene, space)),
         solution(active_set(problem)) {}
   Certificate certified(const Companion* v = nullptr) const {
-    return certify(scene, on.space(), problem, solution, {.companion = v});
+    return certify(scene, space, problem, solution, {.companion = v});
   }
   Certificate p1_certified() const {
-    const Discretisation linear(on, p1());
-    const Companion v = p1_companion(active_set(assemble(scene, linear.space())));
+    const Space linear(space, p1());
+    const Companion v = p1_companion(active_set(assemble(scene, linear)));
     return certified(&v);
   }
 };

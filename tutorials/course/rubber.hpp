@@ -46,7 +46,7 @@ inline std::vector<Rubber> rubbers(int cells) {
 
 /// A uniform strain, u = (.1/(1 + 2 epsilon) x, -.1 y), is in every space: the largest difference of the solution from it.
 inline double patch_error(const Rubber& rubber, double epsilon) {
-  const Space x(rubber.mesh, rubber.in_x), y(rubber.mesh, rubber.in_y);
+  const Space x(rubber.mesh, rubber.in_x), y(x, rubber.in_y);
   PlaneStrain scene;  // flat obstacle, touching
   scene.epsilon = epsilon;
   scene.sliding = true;

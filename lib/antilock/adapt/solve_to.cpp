@@ -35,9 +35,9 @@ RefinementStrategy growth_of(const Scene& scene) {
 }
 
 /// The answer of a conforming element; that of P1 in K between the vertices, too.
-Result conforming_answer(const Scene& scene, const Element& element, const std::shared_ptr<const TriangleMesh>& mesh,
-                         const ProgressHook& follow) {
-  Result result{mesh, Space(*mesh, element), {}, {}, {}, ""};
+Result conforming_answer(const Scene& scene, const Space& space, const ProgressHook& follow) {
+  const Element& element = space.element();
+  Result result{space, {}, {}, {}, ""};
   result.problem = element.degree() == 1 ? assemble_in_k(scene, result.space) : assemble(scene, result.space);
   ActiveSetOptions options;
   options.corrections.progress = follow;
@@ -196,8 +196,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   };
   while (true) {
     step();
-    auto mesh = std::make_shared<const TriangleMesh>(now.mesh);
-    const Space space(*mesh, crouzeix_raviart());
+    const Space space(now.mesh, crouzeix_raviart());
     if (space.free_count() > accuracy.most_unknowns) {
       if (history.empty())
         throw Error(
@@ -229,13 +228,13 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     }
     contact_x = space.dof_coordinates().col(0)(space.contact_dofs());
     contact_set = solution.status;
-    Result result{mesh, space, std::move(problem), std::move(solution), {}, ""};
+    Result result{space, std::move(problem), std::move(solution), {}, ""};
     if (conforming) {
-      Result own = conforming_answer(scene, p1(), mesh, step);
+      Result own = conforming_answer(scene, Space(space, p1()), step);
       v = p1_companion(own_rows_summed(own.problem, own.solution).solution);
       certificate = certify(scene, space, result.problem, result.solution, {.factor = &factor, .companion = &v});
       if (accuracy.element->degree() > 1) {
-        own = conforming_answer(scene, *accuracy.element, mesh, step);
+        own = conforming_answer(scene, Space(space, *accuracy.element), step);
         certificate.displacement = certified_distance(certificate, v, own.space, own.problem, own.solution);
       }
       result = std::move(own);
@@ -254,8 +253,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       companion.u = std::move(v.at_vertices);
       companion.p = std::move(v.stress);
       if (v.layer)
-        for (int i = 0; i < mesh->vertex_count(); ++i)
-          if (mesh->vertices(i, 1) < 0) companion.u(i) = v.layer->value(mesh->vertices.row(i).transpose());
+        for (int i = 0; i < now.mesh.vertex_count(); ++i)
+          if (now.mesh.vertices(i, 1) < 0) companion.u(i) = v.layer->value(now.mesh.vertices.row(i).transpose());
       return {std::move(result), std::move(companion), std::move(certificate), std::move(history)};
     }
     if (conforming)

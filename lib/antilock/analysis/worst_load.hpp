@@ -41,7 +41,7 @@ double width_of_ball(int n);
 /// CR's interpolant I_h u has a_h(u, v_h) = a_h(I_h u, v_h). F is dense, N x n; E is never formed.
 class ErrorForm {
  public:
-  /// modes.waves() from 1 to 2 per cell side: above, the load is integrated inexactly. The space must outlive this.
+  /// modes.waves() from 1 to 2 per cell side: above, the load is integrated inexactly.
   /// Throws Error for more than 4.25 waves per longest edge, a mesh of anything but the two unit squares, a space
   /// without layer, or of an element that is neither conforming nor CR.
   ErrorForm(const Space& space, LoadModes modes);
@@ -63,7 +63,7 @@ class ErrorForm {
   Eigen::VectorXd interpolant_transposed(const Eigen::VectorXd& b) const;  // J' b
   Eigen::VectorXd answer(const Eigen::VectorXd& load);
 
-  const Space& space_;
+  Space space_;
   LoadModes modes_;
   double epsilon_ = 1;
   VariationalInequality problem_;

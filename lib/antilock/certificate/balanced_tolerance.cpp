@@ -12,7 +12,7 @@
 namespace antilock {
 
 EnergyBounds energy_bounds(const Scene& scene, const TriangleMesh& mesh) {
-  const Space conforming(mesh, p1()), nonconforming(mesh, crouzeix_raviart());
+  const Space conforming(mesh, p1()), nonconforming(conforming, crouzeix_raviart());
   const VariationalInequality problem = assemble(scene, nonconforming);
   const Companion v = p1_companion(active_set(assemble_in_k(scene, conforming)));
   const Certificate found = certify(scene, nonconforming, problem, active_set(problem), {.companion = &v});

@@ -45,8 +45,8 @@ bool ContactSet::at(double where) const {
   return active[left] != 0 && active[right] != 0;
 }
 
-NestedLevel::NestedLevel(const Scene& scene, TriangleMesh piece_in, const Element& element)
-    : subdomain(std::move(piece_in)), space(subdomain, element), problem(scene, space), state(zero_state(problem)) {}
+NestedLevel::NestedLevel(const Scene& scene, TriangleMesh subdomain, const Element& element)
+    : space(std::move(subdomain), element), problem(scene, space), state(zero_state(problem)) {}
 
 ContactSet NestedLevel::contact_set() const {
   std::vector<double> mine;  // x, whether active
@@ -128,7 +128,7 @@ std::unique_ptr<NestedLevel> solve_nested(const Scene& scene, const TriangleMesh
     if (last) break;
     options.checkpoint(l, level->contact_set());
     watch.lap();
-    collectively([&] { subdomain = refined_subdomain(level->subdomain); });
+    collectively([&] { subdomain = refined_subdomain(level->space.mesh()); });
     report.mesh += watch.lap();
   }
   watch.lap();

@@ -21,8 +21,7 @@ struct ContactSet {
 /// One mesh of the hierarchy with everything that this rank has on it.
 struct NestedLevel {
   NestedLevel(const Scene& scene, TriangleMesh subdomain, const Element& element);
-  TriangleMesh subdomain;
-  Space space;
+  Space space;  ///< on this rank's subdomain
   DistributedProblem problem;
   State state;
   ContactSet contact_set() const;  ///< of all ranks; every rank must call it

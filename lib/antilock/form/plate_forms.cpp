@@ -59,7 +59,7 @@ void add_edge_field(FactoredFormBuilder& rows, const PlateSpace& space, int t) {
 }
 
 void check_elements(const PlateSpace& space) {
-  if (&space.rotation.x.mesh() != &space.mesh() || &space.rotation.y.mesh() != &space.mesh())
+  if (!have_one_mesh(space.rotation.x, space.deflection) || !have_one_mesh(space.rotation.y, space.deflection))
     throw Error("plate: deflection and rotation live on different meshes; accepted: spaces of one mesh");
   if (&space.rotation.x.element() != &space.rotation.y.element())
     throw Error("plate: the rotation is of " + space.rotation.x.element().name() + " in x and of " +

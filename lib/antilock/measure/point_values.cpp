@@ -35,7 +35,7 @@ struct Search {
 
 }  // namespace
 
-PointValues::PointValues(const Space& space) : space_(&space) {
+PointValues::PointValues(const Space& space) : space_(space) {
   const TriangleMesh& mesh = space.mesh();
   std::vector<int> triangles(std::max(2, mesh.triangle_count()));  // a tree has two leaves or more
   std::vector<Box> boxes(triangles.size());
@@ -48,19 +48,19 @@ PointValues::PointValues(const Space& space) : space_(&space) {
 
 std::optional<PointValues::Location> PointValues::locate(const Eigen::Vector2d& x, double outside) const {
   // a point with lambda >= -outside lies at most 2 outside diameters beyond the triangle, and lambda is rounded
-  Search search{space_->mesh(), x, outside, 2 * outside + 1e-9};
+  Search search{space_.mesh(), x, outside, 2 * outside + 1e-9};
   Eigen::BVIntersect(tree_, search);
   return search.found.triangle >= 0 ? std::optional(search.found) : std::nullopt;
 }
 
 double PointValues::value(const Eigen::VectorXd& u, const Location& at) const {
-  return space_->element().basis(at.lambda).dot(u(space_->cell_dofs().row(at.triangle)));
+  return space_.element().basis(at.lambda).dot(u(space_.cell_dofs().row(at.triangle)));
 }
 
 Eigen::Vector2d PointValues::gradient(const Eigen::VectorXd& u, const Location& at) const {
   const Eigen::MatrixX2d slopes =
-      space_->element().derivative(at.lambda) * barycentric_gradients(space_->mesh(), at.triangle);
-  return slopes.transpose() * u(space_->cell_dofs().row(at.triangle));
+      space_.element().derivative(at.lambda) * barycentric_gradients(space_.mesh(), at.triangle);
+  return slopes.transpose() * u(space_.cell_dofs().row(at.triangle));
 }
 
 }  // namespace antilock

@@ -7,7 +7,7 @@
 
 namespace antilock {
 
-/// Where a point lies in a mesh, and what a discrete function is there. The mesh and the space must outlive it.
+/// Where a point lies in a mesh, and what a discrete function is there.
 class PointValues {
  public:
   explicit PointValues(const Space& space);
@@ -25,7 +25,7 @@ class PointValues {
   Eigen::Vector2d gradient(const Eigen::VectorXd& u, const Location& at) const;
 
  private:
-  const Space* space_;
+  Space space_;
   Eigen::KdBVH<double, 2, int> tree_;  ///< the triangles, by their boxes
 };
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -34,7 +33,6 @@ inline ClassForm own_rows_summed(const VariationalInequality& problem, Solution 
 
 /// A discrete solution with its space and its problem, from which everything is measured, proved, drawn and written.
 struct Result {
-  std::shared_ptr<const TriangleMesh> mesh;  ///< behind the space; stays where it is when the answer is moved
   Space space;
   VariationalInequality problem;
   Solution solution;

@@ -62,7 +62,7 @@ void add_block_loading(VariationalInequality& problem, const BlockLoading& press
   if (!std::isfinite(press.prescribed_displacement)) throw Error("plane strain: push is not finite");
   if (!(press.jump_weight >= 0))
     throw Error(fmt::format("plane strain: jump weight {}; accepted 0 or more", press.jump_weight));
-  if (&space.x.mesh() != &space.y.mesh())
+  if (!have_one_mesh(space.x, space.y))
     throw Error("plane strain: the two components live on different meshes; accepted: spaces of one mesh");
   const int shift = space.x.size();
   const bool steps = press.jump_weight > 0;

@@ -206,17 +206,12 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGr
       body.refuse("stiffness", "is not above 0 on the group " + name + "; accepted: positive numbers");
   }
   struct Parts {
-    TriangleMesh mesh;
     std::vector<int> part;
-    std::optional<Space> space;
     std::optional<PointValues> places;
   };
   read.stiffness = [=, parts = std::make_shared<Parts>(), where = body.where("stiffness")](double x, double y) {
-    if (!parts->space) {  // asked for the first time
-      parts->mesh = read_msh(mesh.string(), groups, &parts->part);
-      parts->space.emplace(parts->mesh, p1());
-      parts->places.emplace(*parts->space);
-    }
+    if (!parts->places)  // asked for the first time
+      parts->places.emplace(Space(read_msh(mesh.string(), groups, &parts->part), p1()));
     auto at = parts->places->locate({x, y}, 1e-9);
     if (!at) at = parts->places->locate({x, y}, 0.5);  // beside the file's polygon, where refinement follows a curve
     const int part = at ? parts->part[at->triangle] : -1;

@@ -67,7 +67,7 @@ Json question(const SceneFile& file) {
 Json certificate(const MethodRequest& method, const CertifiedSolution& certified) {
   const Certificate& proof = certified.certificate;
   Json levels = Json::array();
-  const std::string& geometry = certified.result.mesh->geometry.file;
+  const std::string& geometry = certified.result.space.mesh().geometry.file;
   const std::string corners =
       geometry.empty() ? "" : ", its corners on the curves of " + std::filesystem::path(geometry).filename().string();
   for (const RefinementLevel& level : certified.history)
@@ -112,7 +112,7 @@ Eigen::MatrixXd with_friction(const Eigen::MatrixX3d& table, const Result& resul
 SceneSummary summary_of(const SceneFile& file, const Result& result) {
   const Solution& solution = result.solution;
   SceneSummary s;
-  s.h = mesh_width(file, *result.mesh);
+  s.h = mesh_width(file, result.space.mesh());
   s.unknowns = solution.counters.unknowns;
   s.energy = energy(result.problem, solution);
   s.u_max = solution.u.maxCoeff();
@@ -249,7 +249,7 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
   const auto write = [&](const std::filesystem::path& draft) {
     if (csv) write_solution_csv(draft / "solution.csv", result.space, result.solution.u);
     VtuFields more;
-    if (!file.elastic) more.p = layer_stress(*result.mesh, result.solution.p.head(result.problem.class_rows()));
+    if (!file.elastic) more.p = layer_stress(result.space.mesh(), result.solution.p.head(result.problem.class_rows()));
     if (contact) {
       const NormalContact normal = normal_contact(result);
       Eigen::MatrixX3d table = contact_table(result.space, normal.problem, normal.solution);
@@ -261,7 +261,7 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
         write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
       more.pressure = table.col(2);
     }
-    if (asked.contains("mesh")) write_msh(draft / "mesh.msh", *result.mesh, file.scene.edges());
+    if (asked.contains("mesh")) write_msh(draft / "mesh.msh", result.space.mesh(), file.scene.edges());
     if (vtu && file.elastic)
       write_deformed_vtu(draft / "solution.vtu", {result.space, result.space}, result.solution.u,
                          pressure_of(file, result));

@@ -88,7 +88,7 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
   };
   Stopwatch watch;
   begin("mesh");
-  const auto mesh = std::make_shared<const TriangleMesh>(make_mesh(file));
+  TriangleMesh mesh = make_mesh(file);
   RunSeconds seconds;
   seconds.mesh = watch.lap();
   const auto solved = [&](const auto& solve) {
@@ -110,18 +110,18 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
     begin(fmt::format("solve to a relative error of {:g}", *method.accuracy));
     const AccuracyGoal asked{*method.accuracy,         method.of,   method.most_unknowns, {}, method.tolerance,
                              &element(method.element), follow.solve};
-    CertifiedSolution found = solved([&] { return solve_to(file.scene, *mesh, asked, follow.level); });
+    CertifiedSolution found = solved([&] { return solve_to(file.scene, mesh, asked, follow.level); });
     found.result.seconds = seconds;
     spent(found.result);
-    found.result.warning = joined(found.result.warning, joined(polygon_warning(file, *mesh), geometry_warning(file)));
+    found.result.warning = joined(found.result.warning, joined(polygon_warning(file, mesh), geometry_warning(file)));
     return found;
   }
-  begin(fmt::format("assembly: {} on {} triangles", method.element, mesh->triangle_count()));
-  const Space space(*mesh, element(method.element));
+  begin(fmt::format("assembly: {} on {} triangles", method.element, mesh.triangle_count()));
+  const Space space(std::move(mesh), element(method.element));
   if (space.free_count() == 0)
     throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
-  Result result{mesh, space, solved([&] { return problem_of(file, space); }), {}, seconds, ""};
-  const std::string data = joined(load_warning(file, space, result.problem), displacement_warning(file, *result.mesh));
+  Result result{space, solved([&] { return problem_of(file, space); }), {}, seconds, ""};
+  const std::string data = joined(load_warning(file, space, result.problem), displacement_warning(file, space.mesh()));
   result.seconds.assemble = watch.lap();
   begin(fmt::format("solve: {}, {} unknowns", method.solver, result.problem.free_count()));
   result.solution = solved([&] { return solve_as_asked(file, space, result.problem, follow.solve); });
@@ -150,7 +150,7 @@ std::optional<LockingReport> locking_report_of(const SceneFile& file, const Resu
   const Element& element = result.space.element();
   // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10 (both meshes, 1/h =
   // 8 and 32), 23 to 40 % at h^2 = epsilon, and it doubles at ten times that
-  if (const double h = mesh_width(file, *result.mesh);
+  if (const double h = mesh_width(file, result.space.mesh());
       file.elastic && !coating && element.conforming() && element.degree() == 1 && h * h > 0.1 * file.elastic->epsilon)
     return LockingReport{fmt::format("P1 can hardly move without a change of volume: h^2 = {:.2g}, beside epsilon = "
                                      "{:g} it locks",
@@ -161,7 +161,7 @@ std::optional<LockingReport> locking_report_of(const SceneFile& file, const Resu
     return file.elastic ? std::nullopt : report_locking(file.scene, result.space, result.problem, result.solution);
   if (!element.conforming())
     return LockingReport{element.name() + " does not lock: its slopes across the coating are free", {}, ""};
-  const double k = bending_length(*result.mesh), t = coating->thickness;
+  const double k = bending_length(result.space.mesh()), t = coating->thickness;
   LockingReport report{
       fmt::format("{} resists bending in the coating as over the length {:.2g}", element.name(), k), {}, ""};
   // degree 1: lost / kept = (5.84 k / t)^2 for one wave per unit length, which is a twentieth at k = 0.04 t; above
@@ -181,7 +181,7 @@ Eigen::VectorXd pressure_of(const SceneFile& file, const Result& result) {
   const Space& space = result.space;
   const Eigen::VectorXd& p = result.solution.p;
   if (const auto coating = coating_of(file)) return pressure(*coating, {space, space}, result.solution.u, p);
-  const Eigen::Index triangles = result.mesh->triangle_count();
+  const Eigen::Index triangles = result.space.mesh().triangle_count();
   return -p.reshaped(p.size() / triangles, triangles).colwise().mean().transpose();
 }
 

@@ -9,9 +9,9 @@ enum class ShearRule { exact, mean, edges };
 /// A deflection w and a rotation theta = (theta_x, theta_y) of one mesh, and how their shear is taken. With
 /// ShearRule::edges the rotation has one unknown more per edge: 6 lambda_j lambda_k times the unit tangent from the
 /// smaller vertex to the larger, whose mean on the edge is 1 (Duran and Liberman 1992). N unknowns: those of w, theta_x,
-/// theta_y and the edges. The spaces must outlive it.
+/// theta_y and the edges.
 struct PlateSpace {
-  const Space& deflection;
+  Space deflection;
   VectorSpace rotation;
   ShearRule shear = ShearRule::exact;
 

@@ -1,34 +1,52 @@
 #include "antilock/space/space.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace antilock {
 
-Space::Space(const TriangleMesh& mesh, const Element& element) : mesh_(&mesh), element_(&element) {
+Space::Space(TriangleMesh mesh, const Element& element)
+    : Space(std::make_shared<const TriangleMesh>(std::move(mesh)), element) {}
+
+Space::Space(std::shared_ptr<const TriangleMesh> mesh, const Element& element)
+    : mesh_(std::move(mesh)), element_(&element), numbering_(std::make_shared<const Numbering>(*mesh_, element)) {}
+
+Space::Space(const Space& other, const Element& element) : Space(other.mesh_, element) {}
+
+bool have_one_mesh(const Space& a, const Space& b) {
+  const TriangleMesh& one = a.mesh();
+  const TriangleMesh& two = b.mesh();
+  if (&one == &two) return true;
+  return one.vertex_count() == two.vertex_count() && one.triangle_count() == two.triangle_count() &&
+         one.vertices == two.vertices && one.triangles == two.triangles && one.region == two.region &&
+         one.edge_tag == two.edge_tag;
+}
+
+Space::Numbering::Numbering(const TriangleMesh& mesh, const Element& element) {
   const int dofs_per_vertex = element.dofs_per_vertex(), dofs_per_edge = element.dofs_per_edge(),
             dofs_per_cell = element.dofs_per_cell();
   const int first_edge = dofs_per_vertex * mesh.vertex_count();
   const int first_inner = first_edge + dofs_per_edge * mesh.edge_count();
   const int size = first_inner + dofs_per_cell * mesh.triangle_count();
   const Eigen::MatrixX3d nodes = element.support_points();
-  dof_coordinates_.resize(size, 2);
-  cell_dofs_.resize(mesh.triangle_count(), element.dofs());
+  dof_coordinates.resize(size, 2);
+  cell_dofs.resize(mesh.triangle_count(), element.dofs());
   std::vector<char> on_clamped(size, 0), on_contact(size, 0);
 
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     int local = 0;
     for (int i = 0; i < 3; ++i)
-      for (int k = 0; k < dofs_per_vertex; ++k) cell_dofs_(t, local++) = dofs_per_vertex * mesh.triangles(t, i) + k;
+      for (int k = 0; k < dofs_per_vertex; ++k) cell_dofs(t, local++) = dofs_per_vertex * mesh.triangles(t, i) + k;
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
       // unknowns of an edge are numbered from its smaller vertex, whichever triangle looks at it
       const bool forward = mesh.triangles(t, (i + 1) % 3) == mesh.edges(e, 0);
       for (int k = 0; k < dofs_per_edge; ++k)
-        cell_dofs_(t, local++) = first_edge + dofs_per_edge * e + (forward ? k : dofs_per_edge - 1 - k);
+        cell_dofs(t, local++) = first_edge + dofs_per_edge * e + (forward ? k : dofs_per_edge - 1 - k);
     }
-    for (int k = 0; k < dofs_per_cell; ++k) cell_dofs_(t, local++) = first_inner + dofs_per_cell * t + k;
+    for (int k = 0; k < dofs_per_cell; ++k) cell_dofs(t, local++) = first_inner + dofs_per_cell * t + k;
     const Eigen::Matrix<double, 3, 2> corners = mesh.vertices(mesh.triangles.row(t), Eigen::all);
-    for (int i = 0; i < local; ++i) dof_coordinates_.row(cell_dofs_(t, i)) = nodes.row(i) * corners;
+    for (int i = 0; i < local; ++i) dof_coordinates.row(cell_dofs(t, i)) = nodes.row(i) * corners;
   }
 
   for (int e = 0; e < mesh.edge_count(); ++e) {
@@ -40,11 +58,11 @@ Space::Space(const TriangleMesh& mesh, const Element& element) : mesh_(&mesh), e
       for (const int v : {mesh.edges(e, 0), mesh.edges(e, 1)}) marked[dofs_per_vertex * v + k] = 1;
   }
   for (int i = 0; i < size; ++i) {
-    if (on_clamped[i]) dirichlet_dofs_.push_back(i);
-    if (on_contact[i] && !on_clamped[i]) contact_dofs_.push_back(i);
+    if (on_clamped[i]) dirichlet_dofs.push_back(i);
+    if (on_contact[i] && !on_clamped[i]) contact_dofs.push_back(i);
   }
-  std::stable_sort(contact_dofs_.begin(), contact_dofs_.end(),
-                   [&](int a, int b) { return dof_coordinates_(a, 0) < dof_coordinates_(b, 0); });
+  std::stable_sort(contact_dofs.begin(), contact_dofs.end(),
+                   [&](int a, int b) { return dof_coordinates(a, 0) < dof_coordinates(b, 0); });
 }
 
 Eigen::Matrix<double, 3, 2> barycentric_gradients(const TriangleMesh& mesh, int t) {

@@ -1,5 +1,4 @@
 #pragma once
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -8,21 +7,6 @@
 
 namespace antilock {
 
-/// A mesh and the space on it, kept together: the space looks at the mesh.
-class Discretisation {
- public:
-  Discretisation(TriangleMesh mesh, const Element& element)
-      : mesh_(std::make_shared<const TriangleMesh>(std::move(mesh))), space_(*mesh_, element) {}
-  /// Another element on the same mesh.
-  Discretisation(const Discretisation& other, const Element& element) : mesh_(other.mesh_), space_(*mesh_, element) {}
-  const TriangleMesh& mesh() const { return *mesh_; }
-  const Space& space() const { return space_; }
-
- private:
-  std::shared_ptr<const TriangleMesh> mesh_;  // stays where it is when this is moved or copied
-  Space space_;
-};
-
 /// A method of the paper's Section 4: an element on a family of meshes.
 struct Method {
   const Element* element;
@@ -30,9 +14,8 @@ struct Method {
 
   std::string name() const { return element->name() + " " + family.name; }  ///< "P1 structured"
   TriangleMesh mesh(int cells) const { return family.mesh(cells); }
-  /// The space of this element on a mesh, which must outlive it.
-  Space space(const TriangleMesh& mesh) const { return Space(mesh, *element); }
-  Discretisation discretise(int cells) const { return {mesh(cells), *element}; }
+  /// The space of this element on the mesh with so many cells.
+  Space space(int cells) const { return Space(mesh(cells), *element); }
 };
 
 /// Every element on every family, elements first: without arguments four methods (the caption of Figure 9 counts

@@ -5,8 +5,7 @@
 
 namespace antilock {
 
-/// One scene on one mesh, asked again and again with another epsilon or load: a Sweep in the scene's own words. The
-/// space, and its mesh, must outlive it.
+/// One scene on one mesh, asked again and again with another epsilon or load: a Sweep in the scene's own words.
 class SceneSweep : public Sweep {
  public:
   /// Assembles; throws Error as `assemble` does.
@@ -18,7 +17,7 @@ class SceneSweep : public Sweep {
   void set_load(const Field& f);
 
  private:
-  const Space* space_;
+  Space space_;
   Scene scene_;
 };
 

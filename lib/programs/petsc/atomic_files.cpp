@@ -68,8 +68,9 @@ void write_solution_csv_together(const fs::path& path, const NestedLevel& level)
   });
 }
 
-void write_msh_together(const fs::path& path, const TriangleMesh& mesh) {
-  const DofMap nodes(Space(mesh, p1()));
+void write_msh_together(const fs::path& path, const Space& space) {
+  const TriangleMesh& mesh = space.mesh();
+  const DofMap nodes(Space(space, p1()));
   // an edge of the boundary has one triangle, an edge of Sigma has one in the layer: its rank writes the edge
   std::vector<int> labelled;
   for (int t = 0; t < mesh.triangle_count(); ++t)

@@ -24,6 +24,7 @@ void write_in_turns(const std::filesystem::path& path, const std::string& head, 
 void write_solution_csv_together(const std::filesystem::path& path, const NestedLevel& level);
 
 /// The whole mesh, MSH 2.2 with its physical groups.
-void write_msh_together(const std::filesystem::path& path, const TriangleMesh& subdomain);
+/// `space`: any on this rank's subdomain.
+void write_msh_together(const std::filesystem::path& path, const Space& space);
 
 }  // namespace antilock::distributed

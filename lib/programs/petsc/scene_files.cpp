@@ -67,7 +67,7 @@ Eigen::MatrixX3d contact_table_of_all(const NestedLevel& level, const Eigen::Vec
 
 /// Layer stress and pressure as a VTU file takes them: per triangle, and per contact unknown of the subdomain.
 VtuFields fields_of(const NestedLevel& level, const Eigen::VectorXd& pressure, bool contact) {
-  const TriangleMesh& mesh = level.subdomain;
+  const TriangleMesh& mesh = level.space.mesh();
   VtuFields fields{Eigen::VectorXd::Zero(mesh.triangle_count()), {}};
   for (int t = 0, row = 0; t < mesh.triangle_count() && row < level.state.p.size(); ++t)
     if (mesh.region[t] == Region::layer) fields.p(t) = level.state.p(row++);  // one row of B per layer triangle
@@ -95,7 +95,7 @@ SceneSummary summary_of_all(const SceneFile& file, const NestedLevel& level, con
   SceneSummary s;
   s.layer = layer;
   const bool from_file = file.mesh.from_file();
-  s.h = from_file ? largest(level.subdomain.diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
+  s.h = from_file ? largest(level.space.mesh().diameter()) : 1.0 / (file.mesh.cells << file.mesh.refinements);
   s.unknowns = level.problem.rows().total();
   s.energy = energy_of_all(level);
   s.u_max = largest(level.state.u.maxCoeff());
@@ -131,7 +131,7 @@ std::optional<LockingReport> layer_report_of_all(const SceneFile& file, const Tr
     if (rank() > 0) return;
     TriangleMesh mesh = coarse;
     for (int i = 0; may_lock && i < refinements; ++i) mesh = refined(mesh);
-    const Space space(mesh, level.space.element());
+    const Space space(std::move(mesh), level.space.element());
     VariationalInequality problem;
     Solution whole;
     if (may_lock) {
@@ -160,7 +160,7 @@ void write_scene_files(const fs::path& folder, const SceneFile& file, const Nest
   const Stopwatch files;
   const auto write = [&](const fs::path& draft) {
     if (csv) write_solution_csv_together(draft / "solution.csv", level);
-    write_msh_together(draft / "mesh.msh", level.subdomain);
+    write_msh_together(draft / "mesh.msh", level.space);
     const Eigen::VectorXd pressure = pressures(level);
     const Eigen::MatrixX3d table = contact_table_of_all(level, pressure);
     const VtuFields fields = fields_of(level, pressure, contact);

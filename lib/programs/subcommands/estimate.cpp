@@ -206,13 +206,13 @@ Reference reference(const Result& own, const PointValues& at) {
     if (!found) throw Error(fmt::format("estimate: ({}, {}) is outside the mesh of the certified answer", x, y));
     return *found;
   };
-  const std::vector<int> row = stress_rows(*own.mesh);
+  const std::vector<int> row = stress_rows(own.space.mesh());
   Reference reference;
   reference.value = [=, &own, &at](double x, double y) { return at.value(own.solution.u, place(x, y)); };
   reference.at = [=, &own, &at](double x, double y) {
     const auto found = place(x, y);
     const int t = found.triangle;
-    const bool stress = own.mesh->region[t] == Region::layer && own.solution.p.size() > 0;
+    const bool stress = own.space.mesh().region[t] == Region::layer && own.solution.p.size() > 0;
     return ExactPoint{at.value(own.solution.u, found), at.gradient(own.solution.u, found),
                       stress ? own.solution.p(row[t]) : 0};
   };

@@ -48,11 +48,10 @@ constexpr double rounded = 1e-9;
 
 /// The norms of the solution: the errors of the function 0, on a mesh whose quadrature leaves 1e-4 of them.
 json norms_of(const ExactSolution& exact_solution) {
-  const TriangleMesh mesh = structured_mesh(64);
-  const Space space(mesh, p1());
+  const Space space(structured_mesh(64), p1());
   Solution zero;
   zero.u.setZero(space.size());
-  zero.p.setZero(std::count(mesh.region.begin(), mesh.region.end(), Region::layer));
+  zero.p.setZero(std::count(space.mesh().region.begin(), space.mesh().region.end(), Region::layer));
   const ExactTable table(exact_solution);
   const Errors norm = measure_errors(space, zero, exact_solution.epsilon(), reference(table));
   return {{"max", norm.max}, {"l2", norm.l2}, {"h1", norm.h1}, {"energy", norm.energy}};
@@ -91,17 +90,18 @@ Known by_series(const ExactSolution& exact_solution, const Eigen::MatrixXd& poin
 Known by_certificate(const SceneFile& file, double accuracy, const Eigen::MatrixXd& points) {
   const CertifiedSolution found = certified(file, accuracy);
   Known known;
-  const auto& [mesh, space, problem, solution, seconds, warning] = found.result;
-  const PointValues at(space);
+  const Solution& solution = found.result.solution;
+  const TriangleMesh& mesh = found.result.space.mesh();
+  const PointValues at(found.result.space);
   const bool scaled = std::holds_alternative<StiffLayer>(file.scene.layer());
-  const std::vector<int> p_row = stress_rows(*mesh);
+  const std::vector<int> p_row = stress_rows(mesh);
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     Eigen::Vector2d x = points.row(i);
     if (std::abs(x(1)) < rounded) x(1) = rounded;  // on Sigma the gradient is the body's
     const auto place = at.locate(x, rounded);
     if (!place) throw Error(fmt::format("points: ({}, {}) is {}", points(i, 0), points(i, 1), outside));
     Row row{at.value(solution.u, *place), at.gradient(solution.u, *place)};
-    if (scaled && mesh->region[place->triangle] == Region::layer) row.p = solution.p(p_row[place->triangle]);
+    if (scaled && mesh.region[place->triangle] == Region::layer) row.p = solution.p(p_row[place->triangle]);
     known.rows.push_back(row);
   }
   const Certificate& proof = found.certificate;
@@ -111,7 +111,7 @@ Known by_certificate(const SceneFile& file, double accuracy, const Eigen::Matrix
       {"bound", proof.gradient},
       {"relative", proof.relative(Quantity::displacement)},
       {"accuracy", "bound: of the energy norm of the error of the gradients, proved; of a value nothing is proved"},
-      {"warning", warning}};
+      {"warning", found.result.warning}};
   return known;
 }
 

@@ -52,7 +52,7 @@ std::vector<double> epsilons(const std::string& text) {
 /// One mesh of the sweep, with the points that are asked for.
 struct OnMesh {
   int cells;
-  Discretisation discretisation;
+  Space space;
   std::vector<PointValues::Location> places;
 };
 
@@ -102,13 +102,13 @@ int sweep(int argc, char** argv) {
       throw Error("antilock sweep: --cells: \"" + cells_text +
                   "\"; accepted: whole numbers from 1 to 512, for a scene whose mesh is made");
     file.mesh.cells = static_cast<int>(n);
-    OnMesh& on = meshes.emplace_back(OnMesh{file.mesh.cells, {make_mesh(file), element(file.method.element)}, {}});
-    if (on.discretisation.space().free_count() == 0)
+    OnMesh& on = meshes.emplace_back(OnMesh{file.mesh.cells, Space(make_mesh(file), element(file.method.element)), {}});
+    if (on.space.free_count() == 0)
       throw Error(
           fmt::format("{}: mesh: with {} cells every unknown is clamped, none is left to solve for; accepted: a "
                       "finer mesh",
                       file.name, on.cells));
-    const PointValues values(on.discretisation.space());
+    const PointValues values(on.space);
     for (std::size_t i = 0; i < at.size(); i += 2) {
       const auto place = values.locate({at[i], at[i + 1]});
       if (!place)
@@ -119,7 +119,7 @@ int sweep(int argc, char** argv) {
   }
   std::vector<ExactSolution> exact_solutions;
   std::vector<ExactTable> tables;
-  const bool square = !file.mesh.from_file() || is_unit_square(meshes.front().discretisation.space().mesh());
+  const bool square = !file.mesh.from_file() || is_unit_square(meshes.front().space.mesh());
   for (const Scene& one : scenes) {
     std::optional<ExactSolution> exact = square ? exact_solution_of(one) : std::nullopt;
     if (!exact) break;  // it is the load or the gap: known of every epsilon or of none
@@ -135,8 +135,7 @@ int sweep(int argc, char** argv) {
   if (known) columns.insert(columns.end(), {"kept", "error_max", "error_energy"});
   columns.insert(columns.end(), {"factorisations", "corrections", "contact_steps", "seconds"});
   Table table(columns);
-  for (const auto& [cells, discretisation, places] : meshes) {
-    const Space& space = discretisation.space();
+  for (const auto& [cells, space, places] : meshes) {
     SceneSweep questions(file.scene, space);
     const PointValues values(space);
     for (std::size_t i = 0; i < list.size(); ++i) {

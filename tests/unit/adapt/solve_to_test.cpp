@@ -103,9 +103,11 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
         const std::string at = fmt::format("epsilon = {:g}, asked {:g}", epsilon, asked);
         EXPECT_LE(found.certificate.relative(of), asked) << at;
         EXPECT_GE(found.certificate.relative(of), asked / 2) << at;
-        const auto& [mesh, space, problem, solution, seconds, warning] = found.result;
+        const Result& result = found.result;
+        const Space& space = result.space;
         const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
-        const auto exact = exact_errors(*mesh, equilibrated_flux(scene, space, problem, solution), v, exact_solution);
+        const auto exact = exact_errors(space.mesh(), equilibrated_flux(scene, space, result.problem, result.solution),
+                                        v, exact_solution);
         EXPECT_LE(exact.displacement, found.certificate.displacement) << at;
         EXPECT_LE(exact.gradient, found.certificate.gradient) << at;
         EXPECT_LE(exact.stress, found.certificate.stress) << at;
@@ -125,7 +127,7 @@ TEST(SolveTo, TheCompanionHasValuesInALayerOfAnyTriangles) {
   const CertifiedSolution found = solve_to(scene_of(paper_load, 1e-2), unstructured_mesh(8),
                                            {0.1, Quantity::displacement, 2e6, RefinementStrategy::bisect});
   const ExactTable exact_solution{ExactSolution(paper_sine_load(), 1e-2)};
-  const TriangleMesh& mesh = *found.result.mesh;
+  const TriangleMesh& mesh = found.result.space.mesh();
   double off = 0, most = 0;
   for (int i = 0; i < mesh.vertex_count(); ++i)
     if (const double exact = exact_solution.value(mesh.vertices(i, 0), mesh.vertices(i, 1)); mesh.vertices(i, 1) < 0) {
@@ -188,7 +190,7 @@ TEST(SolveTo, WorksOnBodiesOtherThanTheSquareAndWithoutALayer) {
     const CertifiedSolution found = solve_to(scene, first, {5e-2});
     EXPECT_LE(found.history.back().relative, 5e-2);
     // against the same body refined everywhere: the corner makes that dearer
-    const SpaceOn space(extruded(test::l_shape(32), epsilon), crouzeix_raviart());
+    const Space space(extruded(test::l_shape(32), epsilon), crouzeix_raviart());
     const VariationalInequality problem = assemble(scene, space);
     const double uniform = certify(scene, space, problem, active_set(problem)).relative(Quantity::displacement);
     EXPECT_LT(cost(found), 0.7 * space.free_count() * uniform * uniform) << epsilon;

@@ -26,44 +26,43 @@ TEST(BestApproximation, AFunctionOfTheSetIsItsOwnNearestElement) {
                        },
                        [](double, double) { return 0.0; }};
   // bilinear in the body: nearest in P2, exact for no triangle of P1
-  const Discretisation on(structured_mesh(4), p2());
-  const auto problem = test::stiff_problem(on.space(), 0);
+  const Space space(structured_mesh(4), p2());
+  const auto problem = test::stiff_problem(space, 0);
   for (const AdmissibleSet within : {AdmissibleSet::k_h, AdmissibleSet::k_0h}) {
-    const BestApproximation found = best_approximation(on.space(), problem, flat, within);
+    const BestApproximation found = best_approximation(space, problem, flat, within);
     EXPECT_LT(found.distance, 1e-7);
     EXPECT_NEAR(found.value, found.distance * found.distance, 1e-12);
   }
 }
 
 TEST(BestApproximation, TheKernelIsFartherAndHoldsItsCondition) {
-  const Discretisation on(structured_mesh(8), p1());
-  const auto problem = test::stiff_problem(on.space(), 0);
-  const BestApproximation any = best_approximation(on.space(), problem, tent, AdmissibleSet::k_h),
-                          kernel = best_approximation(on.space(), problem, tent, AdmissibleSet::k_0h);
+  const Space space(structured_mesh(8), p1());
+  const auto problem = test::stiff_problem(space, 0);
+  const BestApproximation any = best_approximation(space, problem, tent, AdmissibleSet::k_h),
+                          kernel = best_approximation(space, problem, tent, AdmissibleSet::k_0h);
   EXPECT_LT(any.distance, 0.5 * kernel.distance);  // what it cannot have: |d/dy v| in the layer
   EXPECT_LT((problem.b * kernel.v).cwiseAbs().maxCoeff(), 1e-9);
   EXPECT_GT((problem.b * any.v).cwiseAbs().maxCoeff(), 0.1);
 }
 
 TEST(BestApproximation, TheFunctionalIsPartOfWhatIsMinimised) {
-  const Discretisation on(structured_mesh(8), p1());
-  auto problem = test::stiff_problem(on.space(), 0);
+  const Space space(structured_mesh(8), p1());
+  auto problem = test::stiff_problem(space, 0);
   problem.contact.clear();  // then the derivative of |u - v|_h^2 + load . v vanishes at the smallest value
   problem.lower.resize(0);
-  const Eigen::VectorXd load = load_vector(on.space(), paper_load);
-  const BestApproximation found = best_approximation(on.space(), problem, tent, AdmissibleSet::k_h, load);
-  Eigen::VectorXd derivative = 2 * (h1_norm(on.space()) * found.v - h1_products(on.space(), tent)) + load;
+  const Eigen::VectorXd load = load_vector(space, paper_load);
+  const BestApproximation found = best_approximation(space, problem, tent, AdmissibleSet::k_h, load);
+  Eigen::VectorXd derivative = 2 * (h1_norm(space) * found.v - h1_products(space, tent)) + load;
   for (const int i : problem.dirichlet_dofs) derivative(i) = 0;
   EXPECT_LT(derivative.cwiseAbs().maxCoeff(), 1e-10 * load.cwiseAbs().maxCoeff());
   EXPECT_NEAR(found.value, found.distance * found.distance + load.dot(found.v), 1e-12);
 }
 
 TEST(DualNorm, OfARieszRepresentativeIsItsNorm) {
-  const Discretisation on(unstructured_mesh(6), crouzeix_raviart());
-  const auto problem = test::stiff_problem(on.space(), 0);
-  const SparseMatrix norm = h1_norm(on.space());
-  Eigen::VectorXd w =
-      (3 * on.space().dof_coordinates().col(0).array()).sin() * on.space().dof_coordinates().col(1).array();
+  const Space space(unstructured_mesh(6), crouzeix_raviart());
+  const auto problem = test::stiff_problem(space, 0);
+  const SparseMatrix norm = h1_norm(space);
+  Eigen::VectorXd w = (3 * space.dof_coordinates().col(0).array()).sin() * space.dof_coordinates().col(1).array();
   for (const int i : problem.dirichlet_dofs) w(i) = 0;
   const double all = dual_norm(problem, norm, norm * w), in_kernel = dual_norm(problem, norm, norm * w, true);
   VariationalInequality other = problem;  // a norm knows no bounds and no given values

@@ -15,16 +15,14 @@ using Problem = std::function<VariationalInequality(int cells)>;
 
 /// One question with its answer, and room for what a test does to it.
 struct Answered {
-  TriangleMesh mesh;
   Scene scene;
   Space space;
   VariationalInequality problem;
   Solution solution;
 
   Answered(TriangleMesh made, Scene asked)
-      : mesh(std::move(made)),
-        scene(std::move(asked)),
-        space(mesh, crouzeix_raviart()),
+      : scene(std::move(asked)),
+        space(std::move(made), crouzeix_raviart()),
         problem(assemble(scene, space)),
         solution(active_set(problem)) {}
   Answered(const Answered&) = delete;

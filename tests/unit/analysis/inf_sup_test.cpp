@@ -15,7 +15,7 @@ namespace antilock::test::analysis_test::inf_sup_test {
 std::vector<double> inf_sup_constants(const Element& element, bool per_vertex, bool contact) {
   std::vector<double> beta;
   for (const int n : {4, 8, 12}) {
-    const SpaceOn space(block(n), element);
+    const Space space(block(n), element);
     const VariationalInequality problem = rubber(space, per_vertex);
     std::vector<bool> active(problem.contact.size());
     if (contact) active = active_set(problem).active;

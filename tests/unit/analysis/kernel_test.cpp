@@ -49,7 +49,7 @@ TEST(Locking, IsThatOfP1UnstructuredAtSmallEpsilonAlone) {
 TEST(Locking, TheLockedSolutionIsDirichletsOnTheBody) {
   // as the paper says of Figure 7: u vanishes on the layer, and solves the Laplace problem on the body clamped all
   // round
-  const SpaceOn space(unstructured_mesh(16), p1());
+  const Space space(unstructured_mesh(16), p1());
   const Solution locked = active_set(stiff_problem(space, 0));
   EXPECT_LT(largest_on_layer(space, locked), 1e-9);
   VariationalInequality dirichlet = assemble(Scene({paper_load}, StiffLayer{1}), space);
@@ -97,7 +97,7 @@ TEST(LockingDiagnosis, RefusesWhatItCannotTell) {
 }
 
 TEST(Locking, LeavesP2OneParabolaWhereTheLoadIsNotOddAboutTheMiddle) {
-  const SpaceOn space(unstructured_mesh(4), p2());
+  const Space space(unstructured_mesh(4), p2());
   const auto largest_off_parabola = [&](const SineLoad& load, double& c) {
     const Solution s = active_set(assemble(Scene({load}, StiffLayer{0}, UnilateralContact{}), space));
     const Eigen::ArrayXd x = space.dof_coordinates().col(0).array(), parabola = x * (1 - x);
@@ -154,7 +154,7 @@ TEST(InfSup, OfCrouzeixRaviartIsAtLeastOneInTheDualNorm) {
 
 TEST(InfSup, InL2FallsLikeHAndIsZeroWhereRowsOfBDependOnEachOther) {
   const auto constant = [](int cells, const Element& element) {
-    const SpaceOn space(structured_mesh(cells), element);
+    const Space space(structured_mesh(cells), element);
     return inf_sup(seen_by(space), stiff_problem(space, 0).m.asDiagonal());
   };
   // 1.82 measured: the order comes with h
@@ -163,7 +163,7 @@ TEST(InfSup, InL2FallsLikeHAndIsZeroWhereRowsOfBDependOnEachOther) {
 }
 
 TEST(InfSup, AndCoercivityRefuseWhatDoesNotFit) {
-  const SpaceOn space(structured_mesh(4), p1()), finer(structured_mesh(40), p1());
+  const Space space(structured_mesh(4), p1()), finer(structured_mesh(40), p1());
   test::expect_refused([&] { seen_by(space, 5); }, "5 a multiplier");
   test::expect_refused([&] { multiplier_gram(stiff_problem(space, 0), SparseMatrix(3, 3)); }, "the norm is 3 x 3");
   const Eigen::MatrixXd seen = seen_by(space);
@@ -216,7 +216,7 @@ TEST(Locking, ComesWithTheFirstJitterAndGrowsWithItsShareOfEpsilon) {
   // At fixed h a function of x alone is missed by t h, at the price (t h / epsilon)^2: the answer knows t / epsilon
   // alone, up to the change of the mesh itself, of order t.
   const auto on_layer = [](double t, double epsilon) {
-    const SpaceOn space(jittered_mesh(8, t), p1());
+    const Space space(jittered_mesh(8, t), p1());
     EXPECT_EQ(kernel_dimension(space), 0) << t;
     return largest_on_layer(space, active_set(stiff_problem(space, epsilon))) / layer_displacement;
   };

@@ -15,7 +15,7 @@ namespace antilock::test::analysis_test::negative_part_test {
 using namespace measure_test;
 
 TEST(ContactTrace, IsTheFunctionOnGammaC) {
-  for (const SpaceOn& space : two_square_spaces(4, elements())) {
+  for (const NamedSpace& space : two_square_spaces(4, elements())) {
     const Eigen::MatrixX3d trace = contact_trace(space, interpolant(space, affine(1).value));
     EXPECT_NEAR(trace.col(2).sum(), 1, 1e-12) << space.name;
     const Eigen::ArrayXd exact = 0.2 + 3 * trace.col(0).array() + 2;                  // y = -1
@@ -47,7 +47,7 @@ Eigen::VectorXd hidden(const Eigen::VectorXd& v, bool parabola) {
 }
 
 TEST(ContactTrace, TheConstantIsTheLargestHiddenPartOfSampledFunctions) {
-  for (const SpaceOn& space : two_square_spaces(3, {&p2(), &crouzeix_raviart()})) {
+  for (const NamedSpace& space : two_square_spaces(3, {&p2(), &crouzeix_raviart()})) {
     std::vector<int> free;
     for (int i = 0; i < space.size(); ++i)
       if (!std::binary_search(space.dirichlet_dofs().begin(), space.dirichlet_dofs().end(), i)) free.push_back(i);
@@ -66,7 +66,7 @@ TEST(ContactTrace, TheConstantIsTheLargestHiddenPartOfSampledFunctions) {
 }
 
 TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
-  for (const SpaceOn& space : two_square_spaces(6, {&p1(), &p2(), &crouzeix_raviart()})) {
+  for (const NamedSpace& space : two_square_spaces(6, {&p1(), &p2(), &crouzeix_raviart()})) {
     const Eigen::SparseMatrix<double> norm = h1_norm(space);
     const double constant = negative_part(space, stiff_problem(space, 1), norm).constant;
     double closest = 0;
@@ -82,7 +82,7 @@ TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
     }
     EXPECT_EQ(closest > 0, &space.element() != &p1()) << space.name;  // P1 never; the others do
   }
-  const SpaceOn cubic(structured_mesh(2), p3());
+  const Space cubic(structured_mesh(2), p3());
   test::expect_refused([&] { negative_part(cubic, stiff_problem(cubic, 1), h1_norm(cubic)); }, "P3");
 }
 

@@ -150,7 +150,7 @@ TEST(WorstLoad, LimitsByDegreeAndWidths) {
 TEST(ErrorForm, EveryDegreeLosesWhatItsKernelCannotHold) {
   for (const Element* element : {&p1(), &p2(), &p3(), &p4()})
     for (const int cells : {4, 8}) {
-      const SpaceOn space(unstructured_mesh(cells), *element);
+      const Space space(unstructured_mesh(cells), *element);
       ErrorForm form(space, LoadModes(2 * cells));  // waves 1 to 4 are among them
       form.set_epsilon(0);
       const double rigid = form.worst().error;
@@ -164,7 +164,7 @@ TEST(ErrorForm, EveryDegreeLosesWhatItsKernelCannotHold) {
 
 // What is left out of the ball adds at most beyond()^2 to the square, and nothing is taken away.
 TEST(ErrorForm, MoreWavesAddNoMoreThanIsProved) {
-  const SpaceOn space(structured_mesh(6), p1());
+  const Space space(structured_mesh(6), p1());
   ErrorForm few(space, LoadModes(6)), many(space, LoadModes(18));
   for (const double epsilon : {0.0, 1.0}) {
     few.set_epsilon(epsilon);

@@ -62,7 +62,7 @@ TEST(EnergyBounds, IsNeededTheEnergyOfCrouzeixRaviartAloneIsNoBound) {
   // -lap u = 1 on the unit square, u = 0 around: int u = 0.0351442537 (torsion of a square bar), J = -int u / 2
   constexpr double exact = -0.5 * 0.0351442537;
   const Scene scene({[](double, double) { return 1.0; }});
-  const SpaceOn space(structured_mesh(1, {0}), crouzeix_raviart());
+  const Space space(structured_mesh(1, {0}), crouzeix_raviart());
   VariationalInequality problem = assemble(scene, space);
   // the edge y = 0 is Sigma, free without contact: clamp it
   for (const int i : space.contact_dofs()) problem.dirichlet_dofs.push_back(i);

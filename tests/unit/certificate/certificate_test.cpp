@@ -39,7 +39,7 @@ TEST(Certificate, IsCloseToTheErrorAndFlatInEpsilon) {
       for (const double epsilon : epsilons) {
         const Answered run(structured ? structured_mesh(cells) : unstructured_mesh(cells), test::stiff_scene(epsilon));
         const Companion v = run.strip();
-        const ExactErrors exact = exact_errors(run.mesh, run.flux(), v, exact_solution.at(epsilon));
+        const ExactErrors exact = exact_errors(run.space.mesh(), run.flux(), v, exact_solution.at(epsilon));
         const Certificate found = run.certified();
         const double ratio = found.gradient / exact.gradient;
         const std::string at = fmt::format("{} 1/h = {} epsilon = {:g}", structured, cells, epsilon);
@@ -60,7 +60,7 @@ TEST(Certificate, IsCloseToTheErrorAndFlatInEpsilon) {
   for (const double epsilon : epsilons)
     for (const int cells : {16, 32}) {
       const Answered run(layered_mesh(cells, epsilon), test::stiff_scene(epsilon));
-      const ExactErrors exact = exact_errors(run.mesh, run.flux(), run.strip(), exact_solution.at(epsilon));
+      const ExactErrors exact = exact_errors(run.space.mesh(), run.flux(), run.strip(), exact_solution.at(epsilon));
       const double ratio = run.certified().stress / exact.stress;
       EXPECT_GE(ratio, 1) << cells << epsilon;
       EXPECT_LE(ratio, 1.02) << cells << epsilon;
@@ -73,19 +73,20 @@ double flux_norm2(const Answered& run, const EquilibratedFlux& flux, const Compa
   const Quadrature& rule = triangle_rule(6);
   double sum = 0;
   int row = 0;
-  for (int t = 0; t < run.mesh.triangle_count(); ++t) {
+  for (int t = 0; t < run.space.mesh().triangle_count(); ++t) {
     Eigen::Vector2d gradient = Eigen::Vector2d::Zero();
     for (int i = 0; i < 3; ++i)
-      gradient += v.at_vertices(run.mesh.triangles(t, i)) * barycentric_gradients(run.mesh, t).row(i).transpose();
-    const bool layer = run.mesh.region[t] == Region::layer;
+      gradient += v.at_vertices(run.space.mesh().triangles(t, i)) *
+                  barycentric_gradients(run.space.mesh(), t).row(i).transpose();
+    const bool layer = run.space.mesh().region[t] == Region::layer;
     if (layer) gradient(1) = v.stress(row++);
-    const double stiffness = layer ? flux.law.stiffness : stiffness_on(run.scene.body().stiffness, run.mesh, t);
+    const double stiffness = layer ? flux.law.stiffness : stiffness_on(run.scene.body().stiffness, run.space.mesh(), t);
     gradient *= stiffness;
-    const Eigen::MatrixX2d tau = flux.tau(run.mesh, t, rule.points);
+    const Eigen::MatrixX2d tau = flux.tau(run.space.mesh(), t, rule.points);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
       const Eigen::Vector2d sigma = flux.cell[t].s + (layer ? Eigen::Vector2d(0, 0) : tau.row(q).transpose());
       const Eigen::Vector2d d = combination(gradient, sigma);
-      sum += run.mesh.area(t) * rule.weights(q) * (layer ? flux.law.squared(d) : d.squaredNorm() / stiffness);
+      sum += run.space.mesh().area(t) * rule.weights(q) * (layer ? flux.law.squared(d) : d.squaredNorm() / stiffness);
     }
   }
   return sum;
@@ -95,9 +96,10 @@ double flux_norm2(const Answered& run, const EquilibratedFlux& flux, const Compa
 double left_side(const Answered& run, const EquilibratedFlux& flux, const Companion& v, const Profile& gap) {
   double sum = flux_norm2(run, flux, v, [](const auto& a, const auto& b) -> Eigen::Vector2d { return a - b; }) / 2;
   for (std::size_t i = 0; i < run.problem.contact.size(); ++i) {
-    const auto ends = run.mesh.edges.row(run.problem.contact[i]);
+    const auto ends = run.space.mesh().edges.row(run.problem.contact[i]);
     for (const auto& [theta, weight] : {std::pair{0.0, 1.0 / 6}, {0.5, 4.0 / 6}, {1.0, 1.0 / 6}}) {  // a cubic gap
-      const double x = (1 - theta) * run.mesh.vertices(ends(0), 0) + theta * run.mesh.vertices(ends(1), 0);
+      const double x =
+          (1 - theta) * run.space.mesh().vertices(ends(0), 0) + theta * run.space.mesh().vertices(ends(1), 0);
       sum += flux.lambda(static_cast<Eigen::Index>(i)) * weight *
              ((1 - theta) * v.at_vertices(ends(0)) + theta * v.at_vertices(ends(1)) + gap(x));
     }
@@ -138,14 +140,15 @@ TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
       EXPECT_NEAR(std::pow(found.stress - q / 2, 2), both * both / 4 + found.contact_work, 1e-12);
       EXPECT_EQ(found.imbalance > 1e-3, amount > 0);
       double balance = 0;  // R(v)
-      for (int e = 0; e < run.mesh.edge_count(); ++e)
-        balance += flux.imbalance(e) * (v.at_vertices(run.mesh.edges(e, 0)) + v.at_vertices(run.mesh.edges(e, 1))) / 2;
+      for (int e = 0; e < run.space.mesh().edge_count(); ++e)
+        balance += flux.imbalance(e) *
+                   (v.at_vertices(run.space.mesh().edges(e, 0)) + v.at_vertices(run.space.mesh().edges(e, 1))) / 2;
       EXPECT_EQ(std::abs(balance) > 1e-4, amount > 0);
       EXPECT_NEAR(found.energy_upper - flux.dual - balance, left, 1e-10) << epsilon << amount;
 
       // the same v as a function on columns of its own
       Companion apart = v;
-      apart.layer.emplace(run.mesh, v.at_vertices, v.stress);
+      apart.layer.emplace(run.space.mesh(), v.at_vertices, v.stress);
       const Certificate other = certify(run.scene, run.space, run.problem, run.solution, {.companion = &apart});
       EXPECT_NEAR(other.displacement, found.displacement, 1e-10);
       EXPECT_NEAR(other.gradient, found.gradient, 1e-10);
@@ -261,7 +264,7 @@ TEST(Certificate, HoldsForUzawaAfterAFewSteps) {
     run.solution.u(free) = factor.dense().backward(factor.dense().forward(force(free)));
     run.solution.p = run.problem.b * run.solution.u / run.problem.compliance;
     if (steps == 0 || steps == 1 || steps == 3 || steps == 10 || steps == 100) {
-      const ExactErrors exact = exact_errors(run.mesh, run.flux(), run.strip(), exact_solution);
+      const ExactErrors exact = exact_errors(run.space.mesh(), run.flux(), run.strip(), exact_solution);
       const Certificate found = run.certified();
       ratio = found.gradient / exact.gradient;
       EXPECT_GE(ratio, 1) << steps;
@@ -290,10 +293,10 @@ TEST(Certificate, BoundsAP1SolutionAndNamesTheLayerWhereItLocks) {
   const ExactTable exact_solution{ExactSolution(paper_sine_load(), epsilon)};
   for (const bool locks : {true, false}) {
     const Answered run(locks ? unstructured_mesh(32) : layered_mesh(32, 1), test::stiff_scene(epsilon));
-    const Space conforming(run.mesh, p1());
+    const Space conforming(run.space, p1());
     const Companion v = p1_companion(active_set(test::stiff_problem(conforming, epsilon)));
     const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
-    EXPECT_GE(found.displacement, exact_errors(run.mesh, run.flux(), v, exact_solution).displacement);
+    EXPECT_GE(found.displacement, exact_errors(run.space.mesh(), run.flux(), v, exact_solution).displacement);
     EXPECT_EQ(found.displacement > 0.1, locks);
     EXPECT_EQ(found.layer_share > 0.5, locks) << found.layer_share;
   }
@@ -308,7 +311,7 @@ TEST(Certificate, BoundsOtherElementsByTheirDistance) {
     const Companion v = run.strip();
     const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
     for (const Element* element : {&p1(), &p2()}) {
-      const Space space(run.mesh, *element);
+      const Space space(run.space, *element);
       const VariationalInequality problem = test::stiff_problem(space, epsilon);
       const Solution w = active_set(problem);
       const double bound = certified_distance(found, v, space, problem, w);
@@ -317,7 +320,7 @@ TEST(Certificate, BoundsOtherElementsByTheirDistance) {
       EXPECT_GT(bound, found.displacement);
       EXPECT_LT(bound, 3 * found.displacement);
     }
-    const Space linear(run.mesh, p1());
+    const Space linear(run.space, p1());
     const VariationalInequality problem = test::stiff_problem(linear, epsilon);
     const Solution same = active_set(problem);
     const Companion own = p1_companion(same);
@@ -376,7 +379,8 @@ TEST(Certificate, IntegratesALoadThatTheSolversRuleMisses) {
       const ExactSolution exact_solution(load, 1e-2, true, 14);
       const Certificate found = run.certified();
       EXPECT_GT(found.imbalance, 1e-4) << "the rule does miss something";
-      EXPECT_GE(found.gradient, exact_errors(run.mesh, run.flux(), run.strip(), ExactTable(exact_solution)).gradient)
+      EXPECT_GE(found.gradient,
+                exact_errors(run.space.mesh(), run.flux(), run.strip(), ExactTable(exact_solution)).gradient)
           << cells;
       EXPECT_LE(found.energy_lower, exact_solution.energy()) << cells;
       EXPECT_GE(found.energy_upper, exact_solution.energy()) << cells;
@@ -421,7 +425,7 @@ TEST(Certificate, RefusesWhatItCannotProve) {
   expect_refused([&] { with(Scene({[](double, double) { return 1.0; }}, StiffLayer{1e-2}, UnilateralContact{})); },
                  "the problem is not the scene's");
   expect_refused([&] { with(Scene({paper_load}, StiffLayer{1e-2})); }, "do not agree whether there is contact");
-  const Space conforming(run.mesh, p1());
+  const Space conforming(run.space, p1());
   const auto p1_problem = test::stiff_problem(conforming, 1e-2);
   const Solution p1_solution = active_set(p1_problem);
   expect_refused([&] { certify(run.scene, conforming, p1_problem, p1_solution); }, "element P1");
@@ -510,15 +514,15 @@ TEST(Certificate, IsNeverBelowTheErrorOfTwentyPulledBodies) {
     const Companion v = run.strip();
     const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
     double displacement = 0, gradient = 0, stress = 0, energy = 0;
-    for (int t = 0; t < run.mesh.triangle_count(); ++t) {
-      const Eigen::Vector3d corners = v.at_vertices(run.mesh.triangles.row(t));
-      const double kappa = stiffness_on(run.scene.body().stiffness, run.mesh, t);
-      const Eigen::Vector2d of_v = kappa * barycentric_gradients(run.mesh, t).transpose() * corners;
-      const Eigen::MatrixX2d tau = flux.tau(run.mesh, t, rule.points);
+    for (int t = 0; t < run.space.mesh().triangle_count(); ++t) {
+      const Eigen::Vector3d corners = v.at_vertices(run.space.mesh().triangles.row(t));
+      const double kappa = stiffness_on(run.scene.body().stiffness, run.space.mesh(), t);
+      const Eigen::Vector2d of_v = kappa * barycentric_gradients(run.space.mesh(), t).transpose() * corners;
+      const Eigen::MatrixX2d tau = flux.tau(run.space.mesh(), t, rule.points);
       for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-        const Eigen::Vector2d x = point_in(run.mesh, t, rule.points.row(q)), exact = u.flux(x(0), x(1)),
+        const Eigen::Vector2d x = point_in(run.space.mesh(), t, rule.points.row(q)), exact = u.flux(x(0), x(1)),
                               s = flux.cell[t].s, sigma = s + tau.row(q).transpose();
-        const double weight = run.mesh.area(t) * rule.weights(q) / kappa;
+        const double weight = run.space.mesh().area(t) * rule.weights(q) / kappa;
         displacement += weight * (exact - of_v).squaredNorm();
         gradient += weight * (exact - s).squaredNorm();
         stress += weight * (exact - (sigma + of_v) / 2).squaredNorm();
@@ -559,20 +563,21 @@ TEST(Certificate, ItsFluxIsInEquilibriumWithAnAffineTraction) {
   const auto w = [](const Eigen::Vector2d& x) { return x(0) * x(0) * x(1); };
   const Quadrature& rule = triangle_rule(6);
   double off = 0;
-  for (int t = 0; t < run.mesh.triangle_count(); ++t) {
-    const Eigen::MatrixX2d tau = flux.tau(run.mesh, t, rule.points);
+  for (int t = 0; t < run.space.mesh().triangle_count(); ++t) {
+    const Eigen::MatrixX2d tau = flux.tau(run.space.mesh(), t, rule.points);
     for (Eigen::Index q = 0; q < rule.weights.size(); ++q) {
-      const Eigen::Vector2d x = point_in(run.mesh, t, rule.points.row(q)), slope(2 * x(0) * x(1), x(0) * x(0));
+      const Eigen::Vector2d x = point_in(run.space.mesh(), t, rule.points.row(q)), slope(2 * x(0) * x(1), x(0) * x(0));
       const Eigen::Vector2d sigma = flux.cell[t].s + tau.row(q).transpose();
-      off += run.mesh.area(t) * rule.weights(q) * (sigma.dot(slope) - load(x(0), x(1)) * w(x));
+      off += run.space.mesh().area(t) * rule.weights(q) * (sigma.dot(slope) - load(x(0), x(1)) * w(x));
     }
   }
   const auto [points, weights] = gauss_rule(4);
-  for (int e = 0; e < run.mesh.edge_count(); ++e)
+  for (int e = 0; e < run.space.mesh().edge_count(); ++e)
     for (Eigen::Index q = 0; q < points.size(); ++q) {
-      const Eigen::Vector2d x = (1 - points(q)) * run.mesh.vertices.row(run.mesh.edges(e, 0)) +
-                                points(q) * run.mesh.vertices.row(run.mesh.edges(e, 1));
-      const double pull = run.mesh.edge_tag[e] == natural_group(0) ? run.mesh.edge_length(e) * traction(x(0), 1) : 0;
+      const Eigen::Vector2d x = (1 - points(q)) * run.space.mesh().vertices.row(run.space.mesh().edges(e, 0)) +
+                                points(q) * run.space.mesh().vertices.row(run.space.mesh().edges(e, 1));
+      const double pull =
+          run.space.mesh().edge_tag[e] == natural_group(0) ? run.space.mesh().edge_length(e) * traction(x(0), 1) : 0;
       off -= weights(q) * (pull + flux.residual(e)) * w(x);
     }
   EXPECT_NEAR(off, 0, 1e-13);  // round-off of sums of a few hundred terms below 1
@@ -621,7 +626,7 @@ TEST(Certificate, IsNeverBelowTheErrorInThreeHundredCases) {
     const ExactTable exact_solution(solved, 1 << 12);  // as fine as the series
     const double energy = solved.energy();
     const Companion v = run.strip();
-    const ExactErrors exact = exact_errors(run.mesh, run.flux(), v, exact_solution);
+    const ExactErrors exact = exact_errors(run.space.mesh(), run.flux(), v, exact_solution);
     const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
     const std::string at = fmt::format("case {}: kind {}, {} cells, epsilon = {:g}", k, kind, cells, epsilon);
     EXPECT_GE(found.gradient, exact.gradient) << at;

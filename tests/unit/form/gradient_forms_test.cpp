@@ -87,7 +87,7 @@ Eigen::MatrixXd dense_form(const Space& space, Region region, double wx, double 
 }
 
 TEST(Forms, AreTheDenseLoops) {
-  for (const SpaceOn& space : two_square_spaces(3, elements())) {
+  for (const NamedSpace& space : two_square_spaces(3, elements())) {
     const FactoredForm strain = layer_strain(space);
     const Eigen::MatrixXd form = gradient_form(space, {2, 3}, {5, 7}), a0 = test::gram(strain.b, strain.m);
     const Eigen::MatrixXd loop = dense_form(space, Region::body, 2, 3) + dense_form(space, Region::layer, 5, 7);
@@ -112,7 +112,7 @@ TEST(Forms, RowsOfBBelongToTheLayerTrianglesAndMMeasuresThem) {
 }
 
 TEST(Forms, EnergyOfAPolynomialOfTheElementsDegreeIsExact) {
-  for (const SpaceOn& space : two_square_spaces(3, {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()})) {
+  for (const NamedSpace& space : two_square_spaces(3, {&p1(), &p2(), &p3(), &p4(), &crouzeix_raviart()})) {
     const int k = space.element().degree();
     const Eigen::VectorXd in_x = space.dof_coordinates().col(0).array().pow(k),
                           in_y = space.dof_coordinates().col(1).array().pow(k);
@@ -126,7 +126,7 @@ TEST(Forms, EnergyOfAPolynomialOfTheElementsDegreeIsExact) {
 }
 
 TEST(Forms, LoadOfAConstantSumsToTheAreaOfTheBodyAndDoesNotReachTheLayer) {
-  for (const SpaceOn& space : two_square_spaces(5, elements())) {
+  for (const NamedSpace& space : two_square_spaces(5, elements())) {
     const Eigen::ArrayXd load = load_vector(space, [](double, double) { return 1.0; });
     EXPECT_NEAR(load.sum(), 1, 1e-13) << space.name;
     EXPECT_EQ((space.dof_coordinates().col(1).array() < 0).select(load, 0).abs().maxCoeff(), 0) << space.name;
@@ -190,7 +190,7 @@ TEST(Forms, VentcelTermIsTheEnergyOfTheTraceOnSigma) {
 }
 
 TEST(LoadVector, OfTheLayerIntegratesOverTheLayer) {
-  const SpaceOn space(unstructured_mesh(6), crouzeix_raviart());
+  const Space space(unstructured_mesh(6), crouzeix_raviart());
   const Field height = [](double, double y) { return y; };
   EXPECT_NEAR(load_vector(space, height, Region::layer).sum(), -0.5, 1e-12);
   EXPECT_NEAR(load_vector(space, height).sum(), 0.5, 1e-12);

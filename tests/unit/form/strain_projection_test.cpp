@@ -25,7 +25,7 @@ StrainProjection identity(Eigen::Index rows) {
 }
 
 TEST(Averaged, WithSharesOfOneIsTheFormItself) {
-  const SpaceOn space(unstructured_mesh(4), p1());
+  const Space space(unstructured_mesh(4), p1());
   const FactoredForm strain = layer_strain(space), same = project_strain(strain, identity(strain.m.size()));
   EXPECT_EQ((same.m - strain.m).norm(), 0);
   EXPECT_LT((same.b - strain.b).norm(), 1e-14 * strain.b.norm());

@@ -61,7 +61,7 @@ TEST(WriteSolutionCsv, HoldsOneRowAnUnknownAtItsPlace) {
 
 TEST(Writers, ASolutionOfTheWrongSizeOrNotFiniteIsNeverWritten) {
   const TemporaryFolder folder;
-  const SpaceOn space(structured_mesh(2), p1());
+  const Space space(structured_mesh(2), p1());
   Eigen::VectorXd nan = Eigen::VectorXd::Zero(space.size());
   nan(1) = std::nan("");
   for (const Eigen::VectorXd& u : {nan, Eigen::VectorXd(Eigen::VectorXd::Zero(space.size() - 1))}) {

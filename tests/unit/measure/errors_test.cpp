@@ -23,7 +23,7 @@ Reference product(double epsilon) {
 
 TEST(Errors, VanishForFunctionsOfTheSpace) {
   constexpr double epsilon = 0.5;
-  for (const SpaceOn& space : two_square_spaces(4, elements())) {
+  for (const NamedSpace& space : two_square_spaces(4, elements())) {
     for (const Reference& u : {affine(epsilon), product(epsilon)}) {
       if (space.element().degree() == 1 && u.value(1, 1) == 1) continue;  // x y is quadratic
       const Errors e = measure_errors(space, interpolant(space, u, epsilon), epsilon, u);
@@ -34,7 +34,7 @@ TEST(Errors, VanishForFunctionsOfTheSpace) {
 
 TEST(Errors, AreTheNormsOfTheReferenceWhereTheSolutionIsZero) {
   constexpr double epsilon = 0.5;
-  for (const SpaceOn& space : two_square_spaces(5, elements())) {
+  for (const NamedSpace& space : two_square_spaces(5, elements())) {
     Solution zero;
     zero.u = Eigen::VectorXd::Zero(space.size());
     zero.p = Eigen::VectorXd::Zero(layer_strain(space).m.size());
@@ -51,7 +51,7 @@ TEST(Errors, AreTheNormsOfTheReferenceWhereTheSolutionIsZero) {
 
 TEST(Errors, SeeTheJumpsOfCrouzeixRaviart) {
   // one unknown of 1: at the vertex opposite its edge the function is -1, which no unknown shows
-  const SpaceOn space(structured_mesh(4), crouzeix_raviart());
+  const Space space(structured_mesh(4), crouzeix_raviart());
   Solution s;
   s.u = Eigen::VectorXd::Zero(space.size());
   s.p = Eigen::VectorXd::Zero(layer_strain(space).m.size());
@@ -64,7 +64,7 @@ TEST(Errors, SeeTheJumpsOfCrouzeixRaviart) {
 }
 
 TEST(Errors, WithoutLayerTheEnergyNormIsTheGradients) {
-  const SpaceOn space(structured_mesh(4, {0}), p1());
+  const Space space(structured_mesh(4, {0}), p1());
   Solution zero;
   zero.u = Eigen::VectorXd::Zero(space.size());
   const Errors e = measure_errors(space, zero, 0, product(1));
@@ -81,7 +81,7 @@ TEST(Slope, IsExactForPowersOfH) {
 }
 
 TEST(Energy, OfAnAffineFunctionByHand) {
-  const SpaceOn space(structured_mesh(4), p1());
+  const Space space(structured_mesh(4), p1());
   const VariationalInequality problem = assemble(Scene({[](double, double) { return 1.0; }}, StiffLayer{0.5}), space);
   const Solution s = interpolant(space, affine(0.5), 0.5);
   // a: body 9 + 4, layer 9 + 4 / 0.25; L: the mean of 0.2 + 3 x - 2 y over the body is 0.7
@@ -132,7 +132,7 @@ TEST(ContactZone, TableAndZoneReportTheContact) {
 }
 
 TEST(ContactZone, IsEmptyWhereNothingTouches) {
-  const SpaceOn space(structured_mesh(4), p1());
+  const Space space(structured_mesh(4), p1());
   const auto problem = stiff_problem(space, 1, {[](double) { return 10.0; }});
   const ContactZone zone = contact_zone(space, problem, active_set(problem));
   EXPECT_EQ(zone.points, 3);
@@ -146,7 +146,7 @@ TEST(ExactResidual, IsTheWorkOfTheContactPressureOnConformingSpaces) {
   const ExactTable table(exact);
   std::vector<double> ends;
   for (const auto& [from, to] : exact.contact_zones()) ends.insert(ends.end(), {from, to});
-  for (const SpaceOn& space : two_square_spaces(8, {&p1(), &p2()})) {
+  for (const NamedSpace& space : two_square_spaces(8, {&p1(), &p2()})) {
     Eigen::VectorXd residual = consistency_residual(space, load_vector(space, paper_load), reference(table), ends);
     Eigen::VectorXd work = contact_work(space, [&](double x) { return exact.pressure(x); });
     for (const int i : space.dirichlet_dofs()) residual(i) = work(i) = 0;  // reactions
@@ -167,7 +167,7 @@ TEST(ExactResidual, OfCrouzeixRaviartIsItsFormAtTheInterpolant) {
 }
 
 TEST(H1Norm, IsTheNormOfTheReferenceAndItsProducts) {
-  for (const SpaceOn& space : two_square_spaces(4, {&p2(), &p4()})) {
+  for (const NamedSpace& space : two_square_spaces(4, {&p2(), &p4()})) {
     const Eigen::VectorXd u = interpolant(space, product(1).value);
     EXPECT_NEAR(u.dot(h1_norm(space) * u), 2.0 / 9 + 4.0 / 3, 1e-12) << space.name;  // x y on both squares, by hand
     EXPECT_LT((h1_norm(space) * u - h1_products(space, product(1))).cwiseAbs().maxCoeff(), 1e-12) << space.name;

@@ -31,7 +31,7 @@ void check_convergence(const Layer& layer, const Manufactured& exact, const Elem
   const int k = cap.order;
   for (const int cells : k > 2 ? std::vector{4, 8, 16} : std::vector{8, 16, 32, 64}) {
     const Domain domain{std::holds_alternative<StiffLayer>(layer) ? 1.0 : 0.0};
-    const SpaceOn space(structured ? structured_mesh(cells, domain) : unstructured_mesh(cells, domain), element);
+    const Space space(structured ? structured_mesh(cells, domain) : unstructured_mesh(cells, domain), element);
     const Solution s = active_set(assemble(Scene({exact.load()}, layer), space));
     const Errors e = measure_errors(space, s, exact.epsilon, exact.reference());
     h.push_back(1.0 / cells);

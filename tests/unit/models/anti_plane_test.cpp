@@ -8,7 +8,7 @@
 namespace antilock::test::models_test::anti_plane_test {
 
 TEST(Assemble, StiffLayerIsEquation23) {
-  for (const SpaceOn& space : two_square_spaces(4, {&p1(), &crouzeix_raviart()})) {
+  for (const NamedSpace& space : two_square_spaces(4, {&p1(), &crouzeix_raviart()})) {
     const VariationalInequality problem = stiff_problem(space, 0.1);
     // u = 2 x + 3 y: a1(u, u) = body 4 + 9, layer 4; a0(u, u) = layer 9
     const Eigen::VectorXd u = 2 * space.dof_coordinates().col(0) + 3 * space.dof_coordinates().col(1);

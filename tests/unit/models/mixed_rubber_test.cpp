@@ -78,7 +78,7 @@ TEST(Mixed, ForceIsThatOfAFineReference) {
   // 0.259166: Taylor-Hood on graded meshes, FreeFEM. Taylor-Hood here: better than first order
   std::vector<double> error;
   for (const int n : {8, 32}) {
-    const SpaceOn space(block(n), p2());
+    const Space space(block(n), p2());
     error.push_back(std::abs(active_set(rubber(space, true)).lambda.sum() / 0.259166 - 1));
   }
   EXPECT_LT(error.back(), 1e-3);

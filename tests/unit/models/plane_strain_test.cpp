@@ -177,7 +177,7 @@ TEST(Coating, PassesThePatchTestInShear) {
 
 // The limit t -> 0 is the problem at t = 0, in the first order of t: the membrane has the right modulus.
 TEST(Coating, TendsToItsLimit) {
-  const SpaceOn cr(with_free_sides(unstructured_mesh(8)), crouzeix_raviart());
+  const Space cr(with_free_sides(unstructured_mesh(8)), crouzeix_raviart());
   const auto pressed = [&](double t) {
     Coating scene;
     scene.thickness = t;

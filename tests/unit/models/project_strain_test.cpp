@@ -11,7 +11,7 @@ namespace antilock::test::models_test::project_strain_test {
 double slope(const std::vector<double>& values) { return std::log2(values.front() / values.back()); }
 
 TEST(Projected, WithSharesOfOneIsTheSameProblem) {
-  const SpaceOn space(unstructured_mesh(8), p1());
+  const Space space(unstructured_mesh(8), p1());
   for (const double epsilon : {0.9, 0.1, 1e-6, 1e-20, 0.0})
     for (const double kept : {0.0, 0.5, 0.9}) {
       const VariationalInequality problem = stiff_problem(space, epsilon);

@@ -6,7 +6,7 @@
 namespace antilock::test::problem_test::bounds_test {
 
 TEST(HeldInContact, RefusesWhatDoesNotFit) {
-  const SpaceOn space(block(4), p2());
+  const Space space(block(4), p2());
   VariationalInequality problem = rubber(space, true);
   expect_refused([&] { equality_constrained(problem, {true}); }, "1 marks; accepted: 9");
   problem.upper = Eigen::VectorXd::Constant(problem.lower.size(), 1);

@@ -21,7 +21,7 @@ std::vector<UnilateralContact> obstacles() {
 }
 
 TEST(ActiveSet, IsTheBruteForceAnswer) {
-  for (const SpaceOn& space : two_square_spaces(4, {&p1(), &crouzeix_raviart()})) {
+  for (const NamedSpace& space : two_square_spaces(4, {&p1(), &crouzeix_raviart()})) {
     for (const double epsilon : {1.0, 0.1, 1e-2, 1e-4, 0.0}) {
       if (epsilon == 0 && &space.element() == &p1() && space.name.starts_with("unstructured"))
         continue;  // locked: lambda is not unique
@@ -62,7 +62,7 @@ TEST(ActiveSet, LimitProblemOnAStructuredMeshIsVentcels) {
 }
 
 TEST(ActiveSet, TendsToTheLimitLikeEpsilonSquared) {
-  const SpaceOn space(unstructured_mesh(8), crouzeix_raviart());
+  const Space space(unstructured_mesh(8), crouzeix_raviart());
   const Eigen::VectorXd limit = active_set(stiff_problem(space, 0)).u;
   const double far = relative_difference(active_set(stiff_problem(space, 1e-2)).u, limit);
   const double near = relative_difference(active_set(stiff_problem(space, 1e-3)).u, limit);
@@ -93,7 +93,7 @@ TEST(ActiveSet, NestedStartKeepsTheStepsAtFourAndCorrectionsAtTen) {
 }
 
 TEST(ActiveSet, NeverReturnsAnUnconvergedAnswer) {
-  const SpaceOn space(unstructured_mesh(8), crouzeix_raviart());
+  const Space space(unstructured_mesh(8), crouzeix_raviart());
   const VariationalInequality problem = stiff_problem(space, 0);
   ActiveSetOptions options;
   const int needed = active_set(problem).counters.corrections;
@@ -155,7 +155,7 @@ TEST(ActiveSet, SlowCorrectionsDoNotStopEarly) {
 }
 
 TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
-  const SpaceOn space(unstructured_mesh(6), crouzeix_raviart());
+  const Space space(unstructured_mesh(6), crouzeix_raviart());
   const VariationalInequality problem = stiff_problem(space, 0.1);
   PenaltyFactor factor(problem, 0.01);
   EXPECT_EQ(PenaltyFactor(problem).delta(), problem.compliance);  // 0.01, above h^2 / 16
@@ -207,7 +207,7 @@ TEST(Combinations, LeaveTiedRowsTied) {
 }
 
 TEST(Progress, IsReportedOncePerCorrectionAndStopsTheSolve) {
-  const SpaceOn space(structured_mesh(8), p1());
+  const Space space(structured_mesh(8), p1());
   const VariationalInequality problem = test::stiff_problem(space, 1e-6);
   const Solution alone = active_set(problem);
   std::vector<Progress> seen;
@@ -230,7 +230,7 @@ TEST(Progress, IsReportedOncePerCorrectionAndStopsTheSolve) {
 }
 
 TEST(Progress, StopsUzawaAmongItsSteps) {
-  const SpaceOn space(structured_mesh(16), p1());
+  const Space space(structured_mesh(16), p1());
   const VariationalInequality problem = test::stiff_problem(space, 0.1);
   UzawaOptions options;
   options.step = 1e-3;  // far too short: thousands of steps

@@ -143,7 +143,7 @@ TEST(StringBetweenFloorAndCeiling, ASweepKeepsTheSides) {
 // ---- Signs and equations.
 
 TEST(UpperBounds, AreLowerBoundsOfMinusU) {
-  const SpaceOn space(unstructured_mesh(6), crouzeix_raviart());
+  const Space space(unstructured_mesh(6), crouzeix_raviart());
   for (const double epsilon : {1.0, 1e-3, 0.0}) {
     const VariationalInequality below =
         stiff_problem(space, epsilon, {[](double x) { return x * (x - 0.4) * (1 - x); }});
@@ -165,7 +165,7 @@ TEST(UpperBounds, AreLowerBoundsOfMinusU) {
 }
 
 TEST(Equations, ArePrescribedValuesWithTheirReaction) {
-  const SpaceOn space(structured_mesh(6), p1());
+  const Space space(structured_mesh(6), p1());
   for (const double epsilon : {1.0, 1e-3, 0.0}) {
     VariationalInequality held = stiff_problem(space, epsilon);
     for (Eigen::Index i = 0; i < held.lower.size(); ++i) held.lower(i) = i % 2 == 0 ? 0.01 : -0.01;
@@ -225,7 +225,7 @@ VariationalInequality two_bodies(const VariationalInequality& one, const Variati
 
 TEST(TwoBodies, OfEqualShapeMeetHalfWay) {
   // the second body is the image of the first in the plane between them: each sees an obstacle at half the gap
-  for (const SpaceOn& space : two_square_spaces(8, {&p1(), &crouzeix_raviart()})) {
+  for (const NamedSpace& space : two_square_spaces(8, {&p1(), &crouzeix_raviart()})) {
     if (&space.element() == &p1() && space.name.starts_with("unstructured")) continue;  // locks: lambda has no bound
     for (const double compliance : {1.0, 1e-6, 0.0}) {
       SCOPED_TRACE(space.name + std::to_string(compliance));
@@ -251,7 +251,7 @@ TEST(TwoBodies, OfEqualShapeMeetHalfWay) {
 TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
   // a layer with its first contact unknown between two bounds, the second from above, the third in a combination with the
   // unknown over it and a clamped one, whose value is not zero
-  const SpaceOn space(structured_mesh(4), p1());
+  const Space space(structured_mesh(4), p1());
   for (const double epsilon : {1.0, 1e-2, 1e-4})
     for (const double load : {1.0, -1.0, 0.1}) {
       VariationalInequality problem = stiff_problem(space, epsilon);
@@ -287,12 +287,11 @@ TEST(Bounds, OfAllShapesAreTheBruteForceAnswer) {
 
 /// The platen of plane strain, turned by `angle`: clamped above and pushed 0.1 into an obstacle below.
 struct Turned {
-  TriangleMesh mesh;
   Space x, y;
   VariationalInequality problem;
 
   Turned(TriangleMesh flat, double angle, const Element& element, double epsilon)
-      : mesh(turned(std::move(flat), angle)), x(mesh, element), y(mesh, element) {
+      : x(turned(std::move(flat), angle), element), y(x) {
     problem = assemble(platen(epsilon, element.conforming() ? 0 : 1), {x, y});
     // the clamped edges move along the turned axis; the bounds are on the turned normal
     const double c = std::cos(angle), s = std::sin(angle);
@@ -534,7 +533,7 @@ TEST(CheckBounds, RefusesBoundsThatAreNone) {
 }
 
 TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
-  const SpaceOn space(structured_mesh(4), crouzeix_raviart());
+  const Space space(structured_mesh(4), crouzeix_raviart());
   const Scene scene = test::stiff_scene(1);
   VariationalInequality above = assemble(scene, space), combined = above;
   above.upper = Eigen::VectorXd::Constant(above.lower.size(), 1.0);

@@ -254,7 +254,7 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
   refused(-1, 4, "force_limit 0 is -1");
   refused(nan, 4, "force_limit 0 is nan");
   refused(1, 3, "force_limit has 3 entries; accepted none, or 4");
-  const SpaceOn space(structured_mesh(2), p1());
+  const Space space(structured_mesh(2), p1());
   expect_refused([&] { contact_zone(space, good, active_set(good)); }, "friction is not known here");
   expect_refused([&] { require_lower_bounds(good, "certificate"); }, "certificate: friction is not known here");
   ActiveSetOptions options;

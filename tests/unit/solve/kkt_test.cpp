@@ -9,11 +9,9 @@ namespace antilock::test::solve_test::kkt_test {
 /// A solved problem of Figure 5 on a small mesh, with contact on part of Gamma_C.
 struct Solved {
   explicit Solved(double epsilon)
-      : mesh(unstructured_mesh(8)),
-        space(mesh, crouzeix_raviart()),
+      : space(unstructured_mesh(8), crouzeix_raviart()),
         problem(stiff_problem(space, epsilon, {[](double) { return 1e-4; }})),
         solution(active_set(problem)) {}
-  TriangleMesh mesh;
   Space space;
   VariationalInequality problem;
   Solution solution;
@@ -96,7 +94,7 @@ TEST(Certify, RefusesTheAnswerOfAWrongContactSet) {
 }
 
 TEST(Certify, RefusesWrongAnswersWithoutContactToo) {
-  const SpaceOn space(structured_mesh(6), p1());
+  const Space space(structured_mesh(6), p1());
   const VariationalInequality problem = assemble(Scene({paper_load}, StiffLayer{0.1}), space);
   const Solution right = active_set(problem);
   Solution wrong = right;

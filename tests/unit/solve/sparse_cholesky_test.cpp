@@ -26,7 +26,7 @@ class CholeskyOf : public testing::TestWithParam<CholeskyMaker> {};
 INSTANTIATE_TEST_SUITE_P(BothFactors, CholeskyOf, testing::Values(default_cholesky, eigen_cholesky));
 
 TEST_P(CholeskyOf, SolvesAndLeavesTheLastRowsLast) {
-  const SpaceOn space(unstructured_mesh(8), crouzeix_raviart());
+  const Space space(unstructured_mesh(8), crouzeix_raviart());
   const VariationalInequality problem = stiff_problem(space, 0.1);
   const DofOrdering free(problem);
   SparseMatrix k = penalised_matrix(problem, free, 1e-3);
@@ -89,10 +89,10 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOverTheUniformityTable) {
   int answers = 0;
   for (const int cells : {16, 64})
     for (const Method& method : methods()) {
-      const Discretisation discrete = method.discretise(cells);
+      const Space discrete = method.space(cells);
       for (const double epsilon : every_epsilon) {
         SCOPED_TRACE(fmt::format("{}, 1/h = {}, epsilon = {}", method.name(), cells, epsilon));
-        const VariationalInequality problem = stiff_problem(discrete.space(), epsilon);
+        const VariationalInequality problem = stiff_problem(discrete, epsilon);
         PenaltyFactor cholmod(problem, {}, ContactReduction::automatic, default_cholesky);
         PenaltyFactor eigen(problem, {}, ContactReduction::automatic, eigen_cholesky);
         const Solution one = active_set(problem, cholmod), other = active_set(problem, eigen);
@@ -111,9 +111,9 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOverTheUniformityTable) {
 // The road on which unknowns are held, and factors are made anew for every set of them.
 TEST(TwoFactors, BothFactorsGiveTheSameAnswersOnTheSparseRoad) {
   for (const Method& method : methods()) {
-    const Discretisation discrete = method.discretise(16);
+    const Space discrete = method.space(16);
     for (const double epsilon : {1.0, 1e-4, 0.0}) {
-      const VariationalInequality problem = stiff_problem(discrete.space(), epsilon);
+      const VariationalInequality problem = stiff_problem(discrete, epsilon);
       PenaltyFactor cholmod(problem, {}, ContactReduction::sparse, default_cholesky);
       PenaltyFactor eigen(problem, {}, ContactReduction::sparse, eigen_cholesky);
       EXPECT_NE(eigen.sparse_factor(), nullptr);

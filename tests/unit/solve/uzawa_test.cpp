@@ -16,7 +16,7 @@ UnilateralContact gap() {
 }
 
 TEST(Uzawa, AgreesWithTheActiveSet) {
-  for (const SpaceOn& space : two_square_spaces(10, {&p1(), &crouzeix_raviart()})) {
+  for (const NamedSpace& space : two_square_spaces(10, {&p1(), &crouzeix_raviart()})) {
     for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-6, 0.0}) {
       if (&space.element() == &p1() && space.name.starts_with("unstructured") && epsilon < 1e-2)
         continue;  // locked: lambda without bounds
@@ -264,7 +264,7 @@ TEST(Uzawa, TheLargestEigenvalueOfAnOperatorIsThatOfItsMatrix) {
 
 TEST(Uzawa, FollowsThePenaltyWhereTheCorrectionsTakeASmallerOne) {
   // a penalty that is too large for a locked layer: after 15 corrections the factor is made anew, and S with it
-  const SpaceOn space(unstructured_mesh(8), p1());
+  const Space space(unstructured_mesh(8), p1());
   VariationalInequality problem = stiff_problem(space, 1e-6);
   PenaltyFactor factor(problem, 1e-2);
   const Solution direct = active_set(problem), projected = uzawa(problem, factor);

@@ -111,7 +111,7 @@ TEST(Space, PointInMapsCornersAndCentroid) {
 }
 
 TEST(Space, UnknownsSitWhereTheirElementSays) {
-  for (const SpaceOn& space : two_square_spaces(5, elements())) {
+  for (const NamedSpace& space : two_square_spaces(5, elements())) {
     EXPECT_EQ(space.size(), space.element().dofs_per_vertex() * space.mesh().vertex_count() +
                                 space.element().dofs_per_edge() * space.mesh().edge_count() +
                                 space.element().dofs_per_cell() * space.mesh().triangle_count());
@@ -126,6 +126,36 @@ TEST(Space, UnknownsSitWhereTheirElementSays) {
       }
     EXPECT_EQ(static_cast<int>(met.size()), space.size()) << space.name;
   }
+}
+
+// A mesh lives as long as a space on it, wherever the space goes, and is not copied on the way.
+TEST(Space, SharesItsMesh) {
+  TriangleMesh mesh = structured_mesh(4);
+  const double* const vertices = mesh.vertices.data();
+  std::vector<Space> kept;
+  {
+    const Space space(std::move(mesh), p1());
+    kept = {space, Space(space, crouzeix_raviart()), Space(space.shared_mesh(), p2())};
+    EXPECT_EQ(&kept.front().dof_coordinates(), &space.dof_coordinates());  // a copy shares its numbering
+  }
+  EXPECT_EQ(kept.front().mesh().vertices.data(), vertices);
+  for (const Space& space : kept) {
+    EXPECT_EQ(&space.mesh(), &kept.front().mesh());
+    EXPECT_TRUE(have_one_mesh(space, kept.front()));
+  }
+  EXPECT_EQ(kept[0].size(), kept[0].mesh().vertex_count());
+  EXPECT_EQ(kept[1].size(), kept[0].mesh().edge_count());
+}
+
+TEST(Space, MeshesAreOneWhereTheyAreEqual) {
+  const TriangleMesh mesh = structured_mesh(4);
+  TriangleMesh moved = mesh, tagged = mesh;
+  moved.vertices(0, 0) += 1e-9;
+  tagged.edge_tag.front() = dirichlet_group(0);
+  const Space space(mesh, p1());
+  EXPECT_TRUE(have_one_mesh(space, Space(mesh, crouzeix_raviart())));  // copied twice
+  for (const TriangleMesh& other : {moved, tagged, structured_mesh(5), structured_mesh(4, {}, Diagonal::left)})
+    EXPECT_FALSE(have_one_mesh(space, Space(other, p1())));
 }
 
 TEST(Space, CrouzeixRaviartUnknownsAreEdgeMidpoints) {
@@ -169,7 +199,7 @@ TEST(Space, ConformingElementsAreContinuousCrouzeixRaviartOnlyAtMidpoints) {
 }
 
 TEST(Space, ClampedAndContactUnknownsAreThoseOnTheirEdges) {
-  for (const SpaceOn& space : two_square_spaces(6, elements())) {
+  for (const NamedSpace& space : two_square_spaces(6, elements())) {
     std::vector<int> clamped, contact;
     for (int i = 0; i < space.size(); ++i) {
       const double x = space.dof_coordinates()(i, 0), y = space.dof_coordinates()(i, 1);

@@ -119,21 +119,12 @@ TEST(Method, MakesItsMeshItsSpaceAndItsName) {
   for (const Method& method : methods()) {
     names.push_back(method.name());
     const TriangleMesh mesh = method.mesh(4);
-    EXPECT_EQ(method.space(mesh).size(), method.element->name() == "P1" ? mesh.vertex_count() : mesh.edge_count());
+    EXPECT_EQ(method.space(4).size(), method.element->name() == "P1" ? mesh.vertex_count() : mesh.edge_count());
   }
   EXPECT_EQ(names, (std::vector<std::string>{"P1 structured", "P1 unstructured", "CR structured", "CR unstructured"}));
   EXPECT_EQ(structured({0}, Diagonal::crossed).mesh(3).triangle_count(), 36);
   EXPECT_EQ(methods({&p2()}, {{"jittered", [](int cells) { return jittered_mesh(cells, 0.1); }}}).front().name(),
             "P2 jittered");
-}
-
-TEST(Method, KeepsMeshAndSpaceTogetherWhereverTheyGo) {
-  std::vector<Discretisation> kept;
-  for (const int cells : {2, 4}) kept.push_back(methods().front().discretise(cells));  // moved as the vector grows
-  kept.push_back(Discretisation(kept.front(), crouzeix_raviart()));
-  EXPECT_EQ(kept[1].space().size(), kept[1].mesh().vertex_count());
-  EXPECT_EQ(&kept[2].mesh(), &kept[0].mesh());
-  for (const Discretisation& one : kept) EXPECT_EQ(&one.space().mesh(), &one.mesh());
 }
 
 /// Solved to 1e-10; the way there differs.
@@ -181,12 +172,12 @@ TEST(SweepOfAnyProblem, Refuses) {
   EXPECT_THROW(sweep.set_load(Eigen::VectorXd::Ones(3)), Error);
   EXPECT_THROW(sweep.set_bounds(Eigen::VectorXd::Constant(7, std::nan(""))), Error);
   EXPECT_THROW(sweep.factor(), Error);
-  const SpaceOn space(structured_mesh(4, {0}), p1());
+  const Space space(structured_mesh(4, {0}), p1());
   SceneSweep linear(Scene({paper_load}), space);
   EXPECT_THROW(linear.set_compliance(0.5), Error);
   EXPECT_THROW(linear.set_bounds(Eigen::VectorXd()), Error);
   const Scene pulled({paper_load}, StiffLayer{0.1, 1, [](double, double) { return 3; }});
-  const SpaceOn both(structured_mesh(4), p1());
+  const Space both(structured_mesh(4), p1());
   SceneSweep layer(pulled, both);
   EXPECT_THROW(layer.set_load([](double x, double) { return std::log(x - 0.5); }), Error);
   layer.set_load([](double x, double) { return x; });

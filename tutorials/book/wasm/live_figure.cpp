@@ -38,7 +38,7 @@ TriangleMesh live_mesh(LiveMesh kind, int cells, double amount) {
 }
 
 LiveFigure::LiveFigure(LiveMesh kind, int cells, double amount, const Element& element)
-    : discrete_(live_mesh(kind, cells, amount), element), sweep_(paper_scene(1), discrete_.space()) {}
+    : space_(live_mesh(kind, cells, amount), element), sweep_(paper_scene(1), space_) {}
 
 LiveNumbers LiveFigure::solve(double epsilon, const LiveExact& exact) {
   const Stopwatch watch;
@@ -46,18 +46,17 @@ LiveNumbers LiveFigure::solve(double epsilon, const LiveExact& exact) {
   solution_ = sweep_.solve();
   LiveNumbers numbers;
   numbers.milliseconds = 1e3 * watch.seconds();
-  const Space& space = discrete_.space();
-  warning_ = report_locking(paper_scene(epsilon), space, sweep_.problem(), solution_)->warning;
-  for (std::size_t i = 0; i < space.contact_dofs().size(); ++i) {
-    const int unknown = space.contact_dofs()[i];
+  warning_ = report_locking(paper_scene(epsilon), space_, sweep_.problem(), solution_)->warning;
+  for (std::size_t i = 0; i < space_.contact_dofs().size(); ++i) {
+    const int unknown = space_.contact_dofs()[i];
     numbers.largest_on_contact = std::max(numbers.largest_on_contact, solution_.u(unknown));
     if (!solution_.active[i]) continue;
     ++numbers.touching;
-    numbers.touches_from = std::min(numbers.touches_from, space.dof_coordinates()(unknown, 0));
+    numbers.touches_from = std::min(numbers.touches_from, space_.dof_coordinates()(unknown, 0));
   }
-  numbers.contact = static_cast<double>(space.contact_dofs().size());
+  numbers.contact = static_cast<double>(space_.contact_dofs().size());
   numbers.ridge = exact.solution.max_on_contact();
-  numbers.error = largest_error(space, solution_.u, exact.table);
+  numbers.error = largest_error(space_, solution_.u, exact.table);
   numbers.unknowns = solution_.counters.unknowns;
   numbers.corrections = solution_.counters.corrections;
   numbers.factorisations = solution_.counters.factorisations;
@@ -65,16 +64,15 @@ LiveNumbers LiveFigure::solve(double epsilon, const LiveExact& exact) {
 }
 
 std::vector<float> LiveFigure::picture() const {
-  const TriangleMesh& mesh = discrete_.mesh();
-  const Space& space = discrete_.space();
+  const TriangleMesh& mesh = space_.mesh();
   const Eigen::Matrix3d corners = Eigen::Matrix3d::Identity();
   std::vector<float> numbers;
   numbers.reserve(9 * static_cast<std::size_t>(mesh.triangle_count()));
   for (int t = 0; t < mesh.triangle_count(); ++t) {
-    const Eigen::VectorXd u = solution_.u(space.cell_dofs().row(t));
+    const Eigen::VectorXd u = solution_.u(space_.cell_dofs().row(t));
     for (int i = 0; i < 3; ++i) {
       const int v = mesh.triangles(t, i);
-      const double height = u.dot(space.element().basis(corners.row(i)));
+      const double height = u.dot(space_.element().basis(corners.row(i)));
       for (const double number : {mesh.vertices(v, 0), mesh.vertices(v, 1), height})
         numbers.push_back(static_cast<float>(number));
     }
@@ -83,12 +81,11 @@ std::vector<float> LiveFigure::picture() const {
 }
 
 std::vector<double> LiveFigure::trace() const {
-  const Space& space = discrete_.space();
   std::vector<double> numbers;
-  for (std::size_t i = 0; i < space.contact_dofs().size(); ++i) {
-    const int unknown = space.contact_dofs()[i];
+  for (std::size_t i = 0; i < space_.contact_dofs().size(); ++i) {
+    const int unknown = space_.contact_dofs()[i];
     numbers.insert(numbers.end(),
-                   {space.dof_coordinates()(unknown, 0), solution_.u(unknown), solution_.active[i] ? 1.0 : 0.0});
+                   {space_.dof_coordinates()(unknown, 0), solution_.u(unknown), solution_.active[i] ? 1.0 : 0.0});
   }
   return numbers;
 }
@@ -106,8 +103,7 @@ std::vector<double> ridge_line(const LiveExact& exact, int points) {
 }
 
 RoundOff round_off(int cells, double epsilon, const LiveExact& exact) {
-  const Discretisation discrete(structured_mesh(cells), p1());
-  const Space& space = discrete.space();
+  const Space space(structured_mesh(cells), p1());
   const VariationalInequality problem = assemble(paper_scene(epsilon), space);
   RoundOff errors;
   errors.split = largest_error(space, active_set(problem).u, exact.table);

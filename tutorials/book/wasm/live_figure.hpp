@@ -48,7 +48,7 @@ class LiveFigure {
   const Solution& solution() const { return solution_; }
 
  private:
-  Discretisation discrete_;
+  Space space_;
   SceneSweep sweep_;
   Solution solution_;
   std::string warning_;
