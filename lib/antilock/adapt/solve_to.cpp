@@ -37,7 +37,7 @@ RefinementStrategy growth_of(const Scene& scene) {
 /// The answer of a conforming element; that of P1 in K between the vertices, too.
 Result conforming_answer(const Scene& scene, const Space& space, const ProgressHook& follow) {
   const Element& element = space.element();
-  Result result{space, {}, {}, {}, ""};
+  Result result{.space = space};
   result.problem = element.degree() == 1 ? assemble_in_k(scene, result.space) : assemble(scene, result.space);
   ActiveSetOptions options;
   options.corrections.progress = follow;
@@ -228,7 +228,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     }
     contact_x = space.dof_coordinates().col(0)(space.contact_dofs());
     contact_set = solution.status;
-    Result result{space, std::move(problem), std::move(solution), {}, ""};
+    Result result{space, std::move(problem), std::move(solution)};
     if (conforming) {
       Result own = conforming_answer(scene, Space(space, p1()), step);
       v = p1_companion(own_rows_summed(own.problem, own.solution).solution);
@@ -239,7 +239,6 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       }
       result = std::move(own);
     }
-    result.warning = warning;
     result.solution.warning.clear();  // the certificate counts what the corrections left
     seconds += watch.lap();
     per_unknown = double(space.free_count()) / result.space.free_count();
@@ -248,6 +247,8 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     predict(history, accuracy.relative);
     if (progress) progress(history.back());
     if (relative <= accuracy.relative) {
+      result.locking = report_locking(asked, result.space, result.problem, result.solution);
+      result.warning = joined(result.locking ? result.locking->warning : "", warning);
       Solution companion;
       companion.solver = "strip";
       companion.u = std::move(v.at_vertices);

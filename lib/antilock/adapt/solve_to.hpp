@@ -36,8 +36,8 @@ struct RefinementLevel {
 
 /// The answer and its proof.
 struct CertifiedSolution {
-  Result result;  ///< of the element asked for, on the last mesh; its warning is empty, or what the certificate cannot
-                  ///< see of the load
+  Result result;  ///< of the element asked for, on the last mesh, with the locking report; its warning is that of the
+                  ///< report and what the certificate cannot see of the load
   Solution companion;  ///< the displacement that is certified: u at the vertices, p per layer triangle; where the layer
                        ///< is bisected at small epsilon it lives on columns there, u interpolates it and p is empty
   Certificate certificate;

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -31,13 +32,35 @@ inline ClassForm own_rows_summed(const VariationalInequality& problem, Solution 
   return {own_rows_summed(problem), std::move(solution)};
 }
 
+/// What report_locking (analysis/locking_report.hpp) finds in a solved scene with a layer.
+struct LockingReport {
+  std::string diagnosis;  ///< one line: whether the method follows the layer as epsilon -> 0, and why
+  /// The share of LockingLoss::lower_bound, where the method can lock; empty where it locks and that is not proved.
+  std::optional<double> lost = {};
+  /// Empty, or one sentence with the word "locks", the share, how it is known (proved, or by a second solve with
+  /// columns where `lost` is empty) and the remedies.
+  std::string warning = {};
+  double estimate = 0;   ///< the share of LockingLoss::estimate
+  double reference = 0;  ///< LockingLoss::reference, of which both are shares
+
+  /// One line for a program to print: the warning, or the diagnosis where there is none.
+  const std::string& text() const { return warning.empty() ? diagnosis : warning; }
+};
+
 /// A discrete solution with its space and its problem, from which everything is measured, proved, drawn and written.
 struct Result {
   Space space;
-  VariationalInequality problem;
-  Solution solution;
-  RunSeconds seconds;
-  std::string warning;  ///< empty, or one line: the reason to distrust the result
+  VariationalInequality problem = {};
+  Solution solution = {};
+  RunSeconds seconds = {};
+  /// Empty, or one line: each reason to distrust the result, first that the element locks.
+  std::string warning = {};
+  std::optional<LockingReport> locking = {};  ///< of a scene with a layer, where it was asked for
 };
+
+/// Both warnings in one line, or the one that is not empty.
+inline std::string joined(const std::string& a, const std::string& b) {
+  return a + (a.empty() || b.empty() ? "" : "; ") + b;
+}
 
 }  // namespace antilock

@@ -139,8 +139,8 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   s.kkt = solution.kkt;
   s.contact_steps = solution.counters.contact;
   s.corrections = solution.counters.corrections;
-  s.layer = locking_report_of(file, result);
-  s.warning = joined(s.layer ? s.layer->warning : "", result.warning);
+  s.layer = result.locking;
+  s.warning = result.warning;
   return s;
 }
 

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "antilock/analysis/locking.hpp"
+#include "antilock/analysis/solve.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/models/anti_plane.hpp"
 #include "antilock/models/coating.hpp"
@@ -63,6 +64,48 @@ Solution solve_as_asked(const SceneFile& file, const Space& space, const Variati
   return solution;
 }
 
+/// What the mesh says of a scene in plane strain. In a coating conforming elements lock off columns where the length k by
+/// which they resist bending is not small beside the thickness (analysis/locking.hpp). Nothing is proved of it.
+std::optional<LockingReport> elastic_locking_report(const SceneFile& file, const Space& space) {
+  const auto coating = coating_of(file);
+  const Element& element = space.element();
+  // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10 (both meshes, 1/h =
+  // 8 and 32), 23 to 40 % at h^2 = epsilon, and it doubles at ten times that
+  if (const double h = mesh_width(file, space.mesh());
+      !coating && element.conforming() && element.degree() == 1 && h * h > 0.1 * file.elastic->epsilon)
+    return LockingReport{fmt::format("P1 can hardly move without a change of volume: h^2 = {:.2g}, beside epsilon = "
+                                     "{:g} it locks",
+                                     h * h, file.elastic->epsilon),
+                         {},
+                         "P1 locks in this rubber: the contact force is too large; remedy: element = \"CR\" or \"P2\""};
+  if (!coating) return std::nullopt;
+  if (!element.conforming())
+    return LockingReport{element.name() + " does not lock: its slopes across the coating are free", {}, ""};
+  const double k = bending_length(space.mesh()), t = coating->thickness;
+  LockingReport report{
+      fmt::format("{} resists bending in the coating as over the length {:.2g}", element.name(), k), {}, ""};
+  // degree 1: lost / kept = (5.84 k / t)^2 for one wave per unit length, which is a twentieth at k = 0.04 t; above
+  // degree 1 the mesh is in the way where it resists more than the coating's own thickness does
+  if (k > (element.degree() == 1 ? 0.04 : 1) * t) {
+    report.diagnosis += fmt::format(", beside a thickness of {:g} it locks", t);
+    report.warning = element.name() +
+                     " locks in this coating: the contact force is too large; remedy: element = \"CR\", or "
+                     "triangles in columns (kind = \"structured\" or \"layered\")";
+  } else {
+    report.diagnosis += fmt::format(", which beside a thickness of {:g} does not matter", t);
+  }
+  return report;
+}
+
+/// `solve` for a scene file in plane strain.
+Result solve_elastic(const SceneFile& file, const Space& space, const Solver& solver) {
+  Result result{.space = space, .problem = problem_of(file, space)};
+  result.solution = solver(result.problem);
+  result.locking = elastic_locking_report(file, space);
+  result.warning = joined(result.locking ? result.locking->warning : "", result.solution.warning);
+  return result;
+}
+
 }  // namespace
 
 VariationalInequality problem_of(const SceneFile& file, const Space& space) {
@@ -78,8 +121,6 @@ VariationalInequality problem_of(const SceneFile& file, const Space& space) {
   of_both.load.tail(space.size()) = load_vector(space, file.scene.body().load);  // f acts in y
   return of_both;
 }
-
-std::string joined(const std::string& a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : "; ") + b; }
 
 CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
   const MethodRequest& method = file.method;
@@ -120,14 +161,21 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
   const Space space(std::move(mesh), element(method.element));
   if (space.free_count() == 0)
     throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
-  Result result{space, solved([&] { return problem_of(file, space); }), {}, seconds, ""};
-  const std::string data = joined(load_warning(file, space, result.problem), displacement_warning(file, space.mesh()));
-  result.seconds.assemble = watch.lap();
-  begin(fmt::format("solve: {}, {} unknowns", method.solver, result.problem.free_count()));
-  result.solution = solved([&] { return solve_as_asked(file, space, result.problem, follow.solve); });
-  result.warning = joined(joined(result.solution.warning, data), joined(gap_warning(file, space, result.solution),
-                                                                        range_warning(file, space, result.solution)));
+  std::string data;  // to distrust in what was given
+  const auto by_method = [&](const VariationalInequality& problem) {
+    data = joined(load_warning(file, space, problem), displacement_warning(file, space.mesh()));
+    seconds.assemble = watch.lap();
+    begin(fmt::format("solve: {}, {} unknowns", method.solver, problem.free_count()));
+    return solve_as_asked(file, space, problem, follow.solve);
+  };
+  Result result = solved([&] {
+    return file.elastic ? solve_elastic(file, space, by_method) : solve(file.scene, space, Solver(by_method));
+  });
+  const Solution& solution = result.solution;
+  result.warning = joined(joined(result.warning, data),
+                          joined(gap_warning(file, space, solution), range_warning(file, space, solution)));
   result.warning = joined(result.warning, geometry_warning(file));
+  result.seconds = seconds;
   spent(result);
   return {std::move(result), {}, {}, {}};
 }
@@ -143,38 +191,6 @@ NormalContact normal_contact(const Result& result) {
   normal.solution.lambda = solution.lambda.head(all);
   normal.solution.active.assign(solution.active.begin(), solution.active.begin() + all);
   return normal;
-}
-
-std::optional<LockingReport> locking_report_of(const SceneFile& file, const Result& result) {
-  const auto coating = coating_of(file);
-  const Element& element = result.space.element();
-  // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10 (both meshes, 1/h =
-  // 8 and 32), 23 to 40 % at h^2 = epsilon, and it doubles at ten times that
-  if (const double h = mesh_width(file, result.space.mesh());
-      file.elastic && !coating && element.conforming() && element.degree() == 1 && h * h > 0.1 * file.elastic->epsilon)
-    return LockingReport{fmt::format("P1 can hardly move without a change of volume: h^2 = {:.2g}, beside epsilon = "
-                                     "{:g} it locks",
-                                     h * h, file.elastic->epsilon),
-                         {},
-                         "P1 locks in this rubber: the contact force is too large; remedy: element = \"CR\" or \"P2\""};
-  if (!coating)
-    return file.elastic ? std::nullopt : report_locking(file.scene, result.space, result.problem, result.solution);
-  if (!element.conforming())
-    return LockingReport{element.name() + " does not lock: its slopes across the coating are free", {}, ""};
-  const double k = bending_length(result.space.mesh()), t = coating->thickness;
-  LockingReport report{
-      fmt::format("{} resists bending in the coating as over the length {:.2g}", element.name(), k), {}, ""};
-  // degree 1: lost / kept = (5.84 k / t)^2 for one wave per unit length, which is a twentieth at k = 0.04 t; above
-  // degree 1 the mesh is in the way where it resists more than the coating's own thickness does
-  if (k > (element.degree() == 1 ? 0.04 : 1) * t) {
-    report.diagnosis += fmt::format(", beside a thickness of {:g} it locks", t);
-    report.warning = element.name() +
-                     " locks in this coating: the contact force is too large; remedy: element = \"CR\", or "
-                     "triangles in columns (kind = \"structured\" or \"layered\")";
-  } else {
-    report.diagnosis += fmt::format(", which beside a thickness of {:g} does not matter", t);
-  }
-  return report;
 }
 
 Eigen::VectorXd pressure_of(const SceneFile& file, const Result& result) {

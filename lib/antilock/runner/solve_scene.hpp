@@ -1,11 +1,9 @@
 #pragma once
 // The discrete problem of a scene file and its solution.
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "antilock/adapt/solve_to.hpp"
-#include "antilock/analysis/locking_report.hpp"
 #include "antilock/core/progress.hpp"
 #include "antilock/measure/result.hpp"
 #include "antilock/problem/variational_inequality.hpp"
@@ -27,13 +25,10 @@ struct Callbacks {
 };
 
 /// Solves a scene file by its [method]: one solve on its mesh, whose history is empty, or with an accuracy as
-/// many as it takes. `warning` is about the solve, the load, the displacements, the gap and the polygon; the layer's joins it in
-/// summary_of. Throws Error, and NotConverged with how far it came, also where double precision goes no further than
+/// many as it takes. `warning` is about the layer, the solve, the load, the displacements, the gap and the polygon, and
+/// `locking` holds the layer's report. Throws Error, and NotConverged with how far it came, also where double precision goes no further than
 /// asked.
 CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow);
-
-/// Both texts, or the one that is not empty: warnings are a line.
-std::string joined(const std::string& a, const std::string& b);
 
 /// The normal bounds of an answer alone, by x: friction's stand behind them. What contact.csv and the zone are made of:
 /// the bounds with u, lambda and active, and no matrix.
@@ -42,11 +37,6 @@ struct NormalContact {
   Solution solution;
 };
 NormalContact normal_contact(const Result& result);
-
-/// report_locking; in plane strain what the mesh says of a coating: conforming elements lock off columns where the
-/// length k by which they resist bending is not small beside the thickness (analysis/locking.hpp). Nothing is proved
-/// of it.
-std::optional<LockingReport> locking_report_of(const SceneFile& file, const Result& result);
 
 /// In plane strain, T values: the pressure, -lambda div u in rubber, minus the stress in y with a coating.
 Eigen::VectorXd pressure_of(const SceneFile& file, const Result& result);

@@ -32,6 +32,8 @@ struct ActiveSetOptions {
   std::optional<BoundStatuses> start;  ///< C: statuses to start from; empty: the nested start
 };
 
+/// Solves the discrete problem, and cannot know whether the element locks: `solve` (analysis/solve.hpp) reports that.
+///
 /// Two loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer
 /// stress p = compliance^-1 B u, with step 1/delta (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976). It corrects u
 /// and p by one factor of the penalised A_delta = K = A1 + delta^-1 B' M B. The inner one finds the contact set of
