@@ -191,7 +191,7 @@ Comparison compare(const Space& space, const VariationalInequality& problem, con
   if (problem.contact.empty()) return c;
   if (theirs.gap.size() != static_cast<Eigen::Index>(problem.contact.size()))
     throw Error(fmt::format("compare: {} contact unknowns here, {} there", problem.contact.size(), theirs.gap.size()));
-  const Eigen::MatrixX3d table = contact_table(space, problem, ours);  // x, gap, pressure
+  const Eigen::MatrixX3d table = contact_table({space, problem, ours});  // x, gap, pressure
   for (Eigen::Index i = 0; i < table.rows(); ++i) {
     const bool undecided = std::max({std::abs(table(i, 1)), std::abs(theirs.gap(i)), std::abs(table(i, 2)),
                                      std::abs(theirs.pressure(i))}) < 1e-10;

@@ -114,10 +114,7 @@ py::tuple run(const std::string& text, const std::string& folder) {
   const auto given = [](auto& owned) { return py::cast(std::move(owned)); };  // moved into the array, not copied
   py::dict arrays("points"_a = answer.space.dof_coordinates(), "vertices"_a = answer.space.mesh().vertices,
                   "triangles"_a = answer.space.mesh().triangles);
-  if (file.scene.contact()) {
-    const NormalContact normal = normal_contact(answer);
-    arrays["contact"] = contact_table(answer.space, normal.problem, normal.solution);
-  }
+  if (file.scene.contact()) arrays["contact"] = contact_table(normal_contact(answer));
   answer.solution.p.conservativeResize(answer.problem.class_rows());
   arrays["u"] = given(answer.solution.u), arrays["p"] = given(answer.solution.p);
   return py::make_tuple(arrays, summary);

@@ -18,8 +18,8 @@ Result answer(const Layer& layer, const TriangleMesh& mesh, const Element& eleme
   const Space space(mesh, element);
   const VariationalInequality problem = assemble(Scene({paper_load}, layer, UnilateralContact{}), space);
   const Solution s = active_set(problem);
-  return {contact_table(space, problem, s), s.u, s.active, energy(problem, s),
-          contact_zone(space, problem, s).from.value_or(2)};
+  return {contact_table({space, problem, s}), s.u, s.active, energy(problem, s),
+          contact_zone({space, problem, s}).from.value_or(2)};
 }
 
 TriangleMesh mesh_of(bool regular, int cells, double depth) {

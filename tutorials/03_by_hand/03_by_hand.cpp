@@ -114,10 +114,10 @@ ByHand assemble_by_hand(const TriangleMesh& mesh) {
 //     lambda = A_delta du - r where it touches, new guess by the signs of lambda and u + du
 //   u += du,  p += (B du - r2) / delta
 // ```
-struct Result {
+struct SolvedByHand {
   VectorXd u, stress;
 };
-Result solve_by_hand(const ByHand& p, double epsilon, double delta, Table& history) {
+SolvedByHand solve_by_hand(const ByHand& p, double epsilon, double delta, Table& history) {
   delta = std::max(epsilon * epsilon, delta);  // never below epsilon^2, which is stiff enough
   const MatrixXd a_delta = p.a1 + p.b.transpose() * p.m.asDiagonal() * p.b / delta;
   VectorXd u = VectorXd::Zero(p.load.size()), stress = VectorXd::Zero(p.m.size()), du = u;
@@ -152,7 +152,7 @@ Table layer_stress(const ByHand& problem) {
   Table stresses({"epsilon", "largest B u", "largest p", "p - p at 0"}), unread({"correction", "contact steps", "du"});
   const VectorXd rigid = solve_by_hand(problem, 0, 1e-4, unread).stress;
   for (const double epsilon : {1e-1, 1e-2, 3e-3, 1e-3, 3e-4, 0.0}) {
-    const Result result = solve_by_hand(problem, epsilon, 1e-4, unread);
+    const SolvedByHand result = solve_by_hand(problem, epsilon, 1e-4, unread);
     stresses.add({epsilon, (problem.b * result.u).cwiseAbs().maxCoeff(), result.stress.cwiseAbs().maxCoeff(),
                   (result.stress - rigid).cwiseAbs().maxCoeff()});
   }

@@ -7,8 +7,8 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options& options, tutorial::Report& report) {
        const ByHand problem = assemble_by_hand(structured_mesh(options.cells));
        Table small({"correction", "contact steps", "du"}), large = small;
-       const Result fast = solve_by_hand(problem, options.epsilon, 1e-4, small);
-       const Result slow = solve_by_hand(problem, options.epsilon, 1e-2, large);
+       const SolvedByHand fast = solve_by_hand(problem, options.epsilon, 1e-4, small);
+       const SolvedByHand slow = solve_by_hand(problem, options.epsilon, 1e-2, large);
        fmt::print("  corrections: {} and {}\n", small.size(), large.size());
        report.claim_within((fast.u - slow.u).norm() / fast.u.norm(), 0, 1e-11, "difference of u, relative:");
        report.claim(large.size() >= 2 * small.size(), "at least twice as many corrections");

@@ -157,7 +157,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
                "constant across the layer up to {:.0e} (proved: p is finite)", across);
   const auto& c = fine.problem.contact;
   report.claim(fine.solution.u(c).minCoeff() >= 0, "nonnegative on Gamma_C (proved: u is in K_h)");
-  const double from = contact_zone(space, fine.problem, fine.solution).from.value_or(1);
+  const double from = contact_zone({space, fine.problem, fine.solution}).from.value_or(1);
   report.claim_within((from - exact.contact_from()) / h, -1, 1, "start of contact - truth, in cells (observed):");
   // It stops where a step moves less than 1e-10 of u in the gap, which is its error on Gamma_C (chapter 00).
   const Solved coarse = solve(scene, std::min(64, options.cells));

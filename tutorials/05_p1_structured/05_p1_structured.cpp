@@ -123,7 +123,7 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   const Table small = sweep.filter_number("epsilon", [](double epsilon) { return epsilon <= 1e-2; });
   report.claim_within(small.max("error") / small.min("error") - 1, 0, 0.01,
                       "spread of the errors below 1e-2 (observed):");
-  const double from = contact_zone(space, problem, solution).from.value_or(1);
+  const double from = contact_zone({space, problem, solution}).from.value_or(1);
   report.claim_within((from - exact.contact_from()) / h, -1, 1, "start of contact - truth, in cells (observed):");
   if (options.epsilon > 1e-3)
     return report.not_judged("the stress as a straight line in y: it is one for small epsilon");

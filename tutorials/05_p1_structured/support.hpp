@@ -22,7 +22,7 @@ inline Table on_contact(const std::vector<double>& epsilons, const Space& space)
   std::vector<Eigen::MatrixX3d> found;
   for (const double epsilon : epsilons) {
     const VariationalInequality problem = assemble(paper_scene(epsilon), space);
-    found.push_back(contact_table(space, problem, active_set(problem)));
+    found.push_back(contact_table({space, problem, active_set(problem)}));
     for (const int column : {1, 2}) found.back().col(column) /= found.back().col(column).maxCoeff();
   }
   Table table(columns);

@@ -134,7 +134,7 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
                                     errors.max_at_unknowns / ridge));
   else
     report.not_judged("P1 against Crouzeix-Raviart: P1 locks for epsilon <= h/100, and 16 cells tell them apart");
-  const double from = contact_zone(space, problem, solution).from.value_or(1);
+  const double from = contact_zone({space, problem, solution}).from.value_or(1);
   report.claim_within((from - exact.contact_from()) / h, -1.5, 1.5, "start of contact - truth, in cells:");
 }
 

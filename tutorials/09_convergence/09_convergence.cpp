@@ -69,7 +69,7 @@ Table solve_all(const Method& method, const Space& space, int cells,
     const Errors e = exact.errors(space, solution);
     rows.add({method.element->name(), method.family.name, exact.epsilon, cells, 1.0 / cells, solution.counters.unknowns,
               e.max_at_unknowns, e.max, e.l2, e.h1, e.energy, seconds,
-              contact_zone(space, sweep.problem(), solution).from.value_or(1)});
+              contact_zone({space, sweep.problem(), solution}).from.value_or(1)});
   }
   return rows;
 }

@@ -13,7 +13,7 @@ struct Run {
     assemble_seconds = watch.lap();
     solution = active_set(problem);
     solve_seconds = watch.lap();
-    contact_from = contact_zone(space, problem, solution).from.value_or(1);
+    contact_from = contact_zone({space, problem, solution}).from.value_or(1);
     energy = antilock::energy(problem, solution);
   }
   Space space;
@@ -24,7 +24,7 @@ struct Run {
   /// The largest |u - truth| at the contact unknowns.
   double error_on_contact(const ExactSolution& exact) const {
     double error = 0;  // gap = u where the obstacle is flat
-    const Eigen::MatrixX3d points = contact_table(space, problem, solution);
+    const Eigen::MatrixX3d points = contact_table({space, problem, solution});
     for (const auto& point : points.rowwise()) error = std::max(error, std::abs(point(1) - exact.value(point(0), -1)));
     return error;
   }

@@ -86,7 +86,7 @@ Table solve(const std::string& series, const Grading& level, double end, const E
   const VariationalInequality problem = assemble(tutorial::paper_scene(exact.epsilon), space);
   // ### Solve
   const Solution solution = active_set(problem);
-  const double seconds = watch.seconds(), found = contact_zone(space, problem, solution).from.value_or(end);
+  const double seconds = watch.seconds(), found = contact_zone({space, problem, solution}).from.value_or(end);
   const auto [contact, below] = tutorial::on_contact(space, solution.u, exact.solution);
   Table row(hp_columns);
   row.add({level.layers == none ? "equal cells" : "graded", series, exact.epsilon, level.degree, 1.0 / level.cells,

@@ -15,7 +15,9 @@ namespace antilock {
 namespace {
 
 /// Throws Error unless the space has one unknown on Gamma_C per bound.
-void require_space_of_bounds(const Space& space, const VariationalInequality& problem, const std::string& who) {
+void require_space_of_bounds(const Result& result, const std::string& who) {
+  const Space& space = result.space;
+  const VariationalInequality& problem = result.problem;
   require_bounds_on_unknowns(problem, who);
   require_hard_bounds(problem, who);
   if (space.contact_dofs().size() != problem.contact.size())
@@ -26,15 +28,15 @@ void require_space_of_bounds(const Space& space, const VariationalInequality& pr
 
 }  // namespace
 
-ContactZone contact_zone(const Space& space, const VariationalInequality& problem, const Solution& solution) {
-  if (problem.bound_count() == 0) return {};
-  require_space_of_bounds(space, problem, "contact zone");
-  const std::vector<int>& places = space.contact_dofs();
+ContactZone contact_zone(const Result& result) {
+  if (result.problem.bound_count() == 0) return {};
+  require_space_of_bounds(result, "contact zone");
+  const std::vector<int>& places = result.space.contact_dofs();
   ContactZone zone;
-  zone.points = static_cast<int>(problem.contact.size());
+  zone.points = static_cast<int>(result.problem.contact.size());
   for (int i = 0; i < zone.points; ++i) {
-    if (!solution.active[i]) continue;
-    const double x = space.dof_coordinates()(places[i], 0);
+    if (!result.solution.active[i]) continue;
+    const double x = result.space.dof_coordinates()(places[i], 0);
     ++zone.active;
     zone.from = std::min(zone.from.value_or(x), x);
     zone.to = std::max(zone.to.value_or(x), x);
@@ -50,14 +52,15 @@ Eigen::VectorXd contact_lengths(const Space& space) {
   return length(space.contact_dofs());
 }
 
-Eigen::MatrixX3d contact_table(const Space& space, const VariationalInequality& problem, const Solution& solution) {
-  require_space_of_bounds(space, problem, "contact table");
+Eigen::MatrixX3d contact_table(const Result& result) {
+  require_space_of_bounds(result, "contact table");
+  const Space& space = result.space;
   const std::vector<int>& places = space.contact_dofs();
-  const auto count = static_cast<Eigen::Index>(problem.contact.size());
+  const auto count = static_cast<Eigen::Index>(places.size());
   Eigen::MatrixX3d table(count, 3);
   table.col(0) = space.dof_coordinates().col(0)(places);
-  table.col(1) = slack(problem, solution.u);
-  table.col(2) = solution.lambda.cwiseQuotient(contact_lengths(space));
+  table.col(1) = slack(result.problem, result.solution.u);
+  table.col(2) = result.solution.lambda.cwiseQuotient(contact_lengths(space));
   return table;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/solve/solution.hpp"
@@ -14,23 +13,6 @@ namespace antilock {
 struct RunSeconds {
   double mesh = 0, assemble = 0, factor = 0, solve = 0;
 };
-
-/// A problem and its solution in the form in which the class is studied: own_rows_summed, and p of the rows that are left.
-struct ClassForm {
-  VariationalInequality problem;
-  Solution solution;
-};
-inline ClassForm own_rows_summed(const VariationalInequality& problem, Solution solution) {
-  const Eigen::Index first = problem.class_rows();
-  Eigen::Index left = first;
-  for (Eigen::Index k = 0; k < problem.own_compliances.size(); ++k)
-    if (problem.own_compliances(k) == 0) {
-      solution.p(left) = solution.p(first + k);
-      ++left;
-    }
-  solution.p.conservativeResize(left);
-  return {own_rows_summed(problem), std::move(solution)};
-}
 
 /// What report_locking (analysis/locking_report.hpp) finds in a solved scene with a layer.
 struct LockingReport {
@@ -57,6 +39,21 @@ struct Result {
   std::string warning = {};
   std::optional<LockingReport> locking = {};  ///< of a scene with a layer, where it was asked for
 };
+
+/// A result in the form in which the class is studied: its problem with own_rows_summed, and p of the rows that are left.
+inline Result own_rows_summed(const Result& result) {
+  const VariationalInequality& problem = result.problem;
+  Result summed{result.space, own_rows_summed(problem), result.solution};
+  const Eigen::Index first = problem.class_rows();
+  Eigen::Index left = first;
+  for (Eigen::Index k = 0; k < problem.own_compliances.size(); ++k)
+    if (problem.own_compliances(k) == 0) {
+      summed.solution.p(left) = summed.solution.p(first + k);
+      ++left;
+    }
+  summed.solution.p.conservativeResize(left);
+  return summed;
+}
 
 /// Both warnings in one line, or the one that is not empty.
 inline std::string joined(const std::string& a, const std::string& b) {

@@ -117,10 +117,7 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
   s.energy = energy(result.problem, solution);
   s.u_max = solution.u.maxCoeff();
   s.u_min = solution.u.minCoeff();
-  if (file.scene.contact()) {
-    const NormalContact normal = normal_contact(result);
-    s.zone = contact_zone(result.space, normal.problem, normal.solution);
-  }
+  if (file.scene.contact()) s.zone = contact_zone(normal_contact(result));
   const Eigen::Index size = result.space.size(), components = solution.u.size() / size;
   s.at.resize(static_cast<Eigen::Index>(file.at.size()), 2 + components);
   if (s.at.rows() > 0) {
@@ -251,8 +248,7 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
     VtuFields more;
     if (!file.elastic) more.p = layer_stress(result.space.mesh(), result.solution.p.head(result.problem.class_rows()));
     if (contact) {
-      const NormalContact normal = normal_contact(result);
-      Eigen::MatrixX3d table = contact_table(result.space, normal.problem, normal.solution);
+      Eigen::MatrixX3d table = contact_table(normal_contact(result));
       if (!file.scene.contact()->upper_obstacle)                    // which presses downwards: a pressure below 0
         table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
       if (csv && file.elastic && file.elastic->friction)

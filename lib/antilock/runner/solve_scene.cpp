@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <tuple>
 
 #include "antilock/analysis/locking.hpp"
 #include "antilock/analysis/solve.hpp"
@@ -180,11 +179,12 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
   return {std::move(result), {}, {}, {}};
 }
 
-NormalContact normal_contact(const Result& result) {
-  const auto& [problem, solution] = std::tie(result.problem, result.solution);
+Result normal_contact(const Result& result) {
+  const VariationalInequality& problem = result.problem;
+  const Solution& solution = result.solution;
   const std::size_t count = result.space.contact_dofs().size();
   const auto all = static_cast<Eigen::Index>(count);
-  NormalContact normal;
+  Result normal{.space = result.space};
   normal.problem.contact.assign(problem.contact.begin(), problem.contact.begin() + all);
   normal.problem.lower = problem.lower.head(all);
   normal.solution.u = solution.u;

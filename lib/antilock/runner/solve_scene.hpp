@@ -30,13 +30,9 @@ struct Callbacks {
 /// asked.
 CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow);
 
-/// The normal bounds of an answer alone, by x: friction's stand behind them. What contact.csv and the zone are made of:
+/// The result with its normal bounds alone, by x: friction's stand behind them. What contact.csv and the zone are made of:
 /// the bounds with u, lambda and active, and no matrix.
-struct NormalContact {
-  VariationalInequality problem;
-  Solution solution;
-};
-NormalContact normal_contact(const Result& result);
+Result normal_contact(const Result& result);
 
 /// In plane strain, T values: the pressure, -lambda div u in rubber, minus the stress in y with a coating.
 Eigen::VectorXd pressure_of(const SceneFile& file, const Result& result);

@@ -105,8 +105,8 @@ TEST(ContactZone, TableAndZoneReportTheContact) {
     const Space space(mesh, *element);
     const auto problem = stiff_problem(space, 1, {[](double x) { return 1e-4 * x; }});
     const Solution s = active_set(problem);
-    const ContactZone zone = contact_zone(space, problem, s);
-    const Eigen::MatrixX3d table = contact_table(space, problem, s);
+    const ContactZone zone = contact_zone({space, problem, s});
+    const Eigen::MatrixX3d table = contact_table({space, problem, s});
     ASSERT_EQ(table.rows(), zone.points);
     int active = 0;
     double from = 2, to = -1;
@@ -134,7 +134,7 @@ TEST(ContactZone, TableAndZoneReportTheContact) {
 TEST(ContactZone, IsEmptyWhereNothingTouches) {
   const Space space(structured_mesh(4), p1());
   const auto problem = stiff_problem(space, 1, {[](double) { return 10.0; }});
-  const ContactZone zone = contact_zone(space, problem, active_set(problem));
+  const ContactZone zone = contact_zone({space, problem, active_set(problem)});
   EXPECT_EQ(zone.points, 3);
   EXPECT_EQ(zone.active, 0);
   EXPECT_FALSE(zone.from || zone.to);

@@ -101,7 +101,7 @@ Study study(const Meshes& meshes, const Element& element, double epsilon, const 
           std::max(error, std::abs(s.u(i) - table.value(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1))));
     study.h.push_back(h);
     study.errors.push_back(error);
-    study.contact_from = contact_zone(space, problem, s).from.value_or(-1);
+    study.contact_from = contact_zone({space, problem, s}).from.value_or(-1);
     h /= 2;
   }
   return study;

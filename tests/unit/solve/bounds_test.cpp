@@ -549,13 +549,13 @@ TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
     expect_refused([&] { naive_summed_solve(*problem, SummedFactor::cholesky); }, words);
   }
   const Solution s = active_set(above);
-  const Eigen::MatrixX3d table = contact_table(space, above, s);
+  const Eigen::MatrixX3d table = contact_table({space, above, s});
   EXPECT_GE(table.col(1).minCoeff(), -1e-15);
-  EXPECT_EQ(contact_zone(space, above, s).active, std::count(s.active.begin(), s.active.end(), true));
+  EXPECT_EQ(contact_zone({space, above, s}).active, std::count(s.active.begin(), s.active.end(), true));
   const std::string words = "accepted: bounds on unknowns";
   const Solution c = active_set(combined);
-  expect_refused([&] { contact_table(space, combined, c); }, words);
-  expect_refused([&] { contact_zone(space, combined, c); }, words);
+  expect_refused([&] { contact_table({space, combined, c}); }, words);
+  expect_refused([&] { contact_zone({space, combined, c}); }, words);
   // a combination of one unknown is that unknown, by a factor made before and in a sweep, too
   PenaltyFactor factor(combined);
   const Eigen::VectorXd u = active_set(assemble(scene, space)).u;

@@ -255,7 +255,7 @@ TEST(Friction, WhatIsMalformedOrUnknownIsRefusedInOneLine) {
   refused(nan, 4, "force_limit 0 is nan");
   refused(1, 3, "force_limit has 3 entries; accepted none, or 4");
   const Space space(structured_mesh(2), p1());
-  expect_refused([&] { contact_zone(space, good, active_set(good)); }, "friction is not known here");
+  expect_refused([&] { contact_zone({space, good, active_set(good)}); }, "friction is not known here");
   expect_refused([&] { require_lower_bounds(good, "certificate"); }, "certificate: friction is not known here");
   ActiveSetOptions options;
   options.start = BoundStatuses(3, BoundStatus::inactive);
