@@ -77,7 +77,7 @@ void certificate_over_solve(Table& table, int cells, int repeats) {
 void diagnosis_over_solve(Table& table, int cells, int repeats) {
   const Space space(unstructured_mesh(cells), p1());
   const Scene scene({paper_load}, StiffLayer{1e-2}, UnilateralContact{});
-  const VariationalInequality problem = assemble(scene, space);
+  Result result{space, assemble(scene, space)};
   std::vector<double> solve, diagnosis;
   auto of_processor = [last = std::clock()]() mutable {  // a few milliseconds each at 1/h = 32: other programs would
     const std::clock_t now = std::clock();               // stand in wall seconds
@@ -85,9 +85,9 @@ void diagnosis_over_solve(Table& table, int cells, int repeats) {
   };
   for (int k = 0; k < 5 * repeats * (128 / std::min(cells, 128)); ++k) {
     of_processor();
-    const Solution solution = active_set(problem);
+    result.solution = active_set(result.problem);
     solve.push_back(of_processor());
-    report_locking(scene, space, problem, solution);
+    report_locking(scene, result);
     diagnosis.push_back(of_processor());
   }
   row(table, fmt::format("diagnosis of locking over the P1 solve; 1/h = {}", cells), 0.15,

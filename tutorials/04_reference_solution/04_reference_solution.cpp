@@ -92,21 +92,18 @@ double symbol(int k, double epsilon) {
 // **The library in ten lines.** From here on chapters compute with the library. These are its words, as the data go. A
 // *scene* (chapter 23) is what is to be solved. A *method*, an element and a family of meshes, knows nothing of it. A
 // *space* is the method at one $h$: the element's unknowns on a mesh. `assemble` brings both together, as chapter 03's
-// `assemble_by_hand` does. The solver knows only the matrices.
-struct Solved {
-  Scene scene;
-  Space space;                    // the unknowns, on a mesh
-  VariationalInequality problem;  // A1; B, M and epsilon^2 in front of them; the load; which unknowns may touch
-  Solution solution;              // u, the layer stress p, the pressure lambda, how well the conditions hold
-};
+// `assemble_by_hand` does. The solver knows only the matrices. A *result* keeps all that belongs together, and everything
+// is measured, drawn and written from it.
 const Method p1_structured{&p1(), structured()};  // an element, and one mesh per 1/h
-Solved solve(const Scene& scene, int cells) {
-  const Space space = p1_structured.space(cells);
+Result solve(const Scene& scene, int cells) {
+  const Space space = p1_structured.space(cells);  // the unknowns, on a mesh
   // ### Forms
+  // A1; B, M and epsilon^2 in front of them; the load; which unknowns may touch
   const VariationalInequality problem = assemble(scene, space);
   // ### Solve
-  const Solution solution = active_set(problem);  // chapter 03's two loops
-  return {scene, space, problem, solution};
+  // u, the layer stress p, the pressure lambda, how well the conditions hold: chapter 03's two loops
+  const Solution solution = active_set(problem);
+  return {space, problem, solution};
 }
 
 // The stiffness of the mesh against $\sin kπx$: push with this pressure, without an obstacle, and see how far it gives.
@@ -122,7 +119,7 @@ double discrete_symbol(int k, double epsilon, int cells) {
 void reference_solution(const tutorial::Options& options, tutorial::Report& report) {
   const double epsilon = options.epsilon, h = 1.0 / options.cells;
   const Scene scene(Body{paper_load}, StiffLayer{epsilon}, UnilateralContact{});  // body, layer, contact: (23)
-  const Solved fine = solve(scene, options.cells);
+  const Result fine = solve(scene, options.cells);
   const Space& space = fine.space;
   const tutorial::Exact exact(scene);  // the truth of this scene; refused where it is not known
   const Errors errors = exact.errors(space, fine.solution);
@@ -134,7 +131,7 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
       symbols.add({one, k, s, found, (found / s - 1) / std::pow(k * pi / 64, 2)});
     }
   // ### Output
-  tutorial::present(options.out, exact.scene, space, fine.problem, fine.solution, "reference solution", errors);
+  tutorial::present(options.out, exact.scene, fine, "reference solution", errors);
   tutorial::modes({1.0, 0.1}, symbol).write(options.out / "modes.csv");
   symbols.print("the symbol, by formula and by P1 on a mesh");
 
@@ -157,10 +154,10 @@ void reference_solution(const tutorial::Options& options, tutorial::Report& repo
                "constant across the layer up to {:.0e} (proved: p is finite)", across);
   const auto& c = fine.problem.contact;
   report.claim(fine.solution.u(c).minCoeff() >= 0, "nonnegative on Gamma_C (proved: u is in K_h)");
-  const double from = contact_zone({space, fine.problem, fine.solution}).from.value_or(1);
+  const double from = contact_zone(fine).from.value_or(1);
   report.claim_within((from - exact.contact_from()) / h, -1, 1, "start of contact - truth, in cells (observed):");
   // It stops where a step moves less than 1e-10 of u in the gap, which is its error on Gamma_C (chapter 00).
-  const Solved coarse = solve(scene, std::min(64, options.cells));
+  const Result coarse = solve(scene, std::min(64, options.cells));
   const Eigen::VectorXd as_the_paper = uzawa(coarse.problem).u;
   const double apart = (as_the_paper - coarse.solution.u).cwiseAbs().maxCoeff() / as_the_paper.cwiseAbs().maxCoeff();
   report.claim(apart <= 2e-10, "Uzawa, the paper's way, finds the same up to {:.0e}, on 1/h = 64 (observed)", apart);

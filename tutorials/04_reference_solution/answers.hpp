@@ -13,8 +13,8 @@ const std::vector<tutorial::Exercise> exercises{
                     exact.solution.max_on_contact());
        Table errors({"h", "error"});
        for (const int n : {8, 16, 32, 64}) {
-         const Solved on = solve(scene, n);
-         errors.add({1.0 / n, exact.errors(on.space, on.solution).max_at_unknowns});
+         const Result found = solve(scene, n);
+         errors.add({1.0 / n, exact.errors(found.space, found.solution).max_at_unknowns});
        }
        report.claim_order(errors, "error", "h", 1.9, 2.1, "P1");
      }},

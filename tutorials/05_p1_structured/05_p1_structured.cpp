@@ -106,7 +106,7 @@ void structured_study(const tutorial::Options& options, tutorial::Report& report
   const Table off = off_the_line(stress, solution.lambda, exact.solution, h);
 
   // ### Output
-  tutorial::present(options.out, exact.scene, space, problem, solution, "P1, structured", errors);
+  tutorial::present(options.out, exact.scene, {space, problem, solution}, "P1, structured", errors);
   sweep.print("error at the unknowns against epsilon");
   fmt::print("  stress: off the line {:.0e}, off -lambda {:.0e}, off the exact one on Sigma {:.3f}\n", off.max("line"),
              off.max("bottom"), off.max("top"));

@@ -154,7 +154,7 @@ void lock(const tutorial::Options& options, tutorial::Report& report) {
   // ### Output
   const double on_layer = largest_on_layer(space, solution.u);
   const double difference = (solution.u - dirichlet.u).cwiseAbs().maxCoeff();
-  tutorial::present(options.out, exact.scene, space, problem, solution, "P1, unstructured", errors);
+  tutorial::present(options.out, exact.scene, {space, problem, solution}, "P1, unstructured", errors);
   Table table({"", "value"});
   table.add({"largest |u| on the layer", on_layer});
   table.add({"the same of the truth", exact.solution.max_on_contact()});

@@ -53,7 +53,7 @@
 
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/analysis/locking.hpp"
-#include "antilock/analysis/locking_report.hpp"
+#include "antilock/analysis/solve.hpp"
 #include "antilock/study/scene_sweep.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
@@ -89,11 +89,7 @@ LockingDiagnosis diagnose(const Method& method) {
 
 // A count that does not grow says that a method locks, and none says what that costs. The answer itself does, with the
 // same line that `run_scene` prints and chapters [05](../05_p1_structured/05_p1_structured.cpp) and [06](../06_p1_unstructured/06_p1_unstructured.cpp) do.
-LockingReport cost(const Method& method) {
-  const Space space = method.space(8);
-  const VariationalInequality problem = assemble(scene, space);
-  return *report_locking(scene, space, problem, active_set(problem));
-}
+LockingReport cost(const Method& method) { return *solve(scene, method.space(8)).locking; }
 
 // From Figure 3 to Figure 6: every inner vertex is moved by up to $t h$, at random. The kernel on the layer is 0 at
 // the first $t > 0$. But [chapter 06](../06_p1_unstructured/06_p1_unstructured.cpp) says what a small error costs: a triangle whose vertical

@@ -111,7 +111,7 @@ void robust(const tutorial::Options& options, tutorial::Report& report) {
 
   // ### Output
   tutorial::print_errors("P1", p1_errors);
-  tutorial::present(options.out, exact.scene, space, problem, solution, "Crouzeix-Raviart", errors);
+  tutorial::present(options.out, exact.scene, {space, problem, solution}, "Crouzeix-Raviart", errors);
   lemma.print("Lemma 2: the interpolant of u^0 on unstructured meshes");
   lemma.write(options.out / "interpolant.csv");
   tutorial::draw_basis_functions(options.out);

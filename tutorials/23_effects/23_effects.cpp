@@ -55,7 +55,7 @@ void each_scene_costs_what_it_holds(const tutorial::Options& options, tutorial::
     // A `Run` assembles what the scene holds and solves it, by Crouzeix-Raviart and the active set.
     const Run run(scene, std::move(mesh));
     table.add(tutorial::costs(name, run));
-    tutorial::write_results(options.out / name, run.space, run.problem, run.solution);
+    tutorial::write_results(options.out / name, {run.space, run.problem, run.solution});
   }
   // ### Output
   table.print("what each scene costs", 3);

@@ -25,7 +25,8 @@ ExactSolution known_solution(const Scene& scene, int log2_points) {
   return std::move(*solution);
 }
 
-void print_solution(const Space& space, const VariationalInequality& problem, const Solution& solution) {
+void print_solution(const Result& result) {
+  const Solution& solution = result.solution;
   const Counters& c = solution.counters;
   fmt::print("  {}: {} unknowns, {} contact steps, {} corrections, {} factorisation(s)\n", solution.solver, c.unknowns,
              c.contact, c.corrections, c.factorisations);
@@ -35,12 +36,12 @@ void print_solution(const Space& space, const VariationalInequality& problem, co
       "{:.1e}\n",
       k.min_gap, k.min_pressure, k.complementarity, k.residual);
   if (!solution.warning.empty()) fmt::print("  WARNING {}\n", solution.warning);
-  const ContactZone zone = contact_zone(space, problem, solution);
+  const ContactZone zone = contact_zone(result);
   const auto span = zone.from ? fmt::format(", x from {:.4f} to {:.4f}", *zone.from, *zone.to) : "";
   fmt::print("  contact at {} of {} points{}\n", zone.active, zone.points, span);
   const SolveSeconds& s = solution.seconds;
   fmt::print("  energy J(u) = {:.8f}; seconds: analyse {:.3f}, factor {:.3f}, contact {:.3f}, solve {:.3f}\n",
-             energy(problem, solution), s.analyse, s.factor, s.contact, s.solve);
+             energy(result.problem, solution), s.analyse, s.factor, s.contact, s.solve);
 }
 
 }  // namespace
@@ -69,14 +70,13 @@ std::vector<Exact> exact_solutions(const std::vector<double>& epsilons, int log2
   return all;
 }
 
-void write_results(const std::filesystem::path& out, const Space& space, const VariationalInequality& problem,
-                   const Solution& solution) {
+void write_results(const std::filesystem::path& out, const Result& result) {
+  const Space& space = result.space;
   write_msh(out / "mesh.msh", space.mesh());
   write_freefem_mesh(out / "mesh.freefem.msh", space.mesh());
-  write_solution_csv(out / "solution.csv", space, solution.u);
-  write_vtu(out / "solution.vtu", space, solution.u);
-  if (!problem.contact.empty())
-    write_csv(out / "contact.csv", {"x", "gap", "pressure"}, contact_table(space, problem, solution));
+  write_solution_csv(out / "solution.csv", space, result.solution.u);
+  write_vtu(out / "solution.vtu", space, result.solution.u);
+  if (!result.problem.contact.empty()) write_csv(out / "contact.csv", {"x", "gap", "pressure"}, contact_table(result));
 }
 
 void print_errors(const std::string& what, const Errors& e) {
@@ -85,13 +85,12 @@ void print_errors(const std::string& what, const Errors& e) {
   table.print();
 }
 
-void present(const std::filesystem::path& out, const Scene& scene, const Space& space,
-             const VariationalInequality& problem, const Solution& solution, const std::string& what,
+void present(const std::filesystem::path& out, const Scene& scene, const Result& result, const std::string& what,
              const Errors& errors) {
-  print_solution(space, problem, solution);
-  if (const auto layer = report_locking(scene, space, problem, solution)) fmt::print("  layer: {}\n", layer->text());
+  print_solution(result);
+  if (const auto layer = report_locking(scene, result)) fmt::print("  layer: {}\n", layer->text());
   print_errors(what, errors);
-  write_results(out, space, problem, solution);
+  write_results(out, result);
 }
 
 Supremum supremum(const Table& runs, const std::string& value, const std::string& parameter) {

@@ -52,14 +52,12 @@ struct Exact {
 std::vector<Exact> exact_solutions(const std::vector<double>& epsilons, int log2_points = 17);
 
 /// Writes what every solved scene leaves behind: mesh.msh, mesh.freefem.msh, solution.csv, solution.vtu and contact.csv.
-void write_results(const std::filesystem::path& out, const Space& space, const VariationalInequality& problem,
-                   const Solution& solution);
+void write_results(const std::filesystem::path& out, const Result& result);
 /// Prints the errors in every norm, absolute.
 void print_errors(const std::string& what, const Errors& errors);
 /// Both of them for one solved scene, with how it was solved: unknowns, iterations, KKT report, contact zone, energy,
 /// seconds by stage, and what it says of its own locking.
-void present(const std::filesystem::path& out, const Scene& scene, const Space& space,
-             const VariationalInequality& problem, const Solution& solution, const std::string& what,
+void present(const std::filesystem::path& out, const Scene& scene, const Result& result, const std::string& what,
              const Errors& errors);
 
 /// Orders as the course defines them: on each mesh the supremum over a parameter comes first, then the order in h from

@@ -50,7 +50,7 @@ Result conforming_answer(const Scene& scene, const Space& space, const ProgressH
 /// unknowns that the limit is about.
 std::string locking_warning(const Scene& scene, const Result& result, const Certificate& certificate,
                             const AccuracyGoal& accuracy, int counted) {
-  const auto report = report_locking(scene, result.space, result.problem, result.solution);
+  const auto report = report_locking(scene, result);
   if (!report || report->warning.empty()) return "";
   const double enough = std::pow(accuracy.relative * (certificate.norm + certificate.displacement), 2) / 2;
   const double now = report->estimate / (1 - report->estimate), then = enough / report->reference;  // lost over kept
@@ -247,7 +247,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     predict(history, accuracy.relative);
     if (progress) progress(history.back());
     if (relative <= accuracy.relative) {
-      result.locking = report_locking(asked, result.space, result.problem, result.solution);
+      result.locking = report_locking(asked, result);
       result.warning = joined(result.locking ? result.locking->warning : "", warning);
       Solution companion;
       companion.solver = "strip";

@@ -237,12 +237,11 @@ Eigen::VectorXd lift(const Line& sigma, const Trace& trace, const Eigen::VectorX
 
 double LockingLoss::share(double energy) const { return reference > 0 ? std::clamp(energy / reference, 0.0, 1.0) : 0; }
 
-LockingLoss locking_loss(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                         const Solution& solution) {
-  if ((problem.own_compliances.array() > 0).any()) {
-    const ClassForm here = own_rows_summed(problem, solution);
-    return locking_loss(scene, space, here.problem, here.solution);
-  }
+LockingLoss locking_loss(const Scene& scene, const Result& result) {
+  const Space& space = result.space;
+  const VariationalInequality& problem = result.problem;
+  const Solution& solution = result.solution;
+  if ((problem.own_compliances.array() > 0).any()) return locking_loss(scene, own_rows_summed(result));
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const auto epsilon = scene.epsilon();

@@ -1,9 +1,7 @@
 #pragma once
 #include "antilock/analysis/locking.hpp"
-#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/measure/result.hpp"
 #include "antilock/scene/scene.hpp"
-#include "antilock/solve/solution.hpp"
-#include "antilock/space/space.hpp"
 
 namespace antilock {
 
@@ -31,7 +29,6 @@ struct LockingLoss {
 /// Costs a small part of the solve. Throws Error for another element, without a layer's mesh, for a layer along the
 /// normals of a curve and for one whose sides are given other values than Sigma's ends, a traction or a spring, and
 /// what active_set throws.
-LockingLoss locking_loss(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                         const Solution& solution);
+LockingLoss locking_loss(const Scene& scene, const Result& result);
 
 }  // namespace antilock

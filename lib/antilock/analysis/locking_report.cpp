@@ -12,10 +12,9 @@
 
 namespace antilock {
 
-std::optional<LockingReport> report_locking(const Scene& scene, const Space& space,
-                                            const VariationalInequality& problem, const Solution& solution) {
-  const Element& element = space.element();
-  const TriangleMesh& mesh = space.mesh();
+std::optional<LockingReport> report_locking(const Scene& scene, const Result& result) {
+  const Element& element = result.space.element();
+  const TriangleMesh& mesh = result.space.mesh();
   if (!scene.epsilon()) return std::nullopt;
   if (!(scene.layer_depth() > 0)) return LockingReport{"no layer mesh: nothing here can lock"};
   if (!element.conforming())
@@ -32,7 +31,7 @@ std::optional<LockingReport> report_locking(const Scene& scene, const Space& spa
       components.count == 1 ? "" : "s", element.name(), element.degree());
   LockingLoss energy;
   try {
-    energy = locking_loss(scene, space, problem, solution);
+    energy = locking_loss(scene, result);
   } catch (const Error& error) {  // the answer stands, whatever becomes of what is told about it
     report.diagnosis += std::string("; nothing is known of what it costs (") + error.what() + ")";
     return report;

@@ -20,7 +20,7 @@ Result solve(const Scene& scene, const Space& space, const Solver& solver) {
   Result result{.space = space, .problem = assemble(scene, space)};
   result.seconds.assemble = watch.lap();
   result.solution = solver(result.problem);
-  result.locking = report_locking(scene, space, result.problem, result.solution);
+  result.locking = report_locking(scene, result);
   result.warning = joined(result.locking ? result.locking->warning : "", result.solution.warning);
   const SolveSeconds& spent = result.solution.seconds;
   result.seconds.factor = spent.analyse + spent.factor;

@@ -131,22 +131,22 @@ std::optional<LockingReport> layer_report_of_all(const SceneFile& file, const Tr
     if (rank() > 0) return;
     TriangleMesh mesh = coarse;
     for (int i = 0; may_lock && i < refinements; ++i) mesh = refined(mesh);
-    const Space space(std::move(mesh), level.space.element());
-    VariationalInequality problem;
-    Solution whole;
+    Result whole{.space = Space(std::move(mesh), level.space.element())};
     if (may_lock) {
+      const Space& space = whole.space;
       // the pieces and this mesh were refined apart: their points agree to round-off
       const auto key = [](double x, double y) { return std::pair(std::llround(1e9 * x), std::llround(1e9 * y)); };
       std::map<std::pair<long long, long long>, double> at;
       for (std::size_t i = 0; i < values.size(); i += 3) at[key(values[i], values[i + 1])] = values[i + 2];
-      problem = assemble(scene, space);
-      whole.u.resize(space.size());
+      whole.problem = assemble(scene, space);
+      Solution& solution = whole.solution;
+      solution.u.resize(space.size());
       for (int i = 0; i < space.size(); ++i)
-        whole.u(i) = at.at(key(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1)));
-      whole.p = Eigen::VectorXd::Zero(problem.b.rows());
-      if (problem.compliance > 0) whole.p = problem.b * whole.u / problem.compliance;
+        solution.u(i) = at.at(key(space.dof_coordinates()(i, 0), space.dof_coordinates()(i, 1)));
+      solution.p = Eigen::VectorXd::Zero(whole.problem.b.rows());
+      if (whole.problem.compliance > 0) solution.p = whole.problem.b * solution.u / whole.problem.compliance;
     }
-    report = report_locking(scene, space, problem, whole);
+    report = report_locking(scene, whole);
   });
   return report;
 }

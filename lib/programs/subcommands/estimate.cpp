@@ -379,7 +379,7 @@ int estimate(int argc, char** argv) {
                    "  layer: of locking nothing is said: this is not the discrete solution on its mesh, but {:.2g} of "
                    "its norm away\n",
                    size > 0 ? apart / size : apart);
-  } else if (const auto layer = report_locking(file.scene, *space, problem, v)) {
+  } else if (const auto layer = report_locking(file.scene, {*space, problem, v})) {
     found["diagnosis"] = layer->text();
     fmt::format_to(say, "  layer: {}\n", layer->text());
   }

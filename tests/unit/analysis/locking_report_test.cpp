@@ -5,6 +5,7 @@
 #include "antilock/analysis/layer_components.hpp"
 #include "antilock/analysis/locking_loss.hpp"
 #include "antilock/analysis/locking_report.hpp"
+#include "antilock/analysis/solve.hpp"
 #include "antilock/mesh/families.hpp"
 #include "antilock/mesh/graded.hpp"
 #include "antilock/mesh/layered.hpp"
@@ -55,11 +56,10 @@ struct Lost {
 
 Lost lost_on(const TriangleMesh& mesh, const Element& element, const Scene& scene) {
   const Space space(mesh, element);
-  const VariationalInequality problem = assemble(scene, space);
-  const Solution solution = active_set(problem);
-  const LockingLoss lost = locking_loss(scene, space, problem, solution);
-  return {lost, *report_locking(scene, space, problem, solution), lost.share(lost.estimate),
-          share_by_solving(scene, space, energy(problem, solution))};
+  const Result result = solve(scene, space);
+  const LockingLoss lost = locking_loss(scene, result);
+  return {lost, *result.locking, lost.share(lost.estimate),
+          share_by_solving(scene, space, energy(result.problem, result.solution))};
 }
 
 TEST(LockingLoss, LiesBelowWhatTheExactSolutionSays) {
@@ -70,10 +70,8 @@ TEST(LockingLoss, LiesBelowWhatTheExactSolutionSays) {
       for (const Element* element : {&p1(), &p2()}) {
         const Space space(mesh, *element);
         const Scene scene = test::stiff_scene(epsilon);
-        const VariationalInequality problem = assemble(scene, space);
-        const Solution solution = active_set(problem);
-        const double lost = locking_loss(scene, space, problem, solution).lower_bound,
-                     estimate = energy(problem, solution);
+        const Result result = solve(scene, space);
+        const double lost = locking_loss(scene, result).lower_bound, estimate = energy(result.problem, result.solution);
         // 1e-8: the truth is known to 6e-9 of its energy, 0.44
         EXPECT_GE(estimate - lost, exact - 1e-8) << epsilon << element->name() << cells << ": J(v) >= J(u)";
         // what is left of the error is that of the body's mesh: at 1/h = 32 the smaller part
@@ -143,7 +141,7 @@ TEST(LockingLoss, WarnsOfTwoHundredRandomScenesWhereATenthIsLostAndOnlyWhereTher
     const Space space(mesh, *element);
     const VariationalInequality problem = assemble(scene, space);
     const Solution solution = active_set(problem);
-    const LockingReport report = *report_locking(scene, space, problem, solution);
+    const LockingReport report = *report_locking(scene, {space, problem, solution});
     const bool says = report.warning.find("locks") != std::string::npos;
     const std::string name =
         fmt::format("scene {}: {} {} 1/{} epsilon {:g}", k, element->name(), family.name, cells, epsilon);
@@ -404,7 +402,7 @@ TEST(LockingLoss, IsTheSameBesideGivenValuesThatAreAffine) {
     const VariationalInequality problem = assemble(scene, space);
     ActiveSetOptions options;
     options.corrections.tolerance = 1e-15;  // of U: a stiff layer moves by 3e-12 of it
-    return locking_loss(scene, space, problem, active_set(problem, options));
+    return locking_loss(scene, {space, problem, active_set(problem, options)});
   };
   const auto wavy = [](double height) -> Profile {
     return [=](double x) { return height * std::sin(3 * std::numbers::pi * x); };
@@ -447,7 +445,7 @@ TEST(LockingLoss, HasNoMotionWhereAllIsAtRest) {
                               UnilateralContact{[](double) { return 1000.0; }, {}},
                               {{"sides", BoundaryCondition::Kind::displacement, given}});
             const VariationalInequality problem = assemble(scene, space);
-            EXPECT_EQ(locking_loss(scene, space, problem, active_set(problem)).reference, 0)
+            EXPECT_EQ(locking_loss(scene, {space, problem, active_set(problem)}).reference, 0)
                 << element->name() << tilt << ' ' << epsilon << ' ' << s << ' ' << u;
           }
 }
@@ -481,7 +479,7 @@ TEST(LockingLoss, KnowsNoZeroBesideFreeEnds) {
       const Scene scene({paper_load}, StiffLayer{1e-3}, contact, edges);
       const VariationalInequality problem = assemble(scene, space);
       const Solution solution = active_set(problem);
-      const LockingLoss estimate = locking_loss(scene, space, problem, solution);
+      const LockingLoss estimate = locking_loss(scene, {space, problem, solution});
       if (free.left && free.right) return estimate;
       const double best = energy(problem, solution) - estimate.estimate;
       EXPECT_NEAR((energy_with_held_layer(space, problem, u) - best) / estimate.reference, 1, 0.01) << free.left << u;
@@ -501,7 +499,11 @@ TEST(LockingLoss, IsAskedOfConformingElementsWithALayerAlone) {
   const auto refuse = [](const TriangleMesh& on, const Element& element, const Scene& scene) {
     const Space space(on, element);
     const VariationalInequality problem = assemble(scene, space);
-    test::expect_refused([&] { locking_loss(scene, space, problem, active_set(problem)); }, "lost energy: accepted: ");
+    test::expect_refused(
+        [&] {
+          locking_loss(scene, {space, problem, active_set(problem)});
+        },
+        "lost energy: accepted: ");
   };
   refuse(mesh, crouzeix_raviart(), test::stiff_scene(1));
   refuse(body, p1(), Scene({paper_load}));
@@ -511,8 +513,11 @@ TEST(LockingLoss, IsAskedOfConformingElementsWithALayerAlone) {
   for (std::size_t k = 0; k < problem.dirichlet_dofs.size(); ++k)
     if (space.dof_coordinates()(problem.dirichlet_dofs[k], 1) < 0)
       problem.dirichlet_values(static_cast<Eigen::Index>(k)) = 0.01;
-  test::expect_refused([&] { locking_loss(test::stiff_scene(1e-2), space, problem, active_set(problem)); },
-                       "whose sides have the value of Sigma's end");
+  test::expect_refused(
+      [&] {
+        locking_loss(test::stiff_scene(1e-2), {space, problem, active_set(problem)});
+      },
+      "whose sides have the value of Sigma's end");
   const TriangleMesh pulled =
       retagged(mesh, [](double, double y) { return y < 0 ? natural_group(0) : EdgeTag::clamped; });
   for (const auto kind : {BoundaryCondition::Kind::traction, BoundaryCondition::Kind::spring})

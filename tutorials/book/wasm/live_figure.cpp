@@ -46,7 +46,7 @@ LiveNumbers LiveFigure::solve(double epsilon, const LiveExact& exact) {
   solution_ = sweep_.solve();
   LiveNumbers numbers;
   numbers.milliseconds = 1e3 * watch.seconds();
-  warning_ = report_locking(paper_scene(epsilon), space_, sweep_.problem(), solution_)->warning;
+  warning_ = report_locking(paper_scene(epsilon), {space_, sweep_.problem(), solution_})->warning;
   for (std::size_t i = 0; i < space_.contact_dofs().size(); ++i) {
     const int unknown = space_.contact_dofs()[i];
     numbers.largest_on_contact = std::max(numbers.largest_on_contact, solution_.u(unknown));
