@@ -39,15 +39,15 @@ struct Seconds {
   void measure(const Scene& scene, const TriangleMesh& mesh) {
     const Space space(mesh, crouzeix_raviart());
     Stopwatch watch;
-    const VariationalInequality problem = assemble(scene, space);
-    PenaltyFactor factor(problem);
-    const Solution solution = active_set(problem, factor);
+    Result result{space, assemble(scene, space)};
+    PenaltyFactor factor(result.problem);
+    result.solution = active_set(result.problem, factor);
     solve.push_back(watch.lap());
-    equilibrated_flux(scene, space, problem, solution);
+    equilibrated_flux(scene, result);
     flux.push_back(watch.lap());
-    const Companion v = local_companion(scene, space, problem, solution);
+    const Companion v = local_companion(scene, result);
     strip.push_back(watch.lap());
-    certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});  // makes the flux once more
+    certify(scene, result, {.factor = &factor, .companion = &v});  // makes the flux once more
     rest.push_back(watch.lap());
   }
 };
@@ -108,11 +108,10 @@ void adapted_over_uniform(Table& table, int cells, int repeats) {
     unknowns = found.history.back().unknowns;
     const Space space(mesh, crouzeix_raviart());
     Stopwatch watch;
-    const VariationalInequality problem = assemble(scene, space);
-    PenaltyFactor factor(problem);
-    const Solution solution = active_set(problem, factor);
-    const double relative =
-        certify(scene, space, problem, solution, {.factor = &factor}).relative(Quantity::displacement);
+    Result result{space, assemble(scene, space)};
+    PenaltyFactor factor(result.problem);
+    result.solution = active_set(result.problem, factor);
+    const double relative = certify(scene, result, {.factor = &factor}).relative(Quantity::displacement);
     const double times = std::pow(relative / asked, 2);
     uniform.push_back(watch.lap() * times);
     uniform_unknowns = static_cast<int>(space.free_count() * times);

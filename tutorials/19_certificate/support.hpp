@@ -34,7 +34,7 @@ inline Table certify_uzawa(const Exact& exact) {
       lambda(i) = std::max(0.0, lambda(i) - rho * (now.u(problem.contact[i]) - problem.lower(i)));
     if (steps < next) continue;
     next *= 2;
-    rows.add({steps, "bound", certify(scene, space, problem, now, {.factor = &factor}).gradient});
+    rows.add({steps, "bound", certify(scene, {space, problem, now}, {.factor = &factor}).gradient});
     rows.add({steps, "error", exact.errors(space, now).energy});
   }
   return rows;
@@ -50,8 +50,7 @@ inline void write_pictures(const std::filesystem::path& out) {
   density("width_cr.vtu", unstructured, unstructured.certified());
   density("width_p1.vtu", unstructured, unstructured.p1_certified());
   density("width_p1_layered.vtu", layered, layered.p1_certified());
-  const EquilibratedFlux flux =
-      equilibrated_flux(scene, unstructured.space, unstructured.problem, unstructured.solution);
+  const EquilibratedFlux flux = equilibrated_flux(scene, unstructured);
   write_vtu(out / "flux_x.vtu", unstructured.space.mesh(), component(unstructured.space.mesh(), flux, 0));
   write_vtu(out / "flux_y.vtu", unstructured.space.mesh(), component(unstructured.space.mesh(), flux, 1));
 }

@@ -107,9 +107,9 @@ Table solve_both(const std::string& family, int cells, const std::vector<Exact>&
     // ### Solve
     below.set_epsilon(exact.epsilon);
     above.set_epsilon(exact.epsilon);
-    const Solution u_h = below.solve(), p1_solution = above.solve();
+    const Solution p1_solution = above.solve();
     // Steps 2 to 5: means of the flux of u over triangles and edges, against those of u_h.
-    const tutorial::Parts part = tutorial::take_apart(exact, cr, below.problem(), u_h);
+    const tutorial::Parts part = tutorial::take_apart(exact, {cr, below.problem(), below.solve()});
     rows.add({family, exact.epsilon, cells, cr.mesh().diameter(), std::hypot(part.interpolation, part.discrete),
               exact.errors(linear, p1_solution).energy, part.interpolation, part.discrete, part.layer, part.flux,
               part.contact, part.product});

@@ -29,7 +29,7 @@ const std::vector<tutorial::Exercise> exercises{
            const int rows = flatter * static_cast<int>(std::lround(2 * n / std::sqrt(3)));
            const Space space(rows_mesh(n, rows), crouzeix_raviart());
            SceneSweep sweep(exact[0].scene, space);
-           layer[flatter - 1] = tutorial::take_apart(exact[0], space, sweep.problem(), sweep.solve()).layer;
+           layer[flatter - 1] = tutorial::take_apart(exact[0], {space, sweep.problem(), sweep.solve()}).layer;
          }
          report.claim_within(layer[1] / layer[0], 1.5, 1.9, fmt::format("S^- at half the height, 1/h = {}: times", n));
        }

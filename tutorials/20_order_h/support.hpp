@@ -37,12 +37,12 @@ struct Parts {
   double interpolation = 0, discrete = 0, layer = 0, flux = 0, contact = 0, product = 0;
 };
 
-/// u_h: of Crouzeix-Raviart. Rules of degree 8 on triangles, 32 points per edge of Gamma_C (the pressure may jump).
-inline Parts take_apart(const Exact& exact, const Space& space, const VariationalInequality& problem,
-                        const Solution& u_h) {
+/// `result`: u_h, of Crouzeix-Raviart. Rules of degree 8 on triangles, 32 points per edge of Gamma_C (the pressure may jump).
+inline Parts take_apart(const Exact& exact, const Result& result) {
+  const Space& space = result.space;
   constexpr int points = 32;
   const TriangleMesh& mesh = space.mesh();
-  const EquilibratedFlux discrete = equilibrated_flux(exact.scene, space, problem, u_h);  // cell[t].s: that of u_h
+  const EquilibratedFlux discrete = equilibrated_flux(exact.scene, result);  // cell[t].s: that of u_h
   const Quadrature& rule = triangle_rule(8);
   Parts sum;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -71,7 +71,8 @@ inline Parts take_apart(const Exact& exact, const Space& space, const Variationa
       height += u.value / points;
       slope += std::abs(u.gradient(0)) / points;
     }
-    sum.contact += pressure * edge.length * (height - u_h.u(mesh.triangle_edges(edge.triangle, edge.opposite)));
+    sum.contact +=
+        pressure * edge.length * (height - result.solution.u(mesh.triangle_edges(edge.triangle, edge.opposite)));
     sum.product += pressure * slope * edge.length * edge.length;
   }
   return sum;

@@ -82,7 +82,7 @@ Table refine_p1(RefinementStrategy growth, const std::filesystem::path& picture)
     const Space nonconforming(now.mesh, crouzeix_raviart()), linear(nonconforming, p1());
     const VariationalInequality problem = assemble(scene, nonconforming);
     const Companion v = p1_companion(active_set(assemble(scene, linear)));
-    found = certify(scene, nonconforming, problem, active_set(problem), {.companion = &v});
+    found = certify(scene, {nonconforming, problem, active_set(problem)}, {.companion = &v});
     rows.add({growth == RefinementStrategy::bisect ? "P1 bisected" : "P1 extruded", linear.free_count(),
               found.displacement, found.layer_share});
     if (linear.free_count() < 1500) tutorial::write_density(picture, now.mesh, found.indicator);

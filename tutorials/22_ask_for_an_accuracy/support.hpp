@@ -58,7 +58,7 @@ inline double relative_error(const Exact& exact, const Scene& scene, const Space
   if (of == Quantity::displacement)
     return exact.errors(space, cr).energy / norm;  // of Crouzeix-Raviart: the same bound
   const VariationalInequality problem = assemble(scene, space);
-  return exact_errors(space.mesh(), equilibrated_flux(scene, space, problem, cr), v, exact.table).stress / norm;
+  return exact_errors(space.mesh(), equilibrated_flux(scene, {space, problem, cr}), v, exact.table).stress / norm;
 }
 
 /// The bound of an answer, and for the paper's load its error.
@@ -112,7 +112,7 @@ inline void write_price_list(const std::filesystem::path& file, const Table& ans
 inline Certificate certified(const Scene& scene, const TriangleMesh& mesh) {
   const Space space(mesh, crouzeix_raviart());
   const VariationalInequality problem = assemble(scene, space);
-  return certify(scene, space, problem, active_set(problem));
+  return certify(scene, {space, problem, active_set(problem)});
 }
 
 /// Prints what was asked and what it cost; writes answers.csv, price_list.csv and .md, p1.csv and the meshes of the
@@ -157,7 +157,7 @@ inline Table on_uniform_meshes(const std::string& load, const Exact& exact, int 
     const VariationalInequality problem = assemble(scene, space);
     PenaltyFactor factor(problem);
     const Solution solution = active_set(problem, factor);
-    result.bound = certify(scene, space, problem, solution, {.factor = &factor}).relative(Quantity::displacement);
+    result.bound = certify(scene, {space, problem, solution}, {.factor = &factor}).relative(Quantity::displacement);
     result.seconds += watch.lap();
     result.unknowns = space.free_count();
     rows.add(row(result, "bound", result.bound));

@@ -31,21 +31,16 @@ inline Eigen::MatrixX3d component(const TriangleMesh& mesh, const EquilibratedFl
   return corners;
 }
 
-/// A Crouzeix-Raviart solution, what was asked, and room for what an exercise does to it.
-struct Solved {
+/// A scene with its result by Crouzeix-Raviart, and room for what an exercise does to it.
+struct Solved : Result {
   Scene scene;
-  Space space;
-  VariationalInequality problem;
-  Solution solution;
 
   Solved(const Scene& asked, TriangleMesh mesh)
-      : scene(asked),
-        space(std::move(mesh), crouzeix_raviart()),
-        problem(assemble(scene, space)),
-        solution(active_set(problem)) {}
-  Certificate certified(const Companion* v = nullptr) const {
-    return certify(scene, space, problem, solution, {.companion = v});
+      : Result{.space = Space(std::move(mesh), crouzeix_raviart())}, scene(asked) {
+    problem = assemble(scene, space);
+    solution = active_set(problem);
   }
+  Certificate certified(const Companion* v = nullptr) const { return certify(scene, *this, {.companion = v}); }
   Certificate p1_certified() const {
     const Space linear(space, p1());
     const Companion v = p1_companion(active_set(assemble(scene, linear)));

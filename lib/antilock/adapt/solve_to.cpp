@@ -205,37 +205,35 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
                         accuracy.most_unknowns, space.free_count()));
       give_up(accuracy, history, per_unknown, fmt::format("the next mesh has {}", space.free_count()));
     }
-    VariationalInequality problem = assemble(scene, space);
+    Result result{space, assemble(scene, space)};
     step();
-    PenaltyFactor factor(problem);
+    PenaltyFactor factor(result.problem);
     step();
     ActiveSetOptions options;
     options.corrections.progress = step;
     if (scene.contact()) options.start = transfer_status(contact_x, contact_set, space);
-    Solution solution;
     Companion v;
     Certificate certificate;
     for (double tolerance = std::min(1e-2 * accuracy.relative, accuracy.tolerance);; tolerance *= 1e-2) {
       options.corrections.tolerance = std::max(tolerance, CorrectionOptions{}.tolerance);
-      solution = active_set(problem, factor, options);
-      options.start = solution.status;
+      result.solution = active_set(result.problem, factor, options);
+      options.start = result.solution.status;
       step();
-      v = local_companion(scene, space, problem, solution, !layer_may_lock);
+      v = local_companion(scene, result, !layer_may_lock);
       step();
-      certificate = certify(scene, space, problem, solution, {.factor = &factor, .companion = &v});
+      certificate = certify(scene, result, {.factor = &factor, .companion = &v});
       const bool enough = certificate.imbalance <= 0.1 * certificate.constitutive_error;
       if (enough || tolerance <= CorrectionOptions{}.tolerance) break;
     }
     contact_x = space.dof_coordinates().col(0)(space.contact_dofs());
-    contact_set = solution.status;
-    Result result{space, std::move(problem), std::move(solution)};
+    contact_set = result.solution.status;
     if (conforming) {
       Result own = conforming_answer(scene, Space(space, p1()), step);
-      v = p1_companion(own_rows_summed(own.problem, own.solution).solution);
-      certificate = certify(scene, space, result.problem, result.solution, {.factor = &factor, .companion = &v});
+      v = p1_companion(own_rows_summed(own).solution);
+      certificate = certify(scene, result, {.factor = &factor, .companion = &v});
       if (accuracy.element->degree() > 1) {
         own = conforming_answer(scene, Space(space, *accuracy.element), step);
-        certificate.displacement = certified_distance(certificate, v, own.space, own.problem, own.solution);
+        certificate.displacement = certified_distance(certificate, v, own);
       }
       result = std::move(own);
     }

@@ -100,9 +100,9 @@ double mean_on(const TriangleMesh& mesh, int e, const Companion& v) {
 }
 
 /// v is what the scene prescribes at the ends of fixed edges, and that has the fixed values as its means.
-void check_prescribed(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                      const Companion& v) {
-  const TriangleMesh& mesh = space.mesh();
+void check_prescribed(const Scene& scene, const Result& result, const Companion& v) {
+  const VariationalInequality& problem = result.problem;
+  const TriangleMesh& mesh = result.space.mesh();
   const Eigen::VectorXd prescribed = dirichlet_vertex_values(scene, mesh);
   const double scale = std::max(prescribed.cwiseAbs().maxCoeff(), v.at_vertices.cwiseAbs().maxCoeff());
   const auto differs = [&](double value, double asked) { return !(std::abs(value - asked) <= 1e-11 * scale); };
@@ -163,13 +163,13 @@ double residual_norm(const VariationalInequality& problem, const EquilibratedFlu
   return std::sqrt(std::max(0.0, r1.dot(factor->solve(r1))));
 }
 
-Certificate certify(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                    const Solution& solution, const CertificateOptions& options) {
-  const EquilibratedFlux flux = equilibrated_flux(scene, space, problem, solution);
+Certificate certify(const Scene& scene, const Result& result, const CertificateOptions& options) {
+  const VariationalInequality& problem = result.problem;
+  const EquilibratedFlux flux = equilibrated_flux(scene, result);
   Companion made;
-  if (options.companion == nullptr) made = local_companion(scene, space, problem, solution);
+  if (options.companion == nullptr) made = local_companion(scene, result);
   const Companion& v = options.companion != nullptr ? *options.companion : made;
-  const TriangleMesh& mesh = space.mesh();
+  const TriangleMesh& mesh = result.space.mesh();
   check_sizes(mesh, flux.law, v);
   const Quadrature& midpoints = midpoint_rule();
 
@@ -207,7 +207,7 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
     certificate.indicator(t) += mismatch / 2 + here.oscillation2;
   }
   certificate.norm = std::sqrt(norm2);
-  check_prescribed(scene, space, problem, v);
+  check_prescribed(scene, result, v);
   if (scene.contact())
     check_admissible(*scene.contact(), v.layer ? v.layer->mesh() : mesh, v.layer ? v.layer->v() : v.at_vertices);
   for (std::size_t i = 0; i < problem.contact.size(); ++i) {
@@ -258,12 +258,11 @@ Certificate certify(const Scene& scene, const Space& space, const VariationalIne
   return certificate;
 }
 
-double certified_distance(const Certificate& certificate, const Companion& v, const Space& space,
-                          const VariationalInequality& problem, const Solution& w) {
-  if ((problem.own_compliances.array() > 0).any()) {
-    const ClassForm here = own_rows_summed(problem, w);
-    return certified_distance(certificate, v, space, here.problem, here.solution);
-  }
+double certified_distance(const Certificate& certificate, const Companion& v, const Result& w) {
+  const Space& space = w.space;
+  const VariationalInequality& problem = w.problem;
+  const Solution& solution = w.solution;
+  if ((problem.own_compliances.array() > 0).any()) return certified_distance(certificate, v, own_rows_summed(w));
   const TriangleMesh& mesh = space.mesh();
   if (v.layer)
     throw Error(
@@ -271,19 +270,20 @@ double certified_distance(const Certificate& certificate, const Companion& v, co
         "on_mesh, "
         "p1_companion or an extruded mesh make it");
   const Eigen::Index per_triangle = v.stress.size() > 0 ? problem.b.rows() / v.stress.size() : 0;
-  if (v.at_vertices.size() != mesh.vertex_count() || w.u.size() != space.size() || problem.size() != space.size() ||
-      w.p.size() != problem.b.rows() || per_triangle * v.stress.size() != problem.b.rows())
+  if (v.at_vertices.size() != mesh.vertex_count() || solution.u.size() != space.size() ||
+      problem.size() != space.size() || solution.p.size() != problem.b.rows() ||
+      per_triangle * v.stress.size() != problem.b.rows())
     throw Error(fmt::format(
         "certificate: the companion has {} values and {} stresses, the solution {} and {}; accepted: both on one mesh",
-        v.at_vertices.size(), v.stress.size(), w.u.size(), w.p.size()));
+        v.at_vertices.size(), v.stress.size(), solution.u.size(), solution.p.size()));
 
   const Eigen::MatrixX3d nodes = space.element().support_points();
-  Eigen::VectorXd u = w.u, p = w.p;  // w - v
+  Eigen::VectorXd u = solution.u, p = solution.p;  // w - v
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const Eigen::Vector3d corners = v.at_vertices(mesh.triangles.row(t));
     for (Eigen::Index i = 0; i < nodes.rows(); ++i) {
       const int unknown = space.cell_dofs()(t, i);
-      u(unknown) = w.u(unknown) - nodes.row(i).dot(corners);
+      u(unknown) = solution.u(unknown) - nodes.row(i).dot(corners);
     }
   }
   for (Eigen::Index row = 0; row < p.size(); ++row) p(row) -= v.stress(row / per_triangle);

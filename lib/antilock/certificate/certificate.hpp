@@ -41,8 +41,7 @@ struct CertificateOptions {
 /// from Uzawa after a few steps; only what they leave of the balance of forces counts, and it is counted. Throws Error
 /// where equilibrated_flux or local_companion do, for a companion that does not fit or is not in K, and where round-off
 /// has eaten the mismatch.
-Certificate certify(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                    const Solution& solution, const CertificateOptions& options = {});
+Certificate certify(const Scene& scene, const Result& result, const CertificateOptions& options = {});
 
 /// rho of the solution: >= |R(v)| / |v|_a for the forces r1 that it leaves unbalanced. Without a factor one is made.
 double residual_norm(const VariationalInequality& problem, const EquilibratedFlux& flux,
@@ -50,10 +49,9 @@ double residual_norm(const VariationalInequality& problem, const EquilibratedFlu
 
 /// >= |u - w|_a (broken where w jumps), u the exact solution, w any other solution of the certified scene on the same
 /// mesh, P2 or P1 say: |u - v|_a, proved by the certificate of v, plus |v - w|_a, computed exactly. Honest and blunt:
-/// not below the certificate, however good w is. `space` and `problem` are those of w. Throws Error for a companion v
+/// not below the certificate, however good w is. Throws Error for a companion v
 /// with columns of its own (accepted: local_companion with on_mesh, p1_companion, an extruded mesh) and for sizes that
 /// do not fit.
-double certified_distance(const Certificate& certificate, const Companion& v, const Space& space,
-                          const VariationalInequality& problem, const Solution& w);
+double certified_distance(const Certificate& certificate, const Companion& v, const Result& w);
 
 }  // namespace antilock

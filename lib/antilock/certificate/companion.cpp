@@ -18,22 +18,21 @@ namespace antilock {
 namespace {
 
 /// The vertices whose value is known: ends of fixed and of clamped edges.
-std::vector<char> held_vertices(const Space& space, const VariationalInequality& problem) {
-  const TriangleMesh& mesh = space.mesh();
+std::vector<char> held_vertices(const Result& result) {
+  const TriangleMesh& mesh = result.space.mesh();
   std::vector<char> held(mesh.vertex_count(), 0);
-  for (const std::vector<int>* list : {&problem.dirichlet_dofs, &space.dirichlet_dofs()})
+  for (const std::vector<int>* list : {&result.problem.dirichlet_dofs, &result.space.dirichlet_dofs()})
     for (const int e : *list) held[mesh.edges(e, 0)] = held[mesh.edges(e, 1)] = 1;
   return held;
 }
 
 /// The mean of u_CR over the body's triangles at each vertex; the known values where they are known.
-Eigen::VectorXd averages(const Scene& scene, const Space& space, const Solution& solution,
-                         const std::vector<char>& held) {
-  const TriangleMesh& mesh = space.mesh();
+Eigen::VectorXd averages(const Scene& scene, const Result& result, const std::vector<char>& held) {
+  const TriangleMesh& mesh = result.space.mesh();
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(mesh.vertex_count()), count = sum;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     if (mesh.region[t] != Region::body) continue;
-    const Eigen::Vector3d u = solution.u(space.cell_dofs().row(t));
+    const Eigen::Vector3d u = result.solution.u(result.space.cell_dofs().row(t));
     const double stiffness = stiffness_on(scene.body().stiffness, mesh, t);
     for (int i = 0; i < 3; ++i) {
       sum(mesh.triangles(t, i)) += stiffness * (u.sum() - 2 * u(i));  // phi_i = 1 - 2 lambda_i
@@ -111,13 +110,12 @@ VariationalInequality assemble_in_k(const Scene& scene, const Space& space) {
   return problem;
 }
 
-Companion local_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                          const Solution& solution, bool on_mesh) {
-  const TriangleMesh& mesh = space.mesh();
+Companion local_companion(const Scene& scene, const Result& result, bool on_mesh) {
+  const TriangleMesh& mesh = result.space.mesh();
   const auto* stiff = on_mesh ? nullptr : std::get_if<StiffLayer>(&scene.layer());
-  const std::vector<char> held = held_vertices(space, problem);
+  const std::vector<char> held = held_vertices(result);
   Companion companion;
-  companion.at_vertices = averages(scene, space, solution, held);
+  companion.at_vertices = averages(scene, result, held);
 
   const EdgeTag line_tag = scene.layer_depth() > 0 ? EdgeTag::sigma : EdgeTag::contact;
   std::vector<char> on_line(mesh.vertex_count(), 0);
@@ -129,10 +127,10 @@ Companion local_companion(const Scene& scene, const Space& space, const Variatio
     return mesh.region[t] == Region::layer ? stiff == nullptr : on_line[v(0)] || on_line[v(1)] || on_line[v(2)];
   });
   const TriangleMesh& cut = piece.mesh;
-  const TriangleMesh columns = stiff != nullptr ? extruded(cut, stiff->epsilon) : cut;
+  const Space p1_space(stiff != nullptr ? extruded(cut, stiff->epsilon) : cut, p1());
+  const TriangleMesh& columns = p1_space.mesh();
 
   // the body's vertices off the line and the known values are fixed; the rest is solved for
-  const Space p1_space(columns, p1());
   VariationalInequality strip = own_rows_summed(assemble(scene, p1_space));  // any v of K will do
   std::vector<char> fixed(columns.vertex_count(), 0);
   Eigen::VectorXd value = dirichlet_vertex_values(scene, columns);

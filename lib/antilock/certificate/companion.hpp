@@ -3,6 +3,7 @@
 
 #include "antilock/certificate/detail/extruded_p1_function.hpp"
 #include "antilock/certificate/equilibrated_flux.hpp"
+#include "antilock/measure/result.hpp"
 #include "antilock/problem/variational_inequality.hpp"
 #include "antilock/scene/scene.hpp"
 #include "antilock/solve/solution.hpp"
@@ -35,8 +36,7 @@ VariationalInequality assemble_in_k(const Scene& scene, const Space& space);
 /// the mesh's own where it is extruded already: P1 cannot lock on them. A handful of unknowns per column, whatever the
 /// body has. Throws what active_set throws.
 /// `on_mesh`: no columns of its own, P1 on the layer's triangles as they are, which lock unless epsilon is large.
-Companion local_companion(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                          const Solution& solution, bool on_mesh = false);
+Companion local_companion(const Scene& scene, const Result& result, bool on_mesh = false);
 
 /// A P1 solution on the mesh itself as the companion.
 Companion p1_companion(const Solution& p1_solution);

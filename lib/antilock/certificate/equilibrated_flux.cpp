@@ -22,8 +22,10 @@ const Field* traction_on(const Scene& scene, EdgeTag tag) {
   return k < 0 || scene.edges()[k].kind != BoundaryCondition::Kind::traction ? nullptr : &scene.edges()[k].value;
 }
 
-void check_request(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                   const Solution& solution) {
+void check_request(const Scene& scene, const Result& result) {
+  const Space& space = result.space;
+  const VariationalInequality& problem = result.problem;
+  const Solution& solution = result.solution;
   require_lower_bounds(problem, "certificate");
   if (space.element().name() != "CR")
     throw Error("certificate: element " + space.element().name() +
@@ -212,13 +214,12 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Ei
   return tau;
 }
 
-EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                                   const Solution& solution) {
-  if ((problem.own_compliances.array() > 0).any()) {
-    const ClassForm here = own_rows_summed(problem, solution);
-    return equilibrated_flux(scene, space, here.problem, here.solution);
-  }
-  check_request(scene, space, problem, solution);
+EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result) {
+  const Space& space = result.space;
+  const VariationalInequality& problem = result.problem;
+  const Solution& solution = result.solution;
+  if ((problem.own_compliances.array() > 0).any()) return equilibrated_flux(scene, own_rows_summed(result));
+  check_request(scene, result);
   check_displacement(scene, space.mesh());
   static const Quadrature& fine_rule = triangle_rule(12);
   const TriangleMesh& mesh = space.mesh();

@@ -1,10 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "antilock/problem/variational_inequality.hpp"
+#include "antilock/measure/result.hpp"
 #include "antilock/scene/scene.hpp"
-#include "antilock/solve/solution.hpp"
-#include "antilock/space/space.hpp"
 
 namespace antilock {
 
@@ -52,7 +50,6 @@ struct EquilibratedFlux {
 /// layer, a displacement that is not affine on an edge or jumps between two, for the Ventcel layer (accepted in its place:
 /// the scaled layer with epsilon = 0, the same problem), for a solution of another size or with entries that are not
 /// finite, and for a problem that is not this scene's on this space (its load above all).
-EquilibratedFlux equilibrated_flux(const Scene& scene, const Space& space, const VariationalInequality& problem,
-                                   const Solution& solution);
+EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result);
 
 }  // namespace antilock

@@ -168,7 +168,7 @@ Bound conforming_bound(const Scene& scene, const Space& space, const Variational
 /// Nonconforming: the certificate of our own Crouzeix-Raviart answer on this mesh, and the distance of the two.
 Bound nonconforming_bound(const Scene& scene, const Space& space, const VariationalInequality& problem,
                           const Eigen::VectorXd& v, const Solution& own) {
-  const double certified = certify(scene, space, problem, own).gradient, apart = energy_norm(problem, own.u - v, v);
+  const double certified = certify(scene, {space, problem, own}).gradient, apart = energy_norm(problem, own.u - v, v);
   return {certified + apart, fmt::format("the broken energy norm of u - v: {:.4g} proved of Antilock's "
                                          "Crouzeix-Raviart answer on this mesh, and {:.2g} "
                                          "between the two",

@@ -106,8 +106,7 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
         const Result& result = found.result;
         const Space& space = result.space;
         const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
-        const auto exact = exact_errors(space.mesh(), equilibrated_flux(scene, space, result.problem, result.solution),
-                                        v, exact_solution);
+        const auto exact = exact_errors(space.mesh(), equilibrated_flux(scene, result), v, exact_solution);
         EXPECT_LE(exact.displacement, found.certificate.displacement) << at;
         EXPECT_LE(exact.gradient, found.certificate.gradient) << at;
         EXPECT_LE(exact.stress, found.certificate.stress) << at;
@@ -163,7 +162,7 @@ TEST(SolveTo, CostsNoMoreThanUniformMeshesForASmoothLoad) {
   const auto price = [&](const TriangleMesh& mesh) {
     const Space space(mesh, crouzeix_raviart());
     const VariationalInequality problem = assemble(scene, space);
-    const double relative = certify(scene, space, problem, active_set(problem)).relative(Quantity::displacement);
+    const double relative = certify(scene, {space, problem, active_set(problem)}).relative(Quantity::displacement);
     return space.free_count() * relative * relative;
   };
   const double gmsh = price(layered_mesh(64, epsilon));
@@ -192,7 +191,7 @@ TEST(SolveTo, WorksOnBodiesOtherThanTheSquareAndWithoutALayer) {
     // against the same body refined everywhere: the corner makes that dearer
     const Space space(extruded(test::l_shape(32), epsilon), crouzeix_raviart());
     const VariationalInequality problem = assemble(scene, space);
-    const double uniform = certify(scene, space, problem, active_set(problem)).relative(Quantity::displacement);
+    const double uniform = certify(scene, {space, problem, active_set(problem)}).relative(Quantity::displacement);
     EXPECT_LT(cost(found), 0.7 * space.free_count() * uniform * uniform) << epsilon;
   }
   EXPECT_LE(

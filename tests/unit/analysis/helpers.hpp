@@ -13,24 +13,19 @@ namespace antilock::test::analysis_test {
 
 using Problem = std::function<VariationalInequality(int cells)>;
 
-/// One question with its answer, and room for what a test does to it.
-struct Answered {
+/// A scene with its result by Crouzeix-Raviart, and room for what a test does to it.
+struct Answered : Result {
   Scene scene;
-  Space space;
-  VariationalInequality problem;
-  Solution solution;
 
-  Answered(TriangleMesh made, Scene asked)
-      : scene(std::move(asked)),
-        space(std::move(made), crouzeix_raviart()),
-        problem(assemble(scene, space)),
-        solution(active_set(problem)) {}
-  Answered(const Answered&) = delete;
-  Answered& operator=(const Answered&) = delete;
+  Answered(TriangleMesh mesh, Scene asked)
+      : Result{.space = Space(std::move(mesh), crouzeix_raviart())}, scene(std::move(asked)) {
+    problem = assemble(scene, space);
+    solution = active_set(problem);
+  }
 
-  EquilibratedFlux flux() const { return equilibrated_flux(scene, space, problem, solution); }
-  Companion strip() const { return local_companion(scene, space, problem, solution); }
-  Certificate certified() const { return certify(scene, space, problem, solution); }
+  EquilibratedFlux flux() const { return equilibrated_flux(scene, *this); }
+  Companion strip() const { return local_companion(scene, *this); }
+  Certificate certified() const { return certify(scene, *this); }
 };
 
 /// u and p pushed away from the answer: no equation holds any more.

@@ -71,7 +71,7 @@ TEST(EnergyBounds, IsNeededTheEnergyOfCrouzeixRaviartAloneIsNoBound) {
   const Solution solution = active_set(problem);
   EXPECT_NEAR(energy(problem, solution), -1.0 / 144, 1e-15);  // one unknown, by hand
   EXPECT_GT(energy(problem, solution), exact);                // above
-  EXPECT_LE(certify(scene, space, problem, solution).energy_lower, exact);
+  EXPECT_LE(certify(scene, {space, problem, solution}).energy_lower, exact);
 }
 
 // Against the bracket of a mesh eight times as fine: a gap that the chord cuts, fixed values, a solve stopped early.

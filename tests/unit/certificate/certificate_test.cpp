@@ -125,7 +125,7 @@ TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
       const EquilibratedFlux flux = run.flux();
       const Companion v = run.strip();
       ASSERT_FALSE(v.layer);
-      const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
+      const Certificate found = certify(run.scene, run, {.companion = &v});
       const double left = left_side(run, flux, v, gap);
       EXPECT_GT(flux.lambda.sum(), 0.1);
       EXPECT_NEAR(found.constitutive_error * found.constitutive_error / 2 + found.contact_work, left, 1e-10);
@@ -149,7 +149,7 @@ TEST(Certificate, RestsOnAnIdentityThatNeedsNoCommonMesh) {
       // the same v as a function on columns of its own
       Companion apart = v;
       apart.layer.emplace(run.space.mesh(), v.at_vertices, v.stress);
-      const Certificate other = certify(run.scene, run.space, run.problem, run.solution, {.companion = &apart});
+      const Certificate other = certify(run.scene, run, {.companion = &apart});
       EXPECT_NEAR(other.displacement, found.displacement, 1e-10);
       EXPECT_NEAR(other.gradient, found.gradient, 1e-10);
       EXPECT_NEAR(other.stress, found.stress, 1e-10);
@@ -295,7 +295,7 @@ TEST(Certificate, BoundsAP1SolutionAndNamesTheLayerWhereItLocks) {
     const Answered run(locks ? unstructured_mesh(32) : layered_mesh(32, 1), test::stiff_scene(epsilon));
     const Space conforming(run.space, p1());
     const Companion v = p1_companion(active_set(test::stiff_problem(conforming, epsilon)));
-    const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
+    const Certificate found = certify(run.scene, run, {.companion = &v});
     EXPECT_GE(found.displacement, exact_errors(run.space.mesh(), run.flux(), v, exact_solution).displacement);
     EXPECT_EQ(found.displacement > 0.1, locks);
     EXPECT_EQ(found.layer_share > 0.5, locks) << found.layer_share;
@@ -309,12 +309,12 @@ TEST(Certificate, BoundsOtherElementsByTheirDistance) {
     const ExactTable exact_solution(solved);
     const Answered run(layered_mesh(16, epsilon), test::stiff_scene(epsilon));
     const Companion v = run.strip();
-    const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
+    const Certificate found = certify(run.scene, run, {.companion = &v});
     for (const Element* element : {&p1(), &p2()}) {
       const Space space(run.space, *element);
       const VariationalInequality problem = test::stiff_problem(space, epsilon);
       const Solution w = active_set(problem);
-      const double bound = certified_distance(found, v, space, problem, w);
+      const double bound = certified_distance(found, v, {space, problem, w});
       EXPECT_GE(bound, measure_errors(space, w, epsilon, reference(exact_solution)).energy)
           << element->name() << epsilon;
       EXPECT_GT(bound, found.displacement);
@@ -324,11 +324,10 @@ TEST(Certificate, BoundsOtherElementsByTheirDistance) {
     const VariationalInequality problem = test::stiff_problem(linear, epsilon);
     const Solution same = active_set(problem);
     const Companion own = p1_companion(same);
-    EXPECT_EQ(certified_distance(found, own, linear, problem, same), found.displacement);
+    EXPECT_EQ(certified_distance(found, own, {linear, problem, same}), found.displacement);
     const Answered other(unstructured_mesh(8), test::stiff_scene(epsilon));
-    expect_refused([&] { certified_distance(found, other.strip(), linear, problem, same); }, "columns of its own");
-    expect_refused([&] { certified_distance(found, p1_companion(same), other.space, other.problem, other.solution); },
-                   "both on one mesh");
+    expect_refused([&] { certified_distance(found, other.strip(), {linear, problem, same}); }, "columns of its own");
+    expect_refused([&] { certified_distance(found, p1_companion(same), other); }, "both on one mesh");
   }
 }
 
@@ -421,14 +420,14 @@ TEST(Certificate, CountsALoadThatTheMeshDoesNotSee) {
 
 TEST(Certificate, RefusesWhatItCannotProve) {
   Answered run(unstructured_mesh(4), test::stiff_scene(1e-2));
-  const auto with = [&](const Scene& scene) { certify(scene, run.space, run.problem, run.solution); };
+  const auto with = [&](const Scene& scene) { certify(scene, run); };
   expect_refused([&] { with(Scene({[](double, double) { return 1.0; }}, StiffLayer{1e-2}, UnilateralContact{})); },
                  "the problem is not the scene's");
   expect_refused([&] { with(Scene({paper_load}, StiffLayer{1e-2})); }, "do not agree whether there is contact");
   const Space conforming(run.space, p1());
   const auto p1_problem = test::stiff_problem(conforming, 1e-2);
   const Solution p1_solution = active_set(p1_problem);
-  expect_refused([&] { certify(run.scene, conforming, p1_problem, p1_solution); }, "element P1");
+  expect_refused([&] { certify(run.scene, {conforming, p1_problem, p1_solution}); }, "element P1");
   const Answered ventcel(structured_mesh(4, {0}), Scene({paper_load}, VentcelLayer{}, UnilateralContact{}));
   expect_refused([&] { ventcel.certified(); }, "epsilon = 0");
   using Kind = BoundaryCondition::Kind;
@@ -449,14 +448,12 @@ TEST(Certificate, RefusesWhatItCannotProve) {
   expect_refused([&] { on_top({"top"}, [](double x, double) { return 1 + x; }); }, "one number per triangle");
   Companion low = p1_companion(p1_solution);
   for (const int i : p1_problem.contact) low.at_vertices(i) -= 0.1;
-  expect_refused([&] { certify(run.scene, run.space, run.problem, run.solution, {.companion = &low}); },
-                 "below the obstacle");
+  expect_refused([&] { certify(run.scene, run, {.companion = &low}); }, "below the obstacle");
   Companion off = p1_companion(p1_solution);
   off.at_vertices(conforming.dirichlet_dofs().front()) = 0.1;
-  expect_refused([&] { certify(run.scene, run.space, run.problem, run.solution, {.companion = &off}); }, "prescribed");
+  expect_refused([&] { certify(run.scene, run, {.companion = &off}); }, "prescribed");
   const Companion wrong{.at_vertices = Eigen::VectorXd::Zero(3), .stress = {}, .layer = std::nullopt};
-  expect_refused([&] { certify(run.scene, run.space, run.problem, run.solution, {.companion = &wrong}); },
-                 "another number of values");
+  expect_refused([&] { certify(run.scene, run, {.companion = &wrong}); }, "another number of values");
   run.problem.dirichlet_values(0) = 1;
   run.solution = active_set(run.problem);
   expect_refused([&] { run.certified(); }, "the scene's values");
@@ -512,7 +509,7 @@ TEST(Certificate, IsNeverBelowTheErrorOfTwentyPulledBodies) {
     if (k % 5 == 4) disturb(run, 0.02, static_cast<unsigned>(k));
     const EquilibratedFlux flux = run.flux();
     const Companion v = run.strip();
-    const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
+    const Certificate found = certify(run.scene, run, {.companion = &v});
     double displacement = 0, gradient = 0, stress = 0, energy = 0;
     for (int t = 0; t < run.space.mesh().triangle_count(); ++t) {
       const Eigen::Vector3d corners = v.at_vertices(run.space.mesh().triangles.row(t));
@@ -627,7 +624,7 @@ TEST(Certificate, IsNeverBelowTheErrorInThreeHundredCases) {
     const double energy = solved.energy();
     const Companion v = run.strip();
     const ExactErrors exact = exact_errors(run.space.mesh(), run.flux(), v, exact_solution);
-    const Certificate found = certify(run.scene, run.space, run.problem, run.solution, {.companion = &v});
+    const Certificate found = certify(run.scene, run, {.companion = &v});
     const std::string at = fmt::format("case {}: kind {}, {} cells, epsilon = {:g}", k, kind, cells, epsilon);
     EXPECT_GE(found.gradient, exact.gradient) << at;
     EXPECT_GE(found.displacement, exact.displacement) << at;

@@ -544,7 +544,7 @@ TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
   for (const VariationalInequality* problem : {&above, &combined}) {
     const Solution s = active_set(*problem);
     const std::string words = "accepted: lower bounds on unknowns";
-    expect_refused([&] { certify(scene, space, *problem, s, CertificateOptions{}); }, words);
+    expect_refused([&] { certify(scene, {space, *problem, s}); }, words);
     expect_refused([&] { uzawa_cg_ilut(*problem); }, words);
     expect_refused([&] { naive_summed_solve(*problem, SummedFactor::cholesky); }, words);
   }
