@@ -95,9 +95,10 @@ void named(const std::string& file, const Work& work) {
     work();
   } catch (const NotConverged& failure) {
     throw NotConverged(file + ": solve: " + failure.what(), failure.reached, failure.steps);
+  } catch (const InputError&) {
+    throw;
   } catch (const Error& error) {
-    const std::string what = error.what();
-    throw Error(what.rfind(file, 0) == 0 ? what : file + ": " + what);
+    throw InputError(file + ": " + error.what());
   }
 }
 

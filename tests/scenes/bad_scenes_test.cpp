@@ -1,4 +1,6 @@
 // Every scene that cannot be asked: exit status 2, one line on standard error that names file and key, nothing written.
+#include "antilock/runner/scene_mesh.hpp"
+#include "antilock/runner/solve_scene.hpp"
 #include "scenes/runner.hpp"
 #include "support/scenes.hpp"
 
@@ -192,6 +194,20 @@ TEST_P(BadScenes, AreRefusedInOneLineAndNothingIsWritten) {
 INSTANTIATE_TEST_SUITE_P(All, BadScenes, testing::ValuesIn(bad_scenes),
                          [](const auto& info) { return info.param.name; });
 
+// The file and the key stand first and once, whatever the file is called: here as the message of the refinement begins.
+TEST(BadScenes, TheNameOfTheSceneDoesNotChangeTheMessage) {
+  const SceneFile file = read_scene(with_method("accuracy = 0.1\nmost_unknowns = 50"), "accuracy");
+  test::expect_refused([&] { solve_scene(file, {}); },
+                       "accuracy: method.accuracy: accuracy: most_unknowns = 50 cannot hold the first mesh");
+  // read without complaint, and infinite at the midpoint 1/14 of a contact edge of this mesh
+  const SceneFile gap = read_scene(load + "[contact]\ngap = \"0.0714 < x < 0.0715 ? 1/0 : 0\"\n" +
+                                       "[mesh]\nkind = \"structured\"\ncells = 7\n[method]\nelement = \"CR\"\n",
+                                   "gap.toml");
+  const std::string message = test::refusal([&] { solve_scene(gap, {}); });
+  EXPECT_TRUE(message.starts_with("gap.toml: contact.gap: ")) << message;
+  EXPECT_EQ(message.rfind("gap.toml"), 0) << message;
+}
+
 // The mesh of a body, each with another part that is wrong.
 std::string msh(const std::string& nodes, const std::string& elements) {
   const auto counted = [](const std::string& lines) {
@@ -265,6 +281,18 @@ TEST(BadMeshes, TheMeshThatTheyAreMadeFromIsGood) {
   std::ofstream(folder / "my.msh") << square;
   const SceneRun run(load + "[mesh]\nkind = \"file\"\nfile = \"" + (folder / "my.msh").string() + "\"\n");
   EXPECT_EQ(run.outcome.status, 0) << run.outcome.err;
+}
+
+// What is accepted is said of a mesh that is none, whatever the file is called.
+TEST(BadMeshes, TheNameOfTheFileDoesNotChangeTheMessage) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "accepted.msh") << msh("1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0.5 0 0\n", whole_square);
+  const SceneRun run(load + "[mesh]\nkind = \"file\"\nfile = \"" + (folder / "accepted.msh").string() + "\"\n");
+  expect_refused(run, "mesh.file");
+  EXPECT_TRUE(
+      run.outcome.err.ends_with("; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), "
+                                "clamped and contact, its triangles proper and connected\n"))
+      << run.outcome.err;
 }
 
 TEST(BadMeshes, AThinLayerAndNoLayerRefuseTheLayerOfAScaledOne) {

@@ -113,6 +113,12 @@ using Cure =
 inline const std::vector<std::string> solver_columns{"solver", "element", "mesh", "epsilon", "error", "ended",
                                                      "wrong",  "refused", "flat", "seconds", "apart"};
 
+/// How a solver ended, in words, and whether the checks in split form refuse its answer, or there is none.
+struct Ending {
+  std::string text;
+  bool refused = false;
+};
+
 /// Every solver on one discrete problem, one row each: the library in split form, a cure with its contact set, the
 /// sum by Cholesky and LU, the paper's CG + ILUT. error: the largest at the unknowns; ended: what the solver says
 /// of itself; wrong: more than twice the right error, or no answer; refused: what the checks in split form say, or
@@ -123,7 +129,7 @@ inline Table compare_solvers(const Method& method, const Space& space, const Exa
   Table rows(solver_columns);
   double right = 0;       // the error of the split form
   Eigen::VectorXd split;  // its answer
-  const auto add = [&](const std::string& solver, const Eigen::VectorXd& u, const std::string& ended, double seconds) {
+  const auto add = [&](const std::string& solver, const Eigen::VectorXd& u, const Ending& ended, double seconds) {
     double error = u.size() == 0 ? std::nan("") : 0;
     for (int i = 0; i < u.size(); ++i)
       error = std::max(
@@ -131,42 +137,48 @@ inline Table compare_solvers(const Method& method, const Space& space, const Exa
     if (solver == "split form") right = error, split = u;
     const double apart = u.size() == 0 ? std::nan("") : (u - split).lpNorm<Eigen::Infinity>();
     rows.add(
-        {solver, method.element->name(), method.family.name, exact.epsilon, error, ended, !(error <= 2 * right),
-         ended == "no answer" || ended.ends_with("refused"),
+        {solver, method.element->name(), method.family.name, exact.epsilon, error, ended.text, !(error <= 2 * right),
+         ended.refused,
          u.size() == 0 ? std::nan("") : u(space.contact_dofs()).maxCoeff() / split(space.contact_dofs()).maxCoeff(),
          seconds, apart / split.lpNorm<Eigen::Infinity>()});
   };
+  const auto warned = [](const std::string& warning) { return Ending{warning.empty() ? "trusted" : "warned"}; };
+  const Ending no_answer{"no answer", true};
   const auto checked = [&](Solution solution) {
     try {
       check_kkt(problem, solution);
-      return solution.warning.empty() ? "trusted" : "warned";
+      return warned(solution.warning);
     } catch (const NotConverged&) {
-      return "refused";
+      return Ending{"refused", true};
     }
   };
 
   Stopwatch watch;
   PenaltyFactor factor(problem);
   const Solution stable = active_set(problem, factor);
-  add("split form", stable.u, stable.warning.empty() ? "trusted" : "warned", watch.lap());
+  add("split form", stable.u, warned(stable.warning), watch.lap());
   const Eigen::VectorXd cured = cure(problem, stable.active, factor.delta());
-  add("cure in 20 lines", cured, "", watch.lap());
+  add("cure in 20 lines", cured, {}, watch.lap());
   for (const auto& [kind, name] : {std::pair{SummedFactor::cholesky, "sum: Cholesky"}, {SummedFactor::lu, "sum: LU"}}) {
     watch.lap();
     const NaiveResult naive = naive_summed_solve(problem, kind);
     const double seconds = watch.lap();
-    const bool answered = naive.end != NaiveEnd::refused;  // else the factorisation itself gave up
-    add(name, answered ? naive.solution.u : Eigen::VectorXd(),
-        answered ? to_string(naive.end) + "; " + checked(naive.solution) : "no answer", seconds);
+    if (naive.end == NaiveEnd::refused) {  // the factorisation itself gave up
+      add(name, {}, no_answer, seconds);
+      continue;
+    }
+    Ending ended = checked(naive.solution);
+    ended.text = to_string(naive.end) + "; " + ended.text;
+    add(name, naive.solution.u, ended, seconds);
   }
   watch.lap();
   UzawaOptions patience;
   patience.max_steps = 600;  // steps, not seconds: the same picture on every machine
   try {
     const Solution cg = uzawa_cg_ilut(problem, patience);
-    add("sum: CG + ILUT", cg.u, cg.warning.empty() ? "trusted" : "warned", watch.lap());
+    add("sum: CG + ILUT", cg.u, warned(cg.warning), watch.lap());
   } catch (const NotConverged&) {  // the paper's own linear solver gives up, and says so
-    add("sum: CG + ILUT", {}, "no answer", watch.lap());
+    add("sum: CG + ILUT", {}, no_answer, watch.lap());
   }
   return rows;
 }

@@ -10,6 +10,12 @@ struct Error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// An Error whose message names the input file and the key at fault, `FILE: KEY: ...`. It is handed on as it is:
+/// nobody puts a name before it.
+struct InputError : Error {
+  using Error::Error;
+};
+
 /// A solver that ended without an answer; `what()` says how far it came. It never comes with a solution.
 struct NotConverged : Error {
   NotConverged(const std::string& message, double reached, int steps)

@@ -26,7 +26,7 @@ constexpr auto defaults =
     "-pc_hypre_boomeramg_relax_type_down SOR/Jacobi -pc_hypre_boomeramg_relax_type_up backward-SOR/Jacobi "
     "-mat_mumps_icntl_14 100";
 
-enum Outcome : int { unconverged, no_memory, refused };
+enum Outcome : int { unconverged, no_memory, bad_input, refused };
 struct Failure {
   Outcome outcome = refused;
   int steps = 0;
@@ -82,6 +82,9 @@ void collectively(const std::function<void()>& work) {
     failed = ranks();
   } catch (const NotConverged& error) {
     message = error.what(), failure = {unconverged, error.steps, error.reached};
+  } catch (const InputError& error) {
+    message = error.what();
+    failure.outcome = bad_input;
   } catch (const Error& error) {
     message = error.what();
   } catch (const std::bad_alloc&) {
@@ -93,6 +96,7 @@ void collectively(const std::function<void()>& work) {
   MPI_Bcast(&failure, sizeof failure, MPI_BYTE, first, PETSC_COMM_WORLD);
   if (failure.outcome == no_memory) throw std::bad_alloc();
   if (failure.outcome == unconverged) throw NotConverged(message, failure.reached, failure.steps);
+  if (failure.outcome == bad_input) throw InputError(message);
   throw Error(message);
 }
 

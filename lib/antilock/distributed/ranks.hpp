@@ -20,7 +20,7 @@ int rank();   ///< of this process, 0 to ranks() - 1
 int ranks();  ///< processes of the run
 std::string petsc_version();
 
-/// Runs `work` on this rank. Where it throws Error, NotConverged or bad_alloc on any rank, every rank throws what the
+/// Runs `work` on this rank. Where it throws Error, InputError, NotConverged or bad_alloc on any rank, every rank throws what the
 /// first of them threw: no rank goes on and waits for one that has given up. `work` itself must not communicate.
 void collectively(const std::function<void()>& work);
 

@@ -35,7 +35,7 @@ std::vector<std::array<int, 2>> sigma_edges(const TriangleMesh& mesh, bool along
                   "; accepted: edges with the body above them");
     edges.push_back(ends);
   }
-  if (edges.empty()) throw Error("extruded layer: the body has no edge in the group contact to stand on");
+  if (edges.empty()) throw MeshError("extruded layer: the body has no edge in the group contact to stand on");
   return edges;
 }
 

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "antilock/core/error.hpp"
+#include "antilock/mesh/triangle_mesh.hpp"
 
 namespace antilock {
 
@@ -22,7 +22,7 @@ MemoryFile::MemoryFile(const std::string& text) : descriptor_(::memfd_create("an
   if (descriptor_ >= 0 && written == text.size()) return;
   const std::string why = std::generic_category().message(errno);
   if (descriptor_ >= 0) ::close(descriptor_);
-  throw Error(fmt::format("a file in memory of {} bytes cannot be made: {}", text.size(), why));
+  throw MeshError(fmt::format("a file in memory of {} bytes cannot be made: {}", text.size(), why));
 }
 
 MemoryFile::~MemoryFile() { ::close(descriptor_); }

@@ -7,7 +7,7 @@ namespace antilock {
 /// beside it, and it is gone with this object or with the process, however that ends.
 class MemoryFile {
  public:
-  /// Throws Error where the system has no memory for it.
+  /// Throws MeshError where the system has no memory for it.
   explicit MemoryFile(const std::string& text);
   ~MemoryFile();
   MemoryFile(const MemoryFile&) = delete;

@@ -33,7 +33,7 @@ class MshLines {
   MshLines(std::istream& in, std::string name) : name(std::move(name)) {
     std::ostringstream all;
     if (in) all << in.rdbuf();
-    if (in.bad()) refuse_file("cannot be read");
+    if (in.bad()) refuse_file<MeshError>("cannot be read");
     text_ = std::move(all).str();
     text_.erase(0, text_.size() - plain_text(text_, this->name).size());
     if (text_.empty()) refuse_file("is empty or cannot be read; accepted: MSH 2.2 or 4.1, ASCII");
@@ -59,14 +59,15 @@ class MshLines {
   /// Moves to the next record of `section`; refuses the end of the file, a line that starts with $ (fewer records than
   /// declared), and, unless it is 0, another number of fields; `what` says what the fields are.
   void next_record(std::string_view section, std::size_t count = 0, std::string_view what = "") {
-    if (!next()) refuse_file("truncated: it ends within ${}", section);
-    if (fields[0].front() == '$') refuse("{} where ${} declares further entries", in_quotes(fields[0]), section);
+    if (!next()) refuse_file<MeshError>("truncated: it ends within ${}", section);
+    if (fields[0].front() == '$')
+      refuse<MeshError>("{} where ${} declares further entries", in_quotes(fields[0]), section);
     if (count > 0 && fields.size() != count)
       refuse("{} fields in ${}; accepted: {} ({})", fields.size(), section, count, what);
   }
   /// Refuses anything but the end of `section`: more records than declared, or a truncated file.
   void end_section(std::string_view section) {
-    if (!next()) refuse_file("truncated: it ends within ${}", section);
+    if (!next()) refuse_file<MeshError>("truncated: it ends within ${}", section);
     if (fields.size() != 1 || fields[0] != fmt::format("$End{}", section))
       refuse("{} where the entries that ${} declares are over; accepted: $End{}", in_quotes(line), section, section);
   }
@@ -75,12 +76,12 @@ class MshLines {
     const std::string end = fmt::format("$End{}", section);
     while (next())
       if (fields[0] == end) return;
-    refuse_file("truncated: no {} follows", in_quotes(end));
+    refuse_file<MeshError>("truncated: no {} follows", in_quotes(end));
   }
 
   std::int64_t integer(std::size_t field) const {
     std::int64_t value = 0;
-    if (!read_number(fields[field], value)) refuse("{} is no integer", in_quotes(fields[field]));
+    if (!read_number(fields[field], value)) refuse<MeshError>("{} is no integer", in_quotes(fields[field]));
     return value;
   }
   std::int64_t count(std::size_t field) const {
@@ -95,18 +96,19 @@ class MshLines {
     return value;
   }
 
-  /// Throws Error about this line, another one or the file, `why` a format of the values.
-  template <class... Values>
+  /// Throws Error, or MeshError where `why` does not say what is accepted, about this line, another one or the file;
+  /// `why` is a format of the values.
+  template <class Thrown = Error, class... Values>
   [[noreturn]] void refuse(fmt::format_string<const Values&...> why, const Values&... values) const {
-    refuse_at(number, why, values...);
+    refuse_at<Thrown>(number, why, values...);
   }
-  template <class... Values>
+  template <class Thrown = Error, class... Values>
   [[noreturn]] void refuse_at(int at, fmt::format_string<const Values&...> why, const Values&... values) const {
-    throw Error(fmt::format("{}: line {}: {}", name, at, fmt::format(why, values...)));
+    throw Thrown(fmt::format("{}: line {}: {}", name, at, fmt::format(why, values...)));
   }
-  template <class... Values>
+  template <class Thrown = Error, class... Values>
   [[noreturn]] void refuse_file(fmt::format_string<const Values&...> why, const Values&... values) const {
-    throw Error(fmt::format("{}: {}", name, fmt::format(why, values...)));
+    throw Thrown(fmt::format("{}: {}", name, fmt::format(why, values...)));
   }
 
   const std::string name;
@@ -186,7 +188,7 @@ void read_names(MshLines& lines, MshFile& file, GroupNames known) {
     const std::string_view line = lines.line;
     const std::size_t open = line.find('"'), close = line.rfind('"');
     if (lines.fields.size() < 3 || lines.fields[2].front() != '"' || close == open)
-      lines.refuse("a group must read: dimension number \"name\"");
+      lines.refuse<MeshError>("a group must read: dimension number \"name\"");
     const int dimension = read_dimension(lines, 0);
     if (dimension == 0) continue;  // points carry nothing here
     const std::string name(line.substr(open + 1, close - open - 1));
@@ -199,9 +201,9 @@ void read_names(MshLines& lines, MshFile& file, GroupNames known) {
     }
     for (const auto& [place, other] : file.names)
       if (other == name && place.first == dimension)
-        lines.refuse("the {} group {} is named twice", dimension_names[dimension], in_quotes(name));
+        lines.refuse<MeshError>("the {} group {} is named twice", dimension_names[dimension], in_quotes(name));
     if (!file.names.emplace(Place{dimension, lines.integer(1)}, name).second)
-      lines.refuse("{} group {} has two names", dimension_names[dimension], lines.integer(1));
+      lines.refuse<MeshError>("{} group {} has two names", dimension_names[dimension], lines.integer(1));
   }
 }
 
@@ -209,7 +211,7 @@ void read_names(MshLines& lines, MshFile& file, GroupNames known) {
 std::int64_t read_group(const MshLines& lines, std::size_t field) {
   const std::int64_t group = lines.integer(field);
   if (group > std::numeric_limits<int>::max() || group < -std::numeric_limits<int>::max())
-    lines.refuse("physical group {} is out of range", group);
+    lines.refuse<MeshError>("physical group {} is out of range", group);
   return group;
 }
 
@@ -225,13 +227,13 @@ void read_entities(MshLines& lines, MshFile& file) {
         lines.refuse("{} fields; accepted: {} or more", lines.fields.size(), first_group);
       const std::int64_t tag = lines.integer(0), groups = lines.count(first_group - 1);
       if (groups > static_cast<std::int64_t>(lines.fields.size() - first_group))
-        lines.refuse("{} physical groups declared, but the line ends", groups);
+        lines.refuse<MeshError>("{} physical groups declared, but the line ends", groups);
       if (dimension == 0) continue;
       if (groups > 1)
         lines.refuse("{} {} is in {} physical groups; accepted: one", dimension_names[dimension], tag, groups);
       const std::int64_t group = groups == 0 ? 0 : read_group(lines, first_group);
       if (!file.entities.emplace(Place{dimension, tag}, group).second)
-        lines.refuse("{} {} is listed twice", dimension_names[dimension], tag);
+        lines.refuse<MeshError>("{} {} is listed twice", dimension_names[dimension], tag);
     }
 }
 
@@ -277,7 +279,7 @@ void read_nodes_4(MshLines& lines, MshFile& file) {
     }
   }
   if (static_cast<std::int64_t>(file.nodes.size()) != total)
-    lines.refuse("$Nodes declares {} nodes, its blocks hold {}", total, file.nodes.size());
+    lines.refuse<MeshError>("$Nodes declares {} nodes, its blocks hold {}", total, file.nodes.size());
 }
 
 FileElement read_element(const MshLines& lines, int size, std::int64_t group, std::int64_t surface,
@@ -311,8 +313,8 @@ void read_elements_4(MshLines& lines, MshFile& file) {
     lines.next_record("Elements", 4, "dimension, entity, element type, elements");
     const int size = element_size(lines, lines.integer(2));
     if (read_dimension(lines, 0) != size - 1)
-      lines.refuse("element type {} in a block of dimension {}", in_quotes(lines.fields[2]),
-                   in_quotes(lines.fields[0]));
+      lines.refuse<MeshError>("element type {} in a block of dimension {}", in_quotes(lines.fields[2]),
+                              in_quotes(lines.fields[0]));
     const std::int64_t entity = lines.integer(1);
     for (std::int64_t left = lines.count(3); left > 0; --left) {
       lines.next_record("Elements", 1 + static_cast<std::size_t>(size), "number and nodes");
@@ -320,7 +322,7 @@ void read_elements_4(MshLines& lines, MshFile& file) {
     }
   }
   if (static_cast<std::int64_t>(file.elements.size()) != total)
-    lines.refuse("$Elements declares {} elements, its blocks hold {}", total, file.elements.size());
+    lines.refuse<MeshError>("$Elements declares {} elements, its blocks hold {}", total, file.elements.size());
 }
 
 /// Reads and checks every section that a mesh needs, 2.2 or 4.1.
@@ -333,11 +335,11 @@ MshFile read_sections(MshLines& lines, const GroupNames& more) {
   MshFile file;
   std::set<std::string, std::less<>> seen;
   const auto first_time = [&](const std::string& section) {
-    if (!seen.insert(section).second) lines.refuse("a second {}", in_quotes('$' + section));
+    if (!seen.insert(section).second) lines.refuse<MeshError>("a second {}", in_quotes('$' + section));
   };
   do {
     if (lines.fields.size() != 1 || lines.fields[0].front() != '$' || lines.fields[0].starts_with("$End"))
-      lines.refuse("{} outside every section", in_quotes(lines.line));
+      lines.refuse<MeshError>("{} outside every section", in_quotes(lines.line));
     const std::string section(lines.fields[0].substr(1));
     if (section == "MeshFormat") {
       first_time(section);
@@ -363,9 +365,9 @@ MshFile read_sections(MshLines& lines, const GroupNames& more) {
     lines.end_section(section);
   } while (lines.next());
   for (const char* section : {"PhysicalNames", "Nodes", "Elements"})
-    if (!seen.contains(section)) lines.refuse_file("has no section ${}, which is needed", section);
+    if (!seen.contains(section)) lines.refuse_file<MeshError>("has no section ${}, which is needed", section);
   if (file.version_4 && !seen.contains("Entities"))
-    lines.refuse_file("has no section $Entities, which in MSH 4.1 tells the physical groups");
+    lines.refuse_file<MeshError>("has no section $Entities, which in MSH 4.1 tells the physical groups");
   return file;
 }
 
@@ -375,8 +377,8 @@ std::int64_t group_number(const MshLines& lines, const MshFile& file, const File
   if (!file.version_4) return std::abs(element.group);
   const auto entity = file.entities.find({element.dimension(), element.group});
   if (entity == file.entities.end())
-    lines.refuse_at(element.line, "element {} is on {} {}, which $Entities does not list", element.tag,
-                    dimension_names[element.dimension()], element.group);
+    lines.refuse_at<MeshError>(element.line, "element {} is on {} {}, which $Entities does not list", element.tag,
+                               dimension_names[element.dimension()], element.group);
   return std::abs(entity->second);
 }
 
@@ -389,8 +391,8 @@ const std::string& group_name(const MshLines& lines, const MshFile& file, const 
                     element.tag);
   const auto name = file.names.find({element.dimension(), group});
   if (name == file.names.end())
-    lines.refuse_at(element.line, "element {} is in {} group {}, which $PhysicalNames does not name", element.tag,
-                    dimension, group);
+    lines.refuse_at<MeshError>(element.line, "element {} is in {} group {}, which $PhysicalNames does not name",
+                               element.tag, dimension, group);
   return name->second;
 }
 
@@ -401,7 +403,7 @@ std::unordered_map<std::int64_t, int> number_nodes(const MshLines& lines, const 
   for (const auto& [tag, at, line] : nodes) {
     if (tag < 1) lines.refuse_at(line, "node tag {}; accepted: 1 or more", tag);
     if (!place.emplace(tag, static_cast<int>(place.size())).second)
-      lines.refuse_at(line, "node tag {} is used twice", tag);
+      lines.refuse_at<MeshError>(line, "node tag {} is used twice", tag);
   }
   return place;
 }
@@ -456,13 +458,14 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGrou
   std::unordered_set<std::int64_t> tags;
   if (part != nullptr) part->clear();
   for (const FileElement& element : file.elements) {
-    if (!tags.insert(element.tag).second) lines.refuse_at(element.line, "element number {} is used twice", element.tag);
+    if (!tags.insert(element.tag).second)
+      lines.refuse_at<MeshError>(element.line, "element number {} is used twice", element.tag);
     std::array<int, 3> vertices{};
     for (int i = 0; i < element.size; ++i) {
       const auto node = place_of.find(element.nodes[i]);
       if (node == place_of.end())
-        lines.refuse_at(element.line, "element {} has node {}, which $Nodes does not list", element.tag,
-                        element.nodes[i]);
+        lines.refuse_at<MeshError>(element.line, "element {} has node {}, which $Nodes does not list", element.tag,
+                                   element.nodes[i]);
       vertices[i] = node->second;
     }
     if (element.dimension() == 0) continue;
@@ -495,14 +498,15 @@ TriangleMesh resolve(const MshLines& lines, const MshFile& file, const ExtraGrou
   for (const auto& [dimension, name] : GroupNames{{2, "body"}, {1, "clamped"}, {1, "contact"}})
     if (!found.contains({dimension, name}) && !(name == "body" && !more.bodies.empty()) &&
         !(name == "clamped" && !more.curves.empty()))
-      lines.refuse_file("has nothing in the physical group {}; needed: body, clamped, contact", in_quotes(name));
+      lines.refuse_file<MeshError>("has nothing in the physical group {}; needed: body, clamped, contact",
+                                   in_quotes(name));
   for (const auto& [name, tag] : more.curves)
-    if (!found.contains({1, name})) lines.refuse_file("has no curve in the group {}", in_quotes(name));
+    if (!found.contains({1, name})) lines.refuse_file<MeshError>("has no curve in the group {}", in_quotes(name));
   for (const std::string& name : more.bodies)
-    if (!found.contains({2, name})) lines.refuse_file("has no surface in the group {}", in_quotes(name));
+    if (!found.contains({2, name})) lines.refuse_file<MeshError>("has no surface in the group {}", in_quotes(name));
   for (const auto& [place, name] : file.names)
     if (!found.contains({place.first, name}))
-      lines.refuse_file("names the physical group {}, but it is empty", in_quotes(name));
+      lines.refuse_file<MeshError>("names the physical group {}, but it is empty", in_quotes(name));
 
   used.number(lines);
   for (auto& triangle : corners)

@@ -14,9 +14,9 @@
 namespace antilock {
 namespace {
 
-template <class... Values>
+template <class Thrown = Error, class... Values>
 [[noreturn]] void refuse(const std::string& where, fmt::format_string<const Values&...> why, const Values&... values) {
-  throw Error(fmt::format("{}: {}", where, fmt::format(why, values...)));
+  throw Thrown(fmt::format("{}: {}", where, fmt::format(why, values...)));
 }
 
 std::string triangle_at(const TriangleMesh& mesh, int t) {
@@ -28,8 +28,9 @@ std::string triangle_at(const TriangleMesh& mesh, int t) {
 void check_indices(const TriangleMesh& mesh, const std::vector<TaggedEdge>& tagged_edges, const std::string& where) {
   const int n = mesh.vertex_count();
   if (mesh.triangle_count() == 0) refuse(where, "no triangles; accepted: a mesh of the body");
-  if (static_cast<int>(mesh.region.size()) != mesh.triangle_count()) refuse(where, "one region a triangle is needed");
-  if (!mesh.vertices.allFinite()) refuse(where, "a vertex coordinate is not finite");
+  if (static_cast<int>(mesh.region.size()) != mesh.triangle_count())
+    refuse<MeshError>(where, "one region a triangle is needed");
+  if (!mesh.vertices.allFinite()) refuse<MeshError>(where, "a vertex coordinate is not finite");
   const auto valid = [n](int v) { return v >= 0 && v < n; };
   for (int t = 0; t < mesh.triangle_count(); ++t)
     for (int i = 0; i < 3; ++i)
@@ -45,8 +46,8 @@ void check_vertices(const TriangleMesh& mesh, const std::string& where) {
   for (const int v : mesh.triangles.reshaped()) used[v] = 1;
   const auto unused = std::find(used.begin(), used.end(), 0);
   if (unused != used.end())
-    refuse(where, "the vertex at {} is dangling: it belongs to no triangle",
-           mesh.location_text(static_cast<int>(unused - used.begin())));
+    refuse<MeshError>(where, "the vertex at {} is dangling: it belongs to no triangle",
+                      mesh.location_text(static_cast<int>(unused - used.begin())));
   // Duplicates are neighbours once sorted by x then y.
   std::vector<int> order(mesh.vertex_count());
   std::iota(order.begin(), order.end(), 0);
@@ -98,7 +99,7 @@ void check_triangles(const TriangleMesh& mesh, const std::string& where) {
     }
     // below 1e-14 the sign of the area is round-off
     if (!(std::abs(mesh.twice_area(t)) > 1e-14 * longest))
-      refuse(where, "degenerate {}: its area is zero", triangle_at(mesh, t));
+      refuse<MeshError>(where, "degenerate {}: its area is zero", triangle_at(mesh, t));
   }
 }
 
@@ -131,7 +132,7 @@ void check_overlap(const TriangleMesh& mesh, const std::string& where) {
     for (int i = 0; i < 3; ++i) {
       const int e = mesh.triangle_edges(t, i);
       const char forward = mesh.triangles(t, (i + 1) % 3) == mesh.edges(e, 0) ? 1 : 2;
-      if (direction[e] == forward) refuse(where, "inverted or overlapping {}", triangle_at(mesh, t));
+      if (direction[e] == forward) refuse<MeshError>(where, "inverted or overlapping {}", triangle_at(mesh, t));
       direction[e] = forward;
     }
 }
@@ -152,8 +153,8 @@ void check_boundary(const TriangleMesh& mesh, const std::string& where) {
   const int first = untagged.front();
   const auto refuse_hanging = [&](int v, int e) {
     if (hangs(mesh, v, e))
-      refuse(where, "the vertex at {} hangs on the edge from {} to {}", mesh.location_text(v),
-             mesh.location_text(mesh.edges(e, 0)), mesh.location_text(mesh.edges(e, 1)));
+      refuse<MeshError>(where, "the vertex at {} hangs on the edge from {} to {}", mesh.location_text(v),
+                        mesh.location_text(mesh.edges(e, 0)), mesh.location_text(mesh.edges(e, 1)));
   };
   // the likely reason: the first of them is the long side of a hanging vertex, or one of the short ones
   for (int v = 0; v < mesh.vertex_count(); ++v) refuse_hanging(v, first);
@@ -169,9 +170,9 @@ void check_held(const TriangleMesh& mesh, const std::string& where) {
   const auto held = [&](int e) { return is_dirichlet(mesh.edge_tag[e]) || group_of(mesh.edge_tag[e]) >= 0; };
   bool any = false;
   for (int e = 0; e < mesh.edge_count() && !any; ++e) any = held(e);
-  if (!any) refuse(where, "no edge is in the group clamped, which is needed");
+  if (!any) refuse<MeshError>(where, "no edge is in the group clamped, which is needed");
   if (const int t = find_floating_component(mesh, held); t >= 0)
-    refuse(where, "dangling {}: no clamped edge holds its piece of the mesh", triangle_at(mesh, t));
+    refuse<MeshError>(where, "dangling {}: no clamped edge holds its piece of the mesh", triangle_at(mesh, t));
 }
 
 }  // namespace
@@ -280,7 +281,7 @@ TriangleMesh make_triangle_mesh(Points vertices, Triples triangles, std::vector<
   check_triangles(mesh, where);
   orient(mesh, surface.empty() ? surfaces_of(mesh.region) : surface, where);
   if (std::find(mesh.region.begin(), mesh.region.end(), Region::body) == mesh.region.end())
-    refuse(where, "no triangle is in the group body, which is needed");
+    refuse<MeshError>(where, "no triangle is in the group body, which is needed");
   number_edges(mesh, where);
   tag_edges(mesh, tagged_edges, where);
   check_overlap(mesh, where);

@@ -5,9 +5,16 @@
 #include <vector>
 
 #include "antilock/core/eigen_memory.hpp"
+#include "antilock/core/error.hpp"
 #include "antilock/mesh/geometry.hpp"
 
 namespace antilock {
+
+/// An Error about a mesh that says what is wrong and not what is accepted: that depends on the problem, which the
+/// caller knows.
+struct MeshError : Error {
+  using Error::Error;
+};
 
 /// Physical groups of Figure 2; the numbers are those of the MSH and FreeFEM files.
 enum class Region { body = 1, layer = 2 };

@@ -77,8 +77,8 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
       largest = std::max(largest, std::abs(gap(x)));
       try {
         check_upper_obstacle(*file.scene.contact(), x);
-      } catch (const Error& error) {
-        throw Error(file.name + ": contact.ceiling: " + error.what());
+      } catch (const ObstacleError& error) {
+        throw InputError(file.name + ": contact.ceiling: " + error.what());
       }
     }
   }
@@ -90,7 +90,7 @@ void check_on_mesh(const SceneFile& file, const TriangleMesh& mesh) {
       const double round_off = std::min(1e-12 * std::max(1.0, std::abs(gap((a + b) / 2))), 1e-6 * scale);
       for (const auto& [name, bound, sign] : {std::tuple("gap", &gap, -1), {"ceiling", &upper_obstacle, 1}})
         if (*bound && sign * values(v) > (*bound)(x) + round_off)
-          throw Error(
+          throw InputError(
               fmt::format("{0}: contact.{1}: {1}({2:.6g}) = {3:.6g}, but u = {4:.6g} is prescribed there; accepted: "
                           "{1} >= {5}u where Gamma_C meets an edge with a given u",
                           file.name, name, x, (*bound)(x), values(v), sign < 0 ? "-" : ""));

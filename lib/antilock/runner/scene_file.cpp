@@ -26,7 +26,7 @@ class Section {
   Section(std::string file, std::string name, const toml::table& table)
       : file_(std::move(file)), name_(std::move(name)), table_(table) {}
 
-  [[noreturn]] void refuse(const std::string& key, const std::string& why) const { throw Error(where(key) + why); }
+  [[noreturn]] void refuse(const std::string& key, const std::string& why) const { throw InputError(where(key) + why); }
   std::string where(const std::string& key) const {
     std::string full = name_;
     if (!full.empty() && !key.empty()) full += '.';
@@ -115,13 +115,13 @@ std::string read_text(const std::filesystem::path& path, const std::string& name
   const std::string accepted = "; accepted: a scene file in TOML";
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    throw Error(name + ": file: is a folder or a device" + accepted);
+    throw InputError(name + ": file: is a folder or a device" + accepted);
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(name + ": file: cannot be opened" + accepted);
+  if (!in) throw InputError(name + ": file: cannot be opened" + accepted);
   std::string text(most + 1, '\0');
   in.read(text.data(), most + 1);
-  if (in.bad()) throw Error(name + ": file: cannot be read" + accepted);
-  if (in.gcount() > most) throw Error(name + ": file: is larger than 1 MB" + accepted);
+  if (in.bad()) throw InputError(name + ": file: cannot be read" + accepted);
+  if (in.gcount() > most) throw InputError(name + ": file: is larger than 1 MB" + accepted);
   text.resize(static_cast<std::size_t>(in.gcount()));
   return text;
 }
@@ -131,8 +131,9 @@ toml::table parse(const std::string& text, const std::string& name) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
-    throw Error(fmt::format("{}: syntax: line {}, column {}: {}; accepted: TOML 1.0", name, error.source().begin.line,
-                            error.source().begin.column, printable(std::string(error.description()), 200)));
+    throw InputError(fmt::format("{}: syntax: line {}, column {}: {}; accepted: TOML 1.0", name,
+                                 error.source().begin.line, error.source().begin.column,
+                                 printable(std::string(error.description()), 200)));
   }
 }
 
@@ -147,7 +148,7 @@ auto named(const Section& section, const std::string& key, const std::string& te
     try {
       return ask();
     } catch (const Error& error) {
-      throw Error(where + error.what());
+      throw InputError(where + error.what());
     }
   };
   return [=, f = naming([&] { return Expression(text, variables); })](auto... at) {
@@ -165,8 +166,8 @@ Field field_above(const Field& f, const std::string& where, bool zero_too) {
   return [=](double x, double y) {
     const double value = f(x, y);
     if (value < 0 || (value == 0 && !zero_too))
-      throw Error(fmt::format("{}is {:g} at ({:g}, {:g}); accepted: {} 0", where, value, x, y,
-                              zero_too ? "at least" : "above"));
+      throw InputError(fmt::format("{}is {:g} at ({:g}, {:g}); accepted: {} 0", where, value, x, y,
+                                   zero_too ? "at least" : "above"));
     return value;
   };
 }
@@ -216,8 +217,8 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGr
     if (!at) at = parts->places->locate({x, y}, 0.5);  // beside the file's polygon, where refinement follows a curve
     const int part = at ? parts->part[at->triangle] : -1;
     if (part < 0)
-      throw Error(fmt::format("{}names no group of the surface at ({:g}, {:g}); accepted: all groups of the body",
-                              where, x, y));
+      throw InputError(fmt::format("{}names no group of the surface at ({:g}, {:g}); accepted: all groups of the body",
+                                   where, x, y));
     return numbers[part];
   };
 }
@@ -452,7 +453,7 @@ void check_elastic(const Section& root, const Scene& scene, const MethodRequest&
 void require_paper_problem(const SceneFile& file, const std::string& who) {
   const std::string beyond = file.elastic ? "plane strain" : file.scene.beyond_the_paper();
   if (!beyond.empty())
-    throw Error(fmt::format("{}: {}: does not know {}; accepted: a scene without it", file.name, who, beyond));
+    throw InputError(fmt::format("{}: {}: does not know {}; accepted: a scene without it", file.name, who, beyond));
 }
 
 SceneFile read_scene_file(const std::filesystem::path& path) {
@@ -497,9 +498,9 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
           return 0.0;
         });
       return made;
-    } catch (const Error& error) {  // what is left for the scene to refuse: what no clamped end can keep
-      const std::string what = error.what();
-      throw Error(root.where(what.starts_with("contact: ceiling") ? "contact.ceiling" : "contact.gap") + what);
+    } catch (const ObstacleError& error) {  // what is left for the scene to refuse: what no clamped end can keep
+      const bool ceiling = error.which == ObstacleError::Obstacle::ceiling;
+      root.refuse(ceiling ? "contact.ceiling" : "contact.gap", error.what());
     }
   }();
   check_together(root, scene, mesh, method);

@@ -176,7 +176,7 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file, const Geometry& geometry)
   try {
     if (has_layer && depth == 0)
       throw Error("has a group layer, which this scene has no use for; accepted: a mesh of the body alone");
-    if (!has_layer && depth > 0) throw Error("has nothing in the physical group \"layer\", which this scene needs");
+    if (!has_layer && depth > 0) throw MeshError("has nothing in the physical group \"layer\", which this scene needs");
     const Extent sigma = check_bottom_edge(mesh, has_layer ? EdgeTag::sigma : EdgeTag::contact);
     if (has_layer) check_layer(mesh, sigma, depth);
     check_contact_side(mesh, -depth, sigma.size);
@@ -185,6 +185,8 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file, const Geometry& geometry)
       throw Error("the body's bottom edge is in several pieces; accepted with model = \"ventcel\": one piece");
     if (std::holds_alternative<VentcelLayer>(scene.layer()))  // what its term refuses
       assemble(Scene({[](double, double) { return 0; }}, VentcelLayer{}, {}, scene.edges()), Space(mesh, p1()));
+  } catch (const MeshError& error) {
+    throw MeshError(path + ": " + error.what());
   } catch (const Error& error) {
     throw Error(path + ": " + error.what());
   }
@@ -197,12 +199,16 @@ Geometry named_geometry(const SceneFile& file) {
   try {
     return read_geometry(file.mesh.geometry);
   } catch (const Error& error) {
-    throw Error(file.name + ": mesh.geometry: " + error.what());
+    throw InputError(file.name + ": mesh.geometry: " + error.what());
   }
 }
 
 TriangleMesh checked_mesh(const SceneFile& file) {
   const auto& [kind, cells, path, refinements, geometry] = file.mesh;
+  const auto at_its_key = [&](const Error& error) {
+    const char* const key = file.mesh.from_file() ? ": mesh.file: " : ": mesh.cells: ";
+    return file.name + key + printable(error.what(), 2000);
+  };
   const Domain domain{file.scene.layer_depth()};
   const Geometry named = named_geometry(file);
   try {
@@ -210,13 +216,12 @@ TriangleMesh checked_mesh(const SceneFile& file) {
            : kind == "unstructured" ? unstructured_mesh(cells, domain)
            : kind == "layered"      ? layered_mesh(cells, file.scene.epsilon().value_or(1))
                                     : read_mesh_of(file, named);
+  } catch (const MeshError& error) {
+    throw InputError(at_its_key(error) +
+                     "; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), clamped and "
+                     "contact, its triangles proper and connected");
   } catch (const Error& error) {
-    std::string what = printable(error.what(), 2000);
-    if (what.find("accepted") == std::string::npos)
-      what +=
-          "; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), clamped and contact, its "
-          "triangles proper and connected";
-    throw Error(file.name + (file.mesh.from_file() ? ": mesh.file: " : ": mesh.cells: ") + what);
+    throw InputError(at_its_key(error));
   }
 }
 
@@ -229,8 +234,8 @@ TriangleMesh make_mesh(const SceneFile& file) {
   if (file.mesh.from_file()) check_on_mesh(file, mesh);
   const std::int64_t triangles = static_cast<std::int64_t>(mesh.triangle_count()) << (2 * file.mesh.refinements);
   if (triangles > most_triangles)
-    throw Error(fmt::format("{}: mesh.refinements: {} refinements of {} triangles make {}; accepted: up to {}",
-                            file.name, file.mesh.refinements, mesh.triangle_count(), triangles, most_triangles));
+    throw InputError(fmt::format("{}: mesh.refinements: {} refinements of {} triangles make {}; accepted: up to {}",
+                                 file.name, file.mesh.refinements, mesh.triangle_count(), triangles, most_triangles));
   for (int i = 0; i < file.mesh.refinements; ++i) mesh = refined(mesh);
   return mesh;
 }

@@ -136,10 +136,10 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
       return solve();
     } catch (const NotConverged& failure) {
       throw NotConverged(file.name + ": solve: " + failure.what(), failure.reached, failure.steps);
+    } catch (const InputError&) {
+      throw;
     } catch (const Error& error) {
-      const std::string what = error.what();
-      throw Error(what.starts_with(file.name) ? what
-                                              : file.name + (method.accuracy ? ": method.accuracy: " : ": ") + what);
+      throw InputError(file.name + (method.accuracy ? ": method.accuracy: " : ": ") + error.what());
     }
   };
   const auto spent = [&](Result& result) {
@@ -159,7 +159,7 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
   begin(fmt::format("assembly: {} on {} triangles", method.element, mesh.triangle_count()));
   const Space space(std::move(mesh), element(method.element));
   if (space.free_count() == 0)
-    throw Error(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
+    throw InputError(file.name + ": mesh: every unknown is clamped, none is left to solve for; accepted: a finer mesh");
   std::string data;  // to distrust in what was given
   const auto by_method = [&](const VariationalInequality& problem) {
     data = joined(load_warning(file, space, problem), displacement_warning(file, space.mesh()));

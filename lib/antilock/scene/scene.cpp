@@ -9,6 +9,8 @@
 namespace antilock {
 namespace {
 
+using Obstacle = ObstacleError::Obstacle;
+
 void check_epsilon(const std::string& model, double epsilon, double smallest, const std::string& why) {
   if (!(epsilon >= smallest && epsilon <= 1))
     throw Error(fmt::format("{} layer: epsilon = {} is out of range; accepted {}", model, epsilon, why));
@@ -31,18 +33,22 @@ Scene::Scene(Body body, Layer layer, std::optional<UnilateralContact> contact, s
   if (!contact_) return;
   if (!contact_->gap) throw Error("contact: no gap given; accepted: a function gap(x)");
   for (const double x : contact_->zero_at)
-    for (const auto& [name, bound] : {std::pair("gap", &contact_->gap), {"ceiling", &contact_->upper_obstacle}})
+    for (const auto& [which, bound] :
+         {std::pair(Obstacle::gap, &contact_->gap), {Obstacle::ceiling, &contact_->upper_obstacle}})
       // sin(pi) in double precision is 1.2e-16
       if (*bound && !((*bound)(x) >= -1e-12 * std::max(1.0, std::abs((*bound)(0.5)))))
-        throw Error(fmt::format("contact: {0}({1}) = {2}, but u = 0 is prescribed there; accepted: {0} >= 0 at x = {3}",
-                                name, x, (*bound)(x), fmt::join(contact_->zero_at, " and x = ")));
+        throw ObstacleError(
+            which, fmt::format("contact: {0}({1}) = {2}, but u = 0 is prescribed there; accepted: {0} >= 0 at x = {3}",
+                               which == Obstacle::gap ? "gap" : "ceiling", x, (*bound)(x),
+                               fmt::join(contact_->zero_at, " and x = ")));
 }
 
 void check_upper_obstacle(const UnilateralContact& contact, double x) {
   if (!contact.upper_obstacle) return;
   const double lower = -contact.gap(x), upper = contact.upper_obstacle(x);
   if (upper < lower - 1e-12 * std::max(1.0, std::abs(lower)))  // the round-off of two formulas
-    throw Error(
+    throw ObstacleError(
+        Obstacle::ceiling,
         fmt::format("contact: ceiling({0:.6g}) = {1:.6g} is below the obstacle, -gap({0:.6g}) = {2:.6g}; accepted: "
                     "ceiling >= -gap",
                     x, upper, lower));

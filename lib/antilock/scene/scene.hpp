@@ -51,7 +51,14 @@ struct UnilateralContact {
   Profile upper_obstacle = {};           ///< u <= upper_obstacle, too (a double obstacle problem); empty: none
 };
 
-/// Throws Error where the upper obstacle is below the lower one at x: no u satisfies -gap(x) <= u <= upper_obstacle(x).
+/// An obstacle that no displacement keeps to, at some x.
+struct ObstacleError : Error {
+  enum class Obstacle { gap, ceiling };
+  ObstacleError(Obstacle which, const std::string& message) : Error(message), which(which) {}
+  Obstacle which;  ///< that at fault
+};
+
+/// Throws ObstacleError where the upper obstacle is below the lower one at x: no u satisfies -gap(x) <= u <= upper_obstacle(x).
 void check_upper_obstacle(const UnilateralContact& contact, double x);
 
 /// A scene (the description of a problem): a body, a layer or none, contact or not.

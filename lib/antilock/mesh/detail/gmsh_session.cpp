@@ -33,7 +33,7 @@ void* gmsh_library() {
     return loaded;
   }();
   if (library == nullptr)
-    throw Error(
+    throw MeshError(
         fmt::format("mesh: gmsh cannot be loaded ({}); an unstructured or layered mesh needs it (Debian: "
                     "libgmsh-dev), a structured mesh or a mesh file does not",
                     why));
@@ -95,7 +95,7 @@ std::vector<Number> taken(Number* first, std::size_t count) {
 
 void* GmshSession::symbol(const char* name) {
   void* const found = dlsym(gmsh_library(), name);
-  if (found == nullptr) throw Error(fmt::format("mesh: {} has no function {}", ANTILOCK_GMSH_LIBRARY, name));
+  if (found == nullptr) throw MeshError(fmt::format("mesh: {} has no function {}", ANTILOCK_GMSH_LIBRARY, name));
   return found;
 }
 
@@ -106,7 +106,7 @@ void GmshSession::check(int failed, const char* name) const {
   reinterpret_cast<decltype(gmshLoggerGetLastError)*>(symbol("gmshLoggerGetLastError"))(&message, &ignored);
   const std::string said = message == nullptr ? "" : message;
   if (message != nullptr) free_by_gmsh(message);
-  throw Error(fmt::format("mesh: gmsh failed in {}{}{}", name, said.empty() ? "" : ": ", said));
+  throw MeshError(fmt::format("mesh: gmsh failed in {}{}{}", name, said.empty() ? "" : ": ", said));
 }
 
 GmshSession::Turn::Turn() : alone(one_session()), locale(use_decimal_points()) {}
@@ -225,14 +225,14 @@ void GmshSession::read(const Geometry& geometry) {
   const MemoryFile script(geometry.script);
   try {
     call<decltype(gmshMerge)>("gmshMerge", script.path().c_str());
-  } catch (const Error& error) {
+  } catch (const MeshError& error) {
     // gmsh's scanner keeps the rest of the line at fault, and would put it before the next script: it is read off here
     set("General.AbortOnError", 0);
     call<decltype(gmshMerge)>("gmshMerge", MemoryFile("\n").path().c_str());
     std::string what = error.what();
     if (const auto at = what.find(script.path()); at != what.npos)
       what.replace(at, script.path().size(), geometry.file);
-    throw Error(what);
+    throw MeshError(what);
   }
 }
 
