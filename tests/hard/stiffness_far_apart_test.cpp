@@ -73,7 +73,7 @@ RealMatrix assembled(const Question& q, const Space& space) {
       add(t, d.col(1), weight * in_y);
     }
     for (int i = 0; i < 3; ++i) {
-      const int e = mesh.triangle_edges(t, i), group = group_of(mesh.edge_tag[e]);
+      const int e = mesh.triangle_edges(t, i), group = mesh.edge_tag[e].group;
       if (group < 0 || q.springs[group] == 0) continue;
       for (Eigen::Index g = 0; g < at.size(); ++g) {
         Eigen::Matrix<Real, 3, 1> l = Eigen::Matrix<Real, 3, 1>::Zero();

@@ -266,9 +266,9 @@ LockingLoss locking_loss(const Scene& scene, const Result& result) {
   }
 
   for (int e = 0; e < mesh.edge_count(); ++e)
-    if (const EdgeTag tag = mesh.edge_tag[e]; group_of(tag) >= 0 && !is_dirichlet(tag) &&
+    if (const EdgeTag tag = mesh.edge_tag[e]; tag.group >= 0 && !is_dirichlet(tag) &&
                                               mesh.region[mesh.edge_triangles(e, 0)] == Region::layer &&
-                                              scene.edges()[group_of(tag)].kind != BoundaryCondition::Kind::free)
+                                              scene.edges()[tag.group].kind != BoundaryCondition::Kind::free)
       throw Error("lost energy: accepted: no traction and no spring on the layer");
 
   // v_0: straight in the layer, affine between given values of the outer ends of Sigma, level to an end that is free

@@ -18,7 +18,7 @@ namespace {
 
 /// The traction on the edges with a tag; null where there is none.
 const Field* traction_on(const Scene& scene, EdgeTag tag) {
-  const int k = group_of(tag);
+  const int k = tag.group;
   return k < 0 || scene.edges()[k].kind != BoundaryCondition::Kind::traction ? nullptr : &scene.edges()[k].value;
 }
 
@@ -66,7 +66,7 @@ void check_displacement(const Scene& scene, const TriangleMesh& mesh) {
   const Eigen::VectorXd at_vertices = dirichlet_vertex_values(scene, mesh);
   const double largest = at_vertices.cwiseAbs().maxCoeff();
   for (int e = 0; e < mesh.edge_count(); ++e) {
-    const int from = mesh.edges(e, 0), to = mesh.edges(e, 1), k = group_of(mesh.edge_tag[e]);
+    const int from = mesh.edges(e, 0), to = mesh.edges(e, 1), k = mesh.edge_tag[e].group;
     if (!is_dirichlet(mesh.edge_tag[e]) || (k >= 0 && mesh.region[mesh.edge_triangles(e, 0)] == Region::layer))
       continue;
     for (int part = 0; part <= 4; ++part) {

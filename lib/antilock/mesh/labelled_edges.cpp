@@ -6,6 +6,26 @@
 
 namespace antilock {
 
+int physical_number(EdgeTag tag) {
+  switch (tag.kind) {
+    case EdgeTag::Kind::interior:
+      return 0;
+    case EdgeTag::Kind::sigma:
+      return 3;
+    case EdgeTag::Kind::clamped:
+      return 4;
+    case EdgeTag::Kind::contact:
+      return 5;
+    case EdgeTag::Kind::free:
+      return 6;
+    case EdgeTag::Kind::natural:
+      return (tag.group < 990 ? 10 : 1000) + tag.group;
+    case EdgeTag::Kind::dirichlet:
+      return 1000 + tag.group;
+  }
+  return 0;
+}
+
 std::vector<Labelled> labelled_edges(const TriangleMesh& mesh) {
   std::vector<Labelled> labelled;
   for (int edge = 0; edge < mesh.edge_count(); ++edge) {
@@ -14,7 +34,7 @@ std::vector<Labelled> labelled_edges(const TriangleMesh& mesh) {
     for (int i = 0; i < 3; ++i)  // edge i runs from vertex i+1 to vertex i+2
       if (mesh.triangle_edges(triangle, i) == edge)
         labelled.push_back({mesh.triangles(triangle, (i + 1) % 3), mesh.triangles(triangle, (i + 2) % 3),
-                            static_cast<int>(mesh.edge_tag[edge])});
+                            physical_number(mesh.edge_tag[edge])});
   }
   return labelled;
 }

@@ -124,7 +124,7 @@ TriangleMesh extruded(const TriangleMesh& body, double epsilon, bool along_norma
                     {body.vertices(left, 1) - slope * body.vertices(left, 0), slope,
                      (curvature(left) + curvature(right)) / std::max(ends, 1.0)});
       for (const int v : {left, right})
-        if (degree[v] == 1 && side[v] >= dirichlet_group(0))
+        if (degree[v] == 1 && side[v].kind == EdgeTag::Kind::dirichlet)
           throw Error("extruded layer: a displacement is given at " + body.location_text(v) +
                       ", where a curved Sigma ends; accepted: clamped or free there");
     }

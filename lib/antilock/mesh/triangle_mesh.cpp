@@ -167,7 +167,7 @@ void check_boundary(const TriangleMesh& mesh, const std::string& where) {
 
 /// A piece that no clamped edge holds could move freely: the problem would be singular.
 void check_held(const TriangleMesh& mesh, const std::string& where) {
-  const auto held = [&](int e) { return is_dirichlet(mesh.edge_tag[e]) || group_of(mesh.edge_tag[e]) >= 0; };
+  const auto held = [&](int e) { return is_dirichlet(mesh.edge_tag[e]) || mesh.edge_tag[e].group >= 0; };
   bool any = false;
   for (int e = 0; e < mesh.edge_count() && !any; ++e) any = held(e);
   if (!any) refuse<MeshError>(where, "no edge is in the group clamped, which is needed");

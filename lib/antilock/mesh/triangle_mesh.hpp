@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Core>
+#include <compare>
 #include <functional>
 #include <string>
 #include <vector>
@@ -16,18 +17,37 @@ struct MeshError : Error {
   using Error::Error;
 };
 
-/// Physical groups of Figure 2; the numbers are those of the MSH and FreeFEM files.
+/// The triangles' physical groups of Figure 2; the numbers are those of the MSH and FreeFEM files.
 enum class Region { body = 1, layer = 2 };
-enum class EdgeTag { interior = 0, sigma = 3, clamped = 4, contact = 5, free = 6 };
-/// The tags of named groups of edges, k = 0, 1, ...: those with Dirichlet data, and all others. A copy of the tags
-/// must copy them, too.
-constexpr EdgeTag natural_group(int k) { return static_cast<EdgeTag>(10 + k); }
-constexpr EdgeTag dirichlet_group(int k) { return static_cast<EdgeTag>(1000 + k); }
-constexpr bool is_dirichlet(EdgeTag tag) { return tag == EdgeTag::clamped || tag >= dirichlet_group(0); }
-/// k, or -1 for a tag of no named group.
-constexpr int group_of(EdgeTag tag) {
-  const int number = static_cast<int>(tag);
-  return number >= 1000 ? number - 1000 : number >= 10 ? number - 10 : -1;
+
+/// The kind of an edge and, for an edge of a named group, the number of that group. Tags are ordered by kind, then by
+/// group.
+struct EdgeTag {
+  enum class Kind {
+    interior,
+    sigma,      ///< where body meets layer
+    clamped,    ///< u = 0
+    contact,    ///< Gamma_C
+    free,       ///< no condition
+    natural,    ///< of a named group without Dirichlet data: free, a traction or a spring
+    dirichlet,  ///< of a named group with Dirichlet data
+  };
+  Kind kind = Kind::interior;
+  int group = -1;  ///< k = 0, 1, ... of a named group, its place in Scene::edges(); -1 for the other kinds
+
+  static const EdgeTag interior, sigma, clamped, contact, free;
+  auto operator<=>(const EdgeTag&) const = default;
+};
+inline constexpr EdgeTag EdgeTag::interior{Kind::interior};
+inline constexpr EdgeTag EdgeTag::sigma{Kind::sigma};
+inline constexpr EdgeTag EdgeTag::clamped{Kind::clamped};
+inline constexpr EdgeTag EdgeTag::contact{Kind::contact};
+inline constexpr EdgeTag EdgeTag::free{Kind::free};
+
+constexpr EdgeTag natural_group(int k) { return {EdgeTag::Kind::natural, k}; }
+constexpr EdgeTag dirichlet_group(int k) { return {EdgeTag::Kind::dirichlet, k}; }
+constexpr bool is_dirichlet(EdgeTag tag) {
+  return tag.kind == EdgeTag::Kind::clamped || tag.kind == EdgeTag::Kind::dirichlet;
 }
 
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;  ///< n x 2, coordinates x, y

@@ -23,17 +23,21 @@ struct Group {
 /// The groups that the mesh has elements of, those of `named` last.
 std::vector<Group> groups_of(const TriangleMesh& mesh, const std::vector<BoundaryCondition>& named) {
   std::vector<Group> groups;
-  const auto add = [&](int dimension, const auto& all, auto tag, const std::string& name) {
-    if (std::find(all.begin(), all.end(), tag) != all.end()) groups.push_back({dimension, static_cast<int>(tag), name});
+  const auto has = [](const auto& all, auto tag) { return std::find(all.begin(), all.end(), tag) != all.end(); };
+  const auto add_curves = [&](EdgeTag tag, const std::string& name) {
+    if (has(mesh.edge_tag, tag)) groups.push_back({1, physical_number(tag), name});
   };
-  add(1, mesh.edge_tag, EdgeTag::sigma, "sigma");
-  add(1, mesh.edge_tag, EdgeTag::clamped, "clamped");
-  add(1, mesh.edge_tag, EdgeTag::contact, "contact");
-  add(1, mesh.edge_tag, EdgeTag::free, "free");
-  add(2, mesh.region, Region::body, "body");
-  add(2, mesh.region, Region::layer, "layer");
+  const auto add_surfaces = [&](Region region, const std::string& name) {
+    if (has(mesh.region, region)) groups.push_back({2, static_cast<int>(region), name});
+  };
+  add_curves(EdgeTag::sigma, "sigma");
+  add_curves(EdgeTag::clamped, "clamped");
+  add_curves(EdgeTag::contact, "contact");
+  add_curves(EdgeTag::free, "free");
+  add_surfaces(Region::body, "body");
+  add_surfaces(Region::layer, "layer");
   for (int k = 0; k < static_cast<int>(named.size()); ++k)
-    for (const EdgeTag tag : {natural_group(k), dirichlet_group(k)}) add(1, mesh.edge_tag, tag, named[k].group);
+    for (const EdgeTag tag : {natural_group(k), dirichlet_group(k)}) add_curves(tag, named[k].group);
   return groups;
 }
 

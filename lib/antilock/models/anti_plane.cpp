@@ -25,7 +25,7 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
   using Kind = BoundaryCondition::Kind;
   for (int e = 0; e < mesh.edge_count(); ++e) {
     const EdgeTag tag = mesh.edge_tag[e];
-    const int k = group_of(tag);
+    const int k = tag.group;
     if (k >= static_cast<int>(scene.edges().size()))
       throw Error(
           fmt::format("scene and mesh: the edge at {} is in the group {}, of which the scene says nothing; "
@@ -36,7 +36,7 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
                   " is held in one of the two alone; accepted: dirichlet_group for a displacement, natural_group else");
   }
   const int loose = find_floating_component(mesh, [&](int e) {
-    const int k = group_of(mesh.edge_tag[e]);
+    const int k = mesh.edge_tag[e].group;
     return is_dirichlet(mesh.edge_tag[e]) || (k >= 0 && scene.edges()[k].kind == Kind::spring);
   });
   if (loose >= 0 && is_whole(mesh))
@@ -148,7 +148,7 @@ class PrescribedValues {
   static double mean(const OfTags& of_tags) {
     std::vector<double> values;
     for (const auto& [tag, value] : of_tags)
-      if (group_of(tag) >= 0) values.push_back(value);
+      if (tag.group >= 0) values.push_back(value);
     if (values.empty()) return 0;             // clamped edges alone
     std::sort(values.begin(), values.end());  // the sum of three, too, is the same in every order of the sections
     if (values.front() == values.back()) return values.front();
@@ -184,7 +184,7 @@ void add_displacements(VariationalInequality& problem, const Scene& scene, const
 double class_parameter(const StiffLayer& layer) { return layer.epsilon * layer.epsilon; }
 
 double prescribed_on(const Scene& scene, const TriangleMesh& mesh, int e, const Eigen::RowVector2d& x) {
-  const int k = group_of(mesh.edge_tag[e]);
+  const int k = mesh.edge_tag[e].group;
   if (k < 0) return 0;
   return scene.edges()[k].value(x(0), mesh.region[mesh.edge_triangles(e, 0)] == Region::layer ? 0 : x(1));
 }

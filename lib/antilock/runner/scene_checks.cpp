@@ -170,7 +170,7 @@ std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh
   };
   const auto value = [&](int e, double s) { return prescribed_on(file.scene, mesh, e, at(e, s)); };
   const auto name = [&](int e) {
-    const int k = group_of(mesh.edge_tag[e]);
+    const int k = mesh.edge_tag[e].group;
     return k < 0 ? std::string("clamped") : file.scene.edges()[k].group;
   };
   const auto line = [](const std::string& what, const Eigen::RowVector2d& x, const std::string& more) {

@@ -10,6 +10,7 @@
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/error.hpp"
 #include "antilock/distributed/ranks.hpp"
+#include "antilock/mesh/labelled_edges.hpp"
 
 namespace antilock::distributed {
 
@@ -101,7 +102,7 @@ void write_msh_together(const fs::path& path, const Space& space) {
                  });
   write_in_turns(path, {}, [&](Text& text) {
     for (const int e : labelled) {
-      const int group = static_cast<int>(mesh.edge_tag[e]);
+      const int group = physical_number(mesh.edge_tag[e]);
       text.print("{} 1 2 {} {} {} {}\n", ++line, group, group, nodes.row()[mesh.edges(e, 0)] + 1,
                  nodes.row()[mesh.edges(e, 1)] + 1);
     }

@@ -1,4 +1,7 @@
 // make_triangle_mesh lets nothing through that a finite element relies on and that is not so.
+#include <set>
+
+#include "antilock/mesh/labelled_edges.hpp"
 #include "support/measures.hpp"
 #include "support/scenes.hpp"
 #include "unit/mesh/helpers.hpp"
@@ -119,6 +122,29 @@ TEST(TriangleMesh, RefusesAPieceThatNothingHolds) {
   input = {};
   for (TaggedEdge& edge : input.tagged) edge.tag = EdgeTag::contact;
   input.refused("clamped, which is needed");
+}
+
+// However many groups a scene has, the number of a group says nothing of its kind.
+TEST(EdgeTag, ANamedGroupKeepsItsKindAndItsNumber) {
+  for (int k = 0; k < 3000; ++k) {
+    EXPECT_FALSE(is_dirichlet(natural_group(k))) << k;
+    EXPECT_TRUE(is_dirichlet(dirichlet_group(k))) << k;
+    EXPECT_EQ(natural_group(k).group, k);
+    EXPECT_EQ(dirichlet_group(k).group, k);
+  }
+  EXPECT_TRUE(is_dirichlet(EdgeTag::clamped));
+  EXPECT_FALSE(is_dirichlet(EdgeTag::free));
+}
+
+// Group k of a scene has Dirichlet data or none; in a file no two groups have one number.
+TEST(EdgeTag, TheGroupsOfAFileHaveNumbersOfTheirOwn) {
+  std::set<int> numbers{0};  // that of no group
+  for (const EdgeTag tag : {EdgeTag::sigma, EdgeTag::clamped, EdgeTag::contact, EdgeTag::free})
+    EXPECT_TRUE(numbers.insert(physical_number(tag)).second) << physical_number(tag);
+  for (int k = 0; k < 3000; ++k) {
+    const int number = physical_number(k % 4 == 0 ? dirichlet_group(k) : natural_group(k));
+    EXPECT_TRUE(numbers.insert(number).second) << "group " << k << " has the number " << number;
+  }
 }
 
 }  // namespace antilock::test::mesh_test::triangle_mesh_test
