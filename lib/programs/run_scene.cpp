@@ -201,8 +201,8 @@ void answer(const std::filesystem::path& scene, const Asked& asked, tutorial::Re
   report.finish();
   if (!summary.warning.empty()) fmt::print("  warning: {}\n", summary.warning);
   const std::string name = (asked.out / "solution").string();
-  const char* const of_one_component = file.mesh.from_file() ? "plan" : "surface";
-  const char* const kind = file.elastic ? "deformed" : of_one_component;
+  const char* const kind =
+      std::visit([&](const auto& model) { return model.picture(file.mesh.from_file()); }, file.model);
   if (asked.files.contains("vtu"))
     fmt::print("  a picture of it: {} {} {} --out {}\n", tutorial::in_shell(tutorial::sibling_path("render")), kind,
                tutorial::in_shell(name + ".vtu"), tutorial::in_shell(name + ".png"));

@@ -46,8 +46,7 @@ Eigen::MatrixXd quadratic_fit(const Quadrature& rule) {
 /// V values: the displacement that is prescribed at a vertex, not a number where none is.
 Eigen::VectorXd prescribed(const SceneFile& file, const TriangleMesh& mesh) {
   const Eigen::VectorXd given =
-      file.elastic ? Eigen::VectorXd::Constant(mesh.vertex_count(), -file.elastic->prescribed_displacement)
-                   : dirichlet_vertex_values(file.scene, mesh);
+      std::visit([&](const auto& model) { return model.dirichlet_values(file.scene, mesh); }, file.model);
   Eigen::VectorXd values = Eigen::VectorXd::Constant(mesh.vertex_count(), NAN);
   for (int e = 0; e < mesh.edge_count(); ++e)
     for (const int v : mesh.edges.row(e))
@@ -143,7 +142,7 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
   }
   // the basis sums to 1, and with the places of the unknowns as weights to x and to y
   const Points& at = space.dof_coordinates();
-  const bool alone = !file.elastic && file.scene.beyond_the_paper().empty();  // else edges and the layer load, too
+  const bool alone = beyond_the_paper(file).empty();  // else edges and the layer load, too
   const Eigen::VectorXd load = alone ? problem.load : load_vector(space, f);
   const Eigen::Vector3d seen(load.sum(), load.dot(at.col(0)), load.dot(at.col(1)));
   for (int i = 0; i < 3; ++i)
@@ -162,7 +161,7 @@ std::string load_warning(const SceneFile& file, const Space& space, const Variat
 }
 
 std::string displacement_warning(const SceneFile& file, const TriangleMesh& mesh) {
-  if (file.elastic || file.scene.edges().empty()) return "";
+  if (file.scene.edges().empty()) return "";
   constexpr int parts = 8;  // of an edge: a formula that jumps twice on one of them is a matter of the mesh
   constexpr double telling_jump = 1e-6;  // of the largest value: below, the formula's own rounding
   const auto at = [&](int e, double s) {
@@ -263,7 +262,7 @@ std::string geometry_warning(const SceneFile& file) {
 }
 
 std::string gap_warning(const SceneFile& file, const Space& space, const Solution& solution) {
-  if (!file.scene.contact() || file.elastic) return "";
+  if (!file.scene.contact() || traits_of(file.model).components > 1) return "";
   const auto& [gap, zero_at, upper_obstacle] = *file.scene.contact();
   const TriangleMesh& mesh = space.mesh();
   const Eigen::VectorXd values = prescribed(file, mesh);
@@ -307,7 +306,7 @@ std::string gap_warning(const SceneFile& file, const Space& space, const Solutio
 
 std::string range_warning(const SceneFile& file, const Space& space, const Solution& solution) {
   const auto* stiff = std::get_if<StiffLayer>(&file.scene.layer());
-  if (stiff == nullptr || file.elastic || space.element().conforming()) return "";
+  if (stiff == nullptr || traits_of(file.model).components > 1 || space.element().conforming()) return "";
   const auto pull = [&](const Field& f, Region region) { return load_vector(space, f, region).lpNorm<1>(); };
   if (stiff->load && pull(stiff->load, Region::layer) > 1e-3 * pull(file.scene.body().load, Region::body)) return "";
   const TriangleMesh& mesh = space.mesh();

@@ -313,33 +313,55 @@ std::vector<Eigen::Vector2d> read_points(const Section& section) {
   return points;
 }
 
-/// [model] kind = "plane strain"; empty for "anti-plane".
-std::optional<ElasticRequest> read_model(const Section& section, const Layer& layer) {
+/// A number of [model] between two others, or what it is where the key is absent.
+double number_between(const Section& section, const char* key, double otherwise, double least, double most) {
+  if (!section.has(key)) return otherwise;
+  return section.number(key, fmt::format("{:g} to {:g}", least, most),
+                        [=](double value) { return value >= least && value <= most; });
+}
+
+/// The keys of all blocks that are pressed down, and their obstacle.
+void read_loading(const Section& section, const std::optional<UnilateralContact>& contact, BlockLoading& block) {
+  block.prescribed_displacement = number_between(section, "push", block.prescribed_displacement, -1e6, 1e6);
+  if (section.has("friction"))
+    block.friction = [bound = field_above([of = profile(section, "friction")](double x, double) { return of(x); },
+                                          section.where("friction"), true)](double x) { return bound(x, 0); };
+  if (contact) block.gap = contact->gap;  // else refused by check_model
+}
+
+RubberModel read_rubber(const Section& section, const std::optional<UnilateralContact>& contact) {
+  section.only({"kind", "push", "friction", "epsilon"});
+  RubberModel rubber;
+  read_loading(section, contact, rubber.block);
+  rubber.block.epsilon = number_between(section, "epsilon", rubber.block.epsilon, 0, 1);
+  return rubber;
+}
+
+CoatingModel read_coating(const Section& section, const std::optional<UnilateralContact>& contact,
+                          const StiffLayer& layer) {
+  section.only({"kind", "push", "friction", "young", "poisson"});
+  CoatingModel coating;
+  read_loading(section, contact, coating.block);
+  const double young = number_between(section, "young", 1, 1e-6, 1e6);
+  const double nu = number_between(section, "poisson", 0.3, 0, 0.49);
+  const Lame body{young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
+  coating.block.body = body;
+  coating.block.layer = {layer.s * body.lambda, layer.s * body.mu};
+  coating.block.thickness = layer.epsilon;
+  return coating;
+}
+
+/// [model], with the sections that its kinds share.
+SceneModel read_model(const Section& section, const std::optional<UnilateralContact>& contact, const Layer& layer) {
   if (section.one_of("kind", {"anti-plane", "plane strain"}, "anti-plane") == "anti-plane") {
     section.only({"kind"});
-    return std::nullopt;
+    return AntiPlaneModel{};
   }
-  const bool coated = !std::holds_alternative<NoLayer>(layer);
-  if (coated && !std::holds_alternative<StiffLayer>(layer))
+  if (std::holds_alternative<NoLayer>(layer)) return read_rubber(section, contact);
+  const auto* stiff = std::get_if<StiffLayer>(&layer);
+  if (stiff == nullptr)
     section.refuse("kind", "\"plane strain\" goes with the scaled layer, or none; accepted: model = \"scaled\"");
-  if (coated)
-    section.only({"kind", "push", "friction", "young", "poisson"});
-  else
-    section.only({"kind", "push", "friction", "epsilon"});
-  ElasticRequest elastic;
-  const auto number = [&](const char* key, double fallback, double least, double most) {
-    return !section.has(key) ? fallback
-                             : section.number(key, fmt::format("{:g} to {:g}", least, most),
-                                              [=](double value) { return value >= least && value <= most; });
-  };
-  elastic.prescribed_displacement = number("push", elastic.prescribed_displacement, -1e6, 1e6);
-  elastic.epsilon = number("epsilon", elastic.epsilon, 0, 1);
-  const double young = number("young", 1, 1e-6, 1e6), nu = number("poisson", 0.3, 0, 0.49);
-  elastic.material = {young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
-  if (section.has("friction"))
-    elastic.friction = [bound = field_above([of = profile(section, "friction")](double x, double) { return of(x); },
-                                            section.where("friction"), true)](double x) { return bound(x, 0); };
-  return elastic;
+  return read_coating(section, contact, *stiff);
 }
 
 constexpr int most_structured = 2048, most_unstructured = 512;
@@ -432,8 +454,11 @@ void check_together(const Section& root, const Scene& scene, const MeshRequest& 
                             petsc ? "\"active-set\", \"uzawa\"" : "a scene without it, or no accuracy"));
 }
 
+void check_model(const Section&, const AntiPlaneModel&, const Scene&, const MethodRequest&) {}
+
 /// What plane strain has no use for yet.
-void check_elastic(const Section& root, const Scene& scene, const MethodRequest& method) {
+template <class Block>
+void check_model(const Section& root, const PressedModel<Block>&, const Scene& scene, const MethodRequest& method) {
   const auto refuse = [&](const std::string& what, const std::string& accepted) {
     root.refuse("model.kind", "\"plane strain\" does not go with " + what + "; accepted: " + accepted);
   };
@@ -450,8 +475,12 @@ void check_elastic(const Section& root, const Scene& scene, const MethodRequest&
 
 }  // namespace
 
+std::string beyond_the_paper(const SceneFile& file) {
+  return std::visit([&](const auto& model) { return model.beyond_the_paper(file.scene); }, file.model);
+}
+
 void require_paper_problem(const SceneFile& file, const std::string& who) {
-  const std::string beyond = file.elastic ? "plane strain" : file.scene.beyond_the_paper();
+  const std::string beyond = beyond_the_paper(file);
   if (!beyond.empty())
     throw InputError(fmt::format("{}: {}: does not know {}; accepted: a scene without it", file.name, who, beyond));
 }
@@ -486,8 +515,8 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
   if (root.has("contact")) contact = read_contact(root.section("contact"));
   if (contact && unit_square) sample_profile(contact->gap);
   if (contact && contact->upper_obstacle && unit_square) sample_profile(contact->upper_obstacle);
-  const auto elastic = root.has("model") ? read_model(root.section("model"), layer) : std::nullopt;
-  if (contact && (!unit_square || elastic)) contact->zero_at.clear();  // of a block the sides are free
+  const SceneModel model = read_model(root.section("model"), contact, layer);
+  if (contact && (!unit_square || traits_of(model).free_sides)) contact->zero_at.clear();
   const MethodRequest method = read_method(root.section("method"));
   const Scene scene = [&] {
     try {
@@ -504,9 +533,9 @@ SceneFile read_scene(const std::string& text, const std::filesystem::path& path)
     }
   }();
   check_together(root, scene, mesh, method);
-  if (elastic) check_elastic(root, scene, method);
+  std::visit([&](const auto& kind) { check_model(root, kind, scene, method); }, model);
   const auto points = root.has("at") ? read_points(root.section("at")) : std::vector<Eigen::Vector2d>();
-  return {name, title, scene, mesh, method, words.str(), groups, points, elastic};
+  return {name, title, scene, mesh, method, words.str(), groups, points, model};
 }
 
 }  // namespace antilock

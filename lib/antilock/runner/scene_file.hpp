@@ -5,7 +5,7 @@
 
 #include "antilock/certificate/certificate.hpp"
 #include "antilock/mesh/read_msh.hpp"
-#include "antilock/models/plane_strain.hpp"
+#include "antilock/runner/scene_model.hpp"
 #include "antilock/scene/scene.hpp"
 
 namespace antilock {
@@ -33,14 +33,6 @@ struct MethodRequest {
   double most_unknowns = 2e6;  ///< with accuracy: the limit
 };
 
-/// [model] kind = "plane strain": a block that is pressed down, of rubber or with a coating (models/).
-struct ElasticRequest {
-  double prescribed_displacement = 0.1;  ///< how far the clamped edges are moved down
-  double epsilon = 1e-8;                 ///< 1/lambda of the rubber, mu = 1; read without a layer
-  Lame material = {};                    ///< of block and coating; read with a layer, whose epsilon is the thickness
-  Profile friction = {};                 ///< Tresca's bound; empty: none
-};
-
 /// A question asked in TOML (tutorials/scenes holds examples, run_scene --help lists the keys).
 struct SceneFile {
   std::string name;  ///< the path as it was given: every message starts with it
@@ -51,7 +43,7 @@ struct SceneFile {
   std::string json;                      ///< its sections as JSON, for the summary, which repeats the question
   ExtraGroups groups = {};               ///< of the mesh file: those that [[edge]] and a table of stiffnesses name
   std::vector<Eigen::Vector2d> at = {};  ///< where the summary tells u
-  std::optional<ElasticRequest> elastic = {};
+  SceneModel model = {};
 };
 
 /// Reads and checks everything that can be checked without a mesh. Throws Error, one line `FILE: KEY: what is wrong;
@@ -62,8 +54,11 @@ SceneFile read_scene_file(const std::filesystem::path& path);
 /// The same from a text in memory; `path` is its name in messages, and mesh files are looked for beside it.
 SceneFile read_scene(const std::string& text, const std::filesystem::path& path);
 
-/// Throws Error, `FILE: WHO: ...`, for a scene that goes beyond the paper's problem: plane strain, or what
-/// Scene::beyond_the_paper names.
+/// What goes beyond the paper's problem, in words: plane strain, or what Scene::beyond_the_paper names; empty where
+/// nothing does.
+std::string beyond_the_paper(const SceneFile& file);
+
+/// Throws Error, `FILE: WHO: ...`, for a scene that goes beyond the paper's problem.
 void require_paper_problem(const SceneFile& file, const std::string& who);
 
 }  // namespace antilock

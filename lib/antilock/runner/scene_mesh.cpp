@@ -135,6 +135,16 @@ void check_geometry(const TriangleMesh& mesh) {
   follow_geometry(mesh, all, middles);
 }
 
+/// The part of a scene that needs contact edges on the line y = 0, in words; empty where nothing does.
+std::string straight_contact_of(const SceneFile& file) {
+  if (const ModelTraits& model = traits_of(file.model); !model.curved_contact) return model.name;
+  if (file.method.solver == "petsc") return "solver = \"petsc\"";
+  const auto* layer = std::get_if<StiffLayer>(&file.scene.layer());
+  if (layer == nullptr) return file.scene.epsilon() ? "this model of a layer" : "";
+  if (layer->load) return "a load on the layer";
+  return file.method.accuracy ? "an accuracy asked of a layer" : "";
+}
+
 /// Whether Gamma_C of a body is no straight line y = const. Throws Error for what does not go with that.
 bool is_curved(const SceneFile& file, const TriangleMesh& mesh) {
   Eigen::AlignedBox2d line;
@@ -142,14 +152,8 @@ bool is_curved(const SceneFile& file, const TriangleMesh& mesh) {
     for (const int v : mesh.edges.row(e))
       if (mesh.edge_tag[e] == EdgeTag::contact) line.extend(mesh.vertices.row(v).transpose());
   const bool curved = line.sizes()(1) > slack * body_size(mesh);
-  const auto* layer = std::get_if<StiffLayer>(&file.scene.layer());
-  const char* const what = file.elastic                    ? "plane strain"
-                           : file.method.solver == "petsc" ? "solver = \"petsc\""
-                           : layer == nullptr              ? file.scene.epsilon() ? "this model of a layer" : ""
-                           : layer->load                   ? "a load on the layer"
-                           : file.method.accuracy          ? "an accuracy asked of a layer"
-                                                           : "";
-  if (curved && *what != 0)
+  const std::string what = straight_contact_of(file);
+  if (curved && !what.empty())
     throw Error(
         fmt::format("has contact edges off the line y = 0, which do not go with {}; accepted: all on that line", what));
   return curved;
@@ -230,7 +234,7 @@ TriangleMesh checked_mesh(const SceneFile& file) {
 TriangleMesh make_mesh(const SceneFile& file) {
   constexpr std::int64_t most_triangles = 1 << 25;
   TriangleMesh mesh = checked_mesh(file);
-  if (file.elastic && !file.mesh.from_file()) mesh = with_free_sides(std::move(mesh));
+  if (traits_of(file.model).free_sides && !file.mesh.from_file()) mesh = with_free_sides(std::move(mesh));
   if (file.mesh.from_file()) check_on_mesh(file, mesh);
   const std::int64_t triangles = static_cast<std::int64_t>(mesh.triangle_count()) << (2 * file.mesh.refinements);
   if (triangles > most_triangles)

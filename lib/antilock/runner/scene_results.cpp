@@ -11,7 +11,6 @@
 #include "antilock/core/blas.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/io/write_csv.hpp"
-#include "antilock/io/write_vtu.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/measure/point_values.hpp"
 #include "antilock/mesh/write_msh.hpp"
@@ -82,29 +81,16 @@ Json certificate(const MethodRequest& method, const CertifiedSolution& certified
           {"levels", levels}};
 }
 
-/// T values of the layer stress: the mean over the rows of B that stand for a triangle, 0 on the body.
-Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p) {
-  const auto triangles = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
-  if (p.size() == 0 || triangles == 0) return {};
-  const Eigen::Index rows = p.size() / triangles;
-  Eigen::VectorXd stress = Eigen::VectorXd::Zero(mesh.triangle_count());
-  for (Eigen::Index t = 0, row = 0; t < stress.size(); ++t)
-    if (mesh.region[t] == Region::layer) stress(t) = p.segment(rows * row++, rows).mean();
-  return stress;
-}
-
-/// The table of contact with the tangential force per length behind it; 0 where an unknown is held.
-Eigen::MatrixXd with_friction(const Eigen::MatrixX3d& table, const Result& result) {
-  const std::vector<int>& contact = result.space.contact_dofs();
-  const Eigen::VectorXd length = contact_lengths(result.space);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(table.rows(), 4);
-  all.leftCols<3>() = table;
-  for (std::size_t i = contact.size(); i < result.problem.contact.size();
-       ++i) {  // the bounds of u_x, in the same order
-    const auto row = std::find(contact.begin(), contact.end(), result.problem.contact[i]) - contact.begin();
-    all(row, 3) = result.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
+/// x, gap and pressure, with the tangential force per length behind them where there is friction.
+void write_contact(const std::filesystem::path& path, const Eigen::MatrixX3d& table,
+                   const std::optional<Eigen::VectorXd>& friction) {
+  if (!friction) {
+    write_csv(path, {"x", "gap", "pressure"}, table);
+    return;
   }
-  return all;
+  Eigen::MatrixXd all(table.rows(), 4);
+  all << table, *friction;
+  write_csv(path, {"x", "gap", "pressure", "friction"}, all);
 }
 
 }  // namespace
@@ -245,24 +231,18 @@ void write_scene_results(const std::filesystem::path& folder, const SceneFile& f
   const bool contact = file.scene.contact().has_value(), csv = asked.contains("csv"), vtu = asked.contains("vtu");
   const auto write = [&](const std::filesystem::path& draft) {
     if (csv) write_solution_csv(draft / "solution.csv", result.space, result.solution.u);
-    VtuFields more;
-    if (!file.elastic) more.p = layer_stress(result.space.mesh(), result.solution.p.head(result.problem.class_rows()));
+    Eigen::VectorXd pressure;  // empty without contact
     if (contact) {
       Eigen::MatrixX3d table = contact_table(normal_contact(result));
       if (!file.scene.contact()->upper_obstacle)                    // which presses downwards: a pressure below 0
         table.rightCols<2>() = table.rightCols<2>().cwiseMax(0.0);  // certified: what is below zero is round-off
-      if (csv && file.elastic && file.elastic->friction)
-        write_csv(draft / "contact.csv", {"x", "gap", "pressure", "friction"}, with_friction(table, result));
-      else if (csv)
-        write_csv(draft / "contact.csv", {"x", "gap", "pressure"}, table);
-      more.pressure = table.col(2);
+      pressure = table.col(2);
+      const auto friction = std::visit([&](const auto& model) { return model.friction_forces(result); }, file.model);
+      if (csv) write_contact(draft / "contact.csv", table, friction);
     }
     if (asked.contains("mesh")) write_msh(draft / "mesh.msh", result.space.mesh(), file.scene.edges());
-    if (vtu && file.elastic)
-      write_deformed_vtu(draft / "solution.vtu", {result.space, result.space}, result.solution.u,
-                         pressure_of(file, result));
-    else if (vtu)
-      write_vtu(draft / "solution.vtu", result.space, result.solution.u, more);
+    if (vtu)
+      std::visit([&](const auto& model) { model.write_picture(draft / "solution.vtu", result, pressure); }, file.model);
     write_summary(draft / "summary.json", file, summary, result.seconds, watch.seconds(), certified);
   };
   write_folder(folder, write, result_names(folder));

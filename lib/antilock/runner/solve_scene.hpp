@@ -34,7 +34,4 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow);
 /// the bounds with u, lambda and active, and no matrix.
 Result normal_contact(const Result& result);
 
-/// In plane strain, T values: the pressure, -lambda div u in rubber, minus the stress in y with a coating.
-Eigen::VectorXd pressure_of(const SceneFile& file, const Result& result);
-
 }  // namespace antilock

@@ -1,0 +1,162 @@
+#include "antilock/runner/scene_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "antilock/analysis/locking.hpp"
+#include "antilock/form/gradient_forms.hpp"
+#include "antilock/io/write_vtu.hpp"
+#include "antilock/measure/contact_zone.hpp"
+#include "antilock/models/anti_plane.hpp"
+#include "antilock/runner/scene_file.hpp"
+#include "antilock/runner/scene_mesh.hpp"
+
+namespace antilock {
+namespace {
+
+/// T values of the layer stress: the mean over the rows of B that stand for a triangle, 0 on the body.
+Eigen::VectorXd layer_stress(const TriangleMesh& mesh, const Eigen::VectorXd& p) {
+  const auto triangles = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
+  if (p.size() == 0 || triangles == 0) return {};
+  const Eigen::Index rows = p.size() / triangles;
+  Eigen::VectorXd stress = Eigen::VectorXd::Zero(mesh.triangle_count());
+  for (Eigen::Index t = 0, row = 0; t < stress.size(); ++t)
+    if (mesh.region[t] == Region::layer) stress(t) = p.segment(rows * row++, rows).mean();
+  return stress;
+}
+
+/// antilock::solve for a block.
+template <class Model>
+Result solve_block(const Model& model, const SceneFile& file, const Space& space, const Solver& solver) {
+  Result result{.space = space, .problem = model.problem(file.scene, space)};
+  result.solution = solver(result.problem);
+  result.locking = model.locking_report(file, space);
+  result.warning = joined(result.locking ? result.locking->warning : "", result.solution.warning);
+  return result;
+}
+
+void write_block(const std::filesystem::path& path, const Result& result, const Eigen::VectorXd& pressure) {
+  write_deformed_vtu(path, {result.space, result.space}, result.solution.u, pressure);
+}
+
+}  // namespace
+
+Eigen::VectorXd AntiPlaneModel::dirichlet_values(const Scene& scene, const TriangleMesh& mesh) const {
+  return dirichlet_vertex_values(scene, mesh);
+}
+
+VariationalInequality AntiPlaneModel::problem(const Scene& scene, const Space& space) const {
+  return assemble(scene, space);
+}
+
+std::optional<double> AntiPlaneModel::penalty(const Space&) const { return {}; }
+
+Result AntiPlaneModel::solve(const SceneFile& file, const Space& space, const Solver& solver) const {
+  return antilock::solve(file.scene, space, solver);
+}
+
+std::optional<Eigen::VectorXd> AntiPlaneModel::friction_forces(const Result&) const { return {}; }
+
+void AntiPlaneModel::write_picture(const std::filesystem::path& path, const Result& result,
+                                   const Eigen::VectorXd& pressure) const {
+  const Eigen::VectorXd p = layer_stress(result.space.mesh(), result.solution.p.head(result.problem.class_rows()));
+  write_vtu(path, result.space, result.solution.u, {p, pressure});
+}
+
+template <class Block>
+Eigen::VectorXd PressedModel<Block>::dirichlet_values(const Scene&, const TriangleMesh& mesh) const {
+  return Eigen::VectorXd::Constant(mesh.vertex_count(), -block.prescribed_displacement);
+}
+
+template <class Block>
+VariationalInequality PressedModel<Block>::problem(const Scene& scene, const Space& space) const {
+  VariationalInequality of_both = assemble(block, VectorSpace{space, space});
+  of_both.load.tail(space.size()) = load_vector(space, scene.body().load);  // f acts in y
+  return of_both;
+}
+
+template <class Block>
+std::optional<Eigen::VectorXd> PressedModel<Block>::friction_forces(const Result& result) const {
+  if (!block.friction) return {};
+  const std::vector<int>& contact = result.space.contact_dofs();
+  const Eigen::VectorXd length = contact_lengths(result.space);
+  // behind the bounds of u_y stand those of u_x, in the same order, but where u_x is held
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(contact.size()));
+  for (std::size_t i = contact.size(); i < result.problem.contact.size(); ++i) {
+    const auto row = std::find(contact.begin(), contact.end(), result.problem.contact[i]) - contact.begin();
+    forces(row) = result.solution.lambda(static_cast<Eigen::Index>(i)) / length(row);
+  }
+  return forces;
+}
+
+template struct PressedModel<PlaneStrain>;
+template struct PressedModel<Coating>;
+
+std::optional<double> RubberModel::penalty(const Space&) const { return {}; }
+
+Result RubberModel::solve(const SceneFile& file, const Space& space, const Solver& solver) const {
+  return solve_block(*this, file, space, solver);
+}
+
+std::optional<LockingReport> RubberModel::locking_report(const SceneFile& file, const Space& space) const {
+  const Element& element = space.element();
+  const double h = mesh_width(file, space.mesh());
+  // P1 in rubber, pressed on a round punch: its force is 4 to 10 % too large at h^2 = epsilon / 10 (both meshes, 1/h =
+  // 8 and 32), 23 to 40 % at h^2 = epsilon, and it doubles at ten times that
+  if (!element.conforming() || element.degree() != 1 || h * h <= 0.1 * block.epsilon) return {};
+  return LockingReport{fmt::format("P1 can hardly move without a change of volume: h^2 = {:.2g}, beside epsilon = "
+                                   "{:g} it locks",
+                                   h * h, block.epsilon),
+                       {},
+                       "P1 locks in this rubber: the contact force is too large; remedy: element = \"CR\" or \"P2\""};
+}
+
+Eigen::VectorXd RubberModel::pressure(const Result& result) const {
+  const Eigen::VectorXd& p = result.solution.p;
+  const Eigen::Index triangles = result.space.mesh().triangle_count();
+  return -p.reshaped(p.size() / triangles, triangles).colwise().mean().transpose();
+}
+
+void RubberModel::write_picture(const std::filesystem::path& path, const Result& result, const Eigen::VectorXd&) const {
+  write_block(path, result, pressure(result));
+}
+
+std::optional<double> CoatingModel::penalty(const Space& space) const {
+  return antilock::penalty(block, {space, space});
+}
+
+Result CoatingModel::solve(const SceneFile& file, const Space& space, const Solver& solver) const {
+  return solve_block(*this, file, space, solver);
+}
+
+std::optional<LockingReport> CoatingModel::locking_report(const SceneFile&, const Space& space) const {
+  const Element& element = space.element();
+  if (!element.conforming())
+    return LockingReport{element.name() + " does not lock: its slopes across the coating are free", {}, ""};
+  const double k = bending_length(space.mesh()), t = block.thickness;
+  LockingReport report{
+      fmt::format("{} resists bending in the coating as over the length {:.2g}", element.name(), k), {}, ""};
+  // degree 1: lost / kept = (5.84 k / t)^2 for one wave per unit length, which is a twentieth at k = 0.04 t; above
+  // degree 1 the mesh is in the way where it resists more than the coating's own thickness does
+  if (k > (element.degree() == 1 ? 0.04 : 1) * t) {
+    report.diagnosis += fmt::format(", beside a thickness of {:g} it locks", t);
+    report.warning = element.name() +
+                     " locks in this coating: the contact force is too large; remedy: element = \"CR\", or "
+                     "triangles in columns (kind = \"structured\" or \"layered\")";
+  } else {
+    report.diagnosis += fmt::format(", which beside a thickness of {:g} does not matter", t);
+  }
+  return report;
+}
+
+Eigen::VectorXd CoatingModel::pressure(const Result& result) const {
+  return antilock::pressure(block, {result.space, result.space}, result.solution.u, result.solution.p);
+}
+
+void CoatingModel::write_picture(const std::filesystem::path& path, const Result& result,
+                                 const Eigen::VectorXd&) const {
+  write_block(path, result, pressure(result));
+}
+
+}  // namespace antilock
