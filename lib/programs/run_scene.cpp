@@ -23,6 +23,7 @@
 #include "antilock/core/standard_output.hpp"
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/runner/scene_file.hpp"
+#include "antilock/runner/scene_keys.hpp"
 #include "antilock/runner/scene_results.hpp"
 #include "antilock/runner/solve_scene.hpp"
 #include "programs/program.hpp"
@@ -33,53 +34,7 @@ using namespace antilock;
 namespace {
 
 // clang-format off
-const char* const help = R"help(A scene file is TOML; the text after # is a comment:
-
-  title = "figure 8"            # optional
-  [load]                        # required: the force per area on the body, -div(stiffness grad u) = f; u has one component, upwards
-  f = "10*sin(2*pi*x)"          # in x and y: + - * / ^, sin cos exp sqrt abs, pi, comparisons, x < 0.5 ? 1 : 2
-                                # 0.2 < x < 0.5 holds where both do; -x^2 is -(x^2), 2^3^2 is 2^9, 1/2 is 0.5, log is natural; a
-                                # comparison counts as 1 or 0, and stands on both sides of && and || and before ?
-  [layer]                       # leave out: no layer
-  epsilon = 1e-6                # 0 (the rigid limit) to 1
-                                # or the two numbers of a real layer, relative to a body of stiffness 1:
-                                # thickness = 0.01 and stiffness = 100 (s = 1 before a_x^-, s / thickness^2 before a_y^-)
-  load = "0"                    # optional, scaled layer: a force on the layer as it is stretched
-  model = "scaled"              # "scaled" (default): problem (23) on (0,1) x (-1,0)
-                                # "thin": (22) on (0,1) x (-epsilon,0), epsilon from 1e-3
-                                # "ventcel": the limit (25) on Sigma, no layer mesh, epsilon = 0
-  [contact]                     # leave out: no obstacle
-  gap = "0"                     # how far the obstacle lies below: u >= -gap(x)
-  ceiling = "0.2"               # optional: u <= ceiling(x) too; where it presses down, the pressure is negative
-  [body]                        # optional
-  stiffness = "1 + 9*(x > 0.5)" # on each triangle as at its centroid; or per group of surfaces of a mesh file, which are
-                                # parts of the body: stiffness = { left = 1, right = 10 }
-  [[edge]]                      # one per group of curves of a mesh file beside clamped and contact
-  group = "top"                 # free = true, or one of: displacement = "0.05", traction = "x" (force per length), spring = "2" (-2 u)
-  free = true
-  [at]                          # optional: u there, in the summary
-  points = [[0.25, -1.0]]
-  [model]                       # optional
-  kind = "plane strain"         # a block pressed down on the gap: its clamped edges (of the unit square: the top) sink by
-                                # push = 0.1, the rest is free, f is upwards. Without a layer: rubber, mu = 1, epsilon = 1/lambda
-                                # (default 0: incompressible). With one: a coating of that thickness and of the block's
-                                # material (young = 1, poisson = 0.3) divided by it. friction = "0.1": Tresca's bound
-  [mesh]                        # required
-  kind = "unstructured"         # "structured" (cells up to 2048), "unstructured" (up to 512), "layered" (up to 512: the
-                                # unstructured body over a scaled layer in columns) or "file"
-  cells = 64                    # cells per unit side; with kind = "file" instead: file = "my.msh", beside the scene
-  geometry = "my.geo"           # optional, with a file: the .geo or .brep that the mesh was made from, beside the scene
-  refinements = 2               # optional: every triangle of that mesh is cut into four so many times; with "petsc" each
-                                # rank refines its own strip of a small mesh
-  [method]                      # optional
-  element = "CR"                # "P1" (default), "CR" (Crouzeix-Raviart), "P2", "P3" or "P4"
-  solver = "active-set"         # (default), "uzawa", the paper's, or "petsc": PETSc, alone or under mpiexec
-  tolerance = 1e-10             # relative, on the algebraic error; at most 1e-3
-  accuracy = 1e-2               # refine until the proved relative error in the energy norm is at most this: [mesh] is
-                                # the first mesh then, the element CR unless another is named, the solver active-set
-  of = "displacement"           # with accuracy: of the displacement (default) or of the "stress"
-  most_unknowns = 2000000       # with accuracy: the limit
-
+const char* const more_help = R"help(
 A mesh from a file has the physical groups body, layer (if the scene has one), clamped and contact. The body may be any
 shape on and above y = 0 with a bottom edge on that line; all of that edge is contact, or has the layer below it. A scaled
 layer that the file does not hold is grown below the contact edges, in columns. In a file with the body alone these edges may be
@@ -241,7 +196,7 @@ int main(int argc, char** argv) {
                 "with solver = \"petsc\": start from the last level of a run that was ended");
   line.add_option("--most-seconds", asked.most_seconds, "stop a solve that takes longer: status 3, and how far it came")
       ->check(CLI::Range(0.0, asked.most_seconds));
-  line.footer(help);
+  line.footer("A scene file is TOML; the text after # is a comment:\n\n" + scene_keys_help() + more_help);
   if (const auto status = tutorial::parse(line, argc, argv)) return *status;
   if (out->count() == 0) asked.out = std::filesystem::path("results") / scene.stem();
   tutorial::Report report;

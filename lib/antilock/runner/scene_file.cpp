@@ -7,24 +7,27 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <sstream>
 
+#include "antilock/core/number.hpp"
 #include "antilock/core/plain_text.hpp"
 #include "antilock/measure/point_values.hpp"
 #include "antilock/runner/expression.hpp"
+#include "antilock/runner/scene_keys.hpp"
 
 namespace antilock {
 namespace {
 
-using Names = std::initializer_list<std::string>;
+using Names = std::vector<std::string>;
 
-/// A section of the file: gives its values, each checked, and refuses with the name of the file and of the key.
+/// A section of the file: gives its values, each checked by the key's row of scene_keys(), and refuses with the name of
+/// the file and of the key.
 class Section {
  public:
-  Section(std::string file, std::string name, const toml::table& table)
-      : file_(std::move(file)), name_(std::move(name)), table_(table) {}
+  /// `name`: in messages; `kind`: in the table, where its sections of one kind have numbers.
+  Section(std::string file, std::string name, const toml::table& table, std::string kind)
+      : file_(std::move(file)), name_(std::move(name)), kind_(std::move(kind)), table_(table) {}
 
   [[noreturn]] void refuse(const std::string& key, const std::string& why) const { throw InputError(where(key) + why); }
   std::string where(const std::string& key) const {
@@ -33,7 +36,9 @@ class Section {
     return printable(file_, 1000) + ": " + full + printable(key) + ": ";
   }
 
-  void only(Names accepted) const {
+  /// Refuses a key that is none of the section's; of [model], of one kind's.
+  void only_its_keys(const std::string& model = {}) const {
+    const Names accepted = key_names(kind_, model);
     for (const auto& [key, value] : table_)
       if (const std::string name(key.str()); std::find(accepted.begin(), accepted.end(), name) == accepted.end())
         refuse(name, fmt::format("unknown {}; accepted: {}", name_.empty() ? "key or section" : "key",
@@ -41,32 +46,33 @@ class Section {
   }
   bool has(const std::string& key) const { return table_.contains(key); }
   const toml::table& table() const { return table_; }
+  const SceneKey& row(const std::string& key) const { return scene_key(kind_, key); }
 
-  /// Here and in one_of: `otherwise`, where it is given and the key is absent.
-  std::string text(const std::string& key, const std::string& accepted, const char* otherwise = nullptr) const {
-    if (otherwise != nullptr && !has(key)) return otherwise;
-    const auto value = table_[key].value_exact<std::string>();
-    if (!value) refuse(key, what_stands_there(key) + "; accepted: " + accepted);
-    return *value;
-  }
-  std::string one_of(const std::string& key, Names accepted, const char* otherwise = nullptr) const {
+  /// Here and below: where the key is absent, what its row has for that.
+  std::string text(const std::string& key) const { return text(key, row(key).accepted); }
+  std::string one_of(const std::string& key) const {
+    const Names& accepted = row(key).choices;
     const std::string list = fmt::format("\"{}\"", fmt::join(accepted, "\", \""));
-    std::string value = text(key, list, otherwise);
+    std::string value = text(key, list);
     if (std::find(accepted.begin(), accepted.end(), value) == accepted.end())
       refuse(key, fmt::format("\"{}\" is unknown; accepted: {}", printable(value), list));
     return value;
   }
-  /// A number for which `holds` is true.
-  double number(
-      const std::string& key, const std::string& accepted,
-      const std::function<bool(double)>& holds = [](double) { return true; }) const {
+  double number(const std::string& key) const {
+    const SceneKey& of = row(key);
+    if (double value = 0; !has(key) && of.otherwise && read_number(*of.otherwise, value)) return value;
+    const double value = number(key, of.accepted);
+    if (of.range && !of.range->holds(value))
+      refuse(key, fmt::format("{} is out of range; accepted: {}", value, of.accepted));
+    return value;
+  }
+  /// A number of any size.
+  double number(const std::string& key, const std::string& accepted) const {
     std::optional<double> value = table_[key].value_exact<double>();
     if (const auto integer = table_[key].value_exact<std::int64_t>()) value = static_cast<double>(*integer);
     if (!value) refuse(key, what_stands_there(key) + "; accepted: a number, " + accepted);
     if (!std::isfinite(*value)) refuse(key, "is not finite; accepted: a number, " + accepted);
-    *value += 0.0;  // -0.0 becomes 0.0
-    if (!holds(*value)) refuse(key, fmt::format("{} is out of range; accepted: {}", *value, accepted));
-    return *value;
+    return *value + 0.0;  // -0.0 becomes 0.0
   }
   int count(const std::string& key, int most) const {
     const std::string accepted = fmt::format("; accepted: a whole number, 1 to {}", most);
@@ -75,14 +81,15 @@ class Section {
     if (*value < 1 || *value > most) refuse(key, fmt::format("{} is out of range{}", *value, accepted));
     return static_cast<int>(*value);
   }
+  int count(const std::string& key) const { return count(key, static_cast<int>(row(key).range->most)); }
 
   /// [key]; empty where it is absent.
   Section section(const std::string& key) const {
     static const toml::table absent;
-    if (!has(key)) return {file_, key, absent};
+    if (!has(key)) return {file_, key, absent, key};
     const toml::table* table = table_[key].as_table();
     if (table == nullptr) refuse(key, fmt::format("{}; accepted: a section [{}]", what_stands_there(key), key));
-    return {file_, key, *table};
+    return {file_, key, *table, key};
   }
   /// [[key]]: its tables, named key[0], key[1], ...
   std::vector<Section> sections(const std::string& key) const {
@@ -92,11 +99,17 @@ class Section {
     if (array == nullptr || !(array->empty() || array->is_array_of_tables()))
       refuse(key, fmt::format("{}; accepted: sections [[{}]]", what_stands_there(key), key));
     for (const toml::node& node : *array)
-      all.emplace_back(file_, fmt::format("{}[{}]", key, all.size()), *node.as_table());
+      all.emplace_back(file_, fmt::format("{}[{}]", key, all.size()), *node.as_table(), key);
     return all;
   }
 
  private:
+  std::string text(const std::string& key, const std::string& accepted) const {
+    if (const auto& otherwise = row(key).otherwise; otherwise && !has(key)) return *otherwise;
+    const auto value = table_[key].value_exact<std::string>();
+    if (!value) refuse(key, what_stands_there(key) + "; accepted: " + accepted);
+    return *value;
+  }
   std::string what_stands_there(const std::string& key) const {
     const toml::node* node = table_.get(key);
     if (node == nullptr) return "is missing";
@@ -105,7 +118,7 @@ class Section {
     return "is of type " + type.str();
   }
 
-  std::string file_, name_;
+  std::string file_, name_, kind_;
   const toml::table& table_;
 };
 
@@ -137,13 +150,10 @@ toml::table parse(const std::string& text, const std::string& name) {
   }
 }
 
-const char* const in_x_and_y = "an expression in x and y in quotes, as \"10*sin(2*pi*x)\"";
-const char* const in_x = "an expression in x in quotes, as \"0.01\"";
-
 /// A field or a profile: a text that does not parse, or a value that is not finite, is refused with the file and the
 /// key.
-auto named(const Section& section, const std::string& key, const std::string& text,
-           const std::vector<std::string>& variables) {
+auto named(const Section& section, const std::string& key, const std::vector<std::string>& variables) {
+  const std::string text = section.text(key);
   const auto naming = [where = section.where(key)](const auto& ask) {
     try {
       return ask();
@@ -155,12 +165,8 @@ auto named(const Section& section, const std::string& key, const std::string& te
     return naming([&] { return f(at...); });
   };
 }
-Field field(const Section& section, const std::string& key, const std::string& accepted = in_x_and_y) {
-  return named(section, key, section.text(key, accepted), {"x", "y"});
-}
-Profile profile(const Section& section, const std::string& key, const char* otherwise = nullptr) {
-  return named(section, key, section.text(key, in_x, otherwise), {"x"});
-}
+Field field(const Section& section, const std::string& key) { return named(section, key, {"x", "y"}); }
+Profile profile(const Section& section, const std::string& key) { return named(section, key, {"x"}); }
 /// The same where negative values are refused, and 0 unless `zero_too`.
 Field field_above(const Field& f, const std::string& where, bool zero_too) {
   return [=](double x, double y) {
@@ -186,12 +192,11 @@ void sample_profile(const Profile& gap) {
 
 Body read_body(const Section& root) {
   const Section load = root.section("load"), body = root.section("body");
-  load.only({"f"});
+  load.only_its_keys();
   Body read{field(load, "f")};
-  body.only({"stiffness"});
+  body.only_its_keys();
   if (root.has("body") && !body.table()["stiffness"].is_table())  // a table: read_groups
-    read.stiffness = field_above(field(body, "stiffness", std::string(in_x_and_y) + ", or a table per group"),
-                                 body.where("stiffness"), false);
+    read.stiffness = field_above(field(body, "stiffness"), body.where("stiffness"), false);
   return read;
 }
 
@@ -224,15 +229,15 @@ void read_groups(const Section& body, const std::filesystem::path& mesh, ExtraGr
 }
 
 UnilateralContact read_contact(const Section& section) {
-  section.only({"gap", "ceiling"});
-  UnilateralContact contact{profile(section, "gap", "0")};
+  section.only_its_keys();
+  UnilateralContact contact{profile(section, "gap")};
   if (section.has("ceiling")) contact.upper_obstacle = profile(section, "ceiling");
   return contact;
 }
 
 Layer read_layer(const Section& section) {
-  section.only({"epsilon", "model", "thickness", "stiffness", "load"});
-  const std::string model = section.one_of("model", {"scaled", "ventcel", "thin"}, "scaled");
+  section.only_its_keys();
+  const std::string model = section.one_of("model");
   const bool numbers = section.has("thickness") || section.has("stiffness");
   for (const char* key : {"thickness", "stiffness", "load"})
     if (section.has(key) && model != "scaled")
@@ -252,7 +257,7 @@ Layer read_layer(const Section& section) {
   if (model == "thin") return ThinLayer{epsilon};
   StiffLayer layer{epsilon};
   if (numbers) {
-    const double stiffness = section.number("stiffness", "above 0, relative to a body of stiffness 1");
+    const double stiffness = section.number("stiffness");
     if (!(stiffness > 0)) section.refuse("stiffness", fmt::format("{}; accepted: above 0", stiffness));
     layer.s = stiffness * epsilon;
     if (!(layer.s > 0))
@@ -268,14 +273,14 @@ std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections, 
   using Kind = BoundaryCondition::Kind;
   std::vector<BoundaryCondition> edges;
   for (const Section& section : sections) {
-    section.only({"group", "free", "displacement", "traction", "spring"});
-    BoundaryCondition edge{section.text("group", "the name of a group of curves of the mesh file")};
+    section.only_its_keys();
+    BoundaryCondition edge{section.text("group")};
     if (edge.group == "clamped" || edge.group == "contact" || edge.group == "sigma" ||
         groups.curves.contains(edge.group))
       section.refuse("group",
                      fmt::format("\"{}\" has its condition already; accepted: another group", printable(edge.group)));
     if (section.has("free") && section.table()["free"].value_exact<bool>() != true)
-      section.refuse("free", "is not true; accepted: true, or leave the key out");
+      section.refuse("free", "is not true; accepted: " + section.row("free").accepted);
     int conditions = section.has("free") ? 1 : 0;
     for (const auto& [key, kind] :
          {std::pair{"displacement", Kind::displacement}, {"traction", Kind::traction}, {"spring", Kind::spring}})
@@ -297,8 +302,8 @@ std::vector<BoundaryCondition> read_edges(const std::vector<Section>& sections, 
 }
 
 std::vector<Eigen::Vector2d> read_points(const Section& section) {
-  section.only({"points"});
-  const std::string accepted = "; accepted: a list of places, as [[0.25, -1.0]]";
+  section.only_its_keys();
+  const std::string accepted = "; accepted: " + section.row("points").accepted;
   const toml::array* list = section.table()["points"].as_array();
   if (list == nullptr) section.refuse("points", "is no list" + accepted);
   std::vector<Eigen::Vector2d> points;
@@ -313,16 +318,9 @@ std::vector<Eigen::Vector2d> read_points(const Section& section) {
   return points;
 }
 
-/// A number of [model] between two others, or what it is where the key is absent.
-double number_between(const Section& section, const char* key, double otherwise, double least, double most) {
-  if (!section.has(key)) return otherwise;
-  return section.number(key, fmt::format("{:g} to {:g}", least, most),
-                        [=](double value) { return value >= least && value <= most; });
-}
-
 /// The keys of all blocks that are pressed down, and their obstacle.
 void read_loading(const Section& section, const std::optional<UnilateralContact>& contact, BlockLoading& block) {
-  block.prescribed_displacement = number_between(section, "push", block.prescribed_displacement, -1e6, 1e6);
+  block.prescribed_displacement = section.number("push");
   if (section.has("friction"))
     block.friction = [bound = field_above([of = profile(section, "friction")](double x, double) { return of(x); },
                                           section.where("friction"), true)](double x) { return bound(x, 0); };
@@ -330,20 +328,20 @@ void read_loading(const Section& section, const std::optional<UnilateralContact>
 }
 
 RubberModel read_rubber(const Section& section, const std::optional<UnilateralContact>& contact) {
-  section.only({"kind", "push", "friction", "epsilon"});
+  section.only_its_keys("rubber");
   RubberModel rubber;
   read_loading(section, contact, rubber.block);
-  rubber.block.epsilon = number_between(section, "epsilon", rubber.block.epsilon, 0, 1);
+  rubber.block.epsilon = section.number("epsilon");
   return rubber;
 }
 
 CoatingModel read_coating(const Section& section, const std::optional<UnilateralContact>& contact,
                           const StiffLayer& layer) {
-  section.only({"kind", "push", "friction", "young", "poisson"});
+  section.only_its_keys("coating");
   CoatingModel coating;
   read_loading(section, contact, coating.block);
-  const double young = number_between(section, "young", 1, 1e-6, 1e6);
-  const double nu = number_between(section, "poisson", 0.3, 0, 0.49);
+  const double young = section.number("young");
+  const double nu = section.number("poisson");
   const Lame body{young * nu / ((1 + nu) * (1 - 2 * nu)), young / (2 * (1 + nu))};
   coating.block.body = body;
   coating.block.layer = {layer.s * body.lambda, layer.s * body.mu};
@@ -353,8 +351,8 @@ CoatingModel read_coating(const Section& section, const std::optional<Unilateral
 
 /// [model], with the sections that its kinds share.
 SceneModel read_model(const Section& section, const std::optional<UnilateralContact>& contact, const Layer& layer) {
-  if (section.one_of("kind", {"anti-plane", "plane strain"}, "anti-plane") == "anti-plane") {
-    section.only({"kind"});
+  if (section.one_of("kind") == AntiPlaneModel::traits.name) {
+    section.only_its_keys();
     return AntiPlaneModel{};
   }
   if (std::holds_alternative<NoLayer>(layer)) return read_rubber(section, contact);
@@ -367,28 +365,28 @@ SceneModel read_model(const Section& section, const std::optional<UnilateralCont
 constexpr int most_structured = 2048, most_unstructured = 512;
 
 MeshRequest read_mesh(const Section& section, const std::filesystem::path& folder) {
-  section.only({"kind", "cells", "file", "geometry", "refinements"});
-  const auto path_of = [&](const std::string& key, const std::string& what) {
-    const std::string accepted = "the path of " + what + ", relative to the scene file";
-    const std::string path = section.text(key, accepted);
-    if (path.empty() || path.find('\0') != path.npos) section.refuse(key, "is no path; accepted: " + accepted);
+  section.only_its_keys();
+  const auto path_of = [&](const std::string& key) {
+    const std::string path = section.text(key);
+    if (path.empty() || path.find('\0') != path.npos)
+      section.refuse(key, "is no path; accepted: " + section.row(key).accepted);
     return folder / path;
   };
   MeshRequest mesh;
-  mesh.kind = section.one_of("kind", {"structured", "unstructured", "layered", "file"});
+  mesh.kind = section.one_of("kind");
   if (const char* other = mesh.from_file() ? "cells" : "file"; section.has(other))
     section.refuse(other, fmt::format("does not go with kind = \"{}\"; accepted: {}", mesh.kind,
                                       mesh.from_file() ? "file alone" : "with kind = \"file\" only"));
   if (mesh.from_file()) {
-    mesh.file = path_of("file", "a MSH file, 2.2 or 4.1");
-    if (section.has("geometry")) mesh.geometry = path_of("geometry", "a .geo or .brep file");
+    mesh.file = path_of("file");
+    if (section.has("geometry")) mesh.geometry = path_of("geometry");
   } else {
     if (section.has("geometry"))
       section.refuse("geometry", "goes with a mesh file only; accepted: with kind = \"file\"");
     mesh.cells = section.count("cells", mesh.kind == "structured" ? most_structured : most_unstructured);
   }
   if (!section.has("refinements")) return mesh;
-  mesh.refinements = section.count("refinements", 10);
+  mesh.refinements = section.count("refinements");
   if (const int refined = mesh.cells << mesh.refinements; refined > most_structured)
     section.refuse("refinements", fmt::format("{} refinements of {} cells per unit side make {}; accepted: up to {}",
                                               mesh.refinements, mesh.cells, refined, most_structured));
@@ -401,13 +399,9 @@ void read_accuracy(const Section& section, MethodRequest& method) {
     if (section.has(key) && !section.has("accuracy"))
       section.refuse(key, "goes with an accuracy only; accepted: a key accuracy beside it, or none of the two");
   if (!section.has("accuracy")) return;
-  method.accuracy = section.number("accuracy", "above 0 and below 1, as 1e-2", [](double a) { return a > 0 && a < 1; });
-  if (section.one_of("of", {"displacement", "stress"}, "displacement") == "stress") method.of = Quantity::stress;
-  if (section.has("most_unknowns"))
-    method.most_unknowns = section.number("most_unknowns", "a whole number of unknowns, 1 to 1e9",
-                                          [](double n) { return n >= 1 && n <= 1e9 && n == std::floor(n); });
-  method.tolerance =
-      std::min(MethodRequest::roughest_tolerance, 1e-2 * *method.accuracy);  // unless the scene says less
+  method.accuracy = section.number("accuracy");
+  if (section.one_of("of") == "stress") method.of = Quantity::stress;
+  method.most_unknowns = section.number("most_unknowns");
   if (method.element != "CR" && method.of == Quantity::stress)
     section.refuse(
         "of", "\"stress\" is proved of CR alone; accepted with element = \"" + method.element + "\": \"displacement\"");
@@ -416,15 +410,15 @@ void read_accuracy(const Section& section, MethodRequest& method) {
 }
 
 MethodRequest read_method(const Section& section) {
-  section.only({"element", "solver", "tolerance", "accuracy", "of", "most_unknowns"});
+  section.only_its_keys();
   MethodRequest method;
-  method.element = section.one_of("element", {"P1", "CR", "P2", "P3", "P4"}, section.has("accuracy") ? "CR" : "P1");
-  method.solver = section.one_of("solver", {"active-set", "uzawa", "petsc"}, "active-set");
+  const bool accurate = section.has("accuracy");
+  method.element = section.has("element") || !accurate ? section.one_of("element") : "CR";
+  method.solver = section.one_of("solver");
   read_accuracy(section, method);
-  if (section.has("tolerance"))
-    method.tolerance =
-        section.number("tolerance", fmt::format("0 < tolerance <= {:g}", MethodRequest::roughest_tolerance),
-                       [](double t) { return t > 0 && t <= MethodRequest::roughest_tolerance; });
+  method.tolerance = section.has("tolerance") || !accurate
+                         ? section.number("tolerance")
+                         : std::min(MethodRequest::roughest_tolerance, 1e-2 * *method.accuracy);
   return method;
 }
 
@@ -492,12 +486,13 @@ SceneFile read_scene_file(const std::filesystem::path& path) {
 SceneFile read_scene(const std::string& text, const std::filesystem::path& path) {
   const std::string name = printable(path.string(), 1000);
   const toml::table table = parse(text, name);
-  const Section root(name, "", table);
-  root.only({"title", "load", "body", "layer", "contact", "edge", "at", "model", "mesh", "method"});
-  for (const std::string required : {"load", "mesh"})
-    if (!root.has(required)) root.refuse(required, fmt::format("is missing; accepted: a section [{}]", required));
+  const Section root(name, "", table, "");
+  root.only_its_keys();
+  for (const std::string& section : key_names(""))
+    if (root.row(section).required && !root.has(section))
+      root.refuse(section, fmt::format("is missing; accepted: a section [{}]", section));
 
-  const std::string title = root.text("title", "any text in quotes", "");
+  const std::string title = root.text("title");
   std::ostringstream words;
   words << toml::json_formatter{table};
   const MeshRequest mesh = read_mesh(root.section("mesh"), path.parent_path());
