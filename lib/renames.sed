@@ -9,7 +9,9 @@
 s/core\/detail\/twice\.hpp/core\/double_double.hpp/g
 s/core\/twice\.hpp/core\/double_double.hpp/g
 s/solve\/judge\.hpp/solve\/forward_error.hpp/g
-s/solve\/stairs\.hpp/solve\/bounds.hpp/g
+s/solve\/stairs\.hpp/solve\/bound_status.hpp/g
+s/solve\/penalty_factor\.hpp/solve\/penalised_cholesky.hpp/g
+s/form\/h1_norm\.hpp/form\/h1_gram_matrix.hpp/g
 s/solve\/(detail\/)?tuned\.hpp/solve\/defaults.hpp/g
 s/form\/(detail\/)?averaged\.hpp/form\/strain_projection.hpp/g
 s/(problem|models)\/projected\.hpp/models\/project_strain.hpp/g
@@ -52,6 +54,7 @@ s/\brelative_stiffness\b/stiffness_ratio/g
 s/(\.|->)sum_([01])\b/\1trace_a\2/g
 s/(\.|->)most_([01])\b/\1max_a\2/g
 s/\busual_penalty\b/default_penalty/g
+s/\bslack\(/distance_to_bound(/g
 s/\bmoderate_delta\b/penalty_parameter/g
 
 # solve
@@ -68,7 +71,7 @@ s/\bwhole_force\b/total_force/g
 s/\bContactAnswer\b/ContactResult/g
 s/\bstart_by_halves\b/coarse_start/g
 s/\bHeldFactor\b/ConstrainedCholesky/g
-s/(\.|->)hold\(/\1eliminate(/g
+s/(\.|->)hold\(/\1constrain(/g
 s/(\.|->)held\(\)/\1sparse_factor()/g
 s/\bFreeNumbering\b/DofOrdering/g
 s/\bnumbering(_|\(\))?(\.|->)unknown\b/ordering\1\2dof/g
@@ -77,7 +80,7 @@ s/(\.|->)numbering\(\)/\1ordering()/g
 s/\bContactRoad::dense\b/ContactReduction::schur_complement/g
 s/\bContactRoad\b/ContactReduction/g
 s/(\.|->)road\b/\1reduction/g
-s/(\.|->)moderate\b/\1unlocked_size/g
+s/(\.|->)moderate\b/\1penalised_max_u/g
 s/\bLeftOpen\b/ConstraintDefect/g
 s/\bleft_open\b/constraint_defect/g
 s/(\.|->)for_good\b/\1infeasible_part/g
@@ -101,6 +104,16 @@ s/\btuned::tie\b/defaults::slack_stiffness_ratio/g
 s/\btuned::/defaults::/g
 s/\bAccurateEnough\b/AlgebraicTolerance/g
 s/\bNaiveAnswer\b/NaiveResult/g
+s/\bNaiveEnd::settled\b/ConvergedReason::converged/g
+s/\bNaiveEnd::refused\b/ConvergedReason::linear_solve_failed/g
+s/\bNaiveEnd::step_cap\b/ConvergedReason::max_iterations/g
+s/\bNaiveEnd\b/ConvergedReason/g
+s/\bPenaltyFactor\b/PenalisedCholesky/g
+s/(\bfactor_?)(\.|->)dense\(\)/\1\2cholesky()/g
+s/\bDenseContact\b/SchurComplementContact/g
+s/\bEquilibrium\b/FixedStatusSolution/g
+s/\bcounters(\.|->)contact\b/counters\1contact_iterations/g
+s/\boptions(\.|->)step\b/options\1step_length/g
 
 # mesh, space
 s/\bheld_group\b/dirichlet_group/g
@@ -136,8 +149,9 @@ s/\bStrainRow\b/StrainTerm/g
 s/\bstrain_rows\b/strain_form_factored/g
 s/\bRowsOfB\b/FactoredFormBuilder/g
 s/\bsum_element_matrices\b/assemble_cells/g
-s/\bcolumn_starts\b/sparsity_pattern/g
-s/\bdivergence_rule\b/strain_quadrature/g
+s/\bcolumn_starts\b/column_pointers/g
+s/\b(divergence|strain)_rule\b/strain_quadrature/g
+s/\bh1_norm\b/h1_gram_matrix/g
 s/(\.|->)membrane\(\)/\1plane_strain_modulus()/g
 s/\bPress\b/BlockLoading/g
 s/(\.|->)push( =|\)|,|;|\})/\1prescribed_displacement\2/g
@@ -179,11 +193,15 @@ s/(\breport|\blayer)(\.|->)found\b/\1\2estimate/g
 s/\bNearest\b/BestApproximation/g
 s/\bnearest\(/best_approximation(/g
 s/\bWithin\b/AdmissibleSet/g
+s/\bwidth_of_ball\b/kolmogorov_width/g
+s/(\.|->)meet\(\)/\1intersects_kernel()/g
 s/\bfree_unknowns\b/free_prolongation/g
 s/\bEnergyBracket\b/EnergyBounds/g
 s/\benergy_bracket\(/energy_bounds(/g
 s/\baccurate_enough\(/balanced_tolerance(/g
 s/\bstrip_companion\b/local_companion/g
+s/\bCompanion\b/ConformingCompanion/g
+s/\bcertificate(\.|->)imbalance\b/certificate\1algebraic_residual_norm/g
 s/\bColumnFunction\b/ExtrudedP1Function/g
 s/(\.|->)mismatch\b/\1constitutive_error/g
 s/(\.|->)softening\b/\1refinement_softening/g

@@ -40,12 +40,12 @@ struct Seconds {
     const Space space(mesh, crouzeix_raviart());
     Stopwatch watch;
     Result result{space, assemble(scene, space)};
-    PenaltyFactor factor(result.problem);
+    PenalisedCholesky factor(result.problem);
     result.solution = active_set(result.problem, factor);
     solve.push_back(watch.lap());
     equilibrated_flux(scene, result);
     flux.push_back(watch.lap());
-    const Companion v = local_companion(scene, result);
+    const ConformingCompanion v = local_companion(scene, result);
     strip.push_back(watch.lap());
     certify(scene, result, {.factor = &factor, .companion = &v});  // makes the flux once more
     rest.push_back(watch.lap());
@@ -109,7 +109,7 @@ void adapted_over_uniform(Table& table, int cells, int repeats) {
     const Space space(mesh, crouzeix_raviart());
     Stopwatch watch;
     Result result{space, assemble(scene, space)};
-    PenaltyFactor factor(result.problem);
+    PenalisedCholesky factor(result.problem);
     result.solution = active_set(result.problem, factor);
     const double relative = certify(scene, result, {.factor = &factor}).relative(Quantity::displacement);
     const double times = std::pow(relative / asked, 2);

@@ -53,7 +53,7 @@ Run run_once(const std::string& element_name, int cells, double epsilon, bool wi
   run.stages = solution.seconds;
   run.unknowns = solution.counters.unknowns;
   run.corrections = solution.counters.corrections;
-  run.contact = solution.counters.contact;
+  run.contact = solution.counters.contact_iterations;
   if (with_sticks) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(solution.u.size()), strain(problem.m.size());  // its pages are touched
     watch.lap();

@@ -46,7 +46,7 @@ void serial(const Scene& scene, const Element& element, int cells) {
   fmt::print("serial,{},1,{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},0,{},0,{},{:.0f},{:.1e},{:.3g}\n", element.name(),
              problem.free_count(), mesh_seconds, assemble_seconds, solution.seconds.analyse + solution.seconds.factor,
              solution.seconds.contact + solution.seconds.solve, cpu_seconds() - before, solution.counters.corrections,
-             solution.counters.contact, distributed::peak_megabytes(), solution.kkt.residual,
+             solution.counters.contact_iterations, distributed::peak_megabytes(), solution.kkt.residual,
              residual_seconds(problem, solution.u));
 }
 

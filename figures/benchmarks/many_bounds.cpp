@@ -1,5 +1,5 @@
 // What bounds on all unknowns cost: a membrane over an obstacle, on the Schur complement and on the sparse matrix, and
-// the number of bounds at which the two cost the same (the rule of ContactReduction, solve/penalty_factor.hpp).
+// the number of bounds at which the two cost the same (the rule of ContactReduction, solve/penalised_cholesky.hpp).
 //
 // Run: many_bounds --out results/benchmark                 half a minute: the table, to 1/h = 512
 // Run: many_bounds --crossover --out results/benchmark     bounds on k rows of the vertices instead: 20 s
@@ -49,10 +49,10 @@ void table(int finest, const std::filesystem::path& folder) {
     const std::string dense =
         n > 45 ? "" : fmt::format("{:.3g}", measure(problem, ContactReduction::schur_complement).seconds);
     fmt::print("{:>7} bounds: dense {:>6} s, sparse {:.3g} s in {} steps, {} factorisations\n", problem.size(), dense,
-               sparse.seconds, sparse.counters.contact, sparse.counters.factorisations);
+               sparse.seconds, sparse.counters.contact_iterations, sparse.counters.factorisations);
     std::fflush(stdout);
-    csv += fmt::format("{},{},{:.4g},{},{}\n", problem.size(), dense, sparse.seconds, sparse.counters.contact,
-                       sparse.counters.factorisations);
+    csv += fmt::format("{},{},{:.4g},{},{}\n", problem.size(), dense, sparse.seconds,
+                       sparse.counters.contact_iterations, sparse.counters.factorisations);
   }
   write_file(folder / "many_bounds.csv", [&](std::ostream& out) { out << csv; });
 }

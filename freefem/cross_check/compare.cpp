@@ -325,7 +325,7 @@ std::vector<Line> numbers(int cells, const std::filesystem::path& out) {
 Line uzawa_steps(double epsilon, double rho, const std::filesystem::path& out) {
   const Space space(structured_mesh(16), p1());
   UzawaOptions options;
-  options.step = rho;
+  options.step_length = rho;
   options.tolerance = 1e-8;
   const Solution ours = uzawa_cg_ilut(problem_on(space, epsilon), options);
   const auto steps = static_cast<Eigen::Index>(ours.history.size());

@@ -174,7 +174,7 @@ Numbers certificate(int cells, const std::filesystem::path& folder) {
     const Solution high = upper.solve(), low = lower.solve();
     numbers.solved(above, high);
     numbers.solved(below, low);
-    const Companion v = p1_companion(high);
+    const ConformingCompanion v = p1_companion(high);
     const Certificate found = certify(contact_scene(epsilons[i]), {below, lower.problem(), low}, {.companion = &v});
     numbers.count(at + "epsilon", epsilons[i], table.column("epsilon")(i));
     numbers.relative(at + "upper", energy(upper.problem(), high), table.column("upper")(i));

@@ -7,7 +7,7 @@
 
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/core/error.hpp"
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/measure/errors.hpp"
 #include "antilock/mesh/generate.hpp"
 #include "antilock/models/anti_plane.hpp"
@@ -193,13 +193,13 @@ Numbers contact_sets(const std::filesystem::path& folder) {
     for (int j = 0; j < fine_space.size(); ++j)
       hats(j, i) = by_place.value(Eigen::VectorXd::Unit(space.size(), i), fine_space.dof_coordinates()(j, 0),
                                   fine_space.dof_coordinates()(j, 1));
-  const SparseMatrix norm = h1_norm(fine_space);
+  const SparseMatrix norm = h1_gram_matrix(fine_space);
   Numbers numbers;
   for (const bool kernel : {false, true}) {
     sweep.set_epsilon(kernel ? 0 : epsilon);
     const Eigen::VectorXd target = sweep.solve().u;
     VariationalInequality nearest = assemble(scene, space);
-    nearest.a1 = h1_norm(space);
+    nearest.a1 = h1_gram_matrix(space);
     nearest.load = hats.transpose() * (norm * target);
     nearest.compliance = 0;
     if (!kernel) {

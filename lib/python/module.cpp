@@ -115,7 +115,7 @@ py::tuple run(const std::string& text, const std::string& folder) {
   py::dict arrays("points"_a = answer.space.dof_coordinates(), "vertices"_a = answer.space.mesh().vertices,
                   "triangles"_a = answer.space.mesh().triangles);
   if (file.scene.contact()) arrays["contact"] = contact_table(normal_contact(answer));
-  answer.solution.p.conservativeResize(answer.problem.class_rows());
+  answer.solution.p.conservativeResize(answer.problem.parametric_row_count());
   arrays["u"] = given(answer.solution.u), arrays["p"] = given(answer.solution.p);
   return py::make_tuple(arrays, summary);
 }
@@ -224,7 +224,7 @@ PYBIND11_MODULE(_antilock, module) {
           },
           "0 or more")
       .def_readonly("m", &P::m, "R")
-      .def_readonly("own_compliances", &P::own_compliances, "of the last rows of b, in place of `compliance`")
+      .def_readonly("own_compliances", &P::fixed_compliances, "of the last rows of b, in place of `compliance`")
       .def_readonly("load", &P::load, "N")
       .def_readonly("fixed", &P::dirichlet_dofs, "the unknowns that are held")
       .def_readonly("contact", &P::contact, "the unknowns that are bounded")
@@ -303,7 +303,7 @@ PYBIND11_MODULE(_antilock, module) {
 
   module.attr("Truth") = module.attr("ExactSolution");  // the name in 0.2
 
-  module.def("without_void_bound", py::vectorize(&without_void_bound), "infinite where |bound| >= 1e40");
+  module.def("without_void_bound", py::vectorize(&bound_or_infinity), "infinite where |bound| >= 1e40");
   module.def("diagnose", &diagnose_locking, py::call_guard<Unlocked>());
   module.def("assemble", [](const std::string& text, const std::string& folder) {
     const SceneFile file = scene_of(text, folder);

@@ -222,7 +222,7 @@ TEST(FreeFemUzawa, ThePapersOwnTakesTheSameSteps) {
   const Space space(structured_mesh(16), p1());
   for (const auto& [epsilon, rho] : {std::pair{1.0, 0.37}, std::pair{0.1, 1.4}}) {
     UzawaOptions options;
-    options.step = rho;
+    options.step_length = rho;
     options.tolerance = 1e-8;  // well above that noise
     const Solution ours = uzawa_cg_ilut(stiff_problem(space, epsilon), options);
     ASSERT_GE(ours.history.size(), 30u);

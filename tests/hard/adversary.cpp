@@ -220,7 +220,7 @@ Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& e
   const bool solvable = exact.what == test::Exactly::solved;
   try {
     UzawaOptions options;
-    options.max_steps = 20'000;
+    options.max_iterations = 20'000;
     const Solution s = solver == By::active_set ? active_set(problem) : uzawa(problem, options);
     judgement.error = std::numeric_limits<double>::infinity();
     if (solvable) {
@@ -228,7 +228,7 @@ Judgement judge(const VariationalInequality& problem, const test::ExactAnswer& e
       // a locked u tends to 0: then to 1e-15 of its size before it locks; numbers below the smallest normal one are 0
       judgement.error = difference < std::numeric_limits<double>::min()
                             ? 0
-                            : difference / std::max(exact.u.lpNorm<Eigen::Infinity>(), 1e-9 * s.unlocked_size);
+                            : difference / std::max(exact.u.lpNorm<Eigen::Infinity>(), 1e-9 * s.penalised_max_u);
       if (judgement.error > 0 && s.warning.empty())
         judgement.over_claim = difference / (s.error * s.u.lpNorm<Eigen::Infinity>());
     }

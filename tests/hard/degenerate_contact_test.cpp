@@ -35,7 +35,7 @@ class Degenerate : public testing::TestWithParam<std::tuple<const char*, double>
   static Solution proved(const VariationalInequality& problem, const ActiveSetOptions& options = {}) {
     Solution solution = active_set(problem, options);
     EXPECT_TRUE(solution.warning.empty()) << solution.warning;
-    EXPECT_LE(solution.counters.contact, 40) << "contact steps in one correction";
+    EXPECT_LE(solution.counters.contact_iterations, 40) << "contact steps in one correction";
     RefinedReference reference;
     const QuadSolution exact = settle(problem, solution.active, std::ref(reference));
     EXPECT_LT(exact.residual, 1e-20);
@@ -117,7 +117,7 @@ TEST_P(Degenerate, ARapidLoadHasOneZoneAWave) {
   const Space space(structured_mesh(128), chosen());
   const Solution s = active_set(problem(space, [](double x, double) { return 100 * std::sin(32 * pi * x); }));
   EXPECT_TRUE(s.warning.empty());
-  EXPECT_LE(s.counters.contact, 40);
+  EXPECT_LE(s.counters.contact_iterations, 40);
   EXPECT_LE(s.counters.corrections, 10);
   if (std::get<1>(GetParam()) < 1) {
     EXPECT_EQ(zones(s.active), 16);
@@ -226,24 +226,24 @@ bool plain_settles(const Eigen::MatrixXd& s, const Eigen::VectorXd& q) {
 /// Notes every v that solve_contact moves from.
 class Watched : public ContactSystem {
  public:
-  explicit Watched(DenseContact& system) : ContactSystem(system.bounded()), system_(system) {}
-  Equilibrium solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) override {
-    Equilibrium now = system_.solve(active, prescribed);
+  explicit Watched(SchurComplementContact& system) : ContactSystem(system.bounded()), system_(system) {}
+  FixedStatusSolution solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) override {
+    FixedStatusSolution now = system_.solve(active, prescribed);
     w_ = now.v;
     return now;
   }
-  double square(const Eigen::VectorXd& way) const override {
+  double energy_norm_squared(const Eigen::VectorXd& way) const override {
     if (w_.size() > 0) from.emplace_back(w_ - way);
     w_.resize(0);  // asked again of the same w: how far to go
-    return system_.square(way);
+    return system_.energy_norm_squared(way);
   }
-  BoundStatuses nested_start(const Bounds& bounds, int max_steps) override {
-    return system_.nested_start(bounds, max_steps);
+  BoundStatuses nested_start(const Bounds& bounds, int max_iterations) override {
+    return system_.nested_start(bounds, max_iterations);
   }
   mutable std::vector<Eigen::VectorXd> from;
 
  private:
-  DenseContact& system_;
+  SchurComplementContact& system_;
   mutable Eigen::VectorXd w_;
 };
 
@@ -258,7 +258,7 @@ TEST(Cycling, RandomComplementarityProblemsAllEnd) {
     const int n = contact.size();
     const Eigen::MatrixXd& s = contact.s;
     const Eigen::VectorXd &q = contact.q, &lower = contact.lower;
-    DenseContact dense(s, q);
+    SchurComplementContact dense(s, q);
     Watched watched(dense);
     ConstrainedCholesky k;
     ASSERT_FALSE(k.factorise(Eigen::MatrixXd(s.triangularView<Eigen::Upper>()).sparseView()));
@@ -295,7 +295,7 @@ TEST(Cycling, APullFarBelowTheForcesLetsGo) {
   const Eigen::MatrixXd s = test::chain(2);
   for (const double off : {1e-6, 1e-10}) {
     const Eigen::VectorXd q = Eigen::Vector2d(off - 1, -5), lower = Eigen::Vector2d(0, 1);
-    DenseContact dense(s, q);
+    SchurComplementContact dense(s, q);
     ConstrainedCholesky k;
     ASSERT_FALSE(k.factorise(Eigen::MatrixXd(s.triangularView<Eigen::Upper>()).sparseView()));
     SparseContact sparse(k, q, {0, 1});
@@ -307,7 +307,7 @@ TEST(Cycling, APullFarBelowTheForcesLetsGo) {
 TEST(Cycling, TheCapIsAFailure) {
   const Eigen::MatrixXd s = Eigen::MatrixXd::Identity(4, 4);
   const Eigen::VectorXd q = Eigen::Vector4d(1, -1, 1, -1), lower = Eigen::Vector4d::Zero();
-  DenseContact system(s, q);
+  SchurComplementContact system(s, q);
   const auto failure =
       test::thrown<NotConverged>([&] { solve_contact(system, {lower}, BoundStatuses(4, BoundStatus::inactive), 1); });
   EXPECT_EQ(failure.steps, 1);

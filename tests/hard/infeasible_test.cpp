@@ -125,7 +125,7 @@ TEST(Hypotheses, HoldWhereTheTheorySaysSo) {
     else
       EXPECT_GT(h.kernel, body + mesh.triangle_count() / 8);  // half the layer's triangles, as measured elsewhere
     EXPECT_EQ(h.free, space.free_count());
-    EXPECT_TRUE(h.coercive() && h.meet());
+    EXPECT_TRUE(h.coercive() && h.intersects_kernel());
   }
 }
 

@@ -30,13 +30,13 @@ TEST(Naive, IsRightWhereEpsilonIsModerateAndNoWrongAnswerGetsPastTheChecks) {
         const double off = test::relative_difference(answer.solution.u, right);
         SCOPED_TRACE(answer.solution.solver + " at 1e-" + std::to_string(exponent) + ", off by " + std::to_string(off));
         if (exponent <= 2) {
-          EXPECT_EQ(answer.end, NaiveEnd::settled);
+          EXPECT_EQ(answer.reason, ConvergedReason::converged);
           EXPECT_LT(off, 1e-9);  // rounded: 2e-12 at 1e-2
           EXPECT_LT(worst_violation(answer.solution.kkt), 64 * rounded);
         }
         if (exponent > 8) {
           EXPECT_GT(off, 0.1);
-          silent += answer.end == NaiveEnd::settled;
+          silent += answer.reason == ConvergedReason::converged;
         }
         if (off > 1e-3) {
           ++wrong;
@@ -59,9 +59,10 @@ TEST(Naive, HasNoSumAtEpsilonZeroAndStopsAtItsCap) {
   const Space space(structured_mesh(4), p1());
   EXPECT_THROW(naive_summed_solve(test::stiff_problem(space, 0), SummedFactor::lu), Error);
   const NaiveResult answer = naive_summed_solve(test::stiff_problem(space, 1), SummedFactor::cholesky, 1);
-  EXPECT_EQ(answer.end, NaiveEnd::step_cap);
-  EXPECT_EQ(to_string(answer.end), "step cap");
-  EXPECT_EQ(to_string(NaiveEnd::settled) + to_string(NaiveEnd::cycled) + to_string(NaiveEnd::refused),
+  EXPECT_EQ(answer.reason, ConvergedReason::max_iterations);
+  EXPECT_EQ(to_string(answer.reason), "step cap");
+  EXPECT_EQ(to_string(ConvergedReason::converged) + to_string(ConvergedReason::cycled) +
+                to_string(ConvergedReason::linear_solve_failed),
             "settledcycledrefused");
 }
 

@@ -233,8 +233,8 @@ Assessment assess(const Block& block) {
   Assessment found = compare_with_exact(s, exact);
   double largest = 0;
   for (Eigen::Index i = 0; i < exact.size(); ++i) largest = std::max(largest, std::abs(static_cast<double>(exact(i))));
-  const bool is_locked = largest < 1e-5 * s.unlocked_size;
-  if (is_locked && found.error * largest <= 1e-6 * s.unlocked_size) found.outcome = SceneOutcome::right;
+  const bool is_locked = largest < 1e-5 * s.penalised_max_u;
+  if (is_locked && found.error * largest <= 1e-6 * s.penalised_max_u) found.outcome = SceneOutcome::right;
   return found;
 }
 

@@ -109,7 +109,7 @@ QuadSolution RefinedReference::operator()(const VariationalInequality& problem, 
     const double scale = static_cast<double>(largest(r));
     if (scale == 0) return r;
     const Eigen::VectorXd rounded = (r / Quad(scale)).cast<double>();
-    return QuadVector(factor_->dense().backward(factor_->dense().forward(rounded)).cast<Quad>() * Quad(scale));
+    return QuadVector(factor_->cholesky().backward(factor_->cholesky().forward(rounded)).cast<Quad>() * Quad(scale));
   };
   return refine(problem, active, start, delta, factor_->ordering().dof, inverse, 1e-22, 200);
 }

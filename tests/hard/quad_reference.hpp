@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "antilock/problem/variational_inequality.hpp"
-#include "antilock/solve/penalty_factor.hpp"
+#include "antilock/solve/penalised_cholesky.hpp"
 
 namespace antilock::hard {
 
@@ -51,7 +51,7 @@ class RefinedReference {
                           const QuadSolution& start);
 
  private:
-  std::optional<PenaltyFactor> factor_;
+  std::optional<PenalisedCholesky> factor_;
   std::vector<bool> active_;
 };
 

@@ -225,7 +225,7 @@ TEST(NothingInSilence, UnitsAreTheCallersOwn) {
 TEST(NothingInSilence, AFactorMadeBeforeSkipsNoCheck) {
   const VariationalInequality good = pulled_chain();
   const auto refused = [&](const std::function<void(VariationalInequality&)>& spoil, const std::string& words) {
-    PenaltyFactor factor(good);
+    PenalisedCholesky factor(good);
     VariationalInequality bad = good;
     spoil(bad);
     expect_refused([&] { active_set(bad, factor); }, words);
@@ -246,8 +246,8 @@ TEST(NothingInSilence, AFactorMadeBeforeSkipsNoCheck) {
   refused([](P& p) { p.m(0) = 2; }, "another A1, B or M");
   VariationalInequality skew = good;
   skew.a1.coeffRef(0, 1) = 5;
-  expect_refused([&] { PenaltyFactor{skew}; }, "not symmetric");
-  for (const double delta : {0.0, -1.0, nan}) expect_refused([&] { PenaltyFactor(good, delta); }, "penalty");
+  expect_refused([&] { PenalisedCholesky{skew}; }, "not symmetric");
+  for (const double delta : {0.0, -1.0, nan}) expect_refused([&] { PenalisedCholesky(good, delta); }, "penalty");
 }
 
 TEST(NothingInSilence, TheReportPassesOverNothing) {

@@ -234,7 +234,7 @@ TEST(ScalesFarApart, ALockedUStopsAtItsRoundOff) {
         const Solution s = active_set(
             small_problem(a1, Eigen::VectorXd::NullaryExpr(n, [](Eigen::Index i) { return std::cos(i); }), {}, b, 0),
             options);
-        EXPECT_LE(s.u.lpNorm<Eigen::Infinity>(), 1e-14 * s.unlocked_size) << n << " " << penalty << " " << beside;
+        EXPECT_LE(s.u.lpNorm<Eigen::Infinity>(), 1e-14 * s.penalised_max_u) << n << " " << penalty << " " << beside;
         EXPECT_EQ(s.warning, "") << n << " " << penalty << " " << beside;
         if (penalty == 1e-4) {
           EXPECT_LE(s.counters.corrections, 12) << n << " " << beside;  // measured: 5 to 8

@@ -106,7 +106,7 @@ TEST_P(WrongAnswers, TheReportDoesNotSeeTheScaleOfTheLoad) {
       problem.load *= factor;
       problem.lower *= factor;
       Solution scaled = answer;
-      scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor, scaled.unlocked_size *= factor;
+      scaled.u *= factor, scaled.p *= factor, scaled.lambda *= factor, scaled.penalised_max_u *= factor;
       const Kkt other = kkt_report(problem, scaled);
       EXPECT_EQ(kkt.residual, other.residual);
       EXPECT_EQ(kkt.min_gap, other.min_gap);

@@ -17,21 +17,22 @@ TEST(OnlyWhatIsNeeded, AnAbsentEffectCostsNothing) {
       EXPECT_EQ(c.unknowns, on_body.size() - static_cast<int>(on_body.dirichlet_dofs().size()));
       EXPECT_EQ(c.factorisations, 1);
       EXPECT_EQ(c.solves, 1) << "no stiff part: a linear solve";
-      EXPECT_EQ(c.corrections + c.contact, 0);
+      EXPECT_EQ(c.corrections + c.contact_iterations, 0);
     }
     for (const double gap : {0.0, 1.0}) {
       const Counters c = cost(Scene({paper_load}, NoLayer{}, UnilateralContact{[=](double) { return gap; }}), on_body);
       EXPECT_EQ(c.factorisations, 1);
       EXPECT_EQ(c.solves, 1);
       EXPECT_EQ(c.corrections, 0);
-      EXPECT_GE(c.contact, 1);
-      EXPECT_LE(c.contact, gap == 0 ? 4 : 1) << "never touched: a look at the signs";  // 4: the nested start's
+      EXPECT_GE(c.contact_iterations, 1);
+      EXPECT_LE(c.contact_iterations, gap == 0 ? 4 : 1)
+          << "never touched: a look at the signs";  // 4: the nested start's
     }
     for (const double epsilon : {1e-6, 0.0}) {
       const Counters c = cost(Scene({paper_load}, StiffLayer{epsilon}), on_both);
       EXPECT_EQ(c.unknowns, on_both.size() - static_cast<int>(on_both.dirichlet_dofs().size()));
       EXPECT_EQ(c.factorisations, 1);
-      EXPECT_EQ(c.contact, 0);
+      EXPECT_EQ(c.contact_iterations, 0);
       EXPECT_GT(c.corrections, 0);
       EXPECT_EQ(c.solves, c.corrections + 1);
     }
@@ -124,7 +125,7 @@ TEST(Sweep, StartsFromTheContactSetBefore) {
   SceneSweep sweep(test::stiff_scene(1e-3), space);
   sweep.solve();
   sweep.set_epsilon(0.9e-3);  // moves the contact zone by less than a cell
-  EXPECT_LE(sweep.solve().counters.contact, 2);
+  EXPECT_LE(sweep.solve().counters.contact_iterations, 2);
 }
 
 TEST(Sweep, ServesScenesWithoutEpsilonToo) {

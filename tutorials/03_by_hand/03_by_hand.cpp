@@ -198,10 +198,10 @@ void by_hand(const tutorial::Options& options, tutorial::Report& report) {
 //
 // | here | in `lib/antilock/solve` | what is added there |
 // |---|---|---|
-// | `touches` | `bounds.hpp` | `touches` has two states; with bounds on both sides, or friction, there are up to five |
+// | `touches` | `bound_status.hpp` | `touches` has two states; with bounds on both sides, or friction, there are up to five |
 // | the inner loop | `contact.hpp` | from guess to guess the energy falls: what leaves its piece stops there, and so it ends (proof there) |
 // | `r2` and `r` | `residual.hpp` | $u$ and $p$ are pairs of doubles: no digit of a residual is lost |
-// | `Cholesky`, one per guess | `penalty_factor.hpp` | one sparse factor, the vertices of $Γ_C$ last |
+// | `Cholesky`, one per guess | `penalised_cholesky.hpp` | one sparse factor, the vertices of $Γ_C$ last |
 // | the outer loop | `active_set.cpp` | the next start is mixed from the last few (Anderson) |
 // | `du > 1e-14` | `forward_error.hpp`, `kkt.hpp` | the last $du$ says how right $u$ is, a report afterwards whether all holds |
 //

@@ -61,7 +61,7 @@
 // does tend to 0 along $ε = h^2$, because both of its discrete solutions go to the same place. It is the wrong place.
 
 #include "antilock/exact/exact_norms.hpp"
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "course/course.hpp"
 
 using namespace antilock;
@@ -72,7 +72,7 @@ struct Discrete {
   Space space;
   // ### Forms
   SceneSweep sweep{tutorial::paper_scene(0), space};  // a1 and the factors of a0, assembled once for all ε
-  SparseMatrix norm = h1_norm(space);                 // the matrix of the norm
+  SparseMatrix norm = h1_gram_matrix(space);          // the matrix of the norm
   // ### Solve
   Solution at(double epsilon) {  // u_h^ε; at ε = 0 this is (7) itself, not a small ε
     sweep.set_epsilon(epsilon);

@@ -77,7 +77,7 @@
 #include "antilock/analysis/best_approximation.hpp"
 #include "antilock/analysis/negative_part.hpp"
 #include "antilock/exact/exact_norms.hpp"
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
 
@@ -96,7 +96,7 @@ Table measure(const Method& method, int cells, const Exact& u, const Exact& u0) 
   const Space space = method.space(cells);
   // ### Forms
   const VariationalInequality problem = assemble(u.scene, space);
-  const SparseMatrix norm = h1_norm(space);
+  const SparseMatrix norm = h1_gram_matrix(space);
   const Eigen::VectorXd slope_of_phi = load_vector(
       space, [](double x, double y) { return pi * std::sin(pi * x) * std::cos(pi * y); }, Region::layer);
   // ### Solve
@@ -121,7 +121,7 @@ Worst worst_dip(const Space& space) {
   std::sort(problem.dirichlet_dofs.begin(), problem.dirichlet_dofs.end());
   problem.dirichlet_values = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.dirichlet_dofs.size()));
   problem.contact.clear(), problem.lower.resize(0);
-  const NegativePart part = negative_part(space, problem, h1_norm(space));
+  const NegativePart part = negative_part(space, problem, h1_gram_matrix(space));
   const Eigen::MatrixX3d trace = contact_trace(space, part.worst);
   return {trace, part.constant, below(trace), part.worst(space.contact_dofs()).cwiseAbs().maxCoeff()};
 }

@@ -91,7 +91,7 @@
 
 #include "antilock/analysis/best_approximation.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/measure/residual.hpp"
 #include "course/course.hpp"
 
@@ -109,7 +109,7 @@ Table both_sides(const Method& method, int cells, const std::vector<Exact>& exac
   const Space space = method.space(cells);
   // ### Forms
   SceneSweep sweep(tutorial::paper_scene(1), space);
-  const SparseMatrix norm = h1_norm(space);
+  const SparseMatrix norm = h1_gram_matrix(space);
   const bool conforming = method.element->conforming();
   Table rows(columns);
   for (const Exact& exact : exact_solution) {
@@ -144,7 +144,7 @@ void judge(const Method& method, const Table& own, tutorial::Report& report) {
   double alphas[2], away = 0;
   for (int i = 0; i < 2; ++i) {
     const Space coarse = method.space(8 + 4 * i);
-    alphas[i] = coercivity(assemble(tutorial::paper_scene(1), coarse), h1_norm(coarse));
+    alphas[i] = coercivity(assemble(tutorial::paper_scene(1), coarse), h1_gram_matrix(coarse));
     away = std::max(away, std::abs(alphas[i] - alpha) * coarse.mesh().triangle_count());
   }
   report.claim(away < 0.5 && (std::min(alphas[0], alphas[1]) > alpha - 1e-9 || !method.element->conforming()),

@@ -76,7 +76,7 @@ Table solve(const Method& method, int cells, double epsilon, const Field& load, 
   // ### Solve
   // Factored at the true ε: functions that $B$ nearly misses would need hundreds of corrections with a larger penalty
   // ([chapter 18](../18_roundoff/18_roundoff.cpp)). Below ε = 1e-4 that costs too many digits; the solver says so, and refuses.
-  PenaltyFactor factor(problem, problem.compliance);
+  PenalisedCholesky factor(problem, problem.compliance);
   const Solution solution = active_set(problem, factor);
   const double a = 2 * pi, ridge = 0.5 * (a / std::tanh(a) + a * a);  // E, chapter 06
   const double squared = slope.dot(problem.m.cwiseProduct(slope));

@@ -159,7 +159,7 @@ void study(const tutorial::Options& options, tutorial::Report& report) {
       Ball on(method, n);
       const auto add = [&](const char* load, double epsilon, double error) {
         results.add({load, method.name(), 1.0 / n, epsilon, error, std::hypot(error, on.form.modes().beyond()),
-                     error / width_of_ball(tutorial::unknowns_of_body(on.space))});
+                     error / kolmogorov_width(tutorial::unknowns_of_body(on.space))});
       };
       for (const double epsilon : p > 2 ? std::vector<double>{0} : std::vector{1.0, 1e-1, 1e-2, 1e-4, 1e-20, 0.0}) {
         add(one_load, epsilon, on.ours(epsilon));

@@ -9,7 +9,7 @@ const std::vector<tutorial::Exercise> exercises{
      [](const tutorial::Options& options, tutorial::Report& report) {
        const Space space(structured_mesh(options.cells), p1());
        const VariationalInequality problem = assemble(tutorial::paper_scene(1e-7), space);
-       PenaltyFactor factor(problem);
+       PenalisedCholesky factor(problem);
        const Solution right = active_set(problem, factor);
        const auto apart = [&](const VectorXd& u) { return (u - right.u).norm() / right.u.norm(); };
        const double split = apart(cure(problem, right.active, factor.delta()));

@@ -71,7 +71,7 @@ inline Table condition_numbers(const Space& space) {
   for (const double epsilon : {1.0, 1e-1, 1e-2, 1e-4, 1e-6, 1e-8, 1e-12, 1e-16}) {
     const VariationalInequality problem = assemble(paper_scene(epsilon), space);
     const DofOrdering free(problem);
-    const PenaltyFactor factor(problem);
+    const PenalisedCholesky factor(problem);
     const SparseMatrix k = penalised_matrix(problem, free, factor.delta());
     const auto inverse = [&](const Eigen::VectorXd& x) { return factor.solve(x); };
     const double smallest = 1 / largest_eigenvalue(inverse, k.rows());
@@ -154,7 +154,7 @@ inline Table compare_solvers(const Method& method, const Space& space, const Exa
   };
 
   Stopwatch watch;
-  PenaltyFactor factor(problem);
+  PenalisedCholesky factor(problem);
   const Solution stable = active_set(problem, factor);
   add("split form", stable.u, warned(stable.warning), watch.lap());
   const Eigen::VectorXd cured = cure(problem, stable.active, factor.delta());
@@ -163,17 +163,17 @@ inline Table compare_solvers(const Method& method, const Space& space, const Exa
     watch.lap();
     const NaiveResult naive = naive_summed_solve(problem, kind);
     const double seconds = watch.lap();
-    if (naive.end == NaiveEnd::refused) {  // the factorisation itself gave up
+    if (naive.reason == ConvergedReason::linear_solve_failed) {  // the factorisation itself gave up
       add(name, {}, no_answer, seconds);
       continue;
     }
     Ending ended = checked(naive.solution);
-    ended.text = to_string(naive.end) + "; " + ended.text;
+    ended.text = to_string(naive.reason) + "; " + ended.text;
     add(name, naive.solution.u, ended, seconds);
   }
   watch.lap();
   UzawaOptions patience;
-  patience.max_steps = 600;  // steps, not seconds: the same picture on every machine
+  patience.max_iterations = 600;  // steps, not seconds: the same picture on every machine
   try {
     const Solution cg = uzawa_cg_ilut(problem, patience);
     add("sum: CG + ILUT", cg.u, warned(cg.warning), watch.lap());

@@ -104,13 +104,13 @@ Table certify_both(const MeshFamily& family, int cells, const std::vector<Exact>
     const Solution u_h = below.solve(), p1_solution = above.solve();
     const Result result{cr, below.problem(), u_h};
     // One flux, two functions v: the strip, which certify() makes, and P1's own solution. Nothing here knows u.
-    const Companion v = p1_companion(p1_solution), strip = local_companion(exact.scene, result);
+    const ConformingCompanion v = p1_companion(p1_solution), strip = local_companion(exact.scene, result);
     const Certificate of_cr = certify(exact.scene, result, {.companion = &strip}),
                       of_p1 = certify(exact.scene, result, {.companion = &v});
     // The errors, J(CR) and the right side of the identity (`works`: ∫ λ_u v + ∫ λ_h u - (f - f_1, u)), for the verdicts alone.
     const EquilibratedFlux flux = equilibrated_flux(exact.scene, result);
     const double j_cr = energy(below.problem(), u_h), j = exact.solution.energy();
-    const auto add = [&](const char* element, const Certificate& found, const Companion& companion) {
+    const auto add = [&](const char* element, const Certificate& found, const ConformingCompanion& companion) {
       const ExactErrors errors = exact_errors(cr.mesh(), flux, companion, exact.table);
       const double error = element == std::string("CR") ? errors.gradient : errors.displacement,
                    bound = found.displacement, width = found.energy_upper - found.energy_lower,

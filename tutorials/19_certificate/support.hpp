@@ -1,7 +1,7 @@
 #pragma once
 #include "antilock/core/eigenvalues.hpp"
 #include "antilock/form/quadrature.hpp"
-#include "antilock/solve/penalty_factor.hpp"
+#include "antilock/solve/penalised_cholesky.hpp"
 #include "course/certified.hpp"
 
 namespace antilock::tutorial {
@@ -13,7 +13,7 @@ inline Table certify_uzawa(const Exact& exact) {
   const Space space(unstructured_mesh(16), crouzeix_raviart());
   const Scene scene = paper_scene(exact.epsilon);
   const VariationalInequality problem = assemble(scene, space);
-  PenaltyFactor factor(problem, problem.compliance);  // K is the problem's own: one solve gives u exactly
+  PenalisedCholesky factor(problem, problem.compliance);  // K is the problem's own: one solve gives u exactly
   const auto& free = factor.ordering().dof;
   const Eigen::MatrixXd& block = factor.contact_block();  // L, the compliance on Gamma_C is (L L')^-1
   const auto compliance = [&](const Eigen::VectorXd& force) -> Eigen::VectorXd {
@@ -28,7 +28,7 @@ inline Table certify_uzawa(const Exact& exact) {
     Eigen::VectorXd force = problem.load;
     for (Eigen::Index i = 0; i < lambda.size(); ++i) force(problem.contact[i]) += lambda(i);
     now.u = Eigen::VectorXd::Zero(problem.size());
-    now.u(free) = factor.dense().backward(factor.dense().forward(force(free)));
+    now.u(free) = factor.cholesky().backward(factor.cholesky().forward(force(free)));
     now.p = problem.b * now.u / problem.compliance;
     for (Eigen::Index i = 0; i < lambda.size(); ++i)
       lambda(i) = std::max(0.0, lambda(i) - rho * (now.u(problem.contact[i]) - problem.lower(i)));
@@ -70,7 +70,7 @@ inline void show_certificates(const std::filesystem::path& out, const Table& res
 
 /// What stands in the identity beside the two errors: the works of contact, int lambda_u v + int lambda_h u, and
 /// -(f - f_1, u).
-inline double works(const Space& cr, const EquilibratedFlux& flux, const Companion& v, const Exact& exact) {
+inline double works(const Space& cr, const EquilibratedFlux& flux, const ConformingCompanion& v, const Exact& exact) {
   const TriangleMesh& mesh = cr.mesh();
   const auto [points, weights] = gauss_rule(4);
   double work = 0;

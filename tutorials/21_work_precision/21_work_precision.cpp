@@ -96,7 +96,8 @@ Table count_steps(int finest) {
       const Space space(structured_mesh(n), p1());
       UzawaOptions options;
       options.tolerance = 1e-12;
-      steps.add({epsilon, 1.0 / n, uzawa(assemble(tutorial::paper_scene(epsilon), space), options).counters.contact});
+      steps.add({epsilon, 1.0 / n,
+                 uzawa(assemble(tutorial::paper_scene(epsilon), space), options).counters.contact_iterations});
     }
   return steps;
 }
@@ -113,9 +114,9 @@ Table stop_early(const Method& method, int cells, const Exact& exact, tutorial::
   const double extrapolated = options.stop_at->relative / balanced_tolerance(own).relative;
   const Solution full = uzawa(problem), early = uzawa(problem, options);
   const double of_full = error(full), of_early = error(early);
-  report.claim(of_early < 1.01 * of_full && 2 * early.counters.contact < full.counters.contact,
+  report.claim(of_early < 1.01 * of_full && 2 * early.counters.contact_iterations < full.counters.contact_iterations,
                "{}, accurate enough: Uzawa stops after {} steps, not {}, at {:.4f} of the error (observed)",
-               method.name(), early.counters.contact, full.counters.contact, of_early / of_full);
+               method.name(), early.counters.contact_iterations, full.counters.contact_iterations, of_early / of_full);
   if (method.family.name == "structured")  // elsewhere P1, the upper end of the bracket, may lock
     report.claim_within(extrapolated, 0.9, 1.1,
                         "a quarter of the coarse bracket's width over the mesh's own (observed)");

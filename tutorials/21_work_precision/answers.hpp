@@ -11,7 +11,7 @@ const std::vector<tutorial::Exercise> exercises{
        for (const int n : {8, 16, 32, 64}) {
          const Space space(structured_mesh(n), p1());
          const VariationalInequality problem = assemble(tutorial::paper_scene(1e-2), space);
-         counts.add({n, active_set(problem).counters.contact, uzawa(problem).counters.contact});
+         counts.add({n, active_set(problem).counters.contact_iterations, uzawa(problem).counters.contact_iterations});
        }
        counts.print();
        report.claim(counts.max("active set") <= 4, "active set: {} steps at most", counts.max("active set"));

@@ -144,7 +144,7 @@ struct Timing {
         run.fail(since_start.seconds(), failure.what());
       }
       if (run.ok) {
-        run.iterations = solution.counters.contact;
+        run.iterations = solution.counters.contact_iterations;
         run.scale = solution.u.cwiseAbs().maxCoeff();
         run.errors = errors(solution);
       }
@@ -206,19 +206,19 @@ inline void write_runs(const std::filesystem::path& path, const std::vector<Time
 inline Table uzawa_on_its_way(const std::string& method, const VariationalInequality& problem, const Solution& early,
                               const Solution& full, const std::function<double(const Solution&)>& error) {
   Table table({"method", "quantity", "steps", "error"});
-  table.add({method, "accurate enough: stop", early.counters.contact, error(early)});
-  PenaltyFactor factor(problem, {}, ContactReduction::schur_complement);  // one for every stop
+  table.add({method, "accurate enough: stop", early.counters.contact_iterations, error(early)});
+  PenalisedCholesky factor(problem, {}, ContactReduction::schur_complement);  // one for every stop
   Solution u;
   double error_of_u = 0;
   for (double energy = 1e-3; energy > 1e-17; energy /= 4) {
     UzawaOptions options;
     options.stop_at = {energy, 1e-3};
-    const int before = u.counters.contact;
-    if (before < full.counters.contact) u = uzawa(problem, factor, options);  // else it has come to its end
-    if (u.counters.contact != before) error_of_u = error(u);                  // else it is the same u
-    table.add({method, "error of the iterate", u.counters.contact, error_of_u});
-    if (u.counters.contact < full.counters.contact)
-      table.add({method, "its algebraic part", u.counters.contact, (u.u - full.u).cwiseAbs().maxCoeff()});
+    const int before = u.counters.contact_iterations;
+    if (before < full.counters.contact_iterations) u = uzawa(problem, factor, options);  // else it has come to its end
+    if (u.counters.contact_iterations != before) error_of_u = error(u);                  // else it is the same u
+    table.add({method, "error of the iterate", u.counters.contact_iterations, error_of_u});
+    if (u.counters.contact_iterations < full.counters.contact_iterations)
+      table.add({method, "its algebraic part", u.counters.contact_iterations, (u.u - full.u).cwiseAbs().maxCoeff()});
   }
   return table;
 }

@@ -53,37 +53,37 @@ double smallest_asked = 0.02;
 
 // ### Mesh
 // The first mesh: 1/h = 8, with a layer where everything is bisected, the body alone where columns are extruded.
-TriangleMesh first_mesh(RefinementStrategy growth) {
-  return longest_edge_first(unstructured_mesh(8, {growth == RefinementStrategy::bisect ? 1.0 : 0.0}));
+TriangleMesh first_mesh(RefinementStrategy strategy) {
+  return longest_edge_first(unstructured_mesh(8, {strategy == RefinementStrategy::bisect ? 1.0 : 0.0}));
 }
 
 // ### Solve
 Table ask(const std::string& load, const Exact& exact, const std::string& way) {
   const Quantity of = way == "midpoint" ? Quantity::stress : Quantity::displacement;
-  const RefinementStrategy growth =
+  const RefinementStrategy strategy =
       way == "bisected" || exact.epsilon > 0.1 ? RefinementStrategy::bisect : RefinementStrategy::extrude;
   Table rows(tutorial::accuracy_columns);
   for (const double asked : {0.2, 0.1, 0.05, 0.02, 0.01, 0.005}) {
     if (asked < smallest_asked) break;
     const CertifiedSolution found =
-        solve_to(load_scene(load, exact.epsilon), first_mesh(growth), {asked, of, 2e6, growth});
+        solve_to(load_scene(load, exact.epsilon), first_mesh(strategy), {asked, of, 2e6, strategy});
     rows.add(tutorial::accuracy_rows(load, exact, way, asked, of, found));
   }
   return rows;
 }
 
 // Adaptivity on P1's own bound: the flux as ever, v the P1 solution on the mesh.
-Table refine_p1(RefinementStrategy growth, const std::filesystem::path& picture) {
+Table refine_p1(RefinementStrategy strategy, const std::filesystem::path& picture) {
   const Scene scene = tutorial::paper_scene(1e-6);
   Table rows({"method", "unknowns", "bound", "layer_share"});
-  AdaptiveMesh now{first_mesh(growth), first_mesh(growth)};
-  if (growth == RefinementStrategy::extrude) now.mesh = extruded(now.body, 1e-6);
-  for (Certificate found;; now = refine_marked(now, growth, 1e-6, found.indicator, {.uniform_above = 1})) {
+  AdaptiveMesh now{first_mesh(strategy), first_mesh(strategy)};
+  if (strategy == RefinementStrategy::extrude) now.mesh = extruded(now.body, 1e-6);
+  for (Certificate found;; now = refine_marked(now, strategy, 1e-6, found.indicator, {.uniform_above = 1})) {
     const Space nonconforming(now.mesh, crouzeix_raviart()), linear(nonconforming, p1());
     const VariationalInequality problem = assemble(scene, nonconforming);
-    const Companion v = p1_companion(active_set(assemble(scene, linear)));
+    const ConformingCompanion v = p1_companion(active_set(assemble(scene, linear)));
     found = certify(scene, {nonconforming, problem, active_set(problem)}, {.companion = &v});
-    rows.add({growth == RefinementStrategy::bisect ? "P1 bisected" : "P1 extruded", linear.free_count(),
+    rows.add({strategy == RefinementStrategy::bisect ? "P1 bisected" : "P1 extruded", linear.free_count(),
               found.displacement, found.layer_share});
     if (linear.free_count() < 1500) tutorial::write_density(picture, now.mesh, found.indicator);
     if (linear.free_count() > 6000) return rows;

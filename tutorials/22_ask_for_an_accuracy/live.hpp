@@ -5,11 +5,11 @@ double asked = 0.1;
 std::string load = "bump", quantity = "displacement";
 
 void ask_once(const tutorial::Options& options, tutorial::Report&) {
-  const RefinementStrategy growth = options.epsilon > 0.1 ? RefinementStrategy::bisect : RefinementStrategy::extrude;
+  const RefinementStrategy strategy = options.epsilon > 0.1 ? RefinementStrategy::bisect : RefinementStrategy::extrude;
   Table levels({"unknowns", "bound"}), triangles({"x0", "y0", "x1", "y1", "x2", "y2", "colour"});
   const CertifiedSolution found =
-      solve_to(load_scene(load, options.epsilon), first_mesh(growth),
-               {asked, quantity == "stress" ? Quantity::stress : Quantity::displacement, 2e6, growth},
+      solve_to(load_scene(load, options.epsilon), first_mesh(strategy),
+               {asked, quantity == "stress" ? Quantity::stress : Quantity::displacement, 2e6, strategy},
                [&](const RefinementLevel& level) {
                  levels.add({level.unknowns, level.relative});
                });

@@ -53,7 +53,7 @@ inline std::vector<TableEntry> row(const Result& a, const std::string& quantity,
 
 /// Of |u|_a: on a cone K, |u|_a^2 = -2 J(u).
 inline double relative_error(const Exact& exact, const Scene& scene, const Space& space, const Solution& cr,
-                             const Companion& v, Quantity of) {
+                             const ConformingCompanion& v, Quantity of) {
   const double norm = std::sqrt(-2 * exact.solution.energy());
   if (of == Quantity::displacement)
     return exact.errors(space, cr).energy / norm;  // of Crouzeix-Raviart: the same bound
@@ -72,7 +72,7 @@ inline Table accuracy_rows(const std::string& load, const Exact& exact, const st
   Table rows(accuracy_columns);
   rows.add(row(result, "bound", result.bound));
   if (load != "paper") return rows;
-  const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
+  const ConformingCompanion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
   rows.add(
       row(result, "error",
           relative_error(exact, load_scene(load, exact.epsilon), found.result.space, found.result.solution, v, of)));
@@ -135,10 +135,10 @@ inline void show_accuracies(const std::filesystem::path& out, const Table& answe
   const Scene scene = load_scene("bump", 1e-6);
   const TriangleMesh coarse = unstructured_mesh(16);
   write_density(out / "uniform.vtu", coarse, certified(scene, coarse).indicator);
-  for (const RefinementStrategy growth : {RefinementStrategy::bisect, RefinementStrategy::extrude}) {
-    const bool bisect = growth == RefinementStrategy::bisect;
+  for (const RefinementStrategy strategy : {RefinementStrategy::bisect, RefinementStrategy::extrude}) {
+    const bool bisect = strategy == RefinementStrategy::bisect;
     const CertifiedSolution found =
-        solve_to(scene, unstructured_mesh(8, {bisect ? 1.0 : 0.0}), {0.15, Quantity::displacement, 2e6, growth});
+        solve_to(scene, unstructured_mesh(8, {bisect ? 1.0 : 0.0}), {0.15, Quantity::displacement, 2e6, strategy});
     write_density(out / (bisect ? "bisected.vtu" : "extruded.vtu"), found.result.space.mesh(),
                   found.certificate.indicator);
   }
@@ -155,7 +155,7 @@ inline Table on_uniform_meshes(const std::string& load, const Exact& exact, int 
     Stopwatch watch;
     const Space space(meshes.at(cells), crouzeix_raviart());
     const VariationalInequality problem = assemble(scene, space);
-    PenaltyFactor factor(problem);
+    PenalisedCholesky factor(problem);
     const Solution solution = active_set(problem, factor);
     result.bound = certify(scene, {space, problem, solution}, {.factor = &factor}).relative(Quantity::displacement);
     result.seconds += watch.lap();

@@ -11,9 +11,9 @@ const std::vector<tutorial::Exercise> exercises{
        const Run far(Scene(body, StiffLayer{1e-2}, UnilateralContact{[](double) { return 1.0; }}), on()),
            none(Scene(body, StiffLayer{1e-2}), on());
        report.claim_within((far.solution.u - none.solution.u).cwiseAbs().maxCoeff(), 0, 1e-9, "difference of u");
-       report.claim(far.solution.counters.contact <= 1 &&
+       report.claim(far.solution.counters.contact_iterations <= 1 &&
                         far.solution.counters.factorisations == none.solution.counters.factorisations,
-                    "{} contact step(s), {} factorisation(s)", far.solution.counters.contact,
+                    "{} contact step(s), {} factorisation(s)", far.solution.counters.contact_iterations,
                     far.solution.counters.factorisations);
      }},
     {"Take P1 for Crouzeix-Raviart on this unstructured mesh. Which models of the layer lock: (23), (24), (25)?",

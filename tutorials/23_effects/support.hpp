@@ -42,7 +42,7 @@ inline std::vector<TableEntry> costs(const std::string& name, const Run& run) {
           c.unknowns,
           c.factorisations,
           c.solves,
-          c.contact,
+          c.contact_iterations,
           c.corrections,
           run.assemble_seconds,
           run.solve_seconds,

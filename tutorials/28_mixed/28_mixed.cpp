@@ -72,7 +72,7 @@
 #include "antilock/analysis/best_approximation.hpp"
 #include "antilock/analysis/kernel.hpp"
 #include "antilock/exact/exact_norms.hpp"
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/models/project_strain.hpp"
 #include "course/course.hpp"
 #include "support.hpp"
@@ -90,7 +90,7 @@ struct Projection {
   double kept;
 };
 const Means patches = [](auto& mesh, auto& strain, double) {
-  return vertex_projection(mesh, strain, strain_rule(p1()));
+  return vertex_projection(mesh, strain, strain_quadrature(p1()));
 };
 const Means columns = [](auto& mesh, auto& strain, double h) { return box_projection(mesh, strain, h, 2); };
 const Means boxes = [](auto& mesh, auto& strain, double h) { return box_projection(mesh, strain, 2 * h, 2 * h); };
@@ -116,7 +116,7 @@ Table measure(const Projection& way, int cells, const std::vector<Exact>& exact_
   const Space space = way.method.space(cells);
   // ### Solve
   Sweep sweep(layer_problem(way, space, cells));
-  const SparseMatrix norm = h1_norm(space);
+  const SparseMatrix norm = h1_gram_matrix(space);
   const double alpha = space.free_count() < 1000 ? coercivity(sweep.problem(), norm) : std::nan("");
   const double near =
       best_approximation(space, sweep.problem(), exact_solution.back().reference(), AdmissibleSet::k_0h).distance;

@@ -175,8 +175,8 @@ inline std::vector<TableEntry> check_row(const Rubber& rubber, const VectorSpace
           slipping_patch_error(space, rubber.jumps ? 1 : 0, epsilon),
           none,
           bonded,
-          solution.counters.contact,
-          same.counters.contact,
+          solution.counters.contact_iterations,
+          same.counters.contact_iterations,
           seconds,
           seconds_of_uzawa,
           (same.u - solution.u).cwiseAbs().maxCoeff()};

@@ -135,7 +135,7 @@ void own(const tutorial::Options& options, tutorial::Report& report) {
 
 void judge(Glue glue, const Hypotheses& h, int finer_kernel, int cells, const Table& rigid, tutorial::Report& report) {
   const double exact = load * load * std::pow(free_part, 3) / 3 - load * gap, n = cells, found = rigid.number("energy");
-  report.claim(h.coercive() && h.meet(), "(proved) the hypotheses hold: (H1) and K meets G");
+  report.claim(h.coercive() && h.intersects_kernel(), "(proved) the hypotheses hold: (H1) and K meets G");
   if (glue == Glue::pointwise)
     return report.claim(h.kernel == 0 && finer_kernel == 0 && rigid.number("max |u|") < 1e-6,
                         "(proved) no function is left free on any mesh: it locks, energy {:.1e} in place of {:.3f}",

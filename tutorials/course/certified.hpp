@@ -40,10 +40,12 @@ struct Solved : Result {
     problem = assemble(scene, space);
     solution = active_set(problem);
   }
-  Certificate certified(const Companion* v = nullptr) const { return certify(scene, *this, {.companion = v}); }
+  Certificate certified(const ConformingCompanion* v = nullptr) const {
+    return certify(scene, *this, {.companion = v});
+  }
   Certificate p1_certified() const {
     const Space linear(space, p1());
-    const Companion v = p1_companion(active_set(assemble(scene, linear)));
+    const ConformingCompanion v = p1_companion(active_set(assemble(scene, linear)));
     return certified(&v);
   }
 };

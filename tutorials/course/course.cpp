@@ -29,7 +29,7 @@ void print_solution(const Result& result) {
   const Solution& solution = result.solution;
   const Counters& c = solution.counters;
   fmt::print("  {}: {} unknowns, {} contact steps, {} corrections, {} factorisation(s)\n", solution.solver, c.unknowns,
-             c.contact, c.corrections, c.factorisations);
+             c.contact_iterations, c.corrections, c.factorisations);
   const Kkt& k = solution.kkt;
   fmt::print(
       "  conditions (relative): smallest gap {:.1e}, smallest pressure {:.1e}, complementarity {:.1e}, residual "

@@ -35,11 +35,11 @@ std::vector<bool> dorfler_mark(const Eigen::VectorXd& indicator, const Marking& 
   return marks;
 }
 
-AdaptiveMesh refine_marked(const AdaptiveMesh& last, RefinementStrategy growth, double epsilon,
+AdaptiveMesh refine_marked(const AdaptiveMesh& last, RefinementStrategy strategy, double epsilon,
                            const Eigen::VectorXd& indicator, const Marking& marking) {
   const TriangleMesh &mesh = last.mesh, &body = last.body;
   AdaptiveMesh next;
-  if (growth == RefinementStrategy::bisect) {
+  if (strategy == RefinementStrategy::bisect) {
     const std::vector<bool> all = dorfler_mark(indicator, marking);
     next.marks = static_cast<int>(std::count(all.begin(), all.end(), true));
     next.mesh = bisected(mesh, all);

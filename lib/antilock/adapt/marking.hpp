@@ -32,7 +32,7 @@ struct AdaptiveMesh {
 };
 /// The next mesh: refined where the indicators (T) of the last one say so. A column's indicators count together, for
 /// its edge of Sigma.
-AdaptiveMesh refine_marked(const AdaptiveMesh& last, RefinementStrategy growth, double epsilon,
+AdaptiveMesh refine_marked(const AdaptiveMesh& last, RefinementStrategy strategy, double epsilon,
                            const Eigen::VectorXd& indicator, const Marking& marking = {});
 
 /// Refines the body's triangles where the load varies between the points of the quadrature rule. The integrals of f^2 and

@@ -164,17 +164,17 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   double seconds = 0;
   const Scene scene = with_layer_to_solve(asked);
   const bool conforming = accuracy.element->conforming();
-  const RefinementStrategy growth = accuracy.growth.value_or(
+  const RefinementStrategy strategy = accuracy.strategy.value_or(
       conforming && !layer_components(first).is_aligned ? RefinementStrategy::bisect : growth_of(scene));
   const auto* stiff = std::get_if<StiffLayer>(&scene.layer());
-  if (growth == RefinementStrategy::extrude && stiff == nullptr)
+  if (strategy == RefinementStrategy::extrude && stiff == nullptr)
     throw Error("accuracy: there is no scaled layer to extrude; accepted: growth by bisection");
   const bool layer_may_lock = stiff != nullptr && stiff->epsilon <= thin;
   const double epsilon = scene.epsilon().value_or(1);
   std::vector<RefinementLevel> history;
-  TriangleMesh body = longest_edge_first(growth == RefinementStrategy::extrude ? body_submesh(first) : first);
+  TriangleMesh body = longest_edge_first(strategy == RefinementStrategy::extrude ? body_submesh(first) : first);
   if (const auto held = layer_edge_tags(first);
-      growth == RefinementStrategy::extrude && !held.empty() && held != layer_edge_tags(extruded(body, epsilon)))
+      strategy == RefinementStrategy::extrude && !held.empty() && held != layer_edge_tags(extruded(body, epsilon)))
     throw Error(
         "accuracy: the layer of the mesh is not that of columns below its body; accepted: sides that are upright, and "
         "held where the body is beside them, and contact all along the lower side");
@@ -182,7 +182,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
   const int most_triangles = static_cast<int>(std::min(accuracy.most_unknowns / 3, 1e9));
   const std::string warning = resolve_load(body, scene.body().load, most_triangles);
   AdaptiveMesh now;
-  now.mesh = growth == RefinementStrategy::extrude ? extruded(body, epsilon) : body;
+  now.mesh = strategy == RefinementStrategy::extrude ? extruded(body, epsilon) : body;
   now.body = std::move(body);
 
   double per_unknown = 1;
@@ -207,12 +207,12 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     }
     Result result{space, assemble(scene, space)};
     step();
-    PenaltyFactor factor(result.problem);
+    PenalisedCholesky factor(result.problem);
     step();
     ActiveSetOptions options;
     options.corrections.progress = step;
     if (scene.contact()) options.start = transfer_status(contact_x, contact_set, space);
-    Companion v;
+    ConformingCompanion v;
     Certificate certificate;
     for (double tolerance = std::min(1e-2 * accuracy.relative, accuracy.tolerance);; tolerance *= 1e-2) {
       options.corrections.tolerance = std::max(tolerance, CorrectionOptions{}.tolerance);
@@ -222,14 +222,14 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
       v = local_companion(scene, result, !layer_may_lock);
       step();
       certificate = certify(scene, result, {.factor = &factor, .companion = &v});
-      const bool enough = certificate.imbalance <= 0.1 * certificate.constitutive_error;
+      const bool enough = certificate.algebraic_residual_norm <= 0.1 * certificate.constitutive_error;
       if (enough || tolerance <= CorrectionOptions{}.tolerance) break;
     }
     contact_x = space.dof_coordinates().col(0)(space.contact_dofs());
     contact_set = result.solution.status;
     if (conforming) {
       Result own = conforming_answer(scene, Space(space, p1()), step);
-      v = p1_companion(own_rows_summed(own).solution);
+      v = p1_companion(assemble_fixed_rows(own).solution);
       certificate = certify(scene, result, {.factor = &factor, .companion = &v});
       if (accuracy.element->degree() > 1) {
         own = conforming_answer(scene, Space(space, *accuracy.element), step);
@@ -263,7 +263,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     if (const double needed = per_unknown * history.back().predicted_unknowns; needed > accuracy.most_unknowns)
       give_up(accuracy, history, per_unknown, fmt::format("about {:.2g} are needed", needed));
     step();
-    now = refine_marked(now, growth, epsilon, certificate.indicator, marking(history, now.marks));
+    now = refine_marked(now, strategy, epsilon, certificate.indicator, marking(history, now.marks));
   }
 }
 

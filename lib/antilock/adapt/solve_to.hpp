@@ -18,7 +18,7 @@ struct AccuracyGoal {
   Quantity of =
       Quantity::displacement;  ///< or the stress field in the middle of the two fluxes: a quarter of the unknowns
   double most_unknowns = 2e6;  ///< of Crouzeix-Raviart, on the last mesh
-  std::optional<RefinementStrategy> growth =
+  std::optional<RefinementStrategy> strategy =
       {};                ///< empty: columns for epsilon <= 0.1 (P1, P2: where the first mesh has them), else
                          ///< everything is bisected
   double tolerance = 1;  ///< relative, on the algebraic error; no less than the certificate needs

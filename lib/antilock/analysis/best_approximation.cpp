@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/measure/residual.hpp"
 #include "antilock/problem/bounds.hpp"
 #include "antilock/solve/active_set.hpp"
@@ -20,15 +20,15 @@ void minimise_norm(VariationalInequality& problem, const SparseMatrix& norm, boo
   if (kernel) return;
   problem.b.resize(0, problem.size());
   problem.m.resize(0);
-  problem.own_compliances.resize(0);
+  problem.fixed_compliances.resize(0);
 }
 
 }  // namespace
 
 BestApproximation best_approximation(const Space& space, VariationalInequality problem, const Reference& u,
                                      AdmissibleSet within, const Eigen::VectorXd& functional) {
-  problem = own_rows_summed(std::move(problem));
-  minimise_norm(problem, h1_norm(space), within == AdmissibleSet::k_0h);
+  problem = assemble_fixed_rows(std::move(problem));
+  minimise_norm(problem, h1_gram_matrix(space), within == AdmissibleSet::k_0h);
   problem.load = h1_products(space, u);  // |u - v|_h^2 / 2 but for a constant
   if (functional.size() > 0) problem.load -= 0.5 * functional;
   Solution solution = active_set(problem);
@@ -40,7 +40,7 @@ BestApproximation best_approximation(const Space& space, VariationalInequality p
 
 double dual_norm(VariationalInequality problem, const SparseMatrix& norm, const Eigen::VectorXd& functional,
                  bool kernel) {
-  problem = own_rows_summed(std::move(problem));
+  problem = assemble_fixed_rows(std::move(problem));
   minimise_norm(problem, norm, kernel);
   clear_bounds(problem);
   problem.dirichlet_values.setZero();

@@ -22,7 +22,7 @@ Hypotheses check_hypotheses(const VariationalInequality& problem, const SparseMa
 double distance_to_kernel(const VariationalInequality& problem) {
   if (problem.b.rows() == 0) return 0;
   // Without a load, u minimises a1/2 + a0/(2 epsilon) over K_h: as epsilon -> 0, a0 tends to its smallest value there.
-  VariationalInequality unloaded = own_rows_summed(problem);
+  VariationalInequality unloaded = assemble_fixed_rows(problem);
   unloaded.load.setZero();
   for (double& g : unloaded.force_limit)  // what gives way is no part of K_h
     if (std::isfinite(g)) g = 0;

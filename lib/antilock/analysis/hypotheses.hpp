@@ -12,8 +12,8 @@ struct Hypotheses {
   int free = 0;         ///< free unknowns: free - kernel conditions are asked
   double distance = 0;  ///< of K_h from G_h (distance_to_kernel); the theory wants K_h and G_h to meet
 
-  bool coercive() const { return coercivity > 1e-10; }  ///< far above the round-off of an eigenvalue
-  bool meet() const { return distance < 1e-6; }         ///< below what the solvers refuse
+  bool coercive() const { return coercivity > 1e-10; }        ///< far above the round-off of an eigenvalue
+  bool intersects_kernel() const { return distance < 1e-6; }  ///< below what the solvers refuse
 };
 
 /// (H2) also wants a0 >= 0: with M > 0 that is so by construction, and checked as such. `norm` is the N x N Gram matrix

@@ -10,9 +10,9 @@
 
 namespace antilock {
 
-Eigen::MatrixXd multiplier_gram(const VariationalInequality& with_own_rows, const SparseMatrix& norm, int merged) {
-  check(with_own_rows);
-  const VariationalInequality problem = own_rows_summed(with_own_rows);
+Eigen::MatrixXd multiplier_gram(const VariationalInequality& with_fixed_rows, const SparseMatrix& norm, int merged) {
+  check(with_fixed_rows);
+  const VariationalInequality problem = assemble_fixed_rows(with_fixed_rows);
   if (norm.rows() != problem.size() || norm.cols() != problem.size())
     throw Error(fmt::format("inf-sup: the norm is {} x {}; accepted {} x {}", norm.rows(), norm.cols(), problem.size(),
                             problem.size()));
@@ -29,9 +29,9 @@ Eigen::MatrixXd multiplier_gram(const VariationalInequality& with_own_rows, cons
   return 0.5 * (gram + gram.transpose());  // round-off alone
 }
 
-double inf_sup(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& norm) {
-  if (!Cholesky(norm).positive_definite()) throw Error("inf-sup: the multipliers' norm is not positive definite");
-  const Eigen::VectorXd squares = generalised_eigenvalues(seen, norm);
+double inf_sup(const Eigen::MatrixXd& space_gram, const Eigen::MatrixXd& norm_gram) {
+  if (!Cholesky(norm_gram).positive_definite()) throw Error("inf-sup: the multipliers' norm is not positive definite");
+  const Eigen::VectorXd squares = generalised_eigenvalues(space_gram, norm_gram);
   const double least = squares.minCoeff(), largest = squares.maxCoeff();
   return least > 1e-12 * largest ? std::sqrt(least) : 0;  // a dependent row of B, to round-off
 }

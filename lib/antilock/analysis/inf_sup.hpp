@@ -15,6 +15,6 @@ Eigen::MatrixXd multiplier_gram(const VariationalInequality& problem, const Spar
 /// seen: multiplier_gram of the space; norm: Gram matrix of the multipliers' own norm (M for L2; multiplier_gram of a
 /// much finer space for the dual norm of the theory). 0 where rows of B depend on each other. Throws Error where norm
 /// is not positive definite. Dense: for some 1000 multipliers.
-double inf_sup(const Eigen::MatrixXd& seen, const Eigen::MatrixXd& norm);
+double inf_sup(const Eigen::MatrixXd& space_gram, const Eigen::MatrixXd& norm_gram);
 
 }  // namespace antilock

@@ -44,7 +44,7 @@ void factorise(Factors& qr, const SparseMatrix& b, double threshold) {
 
 int kernel_dimension(const VariationalInequality& problem) {
   check(problem);
-  const SparseMatrix b = own_rows_summed(problem).b * free_prolongation(problem);
+  const SparseMatrix b = assemble_fixed_rows(problem).b * free_prolongation(problem);
   if (b.nonZeros() == 0) return problem.free_count();
   const BlasCalls blas;
   Factors qr;
@@ -54,7 +54,7 @@ int kernel_dimension(const VariationalInequality& problem) {
 
 VariationalInequality stiff_part(VariationalInequality problem) {
   check(problem);
-  problem = own_rows_summed(std::move(problem));
+  problem = assemble_fixed_rows(std::move(problem));
   std::vector<char> held(problem.size(), 1);
   for (Eigen::Index row = 0; row < problem.b.rows(); ++row)
     for (RowMatrix::InnerIterator entry(problem.b, row); entry; ++entry) held[entry.col()] = 0;
@@ -85,7 +85,7 @@ Eigen::MatrixXd kernel_basis(const VariationalInequality& problem) {
   check(problem);
   const SparseMatrix places = free_prolongation(problem);
   const int n = problem.free_count();
-  const SparseMatrix b = own_rows_summed(problem).b * places;
+  const SparseMatrix b = assemble_fixed_rows(problem).b * places;
   if (b.nonZeros() == 0) return places.toDense();
   // B' = Q R: the columns of Q behind the rank are orthogonal to every row of B
   const BlasCalls blas;
@@ -97,10 +97,10 @@ Eigen::MatrixXd kernel_basis(const VariationalInequality& problem) {
   return places * basis;
 }
 
-double coercivity(const VariationalInequality& with_own_rows, const SparseMatrix& norm) {
+double coercivity(const VariationalInequality& with_fixed_rows, const SparseMatrix& norm) {
   constexpr int most = 2000;
-  check(with_own_rows);
-  const VariationalInequality problem = own_rows_summed(with_own_rows);
+  check(with_fixed_rows);
+  const VariationalInequality problem = assemble_fixed_rows(with_fixed_rows);
   if (norm.rows() != problem.size() || norm.cols() != problem.size())
     throw Error(fmt::format("coercivity: the norm is {} x {}; accepted {} x {}", norm.rows(), norm.cols(),
                             problem.size(), problem.size()));

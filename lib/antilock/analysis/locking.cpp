@@ -79,7 +79,7 @@ Verdict LockingDiagnosis::verdict() const {
 }
 
 LockingDiagnosis diagnose_locking(const VariationalInequality& on_coarse, const VariationalInequality& on_fine) {
-  const VariationalInequality coarse = own_rows_summed(on_coarse), fine = own_rows_summed(on_fine);
+  const VariationalInequality coarse = assemble_fixed_rows(on_coarse), fine = assemble_fixed_rows(on_fine);
   for (const auto* problem : {&coarse, &fine})
     if (problem->b.rows() == 0) throw Error("diagnose_locking: B has no rows; accepted: a problem with a stiff form");
   VariationalInequality first = stiff_part(coarse), second = stiff_part(fine);

@@ -154,7 +154,7 @@ RowMatrix hats(const Points& at, const Line& sigma, const std::vector<char>& in_
 /// The layer's part of A1, N x N: of its triangles with a corner on Sigma, so that the rows of Sigma are whole.
 SparseMatrix layer_at(const Line& sigma, const Space& space, const Eigen::Vector2d& stiffness) {
   const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = strain_rule(space.element());
+  const Quadrature& rule = strain_quadrature(space.element());
   Triplets entries;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
     const auto corner = mesh.triangles.row(t);
@@ -241,7 +241,7 @@ LockingLoss locking_loss(const Scene& scene, const Result& result) {
   const Space& space = result.space;
   const VariationalInequality& problem = result.problem;
   const Solution& solution = result.solution;
-  if ((problem.own_compliances.array() > 0).any()) return locking_loss(scene, own_rows_summed(result));
+  if ((problem.fixed_compliances.array() > 0).any()) return locking_loss(scene, assemble_fixed_rows(result));
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
   const auto epsilon = scene.epsilon();

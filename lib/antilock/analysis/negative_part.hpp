@@ -13,7 +13,7 @@ struct NegativePart {
   Eigen::VectorXd worst;  ///< the v_h of norm 1 that is furthest from that function; empty for P1
 };
 
-/// `norm`: h1_norm. Where the bounded unknowns of `problem` are fixed to 0, CR's worst v_h is in K_h, and what it has
+/// `norm`: h1_gram_matrix. Where the bounded unknowns of `problem` are fixed to 0, CR's worst v_h is in K_h, and what it has
 /// below 0 is c_h / 2^(1/2). Dense in the edges of Gamma_C. Throws Error for other elements.
 NegativePart negative_part(const Space& space, VariationalInequality problem, const SparseMatrix& norm);
 

@@ -55,7 +55,7 @@ double loss_of_degree(int p) {
   return std::sqrt(symmetric_eigenvalues(lost).maxCoeff());
 }
 
-double width_of_ball(int n) {
+double kolmogorov_width(int n) {
   std::vector<int> squares;
   for (int k = 1; k * k < 2 * n + 8; ++k)  // more than n + 1 of them lie in this square, their first n + 1 in it
     for (int m = 1; m * m < 2 * n + 8; ++m) squares.push_back(k * k + m * m);

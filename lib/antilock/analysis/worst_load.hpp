@@ -3,7 +3,7 @@
 
 #include "antilock/exact/load_modes.hpp"
 #include "antilock/problem/variational_inequality.hpp"
-#include "antilock/solve/penalty_factor.hpp"
+#include "antilock/solve/penalised_cholesky.hpp"
 #include "antilock/space/space.hpp"
 
 namespace antilock {
@@ -30,7 +30,7 @@ double loss_of_degree(int p);
 
 /// The width of the ball: no conforming space with n functions on the body has a smaller worst error, for any epsilon.
 /// 1 / (pi (k^2 + m^2)^(1/2)), the last of the first n + 1 sines sin(k pi x) sin(m pi y). n >= 0.
-double width_of_ball(int n);
+double kolmogorov_width(int n);
 
 /// The error of (23) without contact as a quadratic form in the load f = LoadModes:
 ///
@@ -67,7 +67,7 @@ class ErrorForm {
   LoadModes modes_;
   double epsilon_ = 1;
   VariationalInequality problem_;
-  std::optional<PenaltyFactor> factor_;
+  std::optional<PenalisedCholesky> factor_;
   std::vector<int> active_;         // unknowns of the body that are not clamped
   Eigen::MatrixXd loads_;           // F': n x active
   Eigen::MatrixXd means_, decays_;  // CR: edge means of the basis (n x active), of 2 sin decay (waves + 1 x active)

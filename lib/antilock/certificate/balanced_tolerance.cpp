@@ -15,7 +15,7 @@ EnergyBounds energy_bounds(const Scene& scene, const TriangleMesh& mesh) {
   const Space conforming(mesh, p1()), nonconforming(conforming, crouzeix_raviart());
   Result result{nonconforming, assemble(scene, nonconforming)};
   result.solution = active_set(result.problem);
-  const Companion v = p1_companion(active_set(assemble_in_k(scene, conforming)));
+  const ConformingCompanion v = p1_companion(active_set(assemble_in_k(scene, conforming)));
   const Certificate found = certify(scene, result, {.companion = &v});
   return {.lower = found.energy_lower, .upper = found.energy_upper};
 }

@@ -83,7 +83,7 @@
 namespace antilock {
 namespace {
 
-void check_sizes(const TriangleMesh& mesh, const FluxLaw& law, const Companion& v) {
+void check_sizes(const TriangleMesh& mesh, const FluxLaw& law, const ConformingCompanion& v) {
   const auto layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
   if (v.at_vertices.size() != mesh.vertex_count() || (law.split && !v.layer && v.stress.size() != layer))
     throw Error("certificate: the companion has another number of values than the mesh has vertices or layer cells");
@@ -91,7 +91,7 @@ void check_sizes(const TriangleMesh& mesh, const FluxLaw& law, const Companion& 
 }
 
 /// The mean of v over an edge of the mesh.
-double mean_on(const TriangleMesh& mesh, int e, const Companion& v) {
+double mean_on(const TriangleMesh& mesh, int e, const ConformingCompanion& v) {
   const int a = mesh.edges(e, 0), b = mesh.edges(e, 1), t = mesh.edge_triangles(e, 0),
             other = mesh.edge_triangles(e, 1);
   if (v.layer && mesh.region[t] == Region::layer && (other < 0 || mesh.region[other] == Region::layer))
@@ -100,7 +100,7 @@ double mean_on(const TriangleMesh& mesh, int e, const Companion& v) {
 }
 
 /// v is what the scene prescribes at the ends of fixed edges, and that has the fixed values as its means.
-void check_prescribed(const Scene& scene, const Result& result, const Companion& v) {
+void check_prescribed(const Scene& scene, const Result& result, const ConformingCompanion& v) {
   const VariationalInequality& problem = result.problem;
   const TriangleMesh& mesh = result.space.mesh();
   const Eigen::VectorXd prescribed = dirichlet_vertex_values(scene, mesh);
@@ -151,34 +151,34 @@ double Certificate::relative(Quantity of) const {
   return norm_of_u > 0 ? bound(of) / norm_of_u : std::numeric_limits<double>::infinity();
 }
 
-double residual_norm(const VariationalInequality& problem, const EquilibratedFlux& flux, PenaltyFactor* factor) {
-  std::optional<PenaltyFactor> own;
+double residual_norm(const VariationalInequality& problem, const EquilibratedFlux& flux, PenalisedCholesky* factor) {
+  std::optional<PenalisedCholesky> own;
   if (factor == nullptr) factor = &own.emplace(problem);
   factor->check_fits(problem);
   if (factor->delta() < problem.compliance)
     throw Error("certificate: the factor has a smaller penalty than the compliance; accepted: at least as large");
   const Eigen::VectorXd r1 = flux.imbalance(factor->ordering().dof);
   if (ConstrainedCholesky* const held = factor->sparse_factor())
-    held->eliminate(std::vector<char>(r1.size(), 0));  // the whole K
+    held->constrain(std::vector<char>(r1.size(), 0));  // the whole K
   return std::sqrt(std::max(0.0, r1.dot(factor->solve(r1))));
 }
 
 Certificate certify(const Scene& scene, const Result& result, const CertificateOptions& options) {
   const VariationalInequality& problem = result.problem;
   const EquilibratedFlux flux = equilibrated_flux(scene, result);
-  Companion made;
+  ConformingCompanion made;
   if (options.companion == nullptr) made = local_companion(scene, result);
-  const Companion& v = options.companion != nullptr ? *options.companion : made;
+  const ConformingCompanion& v = options.companion != nullptr ? *options.companion : made;
   const TriangleMesh& mesh = result.space.mesh();
   check_sizes(mesh, flux.law, v);
   const Quadrature& midpoints = midpoint_rule();
 
   Certificate certificate;
   certificate.oscillation = std::sqrt(flux.oscillation2);
-  certificate.imbalance = residual_norm(problem, flux, options.factor);
+  certificate.algebraic_residual_norm = residual_norm(problem, flux, options.factor);
   certificate.indicator = Eigen::VectorXd::Zero(mesh.triangle_count());
-  double norm2 = 0, work = flux.pull.dot(v.at_vertices);  // |v|_a^2, the work of f and of the traction on v
-  double mismatch2 = 0;                                   // m^2 of the triangles that v shares
+  double norm2 = 0, work = flux.traction_load.dot(v.at_vertices);  // |v|_a^2, the work of f and of the traction on v
+  double mismatch2 = 0;                                            // m^2 of the triangles that v shares
   if (v.layer)
     for (int t = v.layer->first_triangle(), k = 0; t < v.layer->mesh().triangle_count(); ++t, ++k)
       norm2 += v.layer->mesh().area(t) * flux.law.squared(flux.law.stiffness * v.layer->flux_of(k));
@@ -227,7 +227,8 @@ Certificate certify(const Scene& scene, const Result& result, const CertificateO
 
   certificate.energy_upper = norm2 / 2 - work;
   const double scale = norm2 + flux.norm2 + std::abs(work);
-  const double by_identity = 2 * (certificate.energy_upper - flux.dual - unbalanced_work - certificate.contact_work);
+  const double by_identity =
+      2 * (certificate.energy_upper - flux.dual_energy - unbalanced_work - certificate.contact_work);
   if (!(by_identity >= -1e-12 * scale))
     throw Error(
         fmt::format("certificate: round-off has eaten the mismatch, {:.1e} of the energy; accepted: values at "
@@ -244,12 +245,12 @@ Certificate certify(const Scene& scene, const Result& result, const CertificateO
   certificate.constitutive_error = std::sqrt(mismatch2);
   certificate.midpoint_norm = std::sqrt(std::max(2 * norm2 + 2 * flux.norm2 - mismatch2, 0.0)) / 2;
 
-  const double q = certificate.oscillation + certificate.imbalance, m = certificate.constitutive_error;
+  const double q = certificate.oscillation + certificate.algebraic_residual_norm, m = certificate.constitutive_error;
   const double root = std::sqrt((m + q) * (m + q) / 4 + certificate.contact_work);
   certificate.displacement = (m + q) / 2 + root;
   certificate.stress = q / 2 + root;
   certificate.gradient = certificate.displacement;
-  certificate.energy_lower = flux.dual + unbalanced_work - q * certificate.displacement;
+  certificate.energy_lower = flux.dual_energy + unbalanced_work - q * certificate.displacement;
 
   double layer = 0;
   for (int t = 0; t < mesh.triangle_count(); ++t)
@@ -258,11 +259,11 @@ Certificate certify(const Scene& scene, const Result& result, const CertificateO
   return certificate;
 }
 
-double certified_distance(const Certificate& certificate, const Companion& v, const Result& w) {
+double certified_distance(const Certificate& certificate, const ConformingCompanion& v, const Result& w) {
   const Space& space = w.space;
   const VariationalInequality& problem = w.problem;
   const Solution& solution = w.solution;
-  if ((problem.own_compliances.array() > 0).any()) return certified_distance(certificate, v, own_rows_summed(w));
+  if ((problem.fixed_compliances.array() > 0).any()) return certified_distance(certificate, v, assemble_fixed_rows(w));
   const TriangleMesh& mesh = space.mesh();
   if (v.layer)
     throw Error(

@@ -1,7 +1,7 @@
 #pragma once
 #include "antilock/certificate/companion.hpp"
 #include "antilock/certificate/equilibrated_flux.hpp"
-#include "antilock/solve/penalty_factor.hpp"
+#include "antilock/solve/penalised_cholesky.hpp"
 
 namespace antilock {
 
@@ -21,7 +21,7 @@ struct Certificate {
   double constitutive_error = 0;              ///< m = |A grad v - sigma|
   double contact_work = 0;                    ///< C >= 0, the contact forces on the gap that v leaves
   double oscillation = 0;                     ///< osc: what f varies beyond affine on the triangles
-  double imbalance = 0;                       ///< rho: what an early stop left of the residual
+  double algebraic_residual_norm = 0;         ///< rho: what an early stop left of the residual
   double norm = 0;                            ///< |v|_a
   double midpoint_norm = 0;                   ///< |(sigma + A grad v) / 2|
   Eigen::VectorXd indicator;                  ///< T, all >= 0: where the error is, to refine by
@@ -33,8 +33,8 @@ struct Certificate {
 };
 
 struct CertificateOptions {
-  PenaltyFactor* factor = nullptr;       ///< of the problem, where there is one: rho costs one half of a solve with it
-  const Companion* companion = nullptr;  ///< v; none: local_companion makes it
+  PenalisedCholesky* factor = nullptr;  ///< of the problem, where there is one: rho costs one half of a solve with it
+  const ConformingCompanion* companion = nullptr;  ///< v; none: local_companion makes it
 };
 
 /// Derivation in certificate.cpp. u and p may come from anywhere: a solve stopped early, with another contact set, or
@@ -45,13 +45,13 @@ Certificate certify(const Scene& scene, const Result& result, const CertificateO
 
 /// rho of the solution: >= |R(v)| / |v|_a for the forces r1 that it leaves unbalanced. Without a factor one is made.
 double residual_norm(const VariationalInequality& problem, const EquilibratedFlux& flux,
-                     PenaltyFactor* factor = nullptr);
+                     PenalisedCholesky* factor = nullptr);
 
 /// >= |u - w|_a (broken where w jumps), u the exact solution, w any other solution of the certified scene on the same
 /// mesh, P2 or P1 say: |u - v|_a, proved by the certificate of v, plus |v - w|_a, computed exactly. Honest and blunt:
 /// not below the certificate, however good w is. Throws Error for a companion v
 /// with columns of its own (accepted: local_companion with on_mesh, p1_companion, an extruded mesh) and for sizes that
 /// do not fit.
-double certified_distance(const Certificate& certificate, const Companion& v, const Result& w);
+double certified_distance(const Certificate& certificate, const ConformingCompanion& v, const Result& w);
 
 }  // namespace antilock

@@ -58,7 +58,7 @@ Points layer_corners(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Eigen::Vector2d Companion::flux(const TriangleMesh& mesh, int t, int row, const FluxLaw& law) const {
+Eigen::Vector2d ConformingCompanion::flux(const TriangleMesh& mesh, int t, int row, const FluxLaw& law) const {
   Eigen::Vector2d flux = barycentric_gradients(mesh, t).transpose() * at_vertices(mesh.triangles.row(t));
   if (law.split) flux(1) = stress(row);
   return law.stiffness * flux;
@@ -110,11 +110,11 @@ VariationalInequality assemble_in_k(const Scene& scene, const Space& space) {
   return problem;
 }
 
-Companion local_companion(const Scene& scene, const Result& result, bool on_mesh) {
+ConformingCompanion local_companion(const Scene& scene, const Result& result, bool on_mesh) {
   const TriangleMesh& mesh = result.space.mesh();
   const auto* stiff = on_mesh ? nullptr : std::get_if<StiffLayer>(&scene.layer());
   const std::vector<char> held = held_vertices(result);
-  Companion companion;
+  ConformingCompanion companion;
   companion.at_vertices = averages(scene, result, held);
 
   const EdgeTag line_tag = scene.layer_depth() > 0 ? EdgeTag::sigma : EdgeTag::contact;
@@ -131,7 +131,7 @@ Companion local_companion(const Scene& scene, const Result& result, bool on_mesh
   const TriangleMesh& columns = p1_space.mesh();
 
   // the body's vertices off the line and the known values are fixed; the rest is solved for
-  VariationalInequality strip = own_rows_summed(assemble(scene, p1_space));  // any v of K will do
+  VariationalInequality strip = assemble_fixed_rows(assemble(scene, p1_space));  // any v of K will do
   std::vector<char> fixed(columns.vertex_count(), 0);
   Eigen::VectorXd value = dirichlet_vertex_values(scene, columns);
   for (const int v : p1_space.dirichlet_dofs()) fixed[v] = 1;
@@ -185,7 +185,7 @@ Companion local_companion(const Scene& scene, const Result& result, bool on_mesh
   return companion;
 }
 
-Companion p1_companion(const Solution& p1_solution) {
+ConformingCompanion p1_companion(const Solution& p1_solution) {
   return {.at_vertices = p1_solution.u, .stress = p1_solution.p, .layer = std::nullopt};
 }
 

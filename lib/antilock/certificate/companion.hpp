@@ -12,7 +12,7 @@
 namespace antilock {
 
 /// A conforming function v of K, P1 in the body on the mesh of the Crouzeix-Raviart solution that it accompanies.
-struct Companion {
+struct ConformingCompanion {
   Eigen::VectorXd at_vertices;              ///< V values; those of the layer's vertices only without `columns`
   Eigen::VectorXd stress;                   ///< epsilon^-2 d_y v per layer triangle (scaled layer, without `columns`)
   std::optional<ExtrudedP1Function> layer;  ///< v in the layer where that has columns of its own
@@ -36,9 +36,9 @@ VariationalInequality assemble_in_k(const Scene& scene, const Space& space);
 /// the mesh's own where it is extruded already: P1 cannot lock on them. A handful of unknowns per column, whatever the
 /// body has. Throws what active_set throws.
 /// `on_mesh`: no columns of its own, P1 on the layer's triangles as they are, which lock unless epsilon is large.
-Companion local_companion(const Scene& scene, const Result& result, bool on_mesh = false);
+ConformingCompanion local_companion(const Scene& scene, const Result& result, bool on_mesh = false);
 
 /// A P1 solution on the mesh itself as the companion.
-Companion p1_companion(const Solution& p1_solution);
+ConformingCompanion p1_companion(const Solution& p1_solution);
 
 }  // namespace antilock

@@ -189,16 +189,16 @@ FluxLaw layer_law(const Scene& scene) {
 }
 
 // sum_i f_i lambda_i (x - P_i) = f_1 x - sum_i f_i lambda_i P_i; the mean of f x is sum_i mean(f lambda_i) P_i
-Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& lambda) const {
+Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& barycentric) const {
   const FluxCell& here = cell[t];
   const Eigen::Matrix<double, 3, 2> corner = mesh.vertices(mesh.triangles.row(t), Eigen::all);
   const Eigen::Matrix<double, 3, 2> weighted = here.f.asDiagonal() * corner;
   const double mean = here.f.mean();
   const Eigen::RowVector2d constant =
       0.5 * mean * corner.colwise().sum() - (weighted + 3 * mean * corner).colwise().sum() / 12;
-  Eigen::MatrixX2d tau(lambda.rows(), 2);
-  for (Eigen::Index q = 0; q < lambda.rows(); ++q) {
-    const Eigen::RowVector3d l = lambda.row(q);
+  Eigen::MatrixX2d tau(barycentric.rows(), 2);
+  for (Eigen::Index q = 0; q < barycentric.rows(); ++q) {
+    const Eigen::RowVector3d l = barycentric.row(q);
     const double rotation = 0.5 * mean + l.dot(here.f) / 3;
     tau.row(q) = constant - rotation * (l * corner) + l * weighted / 3;
   }
@@ -206,8 +206,8 @@ Eigen::MatrixX2d EquilibratedFlux::tau(const TriangleMesh& mesh, int t, const Ei
   const Eigen::Matrix<double, 3, 2> gradient = barycentric_gradients(mesh, t);
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;  // grad (lambda_j lambda_k) less its mean, turned
-    const Eigen::MatrixX2d slope = (lambda.col(j).array() - 1.0 / 3).matrix() * gradient.row(k) +
-                                   (lambda.col(k).array() - 1.0 / 3).matrix() * gradient.row(j);
+    const Eigen::MatrixX2d slope = (barycentric.col(j).array() - 1.0 / 3).matrix() * gradient.row(k) +
+                                   (barycentric.col(k).array() - 1.0 / 3).matrix() * gradient.row(j);
     tau.col(0) += here.traction(i) * slope.col(1);
     tau.col(1) -= here.traction(i) * slope.col(0);
   }
@@ -218,7 +218,7 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result) {
   const Space& space = result.space;
   const VariationalInequality& problem = result.problem;
   const Solution& solution = result.solution;
-  if ((problem.own_compliances.array() > 0).any()) return equilibrated_flux(scene, own_rows_summed(result));
+  if ((problem.fixed_compliances.array() > 0).any()) return equilibrated_flux(scene, assemble_fixed_rows(result));
   check_request(scene, result);
   check_displacement(scene, space.mesh());
   static const Quadrature& fine_rule = triangle_rule(12);
@@ -227,7 +227,7 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result) {
   EquilibratedFlux flux;
   flux.law = layer_law(scene);
   flux.cell.resize(mesh.triangle_count());
-  flux.pull = Eigen::VectorXd::Zero(mesh.vertex_count());
+  flux.traction_load = Eigen::VectorXd::Zero(mesh.vertex_count());
   Eigen::VectorXd assembled = Eigen::VectorXd::Zero(space.size());  // r with the load as the solver integrates it
   Eigen::VectorXd finer = Eigen::VectorXd::Zero(space.size());      // what a finer rule adds to the load
   int layer_row = 0;
@@ -261,8 +261,8 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result) {
         const int j = (i + 1) % 3, k = (i + 2) % 3;
         const double length = mesh.edge_length(mesh.triangle_edges(t, i));
         here.traction(i) = -6 * edge.moment * length;
-        flux.pull(mesh.triangles(t, j)) += length * (edge.mean / 2 - edge.moment);
-        flux.pull(mesh.triangles(t, k)) += length * (edge.mean / 2 + edge.moment);
+        flux.traction_load(mesh.triangles(t, j)) += length * (edge.mean / 2 - edge.moment);
+        flux.traction_load(mesh.triangles(t, k)) += length * (edge.mean / 2 + edge.moment);
         finer(unknown(i)) += length * edge.mean;
         finer(unknown(j)) += 2 * length * edge.moment;
         finer(unknown(k)) -= 2 * length * edge.moment;
@@ -300,9 +300,10 @@ EquilibratedFlux equilibrated_flux(const Scene& scene, const Result& result) {
     flux.gap(i) =
         mean_gap(scene.contact()->gap, mesh.vertices(mesh.edges(e, 0), 0), mesh.vertices(mesh.edges(e, 1), 0));
   }
-  flux.dual = -flux.norm2 / 2 - flux.lambda.dot(flux.gap);
+  flux.dual_energy = -flux.norm2 / 2 - flux.lambda.dot(flux.gap);
   for (std::size_t i = 0; i < problem.dirichlet_dofs.size(); ++i)
-    flux.dual += flux.residual(problem.dirichlet_dofs[i]) * problem.dirichlet_values(static_cast<Eigen::Index>(i));
+    flux.dual_energy +=
+        flux.residual(problem.dirichlet_dofs[i]) * problem.dirichlet_values(static_cast<Eigen::Index>(i));
   return flux;
 }
 

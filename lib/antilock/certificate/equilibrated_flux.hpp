@@ -28,20 +28,20 @@ struct FluxCell {
 /// A flux in equilibrium with f_1, built from any u and p on the Crouzeix-Raviart space (derivation in
 /// certificate.hpp).
 struct EquilibratedFlux {
-  FluxLaw law;                 ///< of the layer
-  std::vector<FluxCell> cell;  ///< T
-  Eigen::VectorXd residual;    ///< N, r = A1 u + B' M p - b, with the scene's own A1, B and load
-  Eigen::VectorXd lambda;      ///< C, the positive part of r on Gamma_C: contact forces
-  Eigen::VectorXd imbalance;   ///< N, r1: what is left of r on free unknowns; 0 on the fixed ones
-  Eigen::VectorXd gap;         ///< C, the mean of the gap over each contact edge
-  Eigen::VectorXd pull;        ///< V, the work of the traction on the P1 function of each vertex
-  double norm2 = 0;            ///< |sigma|^2, counted by A^-1
-  double tau2 = 0;             ///< |tau|^2, counted by A^-1
-  double oscillation2 = 0;     ///< osc^2, the sum over the triangles
-  double dual = 0;             ///< D, the energy of the dual problem at sigma
+  FluxLaw law;                    ///< of the layer
+  std::vector<FluxCell> cell;     ///< T
+  Eigen::VectorXd residual;       ///< N, r = A1 u + B' M p - b, with the scene's own A1, B and load
+  Eigen::VectorXd lambda;         ///< C, the positive part of r on Gamma_C: contact forces
+  Eigen::VectorXd imbalance;      ///< N, r1: what is left of r on free unknowns; 0 on the fixed ones
+  Eigen::VectorXd gap;            ///< C, the mean of the gap over each contact edge
+  Eigen::VectorXd traction_load;  ///< V, the work of the traction on the P1 function of each vertex
+  double norm2 = 0;               ///< |sigma|^2, counted by A^-1
+  double tau2 = 0;                ///< |tau|^2, counted by A^-1
+  double oscillation2 = 0;        ///< osc^2, the sum over the triangles
+  double dual_energy = 0;         ///< D, the energy of the dual problem at sigma
 
   /// tau at the points of a rule on triangle t, q x 2.
-  Eigen::MatrixX2d tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& lambda) const;
+  Eigen::MatrixX2d tau(const TriangleMesh& mesh, int t, const Eigen::MatrixX3d& barycentric) const;
 };
 
 /// Builds it; u and p need satisfy no equation. Where f is far from affine on a triangle, a finer rule integrates it

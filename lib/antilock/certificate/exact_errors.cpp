@@ -6,7 +6,7 @@
 
 namespace antilock {
 
-ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const Companion& v,
+ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const ConformingCompanion& v,
                          const ExactTable& exact_solution) {
   const Quadrature& rule = triangle_rule(8);
   double cr = 0, balanced = 0, conforming = 0, middle = 0;

@@ -14,7 +14,7 @@ struct ExactErrors {
   double stress = 0;        ///< |A grad u - (sigma + A grad v) / 2|; 0 where v has columns of its own
 };
 
-ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const Companion& v,
+ExactErrors exact_errors(const TriangleMesh& mesh, const EquilibratedFlux& flux, const ConformingCompanion& v,
                          const ExactTable& exact);
 
 }  // namespace antilock

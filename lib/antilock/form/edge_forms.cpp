@@ -47,7 +47,7 @@ Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Fie
   return gram_matrix(edge_rows(space, tag, k));
 }
 
-StiffRows edge_rows(const Space& space, EdgeTag tag, const Field& k) {
+WeightedFactoredForm edge_rows(const Space& space, EdgeTag tag, const Field& k) {
   FactoredFormBuilder rows;
   std::vector<double> moduli;
   at_points(space, tag, k, [&](int t, double weight, double value, const Eigen::VectorXd& basis) {
@@ -60,7 +60,7 @@ StiffRows edge_rows(const Space& space, EdgeTag tag, const Field& k) {
   return {rows.form(space.size()), Eigen::Map<const Eigen::VectorXd>(moduli.data(), Eigen::Index(moduli.size()))};
 }
 
-Eigen::SparseMatrix<double> gram_matrix(const StiffRows& rows) {
+Eigen::SparseMatrix<double> gram_matrix(const WeightedFactoredForm& rows) {
   const auto& [b, m, cell] = rows.form;
   Triplets entries;
   for (Eigen::Index row = 0; row < b.rows(); ++row) {

@@ -15,9 +15,9 @@ Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g);
 /// N x N matrix of int k u v over them. Throws Error where k is negative or not finite.
 Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Field& k);
 /// The same as rows: u at each Gauss point, where k is above 0. Throws as edge_mass does.
-StiffRows edge_rows(const Space& space, EdgeTag tag, const Field& k);
+WeightedFactoredForm edge_rows(const Space& space, EdgeTag tag, const Field& k);
 /// N x N matrix of such a form.
-Eigen::SparseMatrix<double> gram_matrix(const StiffRows& rows);
+Eigen::SparseMatrix<double> gram_matrix(const WeightedFactoredForm& rows);
 
 /// N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25), on the contact edges of a mesh of the body alone.
 /// The trace is the continuous piecewise affine function through the unknowns on Sigma and the clamped ends: for P1 the

@@ -46,7 +46,7 @@ Eigen::SparseMatrix<double> strain_form(const VectorSpace& space, const Eigen::M
   const TriangleMesh& mesh = space.x.mesh();
   const Quadrature& rule = strain_quadrature(space);
   const Gradients gradients(space, rule);
-  return sum_strains(space.size(), mesh.triangle_count(), [&](int t) {
+  return assemble_strains(space.size(), mesh.triangle_count(), [&](int t) {
     const Eigen::Matrix<double, 3, 2> barycentric = barycentric_gradients(mesh, t);
     const Eigen::VectorXi unknown = gradients.unknowns(t);
     Eigen::MatrixXd local = Eigen::MatrixXd::Zero(unknown.size(), unknown.size());
@@ -87,8 +87,8 @@ std::vector<StrainTerm> Lame::rows() const {
   return all;
 }
 
-StiffRows stiff_strain_rows(const VectorSpace& space, const std::vector<StrainTerm>& strains,
-                            std::optional<Region> region) {
+WeightedFactoredForm stiff_strain_rows(const VectorSpace& space, const std::vector<StrainTerm>& strains,
+                                       std::optional<Region> region) {
   std::vector<StrainTerm> unweighted = strains;
   Eigen::VectorXd weights(static_cast<Eigen::Index>(strains.size()));
   for (std::size_t i = 0; i < strains.size(); ++i) {
@@ -130,7 +130,7 @@ Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, b
   return from_triplets<SparseMatrix>(space.size(), space.size(), entries);
 }
 
-StiffRows jump_rows(const VectorSpace& space, double weight, bool clamped_in_x) {
+WeightedFactoredForm jump_rows(const VectorSpace& space, double weight, bool clamped_in_x) {
   FactoredFormBuilder rows;
   at_steps(space, clamped_in_x, [&](int e, const auto& step) {
     rows.add(space.x.mesh().edge_triangles(e, 0), 1.0 / 3);

@@ -41,8 +41,8 @@ FactoredForm strain_form_factored(const VectorSpace& space, const std::vector<St
                                   std::optional<Region> region = {});
 
 /// The same with the weights beside M, as moduli.
-StiffRows stiff_strain_rows(const VectorSpace& space, const std::vector<StrainTerm>& strains,
-                            std::optional<Region> region = {});
+WeightedFactoredForm stiff_strain_rows(const VectorSpace& space, const std::vector<StrainTerm>& strains,
+                                       std::optional<Region> region = {});
 
 /// The factored form of int div u div v: strain_form_factored of u_x + v_y. For P1 and CR div is constant on a
 /// triangle: one row each, M its area.
@@ -57,6 +57,6 @@ const Quadrature& strain_quadrature(const VectorSpace& space);
 /// (Hansbo and Larson 2003). clamped_in_x = false: the clamped edges hold the component y alone.
 Eigen::SparseMatrix<double> jump_form(const VectorSpace& space, double weight, bool clamped_in_x = true);
 /// The same as rows: a step per edge and component, of the modulus 2 mu weight.
-StiffRows jump_rows(const VectorSpace& space, double weight, bool clamped_in_x = true);
+WeightedFactoredForm jump_rows(const VectorSpace& space, double weight, bool clamped_in_x = true);
 
 }  // namespace antilock

@@ -15,7 +15,7 @@ struct FactoredForm {
 
 /// The form sum_j stiffness_j m_j (b_j u) (b_j v) as rows: M holds what comes from the mesh and the rule, and the moduli
 /// stand beside it, however far apart they are.
-struct StiffRows {
+struct WeightedFactoredForm {
   FactoredForm form;          ///< R rows
   Eigen::VectorXd stiffness;  ///< R, positive
 };

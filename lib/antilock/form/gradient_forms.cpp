@@ -35,7 +35,7 @@ double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle
   return factor;
 }
 
-const Quadrature& strain_rule(const Element& element) { return triangle_rule(2 * (element.degree() - 1)); }
+const Quadrature& strain_quadrature(const Element& element) { return triangle_rule(2 * (element.degree() - 1)); }
 
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer) {
   std::vector<Stiffness> of_triangle;
@@ -46,7 +46,7 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& b
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<Stiffness>& of_triangle) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
-  const Quadrature& rule = strain_rule(element);
+  const Quadrature& rule = strain_quadrature(element);
   const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
   const auto add = [](auto& matrix, double weight, const Stiffness& stiffness, const auto& gradient) {
     matrix += weight * stiffness.x * gradient.col(0) * gradient.col(0).transpose() +
@@ -70,9 +70,9 @@ Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<
   });
 }
 
-StiffRows gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle) {
+WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle) {
   const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = strain_rule(space.element());
+  const Quadrature& rule = strain_quadrature(space.element());
   const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(space.element(), rule);
   FactoredFormBuilder rows;
   std::vector<double> moduli;
@@ -94,7 +94,7 @@ StiffRows gradient_rows(const Space& space, const std::vector<Stiffness>& of_tri
 FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int)>& direction) {
   const TriangleMesh& mesh = space.mesh();
   const Element& element = space.element();
-  const Quadrature& rule = strain_rule(element);
+  const Quadrature& rule = strain_quadrature(element);
   const auto points = rule.weights.size();
   const std::vector<Eigen::MatrixX3d> derivatives = derivatives_at(element, rule);
   Eigen::VectorXd dy(element.dofs());

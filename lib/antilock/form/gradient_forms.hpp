@@ -24,8 +24,8 @@ double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer);
 /// The same with a stiffness of each triangle (T).
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<Stiffness>& of_triangle);
-/// The same as rows: d/dx and d/dy at each point of strain_rule, where that stiffness is above 0.
-StiffRows gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle);
+/// The same as rows: d/dx and d/dy at each point of strain_quadrature, where that stiffness is above 0.
+WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle);
 
 /// The factored form of a_y^-(u, v) = (B u, M B v), (23): a row of B is d/dy at a quadrature point of a layer triangle,
 /// M its weight. For P1 and CR d/dy is constant on a triangle: one row each, M its area. `direction`: of a triangle, another
@@ -33,7 +33,7 @@ StiffRows gradient_rows(const Space& space, const std::vector<Stiffness>& of_tri
 FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int triangle)>& direction = {});
 /// The rule behind the rows of B, a triangle: d/dy u_h is of degree k - 1 and is squared, so 2 (k - 1): the centroid
 /// for degree 1, the edge midpoints for degree 2.
-const Quadrature& strain_rule(const Element& element);
+const Quadrature& strain_quadrature(const Element& element);
 
 /// N values of (f, phi_i) over the body, or over the layer, by load_rule.
 Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region = Region::body);

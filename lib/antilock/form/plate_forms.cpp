@@ -82,7 +82,7 @@ SparseMatrix bending_form(const PlateSpace& space, double poisson) {
   const Quadrature& rule = triangle_rule(2 * (degree - 1));
   const Gradients rotation(space.rotation, rule);
   const Eigen::Matrix4d stiffness = Lame{poisson, (1 - poisson) / 2}.matrix();
-  return sum_strains(space.size(), mesh.triangle_count(), [&](int t) {
+  return assemble_strains(space.size(), mesh.triangle_count(), [&](int t) {
     const Eigen::Matrix<double, 3, 2> to_xy = barycentric_gradients(mesh, t);
     const Eigen::VectorXi own = rotation.unknowns(t);
     const Eigen::Index all = own.size() + bubbles;

@@ -42,7 +42,7 @@ class FactoredFormBuilder {
 
 /// Where each column of a matrix of the space begins, and where the last one ends: its rows are the unknowns that share a
 /// triangle with it. They sit on the vertices, edges and triangles around the column's own, which the mesh counts.
-inline std::vector<int> sparsity_pattern(const Space& space) {
+inline std::vector<int> column_pointers(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const int v = space.element().dofs_per_vertex(), e = space.element().dofs_per_edge(),
             t = space.element().dofs_per_cell();
@@ -66,7 +66,7 @@ inline std::vector<int> sparsity_pattern(const Space& space) {
 template <class LocalMatrix>
 Eigen::SparseMatrix<double> assemble_cells(const Space& space, LocalMatrix&& local) {
   const auto& unknowns = space.cell_dofs();
-  const std::vector<int> start = sparsity_pattern(space);
+  const std::vector<int> start = column_pointers(space);
   std::vector<int> end(start.begin(), start.end() - 1);  // behind the rows that a column has so far, in ascending order
   Eigen::SparseMatrix<double> sum(space.size(), space.size());
   sum.resizeNonZeros(start.back());

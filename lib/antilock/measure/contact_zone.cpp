@@ -59,7 +59,7 @@ Eigen::MatrixX3d contact_table(const Result& result) {
   const auto count = static_cast<Eigen::Index>(places.size());
   Eigen::MatrixX3d table(count, 3);
   table.col(0) = space.dof_coordinates().col(0)(places);
-  table.col(1) = slack(result.problem, result.solution.u);
+  table.col(1) = distance_to_bound(result.problem, result.solution.u);
   table.col(2) = result.solution.lambda.cwiseQuotient(contact_lengths(space));
   return table;
 }

@@ -38,7 +38,7 @@ Eigen::MatrixXd monomials(const Eigen::MatrixX3d& points, int degree) {
 /// p_h on a layer triangle is of degree k - 1: its values at `points`, from its rows of B.
 Eigen::MatrixXd layer_stress_values(const Element& element, const Eigen::MatrixX3d& points) {
   const int degree = element.degree() - 1;
-  const Eigen::MatrixXd at_rows = monomials(strain_rule(element).points, degree);
+  const Eigen::MatrixXd at_rows = monomials(strain_quadrature(element).points, degree);
   return monomials(points, degree) * pseudo_inverse(at_rows);
 }
 
@@ -49,7 +49,7 @@ double larger(double a, double b) { return a >= b ? a : b > a ? b : a + b; }
 void check_solution(const Space& space, const Solution& solution) {
   const auto& region = space.mesh().region;
   const auto layer = std::count(region.begin(), region.end(), Region::layer);
-  const Eigen::Index rows = layer * strain_rule(space.element()).weights.size();
+  const Eigen::Index rows = layer * strain_quadrature(space.element()).weights.size();
   if (solution.u.size() != space.size() || (solution.p.size() != 0 && solution.p.size() != rows))
     throw Error(
         fmt::format("errors: a solution of {} unknowns and {} layer stresses; accepted: {} and {}, of this space",

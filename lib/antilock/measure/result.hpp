@@ -40,14 +40,14 @@ struct Result {
   std::optional<LockingReport> locking = {};  ///< of a scene with a layer, where it was asked for
 };
 
-/// A result in the form in which the class is studied: its problem with own_rows_summed, and p of the rows that are left.
-inline Result own_rows_summed(const Result& result) {
+/// A result in the form in which the class is studied: its problem with assemble_fixed_rows, and p of the rows that are left.
+inline Result assemble_fixed_rows(const Result& result) {
   const VariationalInequality& problem = result.problem;
-  Result summed{result.space, own_rows_summed(problem), result.solution};
-  const Eigen::Index first = problem.class_rows();
+  Result summed{result.space, assemble_fixed_rows(problem), result.solution};
+  const Eigen::Index first = problem.parametric_row_count();
   Eigen::Index left = first;
-  for (Eigen::Index k = 0; k < problem.own_compliances.size(); ++k)
-    if (problem.own_compliances(k) == 0) {
+  for (Eigen::Index k = 0; k < problem.fixed_compliances.size(); ++k)
+    if (problem.fixed_compliances(k) == 0) {
       summed.solution.p(left) = summed.solution.p(first + k);
       ++left;
     }

@@ -72,7 +72,7 @@ void check_fit(const Scene& scene, const TriangleMesh& mesh) {
 void follow_normals(VariationalInequality& problem, const StiffLayer& layer, const Space& space,
                     const StiffnessRange& range) {
   const TriangleMesh& mesh = space.mesh();
-  const Quadrature& rule = strain_rule(space.element());
+  const Quadrature& rule = strain_quadrature(space.element());
   FactoredForm along = layer_strain(space, [&](int t) { return Eigen::Vector2d(1, mesh.curved_columns[t].slope); });
   Eigen::VectorXd stiffness(along.m.size());
   for (Eigen::Index row = 0; row < along.m.size(); ++row) {
@@ -83,7 +83,7 @@ void follow_normals(VariationalInequality& problem, const StiffLayer& layer, con
     problem.m(row) *= length * j;
     stiffness(row) = layer.s / (length * j);
   }
-  if (!range.sums(layer.s)) return range.append(problem, {std::move(along), std::move(stiffness)});
+  if (!range.fits_in_a1(layer.s)) return range.append(problem, {std::move(along), std::move(stiffness)});
   along.m.array() *= stiffness.array();
   problem.a1 += Eigen::SparseMatrix<double>(along.b.transpose() * along.m.asDiagonal() * along.b);
 }
@@ -100,8 +100,8 @@ std::vector<Stiffness> stiffness_of_triangles(const Scene& scene, const Triangle
 }
 
 /// A form for each group of springs.
-std::vector<StiffRows> springs_of(const Scene& scene, const Space& space) {
-  std::vector<StiffRows> springs;
+std::vector<WeightedFactoredForm> springs_of(const Scene& scene, const Space& space) {
+  std::vector<WeightedFactoredForm> springs;
   for (int k = 0; k < static_cast<int>(scene.edges().size()); ++k)
     if (const BoundaryCondition& edge = scene.edges()[k]; edge.kind == BoundaryCondition::Kind::spring)
       springs.push_back(edge_rows(space, natural_group(k), edge.value));
@@ -115,8 +115,9 @@ bool springs_alone_hold_a_component(const TriangleMesh& mesh) {
 
 /// Adds springs to A1, or to B where their entries are far above those of A1. Throws Error where they are 1e20 times the
 /// softest stiffness: the rounding of a row is then no longer small beside it.
-void add_springs(VariationalInequality& problem, const std::vector<StiffRows>& springs, const StiffnessRange& range) {
-  for (const StiffRows& rows : springs) {
+void add_springs(VariationalInequality& problem, const std::vector<WeightedFactoredForm>& springs,
+                 const StiffnessRange& range) {
+  for (const WeightedFactoredForm& rows : springs) {
     if (rows.stiffness.size() == 0) continue;
     const double largest = rows.form.m.cwiseProduct(rows.stiffness).maxCoeff();
     if (largest > 1e20 * range.softest())
@@ -124,7 +125,7 @@ void add_springs(VariationalInequality& problem, const std::vector<StiffRows>& s
           fmt::format("spring: its stiffness times the length of an edge is {:.3g}, and the softest stiffness is "
                       "{:.3g}; accepted: up to 1e20 times as much, or a displacement",
                       largest, range.softest()));
-    if (range.sums(largest))
+    if (range.fits_in_a1(largest))
       problem.a1 += gram_matrix(rows);
     else
       range.append(problem, rows);
@@ -219,27 +220,27 @@ VariationalInequality assemble(const Scene& scene, const Space& space) {
   Stiffness layer{0, 0};
   if (stiff != nullptr) layer.x = curved ? 0 : stiff->s;       // a_x^- of (23)
   if (thin != nullptr) layer.x = layer.y = 1 / thin->epsilon;  // mu / epsilon of (22)
-  std::vector<Stiffness> from_triplets = stiffness_of_triangles(scene, space.mesh(), layer), in_rows;
-  const std::vector<StiffRows> springs = springs_of(scene, space);
+  std::vector<Stiffness> in_a1 = stiffness_of_triangles(scene, space.mesh(), layer), in_rows;
+  const std::vector<WeightedFactoredForm> springs = springs_of(scene, space);
   StiffnessRange range(stiff != nullptr ? stiff->s : 1);
-  for (const auto& [x, y] : from_triplets) {
+  for (const auto& [x, y] : in_a1) {
     range.note(x);
     range.note(y);
   }
   if (stiff != nullptr) range.note(stiff->s);
   if (std::holds_alternative<VentcelLayer>(scene.layer())) range.note(1);
   if (!springs.empty() && springs_alone_hold_a_component(space.mesh()))
-    for (const StiffRows& rows : springs) range.note(rows.form.m.dot(rows.stiffness));
+    for (const WeightedFactoredForm& rows : springs) range.note(rows.form.m.dot(rows.stiffness));
   range.check("stiffness");
-  for (std::size_t t = 0; t < from_triplets.size(); ++t) {
-    if (range.sums(std::max(from_triplets[t].x, from_triplets[t].y))) continue;
-    in_rows.resize(from_triplets.size(), {0, 0});
-    std::swap(from_triplets[t], in_rows[t]);
+  for (std::size_t t = 0; t < in_a1.size(); ++t) {
+    if (range.fits_in_a1(std::max(in_a1[t].x, in_a1[t].y))) continue;
+    in_rows.resize(in_a1.size(), {0, 0});
+    std::swap(in_a1[t], in_rows[t]);
   }
 
   VariationalInequality problem;
   problem.b.resize(0, space.size());
-  gradient_form(space, from_triplets).swap(problem.a1);  // an assignment would copy the matrix
+  gradient_form(space, in_a1).swap(problem.a1);  // an assignment would copy the matrix
   if (std::holds_alternative<VentcelLayer>(scene.layer()))
     problem.a1 += ventcel_form(space, dirichlet_vertex_values(scene, space.mesh()));
   if (stiff != nullptr) {

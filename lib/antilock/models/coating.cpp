@@ -24,9 +24,10 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
     range.note(stiffness);
   if (!space.x.element().conforming() || !space.y.element().conforming()) range.note(2 * coating.jump_weight);
   range.check("coating");
-  const bool sums_body = range.sums(body.maxCoeff()), sums_membrane = range.sums(membrane(0, 0));
-  if (!sums_body) body.setZero();
-  if (!sums_membrane) membrane.setZero();
+  const bool body_fits_in_a1 = range.fits_in_a1(body.maxCoeff()),
+             membrane_fits_in_a1 = range.fits_in_a1(membrane(0, 0));
+  if (!body_fits_in_a1) body.setZero();
+  if (!membrane_fits_in_a1) membrane.setZero();
   VariationalInequality problem;
   problem.a1 = strain_form(space, body, membrane);
   FactoredForm rows =
@@ -41,8 +42,8 @@ VariationalInequality assemble(const Coating& coating, const VectorSpace& space)
   const auto append = [&](const std::vector<StrainTerm>& strains, Region region) {
     range.append(problem, stiff_strain_rows(space, strains, region));
   };
-  if (!sums_membrane) append({{{1, 0, 0, 0}, coating.layer.plane_strain_modulus()}}, Region::layer);
-  if (!sums_body) append(coating.body.rows(), Region::body);
+  if (!membrane_fits_in_a1) append({{{1, 0, 0, 0}, coating.layer.plane_strain_modulus()}}, Region::layer);
+  if (!body_fits_in_a1) append(coating.body.rows(), Region::body);
   add_block_loading(problem, coating, space, &range);
   return problem;
 }

@@ -66,7 +66,7 @@ void add_block_loading(VariationalInequality& problem, const BlockLoading& press
     throw Error("plane strain: the two components live on different meshes; accepted: spaces of one mesh");
   const int shift = space.x.size();
   const bool steps = press.jump_weight > 0;
-  if (steps && (range == nullptr || range->sums(2 * press.jump_weight)))
+  if (steps && (range == nullptr || range->fits_in_a1(2 * press.jump_weight)))
     problem.a1 += jump_form(space, press.jump_weight, !press.sliding);
   else if (steps)
     range->append(problem, jump_rows(space, press.jump_weight, !press.sliding));

@@ -11,8 +11,8 @@
 
 namespace antilock {
 
-double without_void_bound(double bound) {
-  return std::abs(bound) >= void_bound ? std::copysign(std::numeric_limits<double>::infinity(), bound) : bound;
+double bound_or_infinity(double bound) {
+  return std::abs(bound) >= infinite_bound ? std::copysign(std::numeric_limits<double>::infinity(), bound) : bound;
 }
 
 Eigen::VectorXd bounded_values(const VariationalInequality& problem, const Eigen::VectorXd& u) {
@@ -31,7 +31,7 @@ Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::
   return forces;
 }
 
-Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorXd& u) {
+Eigen::VectorXd distance_to_bound(const VariationalInequality& problem, const Eigen::VectorXd& u) {
   const Eigen::VectorXd values = bounded_values(problem, u), above = values - problem.lower;
   Eigen::VectorXd nearer = problem.upper.size() > 0 ? Eigen::VectorXd(above.cwiseMin(problem.upper - values)) : above;
   for (Eigen::Index i = 0; i < problem.force_limit.size(); ++i)

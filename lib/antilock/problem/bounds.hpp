@@ -8,10 +8,10 @@ namespace antilock {
 
 /// A bound of this size or more, in a file or an array of a user's, is none: products of such numbers
 /// leave the range of double. The customary infinities 1e20, 1e30 and 3.4e38 are numbers, and bound nothing.
-constexpr double void_bound = 1e40;
+constexpr double infinite_bound = 1e40;
 
-/// The bound, infinite where it is void: |bound| >= void_bound, as the largest double.
-double without_void_bound(double bound);
+/// The bound, infinite where it is void: |bound| >= infinite_bound, as the largest double.
+double bound_or_infinity(double bound);
 
 /// The bounded values of any u of N entries: its contact unknowns, then constraints * u. C entries.
 Eigen::VectorXd bounded_values(const VariationalInequality& problem, const Eigen::VectorXd& u);
@@ -21,7 +21,7 @@ Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::
 
 /// The distance of each bounded value from the nearer of its bounds, negative where it lies outside, infinite where the
 /// bound has a force limit. C entries.
-Eigen::VectorXd slack(const VariationalInequality& problem, const Eigen::VectorXd& u);
+Eigen::VectorXd distance_to_bound(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
 /// j(u), the work against bounds with a force_limit (Tresca's friction): the sum of force_limit times the distance
 /// from the bounds.

@@ -24,8 +24,9 @@ StiffnessRatio stiffness_ratio(const VariationalInequality& problem) {
 double penalty_parameter(const VariationalInequality& problem, std::optional<double> penalty) {
   if (penalty && !(*penalty > 0 && std::isfinite(*penalty)))
     throw Error(fmt::format("solve: penalty = {}; accepted: a positive number", *penalty));
-  const bool own_rows_alone = problem.class_rows() == 0 && problem.b.rows() > 0;  // no row has the class parameter
-  return std::max(own_rows_alone ? 0 : problem.compliance, penalty ? *penalty : choose_penalty(problem));
+  const bool only_fixed_rows =
+      problem.parametric_row_count() == 0 && problem.b.rows() > 0;  // no row has the class parameter
+  return std::max(only_fixed_rows ? 0 : problem.compliance, penalty ? *penalty : choose_penalty(problem));
 }
 
 }  // namespace antilock

@@ -105,11 +105,11 @@ void check_data(const VariationalInequality& problem) {
   require(rows == 0 || problem.m.minCoeff() > 0, "M is not positive");
   require(problem.compliance >= 0 && std::isfinite(problem.compliance),
           fmt::format("compliance = {}; accepted: a finite number, 0 or more", problem.compliance));
-  const Eigen::VectorXd& own = problem.own_compliances;
+  const Eigen::VectorXd& own = problem.fixed_compliances;
   require(own.size() <= rows,
-          fmt::format("own_compliances has {} entries; accepted: {} at most, one per row of B", own.size(), rows));
+          fmt::format("fixed_compliances has {} entries; accepted: {} at most, one per row of B", own.size(), rows));
   require(own.size() == 0 || (own.allFinite() && own.minCoeff() >= 0),
-          "an own compliance is negative or not finite; accepted: 0 or more");
+          "a fixed compliance is negative or not finite; accepted: 0 or more");
   require(problem.dirichlet_values.size() == static_cast<Eigen::Index>(problem.dirichlet_dofs.size()),
           "one value per fixed unknown is needed");
   std::vector<char> taken(n, 0);
@@ -124,7 +124,7 @@ void check_data(const VariationalInequality& problem) {
 }
 
 void append_rows(VariationalInequality& problem, const RowMatrix& b, const Eigen::VectorXd& m,
-                 const Eigen::VectorXd& own_compliances) {
+                 const Eigen::VectorXd& fixed_compliances) {
   RowMatrix all(problem.b.rows() + b.rows(), b.cols());
   all.reserve(problem.b.nonZeros() + b.nonZeros());
   for (const RowMatrix* part : {static_cast<const RowMatrix*>(&problem.b), &b})
@@ -140,13 +140,13 @@ void append_rows(VariationalInequality& problem, const RowMatrix& b, const Eigen
   };
   problem.b.swap(all);
   append(problem.m, m);
-  append(problem.own_compliances, own_compliances);
+  append(problem.fixed_compliances, fixed_compliances);
 }
 
-VariationalInequality own_rows_summed(VariationalInequality problem) {
-  if ((problem.own_compliances.array() == 0).all()) return problem;
-  const Eigen::Index first = problem.class_rows();
-  const Eigen::VectorXd own = std::exchange(problem.own_compliances, {}), m = problem.m;
+VariationalInequality assemble_fixed_rows(VariationalInequality problem) {
+  if ((problem.fixed_compliances.array() == 0).all()) return problem;
+  const Eigen::Index first = problem.parametric_row_count();
+  const Eigen::VectorXd own = std::exchange(problem.fixed_compliances, {}), m = problem.m;
   const RowMatrix b = problem.b;
   problem.b = b.topRows(first);
   problem.m = m.head(first);

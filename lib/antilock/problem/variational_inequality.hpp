@@ -42,16 +42,16 @@ struct VariationalInequality {
 
   /// The compliances of the last rows of B, 0 or more, whatever `compliance` is: their energy m (B u)^2 / (2 own) belongs
   /// to a1, in factors because a sum would lose its digits (a part of the body that is far stiffer than the rest). 0: a
-  /// tie, B u = 0. All other rows are those of the class, the first class_rows() ones.
-  Eigen::VectorXd own_compliances = {};
+  /// tie, B u = 0. All other rows are those of the class, the first parametric_row_count() ones.
+  Eigen::VectorXd fixed_compliances = {};
 
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(dirichlet_dofs.size()); }
-  Eigen::Index class_rows() const { return b.rows() - own_compliances.size(); }
+  Eigen::Index parametric_row_count() const { return b.rows() - fixed_compliances.size(); }
   /// R, the compliance of each row of B.
   Eigen::VectorXd compliances() const {
     Eigen::VectorXd rows = Eigen::VectorXd::Constant(b.rows(), compliance);
-    rows.tail(own_compliances.size()) = own_compliances;
+    rows.tail(fixed_compliances.size()) = fixed_compliances;
     return rows;
   }
   int bound_count() const { return static_cast<int>(contact.size()) + static_cast<int>(constraints.rows()); }
@@ -68,11 +68,11 @@ void check_data(const VariationalInequality& problem);
 
 /// Appends rows of B (r x N) with M = m (r) and compliances of their own (r, 0 or more).
 void append_rows(VariationalInequality& problem, const RowMatrix& b, const Eigen::VectorXd& m,
-                 const Eigen::VectorXd& own_compliances);
+                 const Eigen::VectorXd& fixed_compliances);
 
 /// The same problem in the form in which the class is studied: rows with an own compliance above 0 are summed into A1,
 /// which loses the digits that they keep. Rows of the class and of an own compliance of 0 stay.
-VariationalInequality own_rows_summed(VariationalInequality problem);
+VariationalInequality assemble_fixed_rows(VariationalInequality problem);
 
 /// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of constraints
 /// without a free unknown. Throws Error.

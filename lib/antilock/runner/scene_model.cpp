@@ -60,7 +60,8 @@ std::optional<Eigen::VectorXd> AntiPlaneModel::friction_forces(const Result&) co
 
 void AntiPlaneModel::write_picture(const std::filesystem::path& path, const Result& result,
                                    const Eigen::VectorXd& pressure) const {
-  const Eigen::VectorXd p = layer_stress(result.space.mesh(), result.solution.p.head(result.problem.class_rows()));
+  const Eigen::VectorXd p =
+      layer_stress(result.space.mesh(), result.solution.p.head(result.problem.parametric_row_count()));
   write_vtu(path, result.space, result.solution.u, {p, pressure});
 }
 

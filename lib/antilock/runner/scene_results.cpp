@@ -120,7 +120,7 @@ SceneSummary summary_of(const SceneFile& file, const Result& result) {
     }
   }
   s.kkt = solution.kkt;
-  s.contact_steps = solution.counters.contact;
+  s.contact_steps = solution.counters.contact_iterations;
   s.corrections = solution.counters.corrections;
   s.layer = result.locking;
   s.warning = result.warning;

@@ -23,7 +23,7 @@ namespace {
 /// One solve: the factor and the iterates.
 class IteratedPenalty {
  public:
-  IteratedPenalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
+  IteratedPenalty(const VariationalInequality& problem, PenalisedCholesky& factor, const ContactSolver& contact,
                   const CorrectionOptions& options, const std::string& name)
       : problem_(problem),
         factor_(factor),
@@ -39,9 +39,10 @@ class IteratedPenalty {
     for (int correction = 0;; ++correction) {
       const Eigen::VectorXd du = outer_step(exact_residual(problem_, u_, p_, contact_.lambda));
       const double largest = u_.high.lpNorm<Eigen::Infinity>(), moved = du.lpNorm<Eigen::Infinity>();
-      if (correction == 0) result_.unlocked_size = largest;
-      const double rho = contraction(moved), next = std::max(rho * moved, acceleration_.next_dependent_step());
-      ForwardError now = forward_error(problem_, u_, next, constraint_residual_, rho, result_.unlocked_size, options_);
+      if (correction == 0) result_.penalised_max_u = largest;
+      const double rho = contraction(moved), next = std::max(rho * moved, acceleration_.next_affine_image_step());
+      ForwardError now =
+          forward_error(problem_, u_, next, constraint_residual_, rho, result_.penalised_max_u, options_);
       // a load just above a force limit shows in the second residual, and not in the first
       if (correction == 0 && moved > 0 && problem_.force_limit.size() > 0) now.relative = 1;
       result_.history.push_back(largest > 0 ? moved / largest : 0);
@@ -51,7 +52,7 @@ class IteratedPenalty {
       const bool slow = correction % defaults::corrections_per_penalty == defaults::corrections_per_penalty - 1;
       if (slow)
         throw_if_infeasible(problem_, Eigen::VectorXd(problem_.m.cwiseProduct(problem_.b * u_.high)), u_.high,
-                            std::max(result_.unlocked_size, largest) / std::sqrt(defaults::eps), result_);
+                            std::max(result_.penalised_max_u, largest) / std::sqrt(defaults::eps), result_);
       notify_or_throw(options_.progress, {"corrections", correction + 1, now.relative, options_.tolerance},
                       result_.solver);
       // the u of the first correction is off by the factor's round-off, no image of p: a mix would bring that back,
@@ -95,7 +96,7 @@ class IteratedPenalty {
 
   void solve_contact_step(ContactSystem& system, const Bounds& bounds) {
     contact_ = contact_solver_(system, bounds, contact_, u_.high.lpNorm<Eigen::Infinity>());
-    result_.counters.contact = std::max(result_.counters.contact, contact_.steps);
+    result_.counters.contact_iterations = std::max(result_.counters.contact_iterations, contact_.steps);
   }
 
   /// The contact problem condensed on the bounded unknowns, the last C places of the factor.
@@ -106,17 +107,17 @@ class IteratedPenalty {
     // leave its round-off on the neighbours
     const Eigen::VectorXd r_c = r.tail(c);
     r.tail(c).setZero();
-    Eigen::VectorXd y = factor_.dense().forward(r);
+    Eigen::VectorXd y = factor_.cholesky().forward(r);
     result_.seconds.solve += watch.lap();
     if (c > 0) {
       const auto l = factor_.contact_block().triangularView<Eigen::Lower>();
       const Eigen::VectorXd q = r_c + l * y.tail(c);
-      DenseContact system(factor_.schur(), q);
+      SchurComplementContact system(factor_.schur(), q);
       solve_contact_step(system, bounds);
       y.tail(c) = l.transpose() * contact_.v;
       result_.seconds.contact += watch.lap();
     }
-    Eigen::VectorXd du = factor_.dense().backward(std::move(y));
+    Eigen::VectorXd du = factor_.cholesky().backward(std::move(y));
     result_.seconds.solve += watch.lap();
     return du;
   }
@@ -145,7 +146,7 @@ class IteratedPenalty {
   /// Takes a penalty that is smaller, but no smaller than the compliance, nor so small that the factor keeps no digits
   /// of A1.
   void reduce_penalty() {
-    const double before = factor_.delta(), compliance = problem_.class_rows() > 0 ? problem_.compliance : 0;
+    const double before = factor_.delta(), compliance = problem_.parametric_row_count() > 0 ? problem_.compliance : 0;
     const double smallest = defaults::round_off * stiffness_ratio(problem_).value();
     const double delta = std::max({before / defaults::penalty_reduction, compliance, std::min(before, smallest)});
     if (problem_.b.rows() == 0 || delta >= before) return;
@@ -179,7 +180,7 @@ class IteratedPenalty {
   }
 
   const VariationalInequality& problem_;
-  PenaltyFactor& factor_;
+  PenalisedCholesky& factor_;
   const ContactSolver& contact_solver_;
   const CorrectionOptions& options_;
   Solution result_;                      ///< what is counted
@@ -191,13 +192,13 @@ class IteratedPenalty {
 
 }  // namespace
 
-Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
+Solution iterated_penalty(const VariationalInequality& problem, PenalisedCholesky& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name) {
   if (!(options.tolerance > 0))
     throw Error(fmt::format("{}: tolerance {}; accepted: above 0", name, options.tolerance));
   const SlackForm slack_form = factor.slack_form(problem);
   // corrections diverge where delta is below the compliance; it is 0 where the last factorisation failed
-  if (factor.delta() == 0 || (slack_form->class_rows() > 0 && factor.delta() < problem.compliance))
+  if (factor.delta() == 0 || (slack_form->parametric_row_count() > 0 && factor.delta() < problem.compliance))
     factor.refactor(penalty_parameter(problem));
   Solution result = IteratedPenalty(*slack_form, factor, contact, options, name).solve();
   result.u.conservativeResize(problem.size());
@@ -208,15 +209,16 @@ Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& f
   return result;
 }
 
-Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options) {
+Solution active_set(const VariationalInequality& problem, PenalisedCholesky& factor, const ActiveSetOptions& options) {
   const auto contact = [&](ContactSystem& system, const Bounds& bounds, const ContactResult& before, double) {
-    return solve_contact(system, bounds, before.status.empty() ? options.start : before.status, options.max_steps);
+    return solve_contact(system, bounds, before.status.empty() ? options.start : before.status,
+                         options.max_contact_iterations);
   };
   return iterated_penalty(problem, factor, contact, options.corrections, "active set");
 }
 
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options) {
-  PenaltyFactor factor(problem, options.penalty, options.reduction);
+  PenalisedCholesky factor(problem, options.penalty, options.reduction);
   return active_set(problem, factor, options);
 }
 

@@ -9,7 +9,7 @@
 #include "antilock/solve/contact.hpp"
 #include "antilock/solve/defaults.hpp"
 #include "antilock/solve/kkt.hpp"
-#include "antilock/solve/penalty_factor.hpp"
+#include "antilock/solve/penalised_cholesky.hpp"
 
 namespace antilock {
 
@@ -17,7 +17,7 @@ struct CorrectionOptions {
   double tolerance = 1e-10;  ///< on the relative algebraic error of u in the maximum norm: far below that of any mesh
   int max_corrections = defaults::max_corrections;  ///< reached: NotConverged
   ProgressHook progress = {};                       ///< called after every correction that is not the last
-  double contact = 0;  ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
+  double contact_tolerance = 0;  ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
 
   /// The KKT violation above which no solution is returned: a u that is right to the tolerance has some of it. A large
   /// tolerance gives little accuracy, with a warning.
@@ -28,7 +28,8 @@ struct ActiveSetOptions {
   CorrectionOptions corrections;
   std::optional<double> penalty;  ///< delta where compliance is smaller; empty: choose_penalty
   ContactReduction reduction = ContactReduction::automatic;  ///< of the factor, where the solver makes it
-  int max_steps = 1000;  ///< of a correction's contact iteration, which ends, but perhaps late; reached: NotConverged
+  int max_contact_iterations =
+      1000;  ///< of a correction's contact iteration, which ends, but perhaps late; reached: NotConverged
   std::optional<BoundStatuses> start;  ///< C: statuses to start from; empty: the nested start
 };
 
@@ -52,7 +53,7 @@ struct ActiveSetOptions {
 /// compliance) / (delta + sigma) < 1 in each correction: it converges for every delta, fast where delta is small beside
 /// sigma, and Anderson's mix (anderson.hpp) does the rest. After 15 corrections the next 15 are made with delta / 64.
 ///
-/// To read in this order: problem/variational_inequality.hpp, bounds.hpp, contact.hpp, residual.hpp, this,
+/// To read in this order: problem/variational_inequality.hpp, bound_status.hpp, contact.hpp, residual.hpp, this,
 /// forward_error.hpp; the constants with their reasons are in defaults.hpp. The outer loop stands in active_set.cpp,
 /// IteratedPenalty::solve. A loop that stops otherwise, after five corrections say, changes the one condition there;
 /// `finalise` checks the last correction all the same, and throws where it is not within the tolerance.
@@ -64,16 +65,17 @@ struct ActiveSetOptions {
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options = {});
 
 /// The same with a factor made before, for a sweep over loads, bounds or compliances of one pair (A1, B).
-Solution active_set(const VariationalInequality& problem, PenaltyFactor& factor, const ActiveSetOptions& options = {});
+Solution active_set(const VariationalInequality& problem, PenalisedCholesky& factor,
+                    const ActiveSetOptions& options = {});
 
-/// Solves the contact problem of one correction, in which v and lambda count from what they are so far: a DenseContact
+/// Solves the contact problem of one correction, in which v and lambda count from what they are so far: a SchurComplementContact
 /// or a SparseContact, as the factor was made. `before`: of the last correction, empty at first; `u_scale`: the largest
 /// |u|.
 using ContactSolver =
     std::function<ContactResult(ContactSystem&, const Bounds&, const ContactResult& before, double u_scale)>;
 
 /// The outer loop, with any solver of the inner problem. Throws as active_set does; `name` is the solver's.
-Solution iterated_penalty(const VariationalInequality& problem, PenaltyFactor& factor, const ContactSolver& contact,
+Solution iterated_penalty(const VariationalInequality& problem, PenalisedCholesky& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name);
 
 }  // namespace antilock

@@ -23,10 +23,10 @@ class Anderson {
   /// vectors of u and p.
   static constexpr std::size_t depth = 6;
 
-  /// Adds a plain step to the history: `iterate` = x + g from some x, and `dependent`, a vector that depends affinely
+  /// Adds a plain step to the history: `iterate` = x + g from some x, and `affine_image`, a vector that depends affinely
   /// on x.
-  void push(const DoubleDoubleVector& iterate, const Eigen::VectorXd& g, const DoubleDoubleVector& dependent) {
-    past_.push_front({iterate, dependent, g});
+  void push(const DoubleDoubleVector& iterate, const Eigen::VectorXd& g, const DoubleDoubleVector& affine_image) {
+    past_.push_front({iterate, affine_image, g});
     if (past_.size() > depth) past_.pop_back();
     double most = past_.size() < 2 ? defaults::max_contraction : 1 - defaults::max_contraction, gain = 0;
     for (std::size_t i = 1; i < past_.size(); ++i) {
@@ -34,7 +34,7 @@ class Anderson {
       const double apart = (after - g + past_[i].g).norm();
       if (!(apart > 0)) continue;
       most = std::max(most, after.norm() / apart);
-      gain = std::max(gain, (dependent - past_[i].dependent).lpNorm<Eigen::Infinity>() / apart);
+      gain = std::max(gain, (affine_image - past_[i].affine_image).lpNorm<Eigen::Infinity>() / apart);
     }
     contraction_ = std::min(most, defaults::max_contraction);
     // else the last one: another contact set hardly changes it, a smaller penalty makes it smaller
@@ -45,7 +45,7 @@ class Anderson {
   /// vector moved, in the maximum norm, where a start moved by 1; 0 where the history holds no two starts yet. (A step
   /// of the dependent vector itself does not tell: round-off that a mix leaves in a start is in g, and in the
   /// dependent vector, but in no step between two of them.)
-  double next_dependent_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
+  double next_affine_image_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
 
   /// By how much a plain step brings two starts closer, at worst over the last start and those before it; within
   /// defaults::max_contraction, and that where there is only one. It holds wherever the starts came from. (The ratio
@@ -53,8 +53,8 @@ class Anderson {
   /// does not: a mix makes g smaller, not the error by the same factor.)
   double contraction() const { return contraction_; }
 
-  /// Mixes the iterates of the history: `iterate` and, with the same weights, `dependent` become the next start.
-  void mix(DoubleDoubleVector& iterate, DoubleDoubleVector& dependent) const {
+  /// Mixes the iterates of the history: `iterate` and, with the same weights, `affine_image` become the next start.
+  void mix(DoubleDoubleVector& iterate, DoubleDoubleVector& affine_image) const {
     const auto others = static_cast<Eigen::Index>(past_.size()) - 1;
     if (others < 1) return;
     const Eigen::VectorXd& g = past_[0].g;
@@ -69,7 +69,7 @@ class Anderson {
         least_squares(normal, difference.transpose() * g, defaults::round_off).cwiseQuotient(scale);
     for (Eigen::Index i = 0; i < others; ++i) {
       iterate += -gamma(i) * (past_[0].iterate - past_[i + 1].iterate);
-      dependent += -gamma(i) * (past_[0].dependent - past_[i + 1].dependent);
+      affine_image += -gamma(i) * (past_[0].affine_image - past_[i + 1].affine_image);
     }
   }
 
@@ -82,7 +82,7 @@ class Anderson {
 
  private:
   struct Iterate {
-    DoubleDoubleVector iterate, dependent;
+    DoubleDoubleVector iterate, affine_image;
     Eigen::VectorXd g;
   };
   std::deque<Iterate> past_;           ///< the last one first

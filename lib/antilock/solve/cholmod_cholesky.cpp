@@ -60,9 +60,9 @@ class CholmodCholesky final : public SparseCholesky {
   CholmodCholesky(const CholmodCholesky&) = delete;
   CholmodCholesky& operator=(const CholmodCholesky&) = delete;
 
-  void analyse(const SparseMatrix& k, int last) override {
+  void analyse(const SparseMatrix& k, int trailing_count) override {
     cholmod_sparse whole = viewAsCholmod(k.selfadjointView<Eigen::Upper>());
-    if (last > 0) return analyse_with_the_last(whole, last);
+    if (trailing_count > 0) return analyse_with_trailing_rows(whole, trailing_count);
     l_ = cholmod_analyze(&whole, &common_);
     require(l_ != nullptr, "analysis");
   }
@@ -149,8 +149,8 @@ class CholmodCholesky final : public SparseCholesky {
   }
 
  private:
-  void analyse_with_the_last(cholmod_sparse& whole, int last) {
-    const int size = static_cast<int>(whole.ncol), interior = size - last;
+  void analyse_with_trailing_rows(cholmod_sparse& whole, int trailing_count) {
+    const int size = static_cast<int>(whole.ncol), interior = size - trailing_count;
     std::vector<int> order(size), group(size, 0);
     std::fill(group.begin() + interior, group.end(), interior > 0 ? 1 : 0);  // CAMD wants groups below `size`
     require(cholmod_camd(&whole, nullptr, 0, group.data(), order.data(), &common_) != 0, "ordering");

@@ -21,7 +21,7 @@ struct Breakpoint {
   double step{};            ///< the fraction of the search direction after which the value is there
 };
 
-Equilibrium equilibrium(ContactSystem& system, const Bounds& bounds, const BoundStatuses& status) {
+FixedStatusSolution solve_with_fixed_status(ContactSystem& system, const Bounds& bounds, const BoundStatuses& status) {
   std::vector<char> active(status.size());
   Eigen::VectorXd prescribed(bounds.count());
   for (int i = 0; i < bounds.count(); ++i) {
@@ -32,7 +32,7 @@ Equilibrium equilibrium(ContactSystem& system, const Bounds& bounds, const Bound
 }
 
 /// The active bounds whose forces are outside their ranges, or (`active` = false) the others whose values are.
-std::vector<Breakpoint> violations(const Bounds& bounds, const BoundStatuses& status, const Equilibrium& now,
+std::vector<Breakpoint> violations(const Bounds& bounds, const BoundStatuses& status, const FixedStatusSolution& now,
                                    const std::vector<int>& dof_of, bool active) {
   std::vector<Breakpoint> violations;
   for (int i = 0; i < bounds.count(); ++i) {
@@ -58,14 +58,15 @@ void projected_search(const ContactSystem& system, std::vector<Breakpoint>& brea
   }
   std::sort(breakpoints.begin(), breakpoints.end(),
             [](const Breakpoint& a, const Breakpoint& b) { return a.step < b.step; });
-  const double first = breakpoints.front().step, at_first = (1 - first) * (1 - first) * system.square(direction);
+  const double first = breakpoints.front().step,
+               at_first = (1 - first) * (1 - first) * system.energy_norm_squared(direction);
   Eigen::VectorXd next;
   double step = 1;
   for (std::size_t stopped = breakpoints.size();; step = breakpoints[stopped - 1].step) {
     next = v + step * direction;
     for (const Breakpoint& b : breakpoints)
       if (b.step <= step) next(dof_of[b.bound]) = b.value;
-    if (step == first || system.square(w - next) < at_first) break;
+    if (step == first || system.energy_norm_squared(w - next) < at_first) break;
     stopped = std::max<std::size_t>(stopped / 2, 1);
   }
   for (const Breakpoint& b : breakpoints)
@@ -76,12 +77,12 @@ void projected_search(const ContactSystem& system, std::vector<Breakpoint>& brea
 }  // namespace
 
 ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const std::optional<BoundStatuses>& start,
-                            int max_steps) {
-  BoundStatuses status = bounds.nearest_valid(start ? *start : system.nested_start(bounds, max_steps));
+                            int max_iterations) {
+  BoundStatuses status = bounds.nearest_valid(start ? *start : system.nested_start(bounds, max_iterations));
   std::set<BoundStatuses> visited_faces;  // whose minimisers were feasible
   Eigen::VectorXd v;
   for (int steps = 1;; ++steps) {
-    Equilibrium now = equilibrium(system, bounds, status);
+    FixedStatusSolution now = solve_with_fixed_status(system, bounds, status);
     std::vector<Breakpoint> violated = violations(bounds, status, now, system.bounded(), false);
     const bool feasible = violated.empty();
     if (feasible) violated = violations(bounds, status, now, system.bounded(), true);
@@ -89,7 +90,7 @@ ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const s
       for (int i = 0; i < bounds.count(); ++i) now.lambda(i) = bounds.total_force(i, status[i], now.lambda(i));
       return {std::move(now.v), std::move(now.lambda), std::move(status), steps};
     }
-    if (steps >= max_steps)
+    if (steps >= max_iterations)
       throw NotConverged(fmt::format("contact: {} of {} contact conditions still violated after {} steps",
                                      violated.size(), bounds.count(), steps),
                          static_cast<double>(violated.size()) / bounds.count(), steps);
@@ -103,19 +104,19 @@ ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const s
   }
 }
 
-BoundStatuses coarse_start(const Bounds& bounds, ContactSystem& coarse, int max_steps) {
+BoundStatuses coarse_start(const Bounds& bounds, ContactSystem& coarse, int max_iterations) {
   const int count = bounds.count();
   const auto every_second = [](const Eigen::VectorXd& of_all) {
     return Eigen::VectorXd(of_all(Eigen::seqN(1, of_all.size() / 2, 2)));
   };
   Bounds fewer{every_second(bounds.lower), every_second(bounds.upper), every_second(bounds.force_limit),
-               every_second(bounds.accumulated_force)};
+               every_second(bounds.multiplier_estimate)};
   // a bound carries its own force, and half of that of each neighbour that is left out
   for (int i = 0; i < count && bounds.force_limit.size() > 0; i += 2)
     for (const int neighbour : {i / 2 - 1, i / 2})
       if (neighbour >= 0 && neighbour < fewer.count() && std::isfinite(bounds.force_limit(i)))
         fewer.force_limit(neighbour) += 0.5 * bounds.force_limit(i);
-  const BoundStatuses status = solve_contact(coarse, fewer, std::nullopt, max_steps).status;
+  const BoundStatuses status = solve_contact(coarse, fewer, std::nullopt, max_iterations).status;
   BoundStatuses start;
   for (int i = 0; i < count; ++i)
     start.push_back(common_status(status[std::min(i / 2, fewer.count() - 1)],

@@ -3,12 +3,12 @@
 #include <utility>
 #include <vector>
 
-#include "antilock/solve/bounds.hpp"
+#include "antilock/solve/bound_status.hpp"
 
 namespace antilock {
 
 /// The solution of K v = q + lambda in which each bound prescribes either v or lambda.
-struct Equilibrium {
+struct FixedStatusSolution {
   Eigen::VectorXd v;       ///< n, all unknowns of the system
   Eigen::VectorXd lambda;  ///< C
   /// C: the round-off of each force, defaults::round_off times the sum of the absolute terms of its row.
@@ -16,17 +16,17 @@ struct Equilibrium {
 };
 
 /// The linear system of a contact problem, K symmetric positive definite (n x n), C of its unknowns bounded: all others
-/// are eliminated from it, once (DenseContact: n = C) or with every set (SparseContact).
+/// are eliminated from it, once (SchurComplementContact: n = C) or with every set (SparseContact).
 class ContactSystem {
  public:
   explicit ContactSystem(std::vector<int> bounded) : bounded_(std::move(bounded)) {}
   virtual ~ContactSystem() = default;
   /// Solves with v_i = prescribed_i where bound i is active, and lambda_i = prescribed_i elsewhere; lambda counts
-  /// from Bounds::accumulated_force. Throws Error where K is not positive definite.
-  virtual Equilibrium solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) = 0;
-  virtual double square(const Eigen::VectorXd& d) const = 0;  ///< d' K d, the squared energy norm
+  /// from Bounds::multiplier_estimate. Throws Error where K is not positive definite.
+  virtual FixedStatusSolution solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) = 0;
+  virtual double energy_norm_squared(const Eigen::VectorXd& d) const = 0;  ///< d' K d, the squared energy norm
   /// A start near the solution: the statuses of a smaller problem of the same kind (nested iteration).
-  virtual BoundStatuses nested_start(const Bounds& bounds, int max_steps) = 0;
+  virtual BoundStatuses nested_start(const Bounds& bounds, int max_iterations) = 0;
   const std::vector<int>& bounded() const { return bounded_; }  ///< C: bound -> unknown
 
  private:
@@ -40,7 +40,7 @@ struct ContactResult {
 };
 
 /// Finds the v that minimises J(v) = v' K v / 2 - q' v plus the work against the force limits: lambda = K v - q, and
-/// each pair (v_i, lambda_i) satisfies the law of bound i (bounds.hpp). The method is an active set method with a
+/// each pair (v_i, lambda_i) satisfies the law of bound i (bound_status.hpp). The method is an active set method with a
 /// projected search. A *face* is the set of all v with the same statuses. v starts at w, with each violated value
 /// moved to its bound. Each step is:
 ///
@@ -62,10 +62,10 @@ struct ContactResult {
 ///
 /// Without a start it begins at the nested one. Throws NotConverged after max_steps linear systems.
 ContactResult solve_contact(ContactSystem& system, const Bounds& bounds, const std::optional<BoundStatuses>& start,
-                            int max_steps);
+                            int max_iterations);
 
 /// A start from the solution of `coarse`, the same problem bounded at every second bound only (1, 3, 5, ...): each of
 /// the others has the status of its two neighbours in the order of the bounds where they agree, and is inactive else.
-BoundStatuses coarse_start(const Bounds& bounds, ContactSystem& coarse, int max_steps);
+BoundStatuses coarse_start(const Bounds& bounds, ContactSystem& coarse, int max_iterations);
 
 }  // namespace antilock

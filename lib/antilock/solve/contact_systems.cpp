@@ -58,19 +58,19 @@ std::vector<int> groups_of(const SparseMatrix& k) {
 /// round-off. Beside what is fixed they do not; of a mesh that is a part of all rows that falls like h. In a beam or a
 /// plate the rows of the rotations do not, half of all or more. A quarter tells the two apart.
 bool constants_are_free(const ConstrainedCholesky& k) {
-  const Eigen::VectorXd one = Eigen::VectorXd::Ones(k.upper().cols());
+  const Eigen::VectorXd one = Eigen::VectorXd::Ones(k.upper_triangle().cols());
   return 4 * (k.times(one).array().abs() > defaults::round_off * k.absolute_times(one).array()).count() < one.size();
 }
 
 }  // namespace
 
-DenseContact::DenseContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q)
+SchurComplementContact::SchurComplementContact(const Eigen::MatrixXd& s, const Eigen::VectorXd& q)
     : ContactSystem(from_zero_to(q.size())), s_(s), q_(q) {}
 
-Equilibrium DenseContact::solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) {
+FixedStatusSolution SchurComplementContact::solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) {
   std::vector<int> free, fixed;
   for (int i = 0; i < static_cast<int>(active.size()); ++i) (active[i] != 0 ? fixed : free).push_back(i);
-  Equilibrium now{prescribed, prescribed, {}};
+  FixedStatusSolution now{prescribed, prescribed, {}};
   if (!free.empty()) {
     Eigen::VectorXd rhs = q_(free) + prescribed(free);
     if (!fixed.empty()) rhs.noalias() -= s_(free, fixed) * prescribed(fixed);
@@ -83,7 +83,7 @@ Equilibrium DenseContact::solve(const std::vector<char>& active, const Eigen::Ve
   return now;
 }
 
-BoundStatuses DenseContact::nested_start(const Bounds& bounds, int max_steps) {
+BoundStatuses SchurComplementContact::nested_start(const Bounds& bounds, int max_iterations) {
   const int fine = bounds.count(), coarse = fine / 2;
   if (fine <= 1) return BoundStatuses(fine, BoundStatus::inactive);
   const auto bounded = Eigen::seqN(1, coarse, 2), others = Eigen::seqN(0, fine - coarse, 2);
@@ -92,38 +92,38 @@ BoundStatuses DenseContact::nested_start(const Bounds& bounds, int max_steps) {
   const Eigen::VectorXd half_q = factor.forward(Eigen::VectorXd(q_(others)));
   const Eigen::MatrixXd s = Eigen::MatrixXd(s_(bounded, bounded)) - half.transpose() * half;
   const Eigen::VectorXd q = Eigen::VectorXd(q_(bounded)) - half.transpose() * half_q;
-  DenseContact smaller(s, q);
-  return coarse_start(bounds, smaller, max_steps);
+  SchurComplementContact smaller(s, q);
+  return coarse_start(bounds, smaller, max_iterations);
 }
 
-Equilibrium SparseContact::solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) {
-  std::vector<char> eliminated(q_.size(), 0);
+FixedStatusSolution SparseContact::solve(const std::vector<char>& active, const Eigen::VectorXd& prescribed) {
+  std::vector<char> constrained(q_.size(), 0);
   Eigen::VectorXd q = q_, x = Eigen::VectorXd::Zero(q_.size());
   for (std::size_t i = 0; i < active.size(); ++i) {
-    eliminated[bounded()[i]] = active[i];
+    constrained[bounded()[i]] = active[i];
     (active[i] != 0 ? x : q)(bounded()[i]) += prescribed(static_cast<Eigen::Index>(i));
   }
-  k_.eliminate(eliminated);
+  k_.constrain(constrained);
   x += k_.solve(q - k_.times(x));
   const Eigen::VectorXd force = k_.times(x) - q_;
   const Eigen::VectorXd noise = defaults::round_off * (k_.absolute_times(x.cwiseAbs()) + q_.cwiseAbs());
-  Equilibrium now{std::move(x), prescribed, noise(bounded())};
+  FixedStatusSolution now{std::move(x), prescribed, noise(bounded())};
   for (std::size_t i = 0; i < active.size(); ++i)
     if (active[i] != 0) now.lambda(static_cast<Eigen::Index>(i)) = force(bounded()[i]);
   return now;
 }
 
-BoundStatuses SparseContact::nested_start(const Bounds& bounds, int max_steps) {
+BoundStatuses SparseContact::nested_start(const Bounds& bounds, int max_iterations) {
   BoundStatuses start(bounded().size(), BoundStatus::inactive);
   if (bounded().size() <= 1) return start;
-  const SparseMatrix whole = k_.upper().selfadjointView<Eigen::Upper>();
+  const SparseMatrix whole = k_.upper_triangle().selfadjointView<Eigen::Upper>();
   const std::vector<int> group = constants_are_free(k_) ? groups_of(whole) : from_zero_to(q_.size());
   const int groups = 1 + *std::max_element(group.begin(), group.end());
   if (2 * groups > q_.size()) {  // half of all at most: no start costs more than the finest problem
     std::vector<int> second;
     for (std::size_t i = 1; i < bounded().size(); i += 2) second.push_back(bounded()[i]);
     SparseContact coarse(k_, q_, second);
-    return coarse_start(bounds, coarse, max_steps);
+    return coarse_start(bounds, coarse, max_iterations);
   }
 
   RowMatrix members(q_.size(), groups);
@@ -142,7 +142,7 @@ BoundStatuses SparseContact::nested_start(const Bounds& bounds, int max_steps) {
   Bounds fewer{mean(bounds.lower, -infinity)};
   if (bounds.upper.size() > 0) fewer.upper = mean(bounds.upper, infinity);
   if (bounds.force_limit.size() > 0) fewer.force_limit = sum(bounds.force_limit);
-  if (bounds.accumulated_force.size() > 0) fewer.accumulated_force = sum(bounds.accumulated_force);
+  if (bounds.multiplier_estimate.size() > 0) fewer.multiplier_estimate = sum(bounds.multiplier_estimate);
   // P = (I - 2/3 D^-1 K) P0, P0 = 1 on the members of a group: the weight is Vanek's 4/3 over the largest eigenvalue of
   // D^-1 K, about 2 for first derivatives
   const Eigen::VectorXd weight = (2.0 / 3) * whole.diagonal().cwiseInverse();
@@ -152,7 +152,7 @@ BoundStatuses SparseContact::nested_start(const Bounds& bounds, int max_steps) {
     ConstrainedCholesky k;
     if (k.factorise(SparseMatrix(p.transpose() * SparseMatrix(whole * p)).triangularView<Eigen::Upper>())) return start;
     SparseContact coarse(k, q, from_zero_to(groups));
-    const BoundStatuses status = solve_contact(coarse, fewer, std::nullopt, max_steps).status;
+    const BoundStatuses status = solve_contact(coarse, fewer, std::nullopt, max_iterations).status;
     const RowMatrix rows = p;
     for (std::size_t i = 0; i < bounded().size(); ++i) {
       start[i] = status[group[bounded()[i]]];

@@ -3,7 +3,7 @@
 
 /// The constants of solve/ that are neither promises (KktTolerances, CorrectionOptions) nor mathematics, and why they
 /// are what they are. Those of the penalty stand in problem/choose_penalty.hpp, that of the
-/// contact reduction in penalty_factor.hpp.
+/// contact reduction in penalised_cholesky.hpp.
 namespace antilock::defaults {
 
 constexpr double eps = std::numeric_limits<double>::epsilon();
@@ -43,7 +43,7 @@ constexpr double max_contraction = 1 - 1.0 / max_corrections;
 /// The penalty of rows with compliances of their own, at least, beside the one of choose_penalty. Where three stiffnesses
 /// lie far apart, two of them in such rows, a correction contracts like penalty / (penalty + the softer one's compliance):
 /// the smaller the penalty, the more of them the factor has as they are. 6e-11 leaves the factor five digits of A1.
-constexpr double own_penalty = 1e-3;
+constexpr double fixed_row_penalty_ratio = 1e-3;
 
 /// The row that ties c . u to its slack variable w is stiffer than c . u by this factor: a correction leaves
 /// about 1/4096 of the distance between the two, as if it were made with two penalties less.

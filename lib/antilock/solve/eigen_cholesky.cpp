@@ -21,8 +21,8 @@ struct Factor : Eigen::SimplicialLLT<SparseMatrix, Eigen::Upper, Eigen::NaturalO
 
 class EigenCholesky final : public SparseCholesky {
  public:
-  void analyse(const SparseMatrix& k, int last) override {
-    const Eigen::Index first = k.cols() - last;
+  void analyse(const SparseMatrix& k, int trailing_count) override {
+    const Eigen::Index first = k.cols() - trailing_count;
     const SparseMatrix inside = SparseMatrix(k.topLeftCorner(first, first)).selfadjointView<Eigen::Upper>();
     Permutation by_degree;
     if (first > 0) Eigen::AMDOrdering<int>()(inside, by_degree);

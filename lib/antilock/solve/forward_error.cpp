@@ -19,7 +19,8 @@ constexpr double eps = defaults::eps, infinite = std::numeric_limits<double>::in
 /// not where u = 0 is admissible.
 bool may_be_infeasible(const VariationalInequality& problem) {
   const bool zero_is_admissible =
-      problem.dirichlet_values.isZero(0) && (slack(problem, Eigen::VectorXd::Zero(problem.size())).array() >= 0).all();
+      problem.dirichlet_values.isZero(0) &&
+      (distance_to_bound(problem, Eigen::VectorXd::Zero(problem.size())).array() >= 0).all();
   return (problem.compliances().array() == 0).any() && !zero_is_admissible;
 }
 
@@ -77,8 +78,9 @@ ForwardError forward_error(const VariationalInequality& problem, const DoubleDou
                            const CorrectionOptions& options) {
   const double size = u.high.lpNorm<Eigen::Infinity>(), largest = std::max(size, largest_u);
   const double scale = std::max(size, eps / options.tolerance * largest);
-  const double closed = std::max(
-      defaults::row_tolerance * std::max(1.0, options.tolerance / CorrectionOptions{}.tolerance), options.contact);
+  const double closed =
+      std::max(defaults::row_tolerance * std::max(1.0, options.tolerance / CorrectionOptions{}.tolerance),
+               options.contact_tolerance);
   const bool by_itself = may_be_infeasible(problem);
   double data = problem.dirichlet_values.size() > 0 ? problem.dirichlet_values.lpNorm<Eigen::Infinity>() : 0;
   for (const Eigen::VectorXd* bound : {&problem.lower, &problem.upper})
@@ -103,18 +105,18 @@ ForwardError forward_error(const VariationalInequality& problem, const DoubleDou
 }
 
 void throw_if_infeasible(const VariationalInequality& problem, const DoubleDoubleVector& y, const Eigen::VectorXd& u,
-                         double within, const Solution& so_far) {
+                         double max_u, const Solution& so_far) {
   if (!may_be_infeasible(problem)) return;
   const double least = smallest_feasible_norm(problem, y, u);
-  if (least > within)
+  if (least > max_u)
     throw NotConverged(
         fmt::format("{}: infeasible: after {} corrections u is at most {:.1e}, and no u below {:.1e} meets "
                     "the bounds, the prescribed values and B u = 0",
-                    so_far.solver, so_far.counters.corrections, within, least),
+                    so_far.solver, so_far.counters.corrections, max_u, least),
         1, so_far.counters.corrections);
 }
 
-double factor_roundoff(const VariationalInequality& problem, const PenaltyFactor& factor) {
+double factor_roundoff(const VariationalInequality& problem, const PenalisedCholesky& factor) {
   return eps * problem.free_count() * problem.a1.diagonal().cwiseAbs().maxCoeff() / factor.smallest_pivot();
 }
 
@@ -158,10 +160,10 @@ ConstraintDefect constraint_defect(const VariationalInequality& problem, const E
   return defect;
 }
 
-void add_conditioning_error(const VariationalInequality& problem, const PenaltyFactor& factor,
+void add_conditioning_error(const VariationalInequality& problem, const PenalisedCholesky& factor,
                             const Eigen::VectorXd& constraint_residual, Solution& result) {
   const double size = result.u.lpNorm<Eigen::Infinity>();
-  const double warn_above = KktTolerances{}.warn * std::max(size, KktTolerances{}.fail * result.unlocked_size);
+  const double warn_above = KktTolerances{}.warn * std::max(size, KktTolerances{}.fail * result.penalised_max_u);
   // |K^-1| is estimated by n_free / smallest pivot; double-double numbers leave eps^2 of the largest force
   const double stress =
       problem.b.rows() > 0 ? (problem.b.cwiseAbs().transpose() * problem.m.cwiseProduct(result.p.cwiseAbs())).maxCoeff()

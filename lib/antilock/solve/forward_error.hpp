@@ -34,11 +34,11 @@ ForwardError forward_error(const VariationalInequality& problem, const DoubleDou
 /// penalised one (expected, not proved). For a solution, y is ConstraintDefect::infeasible_part, and `bound` is the
 /// size of u.
 void throw_if_infeasible(const VariationalInequality& problem, const DoubleDoubleVector& y, const Eigen::VectorXd& u,
-                         double within, const Solution& so_far);
+                         double max_u, const Solution& so_far);
 
 /// The round-off of one solve relative to u, n_free eps cond(K), where B has no rows: K is then A1. cond(K) is
 /// estimated by the largest diagonal entry over the smallest pivot.
-double factor_roundoff(const VariationalInequality& problem, const PenaltyFactor& factor);
+double factor_roundoff(const VariationalInequality& problem, const PenalisedCholesky& factor);
 
 /// The effect of a constraint residual r2. Each row counts in its own unit, each unknown in that of its stiffness; rows
 /// whose distance is below defaults::row_tolerance count as equal.
@@ -62,7 +62,7 @@ ConstraintDefect constraint_defect(const VariationalInequality& problem, const E
 /// that are so large that 106 bits do not hold them, and the constraint defect of nearly dependent rows of B. Warns
 /// where one of them is above 1e-9 of u, of the forces first. Throws NotConverged where the defect proves that no u of
 /// this size is admissible.
-void add_conditioning_error(const VariationalInequality& problem, const PenaltyFactor& factor,
+void add_conditioning_error(const VariationalInequality& problem, const PenalisedCholesky& factor,
                             const Eigen::VectorXd& constraint_residual, Solution& result);
 
 }  // namespace antilock

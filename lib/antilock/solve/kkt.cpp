@@ -117,7 +117,7 @@ Kkt kkt_report(const VariationalInequality& problem, const Solution& solution) {
     // the prescribed values hold exactly or not at all
     if (u(unknown) != problem.dirichlet_values(static_cast<Eigen::Index>(i))) kkt.residual = 1;
   }
-  const double largest_u = std::max(u.lpNorm<Eigen::Infinity>(), KktTolerances{}.fail * solution.unlocked_size);
+  const double largest_u = std::max(u.lpNorm<Eigen::Infinity>(), KktTolerances{}.fail * solution.penalised_max_u);
   const Eigen::VectorXd forces = add_equations(kkt, parts, fixed, largest_u, largest_force, with_reactions);
   if (problem.bound_count() == 0) return kkt;
   const Bounds bounds{problem.lower, problem.upper, problem.force_limit};

@@ -30,7 +30,7 @@ namespace antilock {
 ///     s_i    the bounded value: u_k of a contact unknown k, c . u of a row c of constraints
 ///     c_i    what s_i is at most where no |u| is above 1: 1, and sum_k |c_k|
 ///     force_i  min(own_k, F_0), and its smallest value over |c_k| on the free unknowns of a constraint
-///     U      max(|u|, 1e-6 unlocked_size): a locked u tends to 0, and its round-off is that of its size before
+///     U      max(|u|, 1e-6 penalised_max_u): a locked u tends to 0, and its round-off is that of its size before
 ///     t      |L| + |A1| |u| + |B'| M |p| + |lambda|, the terms of r1
 ///     own    max(t, U diag(A1 + B' M B)), the forces at one unknown
 ///     F_0, F the largest load and force of a bound on an unknown, and with the reactions of the fixed unknowns

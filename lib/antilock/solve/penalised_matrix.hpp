@@ -16,7 +16,7 @@ struct DofOrdering {
     interior = static_cast<int>(dof.size());
     for (const int i : problem.contact) append(i);
   }
-  int contact() const { return static_cast<int>(dof.size()) - interior; }
+  int contact_count() const { return static_cast<int>(dof.size()) - interior; }
 
   std::vector<int> dof;       ///< n_free: position -> unknown
   std::vector<int> position;  ///< N: unknown -> position, -1 where it is prescribed
@@ -33,7 +33,7 @@ struct DofOrdering {
 /// delta for a tie.
 inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, double delta, double least) {
   Eigen::VectorXd penalties = Eigen::VectorXd::Constant(problem.b.rows(), delta);
-  const Eigen::ArrayXd own = problem.own_compliances.array();
+  const Eigen::ArrayXd own = problem.fixed_compliances.array();
   penalties.tail(own.size()) = (own > 0).select(own.max(least), delta);
   return penalties;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "antilock/core/eigen_memory.hpp"
-#include "antilock/solve/bounds.hpp"
+#include "antilock/solve/bound_status.hpp"
 
 namespace antilock {
 
@@ -18,11 +18,11 @@ struct Kkt {
 
 /// What the solve did: counted, so that a test can assert that an absent effect costs nothing.
 struct Counters {
-  int unknowns = 0;        ///< solved for: not in dirichlet_dofs
-  int factorisations = 0;  ///< numeric sparse Cholesky factorisations (or ILUT)
-  int solves = 0;          ///< sparse triangular solves (or CG runs)
-  int contact = 0;         ///< steps of the contact iteration (active sets tried, Uzawa steps)
-  int corrections = 0;     ///< corrections of the iterated penalty after the first solve
+  int unknowns = 0;            ///< solved for: not in dirichlet_dofs
+  int factorisations = 0;      ///< numeric sparse Cholesky factorisations (or ILUT)
+  int solves = 0;              ///< sparse triangular solves (or CG runs)
+  int contact_iterations = 0;  ///< steps of the contact iteration (active sets tried, Uzawa steps)
+  int corrections = 0;         ///< corrections of the iterated penalty after the first solve
 };
 
 struct SolveSeconds {
@@ -33,19 +33,19 @@ struct SolveSeconds {
 /// The answer of every solver.
 struct Solution {
   std::string solver;
-  Eigen::VectorXd u;         ///< N, every unknown, the fixed ones too
-  Eigen::VectorXd p;         ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
-  Eigen::VectorXd lambda;    ///< C contact forces, one per bound (a force; measure/ turns it to a density): >= 0 at a
-                             ///< lower bound, <= 0 at an upper one
-  BoundStatuses status;      ///< C: the status of each bound; empty where the solver knows none
-  std::vector<bool> active;  ///< C: in contact, with either bound: is_active(status[i])
-  double unlocked_size = 0;  ///< largest |u| with the penalty in place of the compliance: the size of u before
-                             ///< it locks, where it is known (0: it is not)
+  Eigen::VectorXd u;           ///< N, every unknown, the fixed ones too
+  Eigen::VectorXd p;           ///< R, the layer stress compliance^-1 B u (finite at compliance = 0), a row of B
+  Eigen::VectorXd lambda;      ///< C contact forces, one per bound (a force; measure/ turns it to a density): >= 0 at a
+                               ///< lower bound, <= 0 at an upper one
+  BoundStatuses status;        ///< C: the status of each bound; empty where the solver knows none
+  std::vector<bool> active;    ///< C: in contact, with either bound: is_active(status[i])
+  double penalised_max_u = 0;  ///< largest |u| with the penalty in place of the compliance: the size of u before
+                               ///< it locks, where it is known (0: it is not)
   /// Forward error of u in the maximum norm, relative to the largest |u|; 0: none is claimed, or there was nothing left
   /// to correct. The sum of what the next corrections would add, with the contraction that was measured, of what is
   /// left of B u = compliance p, and of the rounding of u to doubles, eps / 2. An estimate: of 24,000 random problems
   /// one was off by 15 times what it claims, all others by 10 times at most; the worst that is known, by 24 times. It
-  /// is above the tolerance where u has locked to less than 2e-6 of `unlocked_size`: such a u is the round-off of its
+  /// is above the tolerance where u has locked to less than 2e-6 of `penalised_max_u`: such a u is the round-off of its
   /// size before. It is infinite where u is 0 and something is left to correct. It holds for the contact set found, and
   /// knows nothing of what Uzawa's steps leave.
   double error = 0;

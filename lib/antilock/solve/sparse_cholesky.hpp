@@ -15,9 +15,9 @@ class SparseCholesky {
  public:
   virtual ~SparseCholesky() = default;
 
-  /// Orders and analyses the pattern of K. `last` > 0: the last rows of K stay the last ones, in their order, and the
+  /// Orders and analyses the pattern of K. `trailing_count` > 0: the last rows of K stay the last ones, in their order, and the
   /// factor's own ordering is for the rest. Throws NotConverged out of memory.
-  virtual void analyse(const SparseMatrix& k, int last) = 0;
+  virtual void analyse(const SparseMatrix& k, int trailing_count) = 0;
 
   /// A numeric factorisation of a matrix of the analysed pattern. Returns the row of K whose pivot is not positive or
   /// nothing but round-off (defaults::round_off); empty: K is positive definite. Throws NotConverged out of memory.
@@ -49,13 +49,13 @@ class ConstrainedCholesky {
   explicit ConstrainedCholesky(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
 
   /// Takes the upper triangle of K and factors it with nothing eliminated; a later one must have the same pattern, and
-  /// `last` is of the first alone. Returns the row of a lost pivot. All as SparseCholesky.
-  std::optional<int> factorise(SparseMatrix&& k, int last = 0) {
+  /// `trailing_count` is of the first alone. Returns the row of a lost pivot. All as SparseCholesky.
+  std::optional<int> factorise(SparseMatrix&& k, int trailing_count = 0) {
     k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved
-    eliminated_.assign(k_.cols(), 0);
+    constrained_.assign(k_.cols(), 0);
     Stopwatch watch;
     if (factorisations_++ == 0) {
-      cholesky_->analyse(k_, last);
+      cholesky_->analyse(k_, trailing_count);
       analyse_seconds_ = watch.lap();
     }
     const std::optional<int> lost_pivot = cholesky_->factorise(k_);
@@ -64,24 +64,24 @@ class ConstrainedCholesky {
   }
 
   /// Eliminates the marked unknowns, and those alone. Throws Error where the rest of K is not positive definite.
-  void eliminate(const std::vector<char>& eliminated) {
-    if (eliminated == eliminated_) return;
+  void constrain(const std::vector<char>& constrained) {
+    if (constrained == constrained_) return;
     SparseMatrix rest = k_;
     for (Eigen::Index j = 0; j < rest.cols(); ++j)
       for (SparseMatrix::InnerIterator it(rest, j); it; ++it)
-        if (it.row() != j && (eliminated[j] != 0 || eliminated[it.row()] != 0)) it.valueRef() = 0;
-    eliminated_.clear();
+        if (it.row() != j && (constrained[j] != 0 || constrained[it.row()] != 0)) it.valueRef() = 0;
+    constrained_.clear();
     ++factorisations_;
     if (cholesky_->factorise(rest))
       throw Error("contact: K on the unknowns that are not held is not positive definite");
-    eliminated_ = eliminated;
+    constrained_ = constrained;
   }
 
   /// x = K^-1 r on the unknowns that are not eliminated, 0 on the others.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const {
     Eigen::VectorXd x = cholesky_->backward(cholesky_->forward(r));
     for (Eigen::Index i = 0; i < x.size(); ++i)
-      if (eliminated_[i] != 0) x(i) = 0;
+      if (constrained_[i] != 0) x(i) = 0;
     return x;
   }
 
@@ -91,7 +91,7 @@ class ConstrainedCholesky {
     const SparseMatrix sizes = k_.cwiseAbs();
     return sizes.selfadjointView<Eigen::Upper>() * x;
   }
-  const SparseMatrix& upper() const { return k_; }
+  const SparseMatrix& upper_triangle() const { return k_; }
   const SparseCholesky& cholesky() const { return *cholesky_; }
 
   int factorisations() const { return factorisations_; }       ///< so far
@@ -100,7 +100,7 @@ class ConstrainedCholesky {
 
  private:
   SparseMatrix k_;
-  std::vector<char> eliminated_;
+  std::vector<char> constrained_;
   int factorisations_ = 0;
   double analyse_seconds_ = 0, factor_seconds_ = 0;
   std::unique_ptr<SparseCholesky> cholesky_;

@@ -40,7 +40,7 @@ Eigen::VectorXd summed_solve(const SparseMatrix& k, const Eigen::VectorXd& b, Su
 class CgIlut {
  public:
   static constexpr double cg_tolerance = 1e-10;  // Eigen stops on the residual relative to the right-hand side
-  explicit CgIlut(const SparseMatrix& upper) : a_(upper.selfadjointView<Eigen::Upper>()) {
+  explicit CgIlut(const SparseMatrix& upper_triangle) : a_(upper_triangle.selfadjointView<Eigen::Upper>()) {
     cg_.preconditioner().setDroptol(1e-6);
     cg_.preconditioner().setFillfactor(20);
     cg_.setTolerance(cg_tolerance);
@@ -76,20 +76,20 @@ SummedSystem summed_system(const VariationalInequality& problem, const std::stri
     throw Error(fmt::format(
         "{}: the summed matrix does not exist at epsilon = 0; accepted epsilon > 0, or the solver {}", who, instead));
   DofOrdering ordering(problem);
-  SparseMatrix upper = penalised_matrix(problem, ordering, problem.compliance);  // the sum, and the fault
+  SparseMatrix upper_triangle = penalised_matrix(problem, ordering, problem.compliance);  // the sum, and the fault
   Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.size());
   u(problem.dirichlet_dofs) = problem.dirichlet_values;
   Eigen::VectorXd load = problem.load - problem.a1 * u;
   if (problem.b.rows() > 0) load -= problem.b.transpose() * problem.m.cwiseProduct(problem.b * u) / problem.compliance;
   load = Eigen::VectorXd(load(ordering.dof));
-  return {std::move(ordering), std::move(upper), std::move(load), std::move(u)};
+  return {std::move(ordering), std::move(upper_triangle), std::move(load), std::move(u)};
 }
 
-std::string to_string(NaiveEnd end) {
-  return std::array{"settled", "cycled", "refused", "step cap"}[static_cast<std::size_t>(end)];
+std::string to_string(ConvergedReason reason) {
+  return std::array{"settled", "cycled", "refused", "step cap"}[static_cast<std::size_t>(reason)];
 }
 
-NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps) {
+NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_iterations) {
   const Stopwatch watch;
   const auto [ordering, k, b, given] = summed_system(problem, "naive", "active_set");
   const SparseMatrix both_triangles = k.selfadjointView<Eigen::Upper>();
@@ -102,10 +102,10 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
   s.active.assign(c, false);
 
   std::set<std::vector<bool>> tried;
-  result.end = NaiveEnd::step_cap;
-  while (s.counters.contact < max_steps) {
+  result.reason = ConvergedReason::max_iterations;
+  while (s.counters.contact_iterations < max_iterations) {
     if (!tried.insert(s.active).second) {
-      result.end = NaiveEnd::cycled;
+      result.reason = ConvergedReason::cycled;
       break;
     }
     // the active unknowns stand at their bounds and leave the system
@@ -122,25 +122,25 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
     const Eigen::VectorXd found = summed_solve(chosen.transpose() * both_triangles * chosen, rest(inactive), kind);
     ++s.counters.factorisations;
     ++s.counters.solves;
-    ++s.counters.contact;
+    ++s.counters.contact_iterations;
     if (found.size() == 0) {
-      result.end = NaiveEnd::refused;
+      result.reason = ConvergedReason::linear_solve_failed;
       break;
     }
     x(inactive) = found;
     const Eigen::VectorXd force = (k.selfadjointView<Eigen::Upper>() * x - b).tail(c);
-    bool settled = true;
+    bool converged = true;
     s.lambda.setZero();
     for (int i = 0; i < c; ++i) {
       if (s.active[i]) s.lambda(i) = force(i);
       const double gap = x(ordering.interior + i) - problem.lower(i);
       if (!(s.active[i] ? force(i) < 0 : gap < 0)) continue;
       s.active[i] = !s.active[i];
-      settled = false;
+      converged = false;
     }
     s.u(ordering.dof) = x;
-    if (settled) {
-      result.end = NaiveEnd::settled;
+    if (converged) {
+      result.reason = ConvergedReason::converged;
       break;
     }
   }
@@ -153,13 +153,13 @@ NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFacto
 
 Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options) {
   const std::string who = "uzawa, CG + ILUT";
-  if (options.step && !(*options.step > 0))
-    throw Error(fmt::format("{}: step = {}; accepted: a positive number", who, *options.step));
+  if (options.step_length && !(*options.step_length > 0))
+    throw Error(fmt::format("{}: step_length = {}; accepted: a positive number", who, *options.step_length));
   if (options.stop_at)
     throw Error(who + ": options.stop_at needs for the condensed matrix; accepted: tolerance, or the solver uzawa");
   Stopwatch watch, stage;
-  const auto [ordering, upper, load, given] = summed_system(problem, who, "uzawa");
-  CgIlut solve(upper);
+  const auto [ordering, upper_triangle, load, given] = summed_system(problem, who, "uzawa");
+  CgIlut solve(upper_triangle);
   Solution s;
   s.solver = who;
   s.seconds.factor = stage.lap();
@@ -167,8 +167,8 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   const auto c = static_cast<Eigen::Index>(problem.contact.size()), f = load.size();
   const Eigen::VectorXd zero = Eigen::VectorXd::Zero(f);
 
-  double rho = options.step.value_or(0);
-  if (!options.step && c > 0) {
+  double rho = options.step_length.value_or(0);
+  if (!options.step_length && c > 0) {
     const auto compliance = [&](const Eigen::VectorXd& force) {
       Eigen::VectorXd b = zero;
       b.tail(c) = force;
@@ -191,7 +191,7 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
     if (change <= options.tolerance) break;  // lambda and x still belong together
     lambda = next;
     const int steps = static_cast<int>(s.history.size());
-    if (steps >= options.max_steps || watch.seconds() > options.max_seconds)
+    if (steps >= options.max_iterations || watch.seconds() > options.max_seconds)
       throw NotConverged(
           fmt::format(
               "uzawa, CG + ILUT: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}",
@@ -206,7 +206,7 @@ Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions&
   s.counters.unknowns = problem.free_count();
   s.counters.factorisations = 1;
   s.counters.solves = solve.runs;
-  s.counters.contact = static_cast<int>(s.history.size());
+  s.counters.contact_iterations = static_cast<int>(s.history.size());
   check_kkt(problem, s);
   return s;
 }

@@ -9,9 +9,9 @@ namespace antilock {
 /// K u = load on the free unknowns, K = A1 + compliance^-1 B' M B.
 struct SummedSystem {
   DofOrdering ordering;
-  SparseMatrix upper;    ///< n_free x n_free, the upper triangle of K
-  Eigen::VectorXd load;  ///< n_free: what the prescribed values leave of it
-  Eigen::VectorXd u;     ///< N: the prescribed values, 0 elsewhere
+  SparseMatrix upper_triangle;  ///< n_free x n_free, the upper triangle of K
+  Eigen::VectorXd load;         ///< n_free: what the prescribed values leave of it
+  Eigen::VectorXd u;            ///< N: the prescribed values, 0 elsewhere
 };
 
 /// Throws Error, `who` first, at compliance = 0, where the sum does not exist, and for bounds other than lower ones on
@@ -21,25 +21,25 @@ SummedSystem summed_system(const VariationalInequality& problem, const std::stri
 enum class SummedFactor { cholesky, lu };  ///< CHOLMOD; UMFPACK
 
 /// How the naive solver ended. None of them says that the answer is right.
-enum class NaiveEnd {
-  settled,   ///< the contact set reproduced itself
-  cycled,    ///< a contact set came back: it would go round for ever
-  refused,   ///< the factorisation gave up, or returned something that is not finite
-  step_cap,  ///< max_steps reached
+enum class ConvergedReason {
+  converged,            ///< the contact set reproduced itself
+  cycled,               ///< a contact set came back: it would go round for ever
+  linear_solve_failed,  ///< the factorisation gave up, or returned something that is not finite
+  max_iterations,       ///< max_steps reached
 };
 
-std::string to_string(NaiveEnd end);
+std::string to_string(ConvergedReason reason);
 
 /// An answer that nobody has vouched for: solution.kkt is the report in split form, as it is, and no level of trust was
 /// applied. p is compliance^-1 B u, where u has lost the digits that p is made of.
 struct NaiveResult {
   Solution solution;
-  NaiveEnd end = NaiveEnd::settled;
+  ConvergedReason reason = ConvergedReason::converged;
 };
 
 /// The sum, factored in every step of a primal-dual active set that starts from no contact. Throws as summed_system
 /// does.
-NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_steps = 100);
+NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_iterations = 100);
 
 /// The paper's algorithm with the paper's linear solver (Section 4.2): one run of conjugate gradients on the sum,
 /// preconditioned by ILUT, a step. ILUT breaks down on stiff meshes that are not aligned with the layer, which is

@@ -43,15 +43,15 @@ double duality_gap(const Eigen::MatrixXd& s, const Bounds& bounds, const Contact
 /// Uzawa on Gamma_C alone. The flexibility S^-1 maps contact forces to displacements.
 class CondensedUzawa {
  public:
-  CondensedUzawa(const PenaltyFactor& factor, const UzawaOptions& options) : factor_(factor), options_(options) {}
+  CondensedUzawa(const PenalisedCholesky& factor, const UzawaOptions& options) : factor_(factor), options_(options) {}
 
   ContactResult operator()(const ContactSystem& system, const Bounds& asked, const ContactResult& before,
                            double u_scale) {
-    const auto& given = dynamic_cast<const DenseContact&>(system);
+    const auto& given = dynamic_cast<const SchurComplementContact&>(system);
     const Bounds bounds{asked.lower, asked.upper, asked.force_limit};
     if (factor_.delta() != delta_) condense(given.s());  // the corrections may have taken another penalty
     Eigen::VectorXd q = given.q();                       // the steps are taken on whole forces
-    if (asked.accumulated_force.size() > 0) q -= asked.accumulated_force;
+    if (asked.multiplier_estimate.size() > 0) q -= asked.multiplier_estimate;
     ContactResult result;
     // the step is taken on f = q + lambda >= q: where the obstacle carries a large load, little is left of the two
     Eigen::VectorXd f = q;
@@ -72,7 +72,7 @@ class CondensedUzawa {
         notify_or_throw(options_.progress, {"contact", static_cast<int>(history.size()), change, options_.tolerance},
                         "uzawa");
       const bool late = result.steps % check_interval == 0 && watch_.seconds() > options_.max_seconds;
-      if (!std::isfinite(change) || late || static_cast<int>(history.size()) >= options_.max_steps)
+      if (!std::isfinite(change) || late || static_cast<int>(history.size()) >= options_.max_iterations)
         throw NotConverged(
             fmt::format("uzawa: not converged: relative step {:.1e} after {} steps and {:.1f} s, accepted {:.0e}; "
                         "active_set needs no step length",
@@ -118,8 +118,8 @@ class CondensedUzawa {
     const Eigen::MatrixXd inverse = Cholesky(s).forward(Eigen::MatrixXd(Eigen::MatrixXd::Identity(count, count)));
     flexibility_ = inverse.transpose() * inverse;
     delta_ = factor_.delta();
-    if (options_.step) {
-      rho_.setConstant(count, *options_.step);
+    if (options_.step_length) {
+      rho_.setConstant(count, *options_.step_length);
       return;
     }
     // One step for all, or one per unknown, rho_i = rho / C_ii: where stiffnesses lie decades apart, one step is too
@@ -143,7 +143,7 @@ class CondensedUzawa {
     return largest_eigenvalue(scaled, matrix.rows());
   }
 
-  const PenaltyFactor& factor_;
+  const PenalisedCholesky& factor_;
   UzawaOptions options_;
   Eigen::MatrixXd flexibility_;
   Eigen::VectorXd rho_;  ///< C, the step of each force
@@ -153,25 +153,25 @@ class CondensedUzawa {
 
 }  // namespace
 
-Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options) {
-  if (options.step && !(*options.step > 0))
-    throw Error(fmt::format("uzawa: step = {}; accepted: a positive number", *options.step));
+Solution uzawa(const VariationalInequality& problem, PenalisedCholesky& factor, const UzawaOptions& options) {
+  if (options.step_length && !(*options.step_length > 0))
+    throw Error(fmt::format("uzawa: step_length = {}; accepted: a positive number", *options.step_length));
   CorrectionOptions corrections{std::max({options.tolerance, options.stop_at ? options.stop_at->relative : 0, 1e-12})};
   corrections.progress = options.progress;
-  corrections.contact = corrections.tolerance;
+  corrections.contact_tolerance = corrections.tolerance;
   if (factor.sparse_factor() != nullptr) factor.contact_block();  // says that there is none
   CondensedUzawa contact(factor, options);
   Solution solution = iterated_penalty(problem, factor, std::ref(contact), corrections, "uzawa");
   if (problem.bound_count() == 0) return solution;
-  solution.counters.contact = static_cast<int>(contact.history.size());
+  solution.counters.contact_iterations = static_cast<int>(contact.history.size());
   solution.history = std::move(contact.history);
   return solution;
 }
 
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options) {
   // its steps are products with S^-1, whose round-off no correction mends: a penalty that leaves it more digits
-  PenaltyFactor factor(problem, defaults::penalty_reduction * choose_penalty(problem),
-                       ContactReduction::schur_complement);
+  PenalisedCholesky factor(problem, defaults::penalty_reduction * choose_penalty(problem),
+                           ContactReduction::schur_complement);
   return uzawa(problem, factor, options);
 }
 

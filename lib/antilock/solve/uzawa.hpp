@@ -4,7 +4,7 @@
 
 #include "antilock/core/progress.hpp"
 #include "antilock/problem/variational_inequality.hpp"
-#include "antilock/solve/penalty_factor.hpp"
+#include "antilock/solve/penalised_cholesky.hpp"
 #include "antilock/solve/solution.hpp"
 
 namespace antilock {
@@ -19,11 +19,11 @@ struct AlgebraicTolerance {
 
 struct UzawaOptions {
   double tolerance = 1e-10;  ///< on the step in the gap, |lambda - max(0, lambda - rho gap)| / rho, relative to max |u|
-  int max_steps = 1'000'000;                                     ///< reached: NotConverged
+  int max_iterations = 1'000'000;                                ///< reached: NotConverged
   double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock; reached: NotConverged
   /// rho; empty: 2 / (largest + smallest eigenvalue of the compliance C), by Lanczos iteration, or the same of C scaled
   /// to a unit diagonal, over its diagonal, where that is better conditioned.
-  std::optional<double> step;
+  std::optional<double> step_length;
   /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= stop_at->energy
   /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
   std::optional<AlgebraicTolerance> stop_at;
@@ -38,6 +38,6 @@ struct UzawaOptions {
 /// NotConverged, with how far it came, instead of ever returning an unconverged answer. Bounds of other shapes as in
 /// active_set.
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options = {});
-Solution uzawa(const VariationalInequality& problem, PenaltyFactor& factor, const UzawaOptions& options = {});
+Solution uzawa(const VariationalInequality& problem, PenalisedCholesky& factor, const UzawaOptions& options = {});
 
 }  // namespace antilock

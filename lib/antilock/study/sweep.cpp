@@ -49,7 +49,7 @@ void Sweep::set_force_limit(Eigen::VectorXd force_limit) {
   }
 }
 
-const PenaltyFactor& Sweep::factor() const {
+const PenalisedCholesky& Sweep::factor() const {
   if (!factor_) throw Error("sweep: no factor before the first answer; accepted: solve first");
   return *factor_;
 }
@@ -72,7 +72,7 @@ Solution Sweep::solve(ActiveSetOptions options) {
   total_.unknowns = solution.counters.unknowns;
   total_.factorisations += solution.counters.factorisations;
   total_.solves += solution.counters.solves;
-  total_.contact += solution.counters.contact;
+  total_.contact_iterations += solution.counters.contact_iterations;
   total_.corrections += solution.counters.corrections;
   return solution;
 }

@@ -32,13 +32,13 @@ class Sweep {
   const VariationalInequality& problem() const { return problem_; }
   const Counters& total() const { return total_; }  ///< of all answers so far
   /// The factor of the answers so far, with its delta; throws Error before the first.
-  const PenaltyFactor& factor() const;
+  const PenalisedCholesky& factor() const;
 
  protected:
   VariationalInequality problem_;
 
  private:
-  std::optional<PenaltyFactor> factor_;
+  std::optional<PenalisedCholesky> factor_;
   double asked_ = 0;  ///< the delta that the factor was asked for last
   std::optional<BoundStatuses> status_;
   Counters total_;

@@ -69,8 +69,8 @@ void read_bounds(const std::filesystem::path& path, VariationalInequality& probl
   const CsvForm form{.optional_columns = 1, .infinite = true};
   std::vector<double> lower, upper;
   for (const auto& [unknown, row] : by_unknown(path, {"unknown", "lower", "upper"}, problem.a1.rows(), form)) {
-    const double low = without_void_bound(row.values(0));
-    const double high = without_void_bound(row.values.size() > 1 ? row.values(1) : infinity);
+    const double low = bound_or_infinity(row.values(0));
+    const double high = bound_or_infinity(row.values.size() > 1 ? row.values(1) : infinity);
     if (!(low <= high && low < infinity && high > -infinity))
       throw Error(fmt::format("{} is bounded from {} to {}; accepted: lower <= upper, -inf below or inf above for none",
                               row.place, low, high));

@@ -153,7 +153,7 @@ int sweep(int argc, char** argv) {
         row.emplace_back(errors.energy);
       }
       const Counters& c = solution.counters;
-      row.insert(row.end(), {c.factorisations, c.corrections, c.contact, seconds});
+      row.insert(row.end(), {c.factorisations, c.corrections, c.contact_iterations, seconds});
       table.add(row);
     }
   }

@@ -105,7 +105,8 @@ TEST(SolveTo, DeliversWhatIsAskedAtEveryEpsilon) {
         EXPECT_GE(found.certificate.relative(of), asked / 2) << at;
         const Result& result = found.result;
         const Space& space = result.space;
-        const Companion v{.at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
+        const ConformingCompanion v{
+            .at_vertices = found.companion.u, .stress = found.companion.p, .layer = std::nullopt};
         const auto exact = exact_errors(space.mesh(), equilibrated_flux(scene, result), v, exact_solution);
         EXPECT_LE(exact.displacement, found.certificate.displacement) << at;
         EXPECT_LE(exact.gradient, found.certificate.gradient) << at;
@@ -138,9 +139,9 @@ TEST(SolveTo, TheCompanionHasValuesInALayerOfAnyTriangles) {
 
 TEST(SolveTo, IsCheapWhereTheSolutionIsLocal) {
   const double epsilon = 1e-6;
-  const auto unknowns = [&](const Scene& scene, double asked, std::optional<RefinementStrategy> growth, bool layer) {
+  const auto unknowns = [&](const Scene& scene, double asked, std::optional<RefinementStrategy> strategy, bool layer) {
     const CertifiedSolution found =
-        solve_to(scene, unstructured_mesh(8, {layer ? 1.0 : 0.0}), {asked, Quantity::displacement, 2e6, growth});
+        solve_to(scene, unstructured_mesh(8, {layer ? 1.0 : 0.0}), {asked, Quantity::displacement, 2e6, strategy});
     return found.history.back().unknowns;
   };
   EXPECT_LE(unknowns(scene_of(bump, epsilon), 3e-2, std::nullopt, false), 60000);

@@ -1,7 +1,7 @@
 // The nearest element of K_h and of K_0h, dual norms, and the numbers of (5) that they are compared with.
 #include "antilock/analysis/best_approximation.hpp"
 #include "antilock/exact/exact_norms.hpp"
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/measure/residual.hpp"
 #include "antilock/models/coating.hpp"
 #include "antilock/problem/variational_inequality.hpp"
@@ -52,7 +52,7 @@ TEST(BestApproximation, TheFunctionalIsPartOfWhatIsMinimised) {
   problem.lower.resize(0);
   const Eigen::VectorXd load = load_vector(space, paper_load);
   const BestApproximation found = best_approximation(space, problem, tent, AdmissibleSet::k_h, load);
-  Eigen::VectorXd derivative = 2 * (h1_norm(space) * found.v - h1_products(space, tent)) + load;
+  Eigen::VectorXd derivative = 2 * (h1_gram_matrix(space) * found.v - h1_products(space, tent)) + load;
   for (const int i : problem.dirichlet_dofs) derivative(i) = 0;
   EXPECT_LT(derivative.cwiseAbs().maxCoeff(), 1e-10 * load.cwiseAbs().maxCoeff());
   EXPECT_NEAR(found.value, found.distance * found.distance + load.dot(found.v), 1e-12);
@@ -61,7 +61,7 @@ TEST(BestApproximation, TheFunctionalIsPartOfWhatIsMinimised) {
 TEST(DualNorm, OfARieszRepresentativeIsItsNorm) {
   const Space space(unstructured_mesh(6), crouzeix_raviart());
   const auto problem = test::stiff_problem(space, 0);
-  const SparseMatrix norm = h1_norm(space);
+  const SparseMatrix norm = h1_gram_matrix(space);
   Eigen::VectorXd w = (3 * space.dof_coordinates().col(0).array()).sin() * space.dof_coordinates().col(1).array();
   for (const int i : problem.dirichlet_dofs) w(i) = 0;
   const double all = dual_norm(problem, norm, norm * w), in_kernel = dual_norm(problem, norm, norm * w, true);

@@ -24,7 +24,7 @@ struct Answered : Result {
   }
 
   EquilibratedFlux flux() const { return equilibrated_flux(scene, *this); }
-  Companion strip() const { return local_companion(scene, *this); }
+  ConformingCompanion strip() const { return local_companion(scene, *this); }
   Certificate certified() const { return certify(scene, *this); }
 };
 

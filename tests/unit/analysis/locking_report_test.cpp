@@ -24,7 +24,7 @@ namespace antilock::test::analysis_test::locking_report_test {
 
 /// The energy of the same body whose layer is held at u, and nothing else asked of it.
 double energy_with_held_layer(const Space& space, VariationalInequality problem, double u) {
-  problem = own_rows_summed(std::move(problem));  // a body or a layer that is far stiffer than the other stays
+  problem = assemble_fixed_rows(std::move(problem));  // a body or a layer that is far stiffer than the other stays
   problem.b.resize(0, problem.size()), problem.m.resize(0);
   problem.contact.clear(), problem.lower.resize(0), problem.upper.resize(0), problem.dirichlet_dofs.clear();
   for (int i = 0; i < problem.size(); ++i)

@@ -3,7 +3,7 @@
 
 #include "antilock/analysis/negative_part.hpp"
 #include "antilock/core/dense.hpp"
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "antilock/measure/contact_edges.hpp"
 #include "antilock/measure/residual.hpp"
 #include "support/dense.hpp"
@@ -58,16 +58,16 @@ TEST(ContactTrace, TheConstantIsTheLargestHiddenPartOfSampledFunctions) {
         samples.col(i).segment(32 * e, 32) = hidden(trace.col(1).segment(32 * e, 32), &space.element() == &p2())
                                                  .cwiseProduct(trace.col(2).segment(32 * e, 32).cwiseSqrt());
     }
-    const Eigen::MatrixXd norm = Eigen::MatrixXd(h1_norm(space))(free, free);
+    const Eigen::MatrixXd norm = Eigen::MatrixXd(h1_gram_matrix(space))(free, free);
     const double largest = generalised_eigenvalues(test::product(samples.transpose(), samples), norm).maxCoeff();
-    const double constant = negative_part(space, stiff_problem(space, 1), h1_norm(space)).constant;
+    const double constant = negative_part(space, stiff_problem(space, 1), h1_gram_matrix(space)).constant;
     EXPECT_NEAR(constant / std::sqrt(largest), 1, 5e-3) << space.name;  // midpoint sums: 32^-2
   }
 }
 
 TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
   for (const NamedSpace& space : two_square_spaces(6, {&p1(), &p2(), &crouzeix_raviart()})) {
-    const Eigen::SparseMatrix<double> norm = h1_norm(space);
+    const Eigen::SparseMatrix<double> norm = h1_gram_matrix(space);
     const double constant = negative_part(space, stiff_problem(space, 1), norm).constant;
     double closest = 0;
     for (int k = 1; k <= 20; ++k) {
@@ -83,7 +83,7 @@ TEST(ContactTrace, WhatLiesBelowZeroIsBoundedByTheConstantTimesTheNorm) {
     EXPECT_EQ(closest > 0, &space.element() != &p1()) << space.name;  // P1 never; the others do
   }
   const Space cubic(structured_mesh(2), p3());
-  test::expect_refused([&] { negative_part(cubic, stiff_problem(cubic, 1), h1_norm(cubic)); }, "P3");
+  test::expect_refused([&] { negative_part(cubic, stiff_problem(cubic, 1), h1_gram_matrix(cubic)); }, "P3");
 }
 
 }  // namespace antilock::test::analysis_test::negative_part_test

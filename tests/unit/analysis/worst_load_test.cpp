@@ -140,11 +140,11 @@ TEST(WorstLoad, LimitsByDegreeAndWidths) {
   const double square = (w * psi.square()).sum(), energy = (w * slope.square()).sum() + pi * pi * (square + 1);
   EXPECT_NEAR(loss_of_wave(1), std::sqrt(square / energy), 1e-14);
   // k^2 + m^2 in order: 2, 5, 5, 8, 10, 10, 13
-  EXPECT_NEAR(width_of_ball(0), 1 / (pi * std::sqrt(2)), 1e-15);
-  EXPECT_NEAR(width_of_ball(2), 1 / (pi * std::sqrt(5)), 1e-15);
-  EXPECT_NEAR(width_of_ball(6), 1 / (pi * std::sqrt(13)), 1e-15);
+  EXPECT_NEAR(kolmogorov_width(0), 1 / (pi * std::sqrt(2)), 1e-15);
+  EXPECT_NEAR(kolmogorov_width(2), 1 / (pi * std::sqrt(5)), 1e-15);
+  EXPECT_NEAR(kolmogorov_width(6), 1 / (pi * std::sqrt(13)), 1e-15);
   // Weyl: n = pi r^2 / 4 - r of them have k^2 + m^2 <= r^2, up to terms that grow more slowly than r
-  EXPECT_NEAR(1 / (pi * width_of_ball(10000)), std::sqrt(40000 / pi) + 2 / pi, 1);
+  EXPECT_NEAR(1 / (pi * kolmogorov_width(10000)), std::sqrt(40000 / pi) + 2 / pi, 1);
 }
 
 TEST(ErrorForm, EveryDegreeLosesWhatItsKernelCannotHold) {

@@ -107,7 +107,7 @@ TEST(Forms, RowsOfBBelongToTheLayerTrianglesAndMMeasuresThem) {
       EXPECT_GT(strain.m.minCoeff(), 0);
       EXPECT_NEAR(strain.m.sum(), 1, 1e-13) << name;
       const auto layer = std::count(mesh.region.begin(), mesh.region.end(), Region::layer);
-      EXPECT_EQ(strain.m.size(), layer * strain_rule(*element).weights.size());
+      EXPECT_EQ(strain.m.size(), layer * strain_quadrature(*element).weights.size());
     }
 }
 

@@ -41,7 +41,7 @@ TEST(Averaged, IsNeverLargerAndKeepsWhatItsMeansSee) {
     const Eigen::VectorXd linear = 2 * space.dof_coordinates().col(0) + 3 * space.dof_coordinates().col(1),
                           bent = space.dof_coordinates().col(1).array().square(), any = noise(space.size());
     for (const StrainProjection& shares :
-         {box_projection(mesh, strain, 0.25, 0.25), vertex_projection(mesh, strain, strain_rule(*element))}) {
+         {box_projection(mesh, strain, 0.25, 0.25), vertex_projection(mesh, strain, strain_quadrature(*element))}) {
       const FactoredForm mean = project_strain(strain, shares);
       EXPECT_NEAR(mean.m.sum(), 1, 1e-12);  // the area of the layer
       EXPECT_NEAR(value(mean, linear), 9, 1e-11);
@@ -120,13 +120,13 @@ TEST(Averaged, RefusesSharesThatDoNotFit) {
   EXPECT_EQ(box_projection(mesh, strain, 1e-8, 2).rows(), 4) << "a box per place in x of the centroids";
   FactoredForm cut = layer_strain(quadratic), outside = strain;
   cut.cell.pop_back();
-  expect_refused([&] { vertex_projection(mesh, cut, strain_rule(p2())); }, "not a point of the rule");
+  expect_refused([&] { vertex_projection(mesh, cut, strain_quadrature(p2())); }, "not a point of the rule");
   const FactoredForm two =
       strain_form_factored({space, space}, {{{1, 0, 0, 0}}, {{0, 0, 0, 1}}});  // two strains per point
-  expect_refused([&] { vertex_projection(mesh, two, strain_rule(p1())); }, "not a point of the rule");
+  expect_refused([&] { vertex_projection(mesh, two, strain_quadrature(p1())); }, "not a point of the rule");
   outside.cell.back() = mesh.triangle_count();
   expect_refused([&] { box_projection(mesh, outside, 1, 1); }, "in cell 16 of a mesh of 16");
-  expect_refused([&] { vertex_projection(mesh, strain, strain_rule(p2())); }, "not a point of the rule");
+  expect_refused([&] { vertex_projection(mesh, strain, strain_quadrature(p2())); }, "not a point of the rule");
 }
 
 }  // namespace antilock::test::form_test::strain_projection_test

@@ -2,7 +2,7 @@
 #include "antilock/models/project_strain.hpp"
 #include "antilock/analysis/best_approximation.hpp"
 #include "antilock/analysis/kernel.hpp"
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 #include "support/platen.hpp"
 #include "support/scenes.hpp"
 
@@ -31,7 +31,7 @@ TEST(Projected, IsAsCoerciveAsThePartThatIsKept) {
     const Space space(mesh, p1());
     const StrainProjection boxes = box_projection(mesh, layer_strain(space), 2.0 / n, 2.0 / n);
     const VariationalInequality problem = stiff_problem(space, 1);
-    const SparseMatrix norm = h1_norm(space);
+    const SparseMatrix norm = h1_gram_matrix(space);
     nothing.push_back(coercivity(project_strain(problem, boxes), norm));
     half.push_back(coercivity(project_strain(problem, boxes, 0.5), norm));
     EXPECT_GE(half.back(), 0.5 * coercivity(problem, norm)) << n;
@@ -71,11 +71,11 @@ TEST(Projected, ALockedUThatComesDownSlowlyIsFollowed) {
     const Space space(mesh, p1());
     const FactoredForm strain = layer_strain(space);
     const auto patches =
-        project_strain(stiff_problem(space, 1), vertex_projection(mesh, strain, strain_rule(p1())), 0.5);
+        project_strain(stiff_problem(space, 1), vertex_projection(mesh, strain, strain_quadrature(p1())), 0.5);
     const auto slope = load_vector(
         space, [](double x, double y) { return std::sin(std::numbers::pi * x) * std::cos(std::numbers::pi * y); },
         Region::layer);
-    EXPECT_LT(dual_norm(patches, h1_norm(space), slope, true), 1e-6) << cells;
+    EXPECT_LT(dual_norm(patches, h1_gram_matrix(space), slope, true), 1e-6) << cells;
   }
 }
 

@@ -83,8 +83,8 @@ TEST(ActiveSet, NestedStartKeepsTheStepsAtFourAndCorrectionsAtTen) {
           const Counters c = active_set(stiff_problem(space, epsilon)).counters;
           const std::string where = element->name() + (structured ? "" : " unstructured") +
                                     ", 1/h = " + std::to_string(cells) + ", epsilon = " + std::to_string(epsilon);
-          EXPECT_LE(c.contact, 4) << where;
-          EXPECT_GE(c.contact, 1) << where;
+          EXPECT_LE(c.contact_iterations, 4) << where;
+          EXPECT_GE(c.contact_iterations, 1) << where;
           EXPECT_LE(c.corrections, 10) << where;
           EXPECT_EQ(c.factorisations, 1) << where;
         }
@@ -107,7 +107,7 @@ TEST(ActiveSet, NeverReturnsAnUnconvergedAnswer) {
   EXPECT_NO_THROW(active_set(problem, options));
 
   options = {};
-  options.max_steps = 1;
+  options.max_contact_iterations = 1;
   options.start = BoundStatuses(problem.contact.size(), BoundStatus::at_lower);
   EXPECT_THROW(active_set(problem, options), NotConverged);
   options.start->push_back(BoundStatus::inactive);
@@ -154,18 +154,18 @@ TEST(ActiveSet, SlowCorrectionsDoNotStopEarly) {
   }
 }
 
-TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
+TEST(PenalisedCholesky, ForwardAndBackwardSolveWithK) {
   const Space space(unstructured_mesh(6), crouzeix_raviart());
   const VariationalInequality problem = stiff_problem(space, 0.1);
-  PenaltyFactor factor(problem, 0.01);
-  EXPECT_EQ(PenaltyFactor(problem).delta(), problem.compliance);  // 0.01, above h^2 / 16
+  PenalisedCholesky factor(problem, 0.01);
+  EXPECT_EQ(PenalisedCholesky(problem).delta(), problem.compliance);  // 0.01, above h^2 / 16
   for (const double delta : {0.01, 1e-4}) {
     factor.refactor(delta);
     EXPECT_EQ(factor.delta(), delta);
     const std::vector<int>& unknown = factor.ordering().dof;
     const Eigen::MatrixXd k = Eigen::MatrixXd(problem.a1) + test::gram(problem.b, problem.m) / delta;
     const Eigen::VectorXd r = Eigen::VectorXd::LinSpaced(problem.free_count(), -1, 2);
-    const Eigen::VectorXd x = factor.dense().backward(factor.dense().forward(r));
+    const Eigen::VectorXd x = factor.cholesky().backward(factor.cholesky().forward(r));
     const Eigen::VectorXd exact = Cholesky(k(unknown, unknown)).solve(r);
     EXPECT_LT(relative_difference(x, exact), 1e-10) << delta;
   }
@@ -173,10 +173,10 @@ TEST(PenaltyFactor, ForwardAndBackwardSolveWithK) {
 }
 
 // A harder question moves its delta, and one too small for its digits is raised; each question has the answer of its own.
-TEST(PenaltyFactor, ServesEveryComplianceAndEveryDeltaAskedFor) {
+TEST(PenalisedCholesky, ServesEveryComplianceAndEveryDeltaAskedFor) {
   VariationalInequality graded = small_problem(Eigen::Vector3d(1, 1e-8, 1e-8).asDiagonal(), Eigen::Vector3d(1, 1e-8, 0),
                                                Eigen::VectorXd(), Eigen::Matrix<double, 2, 3>{{1, 0, 0}, {0, 1, 1}});
-  PenaltyFactor factor(graded, 1);
+  PenalisedCholesky factor(graded, 1);
   Sweep sweep(graded);
   for (const double c : {1.0, 0.0, 1.0, 0.0}) {  // u_1 = 1 / (1 + 1 / c), u_2 - u_3 = 1, u_2 + u_3 = 1 / (1 + 2e8 / c)
     graded.compliance = c;
@@ -200,7 +200,7 @@ TEST(ActiveSet, EndsWhereNumbersOverflowAndRefusesATolerance0) {
 TEST(Combinations, LeaveTiedRowsTied) {
   VariationalInequality problem =
       small_problem(Eigen::Matrix2d{{2, -1}, {-1, 2}}, Eigen::Vector2d(1, 0.5), {}, Eigen::RowVector2d(1, 1), 1e-3);
-  problem.own_compliances = Eigen::VectorXd::Zero(1);
+  problem.fixed_compliances = Eigen::VectorXd::Zero(1);
   problem.constraints = RowMatrix(Eigen::MatrixXd(Eigen::RowVector2d(1, -3)).sparseView());
   problem.lower = Eigen::VectorXd::Constant(1, -10);
   EXPECT_NEAR(active_set(problem).u.sum(), 0, 1e-15);
@@ -233,7 +233,7 @@ TEST(Progress, StopsUzawaAmongItsSteps) {
   const Space space(structured_mesh(16), p1());
   const VariationalInequality problem = test::stiff_problem(space, 0.1);
   UzawaOptions options;
-  options.step = 1e-3;  // far too short: thousands of steps
+  options.step_length = 1e-3;  // far too short: thousands of steps
   options.progress = [](const Progress& now) { return now.stage != "contact"; };
   EXPECT_EQ(thrown<Interrupted>([&] { uzawa(problem, options); }).steps, 32);
 }

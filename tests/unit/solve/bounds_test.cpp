@@ -106,10 +106,10 @@ TEST(StringBetweenFloorAndCeiling, TheDualityGapOfUzawaBoundsWhatIsLeft) {
     const Solution s = uzawa(string.problem, options);
     const Eigen::VectorXd e = s.u - string.u;
     EXPECT_LE(0.5 * e.dot(string.problem.a1 * e), energy);
-    EXPECT_GT(s.counters.contact, steps) << "more asked, more steps";
-    steps = s.counters.contact;
+    EXPECT_GT(s.counters.contact_iterations, steps) << "more asked, more steps";
+    steps = s.counters.contact_iterations;
   }
-  EXPECT_LT(2 * steps, uzawa(string.problem).counters.contact);
+  EXPECT_LT(2 * steps, uzawa(string.problem).counters.contact_iterations);
 }
 
 TEST(StringBetweenFloorAndCeiling, TheNestedStartKnowsTheSides) {
@@ -117,7 +117,7 @@ TEST(StringBetweenFloorAndCeiling, TheNestedStartKnowsTheSides) {
   Eigen::MatrixXd s = Eigen::MatrixXd(string.problem.a1).block(1, 1, string.n - 1, string.n - 1);
   const Eigen::VectorXd q = string.problem.load.segment(1, string.n - 1);
   const Bounds bounds{string.problem.lower, string.problem.upper, {}};
-  DenseContact system(s, q);
+  SchurComplementContact system(s, q);
   EXPECT_LE(solve_contact(system, bounds, system.nested_start(bounds, 100), 100).steps, 3);
 }
 
@@ -125,7 +125,7 @@ TEST(StringBetweenFloorAndCeiling, ASweepKeepsTheSides) {
   const String string;
   Sweep sweep(string.problem);
   sweep.solve();
-  EXPECT_EQ(sweep.solve().counters.contact, 1) << "the same question again";
+  EXPECT_EQ(sweep.solve().counters.contact_iterations, 1) << "the same question again";
   sweep.set_bounds(string.problem.lower, Eigen::VectorXd::Constant(string.n - 1, infinity));
   VariationalInequality from_below = string.problem;
   from_below.upper.resize(0);
@@ -557,7 +557,7 @@ TEST(Refused, WhereABoundOfAnotherShapeIsNotKnown) {
   expect_refused([&] { contact_table({space, combined, c}); }, words);
   expect_refused([&] { contact_zone({space, combined, c}); }, words);
   // a combination of one unknown is that unknown, by a factor made before and in a sweep, too
-  PenaltyFactor factor(combined);
+  PenalisedCholesky factor(combined);
   const Eigen::VectorXd u = active_set(assemble(scene, space)).u;
   for (const Solution& answer : {c, active_set(combined, factor), uzawa(combined, factor), Sweep(combined).solve()})
     EXPECT_LT(relative_difference(answer.u, u), 1e-8) << answer.solver;

@@ -8,11 +8,11 @@ namespace antilock::test::solve_test::contact_test {
 struct Box {
   Eigen::MatrixXd s;
   Eigen::VectorXd q, lower, upper;
-  ContactResult solve(const BoundStatuses& start, int max_steps = 1000) const {
-    DenseContact system(s, q);
-    return solve_contact(system, {lower, upper}, start, max_steps);
+  ContactResult solve(const BoundStatuses& start, int max_iterations = 1000) const {
+    SchurComplementContact system(s, q);
+    return solve_contact(system, {lower, upper}, start, max_iterations);
   }
-  BoundStatuses nested() const { return DenseContact(s, q).nested_start({lower, upper}, 1000); }
+  BoundStatuses nested() const { return SchurComplementContact(s, q).nested_start({lower, upper}, 1000); }
 };
 
 /// S = A A' + I / 100, dense, no M-matrix: with a `rank` of A below `size` plain active-set exchanges may cycle. A third of
@@ -115,7 +115,7 @@ TEST(Bounds, ValuesRiseAndForcesFallFromStatusToStatus) {
   EXPECT_EQ(lambda, -3);
   // what a bound bears so far is left out of the forces that are given and found, and is in the whole force
   Bounds later = bounds;
-  later.accumulated_force = Eigen::VectorXd{{0.5}};
+  later.multiplier_estimate = Eigen::VectorXd{{0.5}};
   for (const BoundStatus status : all) {
     const Bounds::Interval before = bounds.admissible_range(0, status), now = later.admissible_range(0, status);
     const double moved = is_active(status) ? 0.5 : 0, given = bounds.prescribed(0, status);

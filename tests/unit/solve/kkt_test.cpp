@@ -64,7 +64,7 @@ TEST(Kkt, ALoadThatTheStiffFormBearsIsNoMeasureOfU) {
   s.lambda = Eigen::VectorXd::Zero(1);
   EXPECT_EQ(worst_violation(kkt_report(problem, s)), 0);
   s.u(1) = 1e-3;
-  s.unlocked_size = 1e3;  // the first iterate was larger: u is what counts, down to a millionth of that
+  s.penalised_max_u = 1e3;  // the first iterate was larger: u is what counts, down to a millionth of that
   EXPECT_NEAR(kkt_report(problem, s).residual, 1e-3, 1e-15);
   s.u(1) = 0;
   problem.lower(0) = 1.001;

@@ -93,8 +93,8 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOverTheUniformityTable) {
       for (const double epsilon : every_epsilon) {
         SCOPED_TRACE(fmt::format("{}, 1/h = {}, epsilon = {}", method.name(), cells, epsilon));
         const VariationalInequality problem = stiff_problem(discrete, epsilon);
-        PenaltyFactor cholmod(problem, {}, ContactReduction::automatic, default_cholesky);
-        PenaltyFactor eigen(problem, {}, ContactReduction::automatic, eigen_cholesky);
+        PenalisedCholesky cholmod(problem, {}, ContactReduction::automatic, default_cholesky);
+        PenalisedCholesky eigen(problem, {}, ContactReduction::automatic, eigen_cholesky);
         const Solution one = active_set(problem, cholmod), other = active_set(problem, eigen);
         const double apart = relative_difference(other.u, one.u);
         EXPECT_LT(apart, 1e-12);
@@ -114,8 +114,8 @@ TEST(TwoFactors, BothFactorsGiveTheSameAnswersOnTheSparseRoad) {
     const Space discrete = method.space(16);
     for (const double epsilon : {1.0, 1e-4, 0.0}) {
       const VariationalInequality problem = stiff_problem(discrete, epsilon);
-      PenaltyFactor cholmod(problem, {}, ContactReduction::sparse, default_cholesky);
-      PenaltyFactor eigen(problem, {}, ContactReduction::sparse, eigen_cholesky);
+      PenalisedCholesky cholmod(problem, {}, ContactReduction::sparse, default_cholesky);
+      PenalisedCholesky eigen(problem, {}, ContactReduction::sparse, eigen_cholesky);
       EXPECT_NE(eigen.sparse_factor(), nullptr);
       EXPECT_LT(relative_difference(active_set(problem, eigen).u, active_set(problem, cholmod).u), 1e-12)
           << method.name();

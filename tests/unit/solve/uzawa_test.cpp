@@ -24,8 +24,8 @@ TEST(Uzawa, AgreesWithTheActiveSet) {
       const Solution slow = uzawa(problem), fast = active_set(problem);
       EXPECT_LT(relative_difference(slow.u, fast.u), 1e-7) << space.name << epsilon;
       EXPECT_EQ(slow.active, fast.active) << space.name << epsilon;
-      EXPECT_GT(slow.counters.contact, 3 * fast.counters.contact);
-      EXPECT_EQ(std::ssize(slow.history), slow.counters.contact);
+      EXPECT_GT(slow.counters.contact_iterations, 3 * fast.counters.contact_iterations);
+      EXPECT_EQ(std::ssize(slow.history), slow.counters.contact_iterations);
       EXPECT_LE(slow.history.back(), UzawaOptions{}.tolerance);
     }
   }
@@ -39,8 +39,8 @@ TEST(Uzawa, WithThePapersLinearSolverAgreesWhereItWorks) {
       const VariationalInequality problem = stiff_problem(space, epsilon, gap());
       const Solution paper = uzawa_cg_ilut(problem);
       EXPECT_LT(relative_difference(paper.u, active_set(problem).u), 1e-7) << element->name() << epsilon;
-      EXPECT_EQ(static_cast<int>(paper.history.size()), paper.counters.contact);
-      EXPECT_GE(paper.counters.solves, paper.counters.contact);
+      EXPECT_EQ(static_cast<int>(paper.history.size()), paper.counters.contact_iterations);
+      EXPECT_GE(paper.counters.solves, paper.counters.contact_iterations);
     }
   }
   expect_refused([&] { uzawa_cg_ilut(stiff_problem(Space(mesh, p1()), 0)); }, "epsilon = 0");
@@ -51,7 +51,7 @@ TEST(Uzawa, RefusesAStepThatGoesNowhere) {
   const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 1);
   for (const double step : {0.0, -1.0, nan}) {
     UzawaOptions options;
-    options.step = step;
+    options.step_length = step;
     expect_refused([&] { uzawa(problem, options); }, "accepted: a positive number");
     expect_refused([&] { uzawa_cg_ilut(problem, options); }, "accepted: a positive number");
   }
@@ -67,7 +67,7 @@ TEST(Uzawa, WithThePapersLinearSolverIsRightOrSaysThatItIsNot) {
     for (const double epsilon : {1e-2, 1e-4, 1e-6, 1e-8, 1e-12}) {
       const VariationalInequality problem = stiff_problem(space, epsilon);
       UzawaOptions options;
-      options.max_steps = 2000;
+      options.max_iterations = 2000;
       try {
         const Solution paper = uzawa_cg_ilut(problem, options);
         EXPECT_LT(worst_violation(kkt_report(problem, paper)), 1e-6) << name << epsilon;
@@ -88,7 +88,7 @@ TEST(Uzawa, StopsWhereItIsAccurateEnough) {
       const Solution full = uzawa(problem);
       options.stop_at = balanced_tolerance(energy_bounds(test::stiff_scene(epsilon), coarse), 2);
       const Solution early = uzawa(problem, options);
-      EXPECT_LT(2 * early.counters.contact, full.counters.contact)
+      EXPECT_LT(2 * early.counters.contact_iterations, full.counters.contact_iterations)
           << element_name << epsilon;  // it looks every 32 steps
       EXPECT_LE(early.counters.corrections, full.counters.corrections);
       const Errors a = measure_errors(space, full, epsilon, reference(exact_solution)),
@@ -118,8 +118,8 @@ TEST(Uzawa, TheDualityGapBoundsWhatIsLeft) {
       const double left =
           0.5 * (e.dot(problem.a1 * e) + strain.dot(problem.m.cwiseProduct(strain)) / problem.compliance);
       EXPECT_LE(left, energy);
-      EXPECT_GE(s.counters.contact, steps) << "more asked, more steps";
-      steps = s.counters.contact;
+      EXPECT_GE(s.counters.contact_iterations, steps) << "more asked, more steps";
+      steps = s.counters.contact_iterations;
     }
     EXPECT_GT(steps, 32) << "the gap is asked for once per 32 steps";
   }
@@ -130,18 +130,19 @@ TEST(Uzawa, TheStepLengthChangesTheCostNotTheAnswer) {
   const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 1);
   const Solution chosen = uzawa(problem);
   // the largest eigenvalue of the compliance bounds the step from above by 2 over it
-  const PenaltyFactor factor(problem);
+  const PenalisedCholesky factor(problem);
   const Eigen::MatrixXd& l = factor.contact_block();
   const double largest = 1 / symmetric_eigenvalues(test::product(l, l.transpose())).minCoeff();
   UzawaOptions options;
   for (const double step : {0.3, 1.0, 1.9}) {
-    options.step = step / largest;
+    options.step_length = step / largest;
     const Solution s = uzawa(problem, options);
     EXPECT_LT(relative_difference(s.u, chosen.u), 1e-7) << step;
-    EXPECT_GE(1.2 * s.counters.contact, chosen.counters.contact) << "the chosen step is about the best, " << step;
+    EXPECT_GE(1.2 * s.counters.contact_iterations, chosen.counters.contact_iterations)
+        << "the chosen step is about the best, " << step;
   }
-  options.step = 4 / largest;  // beyond the bound: it swings for ever
-  options.max_steps = 5000;
+  options.step_length = 4 / largest;  // beyond the bound: it swings for ever
+  options.max_iterations = 5000;
   EXPECT_THROW(uzawa(problem, options), NotConverged);
 }
 
@@ -156,7 +157,7 @@ VariationalInequality chain_in_units_apart() {
 TEST(Uzawa, UnitsDecadesApartTakeAStepEach) {
   const VariationalInequality problem = chain_in_units_apart();
   const Solution exact = active_set(problem), s = uzawa(problem);
-  EXPECT_LT(s.counters.contact, 500);  // one step for all takes more than a million
+  EXPECT_LT(s.counters.contact_iterations, 500);  // one step for all takes more than a million
   EXPECT_EQ(s.active, exact.active);
   EXPECT_LT(relative_difference(s.u, exact.u), 1e-9);
 }
@@ -194,14 +195,14 @@ TEST(Uzawa, TheDualityGapOfOneSpringIsTheEnergyBetween) {
   UzawaOptions options;
   for (const double energy : {15.9, 16.1}) {
     options.stop_at = {energy, 1};
-    EXPECT_EQ(uzawa(one_spring(), options).counters.contact == 0, energy > 16) << energy;
+    EXPECT_EQ(uzawa(one_spring(), options).counters.contact_iterations == 0, energy > 16) << energy;
   }
   // a bound that bears no more than 3 takes up 3 * 4 on the way to -5: J(-5) = -25 + 12
   VariationalInequality soft = one_spring();
   soft.force_limit = Eigen::VectorXd{{3}};
   for (const double energy : {11.9, 12.1}) {
     options.stop_at = {energy, 1};
-    EXPECT_EQ(uzawa(soft, options).counters.contact == 0, energy > 12) << energy;
+    EXPECT_EQ(uzawa(soft, options).counters.contact_iterations == 0, energy > 12) << energy;
   }
 }
 
@@ -210,7 +211,7 @@ TEST(Uzawa, AsksTheCorrectionsForItsOwnToleranceButNoLessThan1em12) {
   problem.b = RowMatrix(Eigen::MatrixXd::Ones(1, 1).sparseView());
   problem.m = Eigen::VectorXd::Ones(1);
   problem.compliance = 1e-6;
-  PenaltyFactor factor(problem, 1);
+  PenalisedCholesky factor(problem, 1);
   UzawaOptions options;
   for (const double tolerance : {1e-8, 1e-12, 1e-14}) {
     double asked = 0;
@@ -228,7 +229,7 @@ TEST(Uzawa, NeverReturnsAnUnconvergedAnswer) {
   const TriangleMesh mesh = structured_mesh(8);
   const VariationalInequality problem = stiff_problem(Space(mesh, p1()), 0.1);
   UzawaOptions options;
-  options.max_steps = 5;
+  options.max_iterations = 5;
   for (const auto& solve : {+[](const VariationalInequality&p, const UzawaOptions&o) { return uzawa(p, o); },
                             +[](const VariationalInequality&p, const UzawaOptions&o) { return uzawa_cg_ilut(p, o); }}) {
     const auto error = thrown<NotConverged>([&] { solve(problem, options); });
@@ -244,7 +245,7 @@ TEST(Uzawa, WithoutContactIsOneLinearSolve) {
   const TriangleMesh mesh = structured_mesh(6, {0});
   const VariationalInequality problem = assemble(Scene({paper_load}), Space(mesh, p1()));
   for (const Solution& s : {uzawa(problem), uzawa_cg_ilut(problem)}) {
-    EXPECT_EQ(s.counters.contact, 0) << s.solver;
+    EXPECT_EQ(s.counters.contact_iterations, 0) << s.solver;
     EXPECT_EQ(s.counters.solves, 1) << s.solver;
     EXPECT_LT(relative_difference(s.u, active_set(problem).u), 1e-9) << s.solver;
   }
@@ -266,7 +267,7 @@ TEST(Uzawa, FollowsThePenaltyWhereTheCorrectionsTakeASmallerOne) {
   // a penalty that is too large for a locked layer: after 15 corrections the factor is made anew, and S with it
   const Space space(unstructured_mesh(8), p1());
   VariationalInequality problem = stiff_problem(space, 1e-6);
-  PenaltyFactor factor(problem, 1e-2);
+  PenalisedCholesky factor(problem, 1e-2);
   const Solution direct = active_set(problem), projected = uzawa(problem, factor);
   EXPECT_GT(projected.counters.factorisations, 1);
   EXPECT_LT((direct.u - projected.u).cwiseAbs().maxCoeff(), 1e-8 * direct.u.cwiseAbs().maxCoeff());

@@ -108,7 +108,8 @@ RoundOff round_off(int cells, double epsilon, const LiveExact& exact) {
   RoundOff errors;
   errors.split = largest_error(space, active_set(problem).u, exact.table);
   const NaiveResult summed = naive_summed_solve(problem, SummedFactor::cholesky);
-  errors.summed = summed.end == NaiveEnd::refused ? 1 : largest_error(space, summed.solution.u, exact.table);
+  errors.summed =
+      summed.reason == ConvergedReason::linear_solve_failed ? 1 : largest_error(space, summed.solution.u, exact.table);
   return errors;
 }
 

@@ -38,7 +38,7 @@ class Gradients {
 
 /// The sum of the element matrices that `local(t)` gives with the unknowns behind their rows and columns.
 template <class Local>
-SparseMatrix sum_strains(int size, int triangles, Local&& local) {
+SparseMatrix assemble_strains(int size, int triangles, Local&& local) {
   Triplets entries;
   for (int t = 0; t < triangles; ++t) {
     const auto [unknown, matrix] = local(t);

@@ -22,7 +22,7 @@ void StiffnessRange::check(const char* what) const {
                     what, softest_, stiffest_));
 }
 
-void StiffnessRange::append(VariationalInequality& problem, const StiffRows& rows) const {
+void StiffnessRange::append(VariationalInequality& problem, const WeightedFactoredForm& rows) const {
   append_rows(problem, rows.form.b, unit_ * rows.form.m, unit_ * rows.stiffness.cwiseInverse());
 }
 

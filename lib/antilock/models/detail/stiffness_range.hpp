@@ -22,10 +22,10 @@ class StiffnessRange {
   /// Throws Error where the stiffnesses noted are more than 1e16 apart. `what` opens its message.
   void check(const char* what) const;
 
-  bool sums(double stiffness) const { return stiffness <= 1e3 * softest_; }
+  bool fits_in_a1(double stiffness) const { return stiffness <= 1e3 * softest_; }
   double softest() const { return softest_; }
   /// Appends the form to B: M is the rows' own times the unit, the compliances are unit / stiffness.
-  void append(VariationalInequality& problem, const StiffRows& rows) const;
+  void append(VariationalInequality& problem, const WeightedFactoredForm& rows) const;
 
  private:
   double unit_, softest_ = std::numeric_limits<double>::infinity(), stiffest_ = 0;

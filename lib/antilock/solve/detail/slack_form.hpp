@@ -45,7 +45,7 @@ class SlackForm {
             fmt::format("solve: unknown {} is held by nothing: A1 and B' M B are 0 there; accepted: a matrix A1 + "
                         "B' M B that is positive definite on the free unknowns",
                         j));
-    problem.own_compliances.conservativeResizeLike(Eigen::VectorXd::Zero(problem.own_compliances.size() + slacks));
+    problem.fixed_compliances.conservativeResizeLike(Eigen::VectorXd::Zero(problem.fixed_compliances.size() + slacks));
     problem.constraints.resize(0, 0);
     problem.a1.conservativeResize(n + slacks, n + slacks);
     problem.a1.makeCompressed();

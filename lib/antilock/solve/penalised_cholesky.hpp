@@ -29,14 +29,14 @@ enum class ContactReduction { automatic, schur_complement, sparse };
 /// schur_complement the contact unknowns are ordered last: the trailing C x C block of L is then the Cholesky factor
 /// of their Schur complement, so the whole contact problem is solved on it for next to nothing. It serves every load,
 /// every bound and, where delta is the same, every compliance of one matrix pair (A1, B).
-class PenaltyFactor {
+class PenalisedCholesky {
  public:
   /// refactor(penalty_parameter(problem, penalty)). Throws Error for a malformed problem or a penalty that is not
   /// positive, if K is not positive definite (then A1 + B' M B is singular: a component of the mesh is held nowhere),
   /// or out of memory.
-  explicit PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
-                         ContactReduction reduction = ContactReduction::automatic,
-                         CholeskyMaker make = default_cholesky);
+  explicit PenalisedCholesky(const VariationalInequality& problem, std::optional<double> penalty = std::nullopt,
+                             ContactReduction reduction = ContactReduction::automatic,
+                             CholeskyMaker make = default_cholesky);
 
   /// Throws Error for a malformed problem, for one with other free or contact unknowns, and for one with another A1, B
   /// or M than this factor's, to the last bit: one walk over the data, about the cost of a residual.
@@ -48,7 +48,7 @@ class PenaltyFactor {
   void refactor(double delta);
 
   double delta() const { return delta_; }
-  /// R, of the problem in slack form: delta, and of rows with compliances of their own these or defaults::own_penalty.
+  /// R, of the problem in slack form: delta, and of rows with compliances of their own these or defaults::fixed_row_penalty_ratio.
   const Eigen::VectorXd& penalties() const { return penalties_; }
   const DofOrdering& ordering() const { return ordering_; }
   /// The smallest pivot of K: to about a factor of n_free its smallest eigenvalue, for next to nothing.
@@ -61,10 +61,10 @@ class PenaltyFactor {
 
   // With schur_complement alone; with sparse they throw Error.
   /// The factor itself: of L^-1 P r the last C entries belong to the contact unknowns, in their order.
-  const SparseCholesky& dense() const;
+  const SparseCholesky& cholesky() const;
   /// C x C lower triangular trailing block of L, and the Schur complement of which it is the factor.
-  const Eigen::MatrixXd& contact_block() const { return dense(), contact_block_; }
-  const Eigen::MatrixXd& schur() const { return dense(), schur_; }
+  const Eigen::MatrixXd& contact_block() const { return cholesky(), contact_block_; }
+  const Eigen::MatrixXd& schur() const { return cholesky(), schur_; }
 
   int factorisations() const { return factor_.factorisations(); }  ///< numeric ones so far
   double analyse_seconds() const { return factor_.analyse_seconds(); }

@@ -1,4 +1,4 @@
-#include "antilock/form/h1_norm.hpp"
+#include "antilock/form/h1_gram_matrix.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
@@ -10,7 +10,7 @@
 
 namespace antilock {
 
-Eigen::SparseMatrix<double> h1_norm(const Space& space) {
+Eigen::SparseMatrix<double> h1_gram_matrix(const Space& space) {
   const Quadrature& rule = triangle_rule(2 * space.element().degree());
   // int phi_i phi_j is the same on every triangle but for the area
   const Eigen::Index m = space.element().dofs();

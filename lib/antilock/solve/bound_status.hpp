@@ -36,7 +36,7 @@ struct Bounds {
   Eigen::VectorXd upper = {};        ///< C, or empty: no upper bounds; +infinity: none here
   Eigen::VectorXd force_limit = {};  ///< C, or empty: no limits; the largest |lambda|; +infinity: a hard bound
   /// C, or empty: lambda of the earlier corrections. prescribed() and admissible_range() count lambda from it.
-  Eigen::VectorXd accumulated_force = {};
+  Eigen::VectorXd multiplier_estimate = {};
 
   struct Interval {
     double low, high;
@@ -51,19 +51,19 @@ struct Bounds {
   double force_limit_or_infinity(int i) const {
     return force_limit.size() > 0 ? force_limit(i) : std::numeric_limits<double>::infinity();
   }
-  double accumulated(int i) const { return accumulated_force.size() > 0 ? accumulated_force(i) : 0; }
+  double multiplier_or_zero(int i) const { return multiplier_estimate.size() > 0 ? multiplier_estimate(i) : 0; }
   bool is_equation(int i) const { return lower(i) == upper_or_infinity(i); }
 
   /// The quantity that `status` prescribes: v where the bound is active, else lambda - accumulated.
   double prescribed(int i, BoundStatus status) const {
     if (is_active(status)) return status == BoundStatus::at_lower ? lower(i) : upper(i);
-    return total_force(i, status, 0) - accumulated(i);
+    return total_force(i, status, 0) - multiplier_or_zero(i);
   }
 
   /// lambda with its accumulated part: accumulated + `reaction` where the bound is active, else the force
   /// that the status prescribes, to the last digit.
   double total_force(int i, BoundStatus status, double reaction) const {
-    if (is_active(status)) return accumulated(i) + reaction;
+    if (is_active(status)) return multiplier_or_zero(i) + reaction;
     if (status == BoundStatus::inactive) return 0;
     return status == BoundStatus::slip_below ? force_limit_or_infinity(i) : -force_limit_or_infinity(i);
   }
@@ -75,10 +75,10 @@ struct Bounds {
       case BoundStatus::slip_below:
         return {-infinity, lower(i)};
       case BoundStatus::at_lower:
-        return {(is_equation(i) ? -force_limit_or_infinity(i) : 0) - accumulated(i),
-                force_limit_or_infinity(i) - accumulated(i)};
+        return {(is_equation(i) ? -force_limit_or_infinity(i) : 0) - multiplier_or_zero(i),
+                force_limit_or_infinity(i) - multiplier_or_zero(i)};
       case BoundStatus::at_upper:
-        return {-force_limit_or_infinity(i) - accumulated(i), -accumulated(i)};
+        return {-force_limit_or_infinity(i) - multiplier_or_zero(i), -multiplier_or_zero(i)};
       case BoundStatus::slip_above:
         return {upper_or_infinity(i), infinity};
       default:
@@ -123,7 +123,7 @@ struct Bounds {
 
   /// The same bounds for v - u.
   Bounds shifted_by(const Eigen::VectorXd& u) const {
-    return {lower - u, upper.size() > 0 ? Eigen::VectorXd(upper - u) : upper, force_limit, accumulated_force};
+    return {lower - u, upper.size() > 0 ? Eigen::VectorXd(upper - u) : upper, force_limit, multiplier_estimate};
   }
 };
 

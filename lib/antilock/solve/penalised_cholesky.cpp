@@ -1,4 +1,4 @@
-#include "antilock/solve/penalty_factor.hpp"
+#include "antilock/solve/penalised_cholesky.hpp"
 
 #include <fmt/format.h>
 
@@ -32,15 +32,15 @@ bool same(const Sparse& one, const Sparse& other) {
 
 /// Whether the contact problem is solved on the sparse matrix (see ContactReduction).
 bool chooses_sparse(ContactReduction reduction, const DofOrdering& ordering) {
-  const int bounded = ordering.contact();
+  const int bounded = ordering.contact_count();
   if (reduction != ContactReduction::automatic) return bounded > 0 && reduction == ContactReduction::sparse;
   return bounded > 10 * std::sqrt(ordering.dof.size());
 }
 
 }  // namespace
 
-PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, std::optional<double> penalty,
-                             ContactReduction reduction, CholeskyMaker make)
+PenalisedCholesky::PenalisedCholesky(const VariationalInequality& problem, std::optional<double> penalty,
+                                     ContactReduction reduction, CholeskyMaker make)
     : first_delta_(penalty_parameter(checked(problem), penalty)),
       problem_(*SlackForm(problem, first_delta_)),
       ordering_(problem_),
@@ -49,9 +49,9 @@ PenaltyFactor::PenaltyFactor(const VariationalInequality& problem, std::optional
   refactor(first_delta_);
 }
 
-void PenaltyFactor::check_fits(const VariationalInequality& problem) const { slack_form(problem); }
+void PenalisedCholesky::check_fits(const VariationalInequality& problem) const { slack_form(problem); }
 
-SlackForm PenaltyFactor::slack_form(const VariationalInequality& problem) const {
+SlackForm PenalisedCholesky::slack_form(const VariationalInequality& problem) const {
   check_data(problem);
   SlackForm slack_form(problem, first_delta_);
   const DofOrdering other(*slack_form);
@@ -59,23 +59,24 @@ SlackForm PenaltyFactor::slack_form(const VariationalInequality& problem) const 
     throw Error(
         fmt::format("solve: the factor is of {} free unknowns, {} of them in contact, the problem has {} and {}; "
                     "accepted: the factor of a problem with the same free and contact unknowns",
-                    ordering_.dof.size(), ordering_.contact(), other.dof.size(), other.contact()));
-  const Eigen::VectorXd &own = slack_form->own_compliances, &of_factor = problem_.own_compliances;
+                    ordering_.dof.size(), ordering_.contact_count(), other.dof.size(), other.contact_count()));
+  const Eigen::VectorXd &own = slack_form->fixed_compliances, &of_factor = problem_.fixed_compliances;
   if (!same(slack_form->a1, problem_.a1) || !same(slack_form->b, problem_.b) || slack_form->m != problem_.m ||
       own.size() != of_factor.size() || own != of_factor)
     throw Error("solve: the factor is of another A1, B or M; accepted: the factor of this problem's matrices");
   return slack_form;
 }
 
-void PenaltyFactor::refactor(double delta) {
+void PenalisedCholesky::refactor(double delta) {
   if (!(delta > 0 && std::isfinite(delta)))
     throw Error(fmt::format("solve: delta = {}; accepted: a positive number", delta));
-  double own =
-      problem_.own_compliances.size() > 0 ? defaults::own_penalty * std::min(delta, choose_penalty(problem_)) : delta;
+  double own = problem_.fixed_compliances.size() > 0
+                   ? defaults::fixed_row_penalty_ratio * std::min(delta, choose_penalty(problem_))
+                   : delta;
   for (delta_ = 0; delta_ == 0; delta *= defaults::penalty_reduction, own *= defaults::penalty_reduction) {
     penalties_ = row_penalties(problem_, delta, own);
     const std::optional<int> lost =
-        factor_.factorise(penalised_matrix(problem_, ordering_, penalties_), sparse_ ? 0 : ordering_.contact());
+        factor_.factorise(penalised_matrix(problem_, ordering_, penalties_), sparse_ ? 0 : ordering_.contact_count());
     if (!lost) delta_ = delta;
     // a larger penalty leaves the factor more digits of A1, until nothing is stiff beside it any more
     else if (problem_.b.rows() == 0 || !(delta < first_delta_ / default_penalty))
@@ -92,12 +93,12 @@ void PenaltyFactor::refactor(double delta) {
   schur_seconds_ = watch.seconds();
 }
 
-const SparseCholesky& PenaltyFactor::dense() const {
+const SparseCholesky& PenalisedCholesky::cholesky() const {
   if (sparse_)
     throw Error(
         fmt::format("solve: this factor of {} bounds among {} unknowns has no dense contact block; accepted: a factor "
                     "made with ContactReduction::schur_complement",
-                    ordering_.contact(), ordering_.dof.size()));
+                    ordering_.contact_count(), ordering_.dof.size()));
   return factor_.cholesky();
 }
 
