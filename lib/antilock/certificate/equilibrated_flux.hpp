@@ -26,7 +26,7 @@ struct FluxCell {
 };
 
 /// A flux in equilibrium with f_1, built from any u and p on the Crouzeix-Raviart space (derivation in
-/// certificate.hpp).
+/// certificate.cpp, part 1).
 struct EquilibratedFlux {
   FluxLaw law;                    ///< of the layer
   std::vector<FluxCell> cell;     ///< T

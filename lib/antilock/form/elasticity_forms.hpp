@@ -13,8 +13,9 @@ namespace antilock {
 /// The derivatives (u_x, u_y, v_x, v_y) of a displacement (u, v), in this order, or coefficients of them.
 using GradientCoefficients = Eigen::RowVector4d;
 
-/// Lame's pair of an isotropic material (dimensionless): the energy density is mu eps:eps + lambda (div u)^2 / 2.
 struct StrainTerm;
+
+/// Lame's pair of an isotropic material (dimensionless): the energy density is mu eps:eps + lambda (div u)^2 / 2.
 struct Lame {
   double lambda = 0, mu = 1;
   /// 2 mu eps(u):eps(v) + lambda div u div v as a 4 x 4 matrix between the derivatives of u and those of v.

@@ -13,7 +13,8 @@ VariationalInequality assemble(const Scene& scene, const Space& space);
 /// N values of L(v) of such a problem: what pulls at the body, at a scaled layer and at the named edges.
 Eigen::VectorXd load_of(const Scene& scene, const Space& space);
 
-/// The class parameter of (1), which in (23) is the square of the paper's epsilon. The one place that says so.
+/// The class parameter of (1), which in (23) is the square of the paper's epsilon. `assemble` puts it into
+/// VariationalInequality::compliance.
 double class_parameter(const StiffLayer& layer);
 /// The displacement prescribed at a point x of the Dirichlet edge e: 0 on a clamped one, on the side of a layer that above, on
 /// y = 0.

@@ -28,8 +28,8 @@ struct VariationalInequality {
   SparseMatrix a1;        ///< N x N, symmetric; positive definite together with B' M B on the free unknowns
   RowMatrix b;            ///< R x N; R = 0 where nothing is stiff
   Eigen::VectorXd m;      ///< R, the diagonal of M, positive (areas of cells)
-  double compliance = 1;  ///< the class parameter, 0 or more. In (23) it is epsilon^2: the one place that says so is
-                          ///< `assemble` (models/anti_plane.hpp)
+  double compliance = 1;  ///< the class parameter, 0 or more. In (23) it is epsilon^2, by `class_parameter`
+                          ///< (models/anti_plane.hpp)
   Eigen::VectorXd load;   ///< N, L(phi_i)
   std::vector<int> dirichlet_dofs;   ///< unknowns with a prescribed value
   Eigen::VectorXd dirichlet_values;  ///< one per dirichlet_dof

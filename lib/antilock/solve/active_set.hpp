@@ -36,9 +36,10 @@ struct ActiveSetOptions {
 /// Solves the discrete problem, and cannot know whether the element locks: `solve` (analysis/solve.hpp) reports that.
 ///
 /// Two loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer
-/// stress p = compliance^-1 B u, with step 1/delta (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976). It corrects u
-/// and p by one factor of the penalised A_delta = K = A1 + delta^-1 B' M B. The inner one finds the contact set of
-/// each correction:
+/// stress p = compliance^-1 B u (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976). Its step is 1 / (delta -
+/// compliance), since each correction satisfies B u = compliance p + (delta - compliance) dp with the new u and p. It
+/// corrects u and p by one factor of the penalised A_delta = K = A1 + delta^-1 B' M B. The inner one finds the contact
+/// set of each correction:
 ///
 ///     repeat, correction 0 the first solve:
 ///              r1 = L - A1 u - B' M p + lambda,   r2 = compliance p - B u       exact: residual.hpp

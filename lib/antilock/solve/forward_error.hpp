@@ -28,16 +28,17 @@ ForwardError forward_error(const VariationalInequality& problem, const DoubleDou
                            const CorrectionOptions& options);
 
 /// Throws NotConverged where y (R), a residual of B u = 0 that does not go away, proves by Farkas's lemma
-/// (forward_error.cpp) that no admissible u has max |u| <= `bound`; u (N) is the iterate that left it. There are two
-/// calls. While the corrections are slow, y = M B u, and u may still grow: `bound` is then 1 / sqrt(eps) times the
+/// (forward_error.cpp) that no admissible u has max |u| <= `max_u`; u (N) is the iterate that left it. There are two
+/// calls. While the corrections are slow, y = M B u, and u may still grow: `max_u` is then 1 / sqrt(eps) times the
 /// largest u so far, half of a double's digits. That is ample, since a stiffer problem hardly moves more than the
-/// penalised one (expected, not proved). For a solution, y is ConstraintDefect::infeasible_part, and `bound` is the
+/// penalised one (expected, not proved). For a solution, y is ConstraintDefect::infeasible_part, and `max_u` is the
 /// size of u.
 void throw_if_infeasible(const VariationalInequality& problem, const DoubleDoubleVector& y, const Eigen::VectorXd& u,
                          double max_u, const Solution& so_far);
 
 /// The round-off of one solve relative to u, n_free eps cond(K), where B has no rows: K is then A1. cond(K) is
-/// estimated by the largest diagonal entry over the smallest pivot.
+/// estimated by the largest diagonal entry over the smallest pivot: neither is farther out than its eigenvalue, so that
+/// the estimate is a lower one, and the factor n_free is a heuristic.
 double factor_roundoff(const VariationalInequality& problem, const PenalisedCholesky& factor);
 
 /// The effect of a constraint residual r2. Each row counts in its own unit, each unknown in that of its stiffness; rows

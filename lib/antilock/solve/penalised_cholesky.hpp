@@ -51,7 +51,7 @@ class PenalisedCholesky {
   /// R, of the problem in slack form: delta, and of rows with compliances of their own these or defaults::fixed_row_penalty_ratio.
   const Eigen::VectorXd& penalties() const { return penalties_; }
   const DofOrdering& ordering() const { return ordering_; }
-  /// The smallest pivot of K: to about a factor of n_free its smallest eigenvalue, for next to nothing.
+  /// The smallest pivot of K: an upper bound, and a heuristic estimate, of its smallest eigenvalue (sparse_cholesky.hpp).
   double smallest_pivot() const { return factor_.cholesky().smallest_pivot(); }
   /// K^-1 r on the n_free unknowns; with sparse on those that are not eliminated, 0 on the others.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const { return factor_.solve(r); }

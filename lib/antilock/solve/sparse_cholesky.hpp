@@ -23,8 +23,9 @@ class SparseCholesky {
   /// nothing but round-off (defaults::round_off); empty: K is positive definite. Throws NotConverged out of memory.
   virtual std::optional<int> factorise(const SparseMatrix& k) = 0;
 
-  /// The smallest pivot: to about a factor of n_free the smallest eigenvalue of K, for next to nothing. Infinite of no
-  /// rows.
+  /// The smallest pivot, min_i l_ii^2; infinity for a K without rows. It is an upper bound of the smallest eigenvalue of
+  /// K, because a pivot is 1 / (e' S^-1 e) of a principal submatrix S. It is no more than a heuristic estimate of it: an
+  /// L with ones on its diagonal and -1 below has the pivots 1, and an eigenvalue of L L' falls exponentially with n_free.
   virtual double smallest_pivot() const = 0;
   virtual Eigen::VectorXd forward(const Eigen::VectorXd& r) const = 0;  ///< y = L^-1 P r
   virtual Eigen::VectorXd backward(Eigen::VectorXd y) const = 0;        ///< x = P' L'^-1 y
