@@ -6,46 +6,51 @@
 
 namespace antilock {
 
-/// A bound of this size or more, in a file or an array of a user's, is none: products of such numbers
-/// leave the range of double. The customary infinities 1e20, 1e30 and 3.4e38 are numbers, and bound nothing.
+/// A bound of a file or of a user's array with |bound| >= infinite_bound means that there is none:
+/// products of larger numbers may leave the range of double. Smaller numbers stay finite bounds,
+/// also 1e20, 1e30 and 3.4e38 (the largest float), which some programs write for infinity.
 constexpr double infinite_bound = 1e40;
 
-/// The bound, infinite where it is void: |bound| >= infinite_bound, as the largest double.
+/// Returns the bound, or infinity of the same sign where |bound| >= infinite_bound.
 double bound_or_infinity(double bound);
 
-/// The bounded values of any u of N entries: its contact unknowns, then constraints * u. C entries.
+/// Returns the C bounded values of u (N): its contact unknowns, then constraints * u.
 Eigen::VectorXd bounded_values(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
-/// The N forces on the unknowns of C forces lambda at the bounds: the transpose of bounded_values.
+/// Returns E' lambda (N), the forces on the unknowns of the C forces lambda at the bounds. E maps u
+/// to bounded_values(u).
 Eigen::VectorXd bound_forces(const VariationalInequality& problem, const Eigen::VectorXd& lambda);
 
-/// The distance of each bounded value from the nearer of its bounds, negative where it lies outside, infinite where the
-/// bound has a force limit. C entries.
+/// Returns min(s_i - lower_i, upper_i - s_i) for each bounded value s_i of u (C): the distance to
+/// the nearer bound, negative where the bound is violated. It is infinite for a bound with a force
+/// limit, which any value may pass.
 Eigen::VectorXd distance_to_bound(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
-/// j(u), the work against bounds with a force_limit (Tresca's friction): the sum of force_limit times the distance
-/// from the bounds.
+/// Returns j(u) = sum_i g_i dist(s_i, [lower_i, upper_i]), the work of u against the bounds with a
+/// finite force limit g_i (Tresca's friction). s = bounded_values(u).
 double friction_energy(const VariationalInequality& problem, const Eigen::VectorXd& u);
 
 /// Replaces the dirichlet_dofs of the problem and their values by these.
 void set_dirichlet(VariationalInequality& problem, const std::map<int, double>& values);
 
-/// Leaves the problem without bounds, on unknowns or constraints.
+/// Removes all bounds, those on unknowns and those on constraints.
 void clear_bounds(VariationalInequality& problem);
 
-/// The equality-constrained problem of an active set (Nocedal and Wright, ch. 16): the bounds marked in `active` (one
-/// mark per contact unknown) hold as equations, and the other bounds are gone. It is linear, and where `active` is the
-/// contact set of the solution, with the same solution. Throws Error for another number of marks, and where bounds are
-/// others than lower ones on unknowns.
+/// Returns the equality-constrained problem of an active set (J. Nocedal and S. J. Wright,
+/// Numerical Optimization, ch. 16). `active` has one mark per contact unknown. Marked bounds hold
+/// as equations, u = lower, and the other bounds are removed, so that the problem is linear. Where
+/// `active` is the contact set of the solution, both problems have the same solution. Throws Error
+/// for another number of marks, and for bounds other than lower bounds on unknowns.
 VariationalInequality equality_constrained(VariationalInequality problem, const std::vector<bool>& active);
 
-/// Throws Error where `who` takes bounds on unknowns alone and the problem has constraints.
+/// Throws Error, which begins with `who`, where the problem has bounds on constraints.
 void require_bounds_on_unknowns(const VariationalInequality& problem, const std::string& who);
 
-/// Throws Error where `who` takes bounds without a force limit and the problem has others.
+/// Throws Error, which begins with `who`, where the problem has force limits.
 void require_hard_bounds(const VariationalInequality& problem, const std::string& who);
 
-/// Throws Error where `who` takes lower bounds on unknowns alone and the problem has others.
+/// Throws Error, which begins with `who`, where the problem has upper bounds, force limits, or
+/// bounds on constraints.
 void require_lower_bounds(const VariationalInequality& problem, const std::string& who);
 
 }  // namespace antilock

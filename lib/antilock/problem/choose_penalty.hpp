@@ -5,39 +5,36 @@
 
 namespace antilock {
 
-/// The stiffness of B' M B relative to A1, from their diagonals at the free unknowns. Of a problem on subdomains: the
-/// sums over them, and the largest of them.
+/// The stiffness of a0 relative to a1: sums and maxima of the diagonals of B' M B and of A1 over
+/// the free unknowns. For a problem on subdomains the sums are added and the maxima compared.
 struct StiffnessRatio {
-  double trace_a0 = 0, trace_a1 = 0;  ///< of the diagonals of B' M B and of A1, where both are positive
-  double max_a0 = 0, max_a1 = 0;      ///< the largest entry of each
+  /// Sums of the diagonal entries of B' M B and of A1 over the unknowns at which both are positive.
+  double trace_a0 = 0, trace_a1 = 0;
+  double max_a0 = 0, max_a1 = 0;  ///< the largest diagonal entries
 
-  /// s = r^(1/3) R^(2/3), r the ratio of the sums and R that of the largest; 1 where they cannot be compared. In the layer
-  /// and in rubber A1 and B hold first derivatives, and s is about 1. In a beam and in a glue B holds none. (The exponents
-  /// are a fit: they serve all models of the library.)
+  /// Returns s = (trace_a0 / trace_a1)^(1/3) (max_a0 / max_a1)^(2/3), or 1 where this is not a
+  /// positive number. Where A1 and B both hold first derivatives (the layer, rubber), s is about 1.
+  /// In a beam and in an adhesive layer, rows of B hold unknowns without a derivative, and s
+  /// depends on the mesh. The exponents are fitted to the models of this library.
   double value() const;
 };
 StiffnessRatio stiffness_ratio(const VariationalInequality& problem);
 
-/// The penalty delta of the iterated penalty (solve/) from the matrices alone: A1 times t asks for delta / t, M times t for
-/// t delta. Too large costs corrections, too small costs digits of A1 in the factor; the answer is the same.
+/// The default of delta, the penalty of the iterated penalty method (solve/active_set.hpp), is
 ///
-///     delta = 6e-8 s
+///     delta = 6e-8 s,   s = StiffnessRatio::value(),
 ///
-/// A correction contracts like delta / (delta + sigma), sigma the smallest eigenvalue of a0 against a1 that is not
-/// zero; it falls with the mesh, like h^2 in the layer, like h^4 in a beam. Round-off in the factor spoils a correction
-/// by about 0.005 eps / (h^2 delta). With s = 1 and 1/h = 64 there are 2 corrections from 6e-8 down to 1e-9, 3 at 1e-10
-/// and 5 at 1e-12: 6e-8 leaves room for finer meshes. In the beam, where r is far below R, 6e-11 on 512 cells took 3
-/// corrections but 19 contact steps, 6e-10 takes 6 and 13, 1e-8 took 20 and 9.
-///
-/// Corrections measured with contact, the most over compliance 1 to 1e-12 and 0: layer, 1/h = 8 to 128: P1 2, CR 2, locked
-/// P1 4 (with 1e-6 in place of 6e-8: 4, 4, 20); beam, 512 cells: 6, 1024: 12 (locked, where all of u tends to 0).
+/// and 1 / delta is the penalty stiffness. Scaling A1 by t > 0 scales delta by 1 / t, and scaling M
+/// by t scales it by t. The solution does not depend on delta: a larger one needs more outer
+/// iterations, a smaller one leaves the factor of A1 + delta^-1 B' M B fewer digits of A1.
+/// choose_penalty.cpp has the measurements behind 6e-8.
 constexpr double default_penalty = 6e-8;
 inline double choose_penalty(const StiffnessRatio& s) { return default_penalty * s.value(); }
 inline double choose_penalty(const VariationalInequality& problem) { return choose_penalty(stiffness_ratio(problem)); }
 
-/// The penalty parameter delta of the factor: max(compliance, penalty), `penalty` chosen by the rule above where none
-/// is given; the compliance counts where B has a row of the class, or none at all. Throws Error for a penalty that is not
-/// positive.
+/// Returns the delta of a factor, max(compliance, penalty). Without `penalty` it is choose_penalty.
+/// The compliance is left out where all rows of B have fixed compliances, since no row has it then.
+/// Throws Error for a penalty that is not a positive finite number.
 double penalty_parameter(const VariationalInequality& problem, std::optional<double> penalty = {});
 
 }  // namespace antilock

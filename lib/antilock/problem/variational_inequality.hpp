@@ -5,77 +5,107 @@
 
 namespace antilock {
 
-/// The discrete problem of the paper's whole class, (6), and (7) where compliance = 0:
+/// A discrete variational inequality with a parameter, (6) of [SR04], and its limit (7) at
+/// compliance = 0:
 ///
 ///     u in K_h:  a1(u, v - u) + compliance^-1 a0(u, v - u) >= L(v - u)   for all v in K_h
-///     K_h = { v : v = dirichlet_values on the dirichlet_dofs, lower <= v <= upper on the contact unknowns,
-///                 lower <= constraints v <= upper }
+///     K_h = { v : v = dirichlet_values on the dirichlet_dofs,
+///                 lower <= v <= upper on the contact unknowns,  lower <= constraints v <= upper }
 ///
-/// A bound with a finite force_limit g is no part of K_h: it carries a force of at most g (a soft constraint), and
-/// slips under more. It adds j(v) - j(u) on the left, j(v) = sum g dist(v, [lower, upper]), and |lambda| <= g; lambda
-/// = g below it, -g above. Tresca's friction with the bound g is the one of a tangential displacement with lower =
-/// upper = 0: it sticks where
-/// |lambda| < g and slips against lambda where |lambda| = g.
+/// [SR04] is L. Slimane and Y. Renard, The treatment of the locking phenomenon for a general class
+/// of variational inequalities, J. Comput. Appl. Math. 170 (2004), 121-143. The headers of this
+/// library cite its equations, propositions and remarks by number.
 ///
-/// a0(u, v) = (B u, M B v) stays in factored form: summed into a1 it destroys a1 by round-off. Everything is
-/// dimensionless. N unknowns, R rows of B, C bounds: those on unknowns and then those on constraints, in lower, in
-/// upper and in the answer's lambda. lambda >= 0 at a lower bound, <= 0 at an upper one.
+/// N is the number of unknowns, R the number of rows of B, and C the number of bounds: one bound
+/// per entry of `contact`, then one per row of `constraints`. The vectors lower, upper, force_limit
+/// and Solution::lambda list the bounds in this order. Every quantity is dimensionless.
 ///
-/// M is diagonal. A form whose M has a block per cell fits as well: with block = G G', rows G' B of the cell and M = 1.
-/// No unit is better than another: A1 times s is the same problem at compliance / s, M times s at compliance s, and a
-/// compliance above 1 is taken as it is.
+/// The contact force lambda_i is at least 0 at a lower bound and at most 0 at an upper one.
+///
+/// The stiff form a0(u, v) = (B u, M B v), M diagonal, is kept as its factors, because the sum A1 +
+/// compliance^-1 B' M B loses the digits of A1 to round-off as the compliance falls. A form with a
+/// symmetric block of M per cell fits as well: with block = G G', the rows of the cell are G' B and
+/// M is 1. The choice of units is free: u stays the same where A1 and L are multiplied by s > 0 and
+/// the compliance by 1 / s, and also where M and the compliance are multiplied by s. Therefore a
+/// compliance above 1 is accepted.
+///
+/// A bound with a finite force limit g is a soft constraint and does not restrict K_h. It carries a
+/// force of at most g and yields once the force would exceed g. With s_i the bounded value (an
+/// unknown, or a row of constraints times v), it adds j(v) - j(u) to the left side,
+///
+///     j(v) = sum_i g_i dist(s_i, [lower_i, upper_i]),   so that |lambda_i| <= g_i,
+///
+/// and lambda_i = g_i where s_i < lower_i, lambda_i = -g_i where s_i > upper_i. Tresca's friction
+/// is the case lower = upper = 0 of a tangential displacement: it sticks where |lambda| < g, and
+/// where it slips, it slips against lambda and |lambda| = g.
 struct VariationalInequality {
-  SparseMatrix a1;        ///< N x N, symmetric; positive definite together with B' M B on the free unknowns
-  RowMatrix b;            ///< R x N; R = 0 where nothing is stiff
-  Eigen::VectorXd m;      ///< R, the diagonal of M, positive (areas of cells)
-  double compliance = 1;  ///< the class parameter, 0 or more. In (23) it is epsilon^2, by `class_parameter`
-                          ///< (models/anti_plane.hpp)
-  Eigen::VectorXd load;   ///< N, L(phi_i)
+  SparseMatrix a1;    ///< N x N, symmetric; A1 + B' M B is positive definite on the free unknowns
+  RowMatrix b;        ///< R x N; R = 0 where nothing is stiff
+  Eigen::VectorXd m;  ///< R, the diagonal of M, positive (for example areas of cells)
+  /// The parameter by which a0 is divided, 0 or more. In (23) of [SR04] it is epsilon^2:
+  /// `class_parameter` (models/anti_plane.hpp).
+  double compliance = 1;
+  Eigen::VectorXd load;              ///< N, L(phi_i)
   std::vector<int> dirichlet_dofs;   ///< unknowns with a prescribed value
   Eigen::VectorXd dirichlet_values;  ///< one per dirichlet_dof
-  std::vector<int> contact;          ///< bounded unknowns, in the order of the reports (by x)
-  Eigen::VectorXd lower;             ///< C: lower <= u there (= -gap). -infinity: no bound from below
-  Eigen::VectorXd upper = {};        ///< C, or empty: none. +infinity: no bound from above; = lower: an equation
-  Eigen::VectorXd force_limit = {};  ///< C, or empty: none. The largest |lambda|, 0 or more; +infinity: no limit
-  RowMatrix constraints = {};  ///< a row per bound beyond `contact` x N, or empty: a row c bounds c . u, such as the
-                               ///< normal displacement on a slope or the gap between two bodies
+  /// The bounded unknowns. Reports list them in this order. The nested start (solve/contact.hpp) is
+  /// a good one where neighbours in this list are neighbours on the boundary.
+  std::vector<int> contact;
+  Eigen::VectorXd lower;  ///< C; -gap for an obstacle below; -infinity: no lower bound
+  /// C, or empty: no upper bounds. +infinity: none here; = lower: an equation.
+  Eigen::VectorXd upper = {};
+  /// C, or empty: no limits. The largest |lambda|, 0 or more; +infinity: a hard bound.
+  Eigen::VectorXd force_limit = {};
+  /// (C - size of `contact`) x N, or empty. A row c bounds c . u, for example the normal
+  /// displacement on an inclined plane or the gap between two bodies.
+  RowMatrix constraints = {};
 
-  /// The compliances of the last rows of B, 0 or more, whatever `compliance` is: their energy m (B u)^2 / (2 own) belongs
-  /// to a1, in factors because a sum would lose its digits (a part of the body that is far stiffer than the rest). 0: a
-  /// tie, B u = 0. All other rows are those of the class, the first parametric_row_count() ones.
+  /// At most R entries, each 0 or more: the compliances of the last rows of B. They do not vary
+  /// with `compliance`. Row j with c_j > 0 has the energy m_j (B u)_j^2 / (2 c_j), which belongs to
+  /// a1 and is kept as factors because its stiffness may be so far above the rest of A1 that a sum
+  /// would lose the digits of the rest. c_j = 0 is a linear equality constraint, (B u)_j = 0. The
+  /// compliance of the other rows, the first parametric_row_count() ones, is `compliance`.
   Eigen::VectorXd fixed_compliances = {};
 
   int size() const { return static_cast<int>(load.size()); }
   int free_count() const { return size() - static_cast<int>(dirichlet_dofs.size()); }
   Eigen::Index parametric_row_count() const { return b.rows() - fixed_compliances.size(); }
-  /// R, the compliance of each row of B.
+  /// R: the compliance of each row of B.
   Eigen::VectorXd compliances() const {
     Eigen::VectorXd rows = Eigen::VectorXd::Constant(b.rows(), compliance);
     rows.tail(fixed_compliances.size()) = fixed_compliances;
     return rows;
   }
+  /// C.
   int bound_count() const { return static_cast<int>(contact.size()) + static_cast<int>(constraints.rows()); }
 };
 
-/// Throws Error with the first thing that is wrong: sizes that do not fit, entries that are not finite, an a1 that is
-/// not symmetric, M not positive, compliance out of range, indices out of range or named twice, no free unknown, a
-/// bound without a finite side or with its lower side above its upper one.
+/// Throws Error that names the first requirement which does not hold: sizes that fit, finite
+/// entries, an a1 that is symmetric up to 1e-12 of its largest entry, M > 0, a compliance that is
+/// finite and at least 0, indices that are in range and named once, one free unknown or more, and
+/// the requirements of check_bounds.
 void check(const VariationalInequality& problem);
 
-/// The same but for the symmetry of a1, in one walk over the data: what a solver asks at every call, whoever made the
-/// factor. The factor has asked for the symmetry of its matrix.
+/// Does the same without the symmetry of a1, in one pass over the data. Every call of a solver
+/// makes this check. The symmetry is checked once, when the factor of the matrix is made.
 void check_data(const VariationalInequality& problem);
 
-/// Appends rows of B (r x N) with M = m (r) and compliances of their own (r, 0 or more).
+/// Appends r rows to B: b (r x N), their entries m (r) of M and their fixed compliances (r, each 0
+/// or more).
 void append_rows(VariationalInequality& problem, const RowMatrix& b, const Eigen::VectorXd& m,
                  const Eigen::VectorXd& fixed_compliances);
 
-/// The same problem in the form in which the class is studied: rows with an own compliance above 0 are summed into A1,
-/// which loses the digits that they keep. Rows of the class and of an own compliance of 0 stay.
+/// Assembles the rows b_j of B with a fixed compliance c_j > 0 into A1:
+///
+///     A1 + sum_j (m_j / c_j) b_j' b_j
+///
+/// Parametric rows and rows with the fixed compliance 0 stay in B. The analysis works with this
+/// form, whose only positive compliance is the parameter. A1 may lose the digits that the factors
+/// keep.
 VariationalInequality assemble_fixed_rows(VariationalInequality problem);
 
-/// The part of `check` that looks at the bounds: sizes, numbers, an empty or unbounded interval, a row of constraints
-/// without a free unknown. Throws Error.
+/// Throws Error unless the bounds are well formed: sizes that fit, no NaN, lower <= upper, one
+/// finite side or two, force limits of 0 or more, and a free unknown in every row of constraints.
 void check_bounds(const VariationalInequality& problem);
 
 }  // namespace antilock
