@@ -13,69 +13,88 @@
 
 namespace antilock {
 
+/// Options of the outer loop.
 struct CorrectionOptions {
-  double tolerance = 1e-10;  ///< on the relative algebraic error of u in the maximum norm: far below that of any mesh
-  int max_corrections = defaults::max_corrections;  ///< reached: NotConverged
-  ProgressHook progress = {};                       ///< called after every correction that is not the last
-  double contact_tolerance = 0;  ///< to which the contact solver works, relative to the largest |u|; 0: to round-off
+  /// On the estimated algebraic error of u in the maximum norm, relative to the largest |u|. The
+  /// default is far below discretisation errors.
+  double tolerance = 1e-10;
+  int max_corrections = defaults::max_corrections;  ///< after these: NotConverged
+  ProgressHook progress = {};                       ///< called after each correction but the last
+  /// The accuracy of the contact solver, relative to the largest |u|. 0: it works to round-off.
+  double contact_tolerance = 0;
 
-  /// The KKT violation above which no solution is returned: a u that is right to the tolerance has some of it. A large
-  /// tolerance gives little accuracy, with a warning.
+  /// Returns the KKT violation above which no solution is returned, max(KktTolerances::fail, 10
+  /// tolerance): a u with an error of the tolerance violates the KKT conditions by about as much.
   double kkt_fail() const { return std::max(KktTolerances{}.fail, 10 * tolerance); }
 };
 
 struct ActiveSetOptions {
   CorrectionOptions corrections;
-  std::optional<double> penalty;  ///< delta where compliance is smaller; empty: choose_penalty
-  ContactReduction reduction = ContactReduction::automatic;  ///< of the factor, where the solver makes it
-  int max_contact_iterations =
-      1000;  ///< of a correction's contact iteration, which ends, but perhaps late; reached: NotConverged
-  std::optional<BoundStatuses> start;  ///< C: statuses to start from; empty: the nested start
+  std::optional<double> penalty;  ///< delta, where the compliance is smaller; empty: choose_penalty
+  ContactReduction reduction = ContactReduction::automatic;  ///< where the solver makes the factor
+  /// In one correction; after these: NotConverged.
+  int max_contact_iterations = 1000;
+  std::optional<BoundStatuses> start;  ///< C statuses; empty: the nested start
 };
 
-/// Solves the discrete problem, and cannot know whether the element locks: `solve` (analysis/solve.hpp) reports that.
+/// Solves a discrete variational inequality, and cannot know whether the element locks: `solve`
+/// (analysis/solve.hpp) reports that.
 ///
-/// Two loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer
-/// stress p = compliance^-1 B u (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976). Its step is 1 / (delta -
-/// compliance), since each correction satisfies B u = compliance p + (delta - compliance) dp with the new u and p. It
-/// corrects u and p by one factor of the penalised A_delta = K = A1 + delta^-1 B' M B. The inner one finds the contact
-/// set of each correction:
+/// There are two nested loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer stress p = compliance^-1 B u
+/// (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976). It corrects u and p by one Cholesky factor
+/// of K = A1 + delta^-1 B' M B, where delta >= compliance is the penalty. The inner loop is the
+/// active set method of contact.hpp: it finds the contact set of each correction. With L the load
+/// and E' lambda the forces lambda of the bounds on the unknowns (problem/bounds.hpp):
 ///
-///     repeat, correction 0 the first solve:
-///              r1 = L - A1 u - B' M p + lambda,   r2 = compliance p - B u       exact: residual.hpp
-///              K du = r1 + delta^-1 B' M r2 + dlambda, with the bounds of u     contact.hpp
-///              u += du,   p += dp = (B du - r2) / delta
-///              stop where the estimated error of u is within the tolerance      forward_error.hpp
-///     then:    add the error of nearly dependent rows, check the KKT conditions: forward_error.hpp, kkt.hpp
-///              a warning, or NotConverged
+///     u = 0 but for the prescribed values, p = 0, lambda = 0;  repeat:
+///       r1 = L - A1 u - B' M p + E' lambda,  r2 = compliance p - B u            residual.hpp
+///       solve K du = r1 + delta^-1 B' M r2 + E' dlambda with the bounds on u    contact.hpp
+///       u += du,  p += dp,  lambda += dlambda,  dp = (B du - r2) / delta
+///       stop where the estimated error of u is within the tolerance             forward_error.hpp
+///     add the error of nearly dependent rows of B                               forward_error.hpp
+///     check the KKT conditions: a warning, or NotConverged                      kkt.hpp
 ///
-/// No digit of A1 is ever added to a large one, so the answer is right at every compliance down to and including 0,
-/// where it solves (7) exactly. Once the contact set stays, a mode with a0 = sigma a1 is multiplied by (delta -
-/// compliance) / (delta + sigma) < 1 in each correction: it converges for every delta, fast where delta is small beside
-/// sigma, and Anderson's mix (anderson.hpp) does the rest. After 15 corrections the next 15 are made with delta / 64.
+/// The length of the proximal step is 1 / (delta - compliance), because the new u and p satisfy
 ///
-/// To read in this order: problem/variational_inequality.hpp, bound_status.hpp, contact.hpp, residual.hpp, this,
-/// forward_error.hpp; the constants with their reasons are in defaults.hpp. The outer loop stands in active_set.cpp,
-/// IteratedPenalty::solve. A loop that stops otherwise, after five corrections say, changes the one condition there;
-/// `finalise` checks the last correction all the same, and throws where it is not within the tolerance.
+///     B u = compliance p + (delta - compliance) dp.
 ///
-/// Without contact unknowns this is a linear solve. counters.contact are the steps on the finest level, the largest
-/// number over the corrections. Throws Error for a malformed problem, NotConverged instead of ever returning an
-/// unconverged answer. A constraint on c . u gets a slack variable
-/// (slack_form.hpp).
+/// Rows of B with fixed compliances have penalties of their own (PenalisedCholesky::penalties).
+///
+/// Residuals never use the assembled sum K. They carry no cancellation error, and only the factor
+/// does. Therefore a small compliance costs u no digits (measured: tests/hard), and at compliance 0
+/// the method solves (7) of [SR04] without a penalty error (problem/variational_inequality.hpp).
+///
+/// Once the contact set stays the same, each correction multiplies the error of a mode with
+/// a0 = sigma a1, sigma > 0, by (delta - compliance) / (delta + sigma) < 1. So these modes converge
+/// for every delta, and fast where delta is small beside sigma. Anderson's mixing (anderson.hpp)
+/// accelerates the slow ones, and after every defaults::corrections_per_penalty corrections delta
+/// is divided by defaults::penalty_reduction, but stays at least the compliance.
+///
+/// Constraints c . u are solved for in slack form (detail/slack_form.hpp). Without bounds this is a
+/// linear solve. Counters::contact_iterations is the largest number of iterations of one
+/// correction, those of the nested start not included. Throws Error for a malformed problem or
+/// option, and NotConverged in place of a solution that has not converged.
+///
+/// Reading order: problem/variational_inequality.hpp, bound_status.hpp, contact.hpp, residual.hpp,
+/// this header, forward_error.hpp. The constants and their reasons are in defaults.hpp. The outer
+/// loop is IteratedPenalty::solve in active_set.cpp; a loop with another stopping criterion changes
+/// one condition there.
 Solution active_set(const VariationalInequality& problem, const ActiveSetOptions& options = {});
 
-/// The same with a factor made before, for a sweep over loads, bounds or compliances of one pair (A1, B).
+/// Does the same with a factor that exists already, for a sweep over loads, bounds or compliances
+/// with one pair (A1, B). Throws Error for a factor of other matrices.
 Solution active_set(const VariationalInequality& problem, PenalisedCholesky& factor,
                     const ActiveSetOptions& options = {});
 
-/// Solves the contact problem of one correction, in which v and lambda count from what they are so far: a SchurComplementContact
-/// or a SparseContact, as the factor was made. `before`: of the last correction, empty at first; `u_scale`: the largest
-/// |u|.
+/// Solves the contact problem of one correction, in which v and lambda are increments to the
+/// current iterate. The system is a SchurComplementContact or a SparseContact, as the factor
+/// decides. `before` is the result of the last correction and empty in the first one, u_scale is
+/// the largest |u|.
 using ContactSolver =
     std::function<ContactResult(ContactSystem&, const Bounds&, const ContactResult& before, double u_scale)>;
 
-/// The outer loop, with any solver of the inner problem. Throws as active_set does; `name` is the solver's.
+/// Runs the outer loop with any solver of the inner problem. `name` is the solver's name in
+/// messages. Throws as active_set does.
 Solution iterated_penalty(const VariationalInequality& problem, PenalisedCholesky& factor, const ContactSolver& contact,
                           const CorrectionOptions& options, const std::string& name);
 

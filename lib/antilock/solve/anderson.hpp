@@ -9,22 +9,23 @@
 
 namespace antilock {
 
-/// Anderson's acceleration of a fixed-point iteration x -> x + g(x): the combination of the last few iterates whose
-/// steps g cancel best (for a linear iteration: GMRES). D. G. Anderson, J. ACM 12 (1965).
+/// Anderson's acceleration of a fixed-point iteration x -> x + g(x): the next start is the affine
+/// combination of the last few iterates for which the norm of the combined steps g is smallest (D.
+/// G. Anderson, J. ACM 12, 1965). For a linear iteration it is equivalent to GMRES.
 ///
-/// What a mix does to the rate: nothing. Near the answer a plain step multiplies the error of x by T, and a mix changes
-/// the error and not T. So what a plain step after a mix leaves is bounded by the contraction of plain steps. A slow
-/// mode with a small share in all starts of the history stays unseen. Where what is left of g is round-off, the
-/// weights of a mix are chance; it does no harm as long as the dependent vectors that it mixes are all near the
-/// solution.
+/// Mixing leaves the iteration matrix T of plain steps unchanged: near the solution a plain step
+/// multiplies the error of x by T, whatever the start. So the contraction of plain steps bounds the
+/// error that a plain step after a mix leaves. A slow mode that has a small component in all starts
+/// of the history is not seen. Where the steps g are round-off, the weights of a mix are arbitrary.
+/// They do no harm while all vectors of the history are near the solution.
 class Anderson {
  public:
-  /// Iterates that are kept: as many slow modes less one are gone. Two to five were seen, in locked P1; each costs two
-  /// vectors of u and p.
+  /// The iterates that are kept. Depth 6 can eliminate five slow modes: two to five were seen, in
+  /// locked P1. Each iterate costs vectors of the sizes of u and p.
   static constexpr std::size_t depth = 6;
 
-  /// Adds a plain step to the history: `iterate` = x + g from some x, and `affine_image`, a vector that depends affinely
-  /// on x.
+  /// Adds a plain step from some start x to the history: `iterate` = x + g, the step g, and
+  /// `affine_image`, a second vector that depends affinely on x (u, where x is p).
   void push(const DoubleDoubleVector& iterate, const Eigen::VectorXd& g, const DoubleDoubleVector& affine_image) {
     past_.push_front({iterate, affine_image, g});
     if (past_.size() > depth) past_.pop_back();
@@ -41,25 +42,29 @@ class Anderson {
     if (gain > 0) gain_ = gain;
   }
 
-  /// What the next step adds to the dependent vector: |g| of the last step times `gain`, the most that the dependent
-  /// vector moved, in the maximum norm, where a start moved by 1; 0 where the history holds no two starts yet. (A step
-  /// of the dependent vector itself does not tell: round-off that a mix leaves in a start is in g, and in the
-  /// dependent vector, but in no step between two of them.)
+  /// Estimates the change of the affine image by the next step: |g| of the last step times the
+  /// gain. The gain is the largest ratio, over pairs of the history, of the distance of two affine
+  /// images in the maximum norm to the distance of their starts. It is 0 before two starts are
+  /// known. (A step of the affine image itself would be no estimate, because round-off that a mix
+  /// leaves in a start is in g and in the affine image, but in no difference of two images.)
   double next_affine_image_step() const { return past_.empty() ? 0 : gain_ * past_[0].g.norm(); }
 
-  /// By how much a plain step brings two starts closer, at worst over the last start and those before it; within
-  /// defaults::max_contraction, and that where there is only one. It holds wherever the starts came from. (The ratio
-  /// of two steps |g|
-  /// does not: a mix makes g smaller, not the error by the same factor.)
+  /// Estimates the contraction of a plain step: the largest ratio, over the last start and each one
+  /// before it, of the distance of the iterates to the distance of the starts. It lies between 1 -
+  /// defaults::max_contraction and defaults::max_contraction, and is the latter where there is one
+  /// start alone. It is valid for any starts. (The ratio of two steps |g| is not: a mix makes g
+  /// smaller, but not the error by the same factor.)
   double contraction() const { return contraction_; }
 
-  /// Mixes the iterates of the history: `iterate` and, with the same weights, `affine_image` become the next start.
+  /// Replaces `iterate` by the mix of the history, the next start, and `affine_image` by the mix
+  /// with the same weights.
   void mix(DoubleDoubleVector& iterate, DoubleDoubleVector& affine_image) const {
     const auto others = static_cast<Eigen::Index>(past_.size()) - 1;
     if (others < 1) return;
     const Eigen::VectorXd& g = past_[0].g;
-    // min | g_0 - sum gamma_i (g_0 - g_i) |: a handful of columns, by a QR that drops dependent ones. The entries of
-    // the normal matrix are sums of products: a pivot below their round-off tells nothing
+    // min | g_0 - sum gamma_i (g_0 - g_i) | over gamma, by the normal equations of at most five
+    // scaled columns and a factorisation that drops dependent ones. The entries of the normal
+    // matrix are sums of products, so that a pivot below their round-off has no meaning
     Eigen::MatrixXd difference(g.size(), others);
     for (Eigen::Index i = 0; i < others; ++i) difference.col(i) = g - past_[i + 1].g;
     const Eigen::VectorXd scale = difference.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
@@ -73,9 +78,10 @@ class Anderson {
     }
   }
 
-  /// Forgets the past: after a change of the iteration itself (another contact set), it would only mislead.
+  /// Forgets the history, as is needed after a change of the iteration itself (another contact
+  /// set).
   void restart() { past_.clear(); }
-  /// Forgets the oldest start of those that are left; after a restart that is the only one.
+  /// Forgets the oldest entry of the history.
   void forget_the_oldest() {
     if (!past_.empty()) past_.pop_back();
   }

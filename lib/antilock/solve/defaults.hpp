@@ -1,52 +1,65 @@
 #pragma once
 #include <limits>
 
-/// The constants of solve/ that are neither promises (KktTolerances, CorrectionOptions) nor mathematics, and why they
-/// are what they are. Those of the penalty stand in problem/choose_penalty.hpp, that of the
-/// contact reduction in penalised_cholesky.hpp.
+/// The constants of solve/ and their reasons. Tolerances that are promises stand in KktTolerances
+/// and CorrectionOptions, the constants of the penalty in problem/choose_penalty.hpp, and that of
+/// the contact reduction in penalised_cholesky.hpp. All are dimensionless.
 namespace antilock::defaults {
 
+/// The distance from 1 to the next double, 2.2e-16.
 constexpr double eps = std::numeric_limits<double>::epsilon();
 
-/// A sum of n rounded terms loses about sqrt(n) eps of them: 64 eps serves rows of 4096 entries. A force is known to so
-/// much of its terms; a pivot below so much of its diagonal entry is nothing but its round-off (sound problems stay
-/// above 1e-12, on meshes and layers of every kind); of a penalty below it, times the stiffness of B' M B beside A1, a
-/// factor keeps fewer than two digits of A1.
+/// The relative round-off of a sum: a sum of n rounded terms loses about sqrt(n) eps of them, and
+/// 64 eps serves rows of 4096 entries. Three uses: a force is known up to round_off times the sum
+/// of its absolute terms. A pivot below round_off times its diagonal entry is round-off (sound
+/// problems stay above 1e-12, on meshes and layers of every kind tried). With a penalty below
+/// round_off times the stiffness ratio of B' M B and A1, a factor keeps fewer than two digits of
+/// A1.
 constexpr double round_off = 64 * eps;
 
-/// What rounding leaves between two rows that are equal. An entry of B, a gradient on a triangle, is a difference of
-/// coordinates (1 rounding) times the reciprocal of an area (two products of differences and their difference: 4, and
-/// 1): 7 with the last product, each of eps / 2. Two such rows: 7 eps, and the rounding of u to doubles makes it 8. So
-/// near a row of B is closed, and two rows are one. Sums and products with u add nothing: they are exact
-/// (residual.hpp).
+/// The relative difference that rounding leaves between two rows of B that are equal in exact
+/// arithmetic. An entry, a gradient on a triangle, is a difference of coordinates (1 rounding)
+/// times the reciprocal of an area (two products of differences and their difference: 4, and 1 for
+/// the reciprocal). That makes 7 with the last product, each of eps / 2. Two such rows differ by 7
+/// eps, and the rounding of u to doubles makes it 8. A row whose residual is within this tolerance
+/// counts as satisfied, and two rows within it count as one. Sums and products with u add nothing,
+/// because they are exact (residual.hpp).
 constexpr double row_tolerance = 8 * eps;
 
-/// Rows of B whose distance from dependent is looked at, among ten times as many unknowns at most: a dense QR of 200 x
-/// 2,200 (with a spring per row) is some 2 200^2 2,200 products, tens of milliseconds.
+/// The number of rows of B up to which constraint_defect (forward_error.hpp) looks for nearly
+/// dependent ones; it also asks for at most ten times as many unknowns. Its dense QR of 200 x 2,200
+/// (with one column per row for its compliance) takes some 2 200^2 2,200 products, tens of
+/// milliseconds.
 constexpr int max_rows_for_qr = 200;
 
-/// Corrections in all, where the caller asks for no other number: 15 with each of four penalties, and the rest with the
-/// fifth. That is the smallest one, round_off, which four steps of 64 reach from 6e-8 (choose_penalty.hpp).
+/// The default for all corrections together: 15 with each of four penalties, and the rest with the
+/// fifth. The fifth penalty is the smallest one, about round_off, which four divisions by 64 reach
+/// from 6e-8 (choose_penalty.hpp).
 constexpr int max_corrections = 100;
 
-/// Corrections with one penalty: a new factor costs as much as 10 to 20 (measured at 1/h = 128).
+/// The corrections with one penalty. A new factor costs as much as 10 to 20 corrections (measured
+/// at 1/h = 128).
 constexpr int corrections_per_penalty = 15;
 
-/// By which the next penalty is smaller, and larger where K has no positive pivots. A correction contracts like delta /
-/// (delta + sigma): 0.9 becomes 0.12.
+/// The factor by which the next penalty is smaller, and by which it is larger where K has no
+/// positive pivots. A correction contracts like delta / (delta + sigma), sigma an eigenvalue of a0
+/// against a1: 0.9 becomes 0.12.
 constexpr double penalty_reduction = 64;
 
-/// A rate of convergence outside 1 - slowest to slowest is not believed: what is slower makes the error of u no smaller
-/// by a factor e in all corrections that are made.
+/// Measured contractions are clamped to [1 - max_contraction, max_contraction]. A slower iteration
+/// would not reduce the error of u by a factor e in all corrections together.
 constexpr double max_contraction = 1 - 1.0 / max_corrections;
 
-/// The penalty of rows with compliances of their own, at least, beside the one of choose_penalty. Where three stiffnesses
-/// lie far apart, two of them in such rows, a correction contracts like penalty / (penalty + the softer one's compliance):
-/// the smaller the penalty, the more of them the factor has as they are. 6e-11 leaves the factor five digits of A1.
+/// The smallest penalty of rows of B with fixed compliances, relative to that of the parametric
+/// rows (PenalisedCholesky::penalties). Where three stiffnesses lie far apart, two of them in such
+/// rows, a correction contracts like penalty / (penalty + compliance of the softer row). A smaller
+/// penalty lets the factor hold more of these compliances as they are. 1e-3 of the default 6e-8
+/// leaves the factor five digits of A1.
 constexpr double fixed_row_penalty_ratio = 1e-3;
 
-/// The row that ties c . u to its slack variable w is stiffer than c . u by this factor: a correction leaves
-/// about 1/4096 of the distance between the two, as if it were made with two penalties less.
+/// The stiffness of the equality row that couples c . u to its slack variable w, relative to that
+/// of c . u (slack_form.hpp). A correction leaves about 1/4096 of the distance between the two, as
+/// if delta had been reduced twice.
 constexpr double slack_stiffness_ratio = penalty_reduction * penalty_reduction;
 
 }  // namespace antilock::defaults

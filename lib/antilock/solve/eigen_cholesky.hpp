@@ -5,9 +5,9 @@
 
 namespace antilock {
 
-/// Eigen's simplicial factor: headers alone, without CHOLMOD and a BLAS. In a browser it is the default
-/// (host/stubs.cpp of tutorials/book/wasm); elsewhere the tests hold the default to it. AMD orders the rows that are
-/// not to stay last.
+/// Returns Eigen's simplicial factor, which needs neither CHOLMOD nor a BLAS. AMD orders the rows
+/// that are not to stay last. A browser uses it as the default (host/stubs.cpp of
+/// tutorials/book/wasm); elsewhere tests compare the default with it.
 std::unique_ptr<SparseCholesky> eigen_cholesky();
 
 }  // namespace antilock

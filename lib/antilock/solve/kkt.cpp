@@ -13,6 +13,14 @@
 namespace antilock {
 namespace {
 
+// Why these scales. The terms of A1 u are larger than the forces at work by h^-2, h the mesh width,
+// and would hide an error: so the scale of a row is at most F. A large force at one place must hide
+// nothing at another, nor a far obstacle a near one: so each unknown and each bound has a scale of
+// its own. Rounding u and p to doubles is no error: so 8 eps t is subtracted. A strain has the unit
+// of its row. Prescribed values hold exactly. Between two bounds either sign of lambda is right,
+// and each side counts alone. A bound that slips has no gap to keep, and beyond it lambda is the
+// force limit.
+
 constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// 0 / 0 is a condition met exactly.
@@ -72,8 +80,8 @@ void add_bound(Kkt& kkt, const Bounds& bounds, int i, double value, double lambd
     const double scale = std::max(reach, std::abs(bound));  // its own: a far obstacle hides no near one
     if (!two) kkt.min_pressure = min_or_nan(kkt.min_pressure, ratio(pressure, force));
     if (!soft) kkt.min_gap = min_or_nan(kkt.min_gap, ratio(gap, scale));
-    // beyond a bound, the part of its limit that it does not use; a limit far above the forces at work is not reached
-    // by round-off
+    // beyond a bound, the part of its limit that it does not use; a limit far above the forces at
+    // work is not reached by round-off
     const bool beyond = soft && gap < 0;
     const double idle = beyond ? limit - pressure : pressure, unit = beyond ? std::max(force, limit) : force;
     kkt.complementarity = max_or_nan(kkt.complementarity, ratio(std::abs(idle * gap), scale * unit));

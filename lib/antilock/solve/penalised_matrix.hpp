@@ -6,7 +6,8 @@
 
 namespace antilock {
 
-/// The permutation of the unknowns to solve for: the interior free ones in their own order, then the contact unknowns.
+/// The order of the n_free unknowns that are solved for: the free unknowns without a bound in their
+/// own order, then the contact unknowns in the order of VariationalInequality::contact.
 struct DofOrdering {
   explicit DofOrdering(const VariationalInequality& problem) : position(problem.size(), 0) {
     for (const std::vector<int>* list : {&problem.dirichlet_dofs, &problem.contact})
@@ -16,11 +17,12 @@ struct DofOrdering {
     interior = static_cast<int>(dof.size());
     for (const int i : problem.contact) append(i);
   }
+  /// Returns the number of contact unknowns.
   int contact_count() const { return static_cast<int>(dof.size()) - interior; }
 
   std::vector<int> dof;       ///< n_free: position -> unknown
   std::vector<int> position;  ///< N: unknown -> position, -1 where it is prescribed
-  int interior = 0;           ///< n_free - C: the contact unknowns stand at interior, interior + 1, ...
+  int interior = 0;           ///< the position of the first contact unknown
 
  private:
   void append(int i) {
@@ -29,8 +31,8 @@ struct DofOrdering {
   }
 };
 
-/// R, the penalty of each row of B: delta, and of a row with a compliance of its own that, or `least` where it is larger;
-/// delta for a tie.
+/// Returns the penalty of each row of B (R): delta for parametric rows and for rows with the fixed
+/// compliance 0, and max(c, least) for a row with the fixed compliance c > 0.
 inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, double delta, double least) {
   Eigen::VectorXd penalties = Eigen::VectorXd::Constant(problem.b.rows(), delta);
   const Eigen::ArrayXd own = problem.fixed_compliances.array();
@@ -38,9 +40,10 @@ inline Eigen::VectorXd row_penalties(const VariationalInequality& problem, doubl
   return penalties;
 }
 
-/// Upper triangle (n_free x n_free, in the order of DofOrdering) of K = A1 + B' M diag(penalty)^-1 B on the free unknowns, from
-/// R penalties.
-/// Only the factorisation may see this sum: in it A1 has lost digits to delta^-1 (tutorial 18: the round-off trap).
+/// Returns the upper triangle of K = A1 + B' M diag(penalty)^-1 B on the free unknowns (n_free x
+/// n_free, in the order of `ordering`), for R penalties. K is for the factorisation alone: where
+/// delta^-1 B' M B dominates A1, the sum has lost digits of A1 by cancellation, and residuals with
+/// it would be wrong (tutorial 18).
 inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const DofOrdering& ordering,
                                      const Eigen::VectorXd& penalty) {
   const int size = static_cast<int>(ordering.dof.size());
@@ -50,8 +53,8 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const
   std::vector<int> touched;
   std::vector<double> sum(size, 0.0);
   std::vector<char> seen(size, 0);
-  // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator. (From triplets it takes ten times
-  // as long at 1/h = 256, an eighth of a solution: memory.)
+  // Gustavson's algorithm: one column of the sum at a time, in a dense accumulator. (From triplets
+  // it takes ten times as long at 1/h = 256, an eighth of a solution: memory.)
   for (int column = 0; column < size; ++column) {
     const int j = ordering.dof[column];
     const auto add = [&](Eigen::Index dof, double value) {
@@ -78,7 +81,8 @@ inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const
   return k;
 }
 
-/// The same with one penalty for all rows.
+/// Returns the same for one penalty delta of all rows; a fixed compliance above delta is the
+/// penalty of its row.
 inline SparseMatrix penalised_matrix(const VariationalInequality& problem, const DofOrdering& ordering, double delta) {
   return penalised_matrix(problem, ordering, row_penalties(problem, delta, delta));
 }

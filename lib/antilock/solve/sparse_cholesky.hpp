@@ -9,48 +9,54 @@
 
 namespace antilock {
 
-/// Sparse Cholesky factor L L' = P K P' of a symmetric positive definite K (n_free x n_free), of which the upper
-/// triangle is read.
+/// The sparse Cholesky factor L of P K P' = L L', P a permutation. K (n_free x n_free) is symmetric
+/// positive definite, and its upper triangle is read.
 class SparseCholesky {
  public:
   virtual ~SparseCholesky() = default;
 
-  /// Orders and analyses the pattern of K. `trailing_count` > 0: the last rows of K stay the last ones, in their order, and the
-  /// factor's own ordering is for the rest. Throws NotConverged out of memory.
+  /// Chooses P and analyses the pattern of K. The last `trailing_count` rows of K stay the last
+  /// ones of P K P', in their order. Throws NotConverged where memory runs out.
   virtual void analyse(const SparseMatrix& k, int trailing_count) = 0;
 
-  /// A numeric factorisation of a matrix of the analysed pattern. Returns the row of K whose pivot is not positive or
-  /// nothing but round-off (defaults::round_off); empty: K is positive definite. Throws NotConverged out of memory.
+  /// Computes L for a matrix of the analysed pattern. Returns nothing where K is positive definite.
+  /// Else it returns the row of K of a pivot l_ii^2 that is not positive, or at most
+  /// defaults::round_off times its diagonal entry k_ii, which is round-off. Throws NotConverged
+  /// where memory runs out.
   virtual std::optional<int> factorise(const SparseMatrix& k) = 0;
 
-  /// The smallest pivot, min_i l_ii^2; infinity for a K without rows. It is an upper bound of the smallest eigenvalue of
-  /// K, because a pivot is 1 / (e' S^-1 e) of a principal submatrix S. It is no more than a heuristic estimate of it: an
-  /// L with ones on its diagonal and -1 below has the pivots 1, and an eigenvalue of L L' falls exponentially with n_free.
+  /// Returns the smallest pivot, min_i l_ii^2, and infinity for a K without rows. It is an upper
+  /// bound of the smallest eigenvalue of K, because the pivot l_ii^2 is 1 / (e' S^-1 e), S the
+  /// leading i x i block of P K P' and e its last unit vector. As an estimate of that eigenvalue it
+  /// is a heuristic: for an L with ones on its diagonal and -1 everywhere below, all pivots are 1,
+  /// and the smallest eigenvalue falls exponentially with n_free.
   virtual double smallest_pivot() const = 0;
   virtual Eigen::VectorXd forward(const Eigen::VectorXd& r) const = 0;  ///< y = L^-1 P r
   virtual Eigen::VectorXd backward(Eigen::VectorXd y) const = 0;        ///< x = P' L'^-1 y
-  /// The trailing block of L (lower triangular) from place `first` of the order on.
+  /// Returns the rows and columns of L from position `first` on: a lower triangular block.
   virtual Eigen::MatrixXd trailing_block(int first) const = 0;
 };
 
-/// A function that makes a factor.
+/// A function that makes an empty factor.
 using CholeskyMaker = std::unique_ptr<SparseCholesky> (*)();
 
-/// CHOLMOD's, supernodal on a BLAS: the fastest that there is. Where rows are to stay last, CAMD orders the rest (a
-/// minimum degree under that constraint, as good as AMD without it); else CHOLMOD chooses between AMD and METIS. In a
-/// browser, which has neither CHOLMOD nor a BLAS, this is Eigen's (tutorials/book/wasm/host), which answers alike, to
-/// round-off.
+/// Returns CHOLMOD's supernodal factor, which works on a BLAS. Where rows are to stay last, CAMD
+/// orders the others (a minimum degree ordering under that constraint); else CHOLMOD chooses
+/// between AMD and METIS. A browser has neither CHOLMOD nor a BLAS: this is Eigen's factor there
+/// (tutorials/book/wasm/host), and results agree up to round-off.
 std::unique_ptr<SparseCholesky> default_cholesky();
 
-/// A symmetric positive definite K (n_free x n_free) of which some unknowns may be eliminated, as prescribed values
-/// are: the factor is that of the others, the rows and columns of the eliminated ones keep their diagonal alone. One
-/// analysis serves every set, so that another set costs one numeric factorisation.
+/// A symmetric positive definite K (n_free x n_free) and its factor on the unknowns that are not
+/// constrained, that is, whose values are not prescribed. Rows and columns of constrained unknowns
+/// keep their diagonal entries alone in the factored matrix. The pattern is analysed once, so that
+/// another constrained set costs one numeric factorisation.
 class ConstrainedCholesky {
  public:
   explicit ConstrainedCholesky(CholeskyMaker make = default_cholesky) : cholesky_(make()) {}
 
-  /// Takes the upper triangle of K and factors it with nothing eliminated; a later one must have the same pattern, and
-  /// `trailing_count` is of the first alone. Returns the row of a lost pivot. All as SparseCholesky.
+  /// Takes the upper triangle of K and factors it with no unknown constrained. A later K must have
+  /// the same pattern; `trailing_count` counts in the first call alone. Returns and throws what
+  /// SparseCholesky does.
   std::optional<int> factorise(SparseMatrix&& k, int trailing_count = 0) {
     k_.swap(k);  // Eigen 3.4 copies a sparse matrix that is moved
     constrained_.assign(k_.cols(), 0);
@@ -64,7 +70,8 @@ class ConstrainedCholesky {
     return lost_pivot;
   }
 
-  /// Eliminates the marked unknowns, and those alone. Throws Error where the rest of K is not positive definite.
+  /// Constrains the marked unknowns (n_free marks) and no others, and factors the rest of K. Throws
+  /// Error where that is not positive definite.
   void constrain(const std::vector<char>& constrained) {
     if (constrained == constrained_) return;
     SparseMatrix rest = k_;
@@ -78,7 +85,7 @@ class ConstrainedCholesky {
     constrained_ = constrained;
   }
 
-  /// x = K^-1 r on the unknowns that are not eliminated, 0 on the others.
+  /// Returns x (n_free): K x = r on the unknowns that are not constrained, x = 0 on the others.
   Eigen::VectorXd solve(const Eigen::VectorXd& r) const {
     Eigen::VectorXd x = cholesky_->backward(cholesky_->forward(r));
     for (Eigen::Index i = 0; i < x.size(); ++i)
@@ -86,8 +93,9 @@ class ConstrainedCholesky {
     return x;
   }
 
-  /// K x, the whole K; and |K| x.
+  /// Returns K x, with the whole K.
   Eigen::VectorXd times(const Eigen::VectorXd& x) const { return k_.selfadjointView<Eigen::Upper>() * x; }
+  /// Returns |K| x, with the absolute values of the entries of K.
   Eigen::VectorXd absolute_times(const Eigen::VectorXd& x) const {
     const SparseMatrix sizes = k_.cwiseAbs();
     return sizes.selfadjointView<Eigen::Upper>() * x;

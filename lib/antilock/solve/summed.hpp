@@ -1,50 +1,54 @@
 #pragma once
-/// Exhibits, to be compared against: what most codes do. The forms are summed into one matrix in double precision, and
-/// the sum forgets A1 digit by digit as the compliance falls; use active_set or uzawa instead.
+/// Reference implementations, for comparison only: they assemble both forms into one matrix in
+/// double precision, as most codes do, and this sum loses the digits of A1 as the compliance falls.
+/// Use active_set or uzawa instead.
 #include "antilock/solve/penalised_matrix.hpp"
 #include "antilock/solve/uzawa.hpp"
 
 namespace antilock {
 
-/// K u = load on the free unknowns, K = A1 + compliance^-1 B' M B.
+/// The assembled system K u = load on the n_free free unknowns, K = A1 + compliance^-1 B' M B.
 struct SummedSystem {
   DofOrdering ordering;
   SparseMatrix upper_triangle;  ///< n_free x n_free, the upper triangle of K
-  Eigen::VectorXd load;         ///< n_free: what the prescribed values leave of it
+  Eigen::VectorXd load;         ///< n_free: L - K u of the prescribed values
   Eigen::VectorXd u;            ///< N: the prescribed values, 0 elsewhere
 };
 
-/// Throws Error, `who` first, at compliance = 0, where the sum does not exist, and for bounds other than lower ones on
-/// unknowns; `instead` is the solver that takes that compliance.
+/// Assembles the system. Throws Error at compliance = 0 where B has rows, since K does not exist,
+/// and for bounds other than lower bounds on unknowns. The message begins with `who` and recommends
+/// the solver `instead`.
 SummedSystem summed_system(const VariationalInequality& problem, const std::string& who, const char* instead);
 
 enum class SummedFactor { cholesky, lu };  ///< CHOLMOD; UMFPACK
 
-/// How the naive solver ended. None of them says that the answer is right.
+/// Why the naive solver ended. No value implies that the solution is right.
 enum class ConvergedReason {
-  converged,            ///< the contact set reproduced itself
-  cycled,               ///< a contact set came back: it would go round for ever
-  linear_solve_failed,  ///< the factorisation gave up, or returned something that is not finite
-  max_iterations,       ///< max_steps reached
+  converged,            ///< the contact set is that of the iteration before
+  cycled,               ///< an earlier contact set came back, and the iteration would not end
+  linear_solve_failed,  ///< the factorisation failed, or its solution is not finite
+  max_iterations,       ///< the largest number of iterations was reached
 };
 
+/// Returns "settled", "cycled", "refused" or "step cap", in this order.
 std::string to_string(ConvergedReason reason);
 
-/// An answer that nobody has vouched for: solution.kkt is the report in split form, as it is, and no level of trust was
-/// applied. p is compliance^-1 B u, where u has lost the digits that p is made of.
+/// A solution without any guarantee: solution.kkt is its KKT report, which was compared with no
+/// tolerance. p is compliance^-1 B u, and where u has locked, B u has lost the digits of p.
 struct NaiveResult {
   Solution solution;
   ConvergedReason reason = ConvergedReason::converged;
 };
 
-/// The sum, factored in every step of a primal-dual active set that starts from no contact. Throws as summed_system
-/// does.
+/// Solves by the primal-dual active set method, which starts without contact and factors K on the
+/// inactive unknowns in every iteration. Throws as summed_system does.
 NaiveResult naive_summed_solve(const VariationalInequality& problem, SummedFactor kind, int max_iterations = 100);
 
-/// The paper's algorithm with the paper's linear solver (Section 4.2): one run of conjugate gradients on the sum,
-/// preconditioned by ILUT, a step. ILUT breaks down on stiff meshes that are not aligned with the layer, which is
-/// reported, never returned as an answer. Throws as summed_system does, and for options.stop_at: the duality gap asks
-/// for the matrix condensed on Gamma_C.
+/// Solves by the algorithm and the linear solver of [SR04], Section 4.2 (cited in
+/// problem/variational_inequality.hpp): Uzawa's method, whose every step runs conjugate gradients
+/// on K with an ILUT preconditioner. Throws NotConverged where ILUT breaks down, as it does on
+/// stiff meshes that are not aligned with the layer, and where an iteration does not converge.
+/// Throws Error as summed_system does and for options.stop_at, which needs the condensed matrix.
 Solution uzawa_cg_ilut(const VariationalInequality& problem, const UzawaOptions& options = {});
 
 }  // namespace antilock

@@ -9,35 +9,48 @@
 
 namespace antilock {
 
-/// An algebraic error that is balanced with the discretisation error (Ern and Vohralik 2013): to push it further down
-/// is not worth the steps. certificate/balanced_tolerance.hpp computes it.
+/// An algebraic error that is balanced with the discretisation error, so that further iterations
+/// would not improve the solution (A. Ern and M. Vohralik, SIAM J. Sci. Comput. 35, 2013).
+/// certificate/balanced_tolerance.hpp computes it. v is the iterate projected onto the admissible
+/// set, J the energy with the penalty delta in place of a smaller compliance.
 struct AlgebraicTolerance {
-  double energy = 0;    ///< of J(v) - J(u_h), v = the iterate pushed out of the obstacle, J with the penalty delta in
-                        ///< place of a smaller compliance
-  double relative = 0;  ///< the same in u: of |v - u_h|_a relative to |u_h|_a, the norm with delta, too
+  double energy = 0;    ///< on J(v) - J(u_h)
+  double relative = 0;  ///< on |v - u_h|_a / |u_h|_a, in the energy norm of J
 };
 
 struct UzawaOptions {
-  double tolerance = 1e-10;  ///< on the step in the gap, |lambda - max(0, lambda - rho gap)| / rho, relative to max |u|
-  int max_iterations = 1'000'000;                                ///< reached: NotConverged
-  double max_seconds = std::numeric_limits<double>::infinity();  ///< wall clock; reached: NotConverged
-  /// rho; empty: 2 / (largest + smallest eigenvalue of the compliance C), by Lanczos iteration, or the same of C scaled
-  /// to a unit diagonal, over its diagonal, where that is better conditioned.
+  /// On the change of lambda in one step over rho, a length, relative to the largest |u|.
+  double tolerance = 1e-10;
+  int max_iterations = 1'000'000;  ///< steps of all corrections together; after these: NotConverged
+  /// Wall clock; after these: NotConverged.
+  double max_seconds = std::numeric_limits<double>::infinity();
+  /// The step length rho. Empty: 2 / (largest + smallest eigenvalue) of the flexibility matrix S^-1
+  /// of the contact unknowns (not `compliance`), S their Schur complement. Where S^-1 scaled to a
+  /// unit diagonal is better conditioned, each unknown has a step length of its own: that of the
+  /// scaled matrix over its diagonal entry of S^-1. Lanczos iteration computes the eigenvalues.
   std::optional<double> step_length;
-  /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <= stop_at->energy
-  /// for the problem that a correction solves: (6) itself where compliance >= delta, else with delta in its place.
+  /// Stops as soon as the duality gap, computed every 32 steps, proves J(v) - J(u_h) <=
+  /// stop_at->energy for the problem of a correction. That is the problem itself where compliance
+  /// >= delta, else the one with delta in place of the compliance.
   std::optional<AlgebraicTolerance> stop_at;
-  ProgressHook progress = {};  ///< called every 32 steps, and after every correction that is not the last
+  ProgressHook progress = {};  ///< called every 32 steps and after each correction but the last
 };
 
-/// The paper's algorithm: projected gradient on the contact pressure,
-///     A u = L + lambda,   lambda <- max(0, lambda - rho (u - lower))   on Gamma_C,
-/// and + min(0, lambda - rho (u - upper)) where there is an upper bound, cut to |lambda| <= force_limit; the linear
-/// solve by Cholesky. Condensed on Gamma_C (the flexibility is dense there and small) a step costs a product with a C x
-/// C matrix; the stiff part is treated by iterated penalty, as in active_set. history holds one entry per step. Throws
-/// NotConverged, with how far it came, instead of ever returning an unconverged answer. Bounds of other shapes as in
-/// active_set.
+/// Solves by Uzawa's method, the algorithm of [SR04], Section 4.2 (cited in
+/// problem/variational_inequality.hpp). It is a projected gradient method for the contact forces
+/// (multipliers) lambda on the contact boundary Gamma_C:
+///
+///     u solves A u = L + lambda,   lambda <- max(0, lambda - rho (u - lower))   on Gamma_C
+///
+/// With upper bounds min(0, lambda - rho (u - upper)) is added, and |lambda| is cut to force_limit.
+/// The problem is condensed on the C bounds by a Cholesky factor, so that a step costs one product
+/// with the dense C x C flexibility matrix. The stiff form is treated by the iterated penalty
+/// method, and constraints in slack form, as in active_set. Solution::history has one entry per
+/// step. Throws Error for a malformed problem or option, and NotConverged, with the last relative
+/// step, in place of a solution that has not converged.
 Solution uzawa(const VariationalInequality& problem, const UzawaOptions& options = {});
+/// Does the same with a factor that exists already, made with ContactReduction::schur_complement.
+/// Throws Error for another one.
 Solution uzawa(const VariationalInequality& problem, PenalisedCholesky& factor, const UzawaOptions& options = {});
 
 }  // namespace antilock

@@ -12,17 +12,18 @@
 
 namespace antilock {
 
-/// A problem whose bounds are all on unknowns. A constraint lower <= c . u <= upper gets a slack variable
-/// w, an unknown after the N others, and an equality row of B, of compliance 0 (Nocedal and Wright, Numerical
-/// Optimization, ch. 15):
+/// A problem in slack form, whose bounds are all on unknowns. A constraint lower <= c . u <= upper
+/// gets a slack variable w, an unknown after the N others, and an equality row of B with the fixed
+/// compliance 0 (J. Nocedal and S. J. Wright, Numerical Optimization, ch. 15):
 ///
 ///     B gains the row (c, -1),   lower <= w <= upper,   A1 and the load are 0 at w
 ///
-/// Rows are scaled by a power of two, their largest entry to 1 or more and below 2: the units of a row do not matter.
-/// Of such a row K gains delta^-1 M (c, -1)' (c, -1): defaults::slack_stiffness_ratio times the stiffness 1 / sum
-/// (c_j^2 / K_jj) that c . u has at least, K = A1 + delta^-1 B' M B. Throws Error where K is 0 at a free unknown.
+/// Each row is scaled by a power of two so that its largest entry is at least 1 and below 2: the
+/// units of a row do not matter. For such a row K = A1 + delta^-1 B' M B gains delta^-1 M (c, -1)'
+/// (c, -1). This stiffness is defaults::slack_stiffness_ratio times 1 / sum_j (c_j^2 / K_jj), a
+/// lower estimate of the stiffness of c . u in K. Throws Error where K is 0 at a free unknown.
 ///
-/// Without constraints it is the problem itself, which must then outlive this.
+/// Without constraints it refers to the problem itself, which must then outlive it.
 class SlackForm {
  public:
   SlackForm(const VariationalInequality& problem, double delta) : problem_(problem) {
@@ -30,7 +31,7 @@ class SlackForm {
   }
   const VariationalInequality& operator*() const { return slack_problem_ ? *slack_problem_ : problem_; }
   const VariationalInequality* operator->() const { return &**this; }
-  /// C forces in the units of the rows of the problem itself.
+  /// Returns C forces in the units of the constraints of the problem itself.
   Eigen::VectorXd forces(Eigen::VectorXd lambda) const { return scaled(std::move(lambda), scale_); }
 
  private:
