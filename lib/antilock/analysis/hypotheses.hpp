@@ -3,26 +3,33 @@
 
 namespace antilock {
 
-/// What the paper's theorems ask of a discrete problem (Sections 2 and 3.1), computed for one given problem. Uniformity
-/// in h is seen by asking on two meshes.
+/// The hypotheses of the theorems of [SR04] (Sections 2 and 3.1; cited in
+/// problem/variational_inequality.hpp), computed for one discrete problem. Two meshes show whether
+/// they hold uniformly in h. G_h is the kernel of a0 on the free unknowns.
 struct Hypotheses {
-  double coercivity = 0;  ///< (H1), (H1nc): smallest (a1 + a0)(v, v) / norm(v, v); the theory wants it >= beta > 0
-  int kernel = 0;       ///< (H2): dim G_h, G_h the kernel of a0 on the free unknowns. All that a0 does not see is in it
-                        ///< (in (23) the whole body), so that its size does not tell locking: locking.hpp does
-  int free = 0;         ///< free unknowns: free - kernel conditions are asked
-  double distance = 0;  ///< of K_h from G_h (distance_to_kernel); the theory wants K_h and G_h to meet
+  /// (H1), (H1nc): the smallest (a1 + a0)(v, v) / norm(v, v). The theorems need a lower bound beta
+  /// > 0 for all h.
+  double coercivity = 0;
+  /// (H2): dim G_h. G_h contains every function on which a0 vanishes, in (23) those of the whole
+  /// body. So its size alone does not diagnose locking; locking.hpp does.
+  int kernel = 0;
+  int free = 0;  ///< free unknowns; B v = 0 are free - kernel independent conditions
+  /// The distance of K_h from G_h (distance_to_kernel). The theorems need a common element of both.
+  double distance = 0;
 
-  bool coercive() const { return coercivity > 1e-10; }        ///< far above the round-off of an eigenvalue
-  bool intersects_kernel() const { return distance < 1e-6; }  ///< below what the solvers refuse
+  bool coercive() const { return coercivity > 1e-10; }        ///< far above round-off
+  bool intersects_kernel() const { return distance < 1e-6; }  ///< the violation that solvers accept
 };
 
-/// (H2) also wants a0 >= 0: with M > 0 that is so by construction, and checked as such. `norm` is the N x N Gram matrix
-/// of the space's norm. Throws Error as `coercivity` does (a malformed problem, too many unknowns).
+/// Computes them. The part a0 >= 0 of (H2) holds by construction, since M > 0 is checked. `norm` is
+/// the N x N Gram matrix of the norm of the space. Throws Error as coercivity() does: for a
+/// malformed problem or too many unknowns.
 Hypotheses check_hypotheses(const VariationalInequality& problem, const SparseMatrix& norm);
 
-/// How far K_h and G_h are from meeting: the smallest B v over K_h, least squares in M, each row relative to its own
-/// sum |B| times max|v|. Zero up to round-off (below 1e-6) where problem (7), epsilon = 0, has a solution; larger where
-/// it has none. Throws Error for a malformed or singular problem.
+/// Measures how far K_h and G_h are from having a common element. Let v be the minimiser of (B v, M
+/// B v) over K_h, computed with a small compliance. Returns the largest |(B v)_j| / (sum_k |B_jk|
+/// max |v|) over the rows j. It is 0 up to round-off (below 1e-6) where problem (7), epsilon = 0,
+/// has a solution, and larger where it has none. Throws Error for a malformed or singular problem.
 double distance_to_kernel(const VariationalInequality& problem);
 
 }  // namespace antilock

@@ -3,29 +3,36 @@
 
 namespace antilock {
 
-/// N x n_free: the prolongation of the free unknowns to all of them.
+/// Returns the prolongation (N x n_free) of the free unknowns to all unknowns, with 0 at the
+/// prescribed ones.
 SparseMatrix free_prolongation(const VariationalInequality& problem);
 
-/// dim G_h, G_h = { v : B v = 0, v = 0 on the fixed unknowns } (Section 2, (H2)): by rank-revealing sparse QR. Zero:
-/// u_h -> 0 as epsilon -> 0 (Proposition 1), complete locking. Values below 1e-10 of B's largest column count as zero. Throws Error for a
-/// malformed problem.
+/// Returns dim G_h, G_h = { v : B v = 0, v = 0 on the prescribed unknowns } (Section 2 of [SR04],
+/// (H2); cited in problem/variational_inequality.hpp), by rank-revealing sparse QR. Values below
+/// 1e-10 of the largest column norm of B count as zero. Where dim G_h = 0, u_h tends to 0 as
+/// epsilon -> 0 (Proposition 1), which is complete locking. Throws Error for a malformed problem.
 int kernel_dimension(const VariationalInequality& problem);
 
-/// The stiff part alone: the unknowns that stand in no row of B (an entry that is zero counts), which are in every
-/// kernel, are held at 0. Its `contact` are the bounded unknowns of the stiff part, those in constraints, too.
+/// Returns the restriction of the problem to the unknowns with entries in B; a stored zero counts
+/// as an entry. The other unknowns, which are in the kernel of any B, are fixed at 0. `contact` of
+/// the result are the bounded unknowns among the restricted ones, including those of constraints.
 VariationalInequality stiff_part(VariationalInequality problem);
-/// kernel_dimension of the stiff part.
+/// Returns kernel_dimension of the stiff part.
 int layer_kernel_dimension(const VariationalInequality& problem);
-/// Of a stiff part: the dimension of the trace of its kernel on the bounded unknowns, how many independent motions of
-/// the bounds cost nothing at compliance 0. The kernel, less the part of it that is 0 on all bounds.
+/// Returns the dimension of the trace of the kernel on the bounded unknowns, for the stiff part of
+/// a problem: the number of independent motions of the bounds that need no energy at compliance 0.
+/// It is dim G_h less the dimension of the subspace of G_h that is 0 on all bounds.
 int trace_dimension(const VariationalInequality& stiff);
 
-/// An orthonormal basis of G_h, N x kernel_dimension, zero on the fixed unknowns. Dense: for small problems.
+/// Returns an orthonormal basis of G_h (N x kernel_dimension), zero on the prescribed unknowns.
+/// Dense: for small problems.
 Eigen::MatrixXd kernel_basis(const VariationalInequality& problem);
 
-/// The coercivity constant of (H1) and (H1nc): the smallest a1(v, v) + a0(v, v) over the free v with norm(v, v) = 1.
-/// Zero up to round-off or below: not coercive. `norm` is the N x N Gram matrix of the space's norm. Dense eigenvalues:
-/// throws Error for more than 2000 free unknowns, a malformed problem, or a norm that is not positive definite there.
+/// Returns the coercivity constant of (H1) and (H1nc): the smallest a1(v, v) + a0(v, v) over the
+/// free v with norm(v, v) = 1. Where it is zero up to round-off, or negative, the form is not
+/// coercive. `norm` is the N x N Gram matrix of the norm of the space. Dense eigenvalues: throws
+/// Error for more than 2000 free unknowns, a malformed problem, or a norm that is not positive
+/// definite on the free unknowns.
 double coercivity(const VariationalInequality& problem, const SparseMatrix& norm);
 
 }  // namespace antilock

@@ -3,12 +3,14 @@
 
 namespace antilock {
 
-/// The connected components of the layer's triangles, where two are connected by a common edge that is not vertical. On
-/// a component a conforming function without slope in y is one polynomial in x.
+/// The connected components of the layer's triangles. Two triangles are connected where they share
+/// an edge that is not vertical. On a component a conforming function v with d_y v = 0 is one
+/// polynomial in x.
 struct LayerComponents {
   int count = 0;
-  bool is_aligned = false;  ///< the mesh is aligned with the layer (in columns: vertical mesh lines, as in an
-                            ///< extruded mesh): one component below each edge of Sigma
+  /// Whether the mesh is aligned with the layer: vertical mesh lines, as in an extruded mesh, so
+  /// that there is one component below each edge of Sigma, the interface of body and layer.
+  bool is_aligned = false;
 };
 LayerComponents layer_components(const TriangleMesh& mesh);
 

@@ -6,8 +6,9 @@
 
 namespace antilock {
 
-/// Reports the locking of a solved scene with a layer. Empty for a scene without a layer. On aligned layers (in columns) and for elements that do not conform no number is
-/// made: what can be told from the mesh costs nothing.
+/// Returns the report on the locking of a solved scene, and nothing for a scene without a layer. For
+/// layers whose mesh is aligned and for nonconforming elements the mesh decides alone, and no number
+/// is computed. Does not throw where locking_loss does: the diagnosis says why there is no number.
 std::optional<LockingReport> report_locking(const Scene& scene, const Result& result);
 
 }  // namespace antilock

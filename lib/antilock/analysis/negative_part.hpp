@@ -4,17 +4,27 @@
 
 namespace antilock {
 
-/// The constant c_h of condition (9) of Definition 1: |min(v_h, 0)| <= c_h |v_h|_h in L2(Gamma_C) for v_h in K_h
-/// (bounds 0), since where v_h >= 0 at its points on an edge the part below 0 is no larger than what separates v_h from
-/// the function through those points: the mean (CR: |E| (v_b - v_a)^2 / 12 for the square), the two chords (P2: |E|
-/// (v_a - 2 v_m + v_b)^2 / 120), nothing (P1: c_h = 0). The largest eigenvalue over V_h, so an upper bound.
+/// The constant c_h of condition (9), Definition 1 of [SR04] (cited in
+/// problem/variational_inequality.hpp):
+///
+///     |min(v_h, 0)| <= c_h |v_h|_h   for all v_h of K_h with the bounds 0
+///
+/// in the norms of L2(Gamma_C), Gamma_C the contact boundary, and the broken H1 norm |.|_h.
+/// It is an upper bound: the largest eigenvalue over all of V_h. On an edge E where v_h >= 0 at its
+/// points, min(v_h, 0) is at most |v_h - I v_h|, I v_h a function through these points that is not
+/// negative. With v_a, v_m, v_b the values of v_h at the ends and at the midpoint of E,
+///
+///     CR: I v_h is the mean,         |v_h - I v_h|^2 = |E| (v_b - v_a)^2 / 12 on E
+///     P2: I v_h are two chords,      |v_h - I v_h|^2 = |E| (v_a - 2 v_m + v_b)^2 / 120
+///     P1: I v_h is v_h,              so that c_h = 0
 struct NegativePart {
   double constant = 0;    ///< c_h
-  Eigen::VectorXd worst;  ///< the v_h of norm 1 that is furthest from that function; empty for P1
+  Eigen::VectorXd worst;  ///< the v_h of norm 1 with the largest |v_h - I v_h|; empty for P1
 };
 
-/// `norm`: h1_gram_matrix. Where the bounded unknowns of `problem` are fixed to 0, CR's worst v_h is in K_h, and what it has
-/// below 0 is c_h / 2^(1/2). Dense in the edges of Gamma_C. Throws Error for other elements.
+/// Computes it. `norm` is h1_gram_matrix. Where the bounded unknowns of `problem` are fixed to 0,
+/// CR's worst v_h is in K_h, and its negative part has the norm c_h / 2^(1/2). Dense in the number
+/// of edges of Gamma_C. Throws Error for other elements than P1, P2 and CR.
 NegativePart negative_part(const Space& space, VariationalInequality problem, const SparseMatrix& norm);
 
 }  // namespace antilock

@@ -8,28 +8,34 @@
 
 namespace antilock {
 
-/// The load of a ball of which a method makes the largest error: the supremum in the definition of locking of Babuska
-/// and Suri (SIAM J. Numer. Anal. 29, 1992; [3] of the paper), without contact.
+/// The load in the unit ball of L2(body) for which a method has the largest error: the supremum in
+/// the definition of locking of I. Babuska and M. Suri (SIAM J. Numer. Anal. 29, 1992), without
+/// contact.
 struct WorstLoad {
   double error = 0;      ///< |u - u_h| in the (broken) energy seminorm, the largest for |f| <= 1 in L2(body)
   Eigen::VectorXd load;  ///< of norm 1, in LoadModes
 };
 
-/// l_k: the error at epsilon = 0 under psi_k sin(k pi x) / |psi_k|, psi_k = sinh(k pi (1 - y)) / sinh(k pi), of a
-/// method whose functions are all 0 on the layer. A conforming method with d functions there loses at least l_{d+1} on
-/// the ball. k >= 1, falling.
+/// Returns l_k, the error at epsilon = 0 under the load psi_k sin(k pi x) / |psi_k|, psi_k = sinh(k
+/// pi (1 - y)) / sinh(k pi), of a method whose functions are all 0 on the layer. It falls with k >=
+/// 1. A conforming method with d independent functions on the layer has a worst error of at least
+/// l_{d+1} over the ball.
 double loss_of_wave(int k);
 
-/// What P_p on an unstructured mesh loses on the ball at epsilon = 0 as h -> 0, and never less: a body resolved exactly
-/// whose traces on Sigma are x (1 - x) times polynomials of degree p - 2; for p = 1 they are 0. By 64 waves; p from 1.
+/// Returns the limit as h -> 0 of the worst error of P_p over the ball at epsilon = 0 on an
+/// unstructured mesh; no mesh has a smaller one. It is the error of a body that is resolved
+/// exactly, whose traces on Sigma, the interface of body and layer, are x (1 - x) times polynomials
+/// of degree p - 2, or 0 for p = 1. p >= 1; computed with 64 waves.
 ///
-/// The functions lost are z = sum c_k e_k with a(z, v) = 0 for the kept traces v: in the basis e_k / |e_k|_a,
-/// orthonormal in a, with |z|^2 = sum l_k^2 c_k^2, they are orthogonal to the vectors (energy_of_wave^(1/2) int v sin(k
-/// pi x))_k.
+/// The functions that are lost are z = sum c_k e_k with a(z, v) = 0 for the kept traces v. In the
+/// basis e_k / |e_k|_a, orthonormal in a, with |z|^2 = sum l_k^2 c_k^2, they are orthogonal to the
+/// vectors (energy_of_wave^(1/2) int v sin(k pi x))_k.
 double loss_of_degree(int p);
 
-/// The width of the ball: no conforming space with n functions on the body has a smaller worst error, for any epsilon.
-/// 1 / (pi (k^2 + m^2)^(1/2)), the last of the first n + 1 sines sin(k pi x) sin(m pi y). n >= 0.
+/// Returns the Kolmogorov n-width of the ball's solutions (A. Pinkus, n-Widths in Approximation
+/// Theory, 1985): no conforming space with n >= 0 functions on the body has a smaller worst error,
+/// for any epsilon. It is 1 / (pi (k^2 + m^2)^(1/2)), where sin(k pi x) sin(m pi y) is the last of
+/// the first n + 1 sines in the order of k^2 + m^2.
 double kolmogorov_width(int n);
 
 /// The error of (23) without contact as a quadratic form in the load f = LoadModes:
@@ -37,12 +43,13 @@ double kolmogorov_width(int n);
 ///     |u - u_h|^2 = f' E f,  E = S - F' A^-1 F                                   V_h in V: by Galerkin's orthogonality
 ///                            E = S + F' A^-1 F - F' J - J' F                     CR, J f = I_h u
 ///
-/// in the seminorm of a^epsilon. S: exact response. F: the loads integrated against the basis. A: the method's matrix.
-/// CR's interpolant I_h u has a_h(u, v_h) = a_h(I_h u, v_h). F is dense, N x n; E is never formed.
+/// in the seminorm of a^epsilon. S: exact response. F: the loads integrated against the basis. A:
+/// the method's matrix. CR's interpolant I_h u has a_h(u, v_h) = a_h(I_h u, v_h). F is dense, N x
+/// n; E is never formed.
 class ErrorForm {
  public:
-  /// modes.waves() from 1 to 2 per cell side: above, the load is integrated inexactly.
-  /// Throws Error for more than 4.25 waves per longest edge, a mesh of anything but the two unit squares, a space
+  /// modes.waves() from 1 to 2 per cell side: above, the load is integrated inexactly. Throws Error for
+  /// more than 4.25 waves per longest edge, a mesh of anything but the two unit squares, a space
   /// without layer, or of an element that is neither conforming nor CR.
   ErrorForm(const Space& space, LoadModes modes);
 

@@ -40,8 +40,9 @@ struct ActiveSetOptions {
 /// Solves a discrete variational inequality, and cannot know whether the element locks: `solve`
 /// (analysis/solve.hpp) reports that.
 ///
-/// There are two nested loops. The outer one is the iterated penalty method: the proximal point method on the dual problem for the layer stress p = compliance^-1 B u
-/// (R. T. Rockafellar, SIAM J. Control Optim. 14, 1976). It corrects u and p by one Cholesky factor
+/// There are two nested loops. The outer one is the iterated penalty method: the proximal point
+/// method on the dual problem for the layer stress p = compliance^-1 B u (R. T. Rockafellar, SIAM J.
+/// Control Optim. 14, 1976). It corrects u and p by one Cholesky factor
 /// of K = A1 + delta^-1 B' M B, where delta >= compliance is the penalty. The inner loop is the
 /// active set method of contact.hpp: it finds the contact set of each correction. With L the load
 /// and E' lambda the forces lambda of the bounds on the unknowns (problem/bounds.hpp):
