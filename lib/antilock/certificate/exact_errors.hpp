@@ -5,8 +5,9 @@
 
 namespace antilock {
 
-/// The errors that a certificate bounds, by a rule of degree 8 against the exact solution of the scaled layer. Fluxes
-/// count by A^-1; everything is dimensionless.
+/// The errors that a certificate bounds (certificate.hpp), computed against the exact solution u of
+/// the scaled layer by a quadrature rule of degree 8. Fluxes are in the norm of A^-1; everything is
+/// dimensionless.
 struct ExactErrors {
   double gradient = 0;      ///< |A grad u - S_h|
   double flux = 0;          ///< |A grad u - sigma|
