@@ -5,17 +5,21 @@
 
 namespace antilock {
 
-/// Newest-vertex bisection, with red refinement where all edges of a triangle are halved (Carstensen 2004). A triangle is
-/// halved from its newest vertex, its vertex 0, to the middle of the edge opposite, its edge 0; the middle is the newest
-/// vertex of both halves. Where all three edges are halved it falls into four triangles like itself. Either way a first
-/// triangle has no descendants of more than four shapes, so that no angle becomes small. Every triangle of `triangles`
-/// (T) is cut into four, every edge of `edges` (E; empty: none) is halved, and whatever else keeps the mesh conforming is
-/// halved, too. Regions and tags are inherited, vertices keep their numbers. Works on any mesh: call longest_edge_first
-/// once, on the first one. Throws Error for marks of another number.
+/// Refines a mesh by newest-vertex bisection, with red refinement where all edges of a triangle are
+/// halved (C. Carstensen, Constr. Approx. 20, 2004). A triangle is halved from its newest vertex,
+/// its vertex 0, to the midpoint of the edge opposite, its edge 0; the midpoint is the newest
+/// vertex of both halves. Where all three edges are halved, it is divided into four triangles
+/// similar to it. Either way the descendants of a triangle of the first mesh have at most four
+/// shapes, so that angles stay bounded below. Every triangle of `triangles` (T marks) is divided
+/// into four, every edge of `edges` (E marks, or empty for none) is halved, and so is every further
+/// edge that a conforming mesh needs. Regions and tags are inherited, vertices keep their numbers.
+/// It works on any mesh: call longest_edge_first once, on the first mesh. Throws Error for another
+/// number of marks.
 TriangleMesh bisected(const TriangleMesh& mesh, const std::vector<bool>& triangles,
                       const std::vector<bool>& edges = {});
 
-/// The same mesh with each triangle's vertices turned round until its longest edge lies opposite vertex 0.
+/// Returns the same mesh with the vertices of each triangle rotated so that its longest edge lies
+/// opposite vertex 0.
 TriangleMesh longest_edge_first(TriangleMesh mesh);
 
 }  // namespace antilock

@@ -12,29 +12,34 @@
 
 namespace antilock {
 
-/// What is asked: the proved relative error in the energy norm is at most `relative`.
+/// The goal of adaptive refinement: a guaranteed relative error in the energy norm of at most
+/// `relative`.
 struct AccuracyGoal {
   double relative;  ///< in (0, 1)
-  Quantity of =
-      Quantity::displacement;  ///< or the stress field in the middle of the two fluxes: a quarter of the unknowns
-  double most_unknowns = 2e6;  ///< of Crouzeix-Raviart, on the last mesh
-  std::optional<RefinementStrategy> strategy =
-      {};                ///< empty: columns for epsilon <= 0.1 (P1, P2: where the first mesh has them), else
-                         ///< everything is bisected
-  double tolerance = 1;  ///< relative, on the algebraic error; no less than the certificate needs
-  const Element* element = &crouzeix_raviart();  ///< or P1, P2, on the mesh as it is: displacement alone
-  ProgressHook follow = {};  ///< called between the steps of each level, and in its solves; `false` stops
+  /// The quantity whose error counts. The midpoint of the two fluxes (Quantity::stress) needs a
+  /// quarter of the unknowns.
+  Quantity of = Quantity::displacement;
+  double most_unknowns = 2e6;  ///< of Crouzeix-Raviart on the last mesh
+  /// Empty: extrude for epsilon <= 0.1 (with P1 and P2 only where the first mesh has columns), else
+  /// bisect.
+  std::optional<RefinementStrategy> strategy = {};
+  /// An upper limit for the relative algebraic error of a solve. The certificate may need less.
+  double tolerance = 1;
+  const Element* element = &crouzeix_raviart();  ///< or P1, P2, for the displacement alone
+  /// Called between the steps of a level and in its solves. It stops the refinement by false.
+  ProgressHook follow = {};
 };
 
-/// One mesh on the way.
+/// One level of the refinement.
 struct RefinementLevel {
   int unknowns = 0;
-  double bound = 0, relative = 0;                        ///< certified
-  double seconds = 0;                                    ///< wall clock since the start, everything in
-  double predicted_unknowns = 0, predicted_seconds = 0;  ///< for the accuracy asked, from the third level on; else 0
+  double bound = 0, relative = 0;  ///< guaranteed, absolute and relative
+  double seconds = 0;              ///< wall clock since the start
+  /// Predictions for the goal, from the third level on; 0 before.
+  double predicted_unknowns = 0, predicted_seconds = 0;
 };
 
-/// The answer and its proof.
+/// The solution of the last level and its certificate.
 struct CertifiedSolution {
   Result result;  ///< of the element asked for, on the last mesh, with the locking report; its warning is that of the
                   ///< report and what the certificate cannot see of the load
@@ -44,19 +49,23 @@ struct CertifiedSolution {
   std::vector<RefinementLevel> history;
 };
 
-/// Refines until the certificate says that the accuracy asked is reached, the algebraic error stopped at a tenth of the
-/// bound. For epsilon <= 0.1 the body is bisected and the layer's columns are extruded below it; else everything is
-/// bisected. `first` is the first mesh, of any body; where the layer is extruded, one of the body alone will do, and
-/// the Ventcel layer is the scaled one with epsilon = 0. Refinement inherits its triangles' shapes: gmsh's at 1/h = 8
-/// cost 6 % more unknowns than a fine mesh of gmsh's own, those at 1/h = 16 1 %. `progress` is called after every level.
+/// Refines adaptively until the certificate guarantees the accuracy. Each solve goes on until its
+/// algebraic residual is at most a tenth of the constitutive error (Certificate). `first` is the
+/// first mesh, of any body; where the layer is extruded, a mesh of the body alone suffices. The
+/// Ventcel layer is solved as the scaled one with epsilon = 0. Refined triangles inherit the shapes
+/// of the first mesh: gmsh's at 1/h = 8 need 6 % more unknowns than a fine mesh of gmsh's own,
+/// those at 1/h = 16 need 1 % more. `progress` is called after every level.
 ///
-/// A P1 answer is the companion itself, in K between the vertices, too; Crouzeix-Raviart beside it gives the flux. A P2
-/// answer is as far from u as that P1 function is, and as it is from that (certified_distance). Where either locks, h
-/// must come down to epsilon first: an end that needs more than the limit is told at once, with what locks.
+/// A P1 result is the conforming companion itself, which is in K between the vertices as well;
+/// Crouzeix-Raviart on the same mesh gives the flux. The bound of a P2 result is that of the P1
+/// companion plus the distance of the two (certified_distance). Where P1 or P2 locks, h must fall
+/// to about epsilon before the error does. Where a prediction exceeds the limit of unknowns,
+/// refinement ends at once, and the message names the reason.
 ///
-/// Throws Error for an accuracy outside (0, 1), another element, a limit that cannot hold the first mesh, a scene and a
-/// mesh that do not fit; NotConverged where the accuracy is not to be reached within the limit, with what is;
-/// Interrupted where accuracy.follow says so.
+/// Throws Error for an accuracy outside (0, 1), another element, a limit below the unknowns of the
+/// first mesh, and a scene and a mesh that do not fit. Throws NotConverged, with the accuracy that
+/// can be reached, where the goal is beyond the limit, and Interrupted where accuracy.follow
+/// returns false.
 CertifiedSolution solve_to(const Scene& scene, const TriangleMesh& first, const AccuracyGoal& accuracy,
                            const std::function<void(const RefinementLevel&)>& progress = {});
 
