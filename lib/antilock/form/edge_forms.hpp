@@ -9,21 +9,26 @@
 
 namespace antilock {
 
-/// N values of int g phi_i over the edges with this tag (between two triangles the mean of both sides), by Gauss
-/// points exact for g of degree k + 3. Throws Error where g is not finite.
+/// Returns the N values of int g phi_i over the edges with this tag, phi_i the basis functions
+/// (between two triangles the mean of both sides). Gauss's rule is exact for g of degree k + 3, k
+/// the degree of the element. Throws Error where g is not finite.
 Eigen::VectorXd edge_load(const Space& space, EdgeTag tag, const Field& g);
-/// N x N matrix of int k u v over them. Throws Error where k is negative or not finite.
+/// Returns the N x N matrix of int k u v over these edges. Throws Error where k is negative or not
+/// finite.
 Eigen::SparseMatrix<double> edge_mass(const Space& space, EdgeTag tag, const Field& k);
-/// The same as rows: u at each Gauss point, where k is above 0. Throws as edge_mass does.
+/// Returns the same form in factors: a row of B is u at a Gauss point where k is positive. Throws
+/// as edge_mass does.
 WeightedFactoredForm edge_rows(const Space& space, EdgeTag tag, const Field& k);
-/// N x N matrix of such a form.
+/// Returns the N x N matrix B' diag(stiffness m) B of a form in factors.
 Eigen::SparseMatrix<double> gram_matrix(const WeightedFactoredForm& rows);
 
-/// N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v of (25), on the contact edges of a mesh of the body alone.
-/// The trace is the continuous piecewise affine function through the unknowns on Sigma and the clamped ends: for P1 the
-/// trace itself, for CR the one through the edge midpoints (the broken trace has no derivative across vertices). Throws
-/// Error for another element than P1 or CR, and where Sigma is bent, in pieces or not held at both ends by u = 0.
-/// given: the V values that are prescribed at the ends of held edges.
+/// Returns the N x N matrix of the Ventcel term int_Sigma d/dx u d/dx v, (25) of [SR04] (cited in
+/// problem/variational_inequality.hpp), on the contact edges of a mesh of the body alone. The trace
+/// of u is the continuous piecewise affine function through the unknowns on Sigma and the clamped
+/// ends. For P1 that is the trace itself. For CR it goes through the edge midpoints, because the
+/// broken trace has no derivative across vertices. `given` are the V values that are prescribed at
+/// the ends of Dirichlet edges. Throws Error for another element than P1 or CR, and where Sigma is
+/// bent, in pieces or not clamped at both ends.
 Eigen::SparseMatrix<double> ventcel_form(const Space& space, const Eigen::VectorXd& given);
 
 }  // namespace antilock

@@ -5,16 +5,19 @@
 
 namespace antilock {
 
-/// A form kept as its factors: (u, v) -> (B u, M B v), M diagonal. A row of B is a strain at one quadrature point of a
-/// cell, M the weight of that point. The form is never summed into another one (see problem/).
+/// A bilinear form that is kept as its factors: (u, v) -> (B u, M B v), M diagonal. A row of B is a
+/// strain at one quadrature point of a cell, and M holds the weight of that point. The form is not
+/// assembled into another one, because a sum would lose digits
+/// (problem/variational_inequality.hpp). N unknowns, R rows.
 struct FactoredForm {
   RowMatrix b;            ///< R x N
   Eigen::VectorXd m;      ///< R, positive, the diagonal of M
   std::vector<int> cell;  ///< R, the cell (a triangle of the mesh) behind each row
 };
 
-/// The form sum_j stiffness_j m_j (b_j u) (b_j v) as rows: M holds what comes from the mesh and the rule, and the moduli
-/// stand beside it, however far apart they are.
+/// The factored form sum_j stiffness_j m_j (b_j u) (b_j v) over rows b_j of B. M holds the weights
+/// of the quadrature rule, and the moduli are kept beside it, since they may be many orders of
+/// magnitude apart.
 struct WeightedFactoredForm {
   FactoredForm form;          ///< R rows
   Eigen::VectorXd stiffness;  ///< R, positive

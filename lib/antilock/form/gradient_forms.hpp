@@ -10,35 +10,40 @@
 
 namespace antilock {
 
-/// Stiffness in x and in y of a region: the form is the integral of x d/dx u d/dx v + y d/dy u d/dy v.
+/// The stiffness of a region in x and in y: the form is int x (d_x u) (d_x v) + y (d_y u) (d_y v).
 struct Stiffness {
   double x = 1, y = 1;
 };
 
-/// The factor that `of_body` is on a triangle of the body: its value at the centroid; 1 where it is empty. Throws Error
-/// where it is not positive.
+/// Returns the stiffness of a triangle of the body: the value of `of_body` at the centroid, and 1
+/// where `of_body` is empty. Throws Error where it is not positive.
 double stiffness_on(const Field& of_body, const TriangleMesh& mesh, int triangle);
 
-/// N x N matrix of the sum over the triangles of  int stiffness.x d/dx u d/dx v + stiffness.y d/dy u d/dy v.
-/// The forms a+ and a_x^- of (23) are {1, 1} on the body and {1, 0} on the layer.
+/// Returns the N x N matrix of the form, summed over the triangles. The forms a+ and a_x^- of (23)
+/// of [SR04] (cited in problem/variational_inequality.hpp) are {1, 1} on the body and {1, 0} on the
+/// layer.
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const Stiffness& body, const Stiffness& layer);
-/// The same with a stiffness of each triangle (T).
+/// Returns the same for a stiffness per triangle (T).
 Eigen::SparseMatrix<double> gradient_form(const Space& space, const std::vector<Stiffness>& of_triangle);
-/// The same as rows: d/dx and d/dy at each point of strain_quadrature, where that stiffness is above 0.
+/// Returns the same form in factors: rows of B are d_x and d_y at each point of strain_quadrature
+/// where their stiffness is positive.
 WeightedFactoredForm gradient_rows(const Space& space, const std::vector<Stiffness>& of_triangle);
 
-/// The factored form of a_y^-(u, v) = (B u, M B v), (23): a row of B is d/dy at a quadrature point of a layer triangle,
-/// M its weight. For P1 and CR d/dy is constant on a triangle: one row each, M its area. `direction`: of a triangle, another
-/// than y.
+/// Returns the factored form of a_y^-(u, v) = (B u, M B v) of (23). A row of B is d_y at a
+/// quadrature point of a layer triangle, and M holds the weight of the point times the area. For P1
+/// and CR d_y u is constant on a triangle, which has one row then. `direction` returns the
+/// direction to use on a triangle in place of y.
 FactoredForm layer_strain(const Space& space, const std::function<Eigen::Vector2d(int triangle)>& direction = {});
-/// The rule behind the rows of B, a triangle: d/dy u_h is of degree k - 1 and is squared, so 2 (k - 1): the centroid
-/// for degree 1, the edge midpoints for degree 2.
+/// Returns the quadrature rule of these rows. d/dy u_h has degree k - 1 on a triangle, and its
+/// square degree 2 (k - 1): the rule is the centroid for degree 1 and the edge midpoints for degree
+/// 2.
 const Quadrature& strain_quadrature(const Element& element);
 
-/// N values of (f, phi_i) over the body, or over the layer, by load_rule.
+/// Returns the N values of int f phi_i over the body, or over the layer, by load_rule.
 Eigen::VectorXd load_vector(const Space& space, const Field& f, Region region = Region::body);
 
-/// Of degree 5, or 2 k for an element of degree k > 2: what it leaves out is smaller than the error of the element.
+/// Returns a rule of degree 5, or of degree 2 k for an element of degree k > 2, so that the
+/// quadrature error is smaller than the error of the element.
 const Quadrature& load_rule(const Element& element);
 
 }  // namespace antilock

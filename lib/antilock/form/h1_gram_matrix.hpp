@@ -5,8 +5,10 @@
 
 namespace antilock {
 
-/// N x N Gram matrix of the broken H1 norm, the ||.||_{1,Omega_h} of Section 4.2: sum over the triangles of int grad
-/// u.grad v + u v.
+/// Returns the N x N Gram matrix of the broken H1 norm, ||.||_{1,Omega_h} of Section 4.2 of [SR04]
+/// (cited in problem/variational_inequality.hpp):
+///
+///     (u, v) -> sum over the triangles T of int_T grad u . grad v + u v
 Eigen::SparseMatrix<double> h1_gram_matrix(const Space& space);
 
 }  // namespace antilock

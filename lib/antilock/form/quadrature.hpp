@@ -7,27 +7,32 @@
 
 namespace antilock {
 
-/// A quadrature rule on a triangle: weights sum to 1, to be multiplied by the area.
+/// A quadrature rule on a triangle T: int_T f is about |T| sum_q weights_q f(points_q). The weights
+/// sum to 1.
 struct Quadrature {
   Eigen::MatrixX3d points;  ///< q x 3, barycentric
   Eigen::VectorXd weights;  ///< q
 };
 
-/// Radon's 7-point rule, exact for polynomials of degree 5 (FreeFEM's qf5pT: loads agree to round-off).
+/// Returns Radon's 7-point rule, exact for polynomials of degree 5. It is FreeFEM's qf5pT, so that
+/// loads agree to round-off.
 const Quadrature& radon_rule();
-/// Strang and Fix's 3-point rule (edge midpoints), exact for degree 2.
+/// Returns the rule of the 3 edge midpoints, exact for degree 2 (Strang and Fix).
 const Quadrature& midpoint_rule();
-/// A rule exact for the given degree, 0 to 12 (else Error): the centroid, midpoint_rule, radon_rule, and from degree 6
-/// on Gauss points in both directions of a square folded to the triangle (Stroud's conical product).
+/// Returns a rule that is exact for the given degree: the centroid, midpoint_rule, radon_rule, and
+/// from degree 6 on Gauss points in both directions of a square that is mapped to the triangle
+/// (Stroud's conical product). Throws Error for a degree outside 0 to 12.
 const Quadrature& triangle_rule(int degree);
 
-/// Points (n) and weights (n) of Gauss on (0, 1), exact for degree 2n - 1.
+/// Returns points (n) and weights (n) of Gauss's rule on (0, 1), exact for degree 2n - 1.
 std::pair<Eigen::VectorXd, Eigen::VectorXd> gauss_rule(int n);
 
-/// Barycentric coordinates of the place s on the edge opposite local vertex i: s = 0 at vertex i + 1, 1 at i + 2.
+/// Returns the barycentric coordinates of the point s on the edge opposite local vertex i: s = 0 at
+/// vertex i + 1, 1 at i + 2.
 Eigen::Vector3d on_edge(int i, double s);
 
-/// The mean of every basis function of the element on the edge opposite local vertex i, exact.
+/// Returns the mean of every basis function of the element over the edge opposite local vertex i,
+/// exact.
 Eigen::VectorXd means_on_edge(const Element& element, int i);
 
 }  // namespace antilock

@@ -11,7 +11,7 @@ namespace antilock {
 
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// The matrix with the sums of the entries at each place.
+/// Returns the matrix (rows x columns) whose entries are the sums of the triplets at each place.
 template <class Matrix>
 Matrix from_triplets(Eigen::Index rows, Eigen::Index columns, const Triplets& entries) {
   Matrix matrix(rows, columns);
@@ -40,8 +40,9 @@ class FactoredFormBuilder {
   std::vector<int> cell_;
 };
 
-/// Where each column of a matrix of the space begins, and where the last one ends: its rows are the unknowns that share a
-/// triangle with it. They sit on the vertices, edges and triangles around the column's own, which the mesh counts.
+/// Returns the column pointers (N + 1) of the compressed matrix of a space: where each column
+/// begins, and where the last one ends. The rows of a column are the unknowns that share a triangle
+/// with its unknown. The mesh counts them by the vertices, edges and triangles around it.
 inline std::vector<int> column_pointers(const Space& space) {
   const TriangleMesh& mesh = space.mesh();
   const int v = space.element().dofs_per_vertex(), e = space.element().dofs_per_edge(),
@@ -61,8 +62,9 @@ inline std::vector<int> column_pointers(const Space& space) {
   return start;
 }
 
-/// Sums element matrices into a sparse matrix, in linear time: the mesh says how many entries each column has, and each
-/// element puts its own in place. `local(t)` returns the m x m matrix of triangle t.
+/// Assembles element matrices into a sparse matrix (N x N), in linear time: column_pointers gives
+/// the number of entries of each column, and each element adds its entries in place. `local(t)`
+/// returns the m x m matrix of triangle t.
 template <class LocalMatrix>
 Eigen::SparseMatrix<double> assemble_cells(const Space& space, LocalMatrix&& local) {
   const auto& unknowns = space.cell_dofs();

@@ -5,24 +5,28 @@
 
 namespace antilock {
 
-/// The weights of a strain projection: a row per mean (G), a column per row of B (R). No weight is negative, and each
-/// column sums to 1.
+/// The weights of a strain projection onto means (G x R): a row per mean, a column per row of B.
+/// Weights are not negative, and each column sums to 1.
 using StrainProjection = RowMatrix;
 
-/// The form of the projected strain, as in the B-bar method (Hughes 1980). Row g of B is the mean of the rows of B
-/// with the weights projection(g, r) m(r), and the new M are the sums of these weights. Weights 0 and 1 make groups:
-/// the strain is projected in L2 onto constants per group. Hat functions as weights make a mixed form: a row is
-/// (integral of phi_g times the strain) / (integral of phi_g). The new form is never larger than the old one (Jensen).
-/// `cell` of a mean: the first cell that has a weight, or none where the form names none. Throws Error for weights
-/// that do not fit: another number of columns, a negative one, a column that does not sum to 1, an empty row.
+/// Returns the form of the projected strain, as in the B-bar method (T. J. R. Hughes, Int. J.
+/// Numer. Methods Eng. 15, 1980). Row g of the new B is the mean of the rows r of B with the
+/// weights projection(g, r) m(r), and the new M are the sums of these weights. Weights 0 and 1 make
+/// groups: the strain is projected in L2 onto constants per group. Hat functions phi_g as weights
+/// make a mixed form: a row is (int phi_g times the strain) / (int phi_g). By Jensen's inequality
+/// the new form is never larger than the old one. `cell` of a mean is the first cell with a weight
+/// in it; it is empty where the form has no cells. Throws Error for another number of columns, a
+/// negative weight, a column that does not sum to 1, and an empty row.
 FactoredForm project_strain(const FactoredForm& form, const StrainProjection& projection);
 
-/// A mean per box of the grid of `width` x `height` (lengths, positive; from the smallest x and y of the mesh on) that
-/// has the centroid of a cell in it. Throws Error for a length that is not positive.
+/// Returns the projection onto the means over the boxes of a grid that contain the centroid of a
+/// cell. The boxes are `width` x `height` (lengths) and begin at the smallest x and y of the mesh.
+/// Throws Error for a length that is not positive.
 StrainProjection box_projection(const TriangleMesh& mesh, const FactoredForm& form, double width, double height);
 
-/// A mean per vertex of the cells, over its patch, with its hat function at the points of `rule` as the weight: the
-/// rows of a cell are those of the rule, in turn. Throws Error where they are not.
+/// Returns the projection onto one weighted mean per vertex of the cells, over its patch. The
+/// weight is the hat function of the vertex at the points of `rule`: the rows of a cell are the
+/// points of the rule, in turn. Throws Error where they are not.
 StrainProjection vertex_projection(const TriangleMesh& mesh, const FactoredForm& form, const Quadrature& rule);
 
 }  // namespace antilock

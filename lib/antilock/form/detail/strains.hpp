@@ -5,7 +5,8 @@
 
 namespace antilock {
 
-/// The derivatives (u_x, u_y, v_x, v_y) of the bases of both components on a triangle, at the points of a rule.
+/// The derivatives (u_x, u_y, v_x, v_y) of the bases of both components on a triangle, at the
+/// points of a rule.
 class Gradients {
  public:
   Gradients(const VectorSpace& space, const Quadrature& rule)
@@ -36,7 +37,8 @@ class Gradients {
   std::vector<Eigen::MatrixX3d> of_x_, of_y_;  ///< by the barycentric coordinates, the same on every triangle
 };
 
-/// The sum of the element matrices that `local(t)` gives with the unknowns behind their rows and columns.
+/// Assembles element matrices into a sparse matrix (size x size). `local(t)` returns the unknowns
+/// of triangle t and its matrix.
 template <class Local>
 SparseMatrix assemble_strains(int size, int triangles, Local&& local) {
   Triplets entries;
