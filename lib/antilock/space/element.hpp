@@ -6,39 +6,46 @@
 
 namespace antilock {
 
-/// An element: the support points of its unknowns and its basis, in barycentric coordinates lambda.
-/// Local order of the unknowns: vertices 0 1 2, then edges 0 1 2 (edge i opposite vertex i), then the interior.
+/// A finite element on a triangle: its m unknowns, their support points and its basis, in
+/// barycentric coordinates lambda. The local order of the unknowns is: vertices 0 1 2, edges 0 1 2
+/// (edge i is opposite vertex i), the interior.
 class Element {
  public:
   virtual ~Element() = default;
   virtual std::string name() const = 0;
-  virtual int degree() const = 0;  ///< of the polynomials of the basis: what a quadrature must be exact for
-  virtual bool conforming() const { return true; }  ///< V_h is part of V: no jumps
+  virtual int degree() const = 0;                   ///< the polynomial degree of the basis
+  virtual bool conforming() const { return true; }  ///< V_h is a subspace of V: no jumps
   virtual int dofs_per_vertex() const = 0;          ///< unknowns at a vertex
   virtual int dofs_per_edge() const = 0;  ///< unknowns on an edge, ordered from its vertex i+1 to its vertex i+2
   virtual int dofs_per_cell() const = 0;  ///< unknowns inside a triangle
-  /// m x 3: barycentric coordinates of the m unknowns; basis function i is 1 at row i and 0 at the others.
+  /// Returns the barycentric coordinates of the unknowns (m x 3). Basis function i is 1 at row i
+  /// and 0 at the others.
   virtual Eigen::MatrixX3d support_points() const = 0;
-  /// m values of the basis at lambda.
+  /// Returns the m values of the basis at lambda.
   virtual Eigen::VectorXd basis(const Eigen::Vector3d& lambda) const = 0;
-  /// m x 3 derivatives d phi_i / d lambda_j; the gradient is this times grad lambda (3 x 2).
+  /// Returns the derivatives d phi_i / d lambda_j (m x 3). The gradients are this times grad lambda
+  /// (3 x 2).
   virtual Eigen::MatrixX3d derivative(const Eigen::Vector3d& lambda) const = 0;
 
+  /// Returns m.
   int dofs() const { return 3 * dofs_per_vertex() + 3 * dofs_per_edge() + dofs_per_cell(); }
 };
 
-/// The elements, one instance each, alive as long as the program: P1, P2, P3 and P4 (conforming; beyond P1 contact is
-/// asked at the unknowns on Gamma_C alone, so that K_h is not part of K), CR (Crouzeix-Raviart, P1 nonconforming of
-/// Section 4.2: edge midpoints) and P1 with a bubble per triangle, which is P1 on every edge.
+/// The elements. Each is one instance that lives as long as the program. P1 to P4 are conforming;
+/// beyond P1 the contact condition holds at the unknowns on Gamma_C, the contact boundary, alone,
+/// so that K_h is not part of K. CR is Crouzeix-Raviart's nonconforming P1 element of Section 4.2
+/// of [SR04] (cited in problem/variational_inequality.hpp), with its unknowns at edge midpoints.
+/// The last one is P1 with a bubble per triangle, which is P1 on every edge.
 const Element& p1();
 const Element& p2();
 const Element& p3();
 const Element& p4();
 const Element& crouzeix_raviart();
 const Element& p1_bubble();
-/// P1 to P6 by their degree; throws Error for another.
+/// Returns one of P1 to P6 by its degree. Throws Error for another degree.
 const Element& lagrange(int degree);
-/// By name, "P1" to "P6", "CR" or "P1+bubble"; throws Error for another.
+/// Returns an element by its name, "P1" to "P6", "CR" or "P1+bubble". Throws Error for another
+/// name.
 const Element& element(const std::string& name);
 
 }  // namespace antilock

@@ -3,13 +3,14 @@
 
 namespace antilock {
 
-/// What of the shear strain grad w - theta the energy sees (form/plate_forms.hpp).
+/// The reduction of the shear strain grad w - theta in the energy (form/plate_forms.hpp).
 enum class ShearRule { exact, mean, edges };
 
-/// A deflection w and a rotation theta = (theta_x, theta_y) of one mesh, and how their shear is taken. With
-/// ShearRule::edges the rotation has one unknown more per edge: 6 lambda_j lambda_k times the unit tangent from the
-/// smaller vertex to the larger, whose mean on the edge is 1 (Duran and Liberman 1992). N unknowns: those of w, theta_x,
-/// theta_y and the edges.
+/// The space of a plate: a deflection w and a rotation theta = (theta_x, theta_y) on one mesh, and
+/// the rule of their shear. With ShearRule::edges the rotation has one unknown more per edge, with
+/// the basis function 6 lambda_j lambda_k times the unit tangent from the smaller vertex number to
+/// the larger, whose mean on the edge is 1 (R. Duran and E. Liberman, Math. Comp. 58, 1992). The N
+/// unknowns are those of w, theta_x, theta_y and the edges, in this order.
 struct PlateSpace {
   Space deflection;
   VectorSpace rotation;
