@@ -3,8 +3,9 @@
 
 namespace antilock {
 
-/// A bar of stiffness 1, held at x = 0, pulled by `pull` at x = 1, on a floor with g = 1 per length: it slips on the
-/// last `pull` of it, u = (x - 1 + pull)^2 / 2 there.
+/// Assembles a bar of stiffness 1 on (0, 1) in n cells, fixed at x = 0 and pulled by the force
+/// `pull` at x = 1, on a floor with the friction limit g = 1 per length. The exact solution slips
+/// on the part of length `pull` at its end: u = (x - 1 + pull)^2 / 2 there, else 0.
 VariationalInequality bar_on_a_floor(int n, double pull);
 
 }  // namespace antilock
