@@ -5,17 +5,19 @@
 
 namespace antilock {
 
-/// An edge of Gamma_C as its triangle sees it: opposite a local vertex (form/quadrature.hpp: on_edge).
+/// An edge of Gamma_C, the contact boundary: its triangle, and the local vertex opposite
+/// (form/quadrature.hpp: on_edge).
 struct ContactEdge {
   int triangle, opposite;
   double length;  ///< dimensionless, as the mesh
 };
 
-/// The edges with the tag `contact`, in the order of the mesh's edges.
+/// Returns the edges with the tag `contact`, in the order of the mesh's edges.
 std::vector<ContactEdge> contact_edges(const TriangleMesh& mesh);
 
-/// v_h on Gamma_C between its unknowns, by x: x, v_h, and the length that the sample stands for, at 32 midpoints an edge.
-/// A nonconforming v_h has two values at a vertex; neither is sampled.
+/// Returns samples of v_h on Gamma_C, sorted by x, in the columns x, v_h and length of the sample.
+/// Each edge has 32 samples, the midpoints of equal parts. So the vertices, where a nonconforming
+/// v_h has two values, are not sampled.
 Eigen::MatrixX3d contact_trace(const Space& space, const Eigen::VectorXd& v);
 
 }  // namespace antilock

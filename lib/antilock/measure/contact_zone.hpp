@@ -9,19 +9,21 @@ namespace antilock {
 
 struct ContactZone {
   int points = 0;                  ///< contact unknowns
-  int active = 0;                  ///< of these in contact
-  std::optional<double> from, to;  ///< x-range of the active ones; empty where none
+  int active = 0;                  ///< those in contact
+  std::optional<double> from, to;  ///< x-range of those in contact; empty where there is none
 };
-/// The space of the result is that of the component with bounds, one per unknown on Gamma_C. Throws Error for another, for
-/// bounds on constraints (they have no point) and for friction.
+/// Returns the contact zone of a solution. Its space is that of the bounded component, with one bound
+/// per unknown on Gamma_C, the contact boundary. Throws Error for another space, for bounds on
+/// constraints, which have no point, and for friction.
 ContactZone contact_zone(const Result& result);
 
-/// Length of Gamma_C that each contact unknown stands for: its edge (CR), half its two edges (P1). lambda divided by it
-/// is the contact pressure as a density (force a unit length).
+/// Returns the length of Gamma_C per contact unknown: its edge for CR, half its two edges for P1.
+/// lambda divided by it is the contact pressure as a density (force per length).
 Eigen::VectorXd contact_lengths(const Space& space);
 
-/// One row per contact unknown: x, gap >= 0 (to the nearer bound), pressure (density) >= 0, <= 0 at an upper bound.
-/// C x 3. Throws Error as contact_zone does.
+/// Returns a row per contact unknown (C x 3): x, the distance to the nearer bound, and the contact
+/// pressure (a density), >= 0 at a lower bound and <= 0 at an upper one. Throws Error as
+/// contact_zone does.
 Eigen::MatrixX3d contact_table(const Result& result);
 
 }  // namespace antilock

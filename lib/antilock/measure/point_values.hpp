@@ -7,21 +7,25 @@
 
 namespace antilock {
 
-/// Where a point lies in a mesh, and what a discrete function is there.
+/// Locates points in a mesh and evaluates discrete functions there.
 class PointValues {
  public:
   explicit PointValues(const Space& space);
 
-  /// The triangle that holds x (up to `outside` of its size beyond its edges counts as in it) and its barycentric coordinates there;
-  /// empty outside the mesh. On an edge: the triangle of the smallest number.
+  /// The triangle that contains a point, and the barycentric coordinates of the point in it.
   struct Location {
     int triangle;
     Eigen::Vector3d lambda;
   };
+  /// Returns the location of x, and nothing outside the mesh. A point beyond an edge by at most the
+  /// fraction `outside` of the size of the triangle counts as inside. On an edge it is the triangle
+  /// of the smallest number.
   std::optional<Location> locate(const Eigen::Vector2d& x, double outside = 1e-12) const;
 
-  /// u: N values, one per unknown. Crouzeix-Raviart is the value in the located triangle.
+  /// Returns the value of the function with the N unknowns u; for Crouzeix-Raviart that in the
+  /// located triangle.
   double value(const Eigen::VectorXd& u, const Location& at) const;
+  /// Returns its gradient in the located triangle.
   Eigen::Vector2d gradient(const Eigen::VectorXd& u, const Location& at) const;
 
  private:

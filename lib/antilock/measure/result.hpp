@@ -40,7 +40,8 @@ struct Result {
   std::optional<LockingReport> locking = {};  ///< of a scene with a layer, where it was asked for
 };
 
-/// A result in the form in which the class is studied: its problem with assemble_fixed_rows, and p of the rows that are left.
+/// Returns a result in the form that the analysis studies: rows of B with a positive fixed compliance
+/// are assembled into A1 (problem/variational_inequality.hpp), and p has the other rows' entries.
 inline Result assemble_fixed_rows(const Result& result) {
   const VariationalInequality& problem = result.problem;
   Result summed{result.space, assemble_fixed_rows(problem), result.solution};
