@@ -150,7 +150,8 @@ s/\bstrain_rows\b/strain_form_factored/g
 s/\bRowsOfB\b/FactoredFormBuilder/g
 s/\bsum_element_matrices\b/assemble_cells/g
 s/\bcolumn_starts\b/column_pointers/g
-s/\b(divergence|strain)_rule\b/strain_quadrature/g
+s/\bdivergence_rule\b/strain_quadrature/g
+s/\bstrain_rule\b/strain_quadrature/g
 s/\bh1_norm\b/h1_gram_matrix/g
 s/(\.|->)membrane\(\)/\1plane_strain_modulus()/g
 s/\bPress\b/BlockLoading/g

@@ -11,7 +11,7 @@ namespace antilock {
 /// Entries of A1 are rounded to eps. In a part of stiffness k this leaves a spring of about eps k
 /// to the ground at each unknown. Where a stiffness k0 alone holds the part, n unknowns move by n
 /// eps k / k0 of themselves: at k / k0 = 1e3 and n = 1e6 by 2e-7. So A1 sums the forms up to 1e3
-/// times the softest one. The others are rows of B with compliances of their own. A motion without
+/// times the softest one. The others are rows of B with fixed compliances. A motion without
 /// strain costs there the square of a rounding, and moves by n eps^2 k / k0: 5e-10 at k / k0 =
 /// 1e16.
 class StiffnessRange {
