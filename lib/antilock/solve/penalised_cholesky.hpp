@@ -12,14 +12,12 @@ class SlackForm;
 /// How the linear system of a correction is reduced for the contact iteration. K is the penalised
 /// matrix on its n_free unknowns, and n_bounds of them are bounded.
 /// - schur_complement: the contact unknowns come last in the factor of K, and the contact iteration
-///   works on their dense
-///   n_bounds x n_bounds Schur complement (static condensation). Uzawa's method needs it.
+///   works on their dense n_bounds x n_bounds Schur complement (static condensation). Uzawa's method
+///   needs it.
 /// - sparse: each contact iteration factors K on the unknowns that are not active. Its cost is that
-///   of a sparse factor,
-///   whatever n_bounds is.
+///   of a sparse factor, whatever n_bounds is.
 /// - automatic: sparse where n_bounds > 10 sqrt(n_free), else schur_complement.
-///   penalised_cholesky.cpp has the measurements
-///   behind the 10.
+///   penalised_cholesky.cpp has the measurements behind the 10.
 enum class ContactReduction { automatic, schur_complement, sparse };
 
 /// The sparse Cholesky factor of the penalised matrix K = A1 + delta^-1 B' M B of a problem in
