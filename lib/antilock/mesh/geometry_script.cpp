@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -155,6 +156,7 @@ bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z')
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {
+    if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // the byte order mark of UTF-8
     if (const auto nul = text.find('\0'); nul != text.npos)
       refuse(1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n')),
              "a byte 0", "is no sign of a script; accepted: text");
@@ -450,7 +452,7 @@ class Rewriter {
     } else if (token.is("newcl")) {
       put(i, "newll");  // the same number; gmsh 4.8 knows newll alone
     } else if (variables_.contains(token.text)) {
-      put(i, "v_" + token.text);
+      put(i, variable(token.text));
       guard_index(i);
     } else {
       const bool member = is(i + 1, ".") && is_word(i + 2);
@@ -458,6 +460,27 @@ class Rewriter {
              "is neither a command that draws nor a variable of the script; " + std::string(accepted));
     }
     return i + 1;
+  }
+  /// v_1, v_2, ... in the order in which the script names them. gmsh looks for the end of a loop that it skips letter
+  /// by letter, inside of names, too: a name of the script would take part in it. To gmsh x~{1} is x_1, so that numbers
+  /// behind the name are kept.
+  std::string variable(const std::string& name) {
+    std::size_t end = name.size();
+    for (std::size_t at = end; at > 0;) {
+      while (at > 0 && is_digit(name[at - 1])) --at;
+      if (at == end || at < 2 || name[at - 1] != '_') break;
+      end = --at;
+    }
+    const int number = numbers_.try_emplace(name.substr(0, end), static_cast<int>(numbers_.size()) + 1).first->second;
+    return fmt::format("v_{}{}", number, name.substr(end));
+  }
+  /// name~{...}~{...}: gmsh writes a name that it does not know into a text of 1,024 letters.
+  void refuse_long_chains(std::size_t i) const {
+    constexpr int longest = 8;  // of up to 12 letters each
+    int links = 0;
+    for (std::size_t at = i; is(at, "~") && is(at + 1, "{"); at = tokens_[at + 1].partner + 1) ++links;
+    if (links > longest)
+      refuse(tokens_[i].line, "~", fmt::format("stands {} times in a row; accepted: up to {}", links, longest));
   }
   /// Line Loop(...), Curve Loop(...), Wire Loop(...), Surface Loop(...); the others before a {.
   void named_command(std::size_t i) {
@@ -473,6 +496,7 @@ class Rewriter {
   }
   void copy_sign(std::size_t i) {
     const Token& token = tokens_[i];
+    if (token.is("~")) refuse_long_chains(i);
     const bool closes = token.is(")") || token.is("]") || token.is("}");
     const bool guarded = guarded_.contains(i);
     if (guarded && closes) put(i, ") ) ) ) ) ) ) ) )");
@@ -595,6 +619,7 @@ class Rewriter {
 
   const std::vector<Token>& tokens_;
   Words variables_;
+  std::map<std::string, int> numbers_;  // of the variables that were written
   Words field_numbers_;
   Words names_;  // texts behind Name
   std::size_t first_physical_ = none;

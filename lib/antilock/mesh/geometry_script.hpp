@@ -10,9 +10,9 @@ namespace antilock {
 /// itself.
 ///
 /// What is returned consists of numbers, of signs, of words from a list of commands that draw, and
-/// of names of variables with the prefix `v_`, with which no word of gmsh begins. The only texts in
-/// quotation marks are "OpenCASCADE" and "Built-in". So whatever the order of its words, it can
-/// name no file and start no program. Tokens keep their lines, so that gmsh's own messages name the
+/// of variables, which are called v_1, v_2, ... in place of their names. The only texts in quotation
+/// marks are "OpenCASCADE" and "Built-in". So no word of the file's own choice reaches gmsh, and
+/// whatever the order of its words, it can name no file and start no program. Tokens keep their lines, so that gmsh's own messages name the
 /// right one.
 ///
 /// An index outside of 0 to 1e6 becomes a division by zero, which gmsh reports: gmsh itself would
@@ -26,7 +26,7 @@ namespace antilock {
 /// for anything else.
 std::string geometry_script(const std::string& text);
 
-/// The words that geometry_script may leave without the prefix `v_`.
+/// The words that geometry_script may write beside numbers, signs, kernels and variables.
 std::vector<std::string> geometry_script_commands();
 
 }  // namespace antilock

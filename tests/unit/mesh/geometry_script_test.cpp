@@ -40,11 +40,37 @@ std::string guarded(const std::string& index) {
 
 TEST(GeometryScript, KeepsNumbersSignsAndCommandsAndRenamesVariables) {
   EXPECT_EQ(words(geometry_script("h = 1e-1; Point(1) = {0.5, -.5, 2., h};")),
-            "v_h = 1e-1 ; Point ( 1 ) = { 0.5 , - .5 , 2. , v_h } ;");
+            "v_1 = 1e-1 ; Point ( 1 ) = { 0.5 , - .5 , 2. , v_1 } ;");
   EXPECT_EQ(words(geometry_script("a() = {1:3}; a(0) += 2; a() -= 1; b~{1} = #a();b~{1}++;")),
-            "v_a ( ) = { 1 : 3 } ; v_a ( " + guarded("0") +
-                " ) += 2 ; v_a ( ) -= 1 ; v_b ~ { 1 } = # v_a ( ) ; v_b ~ { 1 } ++ ;");
-  EXPECT_EQ(words(geometry_script("Merge = 1; x = Merge;")), "v_Merge = 1 ; v_x = v_Merge ;");
+            "v_1 ( ) = { 1 : 3 } ; v_1 ( " + guarded("0") +
+                " ) += 2 ; v_1 ( ) -= 1 ; v_2 ~ { 1 } = # v_1 ( ) ; v_2 ~ { 1 } ++ ;");
+  EXPECT_EQ(words(geometry_script("Merge = 1; x = Merge;")), "v_1 = 1 ; v_2 = v_1 ;");
+}
+
+// To gmsh x~{1} is another name of x_1.
+TEST(GeometryScript, KeepsTheNumbersBehindANameOfAVariable) {
+  EXPECT_EQ(words(geometry_script("x_1 = 1; x~{2} = 2; y = x~{1}; x_1_20 = y; a_ = 1; _1 = 2; x1 = 3; x_ = x_1;")),
+            "v_1_1 = 1 ; v_1 ~ { 2 } = 2 ; v_2 = v_1 ~ { 1 } ; v_1_1_20 = v_2 ; v_3 = 1 ; v_4 = 2 ; v_5 = 3 ; "
+            "v_6 = v_1_1 ;");
+}
+
+// gmsh looks for the end of a loop that it skips letter by letter: the word behind EndFor in a name was run.
+TEST(GeometryScript, KeepsNoLettersOfTheNamesOfVariables) {
+  const std::string script = geometry_script("a1EndFor1Exit = 1;\nFor i In {2:1}\na1EndFor1Exit ;\nEndFor\n");
+  EXPECT_EQ(words(script), "v_1 = 1 ; For v_2 In { 2 : 1 } v_1 ; EndFor");
+}
+
+TEST(GeometryScript, TakesAByteOrderMark) { EXPECT_EQ(words(geometry_script("\xEF\xBB\xBFh = 1;")), "v_1 = 1 ;"); }
+
+// gmsh writes the name into 1,024 letters of its stack.
+TEST(GeometryScript, RefusesLongChainsOfNumbersBehindAName) {
+  const auto chain = [](int links) {
+    std::string script = "x = 1;\ny = x";
+    for (int i = 0; i < links; ++i) script += "~{-2147483648}";
+    return script + ";";
+  };
+  EXPECT_EQ(refusal(chain(8)), "");
+  expect_refused(chain(9), 2, "~");
 }
 
 TEST(GeometryScript, KeepsTheLinesOfItsTokens) {
@@ -73,14 +99,14 @@ TEST(GeometryScript, LeavesOutCommentsAndWhatConcernsTheMeshAlone) {
 TEST(GeometryScript, KeepsTheValuesOfConstantsAndLeavesOutTheirMenus) {
   EXPECT_EQ(
       words(geometry_script("DefineConstant[ h = {0.1, Min 0, Name \"a/b\"}, n = 3, l() = {{1, 2}, Name \"c\"} ];")),
-      "DefineConstant [ v_h = { 0.1 } , v_n = 3 , v_l ( ) = { { 1 , 2 } } ] ;");
+      "DefineConstant [ v_1 = { 0.1 } , v_2 = 3 , v_3 ( ) = { { 1 , 2 } } ] ;");
 }
 
 TEST(GeometryScript, KeepsLoopsAndTheKernel) {
   EXPECT_EQ(words(geometry_script("SetFactory(\"OpenCASCADE\");\nFor i In {1:3}\n  Point(i) = {i, 0, 0};\nEndFor\n")),
-            "SetFactory ( \"OpenCASCADE\" ) ; For v_i In { 1 : 3 } Point ( v_i ) = { v_i , 0 , 0 } "
+            "SetFactory ( \"OpenCASCADE\" ) ; For v_1 In { 1 : 3 } Point ( v_1 ) = { v_1 , 0 , 0 } "
             "; EndFor");
-  EXPECT_EQ(words(geometry_script("For (1:2)\n p = newp;\nEndFor")), "For ( 1 : 2 ) v_p = newp ; EndFor");
+  EXPECT_EQ(words(geometry_script("For (1:2)\n p = newp;\nEndFor")), "For ( 1 : 2 ) v_1 = newp ; EndFor");
 }
 
 TEST(GeometryScript, RefusesByNameAndLineWhatRunsReadsOrWrites) {
@@ -173,7 +199,7 @@ TEST(GeometryScript, RefusesWhatIsNoScript) {
   using namespace std::string_literals;
   expect_refused("a = 1;\nb = \0;"s, 2, "a byte 0");
   expect_refused("// \0\n"s, 1, "a byte 0");
-  expect_refused("\xEF\xBB\xBFPoint(1) = {0,0,0};", 1, "?");
+  expect_refused("\xEF\xBB\xBF\xEF\xBB\xBFPoint(1) = {0,0,0};", 1, "?");
   expect_refused("\n$MeshFormat", 2, "$");
   expect_refused("Point(1) = {0, 0, 0};\n/* ", 2, "/*");
   expect_refused("Printf(\"", 1, "a text");
@@ -225,7 +251,7 @@ TEST(GeometryScript, RefusesCommandsThatAreNamesOutsideOfTheirForm) {
   EXPECT_EQ(words(geometry_script("Line Loop(newcl) = {1}; Curve Loop(2) = {1}; Surface Loop(1) = {1}; b() = "
                                   "Boundary{ Surface{1}; }; Translate {1, 0, 0} { Duplicata{ Curve{1}; } }")),
             "Line Loop ( newll ) = { 1 } ; Curve Loop ( 2 ) = { 1 } ; Surface Loop ( 1 ) = { 1 } ; "
-            "v_b ( ) = Boundary { Surface { 1 } ; } ; Translate { 1 , 0 , 0 } { Duplicata { Curve "
+            "v_1 ( ) = Boundary { Surface { 1 } ; } ; Translate { 1 , 0 , 0 } { Duplicata { Curve "
             "{ 1 } ; } }");
 }
 
@@ -297,12 +323,12 @@ TEST(GeometryScript, RefusesWhatGmshReadsInItsOwnWay) {
 // stand.
 TEST(GeometryScript, KeepsEveryIndexFromZeroOn) {
   const std::string before = "l() = {1}; k~{1} = {1}; ", three = guarded("- 3");
-  for (const auto& [index, kept] : {std::pair<std::string, std::string>{"l[-3] = 1;", "v_l [ " + three + " ] = 1 ;"},
-                                    {"l(-3) = 1;", "v_l ( " + three + " ) = 1 ;"},
-                                    {"x = l /* */ [-3];", "v_x = v_l [ " + three + " ] ;"},
-                                    {"x = k~{1}[-3];", "v_x = v_k ~ { 1 } [ " + three + " ] ;"},
-                                    {"k~{1}~{2}(-3)++;", "v_k ~ { 1 } ~ { 2 } ( " + three + " ) ++ ;"},
-                                    {"x = l[l[-3]];", "v_x = v_l [ " + guarded("v_l [ " + three + " ]") + " ] ;"}}) {
+  for (const auto& [index, kept] : {std::pair<std::string, std::string>{"l[-3] = 1;", "v_1 [ " + three + " ] = 1 ;"},
+                                    {"l(-3) = 1;", "v_1 ( " + three + " ) = 1 ;"},
+                                    {"x = l /* */ [-3];", "v_3 = v_1 [ " + three + " ] ;"},
+                                    {"x = k~{1}[-3];", "v_3 = v_2 ~ { 1 } [ " + three + " ] ;"},
+                                    {"k~{1}~{2}(-3)++;", "v_2 ~ { 1 } ~ { 2 } ( " + three + " ) ++ ;"},
+                                    {"x = l[l[-3]];", "v_3 = v_1 [ " + guarded("v_1 [ " + three + " ]") + " ] ;"}}) {
     const std::string script = words(geometry_script(before + index));
     EXPECT_EQ(script.substr(script.size() - kept.size()), kept) << script;
   }
