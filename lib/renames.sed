@@ -54,7 +54,6 @@ s/\brelative_stiffness\b/stiffness_ratio/g
 s/(\.|->)sum_([01])\b/\1trace_a\2/g
 s/(\.|->)most_([01])\b/\1max_a\2/g
 s/\busual_penalty\b/default_penalty/g
-s/\bslack\(/distance_to_bound(/g
 s/\bmoderate_delta\b/penalty_parameter/g
 
 # solve

@@ -17,6 +17,7 @@
 #include <new>
 #include <nlohmann/json.hpp>
 #include <system_error>
+#include <variant>
 
 #include "antilock/adapt/solve_to.hpp"
 #include "antilock/core/atomic_file.hpp"

@@ -245,7 +245,7 @@ CertifiedSolution solve_to(const Scene& asked, const TriangleMesh& first, const 
     predict(history, accuracy.relative);
     if (progress) progress(history.back());
     if (relative <= accuracy.relative) {
-      result.locking = report_locking(asked, result);
+      result.locking = report_locking(scene, result);
       result.warning = joined(result.locking ? result.locking->warning : "", warning);
       Solution companion;
       companion.solver = "strip";

@@ -17,7 +17,7 @@ namespace antilock {
 /// the solve. Throws Error where every unknown is fixed and as `assemble` does, and what active_set throws.
 Result solve(const Scene& scene, const Space& space, const ActiveSetOptions& options = {});
 
-/// Returns the solution of a problem of the class: uzawa, or a lambda with options of its own.
+/// A function that solves a problem of the class, for example a lambda that calls uzawa with its options.
 using Solver = std::function<Solution(const VariationalInequality& problem)>;
 /// The same by another solver.
 Result solve(const Scene& scene, const Space& space, const Solver& solver);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <tuple>
+#include <variant>
 
 #include "antilock/analysis/locking.hpp"
 #include "antilock/core/dense.hpp"

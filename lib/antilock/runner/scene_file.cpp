@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <sstream>
+#include <variant>
 
 #include "antilock/core/number.hpp"
 #include "antilock/core/plain_text.hpp"

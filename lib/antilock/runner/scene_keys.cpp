@@ -129,7 +129,7 @@ std::vector<SceneKey> point_and_model_keys() {
        .line = 1, .example = "\"plane strain\"",
        .comment = "a block pressed down on the gap: its clamped edges (of the unit square: the top) sink by\n"
                   "push = 0.1, the rest is free, f is upwards. Without a layer: rubber, mu = 1, epsilon = 1/lambda\n"
-                  "(default 0: incompressible). With one: a coating of that thickness and of the block's\n"
+                  "(default 1e-8; 0: incompressible). With one: a coating of that thickness and of the block's\n"
                   "material (young = 1, poisson = 0.3) divided by it. friction = \"0.1\": Tresca's bound"},
       {.section = "model", .name = "push", .type = Type::number, .does = "how far the clamped edges sink",
        .otherwise = "0.1", .accepted = "-1e+06 to 1e+06", .range = SceneKey::Range{-1e6, 1e6},

@@ -189,6 +189,8 @@ TriangleMesh read_mesh_of(const SceneFile& scene_file, const Geometry& geometry)
       throw Error("the body's bottom edge is in several pieces; accepted with model = \"ventcel\": one piece");
     if (std::holds_alternative<VentcelLayer>(scene.layer()))  // what its term refuses
       assemble(Scene({[](double, double) { return 0; }}, VentcelLayer{}, {}, scene.edges()), Space(mesh, p1()));
+  } catch (const InputError&) {
+    throw;
   } catch (const MeshError& error) {
     throw MeshError(path + ": " + error.what());
   } catch (const Error& error) {
@@ -220,6 +222,8 @@ TriangleMesh checked_mesh(const SceneFile& file) {
            : kind == "unstructured" ? unstructured_mesh(cells, domain)
            : kind == "layered"      ? layered_mesh(cells, file.scene.epsilon().value_or(1))
                                     : read_mesh_of(file, named);
+  } catch (const InputError&) {
+    throw;
   } catch (const MeshError& error) {
     throw InputError(at_its_key(error) +
                      "; accepted: MSH 2.2 or 4.1 with the groups body, layer (if the scene has one), clamped and "

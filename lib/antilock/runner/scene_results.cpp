@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <variant>
 
 #include "antilock/core/atomic_file.hpp"
 #include "antilock/core/blas.hpp"

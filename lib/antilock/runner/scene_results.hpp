@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "antilock/adapt/solve_to.hpp"
-#include "antilock/analysis/locking_report.hpp"
 #include "antilock/measure/contact_zone.hpp"
 #include "antilock/measure/result.hpp"
 #include "antilock/runner/scene_file.hpp"
@@ -42,7 +41,6 @@ struct SceneSummary {
   };
   std::optional<Parallel> parallel;
 };
-/// With the layer's report, whose warning comes first.
 SceneSummary summary_of(const SceneFile& file, const Result& result);
 
 /// The text of summary.json, the only place of its keys, which are those of `run_scene --help`. `certified`, where an

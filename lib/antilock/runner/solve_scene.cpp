@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <variant>
 
 #include "antilock/core/stopwatch.hpp"
 #include "antilock/runner/scene_checks.hpp"
@@ -91,9 +92,8 @@ CertifiedSolution solve_scene(const SceneFile& file, const Callbacks& follow) {
     begin(fmt::format("solve: {}, {} unknowns", method.solver, problem.free_count()));
     return solve_as_asked(file, space, problem, follow.solve);
   };
-  Result result = solved([&] {
-    return std::visit([&](const auto& model) { return model.solve(file, space, by_method); }, file.model);
-  });
+  Result result = solved(
+      [&] { return std::visit([&](const auto& model) { return model.solve(file, space, by_method); }, file.model); });
   const Solution& solution = result.solution;
   result.warning = joined(joined(result.warning, data),
                           joined(gap_warning(file, space, solution), range_warning(file, space, solution)));
