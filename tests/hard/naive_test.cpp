@@ -58,6 +58,9 @@ TEST(Naive, IsRightWhereEpsilonIsModerateAndNoWrongAnswerGetsPastTheChecks) {
 TEST(Naive, HasNoSumAtEpsilonZeroAndStopsAtItsCap) {
   const Space space(structured_mesh(4), p1());
   EXPECT_THROW(naive_summed_solve(test::stiff_problem(space, 0), SummedFactor::lu), Error);
+  VariationalInequality with_a_fixed_row = test::stiff_problem(space, 1);
+  with_a_fixed_row.fixed_compliances = Eigen::VectorXd::Constant(1, 1e-3);  // of the last row, which would get 1
+  expect_refused([&] { naive_summed_solve(with_a_fixed_row, SummedFactor::lu); }, "fixed compliances");
   const NaiveResult answer = naive_summed_solve(test::stiff_problem(space, 1), SummedFactor::cholesky, 1);
   EXPECT_EQ(answer.reason, ConvergedReason::max_iterations);
   EXPECT_EQ(to_string(answer.reason), "step cap");

@@ -75,6 +75,11 @@ SummedSystem summed_system(const VariationalInequality& problem, const std::stri
   if (problem.b.rows() > 0 && problem.compliance == 0)
     throw Error(fmt::format(
         "{}: the summed matrix does not exist at epsilon = 0; accepted epsilon > 0, or the solver {}", who, instead));
+  if (problem.fixed_compliances.size() > 0)
+    throw Error(
+        fmt::format("{}: rows of B with fixed compliances are not summed; accepted: a problem without them, or "
+                    "the solver {}",
+                    who, instead));
   DofOrdering ordering(problem);
   SparseMatrix upper_triangle = penalised_matrix(problem, ordering, problem.compliance);  // the sum, and the fault
   Eigen::VectorXd u = Eigen::VectorXd::Zero(problem.size());

@@ -16,8 +16,8 @@ struct SummedSystem {
 };
 
 /// Assembles the system. Throws Error at compliance = 0 where B has rows, since K does not exist,
-/// and for bounds other than lower bounds on unknowns. The message begins with `who` and recommends
-/// the solver `instead`.
+/// for rows of B with fixed compliances, and for bounds other than lower bounds on unknowns. The
+/// message begins with `who` and recommends the solver `instead`.
 SummedSystem summed_system(const VariationalInequality& problem, const std::string& who, const char* instead);
 
 enum class SummedFactor { cholesky, lu };  ///< CHOLMOD; UMFPACK
