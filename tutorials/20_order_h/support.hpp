@@ -37,7 +37,7 @@ struct Parts {
   double interpolation = 0, discrete = 0, layer = 0, flux = 0, contact = 0, product = 0;
 };
 
-/// `result`: u_h, of Crouzeix-Raviart. Rules of degree 8 on triangles, 32 points per edge of Gamma_C (the pressure may jump).
+/// `result`: of Crouzeix-Raviart. Rules of degree 8 on triangles, 32 points per edge of Gamma_C (the pressure may jump).
 inline Parts take_apart(const Exact& exact, const Result& result) {
   const Space& space = result.space;
   constexpr int points = 32;
